@@ -1,0 +1,34 @@
+//! Vectors of the plane and the two products that planar mechanics needs.
+
+/// A vector or point of the plane.
+pub type Vec2 = nalgebra::Vector2<f64>;
+
+/// `J a = (-a2, a1)`: `a` turned by +90°.
+#[inline]
+pub fn perpendicular(a: Vec2) -> Vec2 {
+    Vec2::new(-a.y, a.x)
+}
+
+/// `a × b = a1 b2 - a2 b1`, positive when `b` lies counter-clockwise of `a`.
+#[inline]
+pub fn cross(a: Vec2, b: Vec2) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+/// The unit vector at `angle` [rad] from the first axis.
+#[inline]
+pub fn unit(angle: f64) -> Vec2 {
+    Vec2::new(angle.cos(), angle.sin())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_cross_product_is_the_dot_product_with_the_perpendicular() {
+        let (a, b) = (Vec2::new(2.0, -3.0), Vec2::new(0.5, 7.0));
+        assert_eq!(cross(a, b), perpendicular(a).dot(&b));
+        assert_eq!(cross(a, a), 0.0);
+    }
+}
