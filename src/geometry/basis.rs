@@ -1,0 +1,268 @@
+//! Bases of functions on an interval, of either kind that beams are made of.
+
+use super::bspline;
+use super::knots::check_inside;
+use super::{BasisValues, GeometryError, KnotVector, LagrangeBasis, Span};
+
+/// A break closer than this fraction of the domain to an existing knot means that knot.
+const SAME_BREAK: f64 = 1e-10;
+
+/// Functions `N_i(ξ)` that sum to one, each non-zero on a few spans only.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Basis {
+    /// The B-splines of a knot vector.
+    BSpline(KnotVector),
+    /// Lagrange polynomials on elements.
+    Lagrange(LagrangeBasis),
+}
+
+impl Basis {
+    /// The polynomial degree.
+    pub fn degree(&self) -> usize {
+        match self {
+            Self::BSpline(knots) => knots.degree(),
+            Self::Lagrange(lagrange) => lagrange.degree(),
+        }
+    }
+
+    /// The number of functions.
+    pub fn functions(&self) -> usize {
+        match self {
+            Self::BSpline(knots) => knots.functions(),
+            Self::Lagrange(lagrange) => lagrange.functions(),
+        }
+    }
+
+    /// The interval on which the functions live.
+    pub fn domain(&self) -> (f64, f64) {
+        match self {
+            Self::BSpline(knots) => knots.domain(),
+            Self::Lagrange(lagrange) => lagrange.domain(),
+        }
+    }
+
+    /// The intervals between the breaks, in order; on each the functions are polynomials.
+    pub fn spans(&self) -> Vec<Span> {
+        match self {
+            Self::BSpline(knots) => knots.spans(),
+            Self::Lagrange(lagrange) => lagrange.spans(),
+        }
+    }
+
+    /// The ends of the spans in order, those of the domain included.
+    pub fn breaks(&self) -> Vec<f64> {
+        match self {
+            Self::BSpline(knots) => knots.breaks(),
+            Self::Lagrange(lagrange) => lagrange.breaks().to_vec(),
+        }
+    }
+
+    /// The span that contains `xi`, of two the right one.
+    ///
+    /// # Errors
+    /// `xi` outside the domain, or not a number.
+    pub fn span_at(&self, xi: f64) -> Result<Span, GeometryError> {
+        match self {
+            Self::BSpline(knots) => {
+                let i = knots.span_at(xi)?;
+                Ok(Span {
+                    first: i - knots.degree(),
+                    start: knots.knots()[i],
+                    end: knots.knots()[i + 1],
+                })
+            }
+            Self::Lagrange(lagrange) => lagrange.span_at(xi),
+        }
+    }
+
+    /// The non-zero functions at `xi` and their derivatives, continuous from the right at interior
+    /// breaks.
+    ///
+    /// # Errors
+    /// `xi` outside the domain, or not a number.
+    pub fn evaluate(&self, xi: f64) -> Result<BasisValues, GeometryError> {
+        Ok(self.evaluate_in(&self.span_at(xi)?, xi))
+    }
+
+    /// The functions of one of this basis' own spans, continued as polynomials, at any `xi`: at the ends
+    /// of the span these are the one-sided values.
+    ///
+    /// # Panics
+    /// May panic if the span belongs to another basis.
+    pub fn evaluate_in(&self, span: &Span, xi: f64) -> BasisValues {
+        match self {
+            Self::BSpline(knots) => bspline::evaluate(knots, span, xi),
+            Self::Lagrange(lagrange) => lagrange.evaluate_in(span, xi),
+        }
+    }
+
+    /// The number of continuous derivatives at the least smooth interior break; the degree if there is
+    /// none, for a single polynomial.
+    pub fn continuity(&self) -> usize {
+        let breaks = self.breaks();
+        match self {
+            Self::Lagrange(_) if breaks.len() > 2 => 0,
+            Self::Lagrange(lagrange) => lagrange.degree(),
+            Self::BSpline(knots) => {
+                let interior = &breaks[1..breaks.len() - 1];
+                knots.degree()
+                    - interior.iter().map(|&knot| knots.multiplicity(knot)).max().unwrap_or(0)
+            }
+        }
+    }
+
+    /// One parameter for each function at which to interpolate: the Greville abscissae of splines, the
+    /// nodes of Lagrange elements. Strictly increasing, ends included.
+    pub fn abscissae(&self) -> Vec<f64> {
+        match self {
+            Self::BSpline(knots) => knots.greville(),
+            Self::Lagrange(lagrange) => lagrange.nodes(),
+        }
+    }
+
+    /// A basis that can kink at `xi` and is the same otherwise: the knot repeated `degree` times, or the
+    /// Lagrange element split there.
+    ///
+    /// A knot closer to `xi` than 1e-10 of the domain is taken in place of `xi`; at a place that is C⁰
+    /// already, and at the ends, nothing changes.
+    ///
+    /// # Errors
+    /// `xi` outside the domain, or not a number; too many spans.
+    pub fn with_break(&self, xi: f64) -> Result<Self, GeometryError> {
+        let (start, end) = self.domain();
+        check_inside(xi, start, end)?;
+        let breaks = self.breaks();
+        let tolerance = SAME_BREAK * (end - start);
+        let behind = breaks.partition_point(|&value| value < xi - tolerance);
+        let existing = breaks.get(behind).copied().filter(|value| *value <= xi + tolerance);
+        match (self, existing) {
+            (_, Some(knot)) if knot == start || knot == end => Ok(self.clone()),
+            (Self::Lagrange(_), Some(_)) => Ok(self.clone()),
+            (Self::Lagrange(lagrange), None) => Ok(Self::Lagrange(lagrange.split(xi)?)),
+            (Self::BSpline(knots), _) => {
+                let knot = existing.unwrap_or(xi);
+                Ok(Self::BSpline(knots.insert(knot, knots.degree() - knots.multiplicity(knot))?))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::samples::bases;
+    use proptest::prelude::*;
+
+    fn spline(spans: usize, degree: usize, continuity: usize) -> Basis {
+        Basis::BSpline(KnotVector::uniform(spans, degree, continuity).unwrap())
+    }
+
+    fn lagrange(elements: usize, degree: usize) -> Basis {
+        Basis::Lagrange(LagrangeBasis::uniform(elements, degree).unwrap())
+    }
+
+    #[test]
+    fn continuity_is_that_of_the_least_smooth_break() {
+        assert_eq!(spline(4, 3, 1).continuity(), 1);
+        assert_eq!(spline(1, 3, 1).continuity(), 3);
+        assert_eq!(spline(4, 3, 2).with_break(0.3).unwrap().continuity(), 0);
+        assert_eq!(lagrange(2, 3).continuity(), 0);
+        assert_eq!(lagrange(1, 3).continuity(), 3);
+    }
+
+    #[test]
+    fn values_at_interior_breaks_come_from_the_right_unless_a_span_is_named() {
+        let basis = spline(2, 2, 0);
+        assert_eq!(basis.evaluate(0.5).unwrap().slopes(), [-4.0, 4.0, 0.0]);
+        let left = basis.evaluate_in(&basis.spans()[0], 0.5);
+        assert_eq!((left.first, left.slopes()), (0, &[0.0, -4.0, 4.0][..]));
+        assert!(basis.evaluate(1.0 + 1e-15).is_err());
+    }
+
+    #[test]
+    fn a_break_uses_a_knot_that_is_there() {
+        let smooth = spline(2, 3, 2);
+        let Basis::BSpline(knots) = smooth.with_break(0.5 + 1e-11).unwrap() else {
+            panic!("not a spline")
+        };
+        assert_eq!((knots.multiplicity(0.5), knots.functions()), (3, 7));
+        let broken = Basis::BSpline(knots);
+        assert_eq!(broken.with_break(0.5 - 1e-11).unwrap(), broken);
+        for end in [0.0, 1e-11, 1.0 - 1e-11, 1.0] {
+            assert_eq!(smooth.with_break(end).unwrap(), smooth);
+            assert_eq!(lagrange(2, 2).with_break(end).unwrap(), lagrange(2, 2));
+        }
+        assert_eq!(lagrange(2, 2).with_break(0.5 + 1e-11).unwrap(), lagrange(2, 2));
+        assert_eq!(lagrange(2, 2).with_break(0.3).unwrap().breaks(), [0.0, 0.3, 0.5, 1.0]);
+        assert!(smooth.with_break(f64::NAN).is_err());
+        assert!(smooth.with_break(1.1).is_err());
+    }
+
+    /// Strictly inside a span, its number and the parameter.
+    fn inside(basis: &Basis, t: f64) -> (Span, f64) {
+        let spans = basis.spans();
+        let place = t * spans.len() as f64;
+        let span = spans[place as usize];
+        (span, span.start + (0.1 + 0.8 * place.fract()) * (span.end - span.start))
+    }
+
+    proptest! {
+        #[test]
+        fn functions_sum_to_one_and_their_derivatives_to_zero(basis in bases(), t in 0.0..1.0f64) {
+            let (start, end) = basis.domain();
+            let places = basis.breaks().into_iter().chain([(1.0 - t) * start + t * end]);
+            for xi in places {
+                let at = basis.evaluate(xi.clamp(start, end)).unwrap();
+                prop_assert!((at.values().iter().sum::<f64>() - 1.0).abs() < 1e-14);
+                for order in 1..=basis.degree() {
+                    let row = at.derivatives(order);
+                    let size: f64 = row.iter().map(|n| n.abs()).sum();
+                    prop_assert!(row.iter().sum::<f64>().abs() <= 1e-13 * size);
+                }
+            }
+        }
+
+        #[test]
+        fn derivatives_are_those_of_finite_differences(basis in bases(), t in 0.0..1.0f64) {
+            let (span, xi) = inside(&basis, t);
+            let h = 1e-6 * (span.end - span.start);
+            let (left, at, right) =
+                (basis.evaluate_in(&span, xi - h), basis.evaluate(xi).unwrap(), basis.evaluate_in(&span, xi + h));
+            for order in 0..basis.degree() {
+                let (low, high) = (left.derivatives(order), right.derivatives(order));
+                let slopes = at.derivatives(order + 1);
+                let size = low.iter().chain(high).fold(0.0, |a: f64, b| a.max(b.abs())) / (span.end - span.start);
+                for ((low, high), slope) in low.iter().zip(high).zip(slopes) {
+                    prop_assert!(((high - low) / (2.0 * h) - slope).abs() <= 1e-6 * size.max(slope.abs()));
+                }
+            }
+        }
+
+        #[test]
+        fn splines_are_as_smooth_as_their_knots_say(basis in bases()) {
+            let Basis::BSpline(knots) = &basis else { return Ok(()) };
+            for pair in basis.spans().windows(2) {
+                let xi = pair[0].end;
+                let (left, right) = (basis.evaluate_in(&pair[0], xi), basis.evaluate_in(&pair[1], xi));
+                let multiplicity = knots.multiplicity(xi);
+                for order in 0..=knots.degree() - multiplicity {
+                    let (low, high) = (left.derivatives(order), right.derivatives(order));
+                    let size = low.iter().chain(high).fold(0.0, |a: f64, b| a.max(b.abs()));
+                    for (a, b) in low[multiplicity..].iter().zip(high) {
+                        prop_assert!((a - b).abs() <= 1e-10 * size);
+                    }
+                }
+            }
+        }
+
+        #[test]
+        fn a_break_makes_a_kink_and_keeps_the_other_breaks(basis in bases(), t in 0.01..0.99f64) {
+            let (start, end) = basis.domain();
+            let broken = basis.with_break((1.0 - t) * start + t * end).unwrap();
+            prop_assert_eq!(broken.continuity(), 0);
+            let breaks = broken.breaks();
+            prop_assert!(basis.breaks().iter().all(|old| breaks.contains(old)));
+            prop_assert!(breaks.len() <= basis.breaks().len() + 1);
+        }
+    }
+}

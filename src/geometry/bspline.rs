@@ -1,0 +1,114 @@
+//! B-spline basis functions and their derivatives on one span.
+
+use super::values::{BasisValues, Row};
+use super::{KnotVector, Span};
+
+/// The B-splines that are non-zero on `span` of `knots`, with all derivatives, at `xi`: the polynomials
+/// of that span, also beside it.
+///
+/// Both follow from the splines of one degree less. Of degree `q - 1`, `N_m` lives on `[ξ_m, ξ_{m+q}]`,
+/// of length `h_m`, and enters two splines of degree `q` (The NURBS Book, equations 2.5 and 2.7; the
+/// numbers are those of algorithm A2.3):
+///
+/// ```text
+/// N_{m-1}   gets   (ξ_{m+q} - ξ) / h_m · N_m       its derivatives   -q / h_m · (those of N_m, one order less)
+/// N_m       gets   (ξ - ξ_m)     / h_m · N_m       its derivatives    q / h_m · (those of N_m, one order less)
+/// ```
+pub(super) fn evaluate(knots: &KnotVector, span: &Span, xi: f64) -> BasisValues {
+    let degree = knots.degree();
+    let mut basis = BasisValues::zeros(span.first, degree);
+    let rows = basis.rows_mut();
+    rows[0][0] = 1.0;
+    // Before the span, `degree` knots count, and as many after it.
+    let local = &knots.knots()[span.first + 1..=span.first + 2 * degree];
+    for q in 1..=degree {
+        let supports = local[degree - q..degree]
+            .iter()
+            .zip(&local[degree..])
+            .map(|(&start, &end)| (start, end));
+        for order in (1..=q).rev() {
+            rows[order] = differentiate(&rows[order - 1], q, supports.clone());
+        }
+        rows[0] = raise(&rows[0], xi, supports);
+    }
+    basis
+}
+
+/// The values of degree one higher at `xi`, given the ends of the supports of the `lower` functions.
+fn raise(lower: &Row, xi: f64, supports: impl Iterator<Item = (f64, f64)>) -> Row {
+    let mut higher = Row::default();
+    for (j, (value, (start, end))) in lower.iter().zip(supports).enumerate() {
+        // Quotients first: at the ends of the span they are exactly 0 and 1.
+        higher[j] += (end - xi) / (end - start) * value;
+        higher[j + 1] += (xi - start) / (end - start) * value;
+    }
+    higher
+}
+
+/// The derivatives, one order higher, of the functions of degree `q`, given those of degree `q - 1`.
+fn differentiate(lower: &Row, q: usize, supports: impl Iterator<Item = (f64, f64)>) -> Row {
+    let mut higher = Row::default();
+    for (j, (value, (start, end))) in lower.iter().zip(supports).enumerate() {
+        let share = q as f64 * value / (end - start);
+        higher[j] -= share;
+        higher[j + 1] += share;
+    }
+    higher
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::MAX_DEGREE;
+
+    #[test]
+    fn one_span_carries_the_bernstein_polynomials() {
+        let knots = KnotVector::uniform(1, 3, 2).unwrap();
+        let basis = evaluate(&knots, &knots.spans()[0], 0.25);
+        assert_eq!(basis.values(), [27.0, 27.0, 9.0, 1.0].map(|n| n / 64.0));
+        assert_eq!(basis.slopes(), [-27.0, 9.0, 15.0, 3.0].map(|n| n / 16.0));
+        assert_eq!(basis.derivatives(2), [4.5, -7.5, 1.5, 1.5]);
+        assert_eq!(basis.derivatives(3), [-6.0, 18.0, -18.0, 6.0]);
+    }
+
+    #[test]
+    fn the_example_of_the_nurbs_book_is_reproduced() {
+        // Examples 2.3 and 2.4: degree 2, ξ = 5/2.
+        let all = vec![0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 4.0, 5.0, 5.0, 5.0];
+        let knots = KnotVector::new(2, all).unwrap();
+        let basis = evaluate(&knots, &knots.spans()[2], 2.5);
+        assert_eq!(basis.first, 2);
+        assert_eq!(basis.values(), [1.0 / 8.0, 6.0 / 8.0, 1.0 / 8.0]);
+        assert_eq!(basis.slopes(), [-0.5, 0.0, 0.5]);
+        assert_eq!(basis.derivatives(2), [1.0, -2.0, 1.0]);
+    }
+
+    #[test]
+    fn uniform_splines_of_every_degree_have_their_binomial_top_derivative() {
+        for degree in 1..=MAX_DEGREE {
+            let spans = 2 * degree + 1;
+            let knots = KnotVector::uniform(spans, degree, degree - 1).unwrap();
+            let basis = evaluate(&knots, &knots.spans()[degree], 0.5);
+            let scale = (spans as f64).powi(degree as i32);
+            let mut binomial = 1.0;
+            for (j, top) in basis.derivatives(degree).iter().enumerate() {
+                let sign = if (degree - j) % 2 == 0 { 1.0 } else { -1.0 };
+                assert!(
+                    (top / scale - sign * binomial).abs() < 1e-10 * binomial,
+                    "degree {degree}, function {j}"
+                );
+                binomial *= (degree - j) as f64 / (j + 1) as f64;
+            }
+        }
+    }
+
+    #[test]
+    fn ends_belong_to_one_function_each() {
+        let knots = KnotVector::new(2, vec![0.1, 0.1, 0.1, 0.3, 0.3, 0.7, 0.7, 0.7]).unwrap();
+        let (first, last) = (knots.spans()[0], knots.spans()[1]);
+        assert_eq!(evaluate(&knots, &first, 0.1).values(), [1.0, 0.0, 0.0]);
+        assert_eq!(evaluate(&knots, &first, 0.3).values(), [0.0, 0.0, 1.0]);
+        assert_eq!(evaluate(&knots, &last, 0.3).values(), [1.0, 0.0, 0.0]);
+        assert_eq!(evaluate(&knots, &last, 0.7).values(), [0.0, 0.0, 1.0]);
+    }
+}

@@ -1,0 +1,207 @@
+//! Lagrange polynomials on elements: the bases of the classical finite elements.
+
+use super::error::finite;
+use super::knots::{check_degree, check_inside, check_span_lengths, check_spans};
+use super::values::BasisValues;
+use super::{GeometryError, Span};
+
+/// The largest degree of Lagrange elements; equispaced nodes serve no higher one well.
+const LARGEST_DEGREE: usize = 3;
+
+/// Continuous piecewise Lagrange polynomials: `degree + 1` equispaced nodes in each element, the end
+/// ones shared with the neighbours, so nodes and functions number `elements · degree + 1`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LagrangeBasis {
+    degree: usize,
+    breaks: Vec<f64>,
+}
+
+impl LagrangeBasis {
+    /// Elements of `degree` 1 to 3 between consecutive `breaks` (dimensionless, increasing).
+    ///
+    /// # Errors
+    /// A degree not on offer; breaks that are fewer than two, not finite, not increasing, closer than
+    /// 1e-12 of the whole; more than [`MAX_SPANS`](super::MAX_SPANS) elements.
+    pub fn new(degree: usize, breaks: Vec<f64>) -> Result<Self, GeometryError> {
+        check_degree(degree, LARGEST_DEGREE)?;
+        check_spans(breaks.len().saturating_sub(1))?;
+        for (index, &value) in breaks.iter().enumerate() {
+            finite(format!("break {index}"), value)?;
+        }
+        for (index, pair) in breaks.windows(2).enumerate() {
+            if pair[1] <= pair[0] {
+                return Err(GeometryError::BreakOrder {
+                    index: index + 1,
+                    value: pair[1],
+                    previous: pair[0],
+                });
+            }
+        }
+        check_span_lengths("breaks", &breaks)?;
+        Ok(Self { degree, breaks })
+    }
+
+    /// `elements` equal elements of `degree` 1 to 3 on `[0, 1]`.
+    ///
+    /// # Errors
+    /// `elements` outside 1 to [`MAX_SPANS`](super::MAX_SPANS), `degree` outside 1 to 3.
+    pub fn uniform(elements: usize, degree: usize) -> Result<Self, GeometryError> {
+        check_spans(elements)?;
+        Self::new(degree, (0..=elements).map(|i| i as f64 / elements as f64).collect())
+    }
+
+    /// The polynomial degree.
+    pub fn degree(&self) -> usize {
+        self.degree
+    }
+
+    /// The number of basis functions, one for each node.
+    pub fn functions(&self) -> usize {
+        (self.breaks.len() - 1) * self.degree + 1
+    }
+
+    /// First and last break.
+    pub fn domain(&self) -> (f64, f64) {
+        (self.breaks[0], self.breaks[self.breaks.len() - 1])
+    }
+
+    /// The ends of the elements.
+    pub fn breaks(&self) -> &[f64] {
+        &self.breaks
+    }
+
+    /// The elements.
+    pub fn spans(&self) -> Vec<Span> {
+        (0..self.breaks.len() - 1).map(|element| self.span(element)).collect()
+    }
+
+    /// The element that contains `xi`, of two the right one.
+    ///
+    /// # Errors
+    /// `xi` outside the domain, or not a number.
+    pub fn span_at(&self, xi: f64) -> Result<Span, GeometryError> {
+        let (start, end) = self.domain();
+        check_inside(xi, start, end)?;
+        let behind = self.breaks.partition_point(|&value| value <= xi);
+        Ok(self.span(behind.min(self.breaks.len() - 1) - 1))
+    }
+
+    /// The nodes, one for each function, which is 1 there; all others are 0.
+    pub fn nodes(&self) -> Vec<f64> {
+        let mut nodes = vec![self.breaks[0]];
+        for span in self.spans() {
+            nodes.extend((1..=self.degree).map(|j| self.node(&span, j)));
+        }
+        nodes
+    }
+
+    /// The same elements, but the one around `xi` split there.
+    ///
+    /// # Errors
+    /// `xi` outside the domain or too close to a break.
+    pub fn split(&self, xi: f64) -> Result<Self, GeometryError> {
+        let (start, end) = self.domain();
+        check_inside(xi, start, end)?;
+        let behind = self.breaks.partition_point(|&value| value <= xi);
+        let mut breaks = self.breaks.clone();
+        breaks.insert(behind, xi);
+        Self::new(self.degree, breaks)
+    }
+
+    /// The polynomials of the element `span`, also beside it, with all derivatives, at `xi`.
+    ///
+    /// `L_j = Π_{m≠j} (ξ - ξ_m) / (ξ_j - ξ_m)`, multiplied up factor by factor; a linear factor `f`
+    /// changes the derivatives by the rule of Leibniz, `(f g)⁽ᵏ⁾ = f g⁽ᵏ⁾ + k f' g⁽ᵏ⁻¹⁾`.
+    pub fn evaluate_in(&self, span: &Span, xi: f64) -> BasisValues {
+        let mut basis = BasisValues::zeros(span.first, self.degree);
+        let rows = basis.rows_mut();
+        for j in 0..=self.degree {
+            rows[0][j] = 1.0;
+            for m in (0..=self.degree).filter(|&m| m != j) {
+                let slope = (self.node(span, j) - self.node(span, m)).recip();
+                let factor = (xi - self.node(span, m)) / (self.node(span, j) - self.node(span, m));
+                for k in (1..=self.degree).rev() {
+                    rows[k][j] = factor * rows[k][j] + k as f64 * slope * rows[k - 1][j];
+                }
+                rows[0][j] *= factor;
+            }
+        }
+        basis
+    }
+
+    fn span(&self, element: usize) -> Span {
+        Span {
+            first: element * self.degree,
+            start: self.breaks[element],
+            end: self.breaks[element + 1],
+        }
+    }
+
+    /// Node `j` of an element; the end nodes are the breaks to the last bit.
+    fn node(&self, span: &Span, j: usize) -> f64 {
+        let t = j as f64 / self.degree as f64;
+        (1.0 - t) * span.start + t * span.end
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_function_is_one_at_its_node_and_zero_at_the_others() {
+        for degree in 1..=3 {
+            let basis = LagrangeBasis::new(degree, vec![-0.3, 0.1, 0.8]).unwrap();
+            let nodes = basis.nodes();
+            assert_eq!(nodes.len(), basis.functions());
+            for (index, &node) in nodes.iter().enumerate() {
+                let values = basis.evaluate_in(&basis.span_at(node).unwrap(), node);
+                for (j, &value) in values.values().iter().enumerate() {
+                    assert_eq!(value, if values.first + j == index { 1.0 } else { 0.0 });
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn quadratic_elements_have_their_textbook_derivatives() {
+        let basis = LagrangeBasis::new(2, vec![-1.0, 1.0]).unwrap();
+        let values = basis.evaluate_in(&basis.spans()[0], 0.5);
+        assert_eq!(values.values(), [-0.125, 0.75, 0.375]);
+        assert_eq!(values.slopes(), [0.0, -1.0, 1.0]);
+        assert_eq!(values.derivatives(2), [1.0, -2.0, 1.0]);
+    }
+
+    #[test]
+    fn splitting_adds_one_element() {
+        let basis = LagrangeBasis::uniform(2, 3).unwrap().split(0.3).unwrap();
+        assert_eq!(basis.breaks(), [0.0, 0.3, 0.5, 1.0]);
+        assert_eq!(basis.functions(), 10);
+        assert!(matches!(basis.split(0.5), Err(GeometryError::BreakOrder { .. })));
+        assert!(matches!(basis.split(f64::NAN), Err(GeometryError::OutsideDomain { .. })));
+    }
+
+    #[test]
+    fn bad_elements_are_refused() {
+        let refusal = |degree, breaks: &[f64]| {
+            LagrangeBasis::new(degree, breaks.to_vec()).unwrap_err().to_string()
+        };
+        assert_eq!(refusal(0, &[0.0, 1.0]), "degree 0 is not available; allowed are 1 to 3");
+        assert_eq!(refusal(4, &[0.0, 1.0]), "degree 4 is not available; allowed are 1 to 3");
+        assert_eq!(
+            refusal(1, &[]),
+            "spans: 0 asked for; at least 1 and at most 1000000 are allowed"
+        );
+        assert_eq!(
+            refusal(1, &[f64::NAN, 1.0]),
+            "break 0: NaN is not a finite number; give a finite one"
+        );
+        assert_eq!(
+            refusal(1, &[0.0, 0.5, 0.5]),
+            "breaks: entry 2 (0.5) is not larger than entry 1 (0.5); breaks must increase"
+        );
+        assert!(refusal(1, &[0.0, 1e-14, 1.0]).contains("shorter than 1e-12"));
+        assert!(LagrangeBasis::uniform(0, 1).is_err());
+        assert!(LagrangeBasis::uniform(usize::MAX, 1).is_err());
+    }
+}

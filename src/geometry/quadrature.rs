@@ -1,0 +1,115 @@
+//! Gauss–Legendre quadrature.
+
+use super::GeometryError;
+use std::f64::consts::PI;
+
+/// The largest number of points of a rule.
+const MOST_POINTS: usize = 64;
+
+/// The Gauss–Legendre rule of `n` points, exact for polynomials up to degree `2n - 1`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GaussRule {
+    /// The points on `[-1, 1]`, increasing and symmetric about 0 to the last bit.
+    pub points: Vec<f64>,
+    /// Their weights, positive, with sum 2.
+    pub weights: Vec<f64>,
+}
+
+impl GaussRule {
+    /// The rule of `n` points, to rounding.
+    ///
+    /// # Errors
+    /// `n` outside 1 to 64.
+    pub fn new(n: usize) -> Result<Self, GeometryError> {
+        if (1..=MOST_POINTS).contains(&n) {
+            Ok(Self::legendre(n))
+        } else {
+            Err(GeometryError::QuadraturePoints { points: n, largest: MOST_POINTS })
+        }
+    }
+
+    /// Newton's method on the Legendre polynomial, from the points of Tricomi's estimate; weights
+    /// `2 / ((1 - x²) P'_n(x)²)` (Abramowitz & Stegun 25.4.29).
+    pub(super) fn legendre(n: usize) -> Self {
+        let (mut points, mut weights) = (vec![0.0; n], vec![0.0; n]);
+        for i in 0..n.div_ceil(2) {
+            let mut x = (PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
+            for _ in 0..8 {
+                let (value, slope) = legendre_polynomial(n, x);
+                x -= value / slope;
+            }
+            if 2 * i + 1 == n {
+                x = 0.0;
+            }
+            let (_, slope) = legendre_polynomial(n, x);
+            let weight = 2.0 / ((1.0 - x * x) * slope * slope);
+            (points[i], points[n - 1 - i]) = (-x, x);
+            (weights[i], weights[n - 1 - i]) = (weight, weight);
+        }
+        Self { points, weights }
+    }
+
+    /// Points and weights of the rule on `[start, end]`: `∫ f dξ ≈ Σ weight · f(point)`.
+    pub fn iter_on(&self, start: f64, end: f64) -> impl Iterator<Item = (f64, f64)> {
+        let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
+        self.points
+            .iter()
+            .zip(&self.weights)
+            .map(move |(x, weight)| (middle + half * x, half * weight))
+    }
+}
+
+/// `P_n(x)` and `P'_n(x)` by the three-term recurrence, for `|x| < 1`.
+fn legendre_polynomial(n: usize, x: f64) -> (f64, f64) {
+    let (mut before, mut value) = (1.0, x);
+    for k in 2..=n {
+        let k = k as f64;
+        (before, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
+    }
+    (value, n as f64 * (before - x * value) / (1.0 - x * x))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_rules_are_the_known_ones() {
+        let one = GaussRule::new(1).unwrap();
+        assert_eq!((one.points[0], one.weights[0]), (0.0, 2.0));
+        let three = GaussRule::new(3).unwrap();
+        assert!((three.points[2] - 0.6f64.sqrt()).abs() < 1e-16 && three.points[1] == 0.0);
+        assert!((three.weights[1] - 8.0 / 9.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn rules_are_symmetric_and_exact_to_degree_2n_minus_1() {
+        for n in 1..=MOST_POINTS {
+            let rule = GaussRule::new(n).unwrap();
+            assert!(rule.points.windows(2).all(|pair| pair[0] < pair[1]));
+            assert!(rule.points.iter().zip(rule.points.iter().rev()).all(|(a, b)| *a == -b), "{n}");
+            for power in 0..2 * n as i32 {
+                let sum: f64 =
+                    rule.iter_on(0.0, 1.0).map(|(x, weight)| weight * x.powi(power)).sum();
+                assert!(
+                    (sum - 1.0 / f64::from(power + 1)).abs() < 1e-14,
+                    "{n} points, power {power}: {sum}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_degree_2n_is_beyond_the_rule() {
+        let rule = GaussRule::new(2).unwrap();
+        let sum: f64 = rule.iter_on(-1.0, 1.0).map(|(x, weight)| weight * x.powi(4)).sum();
+        assert!((sum - 0.4).abs() > 0.1);
+    }
+
+    #[test]
+    fn rules_outside_1_to_64_are_refused() {
+        let refusal = |n| GaussRule::new(n).unwrap_err().to_string();
+        assert_eq!(refusal(0), "quadrature: 0 points asked for; allowed are 1 to 64");
+        assert_eq!(refusal(65), "quadrature: 65 points asked for; allowed are 1 to 64");
+    }
+}

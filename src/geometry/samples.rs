@@ -1,0 +1,39 @@
+//! Random knot vectors and bases for the tests of this layer.
+
+use super::{Basis, KnotVector, LagrangeBasis, MAX_DEGREE};
+use proptest::prelude::*;
+
+/// Knot vectors of any degree on any interval, with one to five spans and repeated knots.
+pub fn knot_vectors() -> impl Strategy<Value = KnotVector> {
+    (1..=MAX_DEGREE)
+        .prop_flat_map(|degree| {
+            let interior = prop::collection::vec((0.1..1.0f64, 1..=degree), 0..5);
+            (Just(degree), -2.0..2.0f64, interior, 0.1..1.0f64)
+        })
+        .prop_map(|(degree, start, interior, last)| {
+            let mut knots = vec![start; degree + 1];
+            let mut knot = start;
+            for (gap, multiplicity) in interior {
+                knot += gap;
+                knots.extend(std::iter::repeat_n(knot, multiplicity));
+            }
+            knots.extend(std::iter::repeat_n(knot + last, degree + 1));
+            KnotVector::new(degree, knots).unwrap()
+        })
+}
+
+/// Bases of either kind.
+pub fn bases() -> impl Strategy<Value = Basis> {
+    let lagrange = (1..=3usize, -2.0..2.0f64, prop::collection::vec(0.1..1.0f64, 1..5));
+    prop_oneof![
+        knot_vectors().prop_map(Basis::BSpline),
+        lagrange.prop_map(|(degree, start, gaps)| {
+            let mut breaks = vec![start];
+            breaks.extend(gaps.iter().scan(start, |end, gap| {
+                *end += gap;
+                Some(*end)
+            }));
+            Basis::Lagrange(LagrangeBasis::new(degree, breaks).unwrap())
+        }),
+    ]
+}

@@ -1,0 +1,88 @@
+//! The basis functions that are non-zero at one parameter, with all their derivatives.
+
+use super::{MAX_DEGREE, Vec2};
+
+/// Room for the functions of one span, and for their derivatives of order 0 to the degree.
+const WIDTH: usize = MAX_DEGREE + 1;
+
+/// One number for each function that is non-zero on a span; only the first `degree + 1` count.
+pub(super) type Row = [f64; WIDTH];
+
+const ZERO: Row = [0.0; WIDTH];
+
+/// The `degree + 1` basis functions `N_first … N_{first+degree}` of one span and their derivatives
+/// with respect to ξ, of every order, at one parameter. All other functions are zero there.
+/// Values are dimensionless; nothing lives on the heap.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BasisValues {
+    /// The index of the first of these functions.
+    pub first: usize,
+    degree: usize,
+    /// Derivatives of order `k` in row `k`.
+    rows: [Row; WIDTH],
+}
+
+impl BasisValues {
+    /// Zeros, to be filled by the basis.
+    pub(super) fn zeros(first: usize, degree: usize) -> Self {
+        Self { first, degree, rows: [ZERO; WIDTH] }
+    }
+
+    /// The derivatives of order 0 to `degree`, one row each.
+    pub(super) fn rows_mut(&mut self) -> &mut [Row] {
+        &mut self.rows[..=self.degree]
+    }
+
+    /// The values `N_first(ξ) …`, `degree + 1` of them. They sum to one.
+    pub fn values(&self) -> &[f64] {
+        self.derivatives(0)
+    }
+
+    /// The first derivatives `N'_first(ξ) …` with respect to ξ. They sum to zero.
+    pub fn slopes(&self) -> &[f64] {
+        self.derivatives(1)
+    }
+
+    /// The derivatives of the given `order` with respect to ξ; zeros above the degree.
+    pub fn derivatives(&self, order: usize) -> &[f64] {
+        let row = if order <= self.degree { &self.rows[order] } else { &ZERO };
+        &row[..=self.degree]
+    }
+
+    /// The derivative of `order` of `Σ_i N_i(ξ) P_i`, with one point `P_i` for each basis function,
+    /// in the unit of the points.
+    ///
+    /// # Panics
+    /// If there are fewer points than basis functions.
+    pub fn combine(&self, order: usize, points: &[Vec2]) -> Vec2 {
+        let points = &points[self.first..=self.first + self.degree];
+        // Derivatives sum to zero, so an origin amid the points changes nothing but the rounding.
+        let origin = if order == 0 { Vec2::zeros() } else { points[0] };
+        self.derivatives(order).iter().zip(points).map(|(n, point)| *n * (point - origin)).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn derivatives_above_the_degree_are_zero() {
+        let mut values = BasisValues::zeros(4, 2);
+        values.rows_mut().fill([7.0; WIDTH]);
+        assert_eq!(values.values(), [7.0; 3]);
+        assert_eq!(values.derivatives(2), [7.0; 3]);
+        assert_eq!(values.derivatives(3), [0.0; 3]);
+        assert_eq!(values.derivatives(1000), [0.0; 3]);
+    }
+
+    #[test]
+    fn combining_takes_the_points_of_the_span() {
+        let mut values = BasisValues::zeros(1, 1);
+        values.rows_mut()[0][..2].copy_from_slice(&[0.25, 0.75]);
+        values.rows_mut()[1][..2].copy_from_slice(&[-1.0, 1.0]);
+        let points = [Vec2::new(9.0, 9.0), Vec2::new(0.0, 4.0), Vec2::new(4.0, 0.0)];
+        assert_eq!(values.combine(0, &points), Vec2::new(3.0, 1.0));
+        assert_eq!(values.combine(1, &points), Vec2::new(4.0, -4.0));
+    }
+}
