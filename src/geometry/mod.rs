@@ -1,20 +1,32 @@
 //! Knot vectors, bases, planar curves and quadrature. No mechanics, and nothing else of ours.
 
+mod arc;
+mod arc_length;
 mod basis;
 mod bspline;
+mod curve;
 mod error;
+mod fit;
 mod knots;
 mod lagrange;
+mod line;
+mod local_cubic;
 mod planar;
 mod quadrature;
 #[cfg(test)]
 mod samples;
+mod spline_curve;
 mod values;
 
+pub use arc::CircularArc;
 pub use basis::Basis;
+pub use curve::Curve;
 pub use error::GeometryError;
+pub use fit::interpolate;
 pub use knots::{KnotVector, MAX_DEGREE, MAX_SPANS, Span};
 pub use lagrange::LagrangeBasis;
+pub use line::Line;
 pub use planar::{Vec2, cross, perpendicular, unit};
 pub use quadrature::GaussRule;
+pub use spline_curve::SplineCurve;
 pub use values::BasisValues;

@@ -1,6 +1,6 @@
-//! Random knot vectors and bases for the tests of this layer.
+//! Random knot vectors, bases and curves for the tests of this layer.
 
-use super::{Basis, KnotVector, LagrangeBasis, MAX_DEGREE};
+use super::{Basis, KnotVector, LagrangeBasis, MAX_DEGREE, SplineCurve, Vec2};
 use proptest::prelude::*;
 
 /// Knot vectors of any degree on any interval, with one to five spans and repeated knots.
@@ -36,4 +36,15 @@ pub fn bases() -> impl Strategy<Value = Basis> {
             Basis::Lagrange(LagrangeBasis::new(degree, breaks).unwrap())
         }),
     ]
+}
+
+/// Spline curves with control points in the square `[-1, 1]²`.
+pub fn spline_curves() -> impl Strategy<Value = SplineCurve> {
+    knot_vectors().prop_flat_map(|knots| {
+        let points = prop::collection::vec((-1.0..1.0f64, -1.0..1.0f64), knots.functions());
+        points.prop_map(move |points| {
+            let points = points.into_iter().map(|(x, y)| Vec2::new(x, y)).collect();
+            SplineCurve::new(knots.clone(), points).unwrap()
+        })
+    })
 }

@@ -1,0 +1,110 @@
+//! Circular arcs.
+
+use super::error::{finite, finite_point};
+use super::knots::check_inside;
+use super::{GeometryError, Vec2, perpendicular, unit};
+use std::f64::consts::TAU;
+
+/// A full turn may be exceeded by this fraction of it, for rounding in the angles.
+const ROUNDING: f64 = 1e-12;
+
+/// An arc of a circle of radius `r` about `c`, `x(ξ) = c + r (cos φ, sin φ)` with
+/// `φ = (1 - ξ) φ_from + ξ φ_to` on `[0, 1]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CircularArc {
+    center: Vec2,
+    radius: f64,
+    from_angle: f64,
+    to_angle: f64,
+}
+
+impl CircularArc {
+    pub(super) fn new(
+        center: Vec2,
+        radius: f64,
+        from_angle: f64,
+        to_angle: f64,
+    ) -> Result<Self, GeometryError> {
+        finite_point("center of the arc", center)?;
+        finite("radius of the arc", radius)?;
+        finite("start angle of the arc", from_angle)?;
+        finite("end angle of the arc", to_angle)?;
+        if radius <= 0.0 {
+            return Err(GeometryError::ArcRadius { radius });
+        }
+        let arc = Self { center, radius, from_angle, to_angle };
+        if arc.sweep().abs() > TAU * (1.0 + ROUNDING) {
+            return Err(GeometryError::ArcTurn { sweep: arc.sweep() });
+        }
+        if finite("length of the arc", arc.length())? == 0.0 {
+            return Err(GeometryError::ZeroArc { angle: from_angle });
+        }
+        Ok(arc)
+    }
+
+    /// Angle from start to end [rad], positive counter-clockwise.
+    pub(super) fn sweep(&self) -> f64 {
+        self.to_angle - self.from_angle
+    }
+
+    pub(super) fn length(&self) -> f64 {
+        self.radius * self.sweep().abs()
+    }
+
+    /// `1 / r`, with the sign of the turn.
+    pub(super) fn curvature(&self) -> f64 {
+        self.sweep().signum() / self.radius
+    }
+
+    pub(super) fn derivative(&self, xi: f64, order: usize) -> Result<Vec2, GeometryError> {
+        check_inside(xi, 0.0, 1.0)?;
+        let outward = unit((1.0 - xi) * self.from_angle + xi * self.to_angle);
+        // Each derivative turns by +90° and multiplies by the sweep.
+        let turned = match order % 4 {
+            0 => outward,
+            1 => perpendicular(outward),
+            2 => -outward,
+            _ => -perpendicular(outward),
+        };
+        let origin = if order == 0 { self.center } else { Vec2::zeros() };
+        Ok(origin + self.radius * self.sweep().powf(order as f64) * turned)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    #[test]
+    fn derivatives_of_an_arc_turn_by_right_angles() {
+        let arc = CircularArc::new(Vec2::new(1.0, 2.0), 2.0, FRAC_PI_2, -FRAC_PI_2).unwrap();
+        let near = |a: Vec2, b: Vec2| (a - b).norm() < 1e-14 * (1.0 + b.norm());
+        assert!(near(arc.derivative(0.5, 0).unwrap(), Vec2::new(3.0, 2.0)));
+        assert!(near(arc.derivative(0.5, 1).unwrap(), Vec2::new(0.0, -2.0 * PI)));
+        assert!(near(arc.derivative(0.5, 2).unwrap(), Vec2::new(-2.0 * PI * PI, 0.0)));
+        assert!(near(arc.derivative(0.5, 3).unwrap(), Vec2::new(0.0, 2.0 * PI.powi(3))));
+        assert_eq!((arc.curvature(), arc.length()), (-0.5, 2.0 * PI));
+    }
+
+    #[test]
+    fn impossible_arcs_are_refused() {
+        let refusal = |radius, from, to| {
+            CircularArc::new(Vec2::zeros(), radius, from, to).unwrap_err().to_string()
+        };
+        assert_eq!(refusal(0.0, 0.0, 1.0), "arc: radius 0 is not allowed; it must be positive");
+        assert_eq!(refusal(-1.0, 0.0, 1.0), "arc: radius -1 is not allowed; it must be positive");
+        assert_eq!(
+            refusal(1.0, 0.5, 0.5),
+            "arc: it starts and ends at angle 0.5; the two must differ (add 2π for a full circle)"
+        );
+        assert_eq!(
+            refusal(1.0, 0.0, 7.0),
+            "arc: it turns by 7 rad; at most a full turn, 2π, is allowed in either direction"
+        );
+        assert!(refusal(f64::NAN, 0.0, 1.0).starts_with("radius of the arc: NaN"));
+        assert!(refusal(1.0, 0.0, f64::INFINITY).starts_with("end angle of the arc: inf"));
+        assert!(refusal(1e308, 0.0, 6.0).starts_with("length of the arc: inf"));
+        assert!(CircularArc::new(Vec2::zeros(), 1.0, 0.1, 0.1 - TAU).is_ok());
+    }
+}

@@ -1,0 +1,186 @@
+//! A curve in the terms of a basis: its control points or nodes.
+
+use super::{Basis, Curve, GeometryError, Vec2};
+
+/// One row of the collocation system `Σ_i N_i(ξ_r) P_i = x(ξ_r)`.
+struct Row {
+    /// Number of the first unknown with an entry.
+    first: usize,
+    entries: Vec<f64>,
+    right_side: Vec2,
+}
+
+/// The control points (splines) or nodes (Lagrange) [length] of `curve` in `basis`, one for each function;
+/// the domain of the basis is mapped affinely to that of the curve.
+///
+/// Exact for lines, and for splines of the same knots. Otherwise the curve is interpolated at the
+/// basis' [abscissae](Basis::abscissae), its ends exactly; smooth curves with an error of the order
+/// `degree + 1` in the span length. Kinks of the curve are kept only at breaks of the basis that can kink.
+///
+/// # Errors
+/// None but those of evaluating the curve inside its domain.
+pub fn interpolate(curve: &Curve, basis: &Basis) -> Result<Vec<Vec2>, GeometryError> {
+    if let (Curve::Spline(spline), Basis::BSpline(knots)) = (curve, basis)
+        && spline.knots().is_affine_to(knots)
+    {
+        return Ok(spline.control_points().to_vec());
+    }
+    let abscissae = basis.abscissae();
+    let points =
+        abscissae.iter().map(|&xi| curve.point(corresponding(xi, basis.domain(), curve.domain())));
+    match (curve, basis) {
+        // Splines and Lagrange elements with control points on a line at these places draw the line.
+        (Curve::Line(_), _) | (_, Basis::Lagrange(_)) => points.collect(),
+        _ => {
+            let rows = abscissae.iter().zip(points).map(|(&xi, point)| {
+                let values = basis.evaluate(xi)?;
+                Ok(Row {
+                    first: values.first,
+                    entries: values.values().to_vec(),
+                    right_side: point?,
+                })
+            });
+            Ok(eliminate(rows.collect::<Result<_, GeometryError>>()?))
+        }
+    }
+}
+
+/// The image of `xi` under the affine map of one interval to another; ends go to ends exactly.
+fn corresponding(xi: f64, (a, b): (f64, f64), (start, end): (f64, f64)) -> f64 {
+    let t = (xi - a) / (b - a);
+    ((1.0 - t) * start + t * end).clamp(start, end)
+}
+
+/// The solution of a banded system by Gauss elimination without pivoting, which is stable for the
+/// totally positive matrices of B-spline collocation (de Boor & Pinkus 1977, Numer. Math. 27) and fills
+/// nothing in: `first` does not decrease from row to row, and no row is longer than another.
+fn eliminate(mut rows: Vec<Row>) -> Vec<Vec2> {
+    for r in 0..rows.len() {
+        let (done, rest) = rows.split_at_mut(r);
+        let row = &mut rest[0];
+        for (k, pivot) in done.iter().enumerate().skip(row.first) {
+            let factor = row.entries[k - row.first] / pivot.entries[k - pivot.first];
+            let tail = &pivot.entries[k - pivot.first..];
+            for (entry, above) in row.entries[k - row.first..].iter_mut().zip(tail) {
+                *entry -= factor * above;
+            }
+            row.right_side -= factor * pivot.right_side;
+        }
+    }
+    let mut solution = vec![Vec2::zeros(); rows.len()];
+    for (r, row) in rows.iter().enumerate().rev() {
+        let (pivot, beyond) = (row.entries[r - row.first], &row.entries[r - row.first + 1..]);
+        let known: Vec2 =
+            beyond.iter().zip(&solution[r + 1..]).map(|(entry, point)| *entry * point).sum();
+        solution[r] = (row.right_side - known) / pivot;
+    }
+    solution
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::samples::{bases, spline_curves};
+    use crate::geometry::{KnotVector, LagrangeBasis};
+    use proptest::prelude::*;
+
+    fn quarter_circle() -> Curve {
+        Curve::arc(Vec2::new(1.0, 2.0), 3.0, 0.2, 0.2 + std::f64::consts::FRAC_PI_2).unwrap()
+    }
+
+    fn spline(spans: usize, degree: usize, continuity: usize) -> Basis {
+        Basis::BSpline(KnotVector::uniform(spans, degree, continuity).unwrap())
+    }
+
+    /// The largest distance between curve and interpolant.
+    fn error(curve: &Curve, basis: &Basis) -> f64 {
+        let points = interpolate(curve, basis).unwrap();
+        (0..=200)
+            .map(|i| f64::from(i) / 200.0)
+            .map(|xi| {
+                (basis.evaluate(xi).unwrap().combine(0, &points) - curve.point(xi).unwrap()).norm()
+            })
+            .fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn arcs_converge_with_one_order_more_than_the_degree() {
+        for continuity in [0, 1, 2] {
+            let errors =
+                [8, 16, 32].map(|spans| error(&quarter_circle(), &spline(spans, 3, continuity)));
+            for pair in errors.windows(2) {
+                assert!((pair[0] / pair[1]).log2() > 3.7, "C{continuity}: {errors:?}");
+            }
+        }
+        let lagrange = |elements| Basis::Lagrange(LagrangeBasis::uniform(elements, 2).unwrap());
+        assert!(
+            (error(&quarter_circle(), &lagrange(8)) / error(&quarter_circle(), &lagrange(16)))
+                .log2()
+                > 2.8
+        );
+    }
+
+    #[test]
+    fn length_and_curvature_of_the_interpolated_arc_converge() {
+        let curve = quarter_circle();
+        let errors = [8, 16, 32].map(|spans| {
+            let knots = KnotVector::uniform(spans, 3, 2).unwrap();
+            let points = interpolate(&curve, &Basis::BSpline(knots.clone())).unwrap();
+            let fitted = Curve::spline(knots, points).unwrap();
+            let bend = (fitted.curvature(0.5).unwrap() - curve.curvature(0.5).unwrap()).abs();
+            ((fitted.length() - curve.length()).abs(), bend)
+        });
+        for pair in errors.windows(2) {
+            assert!((pair[0].0 / pair[1].0).log2() > 3.7, "length: {errors:?}");
+            assert!((pair[0].1 / pair[1].1).log2() > 1.7, "curvature: {errors:?}");
+        }
+    }
+
+    #[test]
+    fn a_spline_in_its_own_knots_keeps_its_control_points() {
+        let knots = KnotVector::new(2, [0.0, 0.0, 0.0, 1.0, 3.0, 3.0, 3.0].to_vec()).unwrap();
+        let mapped =
+            KnotVector::new(2, [0.0, 0.0, 0.0, 1.0 / 3.0, 1.0, 1.0, 1.0].to_vec()).unwrap();
+        let points = [[0.0, 0.0], [1.0, 0.3], [0.2, 2.0], [3.0, 1.0]].map(Vec2::from).to_vec();
+        let curve = Curve::spline(knots, points.clone()).unwrap();
+        assert_eq!(interpolate(&curve, &Basis::BSpline(mapped)).unwrap(), points);
+    }
+
+    proptest! {
+        #[test]
+        fn lines_are_exact_in_every_basis(basis in bases(), t in 0.0..=1.0f64) {
+            let line = Curve::line(Vec2::new(0.0, 8.0), Vec2::new(6.0, 0.0)).unwrap();
+            let points = interpolate(&line, &basis).unwrap();
+            let (start, end) = basis.domain();
+            let xi = ((1.0 - t) * start + t * end).clamp(start, end);
+            let fitted = basis.evaluate(xi).unwrap().combine(0, &points);
+            let exact = line.point(corresponding(xi, (start, end), (0.0, 1.0))).unwrap();
+            prop_assert!((fitted - exact).norm() < 1e-13);
+        }
+
+        #[test]
+        fn interpolants_meet_the_curve_at_the_abscissae(basis in bases()) {
+            let curve = quarter_circle();
+            let points = interpolate(&curve, &basis).unwrap();
+            for xi in basis.abscissae() {
+                let fitted = basis.evaluate(xi).unwrap().combine(0, &points);
+                let exact = curve.point(corresponding(xi, basis.domain(), (0.0, 1.0))).unwrap();
+                prop_assert!((fitted - exact).norm() < 1e-12);
+            }
+            prop_assert_eq!(points[0], curve.point(0.0).unwrap());
+            prop_assert_eq!(points[points.len() - 1], curve.point(1.0).unwrap());
+        }
+
+        #[test]
+        fn a_finer_basis_reproduces_a_spline(spline in spline_curves(), t in 0.05..0.95f64) {
+            let (start, end) = spline.knots().domain();
+            let xi = (1.0 - t) * start + t * end;
+            let Ok(finer) = spline.insert(xi, 1) else { return Ok(()) };
+            let basis = Basis::BSpline(finer.knots().clone());
+            let fitted = interpolate(&Curve::Spline(spline), &basis).unwrap();
+            for (fitted, exact) in fitted.iter().zip(finer.control_points()) {
+                prop_assert!((fitted - exact).norm() < 1e-7, "{fitted} {exact}");
+            }
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! A cubic spline through points, built piece by piece from tangents.
+
+use super::error::finite_point;
+use super::{GeometryError, KnotVector, SplineCurve, Vec2, cross};
+
+/// Angles [rad] below which chords count as parallel, and relative sizes below which they cancel.
+const PARALLEL: f64 = 1e-12;
+
+/// Local cubic interpolation (The NURBS Book, section 9.3.4): through `n + 1` points, one cubic piece
+/// between each two, with the tangents of [`tangents`] and equal speed at the ends and the middle of all
+/// pieces. The curve is C¹, with `2n + 2` control points and double interior knots, on `[0, 1]`.
+///
+/// # Errors
+/// Fewer than two points; coordinates that are not finite; consecutive points that coincide, or are
+/// closer than 1e-12 of the whole.
+pub(super) fn through(points: &[Vec2]) -> Result<SplineCurve, GeometryError> {
+    if points.len() < 2 {
+        return Err(GeometryError::TooFewPoints { count: points.len(), needed: 2 });
+    }
+    for (index, &point) in points.iter().enumerate() {
+        finite_point(format!("point {index}"), point)?;
+    }
+    let chords: Vec<Vec2> = points.windows(2).map(|ends| ends[1] - ends[0]).collect();
+    if let Some(before) = chords.iter().position(|chord| chord.norm() == 0.0) {
+        return Err(GeometryError::CoincidentPoints { index: before + 1, point: points[before] });
+    }
+    let tangents = tangents(&chords);
+
+    let mut control_points = vec![points[0]];
+    let mut ends = vec![0.0];
+    let mut end = 0.0;
+    for ((corners, tangents), chord) in points.windows(2).zip(tangents.windows(2)).zip(&chords) {
+        let speed = common_speed(*chord, tangents[0] + tangents[1]);
+        control_points.push(corners[0] + speed / 3.0 * tangents[0]);
+        control_points.push(corners[1] - speed / 3.0 * tangents[1]);
+        end += speed;
+        ends.push(end);
+    }
+    control_points.push(points[points.len() - 1]);
+
+    let interior = ends[1..ends.len() - 1].iter().flat_map(|knot| [knot / end; 2]);
+    let knots = [0.0; 4].into_iter().chain(interior).chain([1.0; 4]).collect();
+    SplineCurve::new(KnotVector::new(3, knots)?, control_points)
+}
+
+/// The speed `α = |x'|` at start, middle and end of the piece, on the unit interval, across `chord` whose
+/// end tangents have the sum `T_0 + T_3`: the positive root of equation 9.50.
+fn common_speed(chord: Vec2, tangent_sum: Vec2) -> f64 {
+    let a = 16.0 - tangent_sum.norm_squared();
+    let half_b = 6.0 * chord.dot(&tangent_sum);
+    let c = -36.0 * chord.norm_squared();
+    let root = (half_b * half_b - a * c).sqrt();
+    // Of the two forms of the root, the one that subtracts nothing.
+    if half_b > 0.0 { -c / (half_b + root) } else { (root - half_b) / a }
+}
+
+/// The unit tangents at the points between `chords`, and at both ends: Akima's rule, from two chords on
+/// either side (equations 9.29 and 9.31). Beyond the ends the chords are continued by equation 9.33.
+fn tangents(chords: &[Vec2]) -> Vec<Vec2> {
+    let count = chords.len();
+    let before = continued(chords[0], chords[1.min(count - 1)]);
+    let after = continued(chords[count - 1], chords[count.saturating_sub(2)]);
+    let all: Vec<Vec2> = before.iter().rev().chain(chords).chain(&after).copied().collect();
+    all.windows(4).map(|chords| akima_tangent(chords[0], chords[1], chords[2], chords[3])).collect()
+}
+
+/// The next two chords beyond an end, that turn as the last two do. The book's `2 near - far` with `far`
+/// brought to the length of `near`: the same for equidistant points, and for others the curve cannot
+/// start backwards.
+fn continued(near: Vec2, far: Vec2) -> [Vec2; 2] {
+    let next = |near: Vec2, far: Vec2| 2.0 * near - near.norm() / far.norm() * far;
+    let first = next(near, far);
+    [first, next(first, near)]
+}
+
+/// The unit tangent at the point between chords `b` and `c`, of four consecutive ones. At a corner
+/// between two straight parts both count alike, so the corner is rounded; where the points turn straight
+/// back, the tangent is that of the chord ahead.
+fn akima_tangent(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> Vec2 {
+    let (bend_before, bend_after) = (cross(a, b).abs(), cross(c, d).abs());
+    let straight = bend_before <= PARALLEL * a.norm() * b.norm()
+        && bend_after <= PARALLEL * c.norm() * d.norm();
+    let alpha = if straight { 0.5 } else { bend_before / (bend_before + bend_after) };
+    let direction = (1.0 - alpha) * b + alpha * c;
+    if direction.norm() > PARALLEL * (b.norm() + c.norm()) {
+        direction.normalize()
+    } else {
+        c.normalize()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::unit;
+    use proptest::prelude::*;
+
+    fn near(a: Vec2, b: Vec2) -> bool {
+        (a - b).norm() < 1e-12 * (1.0 + a.norm())
+    }
+
+    #[test]
+    fn equidistant_points_on_a_line_give_the_uniform_line() {
+        let (from, to) = (Vec2::new(0.0, 8.0), Vec2::new(6.0, 0.0));
+        let at = |t: f64| (1.0 - t) * from + t * to;
+        for n in [1, 2, 3, 7, 20] {
+            let points: Vec<_> = (0..=n).map(|i| at(f64::from(i) / f64::from(n))).collect();
+            let curve = through(&points).unwrap();
+            let uniform = KnotVector::uniform(n as usize, 3, 1).unwrap();
+            assert!(
+                curve
+                    .knots()
+                    .knots()
+                    .iter()
+                    .zip(uniform.knots())
+                    .all(|(a, b)| (a - b).abs() < 2e-15)
+            );
+            for (point, xi) in curve.control_points().iter().zip(uniform.greville()) {
+                assert!((point - at(xi)).norm() < 2e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn graded_points_on_a_line_do_not_turn_back() {
+        let points = [0.0, 1.0, 5.0, 30.0, 31.0].map(|x| Vec2::new(x, 0.0));
+        let curve = through(&points).unwrap();
+        assert!(curve.control_points().windows(2).all(|ends| ends[0].x < ends[1].x));
+        assert!((curve.length() - 31.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn points_on_a_circle_get_its_tangents() {
+        let points: Vec<_> = (0..9).map(|i| unit(0.3 * f64::from(i))).collect();
+        let curve = through(&points).unwrap();
+        let knots = curve.knots().breaks();
+        for (i, &xi) in knots.iter().enumerate().skip(2).take(5) {
+            let velocity = curve.derivative(xi, 1).unwrap();
+            assert!(velocity.normalize().dot(&unit(0.3 * i as f64)).abs() < 1e-14);
+        }
+        assert!((curve.length() - 2.4).abs() < 1e-3);
+    }
+
+    #[test]
+    fn corners_are_rounded_and_reversals_survive() {
+        let corner = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [2.0, 2.0]].map(Vec2::from);
+        let curve = through(&corner).unwrap();
+        let velocity = curve.derivative(curve.knots().breaks()[2], 1).unwrap();
+        assert!((velocity.x - velocity.y).abs() < 1e-12 && velocity.x > 0.0);
+        let back = [[0.0, 0.0], [1.0, 0.0], [0.0, 0.0]].map(Vec2::from);
+        assert!(through(&back).unwrap().length() > 2.0 - 1e-12);
+    }
+
+    #[test]
+    fn bad_points_are_refused() {
+        let refusal = |points: &[[f64; 2]]| {
+            through(&points.iter().copied().map(Vec2::from).collect::<Vec<_>>())
+                .unwrap_err()
+                .to_string()
+        };
+        assert_eq!(refusal(&[]), "points: 0 given; a curve needs at least 2");
+        assert_eq!(refusal(&[[1.0, 1.0]]), "points: 1 given; a curve needs at least 2");
+        assert_eq!(
+            refusal(&[[0.0, 0.0], [1.0, 2.0], [1.0, 2.0]]),
+            "points: entries 1 and 2 are both (1, 2); consecutive points must differ: leave one out"
+        );
+        assert_eq!(
+            refusal(&[[0.0, 0.0], [1.0, f64::INFINITY]]),
+            "point 1: inf is not a finite number; give a finite one"
+        );
+    }
+
+    proptest! {
+        #[test]
+        fn any_points_are_interpolated_smoothly(
+            coordinates in prop::collection::vec((-1.0..1.0f64, -1.0..1.0f64), 2..12)
+        ) {
+            let points: Vec<_> = coordinates.into_iter().map(|(x, y)| Vec2::new(x, y)).collect();
+            let curve = through(&points).unwrap();
+            let (knots, spans) = (curve.knots(), points.len() - 1);
+            prop_assert_eq!(curve.control_points().len(), 2 * spans + 2);
+            let breaks = knots.breaks();
+            for (&xi, &point) in breaks.iter().zip(&points) {
+                prop_assert!(near(curve.derivative(xi, 0).unwrap(), point));
+            }
+            // Equal speed, the same at the ends and in the middle of every piece.
+            let speed = curve.derivative(0.0, 1).unwrap().norm();
+            for (span, next) in knots.spans().iter().zip(breaks.iter().skip(1)) {
+                let middle = curve.derivative(0.5 * (span.start + span.end), 1).unwrap().norm();
+                prop_assert!((middle - speed).abs() < 1e-9 * speed);
+                prop_assert!((curve.derivative(*next, 1).unwrap().norm() - speed).abs() < 1e-9 * speed);
+            }
+            // C¹ from both sides at the double knots.
+            for &xi in &breaks[1..spans] {
+                prop_assert_eq!(knots.multiplicity(xi), 2);
+                let jump = curve.derivative(xi, 1).unwrap() - curve.derivative(xi - 1e-10, 1).unwrap();
+                let bend = curve.derivative(xi - 1e-10, 2).unwrap().norm();
+                prop_assert!(jump.norm() < 1e-9 * speed + 2e-10 * bend);
+            }
+        }
+    }
+}
