@@ -2,7 +2,7 @@
 
 use super::error::finite;
 use super::knots::{check_degree, check_inside, check_span_lengths, check_spans};
-use super::values::BasisValues;
+use super::values::{BasisValues, Row};
 use super::{GeometryError, Span};
 
 /// The largest degree of Lagrange elements; equispaced nodes serve no higher one well.
@@ -109,24 +109,33 @@ impl LagrangeBasis {
     }
 
     /// The polynomials of the element `span`, also beside it, with all derivatives, at `xi`.
-    ///
-    /// `L_j = Π_{m≠j} (ξ - ξ_m) / (ξ_j - ξ_m)`, multiplied up factor by factor; a linear factor `f`
-    /// changes the derivatives by the rule of Leibniz, `(f g)⁽ᵏ⁾ = f g⁽ᵏ⁾ + k f' g⁽ᵏ⁻¹⁾`.
     pub fn evaluate_in(&self, span: &Span, xi: f64) -> BasisValues {
         let mut basis = BasisValues::zeros(span.first, self.degree);
-        let rows = basis.rows_mut();
         for j in 0..=self.degree {
-            rows[0][j] = 1.0;
-            for m in (0..=self.degree).filter(|&m| m != j) {
-                let slope = (self.node(span, j) - self.node(span, m)).recip();
-                let factor = (xi - self.node(span, m)) / (self.node(span, j) - self.node(span, m));
-                for k in (1..=self.degree).rev() {
-                    rows[k][j] = factor * rows[k][j] + k as f64 * slope * rows[k - 1][j];
-                }
-                rows[0][j] *= factor;
-            }
+            let derivatives = self.polynomial(span, j, xi);
+            basis
+                .rows_mut()
+                .iter_mut()
+                .zip(derivatives)
+                .for_each(|(row, derivative)| row[j] = derivative);
         }
         basis
+    }
+
+    /// `L_j = Π_{m≠j} (ξ - ξ_m) / (ξ_j - ξ_m)` and its derivatives, multiplied up factor by factor: a
+    /// linear factor `f` changes them by the rule of Leibniz, `(f g)⁽ᵏ⁾ = f g⁽ᵏ⁾ + k f' g⁽ᵏ⁻¹⁾`.
+    fn polynomial(&self, span: &Span, j: usize, xi: f64) -> Row {
+        let mut derivatives = Row::default();
+        derivatives[0] = 1.0;
+        for m in (0..=self.degree).filter(|&m| m != j) {
+            let distance = self.node(span, j) - self.node(span, m);
+            let factor = (xi - self.node(span, m)) / distance;
+            for k in (1..=self.degree).rev() {
+                derivatives[k] = factor * derivatives[k] + k as f64 / distance * derivatives[k - 1];
+            }
+            derivatives[0] *= factor;
+        }
+        derivatives
     }
 
     fn span(&self, element: usize) -> Span {
