@@ -7,4 +7,11 @@
 //!                                                   └→ integrators → newton → linalg
 //! ```
 
+pub mod beams;
 pub mod geometry;
+pub mod integrators;
+pub mod joints;
+pub mod linalg;
+pub mod loads;
+pub mod model;
+pub mod newton;

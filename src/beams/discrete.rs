@@ -1,0 +1,280 @@
+//! A beam on its mesh: the quadrature points of all spans, the control points and the inertia.
+
+use super::block::zero_block;
+use super::dynamics::{BeamDynamics, Collocation, ForceSummary, Movement};
+use super::force_point::ForcePoint;
+use super::moment_point::MomentPoint;
+use super::{BeamError, Mesh, Section};
+use crate::geometry::{Basis, Curve, GaussRule, Span, Vec2, interpolate};
+
+/// A beam whose basis has `N` non-zero functions on a span.
+#[derive(Debug, Clone)]
+struct DiscreteBeam<const N: usize> {
+    section: Section,
+    control_points: Vec<Vec2>,
+    /// What rounding has cut off the control points so far (compensated summation, Kahan 1965).
+    remainders: Vec<Vec2>,
+    spans: Vec<SpanPoints<N>>,
+    /// `∫ N_a N_{a+k} dX` for k = 0 … N-1 [length].
+    gram: Vec<[f64; N]>,
+}
+
+#[derive(Debug, Clone)]
+struct SpanPoints<const N: usize> {
+    first: usize,
+    force_points: Vec<ForcePoint<N>>,
+    moment_points: Vec<MomentPoint<N>>,
+}
+
+/// Puts a drawn axis on a mesh; the beam is free of stress as drawn.
+///
+/// # Errors
+/// When the axis cannot be represented or has a point without a tangent.
+pub fn discretise(axis: &Curve, mesh: &Mesh, section: Section) -> Result<Box<dyn BeamDynamics>, BeamError> {
+    let control_points = interpolate(axis, mesh.basis())?;
+    Ok(match mesh.basis().degree() {
+        1 => Box::new(DiscreteBeam::<2>::new(mesh, section, control_points)?),
+        2 => Box::new(DiscreteBeam::<3>::new(mesh, section, control_points)?),
+        3 => Box::new(DiscreteBeam::<4>::new(mesh, section, control_points)?),
+        4 => Box::new(DiscreteBeam::<5>::new(mesh, section, control_points)?),
+        5 => Box::new(DiscreteBeam::<6>::new(mesh, section, control_points)?),
+        6 => Box::new(DiscreteBeam::<7>::new(mesh, section, control_points)?),
+        7 => Box::new(DiscreteBeam::<8>::new(mesh, section, control_points)?),
+        8 => Box::new(DiscreteBeam::<9>::new(mesh, section, control_points)?),
+        9 => Box::new(DiscreteBeam::<10>::new(mesh, section, control_points)?),
+        // Knot vectors refuse degrees above 10.
+        _ => Box::new(DiscreteBeam::<11>::new(mesh, section, control_points)?),
+    })
+}
+
+/// A place of the undeformed axis as quadrature needs it.
+struct AxisPoint<const N: usize> {
+    shape: [f64; N],
+    /// Derivatives by arc length [1/length].
+    slope: [f64; N],
+    tangent: Vec2,
+    /// Weight of the quadrature, as a length.
+    weight: f64,
+}
+
+struct Axis<'a> {
+    basis: &'a Basis,
+    control_points: &'a [Vec2],
+}
+
+impl Axis<'_> {
+    fn points<const N: usize>(&self, span: Span, rule: &GaussRule) -> Result<Vec<AxisPoint<N>>, BeamError> {
+        let place = |(xi, weight): (f64, f64)| {
+            let values = self.basis.evaluate_in(&span, xi);
+            let controls = &self.control_points[span.first..span.first + N];
+            let derivative: Vec2 = values.slopes().iter().zip(controls).map(|(slope, point)| point * *slope).sum();
+            let speed = derivative.norm();
+            if speed.is_nan() || speed <= 0.0 {
+                return Err(BeamError::NoTangent { parameter: xi });
+            }
+            let (mut shape, mut slope) = ([0.0; N], [0.0; N]);
+            shape.copy_from_slice(values.values());
+            slope.iter_mut().zip(values.slopes()).for_each(|(to, from)| *to = from / speed);
+            Ok(AxisPoint { shape, slope, tangent: derivative / speed, weight: weight * speed })
+        };
+        rule.iter_on(span.start, span.end).map(place).collect()
+    }
+}
+
+impl<const N: usize> DiscreteBeam<N> {
+    fn new(mesh: &Mesh, section: Section, control_points: Vec<Vec2>) -> Result<Self, BeamError> {
+        let axis = Axis { basis: mesh.basis(), control_points: &control_points };
+        let inertia_rule = mesh.inertia_rule()?;
+        let mut gram = vec![[0.0; N]; control_points.len()];
+        let mut spans = Vec::new();
+        for quadrature in mesh.quadrature_spans() {
+            let span = quadrature.span;
+            let force_rule = GaussRule::new(quadrature.force_points)?;
+            let moment_rule = GaussRule::new(quadrature.moment_points)?;
+            spans.push(SpanPoints {
+                first: span.first,
+                force_points: axis
+                    .points(span, &force_rule)?
+                    .into_iter()
+                    .map(|at| ForcePoint::new(at.shape, at.slope, at.weight, at.tangent))
+                    .collect(),
+                moment_points: axis
+                    .points(span, &moment_rule)?
+                    .into_iter()
+                    .map(|at| MomentPoint::new(at.shape, at.slope, at.weight))
+                    .collect(),
+            });
+            for at in axis.points::<N>(span, &inertia_rule)? {
+                for (a, row) in gram[span.first..span.first + N].iter_mut().enumerate() {
+                    for (k, entry) in row[..N - a].iter_mut().enumerate() {
+                        *entry += at.weight * at.shape[a] * at.shape[a + k];
+                    }
+                }
+            }
+        }
+        let remainders = vec![Vec2::zeros(); control_points.len()];
+        Ok(Self { section, control_points, remainders, spans, gram })
+    }
+
+    fn inertia_of(&self, entry: f64) -> Movement {
+        let (mass, rotary) = (entry * self.section.mass, entry * self.section.rotary_inertia);
+        [mass, mass, rotary]
+    }
+}
+
+/// The movements of the `N` control points from `first` on.
+#[inline]
+fn window<const N: usize>(movements: &[Movement], first: usize) -> &[Movement; N] {
+    movements[first..].first_chunk().expect("a span has as many control points as its basis has functions")
+}
+
+#[inline]
+fn window_mut<const N: usize>(movements: &mut [Movement], first: usize) -> &mut [Movement; N] {
+    movements[first..].first_chunk_mut().expect("a span has as many control points as its basis has functions")
+}
+
+impl<const N: usize> BeamDynamics for DiscreteBeam<N> {
+    fn order(&self) -> usize {
+        N
+    }
+
+    fn span_starts(&self) -> Vec<usize> {
+        self.spans.iter().map(|span| span.first).collect()
+    }
+
+    fn control_points(&self) -> &[Vec2] {
+        &self.control_points
+    }
+
+    fn begin_step(&mut self) {
+        for span in &mut self.spans {
+            span.force_points.iter_mut().for_each(|point| point.begin_step(&self.section));
+        }
+    }
+
+    fn add_forces(&self, at: Collocation, moved: &[Movement], weight: f64, forces: &mut [Movement]) -> ForceSummary {
+        let mut summary = ForceSummary::default();
+        for span in &self.spans {
+            let (moved, forces) = (window(moved, span.first), window_mut(forces, span.first));
+            for point in &span.force_points {
+                point.add_forces(&self.section, at, moved, weight, forces, &mut summary);
+            }
+            for point in &span.moment_points {
+                point.add_forces(&self.section, at, moved, weight, forces, &mut summary);
+            }
+        }
+        summary
+    }
+
+    fn add_linearised_forces(
+        &mut self,
+        at: Collocation,
+        moved: &[Movement],
+        weight: f64,
+        forces: &mut [Movement],
+        tangent: &mut dyn FnMut(usize, &[f64]),
+    ) {
+        for span in &mut self.spans {
+            let (moved, forces) = (window(moved, span.first), window_mut(forces, span.first));
+            let mut block = zero_block::<N>();
+            for point in &mut span.force_points {
+                point.add_linearised_forces(&self.section, at, moved, weight, forces, &mut block);
+            }
+            for point in &span.moment_points {
+                point.add_linearised_forces(&self.section, at, moved, weight, forces, &mut block);
+            }
+            tangent(span.first, block.as_flattened().as_flattened().as_flattened());
+        }
+    }
+
+    fn correct_section_forces(&mut self, correction: &[Movement]) {
+        for span in &mut self.spans {
+            let correction = window(correction, span.first);
+            span.force_points.iter_mut().for_each(|point| point.correct_section_force(&self.section, correction));
+        }
+    }
+
+    fn advance(&mut self, moved: &[Movement]) {
+        for ((point, remainder), [x, y, _]) in self.control_points.iter_mut().zip(&mut self.remainders).zip(moved) {
+            let wanted = Vec2::new(*x, *y) + *remainder;
+            let reached = *point + wanted;
+            *remainder = wanted - (reached - *point);
+            *point = reached;
+        }
+        for span in &mut self.spans {
+            let moved = window(moved, span.first);
+            span.force_points.iter_mut().for_each(|point| point.advance(moved));
+            span.moment_points.iter_mut().for_each(|point| point.advance(moved));
+        }
+    }
+
+    fn add_inertia(&self, factor: f64, rates: &[Movement], forces: &mut [Movement]) {
+        for (a, row) in self.gram.iter().enumerate() {
+            for (b, entry) in (a..rates.len()).zip(row) {
+                let inertia = self.inertia_of(factor * entry);
+                for (component, inertia) in inertia.iter().enumerate() {
+                    forces[a][component] += inertia * rates[b][component];
+                    if b > a {
+                        forces[b][component] += inertia * rates[a][component];
+                    }
+                }
+            }
+        }
+    }
+
+    fn add_inertia_tangent(&self, factor: f64, tangent: &mut dyn FnMut(usize, usize, Movement)) {
+        for (a, row) in self.gram.iter().enumerate() {
+            for (b, entry) in (a..self.gram.len()).zip(row) {
+                let inertia = self.inertia_of(factor * entry);
+                tangent(a, b, inertia);
+                if b > a {
+                    tangent(b, a, inertia);
+                }
+            }
+        }
+    }
+
+    fn strain_energy(&self) -> f64 {
+        let of_span = |span: &SpanPoints<N>| -> f64 {
+            let force = span.force_points.iter().map(|point| point.strain_energy(&self.section)).sum::<f64>();
+            let moment = span.moment_points.iter().map(|point| point.strain_energy(&self.section)).sum::<f64>();
+            force + moment
+        };
+        self.spans.iter().map(of_span).sum()
+    }
+
+    fn lumped_lengths(&self) -> Vec<f64> {
+        let mut lengths = vec![0.0; self.gram.len()];
+        for (a, row) in self.gram.iter().enumerate() {
+            for (b, entry) in (a..self.gram.len()).zip(row) {
+                lengths[a] += entry;
+                if b > a {
+                    lengths[b] += entry;
+                }
+            }
+        }
+        lengths
+    }
+
+    fn save(&self, state: &mut Vec<f64>) {
+        for (point, remainder) in self.control_points.iter().zip(&self.remainders) {
+            state.extend([point.x, point.y, remainder.x, remainder.y]);
+        }
+        for span in &self.spans {
+            span.force_points.iter().for_each(|point| point.save(state));
+            state.extend(span.moment_points.iter().map(MomentPoint::curvature));
+        }
+    }
+
+    fn restore(&mut self, state: &mut dyn Iterator<Item = f64>) {
+        let mut next = || state.next().expect("a saved state has as many entries as the model that saved it");
+        for (point, remainder) in self.control_points.iter_mut().zip(&mut self.remainders) {
+            *point = Vec2::new(next(), next());
+            *remainder = Vec2::new(next(), next());
+        }
+        for span in &mut self.spans {
+            span.force_points.iter_mut().for_each(|point| point.restore([next(), next(), next(), next()]));
+            span.moment_points.iter_mut().for_each(|point| point.set_curvature(next()));
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! What a discretised beam offers to the model, whatever its basis.
+
+use crate::geometry::Vec2;
+
+/// Components of a control point: x, y and rotation.
+pub type Movement = [f64; 3];
+
+/// Where between start (0) and end (1) of a step forces are taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Collocation {
+    /// `τ`: the configuration is `(1-τ)(x0, Λ0) + τ (x1, Λ1)`.
+    pub configuration: f64,
+    /// `σ`: the section forces are those of the strain `(1-σ) Γ0 + σ Γ1`.
+    pub stress: f64,
+}
+
+/// What was met while forces were added up.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ForceSummary {
+    /// Largest difference between the strain of a section force and that of the configuration [-].
+    pub strain_mismatch: f64,
+    /// Largest section force [force].
+    pub force: f64,
+    /// Largest moment, and section force times the length it stands for [force·length].
+    pub moment: f64,
+    /// Largest rotation increment `|Δω|` [rad].
+    pub rotation: f64,
+}
+
+impl ForceSummary {
+    /// The larger of both, entry by entry.
+    pub fn join(&mut self, other: &Self) {
+        // A NaN must survive: `f64::max` would drop it.
+        let larger = |a: f64, b: f64| if a >= b || a.is_nan() { a } else { b };
+        self.strain_mismatch = larger(self.strain_mismatch, other.strain_mismatch);
+        self.force = larger(self.force, other.force);
+        self.moment = larger(self.moment, other.moment);
+        self.rotation = larger(self.rotation, other.rotation);
+    }
+}
+
+/// A beam on its basis: reference quantities, state at the start of a step, and the iterate of the step.
+///
+/// Movements, rates and forces are indexed by control point.
+pub trait BeamDynamics {
+    /// The number of functions that are non-zero on a span, degree + 1.
+    fn order(&self) -> usize;
+
+    /// The first control point of each span.
+    fn span_starts(&self) -> Vec<usize>;
+
+    /// Control points at the start of the step [length].
+    fn control_points(&self) -> &[Vec2];
+
+    /// Sets the section forces to those of the start of the step.
+    fn begin_step(&mut self);
+
+    /// Adds `weight` times the internal forces with the section forces as they are.
+    fn add_forces(&self, at: Collocation, moved: &[Movement], weight: f64, forces: &mut [Movement]) -> ForceSummary;
+
+    /// Adds `weight` times the condensed internal forces, and gives `weight` times their derivative to `tangent`,
+    /// span by span: the first control point and the rows of the block, one after another.
+    fn add_linearised_forces(
+        &mut self,
+        at: Collocation,
+        moved: &[Movement],
+        weight: f64,
+        forces: &mut [Movement],
+        tangent: &mut dyn FnMut(usize, &[f64]),
+    );
+
+    /// Updates the section forces for a correction of the movements of the last linearisation.
+    fn correct_section_forces(&mut self, correction: &[Movement]);
+
+    /// Accepts the movements: the end of the step becomes the start of the next.
+    fn advance(&mut self, moved: &[Movement]);
+
+    /// Adds `factor · M · rates`.
+    fn add_inertia(&self, factor: f64, rates: &[Movement], forces: &mut [Movement]);
+
+    /// Gives `factor · M` to `tangent`: control point of the row, of the column, and the three diagonal entries.
+    fn add_inertia_tangent(&self, factor: f64, tangent: &mut dyn FnMut(usize, usize, Movement));
+
+    /// The strain energy at the start of the step [energy].
+    fn strain_energy(&self) -> f64;
+
+    /// `∫ N_a dX` for every control point [length].
+    fn lumped_lengths(&self) -> Vec<f64>;
+
+    /// Appends the state at the start of a step.
+    fn save(&self, state: &mut Vec<f64>);
+
+    /// Takes the state back, in the order in which it was appended.
+    fn restore(&mut self, state: &mut dyn Iterator<Item = f64>);
+}

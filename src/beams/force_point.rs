@@ -1,0 +1,241 @@
+//! A quadrature point for `Γ`: axial and shear strain, and the section force as an unknown of its own.
+//!
+//! With `Δg = Σ N_a' Δx_a`, `Δω = Σ N_a Δω_a`, `q = 1 + Δω²/4` and `C = diag(EA, GA)`:
+//!
+//! ```text
+//! Λ1 = Λ0 R(2 atan(Δω/2))    Γ1 = Λ1ᵀ (g0 + Δg) - e1
+//! gτ = g0 + τ Δg             Λτ = (1-τ) Λ0 + τ Λ1        N = C ((1-σ) Γ0 + σ Γ1)      n = Λτ N
+//! R_a = w N_a' n             S_a = -w N_a gτ × n
+//! ```
+//!
+//! The gradient `g = x'` and the rotation are kept at the point and advanced by increments, so that the strains do not
+//! depend on how far from the origin the beam has flown.
+
+use super::block::Block;
+use super::dynamics::{Collocation, ForceSummary, Movement};
+use super::{Rotation, Section};
+use crate::geometry::{Vec2, cross, perpendicular};
+
+#[derive(Debug, Clone)]
+pub(super) struct ForcePoint<const N: usize> {
+    shape: [f64; N],
+    slope: [f64; N],
+    weight: f64,
+    /// `g0`
+    gradient: Vec2,
+    /// `Λ0`
+    rotation: Rotation,
+    /// `Γ0`
+    strain: Vec2,
+    iterate: Iterate,
+}
+
+/// What the section-force update needs from the last linearisation, and the force itself.
+#[derive(Debug, Clone)]
+struct Iterate {
+    force: Vec2,
+    collocated_strain: Vec2,
+    end_rotation: Rotation,
+    end_strain: Vec2,
+    /// `σ`
+    stress: f64,
+    /// `1/q`
+    inverse_q: f64,
+}
+
+/// The configuration that increments lead to.
+struct Configuration {
+    end_rotation: Rotation,
+    end_strain: Vec2,
+    collocated_strain: Vec2,
+    collocated_rotation: Rotation,
+    collocated_gradient: Vec2,
+    inverse_q: f64,
+    increment: f64,
+}
+
+impl<const N: usize> ForcePoint<N> {
+    /// A point of the undeformed axis: basis values, their derivatives by arc length, weight and unit tangent.
+    pub(super) fn new(shape: [f64; N], slope: [f64; N], weight: f64, tangent: Vec2) -> Self {
+        let rotation = Rotation { cos: tangent.x, sin: tangent.y };
+        let iterate = Iterate {
+            force: Vec2::zeros(),
+            collocated_strain: Vec2::zeros(),
+            end_rotation: rotation,
+            end_strain: Vec2::zeros(),
+            stress: 0.0,
+            inverse_q: 1.0,
+        };
+        Self { shape, slope, weight, gradient: tangent, rotation, strain: Vec2::zeros(), iterate }
+    }
+
+    pub(super) fn begin_step(&mut self, section: &Section) {
+        self.iterate.force = force_of(section, self.strain);
+    }
+
+    /// `(Δg, Δω)` of movements.
+    #[inline]
+    fn interpolate(&self, moved: &[Movement; N]) -> (Vec2, f64) {
+        let (mut gradient, mut rotation) = (Vec2::zeros(), 0.0);
+        for ((shape, slope), [x, y, omega]) in self.shape.iter().zip(&self.slope).zip(moved) {
+            gradient.x += slope * x;
+            gradient.y += slope * y;
+            rotation += shape * omega;
+        }
+        (gradient, rotation)
+    }
+
+    #[inline]
+    fn configuration(&self, at: Collocation, moved: &[Movement; N]) -> Configuration {
+        let (change, increment) = self.interpolate(moved);
+        let end_rotation = self.rotation.turned(increment);
+        let end_strain = strain_of(end_rotation, self.gradient + change);
+        Configuration {
+            end_rotation,
+            end_strain,
+            collocated_strain: self.strain + (end_strain - self.strain) * at.stress,
+            collocated_rotation: self.rotation.mixed(end_rotation, at.configuration),
+            collocated_gradient: self.gradient + change * at.configuration,
+            inverse_q: 1.0 / (1.0 + 0.25 * increment * increment),
+            increment,
+        }
+    }
+
+    #[inline]
+    fn distribute(&self, weight: f64, gradient: Vec2, force: Vec2, forces: &mut [Movement; N]) {
+        let (force, torque) = (force * (weight * self.weight), cross(gradient, force) * (weight * self.weight));
+        for ((shape, slope), [x, y, omega]) in self.shape.iter().zip(&self.slope).zip(forces) {
+            *x += slope * force.x;
+            *y += slope * force.y;
+            *omega -= shape * torque;
+        }
+    }
+
+    #[inline]
+    pub(super) fn add_forces(
+        &self,
+        section: &Section,
+        at: Collocation,
+        moved: &[Movement; N],
+        weight: f64,
+        forces: &mut [Movement; N],
+        summary: &mut ForceSummary,
+    ) {
+        let now = self.configuration(at, moved);
+        let force = now.collocated_rotation.to_space(self.iterate.force);
+        self.distribute(weight, now.collocated_gradient, force, forces);
+        let mismatch = strain_from(section, self.iterate.force) - now.collocated_strain;
+        summary.join(&ForceSummary {
+            strain_mismatch: mismatch.amax(),
+            force: self.iterate.force.amax(),
+            moment: self.weight * self.iterate.force.amax(),
+            rotation: now.increment.abs(),
+        });
+    }
+
+    #[inline]
+    pub(super) fn add_linearised_forces(
+        &mut self,
+        section: &Section,
+        at: Collocation,
+        moved: &[Movement; N],
+        weight: f64,
+        forces: &mut [Movement; N],
+        block: &mut Block<N>,
+    ) {
+        let now = self.configuration(at, moved);
+        let (tau, sigma) = (at.configuration, at.stress);
+        let (rotation, gradient) = (now.collocated_rotation, now.collocated_gradient);
+        let condensed = rotation.to_space(force_of(section, now.collocated_strain));
+        self.distribute(weight, gradient, condensed, forces);
+
+        // δn = A δg + b δω  and  δ(gτ × n) = e·δg + f δω, the geometric terms with the section force of the iterate.
+        let end = now.end_rotation;
+        let column = |axis: Vec2| rotation.to_space(force_of(section, end.to_section(axis))) * sigma;
+        let (a1, a2) = (column(Vec2::x()), column(Vec2::y()));
+        let turned_strain = perpendicular(now.end_strain + Vec2::x());
+        let b = (end.to_space(perpendicular(self.iterate.force)) * tau
+            - rotation.to_space(force_of(section, turned_strain)) * sigma)
+            * now.inverse_q;
+        let lever = perpendicular(gradient);
+        let geometric = perpendicular(rotation.to_space(self.iterate.force)) * tau;
+        let e = Vec2::new(a1.dot(&lever), a2.dot(&lever)) - geometric;
+        let f = lever.dot(&b);
+
+        let w = weight * self.weight;
+        let force_rows = [[a1.x, a2.x, b.x], [a1.y, a2.y, b.y]];
+        let torque_row = [e.x, e.y, f];
+        for ((slope_a, shape_a), rows) in self.slope.iter().zip(&self.shape).zip(block.iter_mut()) {
+            let (force_weight, torque_weight) = (w * slope_a, -w * shape_a);
+            let [row_x, row_y, row_omega] = rows;
+            let mut add = |row: &mut [[f64; 3]; N], weight: f64, by: &[f64; 3]| {
+                let by = by.map(|entry| entry * weight);
+                for ((entry, slope_b), shape_b) in row.iter_mut().zip(&self.slope).zip(&self.shape) {
+                    entry[0] += by[0] * slope_b;
+                    entry[1] += by[1] * slope_b;
+                    entry[2] += by[2] * shape_b;
+                }
+            };
+            add(row_x, force_weight, &force_rows[0]);
+            add(row_y, force_weight, &force_rows[1]);
+            add(row_omega, torque_weight, &torque_row);
+        }
+
+        self.iterate = Iterate {
+            force: self.iterate.force,
+            collocated_strain: now.collocated_strain,
+            end_rotation: now.end_rotation,
+            end_strain: now.end_strain,
+            stress: sigma,
+            inverse_q: now.inverse_q,
+        };
+    }
+
+    /// `N ← C (Γσ(u) + σ δΓ1)`, `δΓ1 = Λ1ᵀ δg - J (Γ1 + e1) δω/q`.
+    #[inline]
+    pub(super) fn correct_section_force(&mut self, section: &Section, correction: &[Movement; N]) {
+        let (gradient, rotation) = self.interpolate(correction);
+        let iterate = &mut self.iterate;
+        let turned = perpendicular(iterate.end_strain + Vec2::x()) * (rotation * iterate.inverse_q);
+        let change = iterate.end_rotation.to_section(gradient) - turned;
+        iterate.force = force_of(section, iterate.collocated_strain + change * iterate.stress);
+    }
+
+    pub(super) fn advance(&mut self, moved: &[Movement; N]) {
+        let (change, increment) = self.interpolate(moved);
+        self.gradient += change;
+        self.rotation = self.rotation.turned(increment).normalised();
+        self.strain = strain_of(self.rotation, self.gradient);
+    }
+
+    pub(super) fn strain_energy(&self, section: &Section) -> f64 {
+        0.5 * self.weight * self.strain.dot(&force_of(section, self.strain))
+    }
+
+    pub(super) fn save(&self, state: &mut Vec<f64>) {
+        state.extend([self.gradient.x, self.gradient.y, self.rotation.cos, self.rotation.sin]);
+    }
+
+    pub(super) fn restore(&mut self, [x, y, cos, sin]: [f64; 4]) {
+        (self.gradient, self.rotation) = (Vec2::new(x, y), Rotation { cos, sin });
+        self.strain = strain_of(self.rotation, self.gradient);
+    }
+}
+
+/// `Γ = Λᵀ x' - e1`
+#[inline]
+fn strain_of(rotation: Rotation, gradient: Vec2) -> Vec2 {
+    rotation.to_section(gradient) - Vec2::x()
+}
+
+/// `C Γ`
+#[inline]
+fn force_of(section: &Section, strain: Vec2) -> Vec2 {
+    Vec2::new(section.axial_stiffness * strain.x, section.shear_stiffness * strain.y)
+}
+
+/// `C⁻¹ N`
+#[inline]
+fn strain_from(section: &Section, force: Vec2) -> Vec2 {
+    Vec2::new(force.x / section.axial_stiffness, force.y / section.shear_stiffness)
+}

@@ -1,0 +1,176 @@
+//! The mesh of a beam: a basis, and where strains are sampled.
+
+use super::BeamError;
+use crate::geometry::{Basis, GaussRule, GeometryError, KnotVector, LagrangeBasis, Span};
+
+/// Where axial and shear strain are sampled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Quadrature {
+    /// One point in each span of a smooth run of spans, a few more in its first and last one: neither locks nor leaves
+    /// zero-energy modes. A run of a single span (every span of a Lagrange or C¹ cubic mesh) has `degree` points.
+    ///
+    /// After Adam, Bouabdallah, Zarroug & Maitournam, Comput. Methods Appl. Mech. Eng. 279 (2014) 1–28.
+    #[default]
+    Patch,
+    /// The same number of Gauss points in every span.
+    Points(usize),
+}
+
+/// A basis with its quadrature.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    basis: Basis,
+    quadrature: Quadrature,
+}
+
+/// A span with the numbers of its quadrature points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct QuadratureSpan {
+    pub(super) span: Span,
+    pub(super) force_points: usize,
+    pub(super) moment_points: usize,
+}
+
+impl Mesh {
+    /// B-splines: `spans` equal spans, C^`continuity` where they meet.
+    ///
+    /// # Errors
+    /// When the numbers make no knot vector.
+    pub fn bspline(spans: usize, degree: usize, continuity: usize) -> Result<Self, GeometryError> {
+        Ok(Self::new(Basis::BSpline(KnotVector::uniform(spans, degree, continuity)?)))
+    }
+
+    /// Lagrange elements of degree 1 to 3.
+    ///
+    /// # Errors
+    /// When degree or number of elements is out of range.
+    pub fn lagrange(elements: usize, degree: usize) -> Result<Self, GeometryError> {
+        Ok(Self::new(Basis::Lagrange(LagrangeBasis::uniform(elements, degree)?)))
+    }
+
+    /// Any basis, with the patch rule.
+    pub fn new(basis: Basis) -> Self {
+        Self { basis, quadrature: Quadrature::Patch }
+    }
+
+    /// The same basis with another quadrature for axial and shear strain.
+    ///
+    /// # Errors
+    /// When the number of points is zero or far above what the degree can use.
+    pub fn with_quadrature(self, quadrature: Quadrature) -> Result<Self, BeamError> {
+        let (degree, most) = (self.basis.degree(), self.basis.degree() + 3);
+        match quadrature {
+            Quadrature::Points(points) if points == 0 || points > most => {
+                Err(BeamError::Quadrature { points, most, degree })
+            }
+            _ => Ok(Self { quadrature, ..self }),
+        }
+    }
+
+    /// The same mesh, only C⁰ at the given places of the domain.
+    ///
+    /// # Errors
+    /// When a place lies outside the domain.
+    pub fn with_breaks(&self, places: &[f64]) -> Result<Self, GeometryError> {
+        let broken = places.iter().try_fold(self.basis.clone(), |basis, &xi| basis.with_break(xi))?;
+        Ok(Self { basis: broken, quadrature: self.quadrature })
+    }
+
+    /// The basis.
+    pub fn basis(&self) -> &Basis {
+        &self.basis
+    }
+
+    /// The rule for axial and shear strain.
+    pub fn quadrature(&self) -> Quadrature {
+        self.quadrature
+    }
+
+    /// The number of spans or elements.
+    pub fn spans(&self) -> usize {
+        self.basis.spans().len()
+    }
+
+    /// In words: `cubic B-splines C², 14 spans`.
+    pub fn describe(&self) -> String {
+        let degree = match self.basis.degree() {
+            1 => "linear".to_owned(),
+            2 => "quadratic".to_owned(),
+            3 => "cubic".to_owned(),
+            degree => format!("degree {degree}"),
+        };
+        let spans = self.spans();
+        let rule = match self.quadrature {
+            Quadrature::Patch => String::new(),
+            Quadrature::Points(points) => format!(", {points} points for the strain"),
+        };
+        match &self.basis {
+            Basis::BSpline(_) => format!("{degree} B-splines C{}, {spans} spans{rule}", self.basis.continuity()),
+            Basis::Lagrange(_) => format!("{degree} Lagrange, {spans} elements{rule}"),
+        }
+    }
+
+    /// The spans with the numbers of their quadrature points for `Γ` and `κ`.
+    pub(super) fn quadrature_spans(&self) -> Vec<QuadratureSpan> {
+        let degree = self.basis.degree();
+        let spans = self.basis.spans();
+        // Two spans are joined smoothly when all but one of their functions are common to both.
+        let smooth: Vec<bool> = spans.windows(2).map(|pair| pair[1].first == pair[0].first + 1 && degree > 1).collect();
+        let joined = |at: Option<usize>| at.and_then(|at| smooth.get(at).copied()).unwrap_or(false);
+        spans
+            .iter()
+            .enumerate()
+            .map(|(index, &span)| {
+                let (before, after) = (joined(index.checked_sub(1)), joined(Some(index)));
+                let patch = match (before, after) {
+                    (true, true) => 1,
+                    (false, false) => degree,
+                    _ => 1 + degree / 2,
+                };
+                let force_points = match self.quadrature {
+                    Quadrature::Patch => patch,
+                    Quadrature::Points(points) => points,
+                };
+                let moment_points = if before || after { (degree - 1).max(2) } else { degree };
+                QuadratureSpan { span, force_points, moment_points }
+            })
+            .collect()
+    }
+
+    /// The Gauss rule that integrates the inertia of a span exactly when it is straight.
+    pub(super) fn inertia_rule(&self) -> Result<GaussRule, GeometryError> {
+        GaussRule::new(self.basis.degree() + 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn force_points(mesh: &Mesh) -> Vec<usize> {
+        mesh.quadrature_spans().iter().map(|span| span.force_points).collect()
+    }
+
+    #[test]
+    fn the_patch_rule_is_the_one_of_the_design() {
+        let cubic = Mesh::bspline(6, 3, 2).unwrap();
+        assert_eq!(force_points(&cubic), [2, 1, 1, 1, 1, 2]);
+        assert!(cubic.quadrature_spans().iter().all(|span| span.moment_points == 2));
+        assert_eq!(force_points(&Mesh::bspline(4, 3, 1).unwrap()), [3, 3, 3, 3]);
+        assert_eq!(force_points(&Mesh::lagrange(3, 1).unwrap()), [1, 1, 1]);
+        assert_eq!(force_points(&Mesh::lagrange(2, 3).unwrap()), [3, 3]);
+        assert_eq!(force_points(&Mesh::bspline(1, 3, 2).unwrap()), [3]);
+    }
+
+    #[test]
+    fn a_break_ends_a_patch() {
+        let broken = Mesh::bspline(6, 3, 2).unwrap().with_breaks(&[0.5]).unwrap();
+        assert_eq!(force_points(&broken), [2, 1, 2, 2, 1, 2]);
+    }
+
+    #[test]
+    fn a_mesh_says_what_it_is() {
+        assert_eq!(Mesh::bspline(14, 3, 2).unwrap().describe(), "cubic B-splines C2, 14 spans");
+        assert_eq!(Mesh::lagrange(10, 1).unwrap().describe(), "linear Lagrange, 10 elements");
+    }
+}

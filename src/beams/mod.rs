@@ -1,0 +1,22 @@
+//! The beam theory: planar Simo–Reissner beams on any basis, stress-free as drawn.
+//!
+//! J. C. Simo & L. Vu-Quoc, ASME J. Appl. Mech. 53 (1986) 849–863; E. Reissner, ZAMP 23 (1972) 795–804.
+
+mod block;
+mod discrete;
+mod dynamics;
+mod error;
+mod force_point;
+mod mesh;
+mod moment_point;
+mod rotation;
+mod section;
+mod station;
+
+pub use discrete::discretise;
+pub use dynamics::{BeamDynamics, Collocation, ForceSummary, Movement};
+pub use error::BeamError;
+pub use mesh::{Mesh, Quadrature};
+pub use rotation::Rotation;
+pub use section::{Section, Shape, Solid};
+pub use station::{Place, Station};

@@ -1,0 +1,124 @@
+//! A quadrature point for the curvature `κ`.
+//!
+//! ```text
+//! κ1 = κ0 + Δω'/q     q = 1 + Δω²/4     M = EI ((1-σ) κ0 + σ κ1)     S_a = w N_a' M v
+//! ```
+//!
+//! with `v = 1/q` between the ends of a step, where the moment works on the change of curvature, and `v = 1` at an end
+//! (τ = 1), where it works on a virtual rotation.
+
+use super::Section;
+use super::block::Block;
+use super::dynamics::{Collocation, ForceSummary, Movement};
+
+#[derive(Debug, Clone)]
+pub(super) struct MomentPoint<const N: usize> {
+    shape: [f64; N],
+    slope: [f64; N],
+    weight: f64,
+    /// `κ0`
+    curvature: f64,
+}
+
+/// What increments lead to: `M v` and its derivatives by `Δω'` and `Δω`.
+struct Response {
+    moment: f64,
+    by_slope: f64,
+    by_rotation: f64,
+}
+
+impl<const N: usize> MomentPoint<N> {
+    /// A point of the undeformed axis: basis values, their derivatives by arc length, and weight.
+    pub(super) fn new(shape: [f64; N], slope: [f64; N], weight: f64) -> Self {
+        Self { shape, slope, weight, curvature: 0.0 }
+    }
+
+    /// `(Δω', Δω)` of movements.
+    #[inline]
+    fn interpolate(&self, moved: &[Movement; N]) -> (f64, f64) {
+        let (mut slope, mut rotation) = (0.0, 0.0);
+        for ((shape, derivative), [_, _, omega]) in self.shape.iter().zip(&self.slope).zip(moved) {
+            slope += derivative * omega;
+            rotation += shape * omega;
+        }
+        (slope, rotation)
+    }
+
+    #[inline]
+    fn response(&self, section: &Section, at: Collocation, moved: &[Movement; N]) -> Response {
+        let (slope, rotation) = self.interpolate(moved);
+        let inverse_q = 1.0 / (1.0 + 0.25 * rotation * rotation);
+        let moment = section.bending_stiffness * (self.curvature + at.stress * slope * inverse_q);
+        let stiffness = section.bending_stiffness * at.stress * inverse_q;
+        let dq = -0.5 * rotation * inverse_q;
+        if at.configuration < 1.0 {
+            Response {
+                moment: moment * inverse_q,
+                by_slope: stiffness * inverse_q,
+                by_rotation: dq * inverse_q * (moment + stiffness * slope),
+            }
+        } else {
+            Response { moment, by_slope: stiffness, by_rotation: dq * stiffness * slope }
+        }
+    }
+
+    #[inline]
+    fn distribute(&self, moment: f64, forces: &mut [Movement; N]) {
+        for (slope, [_, _, omega]) in self.slope.iter().zip(forces) {
+            *omega += slope * moment;
+        }
+    }
+
+    #[inline]
+    pub(super) fn add_forces(
+        &self,
+        section: &Section,
+        at: Collocation,
+        moved: &[Movement; N],
+        weight: f64,
+        forces: &mut [Movement; N],
+        summary: &mut ForceSummary,
+    ) {
+        let moment = self.response(section, at, moved).moment;
+        self.distribute(weight * self.weight * moment, forces);
+        summary.join(&ForceSummary { moment: moment.abs(), ..ForceSummary::default() });
+    }
+
+    #[inline]
+    pub(super) fn add_linearised_forces(
+        &self,
+        section: &Section,
+        at: Collocation,
+        moved: &[Movement; N],
+        weight: f64,
+        forces: &mut [Movement; N],
+        block: &mut Block<N>,
+    ) {
+        let response = self.response(section, at, moved);
+        let w = weight * self.weight;
+        self.distribute(w * response.moment, forces);
+        for (slope_a, [_, _, row_omega]) in self.slope.iter().zip(block.iter_mut()) {
+            let (by_slope, by_rotation) = (w * slope_a * response.by_slope, w * slope_a * response.by_rotation);
+            for ((entry, slope_b), shape_b) in row_omega.iter_mut().zip(&self.slope).zip(&self.shape) {
+                entry[2] += by_slope * slope_b + by_rotation * shape_b;
+            }
+        }
+    }
+
+    pub(super) fn advance(&mut self, moved: &[Movement; N]) {
+        let (slope, rotation) = self.interpolate(moved);
+        self.curvature += slope / (1.0 + 0.25 * rotation * rotation);
+    }
+
+    pub(super) fn strain_energy(&self, section: &Section) -> f64 {
+        0.5 * self.weight * section.bending_stiffness * self.curvature * self.curvature
+    }
+
+    pub(super) fn curvature(&self) -> f64 {
+        self.curvature
+    }
+
+    pub(super) fn set_curvature(&mut self, curvature: f64) {
+        self.curvature = curvature;
+    }
+}

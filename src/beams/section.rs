@@ -1,0 +1,202 @@
+//! Stiffness and inertia of a cross section.
+
+use std::f64::consts::PI;
+
+use super::BeamError;
+
+/// A linear elastic, homogeneous cross section.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Section {
+    /// Axial stiffness `EA` [force].
+    pub axial_stiffness: f64,
+    /// Shear stiffness `GA`, its correction factor included [force].
+    pub shear_stiffness: f64,
+    /// Bending stiffness `EI` [force·length²].
+    pub bending_stiffness: f64,
+    /// Mass per length `ρA` [mass/length].
+    pub mass: f64,
+    /// Rotary inertia per length `ρI` [mass·length].
+    pub rotary_inertia: f64,
+}
+
+/// The outline of a cross section; bending is about the horizontal centroidal axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shape {
+    /// A solid rectangle.
+    Rectangle {
+        /// Out of the plane of motion [length].
+        width: f64,
+        /// In the plane of motion [length].
+        height: f64,
+    },
+    /// A solid circle.
+    Circle {
+        /// [length]
+        radius: f64,
+    },
+    /// A circular tube.
+    Tube {
+        /// [length]
+        outer: f64,
+        /// [length]
+        inner: f64,
+    },
+}
+
+/// A homogeneous isotropic material in a shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solid {
+    /// Young's modulus [force/length²].
+    pub young: f64,
+    /// Poisson's ratio [-].
+    pub poisson: f64,
+    /// [mass/length³]
+    pub density: f64,
+    /// The outline.
+    pub shape: Shape,
+}
+
+impl Section {
+    /// Checks that every property is positive and finite, and hands the section on.
+    ///
+    /// # Errors
+    /// Names the first property that is not.
+    pub fn validated(self) -> Result<Self, BeamError> {
+        const ROTARY: &str = "; without rotary inertia the mass matrix is singular: give the true value, or a small one";
+        let properties = [
+            ("EA", self.axial_stiffness, "force", ""),
+            ("GA", self.shear_stiffness, "force", ""),
+            ("EI", self.bending_stiffness, "force·length²", ""),
+            ("rho_A", self.mass, "mass/length", ""),
+            ("rho_I", self.rotary_inertia, "mass·length", ROTARY),
+        ];
+        match properties.into_iter().find(|(_, value, ..)| !is_positive(*value)) {
+            Some((name, value, dimension, advice)) => {
+                Err(BeamError::SectionValue { name, value, dimension, advice })
+            }
+            None => Ok(self),
+        }
+    }
+
+    /// The section of a solid shape, with the shear correction factors of Cowper, J. Appl. Mech. 33 (1966) 335–340.
+    ///
+    /// # Errors
+    /// When a dimension or a material constant is out of range.
+    pub fn from_solid(solid: Solid) -> Result<Self, BeamError> {
+        let Solid { young, poisson, density, shape } = solid;
+        let shape_values = match shape {
+            Shape::Rectangle { width, height } => [("width", width), ("height", height)],
+            Shape::Circle { radius } => [("radius", radius), ("radius", radius)],
+            Shape::Tube { outer, inner } => [("outer", outer), ("inner", inner)],
+        };
+        for (name, value) in shape_values {
+            if !is_positive(value) {
+                return Err(BeamError::SectionValue { name, value, dimension: "length", advice: "" });
+            }
+        }
+        for (name, value, dimension) in [("E", young, "force/length²"), ("density", density, "mass/length³")] {
+            if !is_positive(value) {
+                return Err(BeamError::SectionValue { name, value, dimension, advice: "" });
+            }
+        }
+        if !(poisson > -1.0 && poisson <= 0.5) {
+            return Err(BeamError::PoissonRatio { value: poisson });
+        }
+        if let Shape::Tube { outer, inner } = shape
+            && inner >= outer
+        {
+            return Err(BeamError::Tube { inner, outer });
+        }
+        let (area, inertia) = (shape.area(), shape.second_moment());
+        Self {
+            axial_stiffness: young * area,
+            shear_stiffness: shape.shear_correction(poisson) * young / (2.0 * (1.0 + poisson)) * area,
+            bending_stiffness: young * inertia,
+            mass: density * area,
+            rotary_inertia: density * inertia,
+        }
+        .validated()
+    }
+}
+
+impl Shape {
+    /// Its area `A` [length²].
+    pub fn area(&self) -> f64 {
+        match *self {
+            Self::Rectangle { width, height } => width * height,
+            Self::Circle { radius } => PI * radius * radius,
+            Self::Tube { outer, inner } => PI * (outer * outer - inner * inner),
+        }
+    }
+
+    /// Its second moment of area `I` about the horizontal centroidal axis [length⁴].
+    pub fn second_moment(&self) -> f64 {
+        match *self {
+            Self::Rectangle { width, height } => width * height.powi(3) / 12.0,
+            Self::Circle { radius } => PI / 4.0 * radius.powi(4),
+            Self::Tube { outer, inner } => PI / 4.0 * (outer.powi(4) - inner.powi(4)),
+        }
+    }
+
+    /// Cowper's shear correction factor (1966, table 1) [-].
+    pub fn shear_correction(&self, poisson: f64) -> f64 {
+        let nu = poisson;
+        match *self {
+            Self::Rectangle { .. } => 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu),
+            Self::Circle { .. } => 6.0 * (1.0 + nu) / (7.0 + 6.0 * nu),
+            Self::Tube { outer, inner } => {
+                let m2 = (inner / outer).powi(2);
+                let sum2 = (1.0 + m2).powi(2);
+                6.0 * (1.0 + nu) * sum2 / ((7.0 + 6.0 * nu) * sum2 + (20.0 + 12.0 * nu) * m2)
+            }
+        }
+    }
+}
+
+fn is_positive(value: f64) -> bool {
+    value > 0.0 && value.is_finite()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tube_without_a_hole_is_a_circle() {
+        let (circle, tube) = (Shape::Circle { radius: 2.0 }, Shape::Tube { outer: 2.0, inner: 1e-9 });
+        assert!((circle.area() - tube.area()).abs() < 1e-12);
+        assert!((circle.second_moment() - tube.second_moment()).abs() < 1e-12);
+        assert!((circle.shear_correction(0.3) - tube.shear_correction(0.3)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn cowpers_factors_have_their_tabulated_values() {
+        assert!((Shape::Rectangle { width: 1.0, height: 1.0 }.shear_correction(0.3) - 0.850).abs() < 5e-4);
+        assert!((Shape::Circle { radius: 1.0 }.shear_correction(0.3) - 0.886).abs() < 5e-4);
+    }
+
+    #[test]
+    fn a_bad_property_is_named() {
+        let steel = Solid {
+            young: 210e9,
+            poisson: 0.3,
+            density: 7850.0,
+            shape: Shape::Rectangle { width: 0.02, height: 0.01 },
+        };
+        assert!(Section::from_solid(steel).is_ok());
+        let bad = [
+            Solid { young: -1.0, ..steel },
+            Solid { poisson: 0.7, ..steel },
+            Solid { density: f64::NAN, ..steel },
+            Solid { shape: Shape::Tube { outer: 1.0, inner: 1.0 }, ..steel },
+        ];
+        let words = ["E is -1", "Poisson", "density is NaN", "inner radius"];
+        for (solid, word) in bad.into_iter().zip(words) {
+            let message = Section::from_solid(solid).unwrap_err().to_string();
+            assert!(message.contains(word), "{message}");
+        }
+        let section = Section::from_solid(steel).unwrap();
+        let message = Section { rotary_inertia: 0.0, ..section }.validated().unwrap_err().to_string();
+        assert!(message.contains("rho_I is 0") && message.contains("singular"), "{message}");
+    }
+}

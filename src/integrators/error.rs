@@ -1,0 +1,45 @@
+//! Why a step could not be taken.
+
+use super::Interval;
+use crate::newton::NewtonError;
+
+/// A step that was refused; the mechanism is still at its start.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum StepError {
+    /// The equations of the step were not solved.
+    #[error("the step of {:e} from t = {} failed: {source}", interval.duration(), interval.start)]
+    Newton {
+        /// The step.
+        interval: Interval,
+        /// The solver's reason, with its residual history.
+        source: NewtonError,
+    },
+    /// A section turns by half a turn or more within the step, where tangent-scaled rotations end.
+    #[error(
+        "the step of {:e} from t = {} turns a section by {rotation:.2} rad; a step must stay below π",
+        interval.duration(), interval.start
+    )]
+    Rotation {
+        /// The step.
+        interval: Interval,
+        /// The rotation increment, rate times step [rad].
+        rotation: f64,
+    },
+    /// A load has no finite value in the step.
+    #[error("{load}: {reason} (in the step from t = {} to {})", interval.start, interval.end)]
+    Load {
+        /// The step.
+        interval: Interval,
+        /// The name of the load.
+        load: String,
+        /// What its schedule says.
+        reason: String,
+    },
+}
+
+impl StepError {
+    /// Whether a smaller step may succeed.
+    pub fn may_be_cured_by_a_smaller_step(&self) -> bool {
+        !matches!(self, Self::Load { .. })
+    }
+}

@@ -1,0 +1,78 @@
+//! What an integrator may ask of the mechanical system that it advances.
+
+use super::{Interval, StepError};
+use crate::linalg::BandedMatrix;
+
+/// Where in a step forces are taken. Increments are counted from the start of the step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// At the start of the step, loads as they are just after it.
+    Start,
+    /// Between start and end: mean configuration, averaged section forces, mean loads.
+    ///
+    /// The internal forces then do exactly the work by which the strain energy changes
+    /// (Stander & Stein 1996; Simo, Tarnow & Doblaré 1995).
+    Midpoint,
+    /// At the end of the step, loads as they are just before it.
+    End,
+}
+
+/// A mechanical system with a constant inertia matrix `M` and forces that depend on its configuration.
+///
+/// Increments and rates are those of the unknowns. Forces have, after the entries of the unknowns, those of the
+/// supported degrees of freedom, which do not move: what is left of a residual there is the reaction of the supports.
+pub trait Mechanism {
+    /// The number of unknowns of a step.
+    fn unknowns(&self) -> usize;
+
+    /// The number of entries of a force vector: unknowns and supported degrees of freedom.
+    fn degrees_of_freedom(&self) -> usize;
+
+    /// How far from the diagonal the tangent reaches.
+    fn half_bandwidth(&self) -> usize;
+
+    /// The rates of the unknowns at the start of the step [length/time, 1/time].
+    fn rates(&self) -> &[f64];
+
+    /// Prepares a step: evaluates what depends on time only.
+    ///
+    /// # Errors
+    /// When a load has no finite value.
+    fn begin_step(&mut self, interval: Interval) -> Result<(), StepError>;
+
+    /// Adds `factor · M · rates` to `out`.
+    fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]);
+
+    /// Adds `factor · M · v0`, the momenta at the start of the step, to `out`.
+    fn add_momentum(&mut self, factor: f64, out: &mut [f64]);
+
+    /// Adds `factor · M` to the tangent.
+    fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix);
+
+    /// Adds `weight` times the forces of a stage (internal minus loads), as its section forces have them, to `out`.
+    ///
+    /// Returns the largest mismatch between the strain of the section forces and that of the configuration.
+    fn add_forces(&mut self, stage: Stage, increments: &[f64], weight: f64, out: &mut [f64]) -> f64;
+
+    /// Adds `weight` times the condensed forces of a stage, and their derivative by the increments.
+    fn add_linearised_forces(
+        &mut self,
+        stage: Stage,
+        increments: &[f64],
+        weight: f64,
+        out: &mut [f64],
+        tangent: &mut BandedMatrix,
+    );
+
+    /// Carries a correction of the increments over to the section forces of the last linearisation.
+    fn correct_section_forces(&mut self, correction: &[f64]);
+
+    /// The largest residual of an unknown, relative to the forces that balance in this step [-].
+    fn relative_imbalance(&self, residual: &[f64]) -> f64;
+
+    /// The largest rotation increment `Δω` that the last forces met at any section [rad].
+    fn largest_rotation(&self) -> f64;
+
+    /// Accepts a step: new configuration and rates, work and impulse of loads and supports.
+    fn advance(&mut self, increments: &[f64], rates: &[f64], residual: &[f64]);
+}

@@ -1,0 +1,27 @@
+//! Time steps over an abstract mechanism: predict, solve, correct. No integrator mentions a beam.
+
+mod balance;
+mod energy_momentum;
+mod error;
+mod interval;
+mod mechanism;
+mod registry;
+mod trapezoidal;
+
+pub use energy_momentum::EnergyMomentum;
+pub use error::StepError;
+pub use interval::Interval;
+pub use mechanism::{Mechanism, Stage};
+pub use registry::{Claims, INTEGRATORS, IntegratorEntry, Method};
+pub use trapezoidal::Trapezoidal;
+
+use crate::newton::NewtonReport;
+
+/// One way to take a step.
+pub trait Integrator {
+    /// Advances the mechanism over the interval; on an error it is left as it was.
+    ///
+    /// # Errors
+    /// When no solution is found, the rotation increment is too large, or a load cannot be evaluated.
+    fn step(&mut self, mechanism: &mut dyn Mechanism, interval: Interval) -> Result<NewtonReport, StepError>;
+}

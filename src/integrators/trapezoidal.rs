@@ -1,0 +1,39 @@
+//! The trapezoidal rule.
+
+use super::balance::StepSolver;
+use super::{Integrator, Interval, Mechanism, Stage, StepError};
+use crate::newton::{NewtonReport, Tolerance};
+
+/// Newmark's method with β = 1/4, γ = 1/2 on the increments of a step. It keeps linear momentum; energy and angular
+/// momentum only for linear problems.
+///
+/// `M (v1 - v0)/Δt + ½ F(start) + ½ F(end) = 0`, `(v0 + v1)/2 = Δq/Δt`: the accelerations of Newmark's form are
+/// those of the balance at both ends, loads taken from inside the step. Second order.
+///
+/// N. M. Newmark, A method of computation for structural dynamics, J. Eng. Mech. Div. ASCE 85 (1959) 67–94.
+#[derive(Debug, Clone)]
+pub struct Trapezoidal {
+    solver: StepSolver,
+    standstill: Vec<f64>,
+}
+
+impl Trapezoidal {
+    /// The method with work space for a mechanism.
+    pub fn new(mechanism: &dyn Mechanism, tolerance: Tolerance) -> Self {
+        Self {
+            solver: StepSolver::new(mechanism, tolerance),
+            standstill: vec![0.0; mechanism.unknowns()],
+        }
+    }
+}
+
+impl Integrator for Trapezoidal {
+    fn step(&mut self, mechanism: &mut dyn Mechanism, interval: Interval) -> Result<NewtonReport, StepError> {
+        mechanism.begin_step(interval)?;
+        self.solver.predict(mechanism, interval);
+        mechanism.add_forces(Stage::Start, &self.standstill, 0.5, &mut self.solver.carried);
+        let report = self.solver.solve(mechanism, interval, Stage::End, 0.5)?;
+        self.solver.correct(mechanism, interval);
+        Ok(report)
+    }
+}

@@ -1,0 +1,22 @@
+//! What can go wrong when a linear system is solved.
+
+/// A linear system that has no unique solution in floating-point numbers.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum LinearError {
+    /// No usable pivot is left in a column.
+    #[error("the matrix is singular: no pivot for unknown {unknown} of {size}")]
+    Singular {
+        /// The column in which elimination stopped.
+        unknown: usize,
+        /// The size of the matrix.
+        size: usize,
+    },
+    /// An entry is infinite or not a number.
+    #[error("the matrix has an entry that is not a finite number, met at unknown {unknown} of {size}")]
+    NotFinite {
+        /// The column in which it was met.
+        unknown: usize,
+        /// The size of the matrix.
+        size: usize,
+    },
+}

@@ -1,0 +1,9 @@
+//! Loads and how they change with time.
+
+mod error;
+mod load;
+mod schedule;
+
+pub use error::LoadError;
+pub use load::{Frame, Load, LoadKind};
+pub use schedule::{Schedule, ScheduleFunction, Side};

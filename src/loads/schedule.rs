@@ -1,0 +1,275 @@
+//! A factor over time.
+
+use std::f64::consts::PI;
+use std::rc::Rc;
+
+use super::LoadError;
+
+/// A function of time from outside, such as a closure of a script.
+pub type ScheduleFunction = Rc<dyn Fn(f64) -> Result<f64, String>>;
+
+/// From which side a time is approached: schedules may jump.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// The limit from earlier times.
+    Before,
+    /// The limit from later times.
+    After,
+}
+
+/// A factor [-] by which a load is multiplied, as a function of time.
+#[derive(Clone)]
+pub enum Schedule {
+    /// Always the same.
+    Constant(f64),
+    /// Straight lines between (time, factor) points, constant before the first and after the last; a time that is
+    /// given twice is a jump.
+    Table(Vec<(f64, f64)>),
+    /// `amplitude · sin(rate · t + phase)`.
+    Sine {
+        /// [-]
+        amplitude: f64,
+        /// [rad/time]
+        rate: f64,
+        /// [rad]
+        phase: f64,
+    },
+    /// `16/5 sin⁶(π t/duration)` for 0 < t < duration, else 0: unit mean, five continuous derivatives.
+    SmoothPulse {
+        /// [time]
+        duration: f64,
+    },
+    /// Any function, with the times at which it jumps or bends.
+    Function {
+        /// Its value at a time.
+        function: ScheduleFunction,
+        /// Where it is not smooth.
+        breaks: Vec<f64>,
+    },
+    /// The sum of schedules.
+    Sum(Box<Schedule>, Box<Schedule>),
+    /// The product of schedules.
+    Product(Box<Schedule>, Box<Schedule>),
+}
+
+impl std::fmt::Debug for Schedule {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(&self.describe())
+    }
+}
+
+/// Points and weights of the three-point Gauss rule on [-1, 1].
+const GAUSS: [(f64, f64); 3] =
+    [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
+
+fn check(schedule: &'static str, name: &'static str, value: f64, allowed: &'static str, fine: bool) -> Result<(), LoadError> {
+    if fine { Ok(()) } else { Err(LoadError::Value { schedule, name, value, allowed }) }
+}
+
+fn check_finite(schedule: &'static str, name: &'static str, value: f64) -> Result<(), LoadError> {
+    check(schedule, name, value, "a finite number", value.is_finite())
+}
+
+fn check_positive(schedule: &'static str, name: &'static str, value: f64) -> Result<(), LoadError> {
+    check(schedule, name, value, "a positive finite number", value.is_finite() && value > 0.0)
+}
+
+impl Schedule {
+    /// The same factor at all times.
+    ///
+    /// # Errors
+    /// When it is not finite.
+    pub fn constant(factor: f64) -> Result<Self, LoadError> {
+        check_finite("constant", "the factor", factor)?;
+        Ok(Self::Constant(factor))
+    }
+
+    /// 1 up to `time`, then 0.
+    ///
+    /// # Errors
+    /// When the time is not positive and finite.
+    pub fn hold_for(time: f64) -> Result<Self, LoadError> {
+        check_positive("hold_for", "the time", time)?;
+        Ok(Self::Table(vec![(time, 1.0), (time, 0.0)]))
+    }
+
+    /// 0 before `from`, 1 after `to`, a straight line between.
+    ///
+    /// # Errors
+    /// When the times are not finite, or `to` is not later than `from`.
+    pub fn ramp(from: f64, to: f64) -> Result<Self, LoadError> {
+        check_finite("ramp", "the first time", from)?;
+        check("ramp", "the last time", to, "a finite time later than the first one", to.is_finite() && to > from)?;
+        Ok(Self::Table(vec![(from, 0.0), (to, 1.0)]))
+    }
+
+    /// 1 between two times, else 0.
+    ///
+    /// # Errors
+    /// When the times are not finite, or `to` is not later than `from`.
+    pub fn pulse(from: f64, to: f64) -> Result<Self, LoadError> {
+        check_finite("pulse", "the first time", from)?;
+        check("pulse", "the last time", to, "a finite time later than the first one", to.is_finite() && to > from)?;
+        Ok(Self::Table(vec![(from, 0.0), (from, 1.0), (to, 1.0), (to, 0.0)]))
+    }
+
+    /// `16/5 sin⁶(π t/duration)` up to `duration`, then 0: a smooth pulse of unit mean.
+    ///
+    /// # Errors
+    /// When the duration is not positive and finite.
+    pub fn smooth_pulse(duration: f64) -> Result<Self, LoadError> {
+        check_positive("smooth_pulse", "the duration", duration)?;
+        Ok(Self::SmoothPulse { duration })
+    }
+
+    /// `amplitude · sin(rate · t + phase)`.
+    ///
+    /// # Errors
+    /// When a number is not finite.
+    pub fn sine(amplitude: f64, rate: f64, phase: f64) -> Result<Self, LoadError> {
+        check_finite("sine", "the amplitude", amplitude)?;
+        check_finite("sine", "the rate", rate)?;
+        check_finite("sine", "the phase", phase)?;
+        Ok(Self::Sine { amplitude, rate, phase })
+    }
+
+    /// Straight lines between (time, factor) points.
+    ///
+    /// # Errors
+    /// When there are fewer than two rows, a number is not finite, or times decrease.
+    pub fn table(rows: Vec<(f64, f64)>) -> Result<Self, LoadError> {
+        if rows.len() < 2 {
+            return Err(LoadError::ShortTable { rows: rows.len() });
+        }
+        for &(time, factor) in &rows {
+            check_finite("table", "a time", time)?;
+            check_finite("table", "a factor", factor)?;
+        }
+        match rows.windows(2).position(|pair| pair[1].0 < pair[0].0) {
+            Some(row) => {
+                Err(LoadError::DecreasingTimes { row: row + 1, time: rows[row + 1].0, before: rows[row].0 })
+            }
+            None => Ok(Self::Table(rows)),
+        }
+    }
+
+    /// The value at a time, approached from a side.
+    ///
+    /// # Errors
+    /// When a function fails or the value is not finite.
+    pub fn value(&self, time: f64, side: Side) -> Result<f64, LoadError> {
+        let value = match self {
+            Self::Constant(factor) => *factor,
+            Self::Table(rows) => table_value(rows, time, side),
+            Self::Sine { amplitude, rate, phase } => amplitude * (rate * time + phase).sin(),
+            Self::SmoothPulse { duration } => {
+                if time <= 0.0 || time >= *duration { 0.0 } else { 3.2 * (PI * time / duration).sin().powi(6) }
+            }
+            Self::Function { function, .. } => function(time).map_err(LoadError::Function)?,
+            Self::Sum(a, b) => a.value(time, side)? + b.value(time, side)?,
+            Self::Product(a, b) => a.value(time, side)? * b.value(time, side)?,
+        };
+        if value.is_finite() { Ok(value) } else { Err(LoadError::NotFinite { time, value }) }
+    }
+
+    /// The mean over an interval without a jump inside, by three Gauss points: exact up to degree five.
+    ///
+    /// # Errors
+    /// When a function fails or a value is not finite.
+    pub fn mean(&self, start: f64, end: f64) -> Result<f64, LoadError> {
+        if let Self::Constant(factor) = self {
+            return Ok(*factor);
+        }
+        let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
+        let mut sum = 0.0;
+        for (place, weight) in GAUSS {
+            sum += 0.5 * weight * self.value(middle + half * place, Side::After)?;
+        }
+        Ok(sum)
+    }
+
+    /// The times at which it jumps or bends; steps should end there.
+    pub fn breaks(&self) -> Vec<f64> {
+        match self {
+            Self::Constant(_) | Self::Sine { .. } => Vec::new(),
+            Self::Table(rows) => rows.iter().map(|(time, _)| *time).collect(),
+            Self::SmoothPulse { duration } => vec![0.0, *duration],
+            Self::Function { breaks, .. } => breaks.clone(),
+            Self::Sum(a, b) | Self::Product(a, b) => [a.breaks(), b.breaks()].concat(),
+        }
+    }
+
+    /// In the words of the language.
+    pub fn describe(&self) -> String {
+        match self {
+            Self::Constant(factor) => format!("constant({factor})"),
+            Self::Table(rows) => match rows.as_slice() {
+                [(time, 1.0), (same, 0.0)] if time == same => format!("hold_for({time})"),
+                [(from, 0.0), (to, 1.0)] => format!("ramp({from}, {to})"),
+                [(from, 0.0), (_, 1.0), (_, 1.0), (to, 0.0)] => format!("pulse({from}, {to})"),
+                _ => format!("table of {} rows", rows.len()),
+            },
+            Self::Sine { amplitude, rate, phase } => format!("sine({amplitude}, {rate}, {phase})"),
+            Self::SmoothPulse { duration } => format!("smooth_pulse({duration})"),
+            Self::Function { .. } => "schedule(|t| …)".to_owned(),
+            Self::Sum(a, b) => format!("({} + {})", a.describe(), b.describe()),
+            Self::Product(a, b) => format!("{} * {}", a.describe(), b.describe()),
+        }
+    }
+}
+
+fn table_value(rows: &[(f64, f64)], time: f64, side: Side) -> f64 {
+    let passed = match side {
+        Side::Before => rows.partition_point(|row| row.0 < time),
+        Side::After => rows.partition_point(|row| row.0 <= time),
+    };
+    let (before, after) = (passed.checked_sub(1).and_then(|at| rows.get(at)), rows.get(passed));
+    match (before, after) {
+        (Some(&(t0, f0)), Some(&(t1, f1))) => f0 + (f1 - f0) * (time - t0) / (t1 - t0),
+        (Some(&(_, factor)), None) | (None, Some(&(_, factor))) => factor,
+        (None, None) => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_held_load_ends_at_its_time_from_either_side() {
+        let hold = Schedule::hold_for(2.5).unwrap();
+        assert_eq!(hold.value(2.5, Side::Before), Ok(1.0));
+        assert_eq!(hold.value(2.5, Side::After), Ok(0.0));
+        assert_eq!(hold.value(-1.0, Side::After), Ok(1.0));
+        assert_eq!(hold.mean(2.4, 2.5), Ok(1.0));
+        assert_eq!(hold.breaks(), [2.5, 2.5]);
+    }
+
+    #[test]
+    fn pieces_have_their_values_and_means() {
+        let ramp = Schedule::ramp(1.0, 3.0).unwrap();
+        assert_eq!(ramp.value(2.0, Side::After), Ok(0.5));
+        assert!((ramp.mean(1.0, 3.0).unwrap() - 0.5).abs() < 1e-15);
+        let pulse = Schedule::pulse(1.0, 2.0).unwrap();
+        let values = [0.5, 1.5, 2.5].map(|time| pulse.value(time, Side::After).unwrap());
+        assert_eq!(values, [0.0, 1.0, 0.0]);
+        let twice = Schedule::Product(Box::new(Schedule::Constant(2.0)), Box::new(pulse));
+        assert_eq!(twice.value(1.0, Side::After), Ok(2.0));
+        let mean = (0..100).map(|i| {
+            let pulse = Schedule::smooth_pulse(2.0).unwrap();
+            pulse.mean(0.02 * f64::from(i), 0.02 * f64::from(i + 1)).unwrap()
+        });
+        assert!((mean.sum::<f64>() / 100.0 - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn nonsense_is_refused_with_what_is_allowed() {
+        assert!(Schedule::hold_for(-1.0).unwrap_err().to_string().contains("positive"));
+        assert!(Schedule::ramp(2.0, 1.0).unwrap_err().to_string().contains("later"));
+        assert!(Schedule::constant(f64::NAN).is_err());
+        assert!(Schedule::table(vec![(0.0, 1.0)]).unwrap_err().to_string().contains("at least 2"));
+        assert!(Schedule::table(vec![(1.0, 1.0), (0.0, 1.0)]).unwrap_err().to_string().contains("decrease"));
+        let broken = Schedule::Function { function: Rc::new(|_| Ok(f64::INFINITY)), breaks: vec![] };
+        assert!(broken.mean(0.0, 1.0).unwrap_err().to_string().contains("finite"));
+    }
+}

@@ -1,0 +1,249 @@
+//! Loads on the control points of the model: their values in a step, their work and their impulse.
+
+use super::body::Body;
+use super::tracker::Tracker;
+use crate::beams::{Movement, Rotation};
+use crate::geometry::{Vec2, cross, perpendicular};
+use crate::integrators::{Interval, Stage};
+use crate::linalg::BandedMatrix;
+use crate::loads::{LoadError, Schedule, Side};
+
+/// Work [energy], impulse [force·time] and angular impulse about the origin, summed up.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Exchange {
+    pub(super) work: f64,
+    pub(super) impulse: Vec2,
+    pub(super) angular_impulse: f64,
+}
+
+impl std::ops::AddAssign for Exchange {
+    fn add_assign(&mut self, other: Self) {
+        self.work += other.work;
+        self.impulse += other.impulse;
+        self.angular_impulse += other.angular_impulse;
+    }
+}
+
+/// Forces on control points that do not change with the configuration.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Pattern {
+    /// (beam, control point, force and moment)
+    entries: Vec<(usize, usize, Movement)>,
+}
+
+impl Pattern {
+    pub(super) fn push(&mut self, beam: usize, point: usize, force: Movement) {
+        self.entries.push((beam, point, force));
+    }
+
+    pub(super) fn subtract_from(&self, bodies: &[Body], factor: f64, out: &mut [f64]) {
+        for (beam, point, force) in &self.entries {
+            for (&at, value) in bodies[*beam].degrees_of_freedom[*point].iter().zip(force) {
+                out[at] -= factor * value;
+            }
+        }
+    }
+
+    /// The largest force and the largest moment on a control point.
+    fn largest(&self, factor: f64) -> (f64, f64) {
+        self.entries.iter().fold((0.0, 0.0), |(force, moment): (f64, f64), (_, _, [x, y, m])| {
+            (force.max(factor.abs() * x.abs().max(y.abs())), moment.max(factor.abs() * m.abs()))
+        })
+    }
+
+    /// What it gives in a step of the movements that the bodies gathered last, acting at their midpoint.
+    pub(super) fn exchange(&self, bodies: &[Body], factor: f64, duration: f64) -> Exchange {
+        let mut sum = Exchange::default();
+        for (beam, point, [fx, fy, moment]) in &self.entries {
+            let [x, y, omega] = bodies[*beam].moved()[*point];
+            let (force, moved) = (Vec2::new(*fx, *fy) * factor, Vec2::new(x, y));
+            let middle = bodies[*beam].dynamics.control_points()[*point] + moved * 0.5;
+            sum += Exchange {
+                work: force.dot(&moved) + factor * moment * omega,
+                impulse: force * duration,
+                angular_impulse: (cross(middle, force) + factor * moment) * duration,
+            };
+        }
+        sum
+    }
+
+    /// `Σ f·x`: minus the potential of these forces, were they constant.
+    pub(super) fn potential_work(&self, bodies: &[Body]) -> f64 {
+        let work = |(beam, point, [fx, fy, _]): &(usize, usize, Movement)| {
+            bodies[*beam].dynamics.control_points()[*point].dot(&Vec2::new(*fx, *fy))
+        };
+        self.entries.iter().map(work).sum()
+    }
+}
+
+/// A force that turns with a section: `f = Λτ F`.
+#[derive(Debug, Clone)]
+pub(super) struct Follower {
+    pub(super) tracker: Tracker,
+    /// In the frame of the section.
+    pub(super) force: Vec2,
+    carried: Vec2,
+    current: Vec2,
+}
+
+impl Follower {
+    pub(super) fn new(tracker: Tracker, force: Vec2) -> Self {
+        Self { tracker, force, carried: Vec2::zeros(), current: Vec2::zeros() }
+    }
+
+    /// The rotation at `τ` and at the end, and `Δω`.
+    fn rotations(&self, body: &mut Body, tau: f64, increments: &[f64]) -> (Rotation, Rotation, f64) {
+        let increment = self.tracker.increment(body.gather(increments));
+        let end = self.tracker.rotation.turned(increment);
+        (self.tracker.rotation.mixed(end, tau), end, increment)
+    }
+}
+
+/// What a load acts through.
+#[derive(Debug, Clone)]
+pub(super) enum Action {
+    Dead(Pattern),
+    Follower(Vec<Follower>),
+}
+
+/// A load of the model with its values in the current step.
+#[derive(Debug, Clone)]
+pub(super) struct AppliedLoad {
+    pub(super) name: String,
+    pub(super) schedule: Schedule,
+    pub(super) action: Action,
+    factors: StageFactors,
+    /// The sum of weighted factors that the method uses in this step.
+    carried: f64,
+    current: f64,
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct StageFactors {
+    start: f64,
+    mean: f64,
+    end: f64,
+}
+
+impl StageFactors {
+    fn at(&self, stage: Stage) -> f64 {
+        match stage {
+            Stage::Start => self.start,
+            Stage::Midpoint => self.mean,
+            Stage::End => self.end,
+        }
+    }
+}
+
+/// `τ` of a stage.
+pub(super) fn configuration(stage: Stage) -> f64 {
+    match stage {
+        Stage::Start => 0.0,
+        Stage::Midpoint => 0.5,
+        Stage::End => 1.0,
+    }
+}
+
+impl AppliedLoad {
+    pub(super) fn new(name: String, schedule: Schedule, action: Action) -> Self {
+        Self { name, schedule, action, factors: StageFactors::default(), carried: 0.0, current: 0.0 }
+    }
+
+    pub(super) fn begin_step(&mut self, interval: Interval) -> Result<(), LoadError> {
+        self.factors = StageFactors {
+            start: self.schedule.value(interval.start, Side::After)?,
+            mean: self.schedule.mean(interval.start, interval.end)?,
+            end: self.schedule.value(interval.end, Side::Before)?,
+        };
+        (self.carried, self.current) = (0.0, 0.0);
+        if let Action::Follower(followers) = &mut self.action {
+            followers.iter_mut().for_each(|each| (each.carried, each.current) = (Vec2::zeros(), Vec2::zeros()));
+        }
+        Ok(())
+    }
+
+    /// Subtracts the load from the forces of a stage; returns the largest force and moment on a control point.
+    pub(super) fn subtract_from(
+        &mut self,
+        bodies: &mut [Body],
+        stage: Stage,
+        increments: &[f64],
+        weight: f64,
+        out: &mut [f64],
+    ) -> (f64, f64) {
+        let factor = weight * self.factors.at(stage);
+        match &mut self.action {
+            Action::Dead(pattern) => {
+                let used = if stage == Stage::Start { &mut self.carried } else { &mut self.current };
+                *used = factor;
+                pattern.subtract_from(bodies, factor, out);
+                pattern.largest(self.factors.at(stage))
+            }
+            Action::Follower(followers) => followers.iter_mut().fold((0.0, 0.0), |(largest, moment): (f64, f64), each| {
+                let body = &mut bodies[each.tracker.place.beam];
+                let (rotation, ..) = each.rotations(body, configuration(stage), increments);
+                let force = rotation.to_space(each.force) * factor;
+                let used = if stage == Stage::Start { &mut each.carried } else { &mut each.current };
+                *used = force;
+                for (point, share) in each.tracker.place.weights() {
+                    let [x, y, _] = body.degrees_of_freedom[point];
+                    out[x] -= share * force.x;
+                    out[y] -= share * force.y;
+                }
+                (largest.max(each.force.amax() * self.factors.at(stage).abs()), moment)
+            }),
+        }
+    }
+
+    /// Adds the derivative of minus the load by the increments.
+    pub(super) fn add_tangent(
+        &self,
+        bodies: &mut [Body],
+        stage: Stage,
+        increments: &[f64],
+        weight: f64,
+        unknowns: usize,
+        tangent: &mut BandedMatrix,
+    ) {
+        let Action::Follower(followers) = &self.action else { return };
+        let tau = configuration(stage);
+        for each in followers {
+            let body = &mut bodies[each.tracker.place.beam];
+            let (_, end, increment) = each.rotations(body, tau, increments);
+            let scale = -weight * self.factors.at(stage) * tau / (1.0 + 0.25 * increment * increment);
+            let by_rotation = end.to_space(perpendicular(each.force)) * scale;
+            for (a, share_a) in each.tracker.place.weights() {
+                for (b, share_b) in each.tracker.place.weights() {
+                    let column = body.degrees_of_freedom[b][2];
+                    for (&row, value) in body.degrees_of_freedom[a].iter().zip([by_rotation.x, by_rotation.y]) {
+                        if row < unknowns && column < unknowns {
+                            tangent.add(row, column, share_a * share_b * value);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// What the load gave in the step of the movements that the bodies gathered last.
+    pub(super) fn exchange(&self, bodies: &[Body], duration: f64) -> Exchange {
+        match &self.action {
+            Action::Dead(pattern) => pattern.exchange(bodies, self.carried + self.current, duration),
+            Action::Follower(followers) => followers.iter().fold(Exchange::default(), |mut sum, each| {
+                let body = &bodies[each.tracker.place.beam];
+                let force = each.carried + each.current;
+                for (point, share) in each.tracker.place.weights() {
+                    let [x, y, _] = body.moved()[point];
+                    let moved = Vec2::new(x, y) * share;
+                    let middle = body.dynamics.control_points()[point] * share + moved * 0.5;
+                    sum += Exchange {
+                        work: force.dot(&moved),
+                        impulse: force * (share * duration),
+                        angular_impulse: cross(middle, force) * duration,
+                    };
+                }
+                sum
+            }),
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! What can be wrong with a scene.
+
+use crate::beams::BeamError;
+use crate::geometry::GeometryError;
+
+/// A scene that cannot be described or built.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ModelError {
+    /// There is nothing to simulate.
+    #[error("the scene '{scene}' has no beams; add one with scene.beam(#{{ axis: …, section: … }})")]
+    Empty {
+        /// Its name.
+        scene: String,
+    },
+    /// Two beams of the same name.
+    #[error("the scene already has a beam '{name}'; give this one another name")]
+    DuplicateName {
+        /// The name.
+        name: String,
+    },
+    /// A station off its beam.
+    #[error("station {station} is outside [0, {length}] of beam '{beam}'; use beam.end for its end")]
+    StationOutside {
+        /// The beam.
+        beam: String,
+        /// The arc length asked for.
+        station: f64,
+        /// The length of the beam.
+        length: f64,
+    },
+    /// A joint of a place with itself.
+    #[error("{joint}: both stations are the same place of beam '{beam}'; a joint needs two places")]
+    JointWithItself {
+        /// The joint.
+        joint: String,
+        /// The beam.
+        beam: String,
+    },
+    /// Partners that do not meet.
+    #[error("{joint}: its stations at {from} and {to} are {gap} apart; they must lie at the same place when the scene starts: move a beam")]
+    OpenJoint {
+        /// The joint.
+        joint: String,
+        /// One place.
+        from: String,
+        /// The other.
+        to: String,
+        /// The distance.
+        gap: f64,
+    },
+    /// A place whose movement is already tied in that way.
+    #[error("{joint}: {place} is already {how}; remove one of the two joints")]
+    AlreadyTied {
+        /// The joint.
+        joint: String,
+        /// The place.
+        place: String,
+        /// By what.
+        how: String,
+    },
+    /// Everything is held.
+    #[error("the scene '{scene}' has nothing that can move: every unknown is held by a support")]
+    NothingMoves {
+        /// Its name.
+        scene: String,
+    },
+    /// Start velocities that tied things do not share.
+    #[error("beam '{beam}' starts with a velocity of {velocity} at its {place}, but {other}; give it a start velocity that fits (velocity, spin, about)")]
+    StartVelocity {
+        /// The beam.
+        beam: String,
+        /// Which component of which place.
+        place: String,
+        /// Its value.
+        velocity: f64,
+        /// What it is tied to.
+        other: String,
+    },
+    /// A number that is out of range.
+    #[error("{object}: {name} is {value}, but must be {allowed}")]
+    Value {
+        /// What it belongs to.
+        object: String,
+        /// The property.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it may be.
+        allowed: &'static str,
+    },
+    /// A beam that cannot be put on its mesh.
+    #[error("beam '{beam}': {source}")]
+    Beam {
+        /// The beam.
+        beam: String,
+        /// Why.
+        source: BeamError,
+    },
+}
+
+impl ModelError {
+    /// For `map_err`: a geometry error of a beam.
+    pub(super) fn geometry(beam: &str) -> impl Fn(GeometryError) -> Self + '_ {
+        move |source| Self::Beam { beam: beam.to_owned(), source: source.into() }
+    }
+}

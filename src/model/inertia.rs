@@ -1,0 +1,64 @@
+//! Point masses.
+
+use crate::beams::Place;
+use crate::geometry::{Vec2, cross};
+use crate::linalg::BandedMatrix;
+
+use super::body::Body;
+
+/// A mass at a place of a beam: it moves with the control points whose functions are non-zero there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lump {
+    pub(super) place: Place,
+    pub(super) mass: f64,
+    pub(super) rotary_inertia: f64,
+}
+
+impl Lump {
+    fn inertia(&self) -> [f64; 3] {
+        [self.mass, self.mass, self.rotary_inertia]
+    }
+
+    /// The values of the unknowns at this place.
+    fn at_place(&self, body: &Body, values: &[f64]) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for (point, weight) in self.place.weights() {
+            for (sum, &at) in sum.iter_mut().zip(&body.degrees_of_freedom[point]) {
+                *sum += weight * values.get(at).copied().unwrap_or(0.0);
+            }
+        }
+        sum
+    }
+
+    pub(super) fn add_inertia(&self, body: &Body, factor: f64, rates: &[f64], out: &mut [f64]) {
+        let rate = self.at_place(body, rates);
+        for (point, weight) in self.place.weights() {
+            for ((&at, inertia), rate) in body.degrees_of_freedom[point].iter().zip(self.inertia()).zip(rate) {
+                out[at] += factor * weight * inertia * rate;
+            }
+        }
+    }
+
+    pub(super) fn add_inertia_tangent(&self, body: &Body, factor: f64, unknowns: usize, tangent: &mut BandedMatrix) {
+        for (a, weight_a) in self.place.weights() {
+            for (b, weight_b) in self.place.weights() {
+                let degrees = body.degrees_of_freedom[a].iter().zip(&body.degrees_of_freedom[b]);
+                for ((&row, &column), inertia) in degrees.zip(self.inertia()) {
+                    if row < unknowns && column < unknowns {
+                        tangent.add(row, column, factor * weight_a * weight_b * inertia);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Twice the kinetic energy, the momentum and the angular momentum about the origin.
+    pub(super) fn momenta(&self, body: &Body, rates: &[f64]) -> (f64, Vec2, f64) {
+        let [vx, vy, spin] = self.at_place(body, rates);
+        let velocity = Vec2::new(vx, vy);
+        let momentum = velocity * self.mass;
+        let at = self.place.interpolate(body.dynamics.control_points());
+        let angular = self.rotary_inertia * spin;
+        (momentum.dot(&velocity) + angular * spin, momentum, cross(at, momentum) + angular)
+    }
+}

@@ -1,0 +1,42 @@
+//! Energy and momenta of a model.
+
+use crate::geometry::Vec2;
+
+/// The energy of a model, in parts [energy].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Energy {
+    /// `½ ∫ ρA |ẋ|² + ρI θ̇² dX`, and that of point masses.
+    pub kinetic: f64,
+    /// `½ ∫ Γ·CΓ + EI κ² dX`
+    pub strain: f64,
+    /// Of gravity, zero at the origin.
+    pub potential: f64,
+}
+
+impl Energy {
+    /// Their sum.
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.strain + self.potential
+    }
+}
+
+/// What is measured of a model at the end of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Measures {
+    /// Time.
+    pub time: f64,
+    /// `E`, in parts.
+    pub energy: Energy,
+    /// `W`: work of the loads so far [energy].
+    pub work: f64,
+    /// `p` [mass·length/time]
+    pub momentum: Vec2,
+    /// `∫ F dt` of loads, gravity and supports so far.
+    pub impulse: Vec2,
+    /// `L` about the origin [mass·length²/time].
+    pub angular_momentum: f64,
+    /// `∫ M dt` of loads, gravity and supports so far, about the origin.
+    pub angular_impulse: f64,
+    /// The largest distance between the partners of a joint [length].
+    pub gap: f64,
+}

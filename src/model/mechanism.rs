@@ -1,0 +1,271 @@
+//! The model as integrators see it.
+
+use super::applied::{Action, AppliedLoad, Exchange, Pattern, configuration};
+use super::body::Body;
+use super::inertia::Lump;
+use super::measures::{Energy, Measures};
+use super::tracker::Tracker;
+use crate::beams::{Collocation, ForceSummary, Mesh, Place};
+use crate::geometry::{Vec2, cross};
+use crate::integrators::{Interval, Mechanism, Stage, StepError};
+use crate::linalg::BandedMatrix;
+
+/// A supported degree of freedom: the body, its control point and the component that does not move.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Support {
+    pub(super) beam: usize,
+    pub(super) point: usize,
+    pub(super) component: usize,
+}
+
+/// Beams, masses and loads, assembled and in motion.
+pub struct Model {
+    pub(super) bodies: Vec<Body>,
+    pub(super) meshes: Vec<Mesh>,
+    pub(super) lumps: Vec<Lump>,
+    pub(super) loads: Vec<AppliedLoad>,
+    /// The weight of everything; none without gravity.
+    pub(super) weight: Option<Pattern>,
+    pub(super) trackers: Vec<Tracker>,
+    /// Pairs of places that joints hold together.
+    pub(super) joined: Vec<(Place, Place)>,
+    /// In the order of their degrees of freedom, which follow the unknowns.
+    pub(super) supports: Vec<Support>,
+    pub(super) unknowns: usize,
+    pub(super) half_bandwidth: usize,
+    /// Which unknowns are rotations.
+    pub(super) is_rotation: Vec<bool>,
+    pub(super) rates: Vec<f64>,
+    pub(super) time: f64,
+    pub(super) exchanged: Exchange,
+    pub(super) step: StepScales,
+    pub(super) scratch: Vec<f64>,
+}
+
+/// The interval of the current step and the forces met in it, to which a residual is compared.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StepScales {
+    pub(super) interval: Interval,
+    inertia: (f64, f64),
+    loads: (f64, f64),
+    summary: ForceSummary,
+}
+
+impl Default for StepScales {
+    fn default() -> Self {
+        Self {
+            interval: Interval { start: 0.0, end: 0.0 },
+            inertia: (0.0, 0.0),
+            loads: (0.0, 0.0),
+            summary: ForceSummary::default(),
+        }
+    }
+}
+
+fn collocation(stage: Stage) -> Collocation {
+    let tau = configuration(stage);
+    Collocation { configuration: tau, stress: tau }
+}
+
+/// The largest magnitudes among positions and among rotations.
+fn largest(values: &[f64], is_rotation: &[bool]) -> (f64, f64) {
+    values.iter().zip(is_rotation).fold((0.0, 0.0), |(force, moment), (value, rotation)| {
+        // A NaN must survive: `f64::max` would drop it.
+        let larger = |a: f64, b: f64| if a >= b || a.is_nan() { a } else { b };
+        if *rotation { (force, larger(moment, value.abs())) } else { (larger(force, value.abs()), moment) }
+    })
+}
+
+impl Model {
+    fn add_inertia_of_all(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
+        self.bodies.iter_mut().for_each(|body| body.add_inertia(factor, rates, out));
+        self.lumps.iter().for_each(|lump| lump.add_inertia(&self.bodies[lump.place.beam], factor, rates, out));
+    }
+
+    /// Energy, momenta and what was exchanged so far.
+    pub fn measure(&mut self) -> Measures {
+        let (mut twice_kinetic, mut momentum, mut angular_momentum) = (0.0, Vec2::zeros(), 0.0);
+        let mut add = |(kinetic, linear, angular): (f64, Vec2, f64)| {
+            twice_kinetic += kinetic;
+            momentum += linear;
+            angular_momentum += angular;
+        };
+        self.bodies.iter_mut().for_each(|body| add(body.momenta(&self.rates)));
+        self.lumps.iter().for_each(|lump| add(lump.momenta(&self.bodies[lump.place.beam], &self.rates)));
+        let energy = Energy {
+            kinetic: 0.5 * twice_kinetic,
+            strain: self.bodies.iter().map(|body| body.dynamics.strain_energy()).sum(),
+            potential: self.weight.as_ref().map_or(0.0, |weight| -weight.potential_work(&self.bodies)),
+        };
+        Measures {
+            time: self.time,
+            energy,
+            work: self.exchanged.work,
+            momentum,
+            impulse: self.exchanged.impulse,
+            angular_momentum,
+            angular_impulse: self.exchanged.angular_impulse,
+            gap: self.gap(),
+        }
+    }
+
+    fn gap(&self) -> f64 {
+        let at = |place: &Place| place.interpolate(self.bodies[place.beam].dynamics.control_points());
+        self.joined.iter().map(|(a, b)| (at(a) - at(b)).norm()).fold(0.0, f64::max)
+    }
+
+    fn exchange_in_step(&self, residual: &[f64]) -> Exchange {
+        let duration = self.step.interval.duration();
+        let mut sum = Exchange::default();
+        for load in &self.loads {
+            sum += load.exchange(&self.bodies, duration);
+        }
+        if let Some(weight) = &self.weight {
+            // Its work is the change of the potential, which is an energy of its own.
+            sum += Exchange { work: 0.0, ..weight.exchange(&self.bodies, 1.0, duration) };
+        }
+        for (support, reaction) in self.supports.iter().zip(&residual[self.unknowns..]) {
+            let at = self.bodies[support.beam].dynamics.control_points()[support.point];
+            let force = match support.component {
+                0 => Vec2::new(*reaction, 0.0),
+                1 => Vec2::new(0.0, *reaction),
+                _ => Vec2::zeros(),
+            };
+            let moment = if support.component == 2 { *reaction } else { 0.0 };
+            sum += Exchange {
+                work: 0.0,
+                impulse: force * duration,
+                angular_impulse: (cross(at, force) + moment) * duration,
+            };
+        }
+        sum
+    }
+}
+
+impl Mechanism for Model {
+    fn unknowns(&self) -> usize {
+        self.unknowns
+    }
+
+    fn degrees_of_freedom(&self) -> usize {
+        self.unknowns + self.supports.len()
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        self.half_bandwidth
+    }
+
+    fn rates(&self) -> &[f64] {
+        &self.rates
+    }
+
+    fn begin_step(&mut self, interval: Interval) -> Result<(), StepError> {
+        for load in &mut self.loads {
+            load.begin_step(interval).map_err(|reason| StepError::Load {
+                interval,
+                load: load.name.clone(),
+                reason: reason.to_string(),
+            })?;
+        }
+        self.bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
+        self.step = StepScales { interval, ..StepScales::default() };
+        let (mut scratch, rates) = (std::mem::take(&mut self.scratch), std::mem::take(&mut self.rates));
+        scratch.fill(0.0);
+        self.add_inertia_of_all(2.0 / interval.duration(), &rates, &mut scratch);
+        self.step.inertia = largest(&scratch, &self.is_rotation);
+        (self.scratch, self.rates) = (scratch, rates);
+        Ok(())
+    }
+
+    fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
+        self.add_inertia_of_all(factor, rates, out);
+    }
+
+    fn add_momentum(&mut self, factor: f64, out: &mut [f64]) {
+        let rates = std::mem::take(&mut self.rates);
+        self.add_inertia_of_all(factor, &rates, out);
+        self.rates = rates;
+    }
+
+    fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
+        self.bodies.iter().for_each(|body| body.add_inertia_tangent(factor, tangent));
+        for lump in &self.lumps {
+            lump.add_inertia_tangent(&self.bodies[lump.place.beam], factor, self.unknowns, tangent);
+        }
+    }
+
+    fn add_forces(&mut self, stage: Stage, increments: &[f64], weight: f64, out: &mut [f64]) -> f64 {
+        let mut summary = ForceSummary::default();
+        for body in &mut self.bodies {
+            summary.join(&body.add_forces(collocation(stage), increments, weight, out));
+        }
+        let mut loads: (f64, f64) = (0.0, 0.0);
+        for load in &mut self.loads {
+            let (force, moment) = load.subtract_from(&mut self.bodies, stage, increments, weight, out);
+            loads = (loads.0.max(force), loads.1.max(moment));
+        }
+        if let Some(gravity) = &self.weight {
+            gravity.subtract_from(&self.bodies, weight, out);
+        }
+        (self.step.summary, self.step.loads) = (summary, loads);
+        summary.strain_mismatch
+    }
+
+    fn add_linearised_forces(
+        &mut self,
+        stage: Stage,
+        increments: &[f64],
+        weight: f64,
+        out: &mut [f64],
+        tangent: &mut BandedMatrix,
+    ) {
+        for body in &mut self.bodies {
+            body.add_linearised_forces(collocation(stage), increments, weight, out, tangent);
+        }
+        for load in &mut self.loads {
+            load.subtract_from(&mut self.bodies, stage, increments, weight, out);
+            load.add_tangent(&mut self.bodies, stage, increments, weight, self.unknowns, tangent);
+        }
+        if let Some(gravity) = &self.weight {
+            gravity.subtract_from(&self.bodies, weight, out);
+        }
+    }
+
+    fn correct_section_forces(&mut self, correction: &[f64]) {
+        self.bodies.iter_mut().for_each(|body| body.correct_section_forces(correction));
+    }
+
+    fn relative_imbalance(&self, residual: &[f64]) -> f64 {
+        let (force, moment) = largest(residual, &self.is_rotation);
+        let StepScales { inertia, loads, summary, .. } = &self.step;
+        let relative = |residual: f64, scale: f64| if residual == 0.0 { 0.0 } else { residual / scale };
+        let force = relative(force, summary.force + inertia.0 + loads.0);
+        let moment = relative(moment, summary.moment + inertia.1 + loads.1);
+        if force >= moment || force.is_nan() { force } else { moment }
+    }
+
+    fn largest_rotation(&self) -> f64 {
+        self.step.summary.rotation
+    }
+
+    fn advance(&mut self, increments: &[f64], rates: &[f64], residual: &[f64]) {
+        for body in &mut self.bodies {
+            body.gather(increments);
+        }
+        let exchange = self.exchange_in_step(residual);
+        self.exchanged += exchange;
+        for tracker in &mut self.trackers {
+            tracker.advance(self.bodies[tracker.place.beam].moved());
+        }
+        for load in &mut self.loads {
+            if let Action::Follower(followers) = &mut load.action {
+                for follower in followers {
+                    follower.tracker.advance(self.bodies[follower.tracker.place.beam].moved());
+                }
+            }
+        }
+        self.bodies.iter_mut().for_each(Body::advance);
+        self.rates.copy_from_slice(rates);
+        self.time = self.step.interval.end;
+    }
+}

@@ -1,0 +1,187 @@
+//! Which movements are tied to each other or to the ground, and the numbers of the unknowns that are left.
+
+use super::{ModelError, Scene};
+use crate::geometry::Vec2;
+use crate::joints::{Component, JointKind, Partner};
+use crate::beams::{BeamDynamics, Place, Station};
+use crate::linalg::reverse_cuthill_mckee;
+
+/// Largest gap of a joint when the scene starts, relative to the length of its beam.
+const CLOSED: f64 = 1e-9;
+
+/// The degree of freedom of every component of every control point of every beam: the unknowns come first, the
+/// supported ones after them.
+#[derive(Debug, Clone)]
+pub(super) struct Numbering {
+    pub(super) degrees_of_freedom: Vec<Vec<[usize; 3]>>,
+    pub(super) unknowns: usize,
+    pub(super) supported: usize,
+    pub(super) half_bandwidth: usize,
+}
+
+/// Sets of things that are one: union–find with path halving.
+struct Ties {
+    parent: Vec<usize>,
+}
+
+impl Ties {
+    fn new(count: usize) -> Self {
+        Self { parent: (0..count).collect() }
+    }
+
+    fn root(&mut self, mut at: usize) -> usize {
+        while self.parent[at] != at {
+            self.parent[at] = self.parent[self.parent[at]];
+            at = self.parent[at];
+        }
+        at
+    }
+
+    /// Makes two things one; false when they were already.
+    fn tie(&mut self, a: usize, b: usize) -> bool {
+        let (a, b) = (self.root(a), self.root(b));
+        // The smaller index stays the root, so that index 0, the ground, always is one.
+        self.parent[a.max(b)] = a.min(b);
+        a != b
+    }
+}
+
+/// Checks that the joints of a scene close and do not tie a place twice, without building anything.
+pub(super) fn check_ties(scene: &Scene) -> Result<(), ModelError> {
+    let mut places: Vec<Station> = Vec::new();
+    let mut index = |station: &Station| {
+        places.iter().position(|other| same_place(other, station, scene)).unwrap_or_else(|| {
+            places.push(*station);
+            places.len() - 1
+        })
+    };
+    let pairs: Vec<(usize, Option<usize>)> = scene
+        .joints
+        .iter()
+        .map(|joint| match &joint.partner {
+            Partner::Ground => (index(&joint.station), None),
+            Partner::Station(other) => (index(&joint.station), Some(index(other))),
+        })
+        .collect();
+    let mut ties = Ties::new(1 + 3 * places.len());
+    for (joint, (place, partner)) in scene.joints.iter().zip(pairs) {
+        if let Partner::Station(other) = &joint.partner {
+            if partner == Some(place) {
+                let beam = scene.beams[joint.station.beam].name.clone();
+                return Err(ModelError::JointWithItself { joint: joint.name.clone(), beam });
+            }
+            check_closed(scene, &joint.name, &joint.station, other)?;
+        }
+        for &component in joint.kind.components() {
+            let node = |place: usize| 1 + 3 * place + component as usize;
+            if !ties.tie(node(place), partner.map_or(0, node)) {
+                let ground = ties.root(node(place)) == 0;
+                let how = match (ground, joint.kind) {
+                    (true, _) => "held by the ground",
+                    (false, JointKind::Hinge) => "joined to the other station",
+                    (false, JointKind::Rigid) => "joined to the other station in this component",
+                };
+                let place = scene.describe(&joint.station);
+                return Err(ModelError::AlreadyTied { joint: joint.name.clone(), place, how: how.to_owned() });
+            }
+        }
+    }
+    Ok(())
+}
+
+fn same_place(a: &Station, b: &Station, scene: &Scene) -> bool {
+    a.beam == b.beam && (a.arc_length - b.arc_length).abs() <= 1e-10 * scene.beams[a.beam].axis.length()
+}
+
+fn drawn_at(scene: &Scene, station: &Station) -> Result<Vec2, ModelError> {
+    let beam = &scene.beams[station.beam];
+    let at = beam.axis.parameter_at(station.arc_length).and_then(|xi| beam.axis.point(xi));
+    at.map_err(ModelError::geometry(&beam.name))
+}
+
+fn check_closed(scene: &Scene, joint: &str, station: &Station, other: &Station) -> Result<(), ModelError> {
+    let (from, to) = (drawn_at(scene, station)?, drawn_at(scene, other)?);
+    let (gap, size) = ((to - from).norm(), scene.beams[station.beam].axis.length());
+    if gap <= CLOSED * (size + from.norm()) {
+        return Ok(());
+    }
+    let write = |at: Vec2| format!("({}, {})", at.x, at.y);
+    Err(ModelError::OpenJoint { joint: joint.to_owned(), from: write(from), to: write(to), gap })
+}
+
+impl Numbering {
+    /// Numbers the movements of beams whose joints tie control points: `places` are those of the stations of a joint.
+    pub(super) fn new(
+        scene: &Scene,
+        beams: &[Box<dyn BeamDynamics>],
+        place: impl Fn(&Station) -> Result<Place, ModelError>,
+    ) -> Result<Self, ModelError> {
+        let counts = beams.iter().map(|beam| beam.control_points().len());
+        let offsets: Vec<usize> = std::iter::once(1)
+            .chain(counts.scan(1, |offset, count| {
+                *offset += 3 * count;
+                Some(*offset)
+            }))
+            .collect();
+        let all = offsets[beams.len()];
+        let mut ties = Ties::new(all);
+        for joint in &scene.joints {
+            let node = |station: &Station| -> Result<usize, ModelError> {
+                // Stations of joints are breaks of the mesh, where a control point lies on the axis.
+                Ok(offsets[station.beam] + 3 * place(station)?.nearest_control_point())
+            };
+            let from = node(&joint.station)?;
+            let to = match &joint.partner {
+                Partner::Ground => None,
+                Partner::Station(other) => Some(node(other)?),
+            };
+            for &component in joint.kind.components() {
+                ties.tie(from + component as usize, to.map_or(0, |to| to + component as usize));
+            }
+        }
+
+        // Free classes get numbers in the order of the beams; ground is class 0.
+        let mut number = vec![usize::MAX; all];
+        let mut unknowns = 0;
+        for at in 1..all {
+            let root = ties.root(at);
+            if root != 0 && number[root] == usize::MAX {
+                number[root] = unknowns;
+                unknowns += 1;
+            }
+        }
+        if unknowns == 0 {
+            return Err(ModelError::NothingMoves { scene: scene.name.clone() });
+        }
+        let mut groups = Vec::new();
+        for (beam, offset) in beams.iter().zip(&offsets) {
+            for first in beam.span_starts() {
+                let nodes = offset + 3 * first..offset + 3 * (first + beam.order());
+                let mut group: Vec<usize> = nodes.map(|at| number[ties.root(at)]).filter(|&n| n != usize::MAX).collect();
+                group.sort_unstable();
+                group.dedup();
+                groups.push(group);
+            }
+        }
+        let ordering = reverse_cuthill_mckee(unknowns, &groups);
+
+        let mut supported = 0;
+        let degrees_of_freedom = beams
+            .iter()
+            .zip(&offsets)
+            .map(|(beam, offset)| {
+                let mut degree = |at: usize| match ties.root(at) {
+                    0 => {
+                        supported += 1;
+                        unknowns + supported - 1
+                    }
+                    root => ordering.position[number[root]],
+                };
+                (0..beam.control_points().len())
+                    .map(|point| Component::ALL.map(|component| degree(offset + 3 * point + component as usize)))
+                    .collect()
+            })
+            .collect();
+        Ok(Self { degrees_of_freedom, unknowns, supported, half_bandwidth: ordering.half_bandwidth })
+    }
+}

@@ -1,0 +1,179 @@
+//! The editable description of what is simulated. Nothing is assembled here.
+
+use super::ModelError;
+use crate::beams::{Mesh, Section, Station};
+use crate::geometry::{Curve, Vec2};
+use crate::joints::{Joint, JointKind, Partner};
+use crate::loads::{Load, LoadKind, Schedule};
+
+/// How a beam moves when the scene starts: a rigid motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StartMotion {
+    /// The velocity of the point `about` [length/time].
+    pub velocity: Vec2,
+    /// The rate of rotation [1/time].
+    pub spin: f64,
+    /// The point it turns about; its centre of mass when not given.
+    pub about: Option<Vec2>,
+}
+
+impl Default for StartMotion {
+    fn default() -> Self {
+        Self { velocity: Vec2::zeros(), spin: 0.0, about: None }
+    }
+}
+
+/// A beam of a scene.
+#[derive(Debug, Clone)]
+pub struct BeamDefinition {
+    /// Its name in messages and reports.
+    pub name: String,
+    /// Its axis, stress-free as drawn.
+    pub axis: Curve,
+    /// Basis and quadrature.
+    pub mesh: Mesh,
+    /// Stiffness and inertia.
+    pub section: Section,
+    /// How it moves at the start.
+    pub motion: StartMotion,
+}
+
+/// A mass at a station.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointMass {
+    /// Where.
+    pub station: Station,
+    /// [mass]
+    pub mass: f64,
+    /// [mass·length²]
+    pub rotary_inertia: f64,
+}
+
+/// A velocity at the start of the node at a station alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StationVelocity {
+    /// Where.
+    pub station: Station,
+    /// [length/time]
+    pub velocity: Vec2,
+    /// [1/time]; as the beam has it when not given.
+    pub spin: Option<f64>,
+}
+
+/// Beams, joints, masses and loads.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// For messages and reports.
+    pub name: String,
+    /// In the order in which they were added.
+    pub beams: Vec<BeamDefinition>,
+    /// Places whose angle is followed, besides the ends of all beams.
+    pub stations: Vec<Station>,
+    /// Supports and joints between beams.
+    pub joints: Vec<Joint>,
+    /// Masses at stations.
+    pub masses: Vec<PointMass>,
+    /// Velocities of single nodes.
+    pub velocities: Vec<StationVelocity>,
+    /// Loads.
+    pub loads: Vec<Load>,
+    /// Acceleration of free fall [length/time²].
+    pub gravity: Vec2,
+}
+
+impl Scene {
+    /// An empty scene.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            beams: Vec::new(),
+            stations: Vec::new(),
+            joints: Vec::new(),
+            masses: Vec::new(),
+            velocities: Vec::new(),
+            loads: Vec::new(),
+            gravity: Vec2::zeros(),
+        }
+    }
+
+    /// Adds a beam and returns its index.
+    ///
+    /// # Errors
+    /// When a beam of that name exists.
+    pub fn add_beam(&mut self, beam: BeamDefinition) -> Result<usize, ModelError> {
+        if self.beams.iter().any(|other| other.name == beam.name) {
+            return Err(ModelError::DuplicateName { name: beam.name });
+        }
+        self.beams.push(beam);
+        Ok(self.beams.len() - 1)
+    }
+
+    /// The station of a beam at an arc length; it is followed from the start.
+    ///
+    /// # Errors
+    /// When it lies outside the beam.
+    pub fn station(&mut self, beam: usize, arc_length: f64) -> Result<Station, ModelError> {
+        let definition = &self.beams[beam];
+        let length = definition.axis.length();
+        let tolerance = 1e-12 * length;
+        if !(arc_length >= -tolerance && arc_length <= length + tolerance) {
+            return Err(ModelError::StationOutside { beam: definition.name.clone(), station: arc_length, length });
+        }
+        let station = Station { beam, arc_length: arc_length.clamp(0.0, length) };
+        if !self.stations.contains(&station) {
+            self.stations.push(station);
+        }
+        Ok(station)
+    }
+
+    /// Ties a station to the ground or to another station.
+    ///
+    /// # Errors
+    /// When both stations are one, do not meet, or one is tied already.
+    pub fn join(&mut self, kind: JointKind, station: Station, partner: Partner) -> Result<(), ModelError> {
+        let name = format!("{} at {}", kind.describe(&partner), self.describe(&station));
+        self.joints.push(Joint { name, kind, station, partner });
+        super::numbering::check_ties(self).inspect_err(|_| {
+            self.joints.pop();
+        })
+    }
+
+    /// Puts a mass on a station.
+    ///
+    /// # Errors
+    /// When the mass is not positive and finite, or its inertia negative.
+    pub fn add_mass(&mut self, mass: PointMass) -> Result<(), ModelError> {
+        let object = || format!("mass at {}", self.describe(&mass.station));
+        if !(mass.mass.is_finite() && mass.mass > 0.0) {
+            let allowed = "a positive finite number [mass]";
+            return Err(ModelError::Value { object: object(), name: "mass", value: mass.mass, allowed });
+        }
+        if !(mass.rotary_inertia.is_finite() && mass.rotary_inertia >= 0.0) {
+            let (value, allowed) = (mass.rotary_inertia, "zero or a positive finite number [mass·length²]");
+            return Err(ModelError::Value { object: object(), name: "rotary inertia", value, allowed });
+        }
+        self.masses.push(mass);
+        Ok(())
+    }
+
+    /// Adds a load.
+    pub fn add_load(&mut self, kind: LoadKind, schedule: Schedule) {
+        let name = match &kind {
+            LoadKind::Force { station, .. } => format!("force at {}", self.describe(station)),
+            LoadKind::Moment { station, .. } => format!("moment at {}", self.describe(station)),
+            LoadKind::Line { beam, .. } => format!("line load on beam '{}'", self.beams[*beam].name),
+        };
+        self.loads.push(Load { name, kind, schedule });
+    }
+
+    /// A station in words.
+    pub fn describe(&self, station: &Station) -> String {
+        let beam = &self.beams[station.beam];
+        let length = beam.axis.length();
+        match station.arc_length {
+            0.0 => format!("the start of beam '{}'", beam.name),
+            s if s == length => format!("the end of beam '{}'", beam.name),
+            s => format!("station {s} of beam '{}'", beam.name),
+        }
+    }
+}

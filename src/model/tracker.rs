@@ -1,0 +1,37 @@
+//! Sections whose rotation is followed: stations, and places where loads turn with the beam.
+
+use crate::beams::{Movement, Place, Rotation};
+
+/// A place whose rotation is advanced with the steps.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Tracker {
+    pub(super) place: Place,
+    /// Unwrapped angle of the section [rad].
+    pub(super) angle: f64,
+    pub(super) rotation: Rotation,
+}
+
+impl Tracker {
+    pub(super) fn new(place: Place) -> Self {
+        Self { place, angle: place.tangent_angle, rotation: Rotation::by(place.tangent_angle) }
+    }
+
+    /// `Δω` of movements.
+    pub(super) fn increment(&self, moved: &[Movement]) -> f64 {
+        self.place.weights().map(|(point, weight)| weight * moved[point][2]).sum()
+    }
+
+    pub(super) fn advance(&mut self, moved: &[Movement]) {
+        let increment = self.increment(moved);
+        self.angle += 2.0 * (0.5 * increment).atan();
+        self.rotation = self.rotation.turned(increment).normalised();
+    }
+
+    pub(super) fn save(&self, state: &mut Vec<f64>) {
+        state.extend([self.angle, self.rotation.cos, self.rotation.sin]);
+    }
+
+    pub(super) fn restore(&mut self, [angle, cos, sin]: [f64; 3]) {
+        (self.angle, self.rotation) = (angle, Rotation { cos, sin });
+    }
+}

@@ -1,0 +1,38 @@
+//! What the Newton solver asks of a set of equations.
+
+use crate::linalg::BandedMatrix;
+
+/// How far a set of equations is from being satisfied.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Imbalance {
+    /// The largest unbalanced force, relative to the forces that should balance [-].
+    pub force: f64,
+    /// The largest mismatch between the strain of the section forces and that of the configuration [-].
+    pub strain: f64,
+}
+
+impl Imbalance {
+    /// Whether both parts are finite numbers.
+    pub fn is_finite(&self) -> bool {
+        self.force.is_finite() && self.strain.is_finite()
+    }
+}
+
+/// Nonlinear equations `R(u) = 0` in which unknowns of the integration points may hide.
+///
+/// The hidden ones (section forces) are condensed: they enter the linear system through
+/// [`linearise`](Equations::linearise) and are updated by [`correct`](Equations::correct)
+/// (Magisano, Leonetti & Garcea 2017, "mixed integration point" Newton).
+pub trait Equations {
+    /// The number of entries of `u`.
+    fn unknowns(&self) -> usize;
+
+    /// Fills the condensed residual and tangent at `u`; both come zeroed.
+    fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BandedMatrix);
+
+    /// Carries a correction of `u`, found from the last linearisation, over to the hidden unknowns.
+    fn correct(&mut self, correction: &[f64]);
+
+    /// Fills the residual at `u` with the hidden unknowns as they are, and measures the imbalance.
+    fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> Imbalance;
+}

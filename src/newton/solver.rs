@@ -1,0 +1,149 @@
+//! Newton's method with a full tangent at every iteration.
+
+use super::{Equations, Imbalance, NewtonError};
+use crate::linalg::BandedMatrix;
+
+/// When a solution is good enough, and when to give up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerance {
+    /// Largest relative force imbalance.
+    pub force: f64,
+    /// Largest strain mismatch.
+    pub strain: f64,
+    /// Imbalances up to this many tolerances are accepted when an iteration no longer makes them smaller:
+    /// rounding stands in the way, not the iteration.
+    pub rounding: f64,
+    /// Most iterations.
+    pub iterations: usize,
+}
+
+impl Default for Tolerance {
+    fn default() -> Self {
+        Self { force: 1e-13, strain: 1e-14, rounding: 1e3, iterations: 15 }
+    }
+}
+
+impl Tolerance {
+    fn accepts(&self, now: &Imbalance, before: Option<&Imbalance>) -> bool {
+        let excess = |imbalance: &Imbalance| (imbalance.force / self.force).max(imbalance.strain / self.strain);
+        let (now, before) = (excess(now), before.map_or(f64::INFINITY, excess));
+        now <= 1.0 || (now <= self.rounding && now > 0.1 * before)
+    }
+}
+
+/// What a Newton solve took.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct NewtonReport {
+    /// Linear systems solved; each has one factorisation.
+    pub iterations: usize,
+    /// What was left.
+    pub imbalance: Imbalance,
+}
+
+/// The solver with its work space; solving allocates nothing unless it fails.
+#[derive(Debug, Clone)]
+pub struct Newton {
+    tolerance: Tolerance,
+    tangent: BandedMatrix,
+    correction: Vec<f64>,
+    history: Vec<Imbalance>,
+}
+
+impl Newton {
+    /// A solver for `unknowns` unknowns whose tangent has the given half-bandwidth.
+    pub fn new(unknowns: usize, half_bandwidth: usize, tolerance: Tolerance) -> Self {
+        Self {
+            tangent: BandedMatrix::zeros(unknowns, half_bandwidth),
+            correction: Vec::with_capacity(unknowns),
+            history: Vec::with_capacity(tolerance.iterations),
+            tolerance,
+        }
+    }
+
+    /// Improves `u` until the equations hold; `residual` is left as it was found last.
+    ///
+    /// `residual` may be longer than the unknowns: what follows them (reactions) is not solved for.
+    ///
+    /// # Errors
+    /// When the iteration limit is reached, the tangent is singular, or a number is no longer finite.
+    pub fn solve(
+        &mut self,
+        equations: &mut impl Equations,
+        u: &mut [f64],
+        residual: &mut [f64],
+    ) -> Result<NewtonReport, NewtonError> {
+        let unknowns = equations.unknowns();
+        self.history.clear();
+        while self.history.len() < self.tolerance.iterations {
+            self.tangent.clear();
+            residual.fill(0.0);
+            equations.linearise(u, residual, &mut self.tangent);
+            self.correction.clear();
+            self.correction.extend(residual[..unknowns].iter().map(|r| -r));
+            match self.tangent.factorise() {
+                Ok(factors) => factors.solve(&mut self.correction),
+                Err(source) => return Err(NewtonError::Linear { source, history: self.history.clone() }),
+            }
+            u.iter_mut().zip(&self.correction).for_each(|(u, correction)| *u += correction);
+            equations.correct(&self.correction);
+
+            residual.fill(0.0);
+            let imbalance = equations.imbalance(u, residual);
+            let before = self.history.last().copied();
+            self.history.push(imbalance);
+            if !imbalance.is_finite() {
+                return Err(NewtonError::NotFinite { history: self.history.clone() });
+            }
+            if self.tolerance.accepts(&imbalance, before.as_ref()) {
+                return Ok(NewtonReport { iterations: self.history.len(), imbalance });
+            }
+        }
+        Err(NewtonError::NotConverged { history: self.history.clone() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `x² = 2` and `x y = 1`, with no hidden unknowns.
+    struct SquareRoot;
+
+    impl Equations for SquareRoot {
+        fn unknowns(&self) -> usize {
+            2
+        }
+        fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BandedMatrix) {
+            self.imbalance(u, residual);
+            tangent.add(0, 0, 2.0 * u[0]);
+            tangent.add(1, 0, u[1]);
+            tangent.add(1, 1, u[0]);
+        }
+        fn correct(&mut self, _correction: &[f64]) {}
+        fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> Imbalance {
+            residual[0] = u[0] * u[0] - 2.0;
+            residual[1] = u[0] * u[1] - 1.0;
+            Imbalance { force: residual[0].abs().max(residual[1].abs()), strain: 0.0 }
+        }
+    }
+
+    fn solve(start: [f64; 2]) -> (Result<NewtonReport, NewtonError>, [f64; 2]) {
+        let mut u = start;
+        let report = Newton::new(2, 1, Tolerance::default()).solve(&mut SquareRoot, &mut u, &mut [0.0; 2]);
+        (report, u)
+    }
+
+    #[test]
+    fn it_converges_quadratically_to_rounding() {
+        let (report, u) = solve([1.5, 1.0]);
+        assert!(report.unwrap().iterations <= 5);
+        assert!((u[0] - 2.0_f64.sqrt()).abs() < 1e-15 && (u[1] - 0.5_f64.sqrt()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_singular_tangent_and_a_lost_iteration_are_errors_with_their_history() {
+        assert!(matches!(solve([0.0, 1.0]).0, Err(NewtonError::Linear { .. })));
+        let error = solve([f64::NAN, 1.0]).0.unwrap_err();
+        assert!(error.history().len() <= 1, "{error}");
+    }
+}
