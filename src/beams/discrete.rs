@@ -152,11 +152,17 @@ impl<const N: usize> BeamDynamics for DiscreteBeam<N> {
         }
     }
 
-    fn add_forces(&self, at: Collocation, moved: &[Movement], weight: f64, forces: &mut [Movement]) -> ForceSummary {
+    fn add_forces(
+        &mut self,
+        at: Collocation,
+        moved: &[Movement],
+        weight: f64,
+        forces: &mut [Movement],
+    ) -> ForceSummary {
         let mut summary = ForceSummary::default();
-        for span in &self.spans {
+        for span in &mut self.spans {
             let (moved, forces) = (window(moved, span.first), window_mut(forces, span.first));
-            for point in &span.force_points {
+            for point in &mut span.force_points {
                 point.add_forces(&self.section, at, moved, weight, forces, &mut summary);
             }
             for point in &span.moment_points {
@@ -184,6 +190,13 @@ impl<const N: usize> BeamDynamics for DiscreteBeam<N> {
                 point.add_linearised_forces(&self.section, at, moved, weight, forces, &mut block);
             }
             tangent(span.first, block.as_flattened().as_flattened().as_flattened());
+        }
+    }
+
+    fn add_mismatch_forces(&self, weight: f64, forces: &mut [Movement]) {
+        for span in &self.spans {
+            let forces = window_mut(forces, span.first);
+            span.force_points.iter().for_each(|point| point.add_mismatch_forces(&self.section, weight, forces));
         }
     }
 

@@ -56,7 +56,13 @@ pub trait BeamDynamics {
     fn begin_step(&mut self);
 
     /// Adds `weight` times the internal forces with the section forces as they are.
-    fn add_forces(&self, at: Collocation, moved: &[Movement], weight: f64, forces: &mut [Movement]) -> ForceSummary;
+    fn add_forces(
+        &mut self,
+        at: Collocation,
+        moved: &[Movement],
+        weight: f64,
+        forces: &mut [Movement],
+    ) -> ForceSummary;
 
     /// Adds `weight` times the condensed internal forces, and gives `weight` times their derivative to `tangent`,
     /// span by span: the first control point and the rows of the block, one after another.
@@ -68,6 +74,10 @@ pub trait BeamDynamics {
         forces: &mut [Movement],
         tangent: &mut dyn FnMut(usize, &[f64]),
     );
+
+    /// Adds `weight` times the forces that would close the strain mismatch met by the last forces, in the directions
+    /// of the last linearisation.
+    fn add_mismatch_forces(&self, weight: f64, forces: &mut [Movement]);
 
     /// Updates the section forces for a correction of the movements of the last linearisation.
     fn correct_section_forces(&mut self, correction: &[Movement]);

@@ -27,30 +27,26 @@ pub(super) struct ForcePoint<const N: usize> {
     rotation: Rotation,
     /// `Γ0`
     strain: Vec2,
-    iterate: Iterate,
-}
-
-/// What the section-force update needs from the last linearisation, and the force itself.
-#[derive(Debug, Clone)]
-struct Iterate {
+    /// The section force `N` of the iterate.
     force: Vec2,
-    collocated_strain: Vec2,
-    end_rotation: Rotation,
-    end_strain: Vec2,
-    /// `σ`
-    stress: f64,
-    /// `1/q`
-    inverse_q: f64,
+    /// `m = Γσ - C⁻¹ N`, where forces were taken last.
+    mismatch: Vec2,
+    linearised_at: Configuration,
 }
 
 /// The configuration that increments lead to.
+#[derive(Debug, Clone, Copy)]
 struct Configuration {
     end_rotation: Rotation,
     end_strain: Vec2,
     collocated_strain: Vec2,
     collocated_rotation: Rotation,
     collocated_gradient: Vec2,
+    /// `σ`
+    stress: f64,
+    /// `1/q`
     inverse_q: f64,
+    /// `Δω`
     increment: f64,
 }
 
@@ -58,19 +54,31 @@ impl<const N: usize> ForcePoint<N> {
     /// A point of the undeformed axis: basis values, their derivatives by arc length, weight and unit tangent.
     pub(super) fn new(shape: [f64; N], slope: [f64; N], weight: f64, tangent: Vec2) -> Self {
         let rotation = Rotation { cos: tangent.x, sin: tangent.y };
-        let iterate = Iterate {
-            force: Vec2::zeros(),
-            collocated_strain: Vec2::zeros(),
+        let undeformed = Configuration {
             end_rotation: rotation,
             end_strain: Vec2::zeros(),
+            collocated_strain: Vec2::zeros(),
+            collocated_rotation: rotation,
+            collocated_gradient: tangent,
             stress: 0.0,
             inverse_q: 1.0,
+            increment: 0.0,
         };
-        Self { shape, slope, weight, gradient: tangent, rotation, strain: Vec2::zeros(), iterate }
+        Self {
+            shape,
+            slope,
+            weight,
+            gradient: tangent,
+            rotation,
+            strain: Vec2::zeros(),
+            force: Vec2::zeros(),
+            mismatch: Vec2::zeros(),
+            linearised_at: undeformed,
+        }
     }
 
     pub(super) fn begin_step(&mut self, section: &Section) {
-        self.iterate.force = force_of(section, self.strain);
+        self.force = force_of(section, self.strain);
     }
 
     /// `(Δg, Δω)` of movements.
@@ -96,6 +104,7 @@ impl<const N: usize> ForcePoint<N> {
             collocated_strain: self.strain + (end_strain - self.strain) * at.stress,
             collocated_rotation: self.rotation.mixed(end_rotation, at.configuration),
             collocated_gradient: self.gradient + change * at.configuration,
+            stress: at.stress,
             inverse_q: 1.0 / (1.0 + 0.25 * increment * increment),
             increment,
         }
@@ -113,7 +122,7 @@ impl<const N: usize> ForcePoint<N> {
 
     #[inline]
     pub(super) fn add_forces(
-        &self,
+        &mut self,
         section: &Section,
         at: Collocation,
         moved: &[Movement; N],
@@ -122,13 +131,13 @@ impl<const N: usize> ForcePoint<N> {
         summary: &mut ForceSummary,
     ) {
         let now = self.configuration(at, moved);
-        let force = now.collocated_rotation.to_space(self.iterate.force);
+        let force = now.collocated_rotation.to_space(self.force);
         self.distribute(weight, now.collocated_gradient, force, forces);
-        let mismatch = strain_from(section, self.iterate.force) - now.collocated_strain;
+        self.mismatch = now.collocated_strain - strain_from(section, self.force);
         summary.join(&ForceSummary {
-            strain_mismatch: mismatch.amax(),
-            force: self.iterate.force.amax(),
-            moment: self.weight * self.iterate.force.amax(),
+            strain_mismatch: self.mismatch.amax(),
+            force: self.force.amax(),
+            moment: self.weight * self.force.amax(),
             rotation: now.increment.abs(),
         });
     }
@@ -154,11 +163,11 @@ impl<const N: usize> ForcePoint<N> {
         let column = |axis: Vec2| rotation.to_space(force_of(section, end.to_section(axis))) * sigma;
         let (a1, a2) = (column(Vec2::x()), column(Vec2::y()));
         let turned_strain = perpendicular(now.end_strain + Vec2::x());
-        let b = (end.to_space(perpendicular(self.iterate.force)) * tau
+        let b = (end.to_space(perpendicular(self.force)) * tau
             - rotation.to_space(force_of(section, turned_strain)) * sigma)
             * now.inverse_q;
         let lever = perpendicular(gradient);
-        let geometric = perpendicular(rotation.to_space(self.iterate.force)) * tau;
+        let geometric = perpendicular(rotation.to_space(self.force)) * tau;
         let e = Vec2::new(a1.dot(&lever), a2.dot(&lever)) - geometric;
         let f = lever.dot(&b);
 
@@ -168,7 +177,7 @@ impl<const N: usize> ForcePoint<N> {
         for ((slope_a, shape_a), rows) in self.slope.iter().zip(&self.shape).zip(block.iter_mut()) {
             let (force_weight, torque_weight) = (w * slope_a, -w * shape_a);
             let [row_x, row_y, row_omega] = rows;
-            let mut add = |row: &mut [[f64; 3]; N], weight: f64, by: &[f64; 3]| {
+            let add = |row: &mut [[f64; 3]; N], weight: f64, by: &[f64; 3]| {
                 let by = by.map(|entry| entry * weight);
                 for ((entry, slope_b), shape_b) in row.iter_mut().zip(&self.slope).zip(&self.shape) {
                     entry[0] += by[0] * slope_b;
@@ -180,25 +189,26 @@ impl<const N: usize> ForcePoint<N> {
             add(row_y, force_weight, &force_rows[1]);
             add(row_omega, torque_weight, &torque_row);
         }
-
-        self.iterate = Iterate {
-            force: self.iterate.force,
-            collocated_strain: now.collocated_strain,
-            end_rotation: now.end_rotation,
-            end_strain: now.end_strain,
-            stress: sigma,
-            inverse_q: now.inverse_q,
-        };
+        self.mismatch = now.collocated_strain - strain_from(section, self.force);
+        self.linearised_at = now;
     }
 
-    /// `N ← C (Γσ(u) + σ δΓ1)`, `δΓ1 = Λ1ᵀ δg - J (Γ1 + e1) δω/q`.
+    /// The forces `C m` of the mismatch `m`, in the directions of the last linearisation.
+    #[inline]
+    pub(super) fn add_mismatch_forces(&self, section: &Section, weight: f64, forces: &mut [Movement; N]) {
+        let Configuration { collocated_rotation, collocated_gradient, .. } = self.linearised_at;
+        let force = collocated_rotation.to_space(force_of(section, self.mismatch));
+        self.distribute(weight, collocated_gradient, force, forces);
+    }
+
+    /// `N ← N + C (m + σ δΓ1)`, `δΓ1 = Λ1ᵀ δg - J (Γ1 + e1) δω/q`.
     #[inline]
     pub(super) fn correct_section_force(&mut self, section: &Section, correction: &[Movement; N]) {
         let (gradient, rotation) = self.interpolate(correction);
-        let iterate = &mut self.iterate;
-        let turned = perpendicular(iterate.end_strain + Vec2::x()) * (rotation * iterate.inverse_q);
-        let change = iterate.end_rotation.to_section(gradient) - turned;
-        iterate.force = force_of(section, iterate.collocated_strain + change * iterate.stress);
+        let Configuration { end_rotation, end_strain, inverse_q, stress, .. } = self.linearised_at;
+        let turned = perpendicular(end_strain + Vec2::x()) * (rotation * inverse_q);
+        let change = end_rotation.to_section(gradient) - turned;
+        self.force += force_of(section, self.mismatch + change * stress);
     }
 
     pub(super) fn advance(&mut self, moved: &[Movement; N]) {

@@ -7,40 +7,48 @@ use crate::newton::{Equations, Imbalance, Newton, NewtonReport, Tolerance};
 /// A rotation increment at which half a turn is taken in one step.
 const HALF_TURN: f64 = std::f64::consts::PI;
 
-/// `R(u) = 2/Δt² M u + weight · F(stage, u) + carried`, for increments `u` with `(v0 + v1)/2 = u/Δt`.
+/// `R(d) = 2/Δt² M d + weight · F(stage, u) + carried`, `u = Δt v0 + d`.
+///
+/// The unknown is the deviation `d` from coasting, not the increment `u`: `v1 = v0 + 2/Δt d` then rounds like the change
+/// of the velocity, so that momenta do not creep over many steps.
 struct StepBalance<'a> {
     mechanism: &'a mut dyn Mechanism,
     stage: Stage,
     weight: f64,
     duration: f64,
     carried: &'a [f64],
+    coasting: &'a [f64],
+    increments: &'a mut [f64],
 }
 
 impl StepBalance<'_> {
-    fn add_known_part(&mut self, u: &[f64], residual: &mut [f64]) {
-        self.mechanism.add_inertia(2.0 / self.duration.powi(2), u, residual);
+    fn begin(&mut self, deviation: &[f64], residual: &mut [f64]) {
+        for ((u, coasting), d) in self.increments.iter_mut().zip(self.coasting).zip(deviation) {
+            *u = coasting + d;
+        }
         residual.iter_mut().zip(self.carried).for_each(|(r, carried)| *r += carried);
+        self.mechanism.add_inertia(2.0 / self.duration.powi(2), deviation, residual);
     }
 }
 
 impl Equations for StepBalance<'_> {
-    fn unknowns(&self) -> usize {
-        self.mechanism.unknowns()
+    fn linearise(&mut self, deviation: &[f64], residual: &mut [f64], tangent: &mut BandedMatrix) {
+        self.begin(deviation, residual);
+        self.mechanism.add_inertia_tangent(2.0 / self.duration.powi(2), tangent);
+        self.mechanism.add_linearised_forces(self.stage, self.increments, self.weight, residual, tangent);
     }
 
-    fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BandedMatrix) {
-        self.add_known_part(u, residual);
-        self.mechanism.add_inertia_tangent(2.0 / self.duration.powi(2), tangent);
-        self.mechanism.add_linearised_forces(self.stage, u, self.weight, residual, tangent);
+    fn condense(&mut self, residual: &mut [f64]) {
+        self.mechanism.add_mismatch_forces(self.weight, residual);
     }
 
     fn correct(&mut self, correction: &[f64]) {
         self.mechanism.correct_section_forces(correction);
     }
 
-    fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> Imbalance {
-        self.add_known_part(u, residual);
-        let strain = self.mechanism.add_forces(self.stage, u, self.weight, residual);
+    fn imbalance(&mut self, deviation: &[f64], residual: &mut [f64]) -> Imbalance {
+        self.begin(deviation, residual);
+        let strain = self.mechanism.add_forces(self.stage, self.increments, self.weight, residual);
         Imbalance { force: self.mechanism.relative_imbalance(residual), strain }
     }
 }
@@ -49,6 +57,9 @@ impl Equations for StepBalance<'_> {
 #[derive(Debug, Clone)]
 pub(super) struct StepSolver {
     newton: Newton,
+    /// `Δt v0`
+    coasting: Vec<f64>,
+    deviation: Vec<f64>,
     increments: Vec<f64>,
     /// The part of the residual that does not depend on the increments.
     pub(super) carried: Vec<f64>,
@@ -61,6 +72,8 @@ impl StepSolver {
         let (unknowns, all) = (mechanism.unknowns(), mechanism.degrees_of_freedom());
         Self {
             newton: Newton::new(unknowns, mechanism.half_bandwidth(), tolerance),
+            coasting: vec![0.0; unknowns],
+            deviation: vec![0.0; unknowns],
             increments: vec![0.0; unknowns],
             carried: vec![0.0; all],
             rates: vec![0.0; unknowns],
@@ -68,12 +81,12 @@ impl StepSolver {
         }
     }
 
-    /// Predicts that every rate stays as it is, and carries the momentum of the start: `-2/Δt M v0`.
-    pub(super) fn predict(&mut self, mechanism: &mut dyn Mechanism, interval: Interval) {
+    /// Predicts that every rate stays as it is.
+    pub(super) fn predict(&mut self, mechanism: &dyn Mechanism, interval: Interval) {
         let duration = interval.duration();
-        self.increments.iter_mut().zip(mechanism.rates()).for_each(|(u, rate)| *u = duration * rate);
+        self.coasting.iter_mut().zip(mechanism.rates()).for_each(|(u, rate)| *u = duration * rate);
+        self.deviation.fill(0.0);
         self.carried.fill(0.0);
-        mechanism.add_momentum(-2.0 / duration, &mut self.carried);
     }
 
     /// Solves for the increments with the forces of `stage`.
@@ -84,21 +97,28 @@ impl StepSolver {
         stage: Stage,
         weight: f64,
     ) -> Result<NewtonReport, StepError> {
-        let mut balance =
-            StepBalance { mechanism, stage, weight, duration: interval.duration(), carried: &self.carried };
+        let mut balance = StepBalance {
+            mechanism,
+            stage,
+            weight,
+            duration: interval.duration(),
+            carried: &self.carried,
+            coasting: &self.coasting,
+            increments: &mut self.increments,
+        };
         let report = self
             .newton
-            .solve(&mut balance, &mut self.increments, &mut self.residual)
+            .solve(&mut balance, &mut self.deviation, &mut self.residual)
             .map_err(|source| StepError::Newton { interval, source })?;
         let rotation = balance.mechanism.largest_rotation();
         if rotation < HALF_TURN { Ok(report) } else { Err(StepError::Rotation { interval, rotation }) }
     }
 
-    /// Accepts the increments: `v1 = 2 u/Δt - v0`.
+    /// Accepts the increments, with the rates `v1 = 2 u/Δt - v0`.
     pub(super) fn correct(&mut self, mechanism: &mut dyn Mechanism, interval: Interval) {
         let twice_inverse = 2.0 / interval.duration();
-        for ((v1, u), v0) in self.rates.iter_mut().zip(&self.increments).zip(mechanism.rates()) {
-            *v1 = twice_inverse * u - v0;
+        for ((v1, d), v0) in self.rates.iter_mut().zip(&self.deviation).zip(mechanism.rates()) {
+            *v1 = v0 + twice_inverse * d;
         }
         mechanism.advance(&self.increments, &self.rates, &self.residual);
     }

@@ -43,9 +43,6 @@ pub trait Mechanism {
     /// Adds `factor · M · rates` to `out`.
     fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]);
 
-    /// Adds `factor · M · v0`, the momenta at the start of the step, to `out`.
-    fn add_momentum(&mut self, factor: f64, out: &mut [f64]);
-
     /// Adds `factor · M` to the tangent.
     fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix);
 
@@ -63,6 +60,10 @@ pub trait Mechanism {
         out: &mut [f64],
         tangent: &mut BandedMatrix,
     );
+
+    /// Adds `weight` times the forces that would close the strain mismatch met by the last forces, in the directions
+    /// of the last linearisation.
+    fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]);
 
     /// Carries a correction of the increments over to the section forces of the last linearisation.
     fn correct_section_forces(&mut self, correction: &[f64]);

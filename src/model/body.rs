@@ -93,6 +93,11 @@ impl Body {
         self.scatter(out);
     }
 
+    pub(super) fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]) {
+        self.dynamics.add_mismatch_forces(weight, &mut self.forces);
+        self.scatter(out);
+    }
+
     pub(super) fn correct_section_forces(&mut self, correction: &[f64]) {
         self.gather(correction);
         self.dynamics.correct_section_forces(&self.moved);

@@ -109,6 +109,17 @@ impl Model {
         }
     }
 
+    /// Subtracts loads and weight; returns the largest force and moment of a load on a control point.
+    fn subtract_loads(&mut self, stage: Stage, increments: &[f64], weight: f64, out: &mut [f64]) -> (f64, f64) {
+        if let Some(gravity) = &self.weight {
+            gravity.subtract_from(&self.bodies, weight, out);
+        }
+        self.loads.iter_mut().fold((0.0, 0.0), |largest: (f64, f64), load| {
+            let (force, moment) = load.subtract_from(&mut self.bodies, stage, increments, weight, out);
+            (largest.0.max(force), largest.1.max(moment))
+        })
+    }
+
     fn gap(&self) -> f64 {
         let at = |place: &Place| place.interpolate(self.bodies[place.beam].dynamics.control_points());
         self.joined.iter().map(|(a, b)| (at(a) - at(b)).norm()).fold(0.0, f64::max)
@@ -181,12 +192,6 @@ impl Mechanism for Model {
         self.add_inertia_of_all(factor, rates, out);
     }
 
-    fn add_momentum(&mut self, factor: f64, out: &mut [f64]) {
-        let rates = std::mem::take(&mut self.rates);
-        self.add_inertia_of_all(factor, &rates, out);
-        self.rates = rates;
-    }
-
     fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
         self.bodies.iter().for_each(|body| body.add_inertia_tangent(factor, tangent));
         for lump in &self.lumps {
@@ -199,15 +204,8 @@ impl Mechanism for Model {
         for body in &mut self.bodies {
             summary.join(&body.add_forces(collocation(stage), increments, weight, out));
         }
-        let mut loads: (f64, f64) = (0.0, 0.0);
-        for load in &mut self.loads {
-            let (force, moment) = load.subtract_from(&mut self.bodies, stage, increments, weight, out);
-            loads = (loads.0.max(force), loads.1.max(moment));
-        }
-        if let Some(gravity) = &self.weight {
-            gravity.subtract_from(&self.bodies, weight, out);
-        }
-        (self.step.summary, self.step.loads) = (summary, loads);
+        self.step.loads = self.subtract_loads(stage, increments, weight, out);
+        self.step.summary = summary;
         summary.strain_mismatch
     }
 
@@ -222,13 +220,14 @@ impl Mechanism for Model {
         for body in &mut self.bodies {
             body.add_linearised_forces(collocation(stage), increments, weight, out, tangent);
         }
-        for load in &mut self.loads {
-            load.subtract_from(&mut self.bodies, stage, increments, weight, out);
+        self.subtract_loads(stage, increments, weight, out);
+        for load in &self.loads {
             load.add_tangent(&mut self.bodies, stage, increments, weight, self.unknowns, tangent);
         }
-        if let Some(gravity) = &self.weight {
-            gravity.subtract_from(&self.bodies, weight, out);
-        }
+    }
+
+    fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]) {
+        self.bodies.iter_mut().for_each(|body| body.add_mismatch_forces(weight, out));
     }
 
     fn correct_section_forces(&mut self, correction: &[f64]) {
@@ -269,3 +268,5 @@ impl Mechanism for Model {
         self.time = self.step.interval.end;
     }
 }
+impl Model { /// tmp
+ pub fn ends(&self)->Vec<f64>{ let c=self.bodies[0].dynamics.control_points(); let a=c[0]; let b=c[c.len()-1]; vec![a.x,a.y,b.x,b.y] } }

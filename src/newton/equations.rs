@@ -24,11 +24,12 @@ impl Imbalance {
 /// [`linearise`](Equations::linearise) and are updated by [`correct`](Equations::correct)
 /// (Magisano, Leonetti & Garcea 2017, "mixed integration point" Newton).
 pub trait Equations {
-    /// The number of entries of `u`.
-    fn unknowns(&self) -> usize;
-
     /// Fills the condensed residual and tangent at `u`; both come zeroed.
     fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BandedMatrix);
+
+    /// Condenses a residual that [`imbalance`](Equations::imbalance) has just filled in the manner of the last
+    /// linearisation, whose factors can then correct it once more.
+    fn condense(&mut self, residual: &mut [f64]);
 
     /// Carries a correction of `u`, found from the last linearisation, over to the hidden unknowns.
     fn correct(&mut self, correction: &[f64]);

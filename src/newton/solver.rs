@@ -1,33 +1,30 @@
 //! Newton's method with a full tangent at every iteration.
 
 use super::{Equations, Imbalance, NewtonError};
-use crate::linalg::BandedMatrix;
+use crate::linalg::{BandedLu, BandedMatrix};
 
 /// When a solution is good enough, and when to give up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance {
-    /// Largest relative force imbalance.
+    /// Largest relative force imbalance at which iteration ends.
     pub force: f64,
-    /// Largest strain mismatch.
+    /// Largest strain mismatch at which iteration ends.
     pub strain: f64,
-    /// Imbalances up to this many tolerances are accepted when an iteration no longer makes them smaller:
-    /// rounding stands in the way, not the iteration.
-    pub rounding: f64,
+    /// Imbalances above this are corrected once more with the last factors, which takes them to rounding.
+    pub polish: f64,
     /// Most iterations.
     pub iterations: usize,
 }
 
 impl Default for Tolerance {
     fn default() -> Self {
-        Self { force: 1e-13, strain: 1e-14, rounding: 1e3, iterations: 15 }
+        Self { force: 1e-11, strain: 1e-11, polish: 5e-16, iterations: 15 }
     }
 }
 
 impl Tolerance {
-    fn accepts(&self, now: &Imbalance, before: Option<&Imbalance>) -> bool {
-        let excess = |imbalance: &Imbalance| (imbalance.force / self.force).max(imbalance.strain / self.strain);
-        let (now, before) = (excess(now), before.map_or(f64::INFINITY, excess));
-        now <= 1.0 || (now <= self.rounding && now > 0.1 * before)
+    fn accepts(&self, imbalance: &Imbalance) -> bool {
+        imbalance.force <= self.force && imbalance.strain <= self.strain
     }
 }
 
@@ -72,34 +69,47 @@ impl Newton {
         u: &mut [f64],
         residual: &mut [f64],
     ) -> Result<NewtonReport, NewtonError> {
-        let unknowns = equations.unknowns();
         self.history.clear();
         while self.history.len() < self.tolerance.iterations {
             self.tangent.clear();
             residual.fill(0.0);
             equations.linearise(u, residual, &mut self.tangent);
-            self.correction.clear();
-            self.correction.extend(residual[..unknowns].iter().map(|r| -r));
-            match self.tangent.factorise() {
-                Ok(factors) => factors.solve(&mut self.correction),
+            let factors = match self.tangent.factorise() {
+                Ok(factors) => factors,
                 Err(source) => return Err(NewtonError::Linear { source, history: self.history.clone() }),
-            }
-            u.iter_mut().zip(&self.correction).for_each(|(u, correction)| *u += correction);
-            equations.correct(&self.correction);
-
-            residual.fill(0.0);
-            let imbalance = equations.imbalance(u, residual);
-            let before = self.history.last().copied();
+            };
+            let mut imbalance = correct(equations, &factors, &mut self.correction, u, residual);
             self.history.push(imbalance);
             if !imbalance.is_finite() {
                 return Err(NewtonError::NotFinite { history: self.history.clone() });
             }
-            if self.tolerance.accepts(&imbalance, before.as_ref()) {
+            if self.tolerance.accepts(&imbalance) {
+                if imbalance.force.max(imbalance.strain) > self.tolerance.polish {
+                    equations.condense(residual);
+                    imbalance = correct(equations, &factors, &mut self.correction, u, residual);
+                }
                 return Ok(NewtonReport { iterations: self.history.len(), imbalance });
             }
         }
         Err(NewtonError::NotConverged { history: self.history.clone() })
     }
+}
+
+/// Corrects `u` and the hidden unknowns for a condensed residual; leaves the residual and the imbalance after it.
+fn correct(
+    equations: &mut impl Equations,
+    factors: &BandedLu<'_>,
+    correction: &mut Vec<f64>,
+    u: &mut [f64],
+    residual: &mut [f64],
+) -> Imbalance {
+    correction.clear();
+    correction.extend(residual[..u.len()].iter().map(|r| -r));
+    factors.solve(correction);
+    u.iter_mut().zip(correction.iter()).for_each(|(u, correction)| *u += correction);
+    equations.correct(correction);
+    residual.fill(0.0);
+    equations.imbalance(u, residual)
 }
 
 #[cfg(test)]
@@ -110,15 +120,13 @@ mod tests {
     struct SquareRoot;
 
     impl Equations for SquareRoot {
-        fn unknowns(&self) -> usize {
-            2
-        }
-        fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BandedMatrix) {
+            fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BandedMatrix) {
             self.imbalance(u, residual);
             tangent.add(0, 0, 2.0 * u[0]);
             tangent.add(1, 0, u[1]);
             tangent.add(1, 1, u[0]);
         }
+        fn condense(&mut self, _residual: &mut [f64]) {}
         fn correct(&mut self, _correction: &[f64]) {}
         fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> Imbalance {
             residual[0] = u[0] * u[0] - 2.0;
