@@ -1,0 +1,57 @@
+//! Errors of grammar in plain words.
+
+use rhai::{LexError, ParseErrorType};
+
+/// What is wrong and, where it is known, what to do.
+pub fn explain(error: &ParseErrorType) -> (String, Option<String>) {
+    match error {
+        ParseErrorType::UnexpectedEOF => {
+            ("the script ends too early".into(), Some("is a bracket left open?".into()))
+        }
+        ParseErrorType::BadInput(LexError::Runtime(advice)) => match advice.split_once(": ") {
+            Some((fix, why)) => (why.into(), Some(fix.into())),
+            None => (advice.clone(), None),
+        },
+        ParseErrorType::BadInput(LexError::UnterminatedString) => {
+            ("the text is not closed".into(), Some("add the closing quote".into()))
+        }
+        ParseErrorType::Reserved(word) | ParseErrorType::ForbiddenVariable(word) => (
+            format!("'{word}' is a reserved word and cannot be used here"),
+            Some("choose another name".into()),
+        ),
+        ParseErrorType::MissingToken(token, why) => {
+            (format!("'{token}' is missing {why}").trim_end().to_owned(), missing_token_hint(token))
+        }
+        ParseErrorType::ExprTooDeep => (
+            "the expression is nested too deeply".into(),
+            Some("give parts of it names with let".into()),
+        ),
+        ParseErrorType::DuplicatedProperty(key) => {
+            (format!("the key '{key}' is given twice"), None)
+        }
+        ParseErrorType::AssignmentToConstant(name) => (
+            format!("the constant '{name}' cannot be changed"),
+            Some("declare it with let instead of const".into()),
+        ),
+        ParseErrorType::MismatchedType(wanted, got) => {
+            (format!("expected {wanted}, got {got}"), None)
+        }
+        ParseErrorType::WrongDocComment => (
+            "a comment with /// stands before something that is not a function".into(),
+            Some("use // here".into()),
+        ),
+        other => (lower_first(&other.to_string()), None),
+    }
+}
+
+fn missing_token_hint(token: &str) -> Option<String> {
+    (token == ";").then(|| "statements end with a semicolon".into())
+}
+
+fn lower_first(text: &str) -> String {
+    let mut characters = text.chars();
+    match characters.next() {
+        Some(first) => first.to_lowercase().chain(characters).collect(),
+        None => String::new(),
+    }
+}
