@@ -7,5 +7,6 @@
 //!                                                   └→ integrators → newton → linalg
 //! ```
 
+pub mod cli;
 pub mod geometry;
 pub mod script;

@@ -87,6 +87,9 @@ fn as_all<T>(value: &Dynamic, read: impl Fn(&Dynamic) -> Option<T>) -> Option<Ve
 fn refusal(engine: &Engine, owner: &str, parameter: &Parameter, value: &Dynamic) -> ScriptError {
     let got = match first_wrong_element(&parameter.kind, value) {
         Some((index, element)) => format!("{} at index {index}", describe(engine, &element)),
+        None if is_infinite_or_nan(value) => {
+            format!("{}, which is not finite", describe(engine, value))
+        }
         None => describe(engine, value),
     };
     let error = ScriptError::new(format!(
@@ -116,9 +119,8 @@ fn first_wrong_element(kind: &Kind, value: &Dynamic) -> Option<(usize, Dynamic)>
 }
 
 fn hint(parameter: &Parameter, value: &Dynamic) -> Option<String> {
-    let not_finite = as_number(value).is_some_and(|x| !x.is_finite());
     match &parameter.kind {
-        Kind::Number(_) if not_finite => Some(
+        Kind::Number(_) if is_infinite_or_nan(value) => Some(
             "the number comes from an overflow or an undefined operation before this line".into(),
         ),
         Kind::Whole(Range::Finite) if value.is_float() => {
@@ -135,6 +137,10 @@ fn hint(parameter: &Parameter, value: &Dynamic) -> Option<String> {
         }
         _ => None,
     }
+}
+
+fn is_infinite_or_nan(value: &Dynamic) -> bool {
+    as_number(value).is_some_and(|x| !x.is_finite())
 }
 
 /// Puts an error about argument `number` at that argument, unless it already points at a key.

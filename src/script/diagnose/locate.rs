@@ -104,11 +104,7 @@ fn argument(
 ) -> Option<Location> {
     let (call, dotted) = inside_call(program, position)?;
     let called = word_at(program, position)?;
-    let name: String = program.text[program.offset(called.line, called.column)..]
-        .chars()
-        .take(called.length)
-        .collect();
-    let is_function = catalog.named(&name).any(|row| matches!(row.form, Form::Function));
+    let is_function = catalog.named(called.text()).any(|row| matches!(row.form, Form::Function));
     // In `a.norm()` the first argument of the function stands before the dot.
     let number = if dotted && is_function { number.checked_sub(1)? } else { number };
     let mut depth = 0_usize;

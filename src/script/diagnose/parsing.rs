@@ -2,8 +2,8 @@
 
 use rhai::{LexError, ParseErrorType};
 
-/// What is wrong and, where it is known, what to do.
-pub fn explain(error: &ParseErrorType) -> (String, Option<String>) {
+/// What is wrong and, where it is known, what to do; `word` is what stands at the place of the error.
+pub fn explain(error: &ParseErrorType, word: &str) -> (String, Option<String>) {
     match error {
         ParseErrorType::UnexpectedEOF => {
             ("the script ends too early".into(), Some("is a bracket left open?".into()))
@@ -15,10 +15,10 @@ pub fn explain(error: &ParseErrorType) -> (String, Option<String>) {
         ParseErrorType::BadInput(LexError::UnterminatedString) => {
             ("the text is not closed".into(), Some("add the closing quote".into()))
         }
-        ParseErrorType::Reserved(word) | ParseErrorType::ForbiddenVariable(word) => (
-            format!("'{word}' is a reserved word and cannot be used here"),
-            Some("choose another name".into()),
-        ),
+        ParseErrorType::Reserved(word) | ParseErrorType::ForbiddenVariable(word) => reserved(word),
+        ParseErrorType::VariableExpected | ParseErrorType::PropertyExpected if is_word(word) => {
+            reserved(word)
+        }
         ParseErrorType::MissingToken(token, why) => {
             (format!("'{token}' is missing {why}").trim_end().to_owned(), missing_token_hint(token))
         }
@@ -42,6 +42,17 @@ pub fn explain(error: &ParseErrorType) -> (String, Option<String>) {
         ),
         other => (lower_first(&other.to_string()), None),
     }
+}
+
+fn reserved(word: &str) -> (String, Option<String>) {
+    (
+        format!("'{word}' is a reserved word and cannot be used here"),
+        Some("choose another name".into()),
+    )
+}
+
+fn is_word(word: &str) -> bool {
+    word.starts_with(|c: char| c.is_alphabetic())
 }
 
 fn missing_token_hint(token: &str) -> Option<String> {

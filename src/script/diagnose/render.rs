@@ -74,6 +74,11 @@ impl std::fmt::Display for Step {
 }
 
 impl Location {
+    /// What stands there.
+    pub fn text(&self) -> &str {
+        &self.program.text[self.bytes()]
+    }
+
     /// The place as a range of bytes of the text.
     fn bytes(&self) -> Range<usize> {
         let start = self.program.offset(self.line, self.column);

@@ -69,7 +69,7 @@ impl Explainer<'_> {
                 locate::part_of_call(program, self.catalog, *at, &failure.place)
             }
             EvalAltResult::ErrorParsing(_, at) if at.is_none() => Some(locate::end_of(program)),
-            other => locate::word_at(program, position(other)),
+            other => locate::word_at(program, other.position()),
         }
     }
 
@@ -83,7 +83,7 @@ impl Explainer<'_> {
         use EvalAltResult as Error;
         let unknown = Unknown { catalog: self.catalog, engine: self.engine, program, outline };
         match error {
-            Error::ErrorParsing(kind, _) => parsing::explain(kind),
+            Error::ErrorParsing(kind, at) => parsing::explain(kind, &word_of(program, *at)),
             Error::ErrorFunctionNotFound(signature, at) => unknown.function(signature, *at),
             Error::ErrorDotExpr(text, _) => unknown.property(text),
             Error::ErrorVariableNotFound(name, _) => self.variable(name, outline, trace),
@@ -167,9 +167,9 @@ impl Explainer<'_> {
     }
 }
 
-/// The position that an error carries.
-pub fn position(error: &EvalAltResult) -> Position {
-    error.position()
+/// The text that would be underlined at this position.
+fn word_of(program: &Program, at: Position) -> String {
+    locate::word_at(program, at).map(|place| place.text().to_owned()).unwrap_or_default()
 }
 
 fn missing_key(key: &str, outline: &Outline) -> Words {

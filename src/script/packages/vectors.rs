@@ -2,7 +2,7 @@
 
 use rhai::Dynamic;
 
-use crate::geometry::{Vec2, cross};
+use crate::geometry::{Vec2, cross, unit};
 use crate::script::call::Call;
 use crate::script::error::ScriptError;
 use crate::script::kind::{Scripted, Type};
@@ -17,7 +17,7 @@ pub const TABLE: Table = Table {
     types: &[VECTOR],
     constants: &[],
     rows: &[
-        function("vec", &[number("x"), number("y")], |call| Ok(Dynamic::from(Vec2::new(call.number("x")?, call.number("y")?))))
+        function("vec", &[number("x"), number("y")], cartesian)
             .returns("a vector")
             .summary("The vector with components x and y.")
             .doc("An array [x, y] will do wherever a point is asked for; a vector can also be added and scaled.")
@@ -38,11 +38,11 @@ pub const TABLE: Table = Table {
             .returns("a number")
             .summary("The second component.")
             .example("check(vec(1, 2).y == 2);"),
-        function("dot", &[A, B], |call| Ok(call.point("a")?.dot(&call.point("b")?).into()))
+        function("dot", &[A, B], |call| Ok(a(call)?.dot(&b(call)?).into()))
             .returns("a number")
             .summary("The scalar product.")
             .example("check(dot([1, 2], [3, 4]) == 11);"),
-        function("cross", &[A, B], |call| Ok(cross(call.point("a")?, call.point("b")?).into()))
+        function("cross", &[A, B], |call| Ok(cross(a(call)?, b(call)?).into()))
             .returns("a number")
             .summary("a1 b2 - a2 b1, positive when b lies counter-clockwise of a.")
             .example("check(cross([1, 0], [0, 1]) == 1);"),
@@ -56,39 +56,39 @@ pub const TABLE: Table = Table {
             .summary("The angle of a vector from the first axis, counter-clockwise.")
             .example("check(angle([0, 2]) == PI / 2);")
             .see(&["polar", "atan2"]),
-        function("distance", &[A, B], |call| Ok((call.point("b")? - call.point("a")?).norm().into()))
+        function("distance", &[A, B], |call| Ok((b(call)? - a(call)?).norm().into()))
             .returns("a number")
             .summary("The distance of two points.")
             .example("check(distance([1, 1], [4, 5]) == 5);"),
-        operator("+", &[A, B], |call| Ok(Dynamic::from(call.point("a")? + call.point("b")?)))
+        operator("+", &[A, B], |call| vector(a(call)? + b(call)?))
             .returns("a vector")
             .summary("The sum; one of the two may be an array [x, y].")
             .example("check(vec(1, 2) + [1, 1] == vec(2, 3));"),
-        operator("-", &[A, B], |call| Ok(Dynamic::from(call.point("a")? - call.point("b")?)))
+        operator("-", &[A, B], |call| vector(a(call)? - b(call)?))
             .returns("a vector")
             .summary("The difference; one of the two may be an array [x, y].")
             .example("check(vec(1, 2) - [1, 1] == vec(0, 1));"),
-        operator("-", &[object("a", VECTOR)], |call| Ok(Dynamic::from(-call.point("a")?)))
+        operator("-", &[object("a", VECTOR)], |call| vector(-call.point("a")?))
             .returns("a vector")
             .summary("The opposite vector.")
             .example("check(-vec(1, 2) == vec(-1, -2));"),
-        operator("*", &[object("a", VECTOR), number("factor")], |call| Ok(Dynamic::from(call.point("a")? * call.number("factor")?)))
+        operator("*", &[object("a", VECTOR), number("factor")], scaled)
             .returns("a vector")
             .summary("The vector scaled.")
             .example("check(vec(1, 2) * 3 == vec(3, 6));"),
-        operator("*", &[number("factor"), object("a", VECTOR)], |call| Ok(Dynamic::from(call.point("a")? * call.number("factor")?)))
+        operator("*", &[number("factor"), object("a", VECTOR)], scaled)
             .returns("a vector")
             .summary("The vector scaled.")
             .example("check(3 * vec(1, 2) == vec(3, 6));"),
-        operator("/", &[object("a", VECTOR), number("divisor")], |call| Ok(Dynamic::from(call.point("a")? / call.number("divisor")?)))
+        operator("/", &[object("a", VECTOR), number("divisor")], divided)
             .returns("a vector")
             .summary("The vector divided by a number.")
             .example("check(vec(1, 2) / 2 == vec(0.5, 1));"),
-        operator("==", &[A, B], |call| Ok((call.point("a")? == call.point("b")?).into()))
+        operator("==", &[A, B], |call| Ok((a(call)? == b(call)?).into()))
             .returns("true or false")
             .summary("Whether both components are equal.")
             .example("check(vec(1, 2) == [1, 2]);"),
-        operator("!=", &[A, B], |call| Ok((call.point("a")? != call.point("b")?).into()))
+        operator("!=", &[A, B], |call| Ok((a(call)? != b(call)?).into()))
             .returns("true or false")
             .summary("Whether a component differs.")
             .example("check(vec(1, 2) != [1, 3]);"),
@@ -108,13 +108,37 @@ impl Scripted for Vec2 {
     }
 }
 
+fn a(call: &Call) -> Result<Vec2, ScriptError> {
+    call.point("a")
+}
+
+fn b(call: &Call) -> Result<Vec2, ScriptError> {
+    call.point("b")
+}
+
+fn vector(components: Vec2) -> Result<Dynamic, ScriptError> {
+    Ok(Dynamic::from(components))
+}
+
+fn cartesian(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    vector(Vec2::new(call.number("x")?, call.number("y")?))
+}
+
+fn scaled(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    vector(a(call)? * call.number("factor")?)
+}
+
+fn divided(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    vector(a(call)? / call.number("divisor")?)
+}
+
 fn polar(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (length, angle) = (call.number("length")?, call.number("angle")?);
-    Ok(Dynamic::from(crate::geometry::unit(angle) * length))
+    vector(unit(angle) * length)
 }
 
 fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let a = call.point("a")?;
+    let a = a(call)?;
     Ok(a.y.atan2(a.x).into())
 }
 
