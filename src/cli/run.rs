@@ -3,6 +3,7 @@
 use std::io::{self, IsTerminal, stderr, stdout};
 use std::panic;
 use std::path::Path;
+use std::sync::{Arc, Mutex};
 
 use super::Exit;
 use super::args::{CheckOptions, RunOptions};
@@ -57,10 +58,19 @@ pub fn check(options: &CheckOptions) -> Exit {
 
 fn start(file: &Path, settings: Settings) -> Result<Outcome, Diagnostic> {
     let program = Program::load(file)?;
+    let panicked_at = Arc::new(Mutex::new(String::new()));
+    let noted = Arc::clone(&panicked_at);
     // Panics are shown as diagnostics; the default hook would print them a second time, in Rust's words.
-    panic::set_hook(Box::new(|_| ()));
-    let outcome = runner::run(&program, &Catalog::standard(), settings);
+    panic::set_hook(Box::new(move |panic| {
+        if let (Some(place), Ok(mut noted)) = (panic.location(), noted.lock()) {
+            *noted = format!(" ({place})");
+        }
+    }));
+    let mut outcome = runner::run(&program, &Catalog::standard(), settings);
     drop(panic::take_hook());
+    if let (Ending::Failed(diagnostic), Ok(place)) = (&mut outcome.ending, panicked_at.lock()) {
+        diagnostic.message.push_str(&place);
+    }
     Ok(outcome)
 }
 

@@ -1,5 +1,7 @@
 //! From the engine's position, a point, to the piece of the line to underline.
 
+use std::sync::Arc;
+
 use rhai::{Position, Token};
 
 use super::Location;
@@ -40,7 +42,7 @@ pub fn part_of_call(
 }
 
 fn location(program: &Program, line: usize, column: usize, length: usize) -> Location {
-    Location { program: program.clone(), line, column, length }
+    Location { program: Arc::new(program.clone()), line, column, length }
 }
 
 fn word_length(program: &Program, line: usize, column: usize) -> usize {
@@ -111,7 +113,7 @@ fn argument(
     let mut seen = 0;
     let mut start = None;
     for (token, at) in &call {
-        let at_end = matches!(token, Token::Comma) && depth == 1 || closes(token) && depth == 1;
+        let at_end = depth == 1 && (matches!(token, Token::Comma) || closes(token));
         if at_end && let Some(start) = start {
             return span(program, start, *at);
         }

@@ -8,6 +8,7 @@ mod render;
 mod translate;
 
 use std::fmt;
+use std::sync::Arc;
 
 use super::program::Program;
 pub use render::Colours;
@@ -41,7 +42,7 @@ pub enum Blame {
 #[derive(Clone, Debug)]
 pub struct Location {
     /// The script it is in.
-    pub program: Program,
+    pub program: Arc<Program>,
     /// Line, from 1.
     pub line: usize,
     /// Column in characters, from 1.

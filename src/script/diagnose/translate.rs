@@ -120,7 +120,7 @@ impl Explainer<'_> {
                 Some("does a function call itself for ever?".into()),
             ),
             Error::ErrorDataTooLarge(what, _) => {
-                (format!("too much data: {}", what.to_lowercase()), None)
+                (too_large(what), Some("is something added for ever in a loop?".into()))
             }
             Error::ErrorModuleNotFound(name, _) => {
                 let hint = "import looks for NAME.rhai beside the script";
@@ -198,6 +198,14 @@ fn bounds(what: &str, length: usize, index: i64) -> String {
             "there is nothing at index {index}: the {what} has {length}, from 0 to {}",
             length - 1
         ),
+    }
+}
+
+fn too_large(what: &str) -> String {
+    match what.to_lowercase() {
+        what if what.contains("string") => "the text is too long".into(),
+        what if what.contains("map") => "the map is too large".into(),
+        _ => "the array is too long".into(),
     }
 }
 
