@@ -65,9 +65,10 @@ impl Progress for Bar {
         }
     }
 
-    fn pause(&self) {
-        if let Some(bar) = &*self.shown.borrow() {
-            bar.suspend(|| ());
+    fn step_aside(&self, write: &mut dyn FnMut()) {
+        match &*self.shown.borrow() {
+            Some(bar) => bar.suspend(write),
+            None => write(),
         }
     }
 }

@@ -123,16 +123,17 @@ impl Context {
 
     /// Prints a line for the script.
     pub fn print(&self, text: &str) {
-        self.0.progress.pause();
-        let written = writeln!(self.0.printed.borrow_mut(), "{text}");
-        self.notice(written);
+        self.0.progress.step_aside(&mut || {
+            self.notice(writeln!(self.0.printed.borrow_mut(), "{text}"));
+        });
     }
 
     /// Tells the user something that is not the script's own output.
     pub fn tell(&self, text: &str) {
-        self.0.progress.pause();
-        let written = writeln!(self.0.told.borrow_mut(), "{text}");
-        self.notice(written);
+        self.0.progress.step_aside(&mut || {
+            // When nobody listens, the exit code still tells.
+            let _ = writeln!(self.0.told.borrow_mut(), "{text}");
+        });
     }
 
     /// Writes out what is buffered.

@@ -8,8 +8,10 @@ pub trait Progress {
     fn reach(&self, t: f64);
     /// It has stopped, at its end or before.
     fn end(&self);
-    /// Something is about to be written to the terminal.
-    fn pause(&self) {}
+    /// Lets `write` write to the terminal without mixing its text with what is shown.
+    fn step_aside(&self, write: &mut dyn FnMut()) {
+        write();
+    }
 }
 
 /// Shows nothing.

@@ -1,4 +1,4 @@
-//! From rows to registered functions: every row passes through [`perform`], which counts, converts and checks.
+//! From rows to registered functions: every row passes through `perform`, which counts, converts and checks.
 
 use std::any::TypeId;
 

@@ -18,9 +18,15 @@ pub fn word_at(program: &Program, position: Position) -> Option<Location> {
     Some(location(program, line, column, word_length(program, line, column)))
 }
 
-/// The end of the text, for errors about something that is missing there.
-pub fn end_of(program: &Program) -> Location {
-    let text = program.text.trim_end();
+/// The script up to `position`.
+pub fn text_before(program: &Program, position: Position) -> &str {
+    let end = program.offset(position.line().unwrap_or(1), position.position().unwrap_or(1));
+    &program.text[..end]
+}
+
+/// The end of `text`, with which the script begins: for errors about something that is missing there.
+pub fn end_of(program: &Program, text: &str) -> Location {
+    let text = text.trim_end();
     let line = text.lines().count().max(1);
     let column = text.lines().last().map_or(0, |last| last.chars().count()) + 1;
     location(program, line, column, 1)

@@ -1,6 +1,6 @@
 //! Errors of grammar in plain words.
 
-use rhai::{LexError, ParseErrorType};
+use rhai::{Engine, LexError, ParseErrorType};
 
 /// What is wrong and, where it is known, what to do; `word` is what stands at the place of the error.
 pub fn explain(error: &ParseErrorType, word: &str) -> (String, Option<String>) {
@@ -18,6 +18,20 @@ pub fn explain(error: &ParseErrorType, word: &str) -> (String, Option<String>) {
         ParseErrorType::Reserved(word) | ParseErrorType::ForbiddenVariable(word) => reserved(word),
         ParseErrorType::VariableExpected | ParseErrorType::PropertyExpected if is_word(word) => {
             reserved(word)
+        }
+        ParseErrorType::MissingToken(token, _) if token == "}" && is_reserved(word) => {
+            reserved(word)
+        }
+        ParseErrorType::BadInput(LexError::ImproperSymbol(word, why))
+            if why.contains("disabled") =>
+        {
+            (format!("'{word}' is not part of the language"), None)
+        }
+        ParseErrorType::BadInput(LexError::UnexpectedInput(_))
+        | ParseErrorType::UnknownOperator(_)
+            if word == "." =>
+        {
+            ("a number cannot begin with a point".into(), Some("write 0.5 instead of .5".into()))
         }
         ParseErrorType::MissingToken(token, why) => {
             (format!("'{token}' is missing {why}").trim_end().to_owned(), missing_token_hint(token))
@@ -53,6 +67,10 @@ fn reserved(word: &str) -> (String, Option<String>) {
 
 fn is_word(word: &str) -> bool {
     word.starts_with(|c: char| c.is_alphabetic())
+}
+
+fn is_reserved(word: &str) -> bool {
+    is_word(word) && Engine::new_raw().compile(format!("let {word} = 1;")).is_err()
 }
 
 fn missing_token_hint(token: &str) -> Option<String> {

@@ -1,6 +1,6 @@
 //! From the engine's errors to diagnostics, in the words of the language.
 
-use rhai::{Dynamic, Engine, EvalAltResult, Position};
+use rhai::{Dynamic, Engine, EvalAltResult, ParseErrorType, Position};
 
 use super::calls::Unknown;
 use super::outline::Outline;
@@ -10,6 +10,7 @@ use crate::script::error::{BUG, Failure};
 use crate::script::kind::with_article;
 use crate::script::program::Program;
 use crate::script::suggest::nearest;
+use crate::script::table::{Form, Row};
 
 /// What the words of an error are drawn from.
 pub struct Explainer<'a> {
@@ -68,7 +69,14 @@ impl Explainer<'_> {
                 let failure = payload.read_lock::<Failure>()?;
                 locate::part_of_call(program, self.catalog, *at, &failure.place)
             }
-            EvalAltResult::ErrorParsing(_, at) if at.is_none() => Some(locate::end_of(program)),
+            EvalAltResult::ErrorParsing(ParseErrorType::UnexpectedEOF, _) => {
+                Some(locate::end_of(program, &program.text))
+            }
+            EvalAltResult::ErrorParsing(ParseErrorType::MissingToken(token, _), at)
+                if token == ";" =>
+            {
+                Some(locate::end_of(program, locate::text_before(program, *at)))
+            }
             other => locate::word_at(program, other.position()),
         }
     }
@@ -146,14 +154,19 @@ impl Explainer<'_> {
             };
             return (message, Some(hint));
         }
-        if let Some(row) = self.catalog.named(name).next() {
+        let is_function = |row: &&Row| matches!(row.form, Form::Function);
+        if let Some(row) = self.catalog.named(name).find(is_function) {
             return (
                 message,
                 Some(format!("'{name}' is a function: call it as {}", row.signature())),
             );
         }
         let known = outline.variables.iter().map(String::as_str).chain(self.catalog.constants());
-        (message, nearest(name, known).map(|near| format!("did you mean '{near}'?")))
+        let hint = match nearest(name, known) {
+            Some(near) => format!("did you mean '{near}'?"),
+            None => format!("declare it first: let {name} = …"),
+        };
+        (message, Some(hint))
     }
 
     fn thrown(&self, payload: &Dynamic) -> Words {
