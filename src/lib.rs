@@ -8,6 +8,7 @@
 //! ```
 
 pub mod beams;
+pub mod cli;
 pub mod geometry;
 pub mod integrators;
 pub mod joints;
@@ -15,3 +16,4 @@ pub mod linalg;
 pub mod loads;
 pub mod model;
 pub mod newton;
+pub mod script;

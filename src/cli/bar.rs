@@ -1,0 +1,74 @@
+//! The progress bar of a terminal.
+
+use std::cell::{Cell, RefCell};
+use std::io::{IsTerminal, stderr};
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::script::numbers::format_number;
+use crate::script::progress::{NoProgress, Progress};
+
+/// Whether progress is wanted at all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wish {
+    /// On a terminal.
+    Show,
+    /// Nowhere.
+    Hide,
+}
+
+/// A bar on a terminal; nothing in a pipe or when it is not wanted.
+pub fn progress(wish: Wish) -> Box<dyn Progress + Send> {
+    match wish == Wish::Show && stderr().is_terminal() {
+        true => Box::new(Bar::default()),
+        false => Box::new(NoProgress),
+    }
+}
+
+/// A bar over the time of one simulation at a time.
+#[derive(Default)]
+struct Bar {
+    shown: RefCell<Option<ProgressBar>>,
+    from: Cell<f64>,
+    to: Cell<f64>,
+}
+
+/// Parts that a bar is divided into: finer than any terminal is wide.
+const PARTS: u64 = 1000;
+
+impl Progress for Bar {
+    fn begin(&self, name: &str, from: f64, to: f64) {
+        self.end();
+        self.from.set(from);
+        self.to.set(to);
+        let bar = ProgressBar::new(PARTS);
+        // A template that does not parse would show the default bar: less pretty, as useful.
+        let style = ProgressStyle::with_template("{prefix} {wide_bar} {msg} {eta}");
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        bar.set_prefix(name.to_owned());
+        bar.enable_steady_tick(Duration::from_millis(200));
+        *self.shown.borrow_mut() = Some(bar);
+    }
+
+    fn reach(&self, t: f64) {
+        if let Some(bar) = &*self.shown.borrow() {
+            let share = (t - self.from.get()) / (self.to.get() - self.from.get());
+            bar.set_position((share.clamp(0.0, 1.0) * PARTS as f64) as u64);
+            bar.set_message(format!("t = {}", format_number((t * 1e6).round() / 1e6)));
+        }
+    }
+
+    fn end(&self) {
+        if let Some(bar) = self.shown.borrow_mut().take() {
+            bar.finish_and_clear();
+        }
+    }
+
+    fn step_aside(&self, write: &mut dyn FnMut()) {
+        match &*self.shown.borrow() {
+            Some(bar) => bar.suspend(write),
+            None => write(),
+        }
+    }
+}

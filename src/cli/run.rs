@@ -1,0 +1,117 @@
+//! `withy run` and `withy check`.
+
+use std::io::{self, IsTerminal, stderr, stdout};
+use std::panic;
+use std::path::Path;
+use std::sync::{Arc, Mutex};
+
+use super::Exit;
+use super::args::{CheckOptions, RunOptions};
+use super::bar::{self, Wish};
+use super::interrupt;
+use crate::script::catalog::Catalog;
+use crate::script::context::{Mode, Settings};
+use crate::script::diagnose::{Colours, Diagnostic};
+use crate::script::files::write_whole;
+use crate::script::program::Program;
+use crate::script::runner::{self, Ending, Outcome};
+
+/// Runs a script.
+pub fn run(options: &RunOptions) -> Exit {
+    let wish = if options.quiet { Wish::Hide } else { Wish::Show };
+    let settings = Settings {
+        out: options.out.clone(),
+        interrupt: interrupt::flag(),
+        printed: Box::new(stdout()),
+        told: Box::new(stderr()),
+        progress: bar::progress(wish),
+        ..Settings::silent(Mode::Run)
+    };
+    let outcome = match start(&options.file, settings) {
+        Ok(outcome) => outcome,
+        Err(diagnostic) => return refuse(&diagnostic),
+    };
+    if let Some(Err(diagnostic)) =
+        options.report.as_deref().map(|file| write_report(file, &outcome))
+    {
+        return refuse(&diagnostic);
+    }
+    if wish == Wish::Show {
+        show_summary(&outcome);
+    }
+    exit_for(&outcome)
+}
+
+/// Parses a script and builds its scenes.
+pub fn check(options: &CheckOptions) -> Exit {
+    let settings = Settings { interrupt: interrupt::flag(), ..Settings::silent(Mode::DryBuild) };
+    match start(&options.file, settings) {
+        Ok(outcome) => {
+            if let Ending::Finished = outcome.ending {
+                eprintln!("{}: no errors found", options.file.display());
+            }
+            exit_for(&outcome)
+        }
+        Err(diagnostic) => refuse(&diagnostic),
+    }
+}
+
+fn start(file: &Path, settings: Settings) -> Result<Outcome, Diagnostic> {
+    let program = Program::load(file)?;
+    let panicked_at = Arc::new(Mutex::new(String::new()));
+    let noted = Arc::clone(&panicked_at);
+    // Panics are shown as diagnostics; the default hook would print them a second time, in Rust's words.
+    panic::set_hook(Box::new(move |panic| {
+        if let (Some(place), Ok(mut noted)) = (panic.location(), noted.lock()) {
+            *noted = format!(" ({place})");
+        }
+    }));
+    let mut outcome = runner::run(&program, &Catalog::standard(), settings);
+    drop(panic::take_hook());
+    if let (Ending::Failed(diagnostic), Ok(place)) = (&mut outcome.ending, panicked_at.lock()) {
+        diagnostic.message.push_str(&place);
+    }
+    Ok(outcome)
+}
+
+fn exit_for(outcome: &Outcome) -> Exit {
+    match &outcome.ending {
+        Ending::Failed(diagnostic) => refuse(diagnostic),
+        Ending::Interrupted => {
+            tell("interrupted: what ran until here is kept\n");
+            Exit::Interrupted
+        }
+        Ending::PipeClosed => Exit::Good,
+        Ending::Finished if !outcome.checks.failed().is_empty() => Exit::CheckFailed,
+        Ending::Finished => Exit::Good,
+    }
+}
+
+fn refuse(diagnostic: &Diagnostic) -> Exit {
+    let wants_colours =
+        stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
+    tell(&diagnostic.render(if wants_colours { Colours::Ansi } else { Colours::None }));
+    Exit::Wrong
+}
+
+fn show_summary(outcome: &Outcome) {
+    for file in &outcome.files {
+        tell(&format!("wrote {}\n", file.display()));
+    }
+    if let Some(summary) = outcome.checks.summary() {
+        tell(&format!("{summary}\n"));
+    }
+}
+
+fn write_report(file: &Path, outcome: &Outcome) -> Result<(), Diagnostic> {
+    let report = serde_json::json!({ "simulations": outcome.simulations });
+    write_whole(file, format!("{report:#}\n").as_bytes()).map_err(|error| {
+        Diagnostic::general(format!("cannot write the report '{}': {error}", file.display()))
+            .with_hint("--report takes the path of a file in a folder that exists")
+    })
+}
+
+/// Writes to the terminal's error side; nobody is left to tell when that fails.
+fn tell(text: &str) {
+    let _ = io::Write::write_all(&mut stderr(), text.as_bytes());
+}

@@ -1,0 +1,154 @@
+//! Turning a script value into what a parameter asks for, or saying why it cannot be.
+
+use rhai::{Array, Dynamic, Engine, FnPtr, Map};
+
+use super::error::{Place, ScriptError};
+use super::kind::{Kind, Range};
+use super::numbers::{as_number, as_whole, describe};
+use super::options::Options;
+use super::parameter::Parameter;
+use crate::geometry::Vec2;
+
+/// `value` in the form that bodies read: numbers as `f64`, points as [`Vec2`], option maps as [`Options`].
+///
+/// `owner` is the function or the option map that asks, for the messages.
+pub fn accept(
+    engine: &Engine,
+    owner: &str,
+    parameter: &Parameter,
+    value: Dynamic,
+) -> Result<Dynamic, ScriptError> {
+    match convert(engine, owner, &parameter.kind, value)? {
+        Ok(accepted) => Ok(accepted),
+        Err(refused) => Err(refusal(engine, owner, parameter, &refused)),
+    }
+}
+
+/// The outer error is final; the inner one hands the value back for the general refusal.
+type Conversion = Result<Result<Dynamic, Dynamic>, ScriptError>;
+
+fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Conversion {
+    let accepted = match kind {
+        Kind::Anything => Some(value.clone()),
+        Kind::Number(range) => as_number(&value).filter(|x| range.contains(*x)).map(Dynamic::from),
+        Kind::Whole(range) => {
+            as_whole(&value).filter(|n| range.contains(*n as f64)).map(Dynamic::from)
+        }
+        Kind::Numeric => as_number(&value).is_some().then(|| value.clone()),
+        Kind::Text => value.is_string().then(|| value.clone()),
+        Kind::Choice(allowed) => {
+            let known =
+                value.as_immutable_string_ref().is_ok_and(|text| allowed.contains(&text.as_str()));
+            known.then(|| value.clone())
+        }
+        Kind::Boolean => value.is_bool().then(|| value.clone()),
+        Kind::Point => as_point(&value).map(Dynamic::from),
+        Kind::Array => value.is_array().then(|| value.clone()),
+        Kind::Numbers => {
+            as_all(&value, |x| as_number(x).filter(|x| x.is_finite())).map(Dynamic::from)
+        }
+        Kind::Points => as_all(&value, as_point).map(Dynamic::from),
+        Kind::Function => value.is::<FnPtr>().then(|| value.clone()),
+        Kind::Object(of) => (value.type_id() == of.id()).then(|| value.clone()),
+        Kind::Options(keys) => match value.read_lock::<Map>() {
+            Some(map) => Some(Dynamic::from(Options::read(engine, owner, keys, &map)?)),
+            None => None,
+        },
+        Kind::Either(kinds) => {
+            let mut rest = value;
+            for kind in *kinds {
+                match convert(engine, owner, kind, rest)? {
+                    Ok(accepted) => return Ok(Ok(accepted)),
+                    Err(refused) => rest = refused,
+                }
+            }
+            return Ok(Err(rest));
+        }
+    };
+    Ok(accepted.ok_or(value))
+}
+
+/// A vector, or an array of two finite numbers.
+fn as_point(value: &Dynamic) -> Option<Vec2> {
+    let point = match value.read_lock::<Vec2>() {
+        Some(vector) => *vector,
+        None => match value.read_lock::<Array>()?.as_slice() {
+            [x, y] => Vec2::new(as_number(x)?, as_number(y)?),
+            _ => return None,
+        },
+    };
+    (point.x.is_finite() && point.y.is_finite()).then_some(point)
+}
+
+fn as_all<T>(value: &Dynamic, read: impl Fn(&Dynamic) -> Option<T>) -> Option<Vec<T>> {
+    value.read_lock::<Array>()?.iter().map(read).collect()
+}
+
+fn refusal(engine: &Engine, owner: &str, parameter: &Parameter, value: &Dynamic) -> ScriptError {
+    let got = match first_wrong_element(&parameter.kind, value) {
+        Some((index, element)) => format!("{} at index {index}", describe(engine, &element)),
+        None if is_infinite_or_nan(value) => {
+            format!("{}, which is not finite", describe(engine, value))
+        }
+        None => describe(engine, value),
+    };
+    let error = ScriptError::new(format!(
+        "{owner}: '{}' must be {}, got {got}",
+        parameter.name,
+        parameter.expectation()
+    ));
+    match hint(parameter, value) {
+        Some(hint) => error.hint(hint),
+        None => error,
+    }
+}
+
+/// In an array, the element that is to blame.
+fn first_wrong_element(kind: &Kind, value: &Dynamic) -> Option<(usize, Dynamic)> {
+    let array = value.read_lock::<Array>()?;
+    let wrong = |element: &Dynamic| match kind {
+        Kind::Numbers => !as_number(element).is_some_and(f64::is_finite),
+        Kind::Points => as_point(element).is_none(),
+        _ => false,
+    };
+    array
+        .iter()
+        .enumerate()
+        .find(|(_, element)| wrong(element))
+        .map(|(index, element)| (index, element.clone()))
+}
+
+fn hint(parameter: &Parameter, value: &Dynamic) -> Option<String> {
+    match &parameter.kind {
+        Kind::Number(_) if is_infinite_or_nan(value) => Some(
+            "the number comes from an overflow or an undefined operation before this line".into(),
+        ),
+        Kind::Whole(Range::Finite) if value.is_float() => {
+            Some("floor(x) or round(x) makes a whole number".into())
+        }
+        Kind::Choice(allowed) => {
+            let text = value.as_immutable_string_ref().ok()?;
+            let near = super::suggest::nearest(&text, allowed.iter().copied())?;
+            Some(format!("did you mean \"{near}\"?"))
+        }
+        Kind::Options(keys) => {
+            let required = keys.iter().find(|key| key.is_required()).or(keys.first())?;
+            Some(format!("write #{{ {}: … }}", required.name))
+        }
+        _ => None,
+    }
+}
+
+fn is_infinite_or_nan(value: &Dynamic) -> bool {
+    as_number(value).is_some_and(|x| !x.is_finite())
+}
+
+/// Puts an error about argument `number` at that argument, unless it already points at a key.
+pub fn blame_argument(error: ScriptError, number: usize) -> ScriptError {
+    match error {
+        ScriptError::Failure(failure) if failure.place == Place::Call => {
+            ScriptError::Failure(failure).at(Place::Argument(number))
+        }
+        other => other,
+    }
+}

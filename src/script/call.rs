@@ -1,0 +1,125 @@
+//! What a native body sees: its arguments by name, the receiver, the context, and a way to call back.
+
+use std::ops::Deref;
+
+use rhai::{Dynamic, FnPtr, NativeCallContext};
+
+use super::arguments::Arguments;
+use super::context::Context;
+use super::error::ScriptError;
+use super::numbers::{as_number, describe};
+use super::table::Row;
+
+/// One call of a row, in progress.
+pub struct Call<'c, 'r> {
+    row: &'static Row,
+    context: &'c Context,
+    native: &'c NativeCallContext<'c>,
+    receiver: Option<&'r mut Dynamic>,
+    arguments: Arguments,
+}
+
+/// Arguments are read straight from the call: `call.number("dt")`.
+impl Deref for Call<'_, '_> {
+    type Target = Arguments;
+
+    fn deref(&self) -> &Arguments {
+        &self.arguments
+    }
+}
+
+impl<'c, 'r> Call<'c, 'r> {
+    pub(super) fn new(
+        row: &'static Row,
+        context: &'c Context,
+        native: &'c NativeCallContext<'c>,
+        receiver: Option<&'r mut Dynamic>,
+        arguments: Arguments,
+    ) -> Self {
+        Self { row, context, native, receiver, arguments }
+    }
+
+    /// What all calls of a run share: output folder, mode, checks, progress.
+    pub fn context(&self) -> &'c Context {
+        self.context
+    }
+
+    /// The value whose method or property this is. Handles are cloned, which is cheap.
+    pub fn receiver<T: Clone + 'static>(&self) -> Result<T, ScriptError> {
+        let receiver = self
+            .receiver
+            .as_ref()
+            .and_then(|value| value.read_lock::<T>().map(|held| held.clone()));
+        receiver.ok_or_else(|| {
+            ScriptError::bug(format!("'{}' has no receiver of its type", self.row.name))
+        })
+    }
+
+    /// Changes the value whose method or property this is.
+    pub fn change_receiver<T: Clone + 'static>(
+        &mut self,
+        change: impl FnOnce(&mut T),
+    ) -> Result<(), ScriptError> {
+        let name = self.row.name;
+        let receiver = self.receiver.as_mut().and_then(|value| value.write_lock::<T>());
+        let mut receiver = receiver
+            .ok_or_else(|| ScriptError::bug(format!("'{name}' has no receiver of its type")))?;
+        change(&mut receiver);
+        Ok(())
+    }
+
+    /// The line of the script that calls, from 1.
+    pub fn line(&self) -> usize {
+        self.native.call_position().line().unwrap_or(0)
+    }
+
+    /// Calls a script function back. Its own errors, positions and trace stay as they are.
+    pub fn invoke(
+        &self,
+        function: &FnPtr,
+        arguments: impl AsMut<[Dynamic]>,
+    ) -> Result<Dynamic, ScriptError> {
+        self.proceed()?;
+        function.call_raw(self.native, None, arguments).map_err(ScriptError::Engine)
+    }
+
+    /// Calls a script function back for a finite number; `role` says what the function stands for, such as `load`.
+    pub fn invoke_for_number(
+        &self,
+        function: &FnPtr,
+        arguments: impl AsMut<[Dynamic]>,
+        role: &str,
+    ) -> Result<f64, ScriptError> {
+        let value = self.invoke(function, arguments)?;
+        as_number(&value).filter(|x| x.is_finite()).ok_or_else(|| {
+            let got = self.describe(&value);
+            ScriptError::new(format!(
+                "{}: the {role} must give a finite number, got {got}",
+                self.row.name
+            ))
+            .hint("the last expression of a function is what it gives")
+        })
+    }
+
+    /// Refuses to go on when the run was interrupted; long native loops ask once in every step.
+    pub fn proceed(&self) -> Result<(), ScriptError> {
+        self.context.proceed()
+    }
+
+    /// An error that begins with the name of the row, as all errors about a call do.
+    pub fn error(&self, what: impl std::fmt::Display) -> ScriptError {
+        ScriptError::new(format!("{}: {what}", self.row.name))
+    }
+
+    /// `value` in the words of a message.
+    pub fn describe(&self, value: &Dynamic) -> String {
+        describe(self.native.engine(), value)
+    }
+
+    /// `value` as the script would print it.
+    pub fn show(&self, value: &Dynamic) -> String {
+        let mut value = value.clone();
+        let shown = self.native.call_native_fn_raw("to_debug", true, &mut [&mut value]);
+        shown.map_or_else(|_| value.to_string(), |text| text.to_string())
+    }
+}

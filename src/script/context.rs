@@ -1,0 +1,166 @@
+//! What all native calls of one run share: where output goes, what was checked, whether to go on.
+
+use std::cell::{Cell, RefCell};
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::checks::Checks;
+use super::error::ScriptError;
+use super::files::OutputFolder;
+use super::progress::{NoProgress, Progress};
+
+/// Whether simulations really run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// Everything runs.
+    Run,
+    /// Scenes are built and checked; nothing is stepped, printed, judged or written.
+    DryBuild,
+}
+
+/// How a run talks to the world outside. Made by the command line, the prompt or a test.
+pub struct Settings {
+    /// Whether simulations really run.
+    pub mode: Mode,
+    /// Where files of the script go; made when the first one is written.
+    pub out: PathBuf,
+    /// Set from outside (Ctrl-C) to stop as soon as possible.
+    pub interrupt: Arc<AtomicBool>,
+    /// Where `print` writes.
+    pub printed: Box<dyn Write + Send>,
+    /// Where failed checks and `debug` are told, at once.
+    pub told: Box<dyn Write + Send>,
+    /// What shows how far a simulation is.
+    pub progress: Box<dyn Progress + Send>,
+}
+
+impl Settings {
+    /// A run that writes to nowhere, for dry builds and as a start for others.
+    pub fn silent(mode: Mode) -> Self {
+        Self {
+            mode,
+            out: PathBuf::from("out"),
+            interrupt: Arc::default(),
+            printed: Box::new(io::sink()),
+            told: Box::new(io::sink()),
+            progress: Box::new(NoProgress),
+        }
+    }
+}
+
+/// What a simulation says about itself in the report, asked when the run ends, however it ends.
+pub type Reporter = Box<dyn Fn() -> serde_json::Value>;
+
+/// A cheap handle on the state of one run.
+#[derive(Clone)]
+pub struct Context(Rc<Shared>);
+
+struct Shared {
+    mode: Mode,
+    interrupt: Arc<AtomicBool>,
+    printed: RefCell<Box<dyn Write + Send>>,
+    told: RefCell<Box<dyn Write + Send>>,
+    pipe_closed: Cell<bool>,
+    progress: Box<dyn Progress + Send>,
+    output: OutputFolder,
+    checks: RefCell<Checks>,
+    reporters: RefCell<Vec<Reporter>>,
+}
+
+impl Context {
+    /// The state at the start of a run.
+    pub fn new(settings: Settings) -> Self {
+        Self(Rc::new(Shared {
+            mode: settings.mode,
+            interrupt: settings.interrupt,
+            printed: RefCell::new(settings.printed),
+            told: RefCell::new(settings.told),
+            pipe_closed: Cell::new(false),
+            progress: settings.progress,
+            output: OutputFolder::new(settings.out, settings.mode),
+            checks: RefCell::default(),
+            reporters: RefCell::default(),
+        }))
+    }
+
+    /// Whether simulations really run.
+    pub fn mode(&self) -> Mode {
+        self.0.mode
+    }
+
+    /// The folder for files of the script.
+    pub fn output(&self) -> &OutputFolder {
+        &self.0.output
+    }
+
+    /// What to tell how far a simulation is.
+    pub fn progress(&self) -> &dyn Progress {
+        &*self.0.progress
+    }
+
+    /// Refuses to go on after an interrupt or when nobody reads the output any more.
+    pub fn proceed(&self) -> Result<(), ScriptError> {
+        if self.is_stopped() { Err(ScriptError::Interrupted) } else { Ok(()) }
+    }
+
+    /// Whether the run should end as soon as it can.
+    pub fn is_stopped(&self) -> bool {
+        self.0.pipe_closed.get() || self.0.interrupt.load(Ordering::Relaxed)
+    }
+
+    /// The flag that stops the run, for native loops that know nothing of scripts.
+    pub fn interrupt_flag(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.0.interrupt)
+    }
+
+    /// Whether the reader of the output went away.
+    pub fn is_pipe_closed(&self) -> bool {
+        self.0.pipe_closed.get()
+    }
+
+    /// Prints a line for the script.
+    pub fn print(&self, text: &str) {
+        self.0.progress.step_aside(&mut || {
+            self.notice(writeln!(self.0.printed.borrow_mut(), "{text}"));
+        });
+    }
+
+    /// Tells the user something that is not the script's own output.
+    pub fn tell(&self, text: &str) {
+        self.0.progress.step_aside(&mut || {
+            // When nobody listens, the exit code still tells.
+            let _ = writeln!(self.0.told.borrow_mut(), "{text}");
+        });
+    }
+
+    /// Writes out what is buffered.
+    pub fn flush(&self) {
+        let written = self.0.printed.borrow_mut().flush();
+        self.notice(written);
+    }
+
+    /// A closed pipe ends the run quietly; other troubles with a terminal are not worth a failure.
+    fn notice(&self, written: io::Result<()>) {
+        if written.is_err_and(|error| error.kind() == io::ErrorKind::BrokenPipe) {
+            self.0.pipe_closed.set(true);
+        }
+    }
+
+    /// Changes the record of checks.
+    pub fn with_checks<T>(&self, change: impl FnOnce(&mut Checks) -> T) -> T {
+        change(&mut self.0.checks.borrow_mut())
+    }
+
+    /// Adds a simulation to the report.
+    pub fn add_reporter(&self, reporter: Reporter) {
+        self.0.reporters.borrow_mut().push(reporter);
+    }
+
+    /// What all simulations of the run say about themselves.
+    pub fn report(&self) -> Vec<serde_json::Value> {
+        self.0.reporters.borrow().iter().map(|reporter| reporter()).collect()
+    }
+}

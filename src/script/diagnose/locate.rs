@@ -1,0 +1,159 @@
+//! From the engine's position, a point, to the piece of the line to underline.
+
+use std::sync::Arc;
+
+use rhai::{Position, Token};
+
+use super::Location;
+use crate::script::catalog::Catalog;
+use crate::script::error::Place;
+use crate::script::lexing::tokens;
+use crate::script::program::Program;
+use crate::script::table::Form;
+
+/// The word, number, text or sign at `position`; nothing if the engine gave no position.
+pub fn word_at(program: &Program, position: Position) -> Option<Location> {
+    let line = position.line()?;
+    let column = position.position().unwrap_or(1);
+    Some(location(program, line, column, word_length(program, line, column)))
+}
+
+/// The script up to `position`.
+pub fn text_before(program: &Program, position: Position) -> &str {
+    let end = program.offset(position.line().unwrap_or(1), position.position().unwrap_or(1));
+    &program.text[..end]
+}
+
+/// The end of `text`, with which the script begins: for errors about something that is missing there.
+pub fn end_of(program: &Program, text: &str) -> Location {
+    let text = text.trim_end();
+    let line = text.lines().count().max(1);
+    let column = text.lines().last().map_or(0, |last| last.chars().count()) + 1;
+    location(program, line, column, 1)
+}
+
+/// The part of the call at `position` that an error is about; the called name if that part is not written there.
+pub fn part_of_call(
+    program: &Program,
+    catalog: &Catalog,
+    position: Position,
+    place: &Place,
+) -> Option<Location> {
+    let found = match place {
+        Place::Call => None,
+        Place::Argument(number) => argument(program, catalog, position, *number),
+        Place::Key(key) => key_of_call(program, position, key),
+    };
+    found.or_else(|| word_at(program, position))
+}
+
+fn location(program: &Program, line: usize, column: usize, length: usize) -> Location {
+    Location { program: Arc::new(program.clone()), line, column, length }
+}
+
+fn word_length(program: &Program, line: usize, column: usize) -> usize {
+    let rest = &program.text[program.offset(line, column)..];
+    let rest = rest.lines().next().unwrap_or_default();
+    let in_word = |c: char| c.is_alphanumeric() || c == '_';
+    let length = match rest.chars().next() {
+        Some('"') => rest.chars().skip(1).take_while(|c| *c != '"').count() + 2,
+        Some(c) if in_word(c) => rest.chars().take_while(|c| in_word(*c)).count(),
+        Some(c) if "<>=!*&|".contains(c) => {
+            rest.chars().take_while(|c| "<>=!*&|".contains(*c)).count()
+        }
+        _ => 1,
+    };
+    length.min(rest.chars().count()).max(1)
+}
+
+/// The tokens from the opening parenthesis of the call at `position` to the closing one, both included.
+fn inside_call(program: &Program, position: Position) -> Option<(Vec<(Token, Position)>, bool)> {
+    let tokens = tokens(&program.text);
+    let called = tokens.iter().position(|(_, at)| *at == position)?;
+    let dotted = called > 0 && matches!(tokens[called - 1].0, Token::Period | Token::Elvis);
+    let opening = called + 1;
+    if !matches!(tokens.get(opening)?.0, Token::LeftParen) {
+        return None;
+    }
+    let mut depth = 0_usize;
+    for (index, (token, _)) in tokens.iter().enumerate().skip(opening) {
+        depth = match token {
+            token if opens(token) => depth + 1,
+            token if closes(token) => depth.saturating_sub(1),
+            _ => depth,
+        };
+        if depth == 0 {
+            return Some((tokens[opening..=index].to_vec(), dotted));
+        }
+    }
+    None
+}
+
+fn opens(token: &Token) -> bool {
+    matches!(
+        token,
+        Token::LeftParen
+            | Token::LeftBracket
+            | Token::LeftBrace
+            | Token::MapStart
+            | Token::QuestionBracket
+    )
+}
+
+fn closes(token: &Token) -> bool {
+    matches!(token, Token::RightParen | Token::RightBracket | Token::RightBrace)
+}
+
+fn argument(
+    program: &Program,
+    catalog: &Catalog,
+    position: Position,
+    number: usize,
+) -> Option<Location> {
+    let (call, dotted) = inside_call(program, position)?;
+    let called = word_at(program, position)?;
+    let is_function = catalog.named(called.text()).any(|row| matches!(row.form, Form::Function));
+    // In `a.norm()` the first argument of the function stands before the dot.
+    let number = if dotted && is_function { number.checked_sub(1)? } else { number };
+    let mut depth = 0_usize;
+    let mut seen = 0;
+    let mut start = None;
+    for (token, at) in &call {
+        let at_end = depth == 1 && (matches!(token, Token::Comma) || closes(token));
+        if at_end && let Some(start) = start {
+            return span(program, start, *at);
+        }
+        if at_end {
+            seen += 1;
+        } else if start.is_none() && depth >= 1 && seen == number {
+            start = Some(*at);
+        }
+        depth = match token {
+            token if opens(token) => depth + 1,
+            token if closes(token) => depth.saturating_sub(1),
+            _ => depth,
+        };
+    }
+    None
+}
+
+/// From `start` up to the separator at `end`, without the blanks between; one word if the argument has several lines.
+fn span(program: &Program, start: Position, end: Position) -> Option<Location> {
+    let (line, column) = (start.line()?, start.position()?);
+    if end.line()? != line {
+        return word_at(program, start);
+    }
+    let text = &program.text[program.offset(line, column)..program.offset(line, end.position()?)];
+    Some(location(program, line, column, text.trim_end().chars().count().max(1)))
+}
+
+fn key_of_call(program: &Program, position: Position, key: &str) -> Option<Location> {
+    let (call, _) = inside_call(program, position)?;
+    let mut pairs = call.iter().zip(call.iter().skip(1));
+    let (_, at) = pairs.find_map(|(this, next)| match (&this.0, &next.0) {
+        (Token::Identifier(name), Token::Colon) if name.as_str() == key => Some(this),
+        (Token::StringConstant(name), Token::Colon) if name.as_str() == key => Some(this),
+        _ => None,
+    })?;
+    word_at(program, *at)
+}

@@ -1,0 +1,102 @@
+//! Every error of a script as one message: what is wrong, where, what to do, and the calls that led there.
+
+mod calls;
+mod locate;
+mod outline;
+mod parsing;
+mod render;
+mod translate;
+
+use std::fmt;
+use std::sync::Arc;
+
+use super::program::Program;
+pub use render::Colours;
+pub use translate::{Explainer, is_interrupt};
+
+/// An error as it is shown to people.
+#[derive(Clone, Debug)]
+pub struct Diagnostic {
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub hint: Option<String>,
+    /// Where, if it is about a place in a script.
+    pub location: Option<Location>,
+    /// The calls of script functions that led there, innermost first.
+    pub trace: Vec<Step>,
+    /// Whose mistake it is.
+    pub blame: Blame,
+}
+
+/// Whose mistake an error is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Blame {
+    /// The script, or the way it was called.
+    User,
+    /// This program.
+    Us,
+}
+
+/// A piece of one line of a script.
+#[derive(Clone, Debug)]
+pub struct Location {
+    /// The script it is in.
+    pub program: Arc<Program>,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// Length in characters.
+    pub length: usize,
+}
+
+/// One call on the way to an error.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Step {
+    /// The script function called; empty for a closure.
+    pub function: String,
+    /// The line of the call, if it is known.
+    pub line: Option<usize>,
+}
+
+impl Diagnostic {
+    /// An error that is about no place in a script.
+    pub fn general(message: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+            hint: None,
+            location: None,
+            trace: Vec::new(),
+            blame: Blame::User,
+        }
+    }
+
+    /// A mistake of this program.
+    pub fn bug(message: impl fmt::Display) -> Self {
+        let mut diagnostic = Self::general(format!("withy has made a mistake: {message}"));
+        diagnostic.hint = Some(
+            "this is a bug in withy, not in your script; please report it with the script".into(),
+        );
+        diagnostic.blame = Blame::Us;
+        diagnostic
+    }
+
+    /// Adds what to do.
+    #[must_use]
+    pub fn with_hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = Some(hint.into());
+        self
+    }
+
+    /// `file:line:column`, for tests and editors.
+    pub fn place(&self) -> Option<String> {
+        self.location.as_ref().map(|at| format!("{}:{}:{}", at.program.name, at.line, at.column))
+    }
+}
+
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.render(Colours::None))
+    }
+}

@@ -1,0 +1,87 @@
+//! Drawing a diagnostic: the source line, a caret under the place, the message and the hint.
+
+use std::ops::Range;
+
+use codespan_reporting::diagnostic::{Diagnostic as Drawing, Label, LabelStyle};
+use codespan_reporting::files::SimpleFile;
+use codespan_reporting::term::termcolor::Buffer;
+use codespan_reporting::term::{self, Config};
+
+use super::{Blame, Diagnostic, Location, Step};
+
+/// Whether the drawing has colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Colours {
+    /// Plain text, the same everywhere.
+    None,
+    /// For a terminal.
+    Ansi,
+}
+
+impl Diagnostic {
+    /// The diagnostic as text that ends with a newline.
+    pub fn render(&self, colours: Colours) -> String {
+        let drawing = match self.blame {
+            Blame::User => Drawing::error(),
+            Blame::Us => Drawing::bug(),
+        };
+        let drawing = drawing.with_message(&self.message).with_notes(self.notes());
+        let (file, drawing) = match &self.location {
+            Some(at) => {
+                let file = SimpleFile::new(at.program.name.clone(), at.program.text.to_string());
+                (file, drawing.with_label(Label::new(LabelStyle::Primary, (), at.bytes())))
+            }
+            None => (SimpleFile::new(String::new(), String::new()), drawing),
+        };
+        let mut buffer = match colours {
+            Colours::None => Buffer::no_color(),
+            Colours::Ansi => Buffer::ansi(),
+        };
+        match term::emit_to_write_style(&mut buffer, &Config::default(), &file, &drawing) {
+            Ok(()) => format!("{}\n", String::from_utf8_lossy(buffer.as_slice()).trim_end()),
+            // The place lies outside the text, which can only be our mistake: the message still counts.
+            Err(_) => format!("error: {}\n", self.message),
+        }
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let hint = self.hint.iter().map(|hint| format!("help: {}", hint.replace('\n', "\n      ")));
+        hint.chain(shown_steps(&self.trace)).collect()
+    }
+}
+
+/// The calls, with the middle of a long recursion left out.
+fn shown_steps(trace: &[Step]) -> Vec<String> {
+    const SHOWN: usize = 8;
+    let mut lines: Vec<_> = trace.iter().take(SHOWN).map(Step::to_string).collect();
+    if trace.len() > SHOWN {
+        lines.push(format!("… and {} more calls", trace.len() - SHOWN));
+    }
+    lines
+}
+
+impl std::fmt::Display for Step {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.function.as_str() {
+            "" => f.write_str("in a closure")?,
+            name => write!(f, "in '{name}'")?,
+        }
+        match self.line {
+            Some(line) => write!(f, ", called at line {line}"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Location {
+    /// What stands there.
+    pub fn text(&self) -> &str {
+        &self.program.text[self.bytes()]
+    }
+
+    /// The place as a range of bytes of the text.
+    fn bytes(&self) -> Range<usize> {
+        let start = self.program.offset(self.line, self.column);
+        start..self.program.offset(self.line, self.column + self.length).max(start)
+    }
+}

@@ -1,0 +1,252 @@
+//! From the engine's errors to diagnostics, in the words of the language.
+
+use rhai::{Dynamic, Engine, EvalAltResult, ParseErrorType, Position};
+
+use super::calls::Unknown;
+use super::outline::Outline;
+use super::{Diagnostic, Step, locate, parsing};
+use crate::script::catalog::Catalog;
+use crate::script::error::{BUG, Failure};
+use crate::script::kind::with_article;
+use crate::script::program::Program;
+use crate::script::suggest::nearest;
+use crate::script::table::{Form, Row};
+
+/// What the words of an error are drawn from.
+pub struct Explainer<'a> {
+    /// The script that was run.
+    pub program: &'a Program,
+    /// The names that the language has.
+    pub catalog: &'a Catalog,
+    /// The engine that ran it.
+    pub engine: &'a Engine,
+}
+
+/// What is wrong, what to do, and where.
+type Words = (String, Option<String>);
+
+/// Whether the run was stopped from outside, at whatever depth of calls.
+pub fn is_interrupt(error: &EvalAltResult) -> bool {
+    matches!(error.unwrap_inner(), EvalAltResult::ErrorTerminated(..))
+}
+
+impl Explainer<'_> {
+    /// The diagnostic for `error`.
+    pub fn explain(&self, error: &EvalAltResult) -> Diagnostic {
+        let mut trace = Vec::new();
+        let mut program = self.program.clone();
+        let mut inner = error;
+        loop {
+            inner = match inner {
+                EvalAltResult::ErrorInFunctionCall(name, source, cause, at) => {
+                    let function =
+                        if name.starts_with("anon$") { String::new() } else { name.clone() };
+                    trace.insert(0, Step { function, line: at.line() });
+                    program = self.program.of_source(source);
+                    cause
+                }
+                EvalAltResult::ErrorInModule(path, cause, _) => {
+                    program = self.program.of_source(path);
+                    cause
+                }
+                _ => break,
+            };
+        }
+        if let EvalAltResult::ErrorSystem(message, mark) = inner
+            && mark.to_string() == BUG
+        {
+            return Diagnostic { trace, ..Diagnostic::bug(message) };
+        }
+        let outline = Outline::of(&program.text);
+        let (message, hint) = self.words(inner, &program, &outline, &trace);
+        let location = self.location(inner, &program);
+        Diagnostic { hint, location, trace, ..Diagnostic::general(message) }
+    }
+
+    fn location(&self, error: &EvalAltResult, program: &Program) -> Option<super::Location> {
+        match error {
+            EvalAltResult::ErrorRuntime(payload, at) if payload.is::<Failure>() => {
+                let failure = payload.read_lock::<Failure>()?;
+                locate::part_of_call(program, self.catalog, *at, &failure.place)
+            }
+            EvalAltResult::ErrorParsing(ParseErrorType::UnexpectedEOF, _) => {
+                Some(locate::end_of(program, &program.text))
+            }
+            EvalAltResult::ErrorParsing(ParseErrorType::MissingToken(token, _), at)
+                if token == ";" =>
+            {
+                Some(locate::end_of(program, locate::text_before(program, *at)))
+            }
+            other => locate::word_at(program, other.position()),
+        }
+    }
+
+    fn words(
+        &self,
+        error: &EvalAltResult,
+        program: &Program,
+        outline: &Outline,
+        trace: &[Step],
+    ) -> Words {
+        use EvalAltResult as Error;
+        let unknown = Unknown { catalog: self.catalog, engine: self.engine, program, outline };
+        match error {
+            Error::ErrorParsing(kind, at) => parsing::explain(kind, &word_of(program, *at)),
+            Error::ErrorFunctionNotFound(signature, at) => unknown.function(signature, *at),
+            Error::ErrorDotExpr(text, _) => unknown.property(text),
+            Error::ErrorVariableNotFound(name, _) => self.variable(name, outline, trace),
+            Error::ErrorPropertyNotFound(key, _) => missing_key(key, outline),
+            Error::ErrorRuntime(payload, _) => self.thrown(payload),
+            Error::ErrorMismatchDataType(wanted, got, _)
+            | Error::ErrorMismatchOutputType(wanted, got, _) => mismatch(wanted, got),
+            Error::ErrorArrayBounds(length, index, _) => (bounds("array", *length, *index), None),
+            Error::ErrorStringBounds(length, index, _) => (bounds("text", *length, *index), None),
+            Error::ErrorIndexingType(access, _) => {
+                let indexed = access.split(" [").next().unwrap_or(access);
+                (format!("{} cannot be indexed", with_article(type_word(indexed))), None)
+            }
+            Error::ErrorFor(_) => {
+                let hint = "for goes over an array, a map or a range: for i in 0..10 { … }";
+                ("this cannot be gone over by for".into(), Some(hint.into()))
+            }
+            Error::ErrorAssignmentToConstant(name, _) => (
+                format!("the constant '{name}' cannot be changed"),
+                Some("declare it with let instead of const".into()),
+            ),
+            Error::ErrorNonPureMethodCallOnConstant(name, _) => {
+                let name = name.trim_start_matches("set$");
+                (
+                    format!("'{name}' would change a constant"),
+                    Some("declare it with let instead of const".into()),
+                )
+            }
+            Error::ErrorArithmetic(what, _) => {
+                (arithmetic(what), Some("write one of the numbers with a point: 2.0".into()))
+            }
+            Error::ErrorStackOverflow(_) => (
+                "functions call each other too deeply".into(),
+                Some("does a function call itself for ever?".into()),
+            ),
+            Error::ErrorDataTooLarge(what, _) => {
+                (too_large(what), Some("is something added for ever in a loop?".into()))
+            }
+            Error::ErrorModuleNotFound(name, _) => {
+                let hint = "import looks for NAME.rhai beside the script";
+                (format!("there is no module '{name}' to import"), Some(hint.into()))
+            }
+            Error::ErrorTerminated(..) => ("the run was interrupted".into(), None),
+            Error::ErrorSystem(message, cause) => {
+                (format!("{message} {cause}").trim().to_owned(), None)
+            }
+            other => (plain(other), None),
+        }
+    }
+
+    fn variable(&self, name: &str, outline: &Outline, trace: &[Step]) -> Words {
+        let message = format!("there is no variable '{name}' here");
+        if let Some((_, line)) = outline.top_level.iter().find(|(known, _)| known == name) {
+            let hint = match trace.is_empty() {
+                true => format!("'{name}' is declared later, at line {line}"),
+                false => format!(
+                    "'{name}' of line {line} is not visible inside functions: pass it as an argument, or use a closure \
+                     |x| …, which sees it"
+                ),
+            };
+            return (message, Some(hint));
+        }
+        let is_function = |row: &&Row| matches!(row.form, Form::Function);
+        if let Some(row) = self.catalog.named(name).find(is_function) {
+            return (
+                message,
+                Some(format!("'{name}' is a function: call it as {}", row.signature())),
+            );
+        }
+        let known = outline.variables.iter().map(String::as_str).chain(self.catalog.constants());
+        let hint = match nearest(name, known) {
+            Some(near) => format!("did you mean '{near}'?"),
+            None => format!("declare it first: let {name} = …"),
+        };
+        (message, Some(hint))
+    }
+
+    fn thrown(&self, payload: &Dynamic) -> Words {
+        if let Some(failure) = payload.read_lock::<Failure>() {
+            return (failure.message.clone(), failure.hint.clone());
+        }
+        match payload.is_unit() {
+            true => ("the script gave up".into(), None),
+            false => (payload.to_string(), None),
+        }
+    }
+}
+
+/// The text that would be underlined at this position.
+fn word_of(program: &Program, at: Position) -> String {
+    locate::word_at(program, at).map(|place| place.text().to_owned()).unwrap_or_default()
+}
+
+fn missing_key(key: &str, outline: &Outline) -> Words {
+    let hint = match nearest(key, outline.keys.iter().map(String::as_str)) {
+        Some(near) => format!("did you mean '{near}'?"),
+        None => format!("ask with \"{key}\" in map before reading it"),
+    };
+    (format!("the map has no key '{key}'"), Some(hint))
+}
+
+fn mismatch(wanted: &str, got: &str) -> Words {
+    let (wanted, got) = (type_word(wanted), type_word(got));
+    let hint = match (wanted, got) {
+        ("whole number", "number") => Some(
+            "floor(x), round(x) and quotient(n, d) give whole numbers; a / b never does".into(),
+        ),
+        _ => None,
+    };
+    (format!("expected {}, got {}", with_article(wanted), with_article(got)), hint)
+}
+
+fn bounds(what: &str, length: usize, index: i64) -> String {
+    match length {
+        0 => format!("there is nothing at index {index}: the {what} is empty"),
+        _ => format!(
+            "there is nothing at index {index}: the {what} has {length}, from 0 to {}",
+            length - 1
+        ),
+    }
+}
+
+fn too_large(what: &str) -> String {
+    match what.to_lowercase() {
+        what if what.contains("string") => "the text is too long".into(),
+        what if what.contains("map") => "the map is too large".into(),
+        _ => "the array is too long".into(),
+    }
+}
+
+fn arithmetic(what: &str) -> String {
+    match what.contains("overflow") {
+        true => "the whole number is too large for 64 bits".into(),
+        false => what.to_lowercase(),
+    }
+}
+
+/// A type in our words, also where the engine used the Rust name.
+pub fn type_word(name: &str) -> &str {
+    match name.trim() {
+        "i64" => "whole number",
+        "f64" => "number",
+        "bool" => "truth value",
+        "char" => "character",
+        "string" | "String" | "ImmutableString" | "&str | ImmutableString | String" => "text",
+        "array" => "array",
+        "Fn" | "FnPtr" => "function",
+        "()" => "nothing",
+        other => other,
+    }
+}
+
+/// The engine's own message, without the position at its end.
+fn plain(error: &EvalAltResult) -> String {
+    let text = error.to_string();
+    let end = text.rfind(" (line ").unwrap_or(text.len());
+    text[..end].to_owned()
+}

@@ -1,0 +1,91 @@
+//! The engine: limits, names of types, number syntax, all tables, printing, and the interrupt.
+
+use std::ops::{Range, RangeInclusive};
+
+use rhai::module_resolvers::FileModuleResolver;
+use rhai::{Dynamic, Engine, FnPtr, INT, ImmutableString, Map};
+
+use super::catalog::Catalog;
+use super::context::Context;
+use super::numbers::format_number;
+use super::register::register;
+use super::{operators, syntax};
+
+/// Calls within calls. Together with the depth of expressions it must fit [`STACK_BYTES`](super::runner::STACK_BYTES).
+const CALL_LEVELS: usize = 400;
+/// Nesting of one expression at the top level, and inside a function where it adds up with calls.
+const EXPRESSION_DEPTH: usize = 256;
+const EXPRESSION_DEPTH_IN_FUNCTION: usize = 64;
+const LONGEST_TEXT: usize = 16 << 20;
+const LARGEST_ARRAY: usize = 10_000_000;
+const LARGEST_MAP: usize = 1_000_000;
+
+/// An engine that speaks the language of `catalog` and reports to `context`.
+///
+/// An error means that a token hook of Rhai no longer works as this crate needs it.
+pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
+    let mut engine = Engine::new();
+    limit(&mut engine);
+    name_types(&mut engine);
+    syntax::install(&mut engine)?;
+    operators::install(&mut engine);
+    print_numbers(&mut engine);
+    for table in catalog.tables() {
+        register(&mut engine, table, context);
+    }
+    connect(&mut engine, context);
+    Ok(engine)
+}
+
+/// Lets `import "name"` find files beside the script.
+pub fn import_from(engine: &mut Engine, folder: &std::path::Path) {
+    engine.set_module_resolver(FileModuleResolver::new_with_path(folder));
+}
+
+fn limit(engine: &mut Engine) {
+    engine
+        .set_max_call_levels(CALL_LEVELS)
+        .set_max_expr_depths(EXPRESSION_DEPTH, EXPRESSION_DEPTH_IN_FUNCTION)
+        .set_max_string_size(LONGEST_TEXT)
+        .set_max_array_size(LARGEST_ARRAY)
+        .set_max_map_size(LARGEST_MAP)
+        .set_fail_on_invalid_map_property(true)
+        // Text made into code has no lines to point at, and nothing here needs it.
+        .disable_symbol("eval");
+}
+
+/// Names of the built-in types in messages and in `type_of`.
+fn name_types(engine: &mut Engine) {
+    engine
+        .register_type_with_name::<INT>("whole number")
+        .register_type_with_name::<f64>("number")
+        .register_type_with_name::<bool>("truth value")
+        .register_type_with_name::<char>("character")
+        .register_type_with_name::<ImmutableString>("text")
+        .register_type_with_name::<rhai::Array>("array")
+        .register_type_with_name::<Map>("map")
+        .register_type_with_name::<FnPtr>("function")
+        .register_type_with_name::<Range<INT>>("range")
+        .register_type_with_name::<RangeInclusive<INT>>("range")
+        .register_type_with_name::<()>("nothing");
+}
+
+fn print_numbers(engine: &mut Engine) {
+    for name in ["to_string", "to_debug", "print", "debug"] {
+        engine.register_fn(name, |x: f64| ImmutableString::from(format_number(x)));
+    }
+    engine.register_fn("+", |text: ImmutableString, x: f64| format!("{text}{}", format_number(x)));
+    engine.register_fn("+", |x: f64, text: ImmutableString| format!("{}{text}", format_number(x)));
+}
+
+fn connect(engine: &mut Engine, context: &Context) {
+    let printer = context.clone();
+    engine.on_print(move |text| printer.print(text));
+    let teller = context.clone();
+    engine.on_debug(move |text, _, position| match position.line() {
+        Some(line) => teller.tell(&format!("line {line}: {text}")),
+        None => teller.tell(text),
+    });
+    let watched = context.clone();
+    engine.on_progress(move |_| watched.is_stopped().then_some(Dynamic::UNIT));
+}

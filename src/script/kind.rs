@@ -1,0 +1,190 @@
+//! What a parameter may be: the kinds of values, their words in messages, their ranges.
+
+use std::any::TypeId;
+use std::fmt;
+
+use rhai::Engine;
+
+use super::parameter::Parameter;
+
+/// A native type that scripts can hold.
+pub trait Scripted: Clone + 'static {
+    /// Its name in messages and help: one or two words.
+    const NAME: &'static str;
+    /// One line on what it is.
+    const DOC: &'static str;
+    /// How it is printed.
+    fn show(&self) -> String;
+}
+
+/// A [`Scripted`] type as a value, for rows.
+#[derive(Clone, Copy)]
+pub struct Type {
+    name: &'static str,
+    doc: &'static str,
+    id: fn() -> TypeId,
+    register: fn(&mut Engine),
+}
+
+impl Type {
+    /// The type `T`.
+    pub const fn of<T: Scripted>() -> Self {
+        Self { name: T::NAME, doc: T::DOC, id: TypeId::of::<T>, register: register::<T> }
+    }
+
+    /// Its name in scripts.
+    pub const fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// What it is.
+    pub const fn doc(&self) -> &'static str {
+        self.doc
+    }
+
+    /// Its identity.
+    pub fn id(&self) -> TypeId {
+        (self.id)()
+    }
+
+    /// Gives it a name and a printed form in the engine.
+    pub fn register(&self, engine: &mut Engine) {
+        (self.register)(engine);
+    }
+}
+
+fn register<T: Scripted>(engine: &mut Engine) {
+    engine.register_type_with_name::<T>(T::NAME);
+    for name in ["to_string", "to_debug"] {
+        engine.register_fn(name, |value: &mut T| value.show());
+    }
+}
+
+/// What may be given for a parameter.
+#[derive(Clone, Copy)]
+pub enum Kind {
+    /// A number; whole numbers are welcome.
+    Number(Range),
+    /// Any number, left whole if it is whole; infinite and not-a-number included.
+    Numeric,
+    /// A whole number; a number without a fraction, such as `3.0`, is welcome.
+    Whole(Range),
+    /// A text.
+    Text,
+    /// One of these texts.
+    Choice(&'static [&'static str]),
+    /// `true` or `false`.
+    Boolean,
+    /// A vector or an array `[x, y]`.
+    Point,
+    /// An array of anything.
+    Array,
+    /// An array of finite numbers.
+    Numbers,
+    /// An array of points.
+    Points,
+    /// A function or closure.
+    Function,
+    /// A map of options with these keys.
+    Options(&'static [Parameter]),
+    /// A value of one of our types.
+    Object(Type),
+    /// One of these, tried in order.
+    Either(&'static [Kind]),
+    /// Anything.
+    Anything,
+}
+
+/// Which numbers are allowed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Range {
+    /// Any finite number.
+    Finite,
+    /// Greater than zero.
+    Positive,
+    /// Zero or greater.
+    NonNegative,
+    /// At least this.
+    AtLeast(f64),
+    /// From the first to the second, both included.
+    Between(f64, f64),
+    /// Infinite and not-a-number included.
+    Unlimited,
+}
+
+impl Range {
+    /// Whether `x` is allowed.
+    pub fn contains(self, x: f64) -> bool {
+        let bounded = match self {
+            Self::Unlimited => return true,
+            Self::Finite => true,
+            Self::Positive => x > 0.0,
+            Self::NonNegative => x >= 0.0,
+            Self::AtLeast(least) => x >= least,
+            Self::Between(least, most) => (least..=most).contains(&x),
+        };
+        x.is_finite() && bounded
+    }
+
+    /// The phrase for a number of this range, around the `noun` for it.
+    fn phrase(self, noun: &str) -> String {
+        match self {
+            Self::Finite | Self::Unlimited => format!("a {noun}"),
+            Self::Positive => format!("a positive {noun}"),
+            Self::NonNegative => format!("a {noun} of zero or more"),
+            Self::AtLeast(least) => format!("a {noun} of at least {least}"),
+            Self::Between(least, most) => format!("a {noun} from {least} to {most}"),
+        }
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(range) => f.write_str(&range.phrase("number")),
+            Self::Whole(range) => f.write_str(&range.phrase("whole number")),
+            Self::Numeric => f.write_str("a number"),
+            Self::Text => f.write_str("a text"),
+            Self::Choice(allowed) => {
+                let quoted: Vec<_> = allowed.iter().map(|text| format!("\"{text}\"")).collect();
+                write!(f, "one of {}", quoted.join(", "))
+            }
+            Self::Boolean => f.write_str("true or false"),
+            Self::Point => f.write_str("a point [x, y]"),
+            Self::Array => f.write_str("an array"),
+            Self::Numbers => f.write_str("an array of numbers"),
+            Self::Points => f.write_str("an array of points [x, y]"),
+            Self::Function => f.write_str("a function such as |t| 2 * t"),
+            Self::Options(_) => f.write_str("a map of options #{ … }"),
+            Self::Object(of) => f.write_str(&with_article(of.name())),
+            Self::Either(kinds) => {
+                let words: Vec<_> = kinds.iter().map(Kind::to_string).collect();
+                f.write_str(&words.join(" or "))
+            }
+            Self::Anything => f.write_str("a value"),
+        }
+    }
+}
+
+/// `noun` with its article: `a vector`, `an array`.
+pub fn with_article(noun: &str) -> String {
+    match noun.chars().next() {
+        Some('a' | 'e' | 'i' | 'o' | 'A' | 'E' | 'I' | 'O') => format!("an {noun}"),
+        _ => format!("a {noun}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_refuse_what_is_not_finite() {
+        for range in [Range::Finite, Range::Positive, Range::NonNegative, Range::AtLeast(1.0)] {
+            assert!(!range.contains(f64::NAN) && !range.contains(f64::INFINITY), "{range:?}");
+        }
+        assert!(Range::Unlimited.contains(f64::NAN));
+        assert!(Range::Between(0.0, 1.0).contains(1.0));
+        assert!(!Range::Positive.contains(0.0));
+    }
+}

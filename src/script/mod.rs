@@ -1,0 +1,30 @@
+//! The language: Rhai with numbers as in science, tables of functions, and errors that say what to do.
+//!
+//! A domain is a [`Table`](table::Table) of rows; [`engine`] registers the tables; [`runner`] runs a script on a
+//! large stack; [`diagnose`] turns every error into a message at the script's line and column.
+//! There is no mechanics here: bodies of rows are short and call the library.
+
+pub mod accept;
+pub mod arguments;
+pub mod call;
+pub mod catalog;
+pub mod checks;
+pub mod context;
+pub mod diagnose;
+pub mod engine;
+pub mod error;
+pub mod files;
+pub mod kind;
+pub mod lexing;
+pub mod numbers;
+pub mod operators;
+pub mod options;
+pub mod packages;
+pub mod parameter;
+pub mod program;
+pub mod progress;
+pub mod register;
+pub mod runner;
+pub mod suggest;
+pub mod syntax;
+pub mod table;

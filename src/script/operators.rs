@@ -1,0 +1,133 @@
+//! Numbers as in science: what the operators of [`syntax`](super::syntax) do.
+//!
+//! Comparisons are those of IEEE 754 for every mix of whole and other numbers, division is never truncated, and a
+//! power of whole numbers is whole when it is one and fits. Other types keep the engine's own operators, except that
+//! an order between values of different types is an error and not silently `false`.
+//!
+//! Two limits of the engine remain: `switch` compares by the kind of number as well (`3.0` is not `case 3`), and a
+//! minus binds tighter than a power, which is why `-x^2` is refused.
+
+use std::any::TypeId;
+
+use rhai::{Dynamic, Engine, EvalAltResult, INT, NativeCallContext};
+
+use super::register::EngineResult;
+use super::syntax::{LONGEST_CHAIN, OWN, Operand, REPLACED, power_name};
+
+/// Registers the operators on numbers, under our own names and where possible under the engine's.
+pub fn install(engine: &mut Engine) {
+    register_comparison(engine, "<", |x, y| x < y, |m, n| m < n);
+    register_comparison(engine, ">", |x, y| x > y, |m, n| m > n);
+    register_comparison(engine, "<=", |x, y| x <= y, |m, n| m <= n);
+    register_comparison(engine, ">=", |x, y| x >= y, |m, n| m >= n);
+    register_comparison(engine, "==", |x, y| x == y, |m, n| m == n);
+    register_comparison(engine, "!=", |x, y| x != y, |m, n| m != n);
+    register_arithmetic(
+        engine,
+        &format!("{OWN}/"),
+        |x, y| x / y,
+        |m, n| (m as f64 / n as f64).into(),
+    );
+    for chain in 0..LONGEST_CHAIN {
+        register_arithmetic(engine, &power_name(chain), f64::powf, whole_power);
+    }
+    for (symbol, _) in REPLACED {
+        hand_over(engine, format!("{OWN}{symbol}"), symbol);
+    }
+    for chain in 0..LONGEST_CHAIN {
+        hand_over(engine, power_name(chain), "^");
+    }
+    register_assignment(engine, "/=", format!("{OWN}/"));
+    register_assignment(engine, "**=", power_name(0));
+}
+
+/// The name under which the script wrote `operator`: `num<` is `<`, `num^3` is `^`.
+pub fn written(operator: &str) -> &str {
+    match operator.strip_prefix(OWN) {
+        Some(power) if power.starts_with('^') => "^",
+        Some(symbol)
+            if !symbol.is_empty()
+                && !symbol.starts_with(|c: char| c.is_alphanumeric() || c == '_') =>
+        {
+            symbol
+        }
+        _ => operator,
+    }
+}
+
+fn register_comparison(
+    engine: &mut Engine,
+    symbol: &str,
+    numbers: fn(f64, f64) -> bool,
+    wholes: fn(INT, INT) -> bool,
+) {
+    // The engine's own name as well: arrays compare and search their elements by it.
+    for name in [symbol.to_owned(), format!("{OWN}{symbol}")] {
+        engine.register_fn(&name, numbers);
+        engine.register_fn(&name, wholes);
+        engine.register_fn(&name, move |x: f64, n: INT| numbers(x, n as f64));
+        engine.register_fn(&name, move |n: INT, x: f64| numbers(n as f64, x));
+    }
+}
+
+fn register_arithmetic(
+    engine: &mut Engine,
+    name: &str,
+    numbers: fn(f64, f64) -> f64,
+    wholes: fn(INT, INT) -> Dynamic,
+) {
+    engine.register_fn(name, numbers);
+    engine.register_fn(name, wholes);
+    engine.register_fn(name, move |x: f64, n: INT| numbers(x, n as f64));
+    engine.register_fn(name, move |n: INT, x: f64| numbers(n as f64, x));
+}
+
+/// A whole number when the power is one and fits, else the nearest number: `2^3` is 8, `2^-1` is 0.5.
+fn whole_power(base: INT, exponent: INT) -> Dynamic {
+    let whole = u32::try_from(exponent).ok().and_then(|exponent| base.checked_pow(exponent));
+    whole.map_or_else(|| (base as f64).powf(exponent as f64).into(), Dynamic::from)
+}
+
+/// Everything that is not two numbers goes to the engine's operator `symbol`.
+fn hand_over(engine: &mut Engine, name: String, symbol: &'static str) {
+    let any_two = [TypeId::of::<Dynamic>(); 2];
+    engine.register_raw_fn(
+        name,
+        any_two,
+        move |context: NativeCallContext, operands| -> EngineResult<Dynamic> {
+            let [left, right] = operands else { return Ok(Dynamic::UNIT) };
+            let (mut left, mut right) = (left.clone(), right.clone());
+            let ordered = matches!(symbol, "<" | ">" | "<=" | ">=");
+            if ordered && left.type_id() != right.type_id() {
+                let types =
+                    [&left, &right].map(|value| context.engine().map_type_name(value.type_name()));
+                let signature = format!("{symbol} ({}, {})", types[0], types[1]);
+                return Err(EvalAltResult::ErrorFunctionNotFound(
+                    signature,
+                    context.call_position(),
+                )
+                .into());
+            }
+            context.call_native_fn_raw(symbol, false, &mut [&mut left, &mut right])
+        },
+    );
+}
+
+/// `x /= y` as `x = x / y`, whatever x and y are.
+fn register_assignment(engine: &mut Engine, name: &'static str, operator: String) {
+    let types = [TypeId::of::<Dynamic>(), TypeId::of::<Operand>()];
+    engine.register_raw_fn(
+        name,
+        types,
+        move |context: NativeCallContext, values| -> EngineResult<()> {
+            let [target, operand] = values else { return Ok(()) };
+            let Some(Operand(mut right)) = operand.clone().try_cast::<Operand>() else {
+                return Ok(());
+            };
+            let mut left = target.clone();
+            **target =
+                context.call_native_fn_raw(&operator, false, &mut [&mut left, &mut right])?;
+            Ok(())
+        },
+    );
+}

@@ -1,0 +1,72 @@
+//! Arrays of numbers: sums, extremes, equal spacing. Arrays stay the engine's own.
+
+use rhai::{Array, Dynamic};
+
+use crate::script::call::Call;
+use crate::script::error::{Place, ScriptError};
+use crate::script::parameter::{Parameter, number, numbers, whole};
+use crate::script::table::{Table, function};
+
+/// Helpers on arrays of numbers.
+pub const TABLE: Table = Table {
+    name: "arrays",
+    doc: "Arrays of numbers. Indices count from 0, and -1 is the last.",
+    types: &[],
+    constants: &[],
+    rows: &[
+        function(
+            "linspace",
+            &[number("from"), number("to"), whole("count").between(2.0, 1e6)],
+            linspace,
+        )
+        .returns("an array of numbers")
+        .summary("Numbers at equal distances, both ends included.")
+        .example(
+            "check(linspace(0, 1, 3) == [0, 0.5, 1]);\nfor t in linspace(0, 2, 5) { print(t); }",
+        ),
+        function("sum", &[VALUES], |call| Ok(call.numbers("values")?.iter().sum::<f64>().into()))
+            .returns("a number")
+            .summary("The sum of the numbers.")
+            .example("check(sum([1, 2, 3.5]) == 6.5);"),
+        function("mean", &[VALUES], mean)
+            .returns("a number")
+            .summary("The mean of the numbers.")
+            .example("check(mean([1, 2, 3]) == 2);"),
+        function("min", &[VALUES], |call| extreme(call, f64::min))
+            .returns("a number")
+            .summary("The smallest number of an array.")
+            .example("check(min([3, 1, 2]) == 1);"),
+        function("max", &[VALUES], |call| extreme(call, f64::max))
+            .returns("a number")
+            .summary("The largest number of an array.")
+            .example("check(max([3, 1, 2]) == 3);"),
+    ],
+};
+
+const VALUES: Parameter = numbers("values");
+
+fn linspace(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (from, to, count) = (call.number("from")?, call.number("to")?, call.count("count")?);
+    let last = (count - 1) as f64;
+    // Weighted from both ends, so that the last number is `to` exactly.
+    let at = |i: usize| (from * (last - i as f64) + to * i as f64) / last;
+    Ok((0..count).map(|i| Dynamic::from(at(i))).collect::<Array>().into())
+}
+
+fn mean(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let values = filled(call)?;
+    Ok((values.iter().sum::<f64>() / values.len() as f64).into())
+}
+
+fn extreme(call: &Call, choose: fn(f64, f64) -> f64) -> Result<Dynamic, ScriptError> {
+    let values = filled(call)?;
+    Ok(values.into_iter().reduce(choose).unwrap_or(f64::NAN).into())
+}
+
+fn filled(call: &Call) -> Result<Vec<f64>, ScriptError> {
+    let values = call.numbers("values")?;
+    match values.is_empty() {
+        true => Err(call.error("the array is empty").at(Place::Argument(0))),
+        false => Ok(values),
+    }
+}

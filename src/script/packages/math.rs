@@ -1,0 +1,213 @@
+//! Numbers: functions of one and two numbers, rounding, and the constants.
+
+use rhai::{Dynamic, INT};
+
+use crate::script::call::Call;
+use crate::script::error::ScriptError;
+use crate::script::numbers::as_number;
+use crate::script::parameter::{Parameter, number, numeric, whole};
+use crate::script::table::{Body, Constant, Row, Table, function};
+
+/// Functions and constants of numbers.
+pub const TABLE: Table = Table {
+    name: "numbers",
+    doc: "Elementary functions. Whole numbers are welcome everywhere, angles are in radians, and infinite or undefined \
+          numbers pass through as in IEEE 754.",
+    types: &[],
+    constants: &[
+        Constant { name: "PI", value: std::f64::consts::PI, summary: "Half a turn in radians." },
+        Constant { name: "TAU", value: std::f64::consts::TAU, summary: "A full turn in radians." },
+        Constant {
+            name: "E",
+            value: std::f64::consts::E,
+            summary: "The base of natural logarithms.",
+        },
+        Constant { name: "inf", value: f64::INFINITY, summary: "The infinite number." },
+        Constant {
+            name: "nan",
+            value: f64::NAN,
+            summary: "The undefined number; it equals nothing, not even itself.",
+        },
+    ],
+    rows: &[
+        of_x("sin", |call| map(call, f64::sin), "The sine.", "check(sin(PI / 6) - 0.5 < 1e-15);"),
+        of_x("cos", |call| map(call, f64::cos), "The cosine.", "check(cos(0) == 1);"),
+        of_x("tan", |call| map(call, f64::tan), "The tangent.", "check(tan(0) == 0);"),
+        of_x(
+            "asin",
+            |call| map(call, f64::asin),
+            "The angle of this sine.",
+            "check(asin(1) == PI / 2);",
+        ),
+        of_x(
+            "acos",
+            |call| map(call, f64::acos),
+            "The angle of this cosine.",
+            "check(acos(1) == 0);",
+        ),
+        of_x(
+            "atan",
+            |call| map(call, f64::atan),
+            "The angle of this tangent.",
+            "check(4 * atan(1) == PI);",
+        )
+        .see(&["atan2"]),
+        of_x("sinh", |call| map(call, f64::sinh), "The hyperbolic sine.", "check(sinh(0) == 0);"),
+        of_x("cosh", |call| map(call, f64::cosh), "The hyperbolic cosine.", "check(cosh(0) == 1);"),
+        of_x(
+            "tanh",
+            |call| map(call, f64::tanh),
+            "The hyperbolic tangent.",
+            "check(tanh(0) == 0);",
+        ),
+        of_x("exp", |call| map(call, f64::exp), "The exponential.", "check(exp(0) == 1);"),
+        of_x("ln", |call| map(call, f64::ln), "The natural logarithm.", "check(ln(E) == 1);"),
+        of_x(
+            "log10",
+            |call| map(call, f64::log10),
+            "The logarithm to base 10.",
+            "check(log10(1000) == 3);",
+        ),
+        of_x(
+            "log2",
+            |call| map(call, f64::log2),
+            "The logarithm to base 2.",
+            "check(log2(8) == 3);",
+        ),
+        of_x("sqrt", |call| map(call, f64::sqrt), "The square root.", "check(sqrt(16) == 4);")
+            .see(&["hypot"]),
+        of_x(
+            "radians",
+            |call| map(call, f64::to_radians),
+            "An angle in degrees, in radians.",
+            "check(radians(180) == PI);",
+        ),
+        of_x(
+            "degrees",
+            |call| map(call, f64::to_degrees),
+            "An angle in radians, in degrees.",
+            "check(degrees(PI) == 180);",
+        ),
+        of_x(
+            "floor",
+            |call| round(call, f64::floor),
+            "The whole number at or below x.",
+            "check(floor(2.7) == 2);",
+        ),
+        of_x(
+            "ceiling",
+            |call| round(call, f64::ceil),
+            "The whole number at or above x.",
+            "check(ceiling(2.1) == 3);",
+        ),
+        of_x(
+            "round",
+            |call| round(call, f64::round),
+            "The nearest whole number.",
+            "check(round(2.6) == 3);",
+        )
+        .see(&["round_to"]),
+        of_x(
+            "is_nan",
+            |call| Ok(x(call)?.is_nan().into()),
+            "Whether x is undefined.",
+            "check(is_nan(0 / 0));",
+        ),
+        of_x(
+            "is_finite",
+            |call| Ok(x(call)?.is_finite().into()),
+            "Whether x is neither infinite nor undefined.",
+            "check(!is_finite(1 / 0));",
+        ),
+        of_x(
+            "is_infinite",
+            |call| Ok(x(call)?.is_infinite().into()),
+            "Whether x is infinite.",
+            "check(is_infinite(1 / 0));",
+        ),
+        function("abs", &[numeric("x")], absolute)
+            .returns("a number, whole if x is")
+            .summary("The magnitude of a number.")
+            .example("check(abs(-3) == 3);"),
+        function("hypot", &[ANY_X, ANY_Y], |call| Ok(x(call)?.hypot(call.number("y")?).into()))
+            .returns("a number")
+            .summary("The length of the vector with components x and y, without overflow.")
+            .example("check(hypot(3, 4) == 5);")
+            .see(&["norm"]),
+        function("atan2", &[ANY_Y, ANY_X], |call| Ok(call.number("y")?.atan2(x(call)?).into()))
+            .returns("an angle from -PI to PI")
+            .summary("The angle of the vector with components x and y; y comes first.")
+            .example("check(atan2(1, 0) == PI / 2);")
+            .see(&["angle"]),
+        function("min", &[numeric("x"), numeric("y")], |call| choose(call, |x, y| x < y))
+            .returns("a number")
+            .summary("The smaller of two numbers; undefined if one of them is.")
+            .example("check(min(2, 0.5) == 0.5);"),
+        function("max", &[numeric("x"), numeric("y")], |call| choose(call, |x, y| x > y))
+            .returns("a number")
+            .summary("The larger of two numbers; undefined if one of them is.")
+            .example("check(max(2, 0.5) == 2);"),
+        function("quotient", &[whole("n"), whole("d")], quotient)
+            .returns("a whole number")
+            .summary("How often d goes into n, rounded down: whole-number division, for indices.")
+            .example("check(quotient(7, 2) == 3);\ncheck(7 / 2 == 3.5);"),
+        function("round_to", &[ANY_X, whole("digits").between(0.0, 15.0)], round_to)
+            .returns("a number")
+            .summary("x rounded to this many digits after the point.")
+            .example("check(round_to(PI, 2) == 3.14);")
+            .see(&["round", "fixed"]),
+    ],
+};
+
+const ANY_X: Parameter = number("x").any_number();
+const ANY_Y: Parameter = number("y").any_number();
+
+/// A function of one number `x`.
+const fn of_x(name: &'static str, body: Body, summary: &'static str, example: &'static str) -> Row {
+    function(name, &[ANY_X], body).returns("a number").summary(summary).example(example)
+}
+
+fn x(call: &Call) -> Result<f64, ScriptError> {
+    call.number("x")
+}
+
+fn map(call: &Call, f: fn(f64) -> f64) -> Result<Dynamic, ScriptError> {
+    Ok(f(x(call)?).into())
+}
+
+/// A whole number where it fits one, so that the result can be an index.
+fn round(call: &Call, f: fn(f64) -> f64) -> Result<Dynamic, ScriptError> {
+    const LIMIT: f64 = 9e18;
+    let rounded = f(x(call)?);
+    Ok(if rounded.abs() < LIMIT { (rounded as INT).into() } else { rounded.into() })
+}
+
+fn absolute(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let value = call.value("x")?;
+    match value.as_int() {
+        Ok(n) => Ok(n.checked_abs().map_or_else(|| (n as f64).abs().into(), Dynamic::from)),
+        Err(_) => Ok(as_number(&value).unwrap_or(f64::NAN).abs().into()),
+    }
+}
+
+fn choose(call: &Call, prefers_first: fn(f64, f64) -> bool) -> Result<Dynamic, ScriptError> {
+    let (first, second) = (call.value("x")?, call.value("y")?);
+    let (x, y) = (as_number(&first).unwrap_or(f64::NAN), as_number(&second).unwrap_or(f64::NAN));
+    Ok(if x.is_nan() || prefers_first(x, y) { first } else { second })
+}
+
+fn quotient(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (n, d) = (call.whole("n")?, call.whole("d")?);
+    match n.checked_div_euclid(d) {
+        Some(quotient) => Ok(quotient.into()),
+        None => Err(call
+            .error(format!("{n} by {d} has no whole quotient"))
+            .hint("n / d gives the number")),
+    }
+}
+
+fn round_to(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (x, digits) = (x(call)?, call.count("digits")?);
+    // By way of the decimal text, so that the result is the number nearest to what is printed.
+    Ok(format!("{x:.digits$}").parse().unwrap_or(x).into())
+}

@@ -1,0 +1,109 @@
+//! What every table must fulfil: documented rows, names that can be written, examples that run.
+
+use std::collections::HashSet;
+
+use super::TABLES;
+use crate::script::catalog::Catalog;
+use crate::script::context::{Mode, Settings};
+use crate::script::kind::Kind;
+use crate::script::parameter::Parameter;
+use crate::script::program::Program;
+use crate::script::runner::{Ending, run};
+use crate::script::table::{Form, Row};
+
+fn rows() -> impl Iterator<Item = &'static Row> {
+    TABLES.iter().flat_map(|table| table.rows)
+}
+
+#[test]
+fn every_row_has_a_summary_and_an_example() {
+    for row in rows() {
+        assert!(row.summary.ends_with('.'), "{}: the summary is a sentence", row.signature());
+        assert!(!row.example.is_empty(), "{}: an example is missing", row.signature());
+    }
+}
+
+#[test]
+fn every_example_runs() {
+    for row in rows() {
+        let program = Program::named(&row.signature(), row.example);
+        let outcome = run(&program, &Catalog::standard(), Settings::silent(Mode::Run));
+        assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
+        assert_eq!(outcome.checks.failed(), [], "{}", row.signature());
+    }
+}
+
+#[test]
+fn optional_parameters_stand_last() {
+    for row in rows() {
+        let required =
+            row.parameters.iter().take_while(|parameter| parameter.is_required()).count();
+        assert_eq!(required, row.required(), "{}", row.signature());
+    }
+}
+
+#[test]
+fn no_two_rows_can_be_meant_by_the_same_call() {
+    let mut seen = HashSet::new();
+    for row in rows().filter(|row| !matches!(row.form, Form::Operator)) {
+        for count in row.required()..=row.parameters.len() {
+            let property = matches!(row.form, Form::Property(_));
+            let owner = row.receiver().map(|of| of.name());
+            assert!(seen.insert((row.name, owner, count, property)), "{}", row.signature());
+        }
+    }
+}
+
+#[test]
+fn related_names_exist() {
+    let known: HashSet<_> = rows().map(|row| row.name).collect();
+    for row in rows() {
+        for name in row.see {
+            assert!(known.contains(name), "{}: see {name}", row.signature());
+        }
+    }
+}
+
+#[test]
+fn no_name_is_reserved() {
+    for row in rows().filter(|row| !matches!(row.form, Form::Operator)) {
+        assert!(can_be_written(row.name), "{}", row.signature());
+        for parameter in row.parameters {
+            check_keys(parameter);
+        }
+    }
+    for constant in TABLES.iter().flat_map(|table| table.constants) {
+        assert!(can_be_written(constant.name), "{}", constant.name);
+    }
+}
+
+fn check_keys(parameter: &Parameter) {
+    check_kind(&parameter.kind);
+}
+
+fn check_kind(kind: &Kind) {
+    match kind {
+        Kind::Options(keys) => {
+            for key in *keys {
+                assert!(can_be_written(key.name), "the option {}", key.name);
+                check_keys(key);
+            }
+        }
+        Kind::Either(kinds) => kinds.iter().for_each(check_kind),
+        _ => (),
+    }
+}
+
+/// Whether Rhai takes the name as a function, a method, a property and a key.
+fn can_be_written(name: &str) -> bool {
+    let script = format!("let x = #{{ {name}: 1 }}; x.{name}; x.{name}(); {name}(x);");
+    rhai::Engine::new_raw().compile(script).is_ok()
+}
+
+#[test]
+fn reserved_words_are_recognised() {
+    for word in ["until", "with", "new", "default", "use", "is", "match"] {
+        assert!(!can_be_written(word), "{word}");
+    }
+    assert!(can_be_written("hold_for"));
+}

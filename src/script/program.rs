@@ -1,0 +1,79 @@
+//! The text of a script and where it came from.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::diagnose::Diagnostic;
+
+/// A script to be run: its name in messages, its text, and the folder that `import` looks in.
+#[derive(Clone, Debug)]
+pub struct Program {
+    /// Name in messages.
+    pub name: String,
+    /// Source text.
+    pub text: Arc<str>,
+    /// Where imports are found.
+    pub folder: PathBuf,
+}
+
+impl Program {
+    /// A script that is not in a file.
+    pub fn named(name: &str, text: &str) -> Self {
+        Self { name: name.into(), text: text.into(), folder: PathBuf::from(".") }
+    }
+
+    /// Reads a script from a file.
+    pub fn load(path: &Path) -> Result<Self, Diagnostic> {
+        let name = path.display().to_string();
+        let refused = |why: String, hint: &str| {
+            Diagnostic::general(format!("cannot read the script '{name}': {why}")).with_hint(hint)
+        };
+        if path.is_dir() {
+            return Err(refused("it is a folder".into(), "name a file that ends in .rhai"));
+        }
+        let bytes = std::fs::read(path).map_err(|error| {
+            let why = match error.kind() {
+                std::io::ErrorKind::NotFound => "there is no such file".into(),
+                _ => error.to_string(),
+            };
+            refused(why, "check the path, relative to the folder you are in")
+        })?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let line = error.as_bytes()[..error.utf8_error().valid_up_to()]
+                .split(|byte| *byte == b'\n')
+                .count();
+            refused(format!("line {line} is not UTF-8 text"), "save the file as UTF-8")
+        })?;
+        let folder =
+            path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        Ok(Self { name, text: text.into(), folder: folder.into() })
+    }
+
+    /// The same program, or the imported one that an error names as its source.
+    pub(super) fn of_source(&self, source: &str) -> Self {
+        if source.is_empty() || source == self.name {
+            return self.clone();
+        }
+        let candidates = [PathBuf::from(source), PathBuf::from(format!("{source}.rhai"))];
+        let text = candidates.iter().find_map(|path| std::fs::read_to_string(path).ok());
+        Self {
+            name: source.into(),
+            text: text.unwrap_or_default().into(),
+            folder: self.folder.clone(),
+        }
+    }
+
+    /// The byte offset of a line and column, both from 1 and columns in characters.
+    pub(super) fn offset(&self, line: usize, column: usize) -> usize {
+        let mut start = 0;
+        for (index, text) in self.text.split_inclusive('\n').enumerate() {
+            if index + 1 == line {
+                let inside =
+                    text.char_indices().nth(column.saturating_sub(1)).map(|(offset, _)| offset);
+                return start + inside.unwrap_or(text.trim_end_matches(['\n', '\r']).len());
+            }
+            start += text.len();
+        }
+        self.text.len()
+    }
+}

@@ -1,0 +1,33 @@
+//! "Did you mean": the nearest known name, if it is near enough.
+
+/// The candidate nearest to `wrong`, unless all are too far to be what was meant.
+pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let wrong_lower = wrong.to_lowercase();
+    let mistakes_allowed = (wrong.chars().count() / 3).clamp(1, 3);
+    candidates
+        .into_iter()
+        .filter(|candidate| *candidate != wrong)
+        .map(|candidate| {
+            (strsim::damerau_levenshtein(&wrong_lower, &candidate.to_lowercase()), candidate)
+        })
+        .filter(|(distance, candidate)| {
+            *distance <= mistakes_allowed && *distance < candidate.chars().count()
+        })
+        .min()
+        .map(|(_, candidate)| candidate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slip_is_recognised_and_a_stranger_is_not() {
+        let known = ["length", "EA", "EI", "rho_A", "section"];
+        assert_eq!(nearest("lenght", known), Some("length"));
+        assert_eq!(nearest("ea", known), Some("EA"));
+        assert_eq!(nearest("rhoA", known), Some("rho_A"));
+        assert_eq!(nearest("temperature", known), None);
+        assert_eq!(nearest("x", ["y"]), None);
+    }
+}

@@ -1,0 +1,221 @@
+//! Numbers as in science, at the level of tokens: which operators the parser sees in place of Rhai's own.
+//!
+//! Rhai's built-in comparisons and its whole-number division bypass everything that is registered, so the parser
+//! is given operators of our own instead ([`operators`](super::operators) says what they do):
+//!
+//! - `/ < > <= >= == !=` become `num/`, `num<`, … of the same precedence;
+//! - `^` and `**` become `num^0`, `num^1`, … along a chain of powers, each binding tighter than the one before, because
+//!   an operator of ours would otherwise bind to the left and `2^3^2` would be 64;
+//! - `-x^2` is refused, because Rhai's minus binds tighter than any operator and would give the square of `-x`;
+//! - `/=`, `^=` and `**=` are lexed as two tokens, see [`mark_assignments`].
+//!
+//! All of this uses hooks that Rhai calls volatile; they are used in this file and in `lexing` only.
+
+use std::borrow::Cow;
+use std::cell::RefCell;
+
+use rhai::{Dynamic, Engine, LexError, Position, Token};
+
+use super::lexing::tokens;
+
+/// Prefix of the operators that stand in for Rhai's own.
+pub const OWN: &str = "num";
+
+/// Comparison and division operators with their precedences in Rhai.
+pub const REPLACED: [(&str, u8); 7] =
+    [("/", 180), ("<", 110), (">", 110), ("<=", 110), (">=", 110), ("==", 90), ("!=", 90)];
+
+/// How many powers may follow each other: `a^b^c^…`.
+pub const LONGEST_CHAIN: u8 = 16;
+
+/// Rhai's precedence of the power; the next operator above it is at 210.
+const POWER_PRECEDENCE: u8 = 190;
+
+/// Private-use characters: the operator half of `/=`, that of `^=`, and the half that wraps the right-hand side.
+const DIVIDE_HALF: char = '\u{E000}';
+const POWER_HALF: char = '\u{E001}';
+const OPERAND_HALF: char = '\u{E002}';
+const OPERAND: &str = "\u{E002}";
+
+/// The right-hand side of `x /= y`: a type of its own, so that Rhai's built-in whole-number `/=` does not apply.
+#[derive(Clone)]
+pub struct Operand(pub Dynamic);
+
+/// The operator that stands for the power at place `chain` of a chain of powers.
+pub fn power_name(chain: u8) -> String {
+    format!("{OWN}^{chain}")
+}
+
+/// Teaches `engine` the tokens of this language.
+pub fn install(engine: &mut Engine) -> Result<(), String> {
+    for (symbol, precedence) in REPLACED {
+        engine.register_custom_operator(format!("{OWN}{symbol}"), precedence)?;
+    }
+    for chain in 0..LONGEST_CHAIN {
+        engine.register_custom_operator(power_name(chain), POWER_PRECEDENCE + chain)?;
+    }
+    engine.register_custom_syntax_with_state_raw(
+        OPERAND,
+        |symbols, _, _| Ok((symbols.len() == 1).then(|| "$expr$".into())),
+        false,
+        |context, inputs, _| match inputs.first() {
+            Some(expression) => {
+                context.eval_expression_tree(expression).map(|value| Dynamic::from(Operand(value)))
+            }
+            None => Ok(Dynamic::UNIT),
+        },
+    );
+    let nesting = RefCell::new(Nesting::default());
+    // "Deprecated" marks the hook as volatile, not as going away.
+    #[allow(deprecated)]
+    engine.on_parse_token(move |token, position, _| nesting.borrow_mut().map(token, position));
+    Ok(())
+}
+
+/// Rewrites `/=`, `^=` and `**=` so that they lex as an operator and a wrapper of what follows; columns do not move.
+pub fn mark_assignments(source: &str) -> Cow<'_, str> {
+    let marked: Vec<_> = tokens(source)
+        .into_iter()
+        .filter_map(|(token, position)| match token {
+            Token::DivideAssign => Some((position, [DIVIDE_HALF, OPERAND_HALF].as_slice())),
+            Token::XOrAssign => Some((position, [POWER_HALF, OPERAND_HALF].as_slice())),
+            Token::PowerOfAssign => Some((position, [POWER_HALF, OPERAND_HALF, ' '].as_slice())),
+            _ => None,
+        })
+        .collect();
+    if marked.is_empty() {
+        return Cow::Borrowed(source);
+    }
+    let mut lines: Vec<Vec<char>> = source.split('\n').map(|line| line.chars().collect()).collect();
+    for (position, halves) in marked {
+        let (Some(line), Some(column)) = (position.line(), position.position()) else { continue };
+        let target = lines
+            .get_mut(line - 1)
+            .and_then(|line| line.get_mut(column - 1..column - 1 + halves.len()));
+        if let Some(target) = target {
+            target.copy_from_slice(halves);
+        }
+    }
+    let lines: Vec<String> = lines.into_iter().map(String::from_iter).collect();
+    Cow::Owned(lines.join("\n"))
+}
+
+/// What the mapper remembers of the operands read so far at one depth of brackets.
+#[derive(Clone, Copy, Default)]
+struct Chain {
+    powers: u8,
+    minus: bool,
+}
+
+/// One [`Chain`] for each open bracket.
+#[derive(Default)]
+struct Nesting {
+    outer: Vec<Chain>,
+    current: Chain,
+    last: (usize, usize),
+}
+
+impl Nesting {
+    fn map(&mut self, token: Token, position: Position) -> Token {
+        let place = (position.line().unwrap_or(0), position.position().unwrap_or(0));
+        if place <= self.last {
+            // Another script begins; the one before may have ended in the middle of an expression.
+            *self = Self::default();
+        }
+        self.last = place;
+        match token {
+            Token::XOr | Token::PowerOf => self.power(),
+            Token::UnaryMinus => {
+                self.current.minus = true;
+                token
+            }
+            Token::IntegerConstant(n) => {
+                self.current.minus |= n < 0;
+                token
+            }
+            Token::FloatConstant(ref literal) => {
+                self.current.minus |= literal.0.is_sign_negative();
+                token
+            }
+            Token::LeftParen
+            | Token::LeftBracket
+            | Token::LeftBrace
+            | Token::MapStart
+            | Token::QuestionBracket => {
+                self.outer.push(std::mem::take(&mut self.current));
+                token
+            }
+            Token::RightParen | Token::RightBracket => {
+                self.current = self.outer.pop().unwrap_or_default();
+                token
+            }
+            Token::RightBrace => {
+                self.outer.pop();
+                self.current = Chain::default();
+                token
+            }
+            Token::Identifier(_)
+            | Token::Period
+            | Token::DoubleColon
+            | Token::Reserved(_)
+            | Token::StringConstant(_) => token,
+            other => {
+                self.current = Chain::default();
+                replace(other)
+            }
+        }
+    }
+
+    fn power(&mut self) -> Token {
+        let chain = self.current.powers;
+        if self.current.minus {
+            return refuse(
+                "write -(x^2) or (-x)^2: a minus before a power can be read in both ways",
+            );
+        }
+        if chain == LONGEST_CHAIN {
+            return refuse("too many powers in a row: use parentheses");
+        }
+        self.current.powers += 1;
+        custom(&power_name(chain))
+    }
+}
+
+fn replace(token: Token) -> Token {
+    let symbol = match &token {
+        Token::Divide => "/",
+        Token::LessThan => "<",
+        Token::GreaterThan => ">",
+        Token::LessThanEqualsTo => "<=",
+        Token::GreaterThanEqualsTo => ">=",
+        Token::EqualsTo => "==",
+        Token::NotEqualsTo => "!=",
+        Token::DivideAssign | Token::PowerOfAssign | Token::XOrAssign => {
+            return refuse(
+                "only x = x / y and x = x ^ y can be written here, not x /= y or x ^= y",
+            );
+        }
+        Token::LexError(error) => return half(error).unwrap_or(token),
+        _ => return token,
+    };
+    custom(&format!("{OWN}{symbol}"))
+}
+
+/// The token for one half of a marked assignment.
+fn half(error: &LexError) -> Option<Token> {
+    let LexError::UnexpectedInput(text) = error else { return None };
+    match text.chars().next()? {
+        DIVIDE_HALF => Some(Token::DivideAssign),
+        POWER_HALF => Some(Token::PowerOfAssign),
+        OPERAND_HALF => Some(custom(OPERAND)),
+        _ => None,
+    }
+}
+
+fn custom(name: &str) -> Token {
+    Token::Custom(Box::new(name.into()))
+}
+
+fn refuse(message: &str) -> Token {
+    Token::LexError(Box::new(LexError::Runtime(message.into())))
+}

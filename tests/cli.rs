@@ -1,0 +1,192 @@
+//! The real binary: exit codes, what it says first, files, interrupts, closed pipes.
+
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use tempfile::TempDir;
+
+fn withy() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_withy"))
+}
+
+/// A folder with a script in it.
+fn script(text: &str) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("script.rhai");
+    fs::write(&file, text).expect("the script is written");
+    (folder, file)
+}
+
+fn run(text: &str) -> Output {
+    let (folder, file) = script(text);
+    withy().arg("run").arg(file).current_dir(folder.path()).output().expect("withy starts")
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().expect("withy was not killed by a signal")
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn first_line(output: &Output) -> String {
+    said(output).lines().next().unwrap_or_default().to_owned()
+}
+
+#[test]
+fn a_good_script_exits_with_0_and_prints() {
+    let output = run("print(1/20); check(true, \"fine\");");
+    assert_eq!(code(&output), 0, "{}", said(&output));
+    assert_eq!(output.stdout, b"0.05\n");
+    assert_eq!(said(&output), "the check passed\n");
+}
+
+#[test]
+fn a_failed_check_exits_with_1_and_the_script_goes_on() {
+    let output = run("\ncheck(1 > 2, \"one is more\");\nprint(\"after\");");
+    assert_eq!(code(&output), 1);
+    assert_eq!(output.stdout, b"after\n");
+    assert_eq!(said(&output), "line 2: check failed: one is more\n1 of 1 checks failed\n");
+}
+
+#[test]
+fn quiet_hides_the_summary_but_not_the_script() {
+    let (_folder, file) = script("print(1); check(true);");
+    let output = withy().arg("run").arg(file).arg("--quiet").output().expect("withy starts");
+    assert_eq!((output.stdout.as_slice(), said(&output).as_str()), (b"1\n".as_slice(), ""));
+}
+
+#[test]
+fn a_wrong_script_exits_with_2_and_shows_the_place() {
+    let output = run("let a = 1;\nprint(sqr(a));");
+    assert_eq!(code(&output), 2);
+    let shown = said(&output);
+    assert_eq!(first_line(&output), "error: there is no function 'sqr'");
+    assert!(shown.contains("script.rhai:2:7"), "{shown}");
+    assert!(shown.contains("help: did you mean 'sqrt'? sqrt(x)"), "{shown}");
+    assert!(!shown.contains('\u{1b}'), "no colours in a pipe: {shown}");
+}
+
+#[test]
+fn files_that_cannot_be_read_are_named() {
+    let (folder, _) = script("");
+    let latin = folder.path().join("latin.rhai");
+    fs::write(&latin, b"// ok\n// \xe4\n").expect("the file is written");
+    let cases = [
+        (Path::new("missing.rhai"), "there is no such file"),
+        (folder.path(), "it is a folder"),
+        (&latin, "line 2 is not UTF-8 text"),
+    ];
+    for (file, why) in cases {
+        let output = withy().arg("run").arg(file).output().expect("withy starts");
+        assert_eq!(code(&output), 2);
+        let line = first_line(&output);
+        assert!(line.starts_with("error: cannot read the script") && line.contains(why), "{line}");
+    }
+}
+
+#[test]
+fn without_arguments_the_help_is_shown() {
+    let output = withy().output().expect("withy starts");
+    assert_eq!(code(&output), 0);
+    let help = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        help.contains("run") && help.contains("check") && help.contains("Exit codes"),
+        "{help}"
+    );
+}
+
+#[test]
+fn a_wrong_option_exits_with_2() {
+    let output = withy().args(["run", "--outt", "x"]).output().expect("withy starts");
+    assert_eq!(code(&output), 2);
+}
+
+#[test]
+fn check_builds_without_printing_or_judging() {
+    let (folder, file) = script("print(1); check(false);");
+    let output =
+        withy().arg("check").arg(&file).current_dir(&folder).output().expect("withy starts");
+    assert_eq!(code(&output), 0);
+    assert!(output.stdout.is_empty());
+    fs::write(&file, "let x = ;").expect("the script is written");
+    let output = withy().arg("check").arg(&file).output().expect("withy starts");
+    assert_eq!(code(&output), 2);
+}
+
+#[test]
+fn recursion_for_ever_is_an_error_and_not_a_crash() {
+    let output = run("fn f(n) { 1 + f(n + 1) } f(0);");
+    assert_eq!(code(&output), 2, "{}", said(&output));
+    assert_eq!(first_line(&output), "error: functions call each other too deeply");
+}
+
+#[test]
+fn the_report_is_written_also_after_a_failure() {
+    let (folder, file) = script("throw \"no\";");
+    let report = folder.path().join("report.json");
+    let output =
+        withy().arg("run").arg(&file).arg("--report").arg(&report).output().expect("withy starts");
+    assert_eq!(code(&output), 2);
+    let text = fs::read_to_string(&report).expect("the report");
+    let value: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(value, serde_json::json!({ "simulations": [] }));
+    let left: Vec<_> = fs::read_dir(folder.path()).expect("the folder").collect();
+    assert_eq!(left.len(), 2, "only the script and the report: {left:?}");
+}
+
+#[test]
+fn a_report_that_cannot_be_written_is_an_error() {
+    let (_folder, file) = script("");
+    let mut command = withy();
+    command.arg("run").arg(&file).args(["--report", "/no/such/folder/r.json"]);
+    let output = command.output().expect("withy starts");
+    assert_eq!(code(&output), 2);
+    assert!(first_line(&output).contains("/no/such/folder/r.json"), "{}", said(&output));
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_an_endless_loop_with_130() {
+    let (folder, file) = script("print(\"started\"); loop { }");
+    let report = folder.path().join("report.json");
+    let mut running = withy()
+        .arg("run")
+        .arg(&file)
+        .arg("--report")
+        .arg(&report)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("withy starts");
+    let mut line = String::new();
+    let mut printed = BufReader::new(running.stdout.take().expect("a pipe"));
+    printed.read_line(&mut line).expect("the first line");
+    assert_eq!(line, "started\n");
+    let id = running.id().to_string();
+    Command::new("kill").args(["-INT", &id]).status().expect("kill runs");
+    let output = running.wait_with_output().expect("withy ends");
+    assert_eq!(code(&output), 130, "{}", said(&output));
+    assert!(said(&output).contains("interrupted"), "{}", said(&output));
+    assert!(report.exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_closed_pipe_is_a_quiet_end() {
+    let (_folder, file) = script("loop { print(\"more\"); }");
+    let mut running = withy()
+        .arg("run")
+        .arg(&file)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("withy starts");
+    let mut line = String::new();
+    BufReader::new(running.stdout.take().expect("a pipe")).read_line(&mut line).expect("a line");
+    let output = running.wait_with_output().expect("withy ends");
+    assert_eq!((code(&output), said(&output).as_str()), (0, ""));
+}
