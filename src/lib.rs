@@ -17,3 +17,4 @@ pub mod loads;
 pub mod model;
 pub mod newton;
 pub mod script;
+pub mod simulation;

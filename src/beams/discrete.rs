@@ -4,7 +4,7 @@ use super::block::zero_block;
 use super::dynamics::{BeamDynamics, Collocation, ForceSummary, Movement};
 use super::force_point::ForcePoint;
 use super::moment_point::MomentPoint;
-use super::{BeamError, Mesh, Section};
+use super::{BeamError, Mesh, RotationIncrement, Section};
 use crate::geometry::{Basis, Curve, GaussRule, Span, Vec2, interpolate};
 
 /// A beam whose basis has `N` non-zero functions on a span.
@@ -30,7 +30,11 @@ struct SpanPoints<const N: usize> {
 ///
 /// # Errors
 /// When the axis cannot be represented or has a point without a tangent.
-pub fn discretise(axis: &Curve, mesh: &Mesh, section: Section) -> Result<Box<dyn BeamDynamics>, BeamError> {
+pub fn discretise(
+    axis: &Curve,
+    mesh: &Mesh,
+    section: Section,
+) -> Result<Box<dyn BeamDynamics>, BeamError> {
     let control_points = interpolate(axis, mesh.basis())?;
     Ok(match mesh.basis().degree() {
         1 => Box::new(DiscreteBeam::<2>::new(mesh, section, control_points)?),
@@ -63,11 +67,16 @@ struct Axis<'a> {
 }
 
 impl Axis<'_> {
-    fn points<const N: usize>(&self, span: Span, rule: &GaussRule) -> Result<Vec<AxisPoint<N>>, BeamError> {
+    fn points<const N: usize>(
+        &self,
+        span: Span,
+        rule: &GaussRule,
+    ) -> Result<Vec<AxisPoint<N>>, BeamError> {
         let place = |(xi, weight): (f64, f64)| {
             let values = self.basis.evaluate_in(&span, xi);
             let controls = &self.control_points[span.first..span.first + N];
-            let derivative: Vec2 = values.slopes().iter().zip(controls).map(|(slope, point)| point * *slope).sum();
+            let derivative: Vec2 =
+                values.slopes().iter().zip(controls).map(|(slope, point)| point * *slope).sum();
             let speed = derivative.norm();
             if speed.is_nan() || speed <= 0.0 {
                 return Err(BeamError::NoTangent { parameter: xi });
@@ -125,12 +134,16 @@ impl<const N: usize> DiscreteBeam<N> {
 /// The movements of the `N` control points from `first` on.
 #[inline]
 fn window<const N: usize>(movements: &[Movement], first: usize) -> &[Movement; N] {
-    movements[first..].first_chunk().expect("a span has as many control points as its basis has functions")
+    movements[first..]
+        .first_chunk()
+        .expect("a span has as many control points as its basis has functions")
 }
 
 #[inline]
 fn window_mut<const N: usize>(movements: &mut [Movement], first: usize) -> &mut [Movement; N] {
-    movements[first..].first_chunk_mut().expect("a span has as many control points as its basis has functions")
+    movements[first..]
+        .first_chunk_mut()
+        .expect("a span has as many control points as its basis has functions")
 }
 
 impl<const N: usize> BeamDynamics for DiscreteBeam<N> {
@@ -196,19 +209,25 @@ impl<const N: usize> BeamDynamics for DiscreteBeam<N> {
     fn add_mismatch_forces(&self, weight: f64, forces: &mut [Movement]) {
         for span in &self.spans {
             let forces = window_mut(forces, span.first);
-            span.force_points.iter().for_each(|point| point.add_mismatch_forces(&self.section, weight, forces));
+            span.force_points
+                .iter()
+                .for_each(|point| point.add_mismatch_forces(&self.section, weight, forces));
         }
     }
 
     fn correct_section_forces(&mut self, correction: &[Movement]) {
         for span in &mut self.spans {
             let correction = window(correction, span.first);
-            span.force_points.iter_mut().for_each(|point| point.correct_section_force(&self.section, correction));
+            span.force_points
+                .iter_mut()
+                .for_each(|point| point.correct_section_force(&self.section, correction));
         }
     }
 
-    fn advance(&mut self, moved: &[Movement]) {
-        for ((point, remainder), [x, y, _]) in self.control_points.iter_mut().zip(&mut self.remainders).zip(moved) {
+    fn advance(&mut self, moved: &[Movement], rotations: RotationIncrement) {
+        for ((point, remainder), [x, y, _]) in
+            self.control_points.iter_mut().zip(&mut self.remainders).zip(moved)
+        {
             let wanted = Vec2::new(*x, *y) + *remainder;
             let reached = *point + wanted;
             *remainder = wanted - (reached - *point);
@@ -216,8 +235,8 @@ impl<const N: usize> BeamDynamics for DiscreteBeam<N> {
         }
         for span in &mut self.spans {
             let moved = window(moved, span.first);
-            span.force_points.iter_mut().for_each(|point| point.advance(moved));
-            span.moment_points.iter_mut().for_each(|point| point.advance(moved));
+            span.force_points.iter_mut().for_each(|point| point.advance(moved, rotations));
+            span.moment_points.iter_mut().for_each(|point| point.advance(moved, rotations));
         }
     }
 
@@ -249,8 +268,16 @@ impl<const N: usize> BeamDynamics for DiscreteBeam<N> {
 
     fn strain_energy(&self) -> f64 {
         let of_span = |span: &SpanPoints<N>| -> f64 {
-            let force = span.force_points.iter().map(|point| point.strain_energy(&self.section)).sum::<f64>();
-            let moment = span.moment_points.iter().map(|point| point.strain_energy(&self.section)).sum::<f64>();
+            let force = span
+                .force_points
+                .iter()
+                .map(|point| point.strain_energy(&self.section))
+                .sum::<f64>();
+            let moment = span
+                .moment_points
+                .iter()
+                .map(|point| point.strain_energy(&self.section))
+                .sum::<f64>();
             force + moment
         };
         self.spans.iter().map(of_span).sum()
@@ -280,13 +307,16 @@ impl<const N: usize> BeamDynamics for DiscreteBeam<N> {
     }
 
     fn restore(&mut self, state: &mut dyn Iterator<Item = f64>) {
-        let mut next = || state.next().expect("a saved state has as many entries as the model that saved it");
+        let mut next =
+            || state.next().expect("a saved state has as many entries as the model that saved it");
         for (point, remainder) in self.control_points.iter_mut().zip(&mut self.remainders) {
             *point = Vec2::new(next(), next());
             *remainder = Vec2::new(next(), next());
         }
         for span in &mut self.spans {
-            span.force_points.iter_mut().for_each(|point| point.restore([next(), next(), next(), next()]));
+            span.force_points
+                .iter_mut()
+                .for_each(|point| point.restore([next(), next(), next(), next()]));
             span.moment_points.iter_mut().for_each(|point| point.set_curvature(next()));
         }
     }

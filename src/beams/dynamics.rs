@@ -1,5 +1,6 @@
 //! What a discretised beam offers to the model, whatever its basis.
 
+use super::RotationIncrement;
 use crate::geometry::Vec2;
 
 /// Components of a control point: x, y and rotation.
@@ -12,6 +13,8 @@ pub struct Collocation {
     pub configuration: f64,
     /// `σ`: the section forces are those of the strain `(1-σ) Γ0 + σ Γ1`.
     pub stress: f64,
+    /// What rotation increments stand for.
+    pub rotations: RotationIncrement,
 }
 
 /// What was met while forces were added up.
@@ -83,7 +86,7 @@ pub trait BeamDynamics {
     fn correct_section_forces(&mut self, correction: &[Movement]);
 
     /// Accepts the movements: the end of the step becomes the start of the next.
-    fn advance(&mut self, moved: &[Movement]);
+    fn advance(&mut self, moved: &[Movement], rotations: RotationIncrement);
 
     /// Adds `factor · M · rates`.
     fn add_inertia(&self, factor: f64, rates: &[Movement], forces: &mut [Movement]);

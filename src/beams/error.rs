@@ -6,7 +6,9 @@ use crate::geometry::GeometryError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BeamError {
     /// A property of a section is not positive and finite.
-    #[error("section: {name} is {value}, but must be a positive finite number [{dimension}]{advice}")]
+    #[error(
+        "section: {name} is {value}, but must be a positive finite number [{dimension}]{advice}"
+    )]
     SectionValue {
         /// The property.
         name: &'static str,
@@ -24,7 +26,9 @@ pub enum BeamError {
         value: f64,
     },
     /// A tube whose hole is not smaller than itself.
-    #[error("section: the inner radius {inner} of a tube must be smaller than the outer radius {outer}")]
+    #[error(
+        "section: the inner radius {inner} of a tube must be smaller than the outer radius {outer}"
+    )]
     Tube {
         /// Inner radius.
         inner: f64,
@@ -32,7 +36,9 @@ pub enum BeamError {
         outer: f64,
     },
     /// A quadrature with too few or too many points.
-    #[error("quadrature: {points} points a span, but allowed are 1 to {most} for degree {degree}; \"patch\" is the rule that neither locks nor leaves zero-energy modes")]
+    #[error(
+        "quadrature: {points} points a span, but allowed are 1 to {most} for degree {degree}; \"patch\" is the rule that neither locks nor leaves zero-energy modes"
+    )]
     Quadrature {
         /// Points asked for.
         points: usize,
@@ -45,7 +51,9 @@ pub enum BeamError {
     #[error(transparent)]
     Geometry(#[from] GeometryError),
     /// The axis has a point without a direction.
-    #[error("the axis has no tangent at parameter {parameter}: its derivative vanishes there; move the control points apart")]
+    #[error(
+        "the axis has no tangent at parameter {parameter}: its derivative vanishes there; move the control points apart"
+    )]
     NoTangent {
         /// Where.
         parameter: f64,

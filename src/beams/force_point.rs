@@ -1,9 +1,9 @@
 //! A quadrature point for `Γ`: axial and shear strain, and the section force as an unknown of its own.
 //!
-//! With `Δg = Σ N_a' Δx_a`, `Δω = Σ N_a Δω_a`, `q = 1 + Δω²/4` and `C = diag(EA, GA)`:
+//! With `Δg = Σ N_a' Δx_a`, `Δω = Σ N_a Δω_a`, `1/q = dΔθ/dΔω` and `C = diag(EA, GA)`:
 //!
 //! ```text
-//! Λ1 = Λ0 R(2 atan(Δω/2))    Γ1 = Λ1ᵀ (g0 + Δg) - e1
+//! Λ1 = Λ0 R(Δθ(Δω))    Γ1 = Λ1ᵀ (g0 + Δg) - e1
 //! gτ = g0 + τ Δg             Λτ = (1-τ) Λ0 + τ Λ1        N = C ((1-σ) Γ0 + σ Γ1)      n = Λτ N
 //! R_a = w N_a' n             S_a = -w N_a gτ × n
 //! ```
@@ -13,7 +13,7 @@
 
 use super::block::Block;
 use super::dynamics::{Collocation, ForceSummary, Movement};
-use super::{Rotation, Section};
+use super::{Rotation, RotationIncrement, Section};
 use crate::geometry::{Vec2, cross, perpendicular};
 
 #[derive(Debug, Clone)]
@@ -96,7 +96,8 @@ impl<const N: usize> ForcePoint<N> {
     #[inline]
     fn configuration(&self, at: Collocation, moved: &[Movement; N]) -> Configuration {
         let (change, increment) = self.interpolate(moved);
-        let end_rotation = self.rotation.turned(increment);
+        let turn = at.rotations.turn(increment);
+        let end_rotation = self.rotation.times(&turn);
         let end_strain = strain_of(end_rotation, self.gradient + change);
         Configuration {
             end_rotation,
@@ -105,14 +106,15 @@ impl<const N: usize> ForcePoint<N> {
             collocated_rotation: self.rotation.mixed(end_rotation, at.configuration),
             collocated_gradient: self.gradient + change * at.configuration,
             stress: at.stress,
-            inverse_q: 1.0 / (1.0 + 0.25 * increment * increment),
+            inverse_q: turn.rate,
             increment,
         }
     }
 
     #[inline]
     fn distribute(&self, weight: f64, gradient: Vec2, force: Vec2, forces: &mut [Movement; N]) {
-        let (force, torque) = (force * (weight * self.weight), cross(gradient, force) * (weight * self.weight));
+        let (force, torque) =
+            (force * (weight * self.weight), cross(gradient, force) * (weight * self.weight));
         for ((shape, slope), [x, y, omega]) in self.shape.iter().zip(&self.slope).zip(forces) {
             *x += slope * force.x;
             *y += slope * force.y;
@@ -160,7 +162,8 @@ impl<const N: usize> ForcePoint<N> {
 
         // δn = A δg + b δω  and  δ(gτ × n) = e·δg + f δω, the geometric terms with the section force of the iterate.
         let end = now.end_rotation;
-        let column = |axis: Vec2| rotation.to_space(force_of(section, end.to_section(axis))) * sigma;
+        let column =
+            |axis: Vec2| rotation.to_space(force_of(section, end.to_section(axis))) * sigma;
         let (a1, a2) = (column(Vec2::x()), column(Vec2::y()));
         let turned_strain = perpendicular(now.end_strain + Vec2::x());
         let b = (end.to_space(perpendicular(self.force)) * tau
@@ -179,7 +182,8 @@ impl<const N: usize> ForcePoint<N> {
             let [row_x, row_y, row_omega] = rows;
             let add = |row: &mut [[f64; 3]; N], weight: f64, by: &[f64; 3]| {
                 let by = by.map(|entry| entry * weight);
-                for ((entry, slope_b), shape_b) in row.iter_mut().zip(&self.slope).zip(&self.shape) {
+                for ((entry, slope_b), shape_b) in row.iter_mut().zip(&self.slope).zip(&self.shape)
+                {
                     entry[0] += by[0] * slope_b;
                     entry[1] += by[1] * slope_b;
                     entry[2] += by[2] * shape_b;
@@ -195,7 +199,12 @@ impl<const N: usize> ForcePoint<N> {
 
     /// The forces `C m` of the mismatch `m`, in the directions of the last linearisation.
     #[inline]
-    pub(super) fn add_mismatch_forces(&self, section: &Section, weight: f64, forces: &mut [Movement; N]) {
+    pub(super) fn add_mismatch_forces(
+        &self,
+        section: &Section,
+        weight: f64,
+        forces: &mut [Movement; N],
+    ) {
         let Configuration { collocated_rotation, collocated_gradient, .. } = self.linearised_at;
         let force = collocated_rotation.to_space(force_of(section, self.mismatch));
         self.distribute(weight, collocated_gradient, force, forces);
@@ -211,10 +220,10 @@ impl<const N: usize> ForcePoint<N> {
         self.force += force_of(section, self.mismatch + change * stress);
     }
 
-    pub(super) fn advance(&mut self, moved: &[Movement; N]) {
+    pub(super) fn advance(&mut self, moved: &[Movement; N], rotations: RotationIncrement) {
         let (change, increment) = self.interpolate(moved);
         self.gradient += change;
-        self.rotation = self.rotation.turned(increment).normalised();
+        self.rotation = self.rotation.turned(rotations, increment).normalised();
         self.strain = strain_of(self.rotation, self.gradient);
     }
 

@@ -72,7 +72,8 @@ impl Mesh {
     /// # Errors
     /// When a place lies outside the domain.
     pub fn with_breaks(&self, places: &[f64]) -> Result<Self, GeometryError> {
-        let broken = places.iter().try_fold(self.basis.clone(), |basis, &xi| basis.with_break(xi))?;
+        let broken =
+            places.iter().try_fold(self.basis.clone(), |basis, &xi| basis.with_break(xi))?;
         Ok(Self { basis: broken, quadrature: self.quadrature })
     }
 
@@ -105,7 +106,9 @@ impl Mesh {
             Quadrature::Points(points) => format!(", {points} points for the strain"),
         };
         match &self.basis {
-            Basis::BSpline(_) => format!("{degree} B-splines C{}, {spans} spans{rule}", self.basis.continuity()),
+            Basis::BSpline(_) => {
+                format!("{degree} B-splines C{}, {spans} spans{rule}", self.basis.continuity())
+            }
             Basis::Lagrange(_) => format!("{degree} Lagrange, {spans} elements{rule}"),
         }
     }
@@ -115,7 +118,8 @@ impl Mesh {
         let degree = self.basis.degree();
         let spans = self.basis.spans();
         // Two spans are joined smoothly when all but one of their functions are common to both.
-        let smooth: Vec<bool> = spans.windows(2).map(|pair| pair[1].first == pair[0].first + 1 && degree > 1).collect();
+        let smooth: Vec<bool> =
+            spans.windows(2).map(|pair| pair[1].first == pair[0].first + 1 && degree > 1).collect();
         let joined = |at: Option<usize>| at.and_then(|at| smooth.get(at).copied()).unwrap_or(false);
         spans
             .iter()

@@ -17,6 +17,6 @@ pub use discrete::discretise;
 pub use dynamics::{BeamDynamics, Collocation, ForceSummary, Movement};
 pub use error::BeamError;
 pub use mesh::{Mesh, Quadrature};
-pub use rotation::Rotation;
+pub use rotation::{Rotation, RotationIncrement};
 pub use section::{Section, Shape, Solid};
 pub use station::{Place, Station};

@@ -1,15 +1,12 @@
 //! A quadrature point for the curvature `κ`.
 //!
 //! ```text
-//! κ1 = κ0 + Δω'/q     q = 1 + Δω²/4     M = EI ((1-σ) κ0 + σ κ1)     S_a = w N_a' M v
+//! κ1 = κ0 + Δω'/q     1/q = dΔθ/dΔω     M = EI ((1-σ) κ0 + σ κ1)     S_a = w N_a' M/q
 //! ```
-//!
-//! with `v = 1/q` between the ends of a step, where the moment works on the change of curvature, and `v = 1` at an end
-//! (τ = 1), where it works on a virtual rotation.
 
-use super::Section;
 use super::block::Block;
 use super::dynamics::{Collocation, ForceSummary, Movement};
+use super::{RotationIncrement, Section};
 
 #[derive(Debug, Clone)]
 pub(super) struct MomentPoint<const N: usize> {
@@ -20,7 +17,7 @@ pub(super) struct MomentPoint<const N: usize> {
     curvature: f64,
 }
 
-/// What increments lead to: `M v` and its derivatives by `Δω'` and `Δω`.
+/// What increments lead to: `M/q` and its derivatives by `Δω'` and `Δω`.
 struct Response {
     moment: f64,
     by_slope: f64,
@@ -47,18 +44,13 @@ impl<const N: usize> MomentPoint<N> {
     #[inline]
     fn response(&self, section: &Section, at: Collocation, moved: &[Movement; N]) -> Response {
         let (slope, rotation) = self.interpolate(moved);
-        let inverse_q = 1.0 / (1.0 + 0.25 * rotation * rotation);
-        let moment = section.bending_stiffness * (self.curvature + at.stress * slope * inverse_q);
-        let stiffness = section.bending_stiffness * at.stress * inverse_q;
-        let dq = -0.5 * rotation * inverse_q;
-        if at.configuration < 1.0 {
-            Response {
-                moment: moment * inverse_q,
-                by_slope: stiffness * inverse_q,
-                by_rotation: dq * inverse_q * (moment + stiffness * slope),
-            }
-        } else {
-            Response { moment, by_slope: stiffness, by_rotation: dq * stiffness * slope }
+        let turn = at.rotations.turn(rotation);
+        let moment = section.bending_stiffness * (self.curvature + at.stress * slope * turn.rate);
+        let stiffness = section.bending_stiffness * at.stress * turn.rate;
+        Response {
+            moment: moment * turn.rate,
+            by_slope: stiffness * turn.rate,
+            by_rotation: turn.rate_slope * (moment + stiffness * slope),
         }
     }
 
@@ -98,16 +90,19 @@ impl<const N: usize> MomentPoint<N> {
         let w = weight * self.weight;
         self.distribute(w * response.moment, forces);
         for (slope_a, [_, _, row_omega]) in self.slope.iter().zip(block.iter_mut()) {
-            let (by_slope, by_rotation) = (w * slope_a * response.by_slope, w * slope_a * response.by_rotation);
-            for ((entry, slope_b), shape_b) in row_omega.iter_mut().zip(&self.slope).zip(&self.shape) {
+            let (by_slope, by_rotation) =
+                (w * slope_a * response.by_slope, w * slope_a * response.by_rotation);
+            for ((entry, slope_b), shape_b) in
+                row_omega.iter_mut().zip(&self.slope).zip(&self.shape)
+            {
                 entry[2] += by_slope * slope_b + by_rotation * shape_b;
             }
         }
     }
 
-    pub(super) fn advance(&mut self, moved: &[Movement; N]) {
+    pub(super) fn advance(&mut self, moved: &[Movement; N], rotations: RotationIncrement) {
         let (slope, rotation) = self.interpolate(moved);
-        self.curvature += slope / (1.0 + 0.25 * rotation * rotation);
+        self.curvature += slope * rotations.turn(rotation).rate;
     }
 
     pub(super) fn strain_energy(&self, section: &Section) -> f64 {

@@ -2,6 +2,61 @@
 
 use crate::geometry::Vec2;
 
+/// What an interpolated rotation increment `Δω` stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RotationIncrement {
+    /// `Δθ = 2 atan(Δω/2)`: then `Λ1 - Λ0 = Δω J (Λ0 + Λ1)/2`, on which conservation rests.
+    TangentScaled,
+    /// `Δθ = Δω`
+    Angle,
+}
+
+/// A rotation increment `Δθ(Δω)`, taken apart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Turn {
+    cos: f64,
+    sin: f64,
+    /// `dΔθ/dΔω`
+    pub(super) rate: f64,
+    /// `d²Δθ/dΔω²`
+    pub(super) rate_slope: f64,
+}
+
+impl RotationIncrement {
+    /// The rotation that an increment stands for.
+    #[inline]
+    pub(super) fn turn(self, increment: f64) -> Turn {
+        match self {
+            Self::TangentScaled => {
+                let half = 0.5 * increment;
+                let rate = 1.0 / (1.0 + half * half);
+                Turn {
+                    cos: (1.0 - half * half) * rate,
+                    sin: increment * rate,
+                    rate,
+                    rate_slope: -half * rate * rate,
+                }
+            }
+            Self::Angle => {
+                Turn { cos: increment.cos(), sin: increment.sin(), rate: 1.0, rate_slope: 0.0 }
+            }
+        }
+    }
+
+    /// `Δθ` [rad]
+    pub fn angle(self, increment: f64) -> f64 {
+        match self {
+            Self::TangentScaled => 2.0 * (0.5 * increment).atan(),
+            Self::Angle => increment,
+        }
+    }
+
+    /// `dΔθ/dΔω`
+    pub fn rate(self, increment: f64) -> f64 {
+        self.turn(increment).rate
+    }
+}
+
 /// `Λ = [[c, -s], [s, c]]`, from the section frame to space; a mean of two rotations is not itself one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rotation {
@@ -17,13 +72,18 @@ impl Rotation {
         Self { cos: angle.cos(), sin: angle.sin() }
     }
 
-    /// `Λ` times the rotation by `2 atan(Δω/2)`.
+    /// `Λ` times the rotation that an increment stands for.
+    pub fn turned(self, kind: RotationIncrement, increment: f64) -> Self {
+        self.times(&kind.turn(increment))
+    }
+
+    /// `Λ` times a turn.
     #[inline]
-    pub fn turned(self, increment: f64) -> Self {
-        let half = 0.5 * increment;
-        let scale = 1.0 / (1.0 + half * half);
-        let (cos, sin) = ((1.0 - half * half) * scale, increment * scale);
-        Self { cos: self.cos * cos - self.sin * sin, sin: self.sin * cos + self.cos * sin }
+    pub(super) fn times(self, turn: &Turn) -> Self {
+        Self {
+            cos: self.cos * turn.cos - self.sin * turn.sin,
+            sin: self.sin * turn.cos + self.cos * turn.sin,
+        }
     }
 
     /// Pulls a rotation that rounding has moved off the unit circle back onto it.
@@ -36,7 +96,10 @@ impl Rotation {
     /// `(1 - t) Λ + t Λ'`
     #[inline]
     pub fn mixed(self, other: Self, t: f64) -> Self {
-        Self { cos: self.cos + t * (other.cos - self.cos), sin: self.sin + t * (other.sin - self.sin) }
+        Self {
+            cos: self.cos + t * (other.cos - self.cos),
+            sin: self.sin + t * (other.sin - self.sin),
+        }
     }
 
     /// `Λ a`
@@ -58,16 +121,18 @@ mod tests {
 
     #[test]
     fn an_increment_turns_by_twice_the_arctangent_of_its_half() {
-        let turned = Rotation::by(0.3).turned(1.1);
+        let turned = Rotation::by(0.3).turned(RotationIncrement::TangentScaled, 1.1);
         let expected = Rotation::by(0.3 + 2.0 * (0.55_f64).atan());
-        assert!((turned.cos - expected.cos).abs() < 1e-15 && (turned.sin - expected.sin).abs() < 1e-15);
+        assert!(
+            (turned.cos - expected.cos).abs() < 1e-15 && (turned.sin - expected.sin).abs() < 1e-15
+        );
     }
 
     #[test]
     fn the_difference_of_rotations_is_the_increment_times_their_mean() {
         // Λ1 - Λ0 = Δω J Λ̄: the property that makes the midpoint rule conserve.
         let (start, increment) = (Rotation::by(-0.7), 0.9);
-        let end = start.turned(increment);
+        let end = start.turned(RotationIncrement::TangentScaled, increment);
         let mean = start.mixed(end, 0.5);
         assert!((end.cos - start.cos + increment * mean.sin).abs() < 1e-15);
         assert!((end.sin - start.sin - increment * mean.cos).abs() < 1e-15);

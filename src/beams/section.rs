@@ -91,10 +91,17 @@ impl Section {
         };
         for (name, value) in shape_values {
             if !is_positive(value) {
-                return Err(BeamError::SectionValue { name, value, dimension: "length", advice: "" });
+                return Err(BeamError::SectionValue {
+                    name,
+                    value,
+                    dimension: "length",
+                    advice: "",
+                });
             }
         }
-        for (name, value, dimension) in [("E", young, "force/length²"), ("density", density, "mass/length³")] {
+        for (name, value, dimension) in
+            [("E", young, "force/length²"), ("density", density, "mass/length³")]
+        {
             if !is_positive(value) {
                 return Err(BeamError::SectionValue { name, value, dimension, advice: "" });
             }
@@ -110,7 +117,8 @@ impl Section {
         let (area, inertia) = (shape.area(), shape.second_moment());
         Self {
             axial_stiffness: young * area,
-            shear_stiffness: shape.shear_correction(poisson) * young / (2.0 * (1.0 + poisson)) * area,
+            shear_stiffness: shape.shear_correction(poisson) * young / (2.0 * (1.0 + poisson))
+                * area,
             bending_stiffness: young * inertia,
             mass: density * area,
             rotary_inertia: density * inertia,
@@ -163,7 +171,8 @@ mod tests {
 
     #[test]
     fn a_tube_without_a_hole_is_a_circle() {
-        let (circle, tube) = (Shape::Circle { radius: 2.0 }, Shape::Tube { outer: 2.0, inner: 1e-9 });
+        let (circle, tube) =
+            (Shape::Circle { radius: 2.0 }, Shape::Tube { outer: 2.0, inner: 1e-9 });
         assert!((circle.area() - tube.area()).abs() < 1e-12);
         assert!((circle.second_moment() - tube.second_moment()).abs() < 1e-12);
         assert!((circle.shear_correction(0.3) - tube.shear_correction(0.3)).abs() < 1e-12);
@@ -171,7 +180,10 @@ mod tests {
 
     #[test]
     fn cowpers_factors_have_their_tabulated_values() {
-        assert!((Shape::Rectangle { width: 1.0, height: 1.0 }.shear_correction(0.3) - 0.850).abs() < 5e-4);
+        assert!(
+            (Shape::Rectangle { width: 1.0, height: 1.0 }.shear_correction(0.3) - 0.850).abs()
+                < 5e-4
+        );
         assert!((Shape::Circle { radius: 1.0 }.shear_correction(0.3) - 0.886).abs() < 5e-4);
     }
 
@@ -196,7 +208,8 @@ mod tests {
             assert!(message.contains(word), "{message}");
         }
         let section = Section::from_solid(steel).unwrap();
-        let message = Section { rotary_inertia: 0.0, ..section }.validated().unwrap_err().to_string();
+        let message =
+            Section { rotary_inertia: 0.0, ..section }.validated().unwrap_err().to_string();
         assert!(message.contains("rho_I is 0") && message.contains("singular"), "{message}");
     }
 }

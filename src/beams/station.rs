@@ -63,7 +63,9 @@ impl Place {
 
     /// The control point with the largest function here: the one that lies at this place where the mesh has a break.
     pub fn nearest_control_point(&self) -> usize {
-        self.weights().max_by(|(_, a), (_, b)| a.total_cmp(b)).map_or(self.first, |(index, _)| index)
+        self.weights()
+            .max_by(|(_, a), (_, b)| a.total_cmp(b))
+            .map_or(self.first, |(index, _)| index)
     }
 
     /// The combination of control values that belongs to this place.

@@ -35,7 +35,13 @@ impl Equations for StepBalance<'_> {
     fn linearise(&mut self, deviation: &[f64], residual: &mut [f64], tangent: &mut BandedMatrix) {
         self.begin(deviation, residual);
         self.mechanism.add_inertia_tangent(2.0 / self.duration.powi(2), tangent);
-        self.mechanism.add_linearised_forces(self.stage, self.increments, self.weight, residual, tangent);
+        self.mechanism.add_linearised_forces(
+            self.stage,
+            self.increments,
+            self.weight,
+            residual,
+            tangent,
+        );
     }
 
     fn condense(&mut self, residual: &mut [f64]) {
@@ -111,7 +117,11 @@ impl StepSolver {
             .solve(&mut balance, &mut self.deviation, &mut self.residual)
             .map_err(|source| StepError::Newton { interval, source })?;
         let rotation = balance.mechanism.largest_rotation();
-        if rotation < HALF_TURN { Ok(report) } else { Err(StepError::Rotation { interval, rotation }) }
+        if rotation < HALF_TURN {
+            Ok(report)
+        } else {
+            Err(StepError::Rotation { interval, rotation })
+        }
     }
 
     /// Accepts the increments, with the rates `v1 = 2 u/Δt - v0`.

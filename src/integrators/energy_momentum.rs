@@ -24,7 +24,11 @@ impl EnergyMomentum {
 }
 
 impl Integrator for EnergyMomentum {
-    fn step(&mut self, mechanism: &mut dyn Mechanism, interval: Interval) -> Result<NewtonReport, StepError> {
+    fn step(
+        &mut self,
+        mechanism: &mut dyn Mechanism,
+        interval: Interval,
+    ) -> Result<NewtonReport, StepError> {
         mechanism.begin_step(interval)?;
         self.solver.predict(mechanism, interval);
         let report = self.solver.solve(mechanism, interval, Stage::Midpoint, 1.0)?;

@@ -49,7 +49,8 @@ pub trait Mechanism {
     /// Adds `weight` times the forces of a stage (internal minus loads), as its section forces have them, to `out`.
     ///
     /// Returns the largest mismatch between the strain of the section forces and that of the configuration.
-    fn add_forces(&mut self, stage: Stage, increments: &[f64], weight: f64, out: &mut [f64]) -> f64;
+    fn add_forces(&mut self, stage: Stage, increments: &[f64], weight: f64, out: &mut [f64])
+    -> f64;
 
     /// Adds `weight` times the condensed forces of a stage, and their derivative by the increments.
     fn add_linearised_forces(

@@ -23,5 +23,9 @@ pub trait Integrator {
     ///
     /// # Errors
     /// When no solution is found, the rotation increment is too large, or a load cannot be evaluated.
-    fn step(&mut self, mechanism: &mut dyn Mechanism, interval: Interval) -> Result<NewtonReport, StepError>;
+    fn step(
+        &mut self,
+        mechanism: &mut dyn Mechanism,
+        interval: Interval,
+    ) -> Result<NewtonReport, StepError>;
 }

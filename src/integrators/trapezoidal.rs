@@ -28,7 +28,11 @@ impl Trapezoidal {
 }
 
 impl Integrator for Trapezoidal {
-    fn step(&mut self, mechanism: &mut dyn Mechanism, interval: Interval) -> Result<NewtonReport, StepError> {
+    fn step(
+        &mut self,
+        mechanism: &mut dyn Mechanism,
+        interval: Interval,
+    ) -> Result<NewtonReport, StepError> {
         mechanism.begin_step(interval)?;
         self.solver.predict(mechanism, interval);
         mechanism.add_forces(Stage::Start, &self.standstill, 0.5, &mut self.solver.carried);

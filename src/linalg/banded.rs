@@ -49,7 +49,10 @@ impl BandedMatrix {
     }
 
     fn offset(&self, row: usize, column: usize) -> usize {
-        debug_assert!(row.abs_diff(column) <= self.half_bandwidth, "({row}, {column}) is outside the band");
+        debug_assert!(
+            row.abs_diff(column) <= self.half_bandwidth,
+            "({row}, {column}) is outside the band"
+        );
         row * self.stride() + column + self.half_bandwidth - row
     }
 
@@ -71,7 +74,11 @@ impl BandedMatrix {
 
     /// The entry at `(row, column)`; zero outside the band.
     pub fn get(&self, row: usize, column: usize) -> f64 {
-        if row.abs_diff(column) > self.half_bandwidth { 0.0 } else { self.rows[self.offset(row, column)] }
+        if row.abs_diff(column) > self.half_bandwidth {
+            0.0
+        } else {
+            self.rows[self.offset(row, column)]
+        }
     }
 
     /// The product with a vector, for checks.
@@ -151,7 +158,8 @@ impl BandedLu<'_> {
 
     /// Replaces the right-hand side by the solution.
     pub fn solve(&self, x: &mut [f64]) {
-        let (n, b, stride) = (self.factors.size, self.factors.half_bandwidth, self.factors.stride());
+        let (n, b, stride) =
+            (self.factors.size, self.factors.half_bandwidth, self.factors.stride());
         let rows = &self.factors.rows;
         for column in 0..n {
             x.swap(column, self.factors.pivots[column]);

@@ -12,7 +12,9 @@ pub enum LinearError {
         size: usize,
     },
     /// An entry is infinite or not a number.
-    #[error("the matrix has an entry that is not a finite number, met at unknown {unknown} of {size}")]
+    #[error(
+        "the matrix has an entry that is not a finite number, met at unknown {unknown} of {size}"
+    )]
     NotFinite {
         /// The column in which it was met.
         unknown: usize,

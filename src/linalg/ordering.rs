@@ -40,9 +40,11 @@ fn order_by_levels(count: usize, groups: &[Vec<usize>]) -> Vec<usize> {
             groups_of[member].push(index);
         }
     }
-    let neighbours = |node: usize| groups_of[node].iter().flat_map(|&group| groups[group].iter().copied());
+    let neighbours =
+        |node: usize| groups_of[node].iter().flat_map(|&group| groups[group].iter().copied());
     // Fewer groups means nearer to a free end, which is where levels should begin.
-    let degree = |node: usize| groups_of[node].iter().map(|&group| groups[group].len()).sum::<usize>();
+    let degree =
+        |node: usize| groups_of[node].iter().map(|&group| groups[group].len()).sum::<usize>();
 
     let mut seeds: Vec<usize> = (0..count).collect();
     seeds.sort_by_key(|&node| degree(node));
@@ -76,7 +78,11 @@ fn order_by_levels(count: usize, groups: &[Vec<usize>]) -> Vec<usize> {
 }
 
 /// A node at the end of the component of `seed`, by two sweeps over the levels.
-fn farthest<I: Iterator<Item = usize>>(seed: usize, count: usize, neighbours: &impl Fn(usize) -> I) -> usize {
+fn farthest<I: Iterator<Item = usize>>(
+    seed: usize,
+    count: usize,
+    neighbours: &impl Fn(usize) -> I,
+) -> usize {
     let mut last = seed;
     for _ in 0..2 {
         let mut seen = vec![false; count];

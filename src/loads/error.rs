@@ -22,7 +22,9 @@ pub enum LoadError {
         rows: usize,
     },
     /// A table whose times decrease.
-    #[error("table: the time of row {row} ({time}) is smaller than the one before it ({before}); times must not decrease (repeat one for a jump)")]
+    #[error(
+        "table: the time of row {row} ({time}) is smaller than the one before it ({before}); times must not decrease (repeat one for a jump)"
+    )]
     DecreasingTimes {
         /// Row, from 0.
         row: usize,

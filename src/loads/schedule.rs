@@ -62,7 +62,13 @@ impl std::fmt::Debug for Schedule {
 const GAUSS: [(f64, f64); 3] =
     [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
 
-fn check(schedule: &'static str, name: &'static str, value: f64, allowed: &'static str, fine: bool) -> Result<(), LoadError> {
+fn check(
+    schedule: &'static str,
+    name: &'static str,
+    value: f64,
+    allowed: &'static str,
+    fine: bool,
+) -> Result<(), LoadError> {
     if fine { Ok(()) } else { Err(LoadError::Value { schedule, name, value, allowed }) }
 }
 
@@ -99,7 +105,13 @@ impl Schedule {
     /// When the times are not finite, or `to` is not later than `from`.
     pub fn ramp(from: f64, to: f64) -> Result<Self, LoadError> {
         check_finite("ramp", "the first time", from)?;
-        check("ramp", "the last time", to, "a finite time later than the first one", to.is_finite() && to > from)?;
+        check(
+            "ramp",
+            "the last time",
+            to,
+            "a finite time later than the first one",
+            to.is_finite() && to > from,
+        )?;
         Ok(Self::Table(vec![(from, 0.0), (to, 1.0)]))
     }
 
@@ -109,7 +121,13 @@ impl Schedule {
     /// When the times are not finite, or `to` is not later than `from`.
     pub fn pulse(from: f64, to: f64) -> Result<Self, LoadError> {
         check_finite("pulse", "the first time", from)?;
-        check("pulse", "the last time", to, "a finite time later than the first one", to.is_finite() && to > from)?;
+        check(
+            "pulse",
+            "the last time",
+            to,
+            "a finite time later than the first one",
+            to.is_finite() && to > from,
+        )?;
         Ok(Self::Table(vec![(from, 0.0), (from, 1.0), (to, 1.0), (to, 0.0)]))
     }
 
@@ -146,9 +164,11 @@ impl Schedule {
             check_finite("table", "a factor", factor)?;
         }
         match rows.windows(2).position(|pair| pair[1].0 < pair[0].0) {
-            Some(row) => {
-                Err(LoadError::DecreasingTimes { row: row + 1, time: rows[row + 1].0, before: rows[row].0 })
-            }
+            Some(row) => Err(LoadError::DecreasingTimes {
+                row: row + 1,
+                time: rows[row + 1].0,
+                before: rows[row].0,
+            }),
             None => Ok(Self::Table(rows)),
         }
     }
@@ -163,7 +183,11 @@ impl Schedule {
             Self::Table(rows) => table_value(rows, time, side),
             Self::Sine { amplitude, rate, phase } => amplitude * (rate * time + phase).sin(),
             Self::SmoothPulse { duration } => {
-                if time <= 0.0 || time >= *duration { 0.0 } else { 3.2 * (PI * time / duration).sin().powi(6) }
+                if time <= 0.0 || time >= *duration {
+                    0.0
+                } else {
+                    3.2 * (PI * time / duration).sin().powi(6)
+                }
             }
             Self::Function { function, .. } => function(time).map_err(LoadError::Function)?,
             Self::Sum(a, b) => a.value(time, side)? + b.value(time, side)?,
@@ -268,8 +292,14 @@ mod tests {
         assert!(Schedule::ramp(2.0, 1.0).unwrap_err().to_string().contains("later"));
         assert!(Schedule::constant(f64::NAN).is_err());
         assert!(Schedule::table(vec![(0.0, 1.0)]).unwrap_err().to_string().contains("at least 2"));
-        assert!(Schedule::table(vec![(1.0, 1.0), (0.0, 1.0)]).unwrap_err().to_string().contains("decrease"));
-        let broken = Schedule::Function { function: Rc::new(|_| Ok(f64::INFINITY)), breaks: vec![] };
+        assert!(
+            Schedule::table(vec![(1.0, 1.0), (0.0, 1.0)])
+                .unwrap_err()
+                .to_string()
+                .contains("decrease")
+        );
+        let broken =
+            Schedule::Function { function: Rc::new(|_| Ok(f64::INFINITY)), breaks: vec![] };
         assert!(broken.mean(0.0, 1.0).unwrap_err().to_string().contains("finite"));
     }
 }

@@ -2,7 +2,7 @@
 
 use super::body::Body;
 use super::tracker::Tracker;
-use crate::beams::{Movement, Rotation};
+use crate::beams::{Collocation, Movement, Rotation, RotationIncrement};
 use crate::geometry::{Vec2, cross, perpendicular};
 use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
@@ -92,10 +92,15 @@ impl Follower {
     }
 
     /// The rotation at `τ` and at the end, and `Δω`.
-    fn rotations(&self, body: &mut Body, tau: f64, increments: &[f64]) -> (Rotation, Rotation, f64) {
+    fn rotations(
+        &self,
+        body: &mut Body,
+        at: Collocation,
+        increments: &[f64],
+    ) -> (Rotation, Rotation, f64) {
         let increment = self.tracker.increment(body.gather(increments));
-        let end = self.tracker.rotation.turned(increment);
-        (self.tracker.rotation.mixed(end, tau), end, increment)
+        let end = self.tracker.rotation.turned(at.rotations, increment);
+        (self.tracker.rotation.mixed(end, at.configuration), end, increment)
     }
 }
 
@@ -135,18 +140,26 @@ impl StageFactors {
     }
 }
 
-/// `τ` of a stage.
-pub(super) fn configuration(stage: Stage) -> f64 {
-    match stage {
-        Stage::Start => 0.0,
-        Stage::Midpoint => 0.5,
-        Stage::End => 1.0,
-    }
+/// Where forces of a stage are taken. At the ends of a step increments of the angle itself are interpolated.
+pub(super) fn collocation(stage: Stage) -> Collocation {
+    let (tau, rotations) = match stage {
+        Stage::Start => (0.0, RotationIncrement::Angle),
+        Stage::Midpoint => (0.5, RotationIncrement::TangentScaled),
+        Stage::End => (1.0, RotationIncrement::Angle),
+    };
+    Collocation { configuration: tau, stress: tau, rotations }
 }
 
 impl AppliedLoad {
     pub(super) fn new(name: String, schedule: Schedule, action: Action) -> Self {
-        Self { name, schedule, action, factors: StageFactors::default(), carried: 0.0, current: 0.0 }
+        Self {
+            name,
+            schedule,
+            action,
+            factors: StageFactors::default(),
+            carried: 0.0,
+            current: 0.0,
+        }
     }
 
     pub(super) fn begin_step(&mut self, interval: Interval) -> Result<(), LoadError> {
@@ -157,9 +170,26 @@ impl AppliedLoad {
         };
         (self.carried, self.current) = (0.0, 0.0);
         if let Action::Follower(followers) = &mut self.action {
-            followers.iter_mut().for_each(|each| (each.carried, each.current) = (Vec2::zeros(), Vec2::zeros()));
+            followers
+                .iter_mut()
+                .for_each(|each| (each.carried, each.current) = (Vec2::zeros(), Vec2::zeros()));
         }
         Ok(())
+    }
+
+    pub(super) fn trackers(&self) -> impl Iterator<Item = &Tracker> {
+        let followers =
+            if let Action::Follower(followers) = &self.action { followers.as_slice() } else { &[] };
+        followers.iter().map(|each| &each.tracker)
+    }
+
+    pub(super) fn trackers_mut(&mut self) -> impl Iterator<Item = &mut Tracker> {
+        let followers = if let Action::Follower(followers) = &mut self.action {
+            followers.as_mut_slice()
+        } else {
+            &mut []
+        };
+        followers.iter_mut().map(|each| &mut each.tracker)
     }
 
     /// Subtracts the load from the forces of a stage; returns the largest force and moment on a control point.
@@ -174,24 +204,28 @@ impl AppliedLoad {
         let factor = weight * self.factors.at(stage);
         match &mut self.action {
             Action::Dead(pattern) => {
-                let used = if stage == Stage::Start { &mut self.carried } else { &mut self.current };
+                let used =
+                    if stage == Stage::Start { &mut self.carried } else { &mut self.current };
                 *used = factor;
                 pattern.subtract_from(bodies, factor, out);
                 pattern.largest(self.factors.at(stage))
             }
-            Action::Follower(followers) => followers.iter_mut().fold((0.0, 0.0), |(largest, moment): (f64, f64), each| {
-                let body = &mut bodies[each.tracker.place.beam];
-                let (rotation, ..) = each.rotations(body, configuration(stage), increments);
-                let force = rotation.to_space(each.force) * factor;
-                let used = if stage == Stage::Start { &mut each.carried } else { &mut each.current };
-                *used = force;
-                for (point, share) in each.tracker.place.weights() {
-                    let [x, y, _] = body.degrees_of_freedom[point];
-                    out[x] -= share * force.x;
-                    out[y] -= share * force.y;
-                }
-                (largest.max(each.force.amax() * self.factors.at(stage).abs()), moment)
-            }),
+            Action::Follower(followers) => {
+                followers.iter_mut().fold((0.0, 0.0), |(largest, moment): (f64, f64), each| {
+                    let body = &mut bodies[each.tracker.place.beam];
+                    let (rotation, ..) = each.rotations(body, collocation(stage), increments);
+                    let force = rotation.to_space(each.force) * factor;
+                    let used =
+                        if stage == Stage::Start { &mut each.carried } else { &mut each.current };
+                    *used = force;
+                    for (point, share) in each.tracker.place.weights() {
+                        let [x, y, _] = body.degrees_of_freedom[point];
+                        out[x] -= share * force.x;
+                        out[y] -= share * force.y;
+                    }
+                    (largest.max(each.force.amax() * self.factors.at(stage).abs()), moment)
+                })
+            }
         }
     }
 
@@ -206,16 +240,19 @@ impl AppliedLoad {
         tangent: &mut BandedMatrix,
     ) {
         let Action::Follower(followers) = &self.action else { return };
-        let tau = configuration(stage);
+        let at = collocation(stage);
         for each in followers {
             let body = &mut bodies[each.tracker.place.beam];
-            let (_, end, increment) = each.rotations(body, tau, increments);
-            let scale = -weight * self.factors.at(stage) * tau / (1.0 + 0.25 * increment * increment);
+            let (_, end, increment) = each.rotations(body, at, increments);
+            let scale =
+                -weight * self.factors.at(stage) * at.configuration * at.rotations.rate(increment);
             let by_rotation = end.to_space(perpendicular(each.force)) * scale;
             for (a, share_a) in each.tracker.place.weights() {
                 for (b, share_b) in each.tracker.place.weights() {
                     let column = body.degrees_of_freedom[b][2];
-                    for (&row, value) in body.degrees_of_freedom[a].iter().zip([by_rotation.x, by_rotation.y]) {
+                    for (&row, value) in
+                        body.degrees_of_freedom[a].iter().zip([by_rotation.x, by_rotation.y])
+                    {
                         if row < unknowns && column < unknowns {
                             tangent.add(row, column, share_a * share_b * value);
                         }
@@ -228,22 +265,26 @@ impl AppliedLoad {
     /// What the load gave in the step of the movements that the bodies gathered last.
     pub(super) fn exchange(&self, bodies: &[Body], duration: f64) -> Exchange {
         match &self.action {
-            Action::Dead(pattern) => pattern.exchange(bodies, self.carried + self.current, duration),
-            Action::Follower(followers) => followers.iter().fold(Exchange::default(), |mut sum, each| {
-                let body = &bodies[each.tracker.place.beam];
-                let force = each.carried + each.current;
-                for (point, share) in each.tracker.place.weights() {
-                    let [x, y, _] = body.moved()[point];
-                    let moved = Vec2::new(x, y) * share;
-                    let middle = body.dynamics.control_points()[point] * share + moved * 0.5;
-                    sum += Exchange {
-                        work: force.dot(&moved),
-                        impulse: force * (share * duration),
-                        angular_impulse: cross(middle, force) * duration,
-                    };
-                }
-                sum
-            }),
+            Action::Dead(pattern) => {
+                pattern.exchange(bodies, self.carried + self.current, duration)
+            }
+            Action::Follower(followers) => {
+                followers.iter().fold(Exchange::default(), |mut sum, each| {
+                    let body = &bodies[each.tracker.place.beam];
+                    let force = each.carried + each.current;
+                    for (point, share) in each.tracker.place.weights() {
+                        let [x, y, _] = body.moved()[point];
+                        let moved = Vec2::new(x, y) * share;
+                        let middle = body.dynamics.control_points()[point] * share + moved * 0.5;
+                        sum += Exchange {
+                            work: force.dot(&moved),
+                            impulse: force * (share * duration),
+                            angular_impulse: cross(middle, force) * duration,
+                        };
+                    }
+                    sum
+                })
+            }
         }
     }
 }

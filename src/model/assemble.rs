@@ -35,11 +35,13 @@ impl Model {
         let assembly = Assembly::new(scene)?;
         let numbering = Numbering::new(scene, &assembly.beams, |station| assembly.place(station))?;
         let lumps = assembly.lumps()?;
-        let loads = scene.loads.iter().map(|load| assembly.applied(load)).collect::<Result<_, _>>()?;
+        let loads =
+            scene.loads.iter().map(|load| assembly.applied(load)).collect::<Result<_, _>>()?;
         let weight = (scene.gravity != Vec2::zeros()).then(|| assembly.weight(&lumps));
         let trackers = assembly.trackers()?;
         let joined = assembly.joined()?;
         let rates = assembly.start_rates(&numbering)?;
+        let total_mass = assembly.total_mass(&lumps);
 
         let unknowns = numbering.unknowns;
         let mut is_rotation = vec![false; unknowns];
@@ -58,8 +60,7 @@ impl Model {
             .beams
             .into_iter()
             .zip(numbering.degrees_of_freedom)
-            .zip(&scene.beams)
-            .map(|((dynamics, degrees), definition)| Body::new(definition.name.clone(), dynamics, degrees, unknowns))
+            .map(|(dynamics, degrees)| Body::new(dynamics, degrees, unknowns))
             .collect();
         Ok(Self {
             bodies,
@@ -75,6 +76,7 @@ impl Model {
             half_bandwidth: numbering.half_bandwidth,
             is_rotation,
             rates,
+            total_mass,
             time: 0.0,
             exchanged: Exchange::default(),
             step: StepScales::default(),
@@ -88,7 +90,8 @@ impl<'a> Assembly<'a> {
             Partner::Ground => vec![joint.station],
             Partner::Station(other) => vec![joint.station, other],
         });
-        let nodes: Vec<Station> = joined.chain(scene.velocities.iter().map(|velocity| velocity.station)).collect();
+        let nodes: Vec<Station> =
+            joined.chain(scene.velocities.iter().map(|velocity| velocity.station)).collect();
         let mut meshes = Vec::with_capacity(scene.beams.len());
         let mut beams = Vec::with_capacity(scene.beams.len());
         for (index, beam) in scene.beams.iter().enumerate() {
@@ -102,12 +105,18 @@ impl<'a> Assembly<'a> {
 
     fn place(&self, station: &Station) -> Result<Place, ModelError> {
         let beam = &self.scene.beams[station.beam];
-        station.place(&beam.axis, &self.meshes[station.beam]).map_err(ModelError::geometry(&beam.name))
+        station
+            .place(&beam.axis, &self.meshes[station.beam])
+            .map_err(ModelError::geometry(&beam.name))
     }
 
     fn lumps(&self) -> Result<Vec<Lump>, ModelError> {
         let lump = |mass: &super::PointMass| {
-            Ok(Lump { place: self.place(&mass.station)?, mass: mass.mass, rotary_inertia: mass.rotary_inertia })
+            Ok(Lump {
+                place: self.place(&mass.station)?,
+                mass: mass.mass,
+                rotary_inertia: mass.rotary_inertia,
+            })
         };
         self.scene.masses.iter().map(lump).collect()
     }
@@ -127,7 +136,9 @@ impl<'a> Assembly<'a> {
         let ends = self.scene.beams.iter().enumerate().flat_map(|(beam, definition)| {
             [0.0, definition.axis.length()].map(|arc_length| Station { beam, arc_length })
         });
-        ends.chain(self.scene.stations.iter().copied()).map(|station| Ok(Tracker::new(self.place(&station)?))).collect()
+        ends.chain(self.scene.stations.iter().copied())
+            .map(|station| Ok(Tracker::new(self.place(&station)?)))
+            .collect()
     }
 
     fn weight(&self, lumps: &[Lump]) -> Pattern {
@@ -148,6 +159,14 @@ impl<'a> Assembly<'a> {
         pattern
     }
 
+    fn total_mass(&self, lumps: &[Lump]) -> f64 {
+        let beam = |(beam, definition): (&Box<dyn BeamDynamics>, &BeamDefinition)| {
+            definition.section.mass * beam.lumped_lengths().iter().sum::<f64>()
+        };
+        let beams: f64 = self.beams.iter().zip(&self.scene.beams).map(beam).sum();
+        beams + lumps.iter().map(|lump| lump.mass).sum::<f64>()
+    }
+
     fn applied(&self, load: &Load) -> Result<AppliedLoad, ModelError> {
         let at_station = |station: &Station, force: [f64; 3]| -> Result<Action, ModelError> {
             let mut pattern = Pattern::default();
@@ -157,7 +176,9 @@ impl<'a> Assembly<'a> {
             Ok(Action::Dead(pattern))
         };
         let action = match &load.kind {
-            LoadKind::Force { station, force, frame: Frame::Dead } => at_station(station, [force.x, force.y, 0.0])?,
+            LoadKind::Force { station, force, frame: Frame::Dead } => {
+                at_station(station, [force.x, force.y, 0.0])?
+            }
             LoadKind::Moment { station, moment } => at_station(station, [0.0, 0.0, *moment])?,
             LoadKind::Force { station, force, frame: Frame::Follower } => {
                 Action::Follower(vec![Follower::new(Tracker::new(self.place(station)?), *force)])
@@ -187,7 +208,8 @@ impl<'a> Assembly<'a> {
         for span in basis.spans() {
             for (xi, weight) in rule.iter_on(span.start, span.end) {
                 let (along, scale) = (c + (xi - a) * (d - c) / (b - a), (d - c) / (b - a));
-                let length = weight * scale * definition.axis.derivative(along, 1).map_err(&wrap)?.norm();
+                let length =
+                    weight * scale * definition.axis.derivative(along, 1).map_err(&wrap)?.norm();
                 let arc_length = definition.axis.length_to(along).map_err(&wrap)?;
                 let place = self.place(&Station { beam, arc_length })?;
                 followers.push(Follower::new(Tracker::new(place), force * length));
@@ -204,7 +226,9 @@ impl<'a> Assembly<'a> {
             let motion = definition.motion;
             let about = motion.about.unwrap_or_else(|| centre(beam.as_ref()));
             let size = motion.velocity.norm() + motion.spin.abs() * definition.axis.length();
-            for (point, degrees) in beam.control_points().iter().zip(&numbering.degrees_of_freedom[index]) {
+            for (point, degrees) in
+                beam.control_points().iter().zip(&numbering.degrees_of_freedom[index])
+            {
                 let velocity = motion.velocity + perpendicular(point - about) * motion.spin;
                 let values = [velocity.x, velocity.y, motion.spin];
                 for ((&at, value), component) in degrees.iter().zip(values).zip(components) {
@@ -214,9 +238,13 @@ impl<'a> Assembly<'a> {
                             rates[at] = Some((index, value));
                             continue;
                         }
-                        Some(Some((other, rate))) => {
-                            (format!("beam '{}', joined there, has {rate}", self.scene.beams[*other].name), *rate)
-                        }
+                        Some(Some((other, rate))) => (
+                            format!(
+                                "beam '{}', joined there, has {rate}",
+                                self.scene.beams[*other].name
+                            ),
+                            *rate,
+                        ),
                     };
                     if (value - expected).abs() > SAME_VELOCITY * size.max(expected.abs()) {
                         return Err(ModelError::StartVelocity {
@@ -229,7 +257,8 @@ impl<'a> Assembly<'a> {
                 }
             }
         }
-        let mut rates: Vec<f64> = rates.into_iter().map(|rate| rate.map_or(0.0, |(_, value)| value)).collect();
+        let mut rates: Vec<f64> =
+            rates.into_iter().map(|rate| rate.map_or(0.0, |(_, value)| value)).collect();
         for velocity in &self.scene.velocities {
             let beam = velocity.station.beam;
             let point = self.place(&velocity.station)?.nearest_control_point();
@@ -259,14 +288,17 @@ fn mesh_with_nodes<'s>(
     nodes: impl Iterator<Item = &'s Station>,
 ) -> Result<Mesh, ModelError> {
     let wrap = ModelError::geometry(&beam.name);
-    let places: Vec<f64> =
-        nodes.map(|node| node.parameter(&beam.axis, &beam.mesh)).collect::<Result<_, _>>().map_err(&wrap)?;
+    let places: Vec<f64> = nodes
+        .map(|node| node.parameter(&beam.axis, &beam.mesh))
+        .collect::<Result<_, _>>()
+        .map_err(&wrap)?;
     beam.mesh.with_breaks(&places).map_err(&wrap)
 }
 
 /// The centre of mass of a beam as drawn.
 fn centre(beam: &dyn BeamDynamics) -> Vec2 {
     let lengths = beam.lumped_lengths();
-    let moment: Vec2 = beam.control_points().iter().zip(&lengths).map(|(point, length)| point * *length).sum();
+    let moment: Vec2 =
+        beam.control_points().iter().zip(&lengths).map(|(point, length)| point * *length).sum();
     moment / lengths.iter().sum::<f64>()
 }

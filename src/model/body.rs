@@ -1,12 +1,11 @@
 //! A beam of the model: its dynamics, and where its movements stand among the degrees of freedom.
 
-use crate::beams::{BeamDynamics, Collocation, ForceSummary, Movement};
+use crate::beams::{BeamDynamics, Collocation, ForceSummary, Movement, RotationIncrement};
 use crate::geometry::{Vec2, cross};
 use crate::linalg::BandedMatrix;
 
 /// A beam with the places of its movements in the vectors of the mechanism.
 pub(super) struct Body {
-    pub(super) name: String,
     pub(super) dynamics: Box<dyn BeamDynamics>,
     pub(super) degrees_of_freedom: Vec<[usize; 3]>,
     /// For each span that moves consecutive unknowns only: the first of them.
@@ -18,7 +17,6 @@ pub(super) struct Body {
 
 impl Body {
     pub(super) fn new(
-        name: String,
         dynamics: Box<dyn BeamDynamics>,
         degrees_of_freedom: Vec<[usize; 3]>,
         unknowns: usize,
@@ -34,7 +32,14 @@ impl Body {
             consecutive[first] = is_consecutive(first);
         }
         let zeros = vec![[0.0; 3]; degrees_of_freedom.len()];
-        Self { name, dynamics, degrees_of_freedom, consecutive, unknowns, moved: zeros.clone(), forces: zeros }
+        Self {
+            dynamics,
+            degrees_of_freedom,
+            consecutive,
+            unknowns,
+            moved: zeros.clone(),
+            forces: zeros,
+        }
     }
 
     /// The values of the unknowns at this beam; supported movements are zero.
@@ -51,8 +56,8 @@ impl Body {
     }
 
     /// Accepts the movements that were gathered last.
-    pub(super) fn advance(&mut self) {
-        self.dynamics.advance(&self.moved);
+    pub(super) fn advance(&mut self, rotations: RotationIncrement) {
+        self.dynamics.advance(&self.moved, rotations);
     }
 
     fn scatter(&mut self, out: &mut [f64]) {
@@ -63,7 +68,13 @@ impl Body {
         }
     }
 
-    pub(super) fn add_forces(&mut self, at: Collocation, increments: &[f64], weight: f64, out: &mut [f64]) -> ForceSummary {
+    pub(super) fn add_forces(
+        &mut self,
+        at: Collocation,
+        increments: &[f64],
+        weight: f64,
+        out: &mut [f64],
+    ) -> ForceSummary {
         self.gather(increments);
         let summary = self.dynamics.add_forces(at, &self.moved, weight, &mut self.forces);
         self.scatter(out);
@@ -138,7 +149,13 @@ impl Body {
     }
 }
 
-fn add_row(tangent: &mut BandedMatrix, row: usize, columns: &[usize], values: &[f64], unknowns: usize) {
+fn add_row(
+    tangent: &mut BandedMatrix,
+    row: usize,
+    columns: &[usize],
+    values: &[f64],
+    unknowns: usize,
+) {
     if row >= unknowns {
         return;
     }

@@ -7,7 +7,9 @@ use crate::geometry::GeometryError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ModelError {
     /// There is nothing to simulate.
-    #[error("the scene '{scene}' has no beams; add one with scene.beam(#{{ axis: …, section: … }})")]
+    #[error(
+        "the scene '{scene}' has no beams; add one with scene.beam(#{{ axis: …, section: … }})"
+    )]
     Empty {
         /// Its name.
         scene: String,
@@ -19,7 +21,9 @@ pub enum ModelError {
         name: String,
     },
     /// A station off its beam.
-    #[error("station {station} is outside [0, {length}] of beam '{beam}'; use beam.end for its end")]
+    #[error(
+        "station {station} is outside [0, {length}] of beam '{beam}'; use beam.end for its end"
+    )]
     StationOutside {
         /// The beam.
         beam: String,
@@ -37,7 +41,9 @@ pub enum ModelError {
         beam: String,
     },
     /// Partners that do not meet.
-    #[error("{joint}: its stations at {from} and {to} are {gap} apart; they must lie at the same place when the scene starts: move a beam")]
+    #[error(
+        "{joint}: its stations at {from} and {to} are {gap} apart; they must lie at the same place when the scene starts: move a beam"
+    )]
     OpenJoint {
         /// The joint.
         joint: String,
@@ -65,7 +71,9 @@ pub enum ModelError {
         scene: String,
     },
     /// Start velocities that tied things do not share.
-    #[error("beam '{beam}' starts with a velocity of {velocity} at its {place}, but {other}; give it a start velocity that fits (velocity, spin, about)")]
+    #[error(
+        "beam '{beam}' starts with a velocity of {velocity} at its {place}, but {other}; give it a start velocity that fits (velocity, spin, about)"
+    )]
     StartVelocity {
         /// The beam.
         beam: String,

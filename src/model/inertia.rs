@@ -33,13 +33,21 @@ impl Lump {
     pub(super) fn add_inertia(&self, body: &Body, factor: f64, rates: &[f64], out: &mut [f64]) {
         let rate = self.at_place(body, rates);
         for (point, weight) in self.place.weights() {
-            for ((&at, inertia), rate) in body.degrees_of_freedom[point].iter().zip(self.inertia()).zip(rate) {
+            for ((&at, inertia), rate) in
+                body.degrees_of_freedom[point].iter().zip(self.inertia()).zip(rate)
+            {
                 out[at] += factor * weight * inertia * rate;
             }
         }
     }
 
-    pub(super) fn add_inertia_tangent(&self, body: &Body, factor: f64, unknowns: usize, tangent: &mut BandedMatrix) {
+    pub(super) fn add_inertia_tangent(
+        &self,
+        body: &Body,
+        factor: f64,
+        unknowns: usize,
+        tangent: &mut BandedMatrix,
+    ) {
         for (a, weight_a) in self.place.weights() {
             for (b, weight_b) in self.place.weights() {
                 let degrees = body.degrees_of_freedom[a].iter().zip(&body.degrees_of_freedom[b]);

@@ -1,11 +1,11 @@
 //! The model as integrators see it.
 
-use super::applied::{Action, AppliedLoad, Exchange, Pattern, configuration};
+use super::applied::{AppliedLoad, Exchange, Pattern, collocation};
 use super::body::Body;
 use super::inertia::Lump;
 use super::measures::{Energy, Measures};
 use super::tracker::Tracker;
-use crate::beams::{Collocation, ForceSummary, Mesh, Place};
+use crate::beams::{ForceSummary, Mesh, Place, RotationIncrement};
 use crate::geometry::{Vec2, cross};
 use crate::integrators::{Interval, Mechanism, Stage, StepError};
 use crate::linalg::BandedMatrix;
@@ -36,6 +36,7 @@ pub struct Model {
     /// Which unknowns are rotations.
     pub(super) is_rotation: Vec<bool>,
     pub(super) rates: Vec<f64>,
+    pub(super) total_mass: f64,
     pub(super) time: f64,
     pub(super) exchanged: Exchange,
     pub(super) step: StepScales,
@@ -49,6 +50,7 @@ pub(super) struct StepScales {
     inertia: (f64, f64),
     loads: (f64, f64),
     summary: ForceSummary,
+    rotations: RotationIncrement,
 }
 
 impl Default for StepScales {
@@ -58,13 +60,9 @@ impl Default for StepScales {
             inertia: (0.0, 0.0),
             loads: (0.0, 0.0),
             summary: ForceSummary::default(),
+            rotations: RotationIncrement::TangentScaled,
         }
     }
-}
-
-fn collocation(stage: Stage) -> Collocation {
-    let tau = configuration(stage);
-    Collocation { configuration: tau, stress: tau }
 }
 
 /// The largest magnitudes among positions and among rotations.
@@ -72,14 +70,20 @@ fn largest(values: &[f64], is_rotation: &[bool]) -> (f64, f64) {
     values.iter().zip(is_rotation).fold((0.0, 0.0), |(force, moment), (value, rotation)| {
         // A NaN must survive: `f64::max` would drop it.
         let larger = |a: f64, b: f64| if a >= b || a.is_nan() { a } else { b };
-        if *rotation { (force, larger(moment, value.abs())) } else { (larger(force, value.abs()), moment) }
+        if *rotation {
+            (force, larger(moment, value.abs()))
+        } else {
+            (larger(force, value.abs()), moment)
+        }
     })
 }
 
 impl Model {
     fn add_inertia_of_all(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
         self.bodies.iter_mut().for_each(|body| body.add_inertia(factor, rates, out));
-        self.lumps.iter().for_each(|lump| lump.add_inertia(&self.bodies[lump.place.beam], factor, rates, out));
+        self.lumps
+            .iter()
+            .for_each(|lump| lump.add_inertia(&self.bodies[lump.place.beam], factor, rates, out));
     }
 
     /// Energy, momenta and what was exchanged so far.
@@ -91,11 +95,16 @@ impl Model {
             angular_momentum += angular;
         };
         self.bodies.iter_mut().for_each(|body| add(body.momenta(&self.rates)));
-        self.lumps.iter().for_each(|lump| add(lump.momenta(&self.bodies[lump.place.beam], &self.rates)));
+        self.lumps
+            .iter()
+            .for_each(|lump| add(lump.momenta(&self.bodies[lump.place.beam], &self.rates)));
         let energy = Energy {
             kinetic: 0.5 * twice_kinetic,
             strain: self.bodies.iter().map(|body| body.dynamics.strain_energy()).sum(),
-            potential: self.weight.as_ref().map_or(0.0, |weight| -weight.potential_work(&self.bodies)),
+            potential: self
+                .weight
+                .as_ref()
+                .map_or(0.0, |weight| -weight.potential_work(&self.bodies)),
         };
         Measures {
             time: self.time,
@@ -110,18 +119,34 @@ impl Model {
     }
 
     /// Subtracts loads and weight; returns the largest force and moment of a load on a control point.
-    fn subtract_loads(&mut self, stage: Stage, increments: &[f64], weight: f64, out: &mut [f64]) -> (f64, f64) {
+    fn subtract_loads(
+        &mut self,
+        stage: Stage,
+        increments: &[f64],
+        weight: f64,
+        out: &mut [f64],
+    ) -> (f64, f64) {
         if let Some(gravity) = &self.weight {
             gravity.subtract_from(&self.bodies, weight, out);
         }
         self.loads.iter_mut().fold((0.0, 0.0), |largest: (f64, f64), load| {
-            let (force, moment) = load.subtract_from(&mut self.bodies, stage, increments, weight, out);
+            let (force, moment) =
+                load.subtract_from(&mut self.bodies, stage, increments, weight, out);
             (largest.0.max(force), largest.1.max(moment))
         })
     }
 
+    pub(super) fn all_trackers(&self) -> impl Iterator<Item = &Tracker> {
+        self.trackers.iter().chain(self.loads.iter().flat_map(AppliedLoad::trackers))
+    }
+
+    pub(super) fn all_trackers_mut(&mut self) -> impl Iterator<Item = &mut Tracker> {
+        self.trackers.iter_mut().chain(self.loads.iter_mut().flat_map(AppliedLoad::trackers_mut))
+    }
+
     fn gap(&self) -> f64 {
-        let at = |place: &Place| place.interpolate(self.bodies[place.beam].dynamics.control_points());
+        let at =
+            |place: &Place| place.interpolate(self.bodies[place.beam].dynamics.control_points());
         self.joined.iter().map(|(a, b)| (at(a) - at(b)).norm()).fold(0.0, f64::max)
     }
 
@@ -180,7 +205,8 @@ impl Mechanism for Model {
         }
         self.bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
         self.step = StepScales { interval, ..StepScales::default() };
-        let (mut scratch, rates) = (std::mem::take(&mut self.scratch), std::mem::take(&mut self.rates));
+        let (mut scratch, rates) =
+            (std::mem::take(&mut self.scratch), std::mem::take(&mut self.rates));
         scratch.fill(0.0);
         self.add_inertia_of_all(2.0 / interval.duration(), &rates, &mut scratch);
         self.step.inertia = largest(&scratch, &self.is_rotation);
@@ -199,13 +225,20 @@ impl Mechanism for Model {
         }
     }
 
-    fn add_forces(&mut self, stage: Stage, increments: &[f64], weight: f64, out: &mut [f64]) -> f64 {
+    fn add_forces(
+        &mut self,
+        stage: Stage,
+        increments: &[f64],
+        weight: f64,
+        out: &mut [f64],
+    ) -> f64 {
         let mut summary = ForceSummary::default();
         for body in &mut self.bodies {
             summary.join(&body.add_forces(collocation(stage), increments, weight, out));
         }
         self.step.loads = self.subtract_loads(stage, increments, weight, out);
         self.step.summary = summary;
+        self.step.rotations = collocation(stage).rotations;
         summary.strain_mismatch
     }
 
@@ -237,7 +270,8 @@ impl Mechanism for Model {
     fn relative_imbalance(&self, residual: &[f64]) -> f64 {
         let (force, moment) = largest(residual, &self.is_rotation);
         let StepScales { inertia, loads, summary, .. } = &self.step;
-        let relative = |residual: f64, scale: f64| if residual == 0.0 { 0.0 } else { residual / scale };
+        let relative =
+            |residual: f64, scale: f64| if residual == 0.0 { 0.0 } else { residual / scale };
         let force = relative(force, summary.force + inertia.0 + loads.0);
         let moment = relative(moment, summary.moment + inertia.1 + loads.1);
         if force >= moment || force.is_nan() { force } else { moment }
@@ -251,22 +285,17 @@ impl Mechanism for Model {
         for body in &mut self.bodies {
             body.gather(increments);
         }
+        let rotations = self.step.rotations;
         let exchange = self.exchange_in_step(residual);
         self.exchanged += exchange;
-        for tracker in &mut self.trackers {
-            tracker.advance(self.bodies[tracker.place.beam].moved());
+        let Self { trackers, loads, bodies, .. } = self;
+        for tracker in
+            trackers.iter_mut().chain(loads.iter_mut().flat_map(AppliedLoad::trackers_mut))
+        {
+            tracker.advance(bodies[tracker.place.beam].moved(), rotations);
         }
-        for load in &mut self.loads {
-            if let Action::Follower(followers) = &mut load.action {
-                for follower in followers {
-                    follower.tracker.advance(self.bodies[follower.tracker.place.beam].moved());
-                }
-            }
-        }
-        self.bodies.iter_mut().for_each(Body::advance);
+        self.bodies.iter_mut().for_each(|body| body.advance(rotations));
         self.rates.copy_from_slice(rates);
         self.time = self.step.interval.end;
     }
 }
-impl Model { /// tmp
- pub fn ends(&self)->Vec<f64>{ let c=self.bodies[0].dynamics.control_points(); let a=c[0]; let b=c[c.len()-1]; vec![a.x,a.y,b.x,b.y] } }

@@ -8,6 +8,7 @@ mod inertia;
 mod measures;
 mod mechanism;
 mod numbering;
+mod queries;
 mod scene;
 mod tracker;
 

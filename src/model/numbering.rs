@@ -1,9 +1,9 @@
 //! Which movements are tied to each other or to the ground, and the numbers of the unknowns that are left.
 
 use super::{ModelError, Scene};
+use crate::beams::{BeamDynamics, Place, Station};
 use crate::geometry::Vec2;
 use crate::joints::{Component, JointKind, Partner};
-use crate::beams::{BeamDynamics, Place, Station};
 use crate::linalg::reverse_cuthill_mckee;
 
 /// Largest gap of a joint when the scene starts, relative to the length of its beam.
@@ -82,7 +82,11 @@ pub(super) fn check_ties(scene: &Scene) -> Result<(), ModelError> {
                     (false, JointKind::Rigid) => "joined to the other station in this component",
                 };
                 let place = scene.describe(&joint.station);
-                return Err(ModelError::AlreadyTied { joint: joint.name.clone(), place, how: how.to_owned() });
+                return Err(ModelError::AlreadyTied {
+                    joint: joint.name.clone(),
+                    place,
+                    how: how.to_owned(),
+                });
             }
         }
     }
@@ -90,7 +94,8 @@ pub(super) fn check_ties(scene: &Scene) -> Result<(), ModelError> {
 }
 
 fn same_place(a: &Station, b: &Station, scene: &Scene) -> bool {
-    a.beam == b.beam && (a.arc_length - b.arc_length).abs() <= 1e-10 * scene.beams[a.beam].axis.length()
+    a.beam == b.beam
+        && (a.arc_length - b.arc_length).abs() <= 1e-10 * scene.beams[a.beam].axis.length()
 }
 
 fn drawn_at(scene: &Scene, station: &Station) -> Result<Vec2, ModelError> {
@@ -99,7 +104,12 @@ fn drawn_at(scene: &Scene, station: &Station) -> Result<Vec2, ModelError> {
     at.map_err(ModelError::geometry(&beam.name))
 }
 
-fn check_closed(scene: &Scene, joint: &str, station: &Station, other: &Station) -> Result<(), ModelError> {
+fn check_closed(
+    scene: &Scene,
+    joint: &str,
+    station: &Station,
+    other: &Station,
+) -> Result<(), ModelError> {
     let (from, to) = (drawn_at(scene, station)?, drawn_at(scene, other)?);
     let (gap, size) = ((to - from).norm(), scene.beams[station.beam].axis.length());
     if gap <= CLOSED * (size + from.norm()) {
@@ -157,7 +167,8 @@ impl Numbering {
         for (beam, offset) in beams.iter().zip(&offsets) {
             for first in beam.span_starts() {
                 let nodes = offset + 3 * first..offset + 3 * (first + beam.order());
-                let mut group: Vec<usize> = nodes.map(|at| number[ties.root(at)]).filter(|&n| n != usize::MAX).collect();
+                let mut group: Vec<usize> =
+                    nodes.map(|at| number[ties.root(at)]).filter(|&n| n != usize::MAX).collect();
                 group.sort_unstable();
                 group.dedup();
                 groups.push(group);
@@ -178,10 +189,18 @@ impl Numbering {
                     root => ordering.position[number[root]],
                 };
                 (0..beam.control_points().len())
-                    .map(|point| Component::ALL.map(|component| degree(offset + 3 * point + component as usize)))
+                    .map(|point| {
+                        Component::ALL
+                            .map(|component| degree(offset + 3 * point + component as usize))
+                    })
                     .collect()
             })
             .collect();
-        Ok(Self { degrees_of_freedom, unknowns, supported, half_bandwidth: ordering.half_bandwidth })
+        Ok(Self {
+            degrees_of_freedom,
+            unknowns,
+            supported,
+            half_bandwidth: ordering.half_bandwidth,
+        })
     }
 }

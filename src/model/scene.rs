@@ -117,7 +117,11 @@ impl Scene {
         let length = definition.axis.length();
         let tolerance = 1e-12 * length;
         if !(arc_length >= -tolerance && arc_length <= length + tolerance) {
-            return Err(ModelError::StationOutside { beam: definition.name.clone(), station: arc_length, length });
+            return Err(ModelError::StationOutside {
+                beam: definition.name.clone(),
+                station: arc_length,
+                length,
+            });
         }
         let station = Station { beam, arc_length: arc_length.clamp(0.0, length) };
         if !self.stations.contains(&station) {
@@ -130,7 +134,12 @@ impl Scene {
     ///
     /// # Errors
     /// When both stations are one, do not meet, or one is tied already.
-    pub fn join(&mut self, kind: JointKind, station: Station, partner: Partner) -> Result<(), ModelError> {
+    pub fn join(
+        &mut self,
+        kind: JointKind,
+        station: Station,
+        partner: Partner,
+    ) -> Result<(), ModelError> {
         let name = format!("{} at {}", kind.describe(&partner), self.describe(&station));
         self.joints.push(Joint { name, kind, station, partner });
         super::numbering::check_ties(self).inspect_err(|_| {
@@ -146,11 +155,22 @@ impl Scene {
         let object = || format!("mass at {}", self.describe(&mass.station));
         if !(mass.mass.is_finite() && mass.mass > 0.0) {
             let allowed = "a positive finite number [mass]";
-            return Err(ModelError::Value { object: object(), name: "mass", value: mass.mass, allowed });
+            return Err(ModelError::Value {
+                object: object(),
+                name: "mass",
+                value: mass.mass,
+                allowed,
+            });
         }
         if !(mass.rotary_inertia.is_finite() && mass.rotary_inertia >= 0.0) {
-            let (value, allowed) = (mass.rotary_inertia, "zero or a positive finite number [mass·length²]");
-            return Err(ModelError::Value { object: object(), name: "rotary inertia", value, allowed });
+            let (value, allowed) =
+                (mass.rotary_inertia, "zero or a positive finite number [mass·length²]");
+            return Err(ModelError::Value {
+                object: object(),
+                name: "rotary inertia",
+                value,
+                allowed,
+            });
         }
         self.masses.push(mass);
         Ok(())
@@ -161,7 +181,9 @@ impl Scene {
         let name = match &kind {
             LoadKind::Force { station, .. } => format!("force at {}", self.describe(station)),
             LoadKind::Moment { station, .. } => format!("moment at {}", self.describe(station)),
-            LoadKind::Line { beam, .. } => format!("line load on beam '{}'", self.beams[*beam].name),
+            LoadKind::Line { beam, .. } => {
+                format!("line load on beam '{}'", self.beams[*beam].name)
+            }
         };
         self.loads.push(Load { name, kind, schedule });
     }

@@ -1,6 +1,6 @@
 //! Sections whose rotation is followed: stations, and places where loads turn with the beam.
 
-use crate::beams::{Movement, Place, Rotation};
+use crate::beams::{Movement, Place, Rotation, RotationIncrement};
 
 /// A place whose rotation is advanced with the steps.
 #[derive(Debug, Clone, Copy)]
@@ -21,10 +21,10 @@ impl Tracker {
         self.place.weights().map(|(point, weight)| weight * moved[point][2]).sum()
     }
 
-    pub(super) fn advance(&mut self, moved: &[Movement]) {
+    pub(super) fn advance(&mut self, moved: &[Movement], rotations: RotationIncrement) {
         let increment = self.increment(moved);
-        self.angle += 2.0 * (0.5 * increment).atan();
-        self.rotation = self.rotation.turned(increment).normalised();
+        self.angle += rotations.angle(increment);
+        self.rotation = self.rotation.turned(rotations, increment).normalised();
     }
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {

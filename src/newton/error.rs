@@ -32,11 +32,17 @@ impl NewtonError {
     /// The imbalance after each iteration, oldest first.
     pub fn history(&self) -> &[Imbalance] {
         match self {
-            Self::NotConverged { history } | Self::NotFinite { history } | Self::Linear { history, .. } => history,
+            Self::NotConverged { history }
+            | Self::NotFinite { history }
+            | Self::Linear { history, .. } => history,
         }
     }
 }
 
 fn describe(history: &[Imbalance]) -> String {
-    history.iter().map(|imbalance| format!("{:.1e}", imbalance.force)).collect::<Vec<_>>().join(", ")
+    history
+        .iter()
+        .map(|imbalance| format!("{:.1e}", imbalance.force))
+        .collect::<Vec<_>>()
+        .join(", ")
 }

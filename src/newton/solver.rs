@@ -76,7 +76,9 @@ impl Newton {
             equations.linearise(u, residual, &mut self.tangent);
             let factors = match self.tangent.factorise() {
                 Ok(factors) => factors,
-                Err(source) => return Err(NewtonError::Linear { source, history: self.history.clone() }),
+                Err(source) => {
+                    return Err(NewtonError::Linear { source, history: self.history.clone() });
+                }
             };
             let mut imbalance = correct(equations, &factors, &mut self.correction, u, residual);
             self.history.push(imbalance);
@@ -120,7 +122,7 @@ mod tests {
     struct SquareRoot;
 
     impl Equations for SquareRoot {
-            fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BandedMatrix) {
+        fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BandedMatrix) {
             self.imbalance(u, residual);
             tangent.add(0, 0, 2.0 * u[0]);
             tangent.add(1, 0, u[1]);
@@ -137,7 +139,8 @@ mod tests {
 
     fn solve(start: [f64; 2]) -> (Result<NewtonReport, NewtonError>, [f64; 2]) {
         let mut u = start;
-        let report = Newton::new(2, 1, Tolerance::default()).solve(&mut SquareRoot, &mut u, &mut [0.0; 2]);
+        let report =
+            Newton::new(2, 1, Tolerance::default()).solve(&mut SquareRoot, &mut u, &mut [0.0; 2]);
         (report, u)
     }
 

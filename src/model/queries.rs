@@ -1,0 +1,88 @@
+//! Looking at a model: places, angles, and its state as numbers.
+
+use super::{Model, Scene};
+use crate::beams::{Mesh, Place, Station};
+use crate::geometry::Vec2;
+
+impl Model {
+    /// The time of the state.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// The meshes of the beams, with breaks where joints are.
+    pub fn meshes(&self) -> &[Mesh] {
+        &self.meshes
+    }
+
+    /// The control points of all beams, beam by beam [length].
+    pub fn control_points(&self) -> impl Iterator<Item = &[Vec2]> {
+        self.bodies.iter().map(|body| body.dynamics.control_points())
+    }
+
+    /// The mass of everything.
+    pub fn total_mass(&self) -> f64 {
+        self.total_mass
+    }
+
+    /// Where a place is [length].
+    pub fn position(&self, place: &Place) -> Vec2 {
+        place.interpolate(self.bodies[place.beam].dynamics.control_points())
+    }
+
+    /// How fast a place moves [length/time].
+    pub fn velocity(&self, place: &Place) -> Vec2 {
+        let degrees = &self.bodies[place.beam].degrees_of_freedom;
+        let rate = |at: usize| self.rates.get(at).copied().unwrap_or(0.0);
+        let at = |(point, weight): (usize, f64)| {
+            Vec2::new(rate(degrees[point][0]), rate(degrees[point][1])) * weight
+        };
+        place.weights().map(at).sum()
+    }
+
+    /// The angle of the section at the start or the end of a beam, unwrapped [rad].
+    pub fn end_angles(&self, beam: usize) -> (f64, f64) {
+        (self.trackers[2 * beam].angle, self.trackers[2 * beam + 1].angle)
+    }
+
+    /// The angle of the section at a station, unwrapped [rad]; none when the scene did not know it at the start.
+    pub fn angle(&self, scene: &Scene, station: &Station) -> Option<f64> {
+        let (start, end) = self.end_angles(station.beam);
+        if station.arc_length == 0.0 {
+            return Some(start);
+        }
+        if station.arc_length == scene.beams[station.beam].axis.length() {
+            return Some(end);
+        }
+        let known = scene.stations.iter().position(|other| other == station)?;
+        self.trackers.get(2 * self.bodies.len() + known).map(|tracker| tracker.angle)
+    }
+
+    /// Appends everything that the motion from here on depends on, and the sums so far.
+    pub fn save(&self, state: &mut Vec<f64>) {
+        let sums = &self.exchanged;
+        state.extend([self.time, sums.work, sums.impulse.x, sums.impulse.y, sums.angular_impulse]);
+        state.extend(&self.rates);
+        self.bodies.iter().for_each(|body| body.dynamics.save(state));
+        self.all_trackers().for_each(|tracker| tracker.save(state));
+    }
+
+    /// Takes back a state that [`save`](Self::save) of this model has written.
+    ///
+    /// # Panics
+    /// When the state is not of this model.
+    pub fn restore(&mut self, state: &[f64]) {
+        let mut values = state.iter().copied();
+        let mut next =
+            || values.next().expect("a saved state has as many entries as the model that saved it");
+        self.time = next();
+        self.exchanged.work = next();
+        self.exchanged.impulse = Vec2::new(next(), next());
+        self.exchanged.angular_impulse = next();
+        self.rates.iter_mut().for_each(|rate| *rate = next());
+        self.bodies.iter_mut().for_each(|body| body.dynamics.restore(&mut values));
+        let mut next =
+            || values.next().expect("a saved state has as many entries as the model that saved it");
+        self.all_trackers_mut().for_each(|tracker| tracker.restore([next(), next(), next()]));
+    }
+}

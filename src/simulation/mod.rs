@@ -1,0 +1,15 @@
+//! Running a scene and remembering what happened.
+
+mod error;
+mod history;
+mod outline;
+mod run;
+mod time_grid;
+mod trajectory;
+
+pub use error::SimulationError;
+pub use history::{Column, History, Invariant, Sample};
+pub use outline::{Configuration, Outline};
+pub use run::{Monitor, Settings, Simulation, Unwatched, WorkCounts};
+pub use time_grid::TimeGrid;
+pub use trajectory::Trajectory;

@@ -1,0 +1,319 @@
+//! The time loop: steps on the grid, halved and tried again where they fail.
+
+use std::time::{Duration, Instant};
+
+use super::{Configuration, History, Outline, Sample, SimulationError, TimeGrid, Trajectory};
+use crate::beams::{Place, Station};
+use crate::geometry::Vec2;
+use crate::integrators::{Integrator, Interval, Mechanism, Method, StepError};
+use crate::model::{Model, ModelError, Scene};
+use crate::newton::{NewtonReport, Tolerance};
+
+/// A step is divided by at most two to this power.
+const MOST_HALVINGS: u32 = 12;
+
+/// How a scene is simulated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// The integrator.
+    pub method: Method,
+    /// The step size [time].
+    pub dt: f64,
+    /// Of the Newton solver.
+    pub tolerance: Tolerance,
+}
+
+/// The work of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct WorkCounts {
+    /// Steps that succeeded.
+    pub steps: usize,
+    /// Newton iterations of these steps.
+    pub newton_iterations: usize,
+    /// The most Newton iterations of one step.
+    pub newton_max: usize,
+    /// Factorised matrices, failed tries included.
+    pub factorisations: usize,
+    /// Failed tries.
+    pub retries: usize,
+    /// Time spent in steps.
+    pub wall: Duration,
+}
+
+/// Somebody who watches a run after every step.
+pub trait Monitor {
+    /// Called after every step; `false` stops the run there.
+    fn goes_on(&mut self, time: f64) -> bool;
+}
+
+/// Nobody.
+#[derive(Debug, Clone, Copy)]
+pub struct Unwatched;
+
+impl Monitor for Unwatched {
+    fn goes_on(&mut self, _time: f64) -> bool {
+        true
+    }
+}
+
+/// A scene in motion.
+pub struct Simulation {
+    scene: Scene,
+    settings: Settings,
+    model: Model,
+    integrator: Box<dyn Integrator>,
+    grid: TimeGrid,
+    history: History,
+    trajectory: Trajectory,
+    counts: WorkCounts,
+    outlines: Vec<Outline>,
+}
+
+impl Simulation {
+    /// Builds a scene and puts it at its start, t = 0.
+    ///
+    /// # Errors
+    /// When the step size is not positive or the scene cannot be built.
+    pub fn start(scene: Scene, settings: Settings) -> Result<Self, SimulationError> {
+        if !(settings.dt.is_finite() && settings.dt > 0.0) {
+            return Err(SimulationError::StepSize { dt: settings.dt });
+        }
+        let mut model = Model::assemble(&scene)?;
+        let integrator = settings.method.build(&model, settings.tolerance);
+        let cuts = scene.loads.iter().flat_map(|load| load.schedule.breaks()).collect();
+        let longest = scene.beams.iter().map(|beam| beam.axis.length()).fold(0.0, f64::max);
+        // The radius of gyration of the longest beam: a length that gives angular momenta a scale.
+        let mut history = History::new(model.total_mass(), longest / 12_f64.sqrt());
+        history.push(Sample { measures: model.measure(), ..Sample::default() });
+        let mut trajectory =
+            Trajectory::new(2 * model.control_points().map(<[Vec2]>::len).sum::<usize>());
+        trajectory.push(0.0, coordinates(&model));
+        let grid = TimeGrid::new(0.0, settings.dt, cuts);
+        let outlines = Outline::of_scene(&scene, model.meshes());
+        Ok(Self {
+            scene,
+            settings,
+            model,
+            integrator,
+            grid,
+            history,
+            trajectory,
+            counts: WorkCounts::default(),
+            outlines,
+        })
+    }
+
+    /// Where the simulation is [time].
+    pub fn time(&self) -> f64 {
+        self.model.time()
+    }
+
+    /// What is simulated.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// How it is simulated.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// The mechanism at its present state.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// All steps so far.
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    /// Configurations so far.
+    pub fn trajectory(&self) -> &Trajectory {
+        &self.trajectory
+    }
+
+    /// The work so far.
+    pub fn counts(&self) -> &WorkCounts {
+        &self.counts
+    }
+
+    /// The number of unknowns of a step.
+    pub fn unknowns(&self) -> usize {
+        self.model.unknowns()
+    }
+
+    /// How far from the diagonal the matrix of a step reaches.
+    pub fn half_bandwidth(&self) -> usize {
+        self.model.half_bandwidth()
+    }
+
+    /// Makes a step end at a time to come.
+    pub fn cut_at(&mut self, time: f64) {
+        self.grid.cut_at(time);
+    }
+
+    /// Takes one step: to the next point of the grid, or to the next cut of it.
+    ///
+    /// # Errors
+    /// When no step works or the monitor stops the run.
+    pub fn step(&mut self, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
+        self.step_at_most_to(f64::INFINITY, monitor)
+    }
+
+    /// Steps until a time, which ends the last step.
+    ///
+    /// # Errors
+    /// When the time has passed, no step works, or the monitor stops the run.
+    pub fn run_to(&mut self, end: f64, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
+        let now = self.time();
+        if !end.is_finite() {
+            return Err(SimulationError::End { now, end, advice: "give a finite time" });
+        }
+        if end < now - 1e-9 * self.grid.dt() {
+            return Err(SimulationError::End {
+                now,
+                end,
+                advice: "give a later time, or start the scene anew",
+            });
+        }
+        let steps = ((end - now) / self.grid.dt()).min(1e6) as usize + 8;
+        self.history.reserve(steps);
+        self.trajectory.reserve(steps);
+        while self.time() < end - 1e-9 * self.grid.dt() {
+            self.step_at_most_to(end, monitor)?;
+        }
+        Ok(())
+    }
+
+    fn step_at_most_to(
+        &mut self,
+        limit: f64,
+        monitor: &mut dyn Monitor,
+    ) -> Result<(), SimulationError> {
+        let begun = Instant::now();
+        let end = self.grid.next(self.time(), limit);
+        let stepped = self.cover(Interval { start: self.time(), end }, monitor);
+        self.grid.reach(self.time());
+        self.counts.wall += begun.elapsed();
+        stepped
+    }
+
+    /// Covers an interval by one step or, where that fails, by halves of it, growing again after success.
+    fn cover(&mut self, whole: Interval, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
+        const PARTS: u64 = 1 << MOST_HALVINGS;
+        let time = |part: u64| match part {
+            PARTS => whole.end,
+            part => whole.start + whole.duration() * (part as f64 / PARTS as f64),
+        };
+        let (mut covered, mut halvings, mut retries) = (0, 0, 0);
+        while covered < PARTS {
+            let width = PARTS >> halvings;
+            let interval = Interval { start: time(covered), end: time(covered + width) };
+            match self.integrator.step(&mut self.model, interval) {
+                Ok(report) => {
+                    self.record(interval, report, retries);
+                    covered += width;
+                    retries = 0;
+                    if halvings > 0 && covered.is_multiple_of(2 * width) {
+                        halvings -= 1;
+                    }
+                }
+                Err(source) => {
+                    self.counts.retries += 1;
+                    self.counts.factorisations += tried_iterations(&source);
+                    retries += 1;
+                    if halvings == MOST_HALVINGS || !source.may_be_cured_by_a_smaller_step() {
+                        let divisions = 1 << halvings;
+                        return Err(SimulationError::Step {
+                            time: self.time(),
+                            dt: whole.duration(),
+                            divisions,
+                            source,
+                        });
+                    }
+                    halvings += 1;
+                }
+            }
+            if !monitor.goes_on(self.time()) {
+                return Err(SimulationError::Interrupted { time: self.time() });
+            }
+        }
+        Ok(())
+    }
+
+    fn record(&mut self, interval: Interval, report: NewtonReport, retries: usize) {
+        self.counts.steps += 1;
+        self.counts.newton_iterations += report.iterations;
+        self.counts.newton_max = self.counts.newton_max.max(report.iterations);
+        self.counts.factorisations += report.iterations;
+        let measures = self.model.measure();
+        self.history.push(Sample {
+            measures,
+            dt: interval.duration(),
+            newton_iterations: report.iterations,
+            retries,
+        });
+        self.trajectory.push(interval.end, coordinates(&self.model));
+    }
+
+    /// The place of a station on the mesh of its beam.
+    ///
+    /// # Errors
+    /// When it lies outside its beam.
+    pub fn place(&self, station: &Station) -> Result<Place, ModelError> {
+        let beam = &self.scene.beams[station.beam];
+        station
+            .place(&beam.axis, &self.model.meshes()[station.beam])
+            .map_err(|source| ModelError::Beam { beam: beam.name.clone(), source: source.into() })
+    }
+
+    /// Where a place was, at all times of the trajectory.
+    pub fn path(&self, place: &Place) -> Vec<(f64, Vec2)> {
+        let counts: Vec<usize> = self.model.control_points().map(<[Vec2]>::len).collect();
+        let offset = counts[..place.beam].iter().sum::<usize>();
+        let at = |index: usize| -> Vec2 {
+            let numbers = self.trajectory.configuration(index);
+            place
+                .weights()
+                .map(|(point, w)| {
+                    Vec2::new(numbers[2 * (offset + point)], numbers[2 * (offset + point) + 1]) * w
+                })
+                .sum()
+        };
+        self.trajectory.times().iter().enumerate().map(|(index, &time)| (time, at(index))).collect()
+    }
+
+    /// The configuration nearest to a time, as it is drawn.
+    pub fn configuration_near(&self, time: f64) -> Option<Configuration> {
+        let index = self.trajectory.nearest(time)?;
+        let points: Vec<Vec2> = self
+            .trajectory
+            .configuration(index)
+            .chunks_exact(2)
+            .map(|xy| Vec2::new(xy[0], xy[1]))
+            .collect();
+        let mut rest = points.as_slice();
+        let beams: Vec<&[Vec2]> = self
+            .model
+            .control_points()
+            .map(|beam| {
+                let (own, others) = rest.split_at(beam.len());
+                rest = others;
+                own
+            })
+            .collect();
+        Some(Outline::draw(&self.outlines, self.trajectory.times()[index], &beams))
+    }
+}
+
+fn coordinates(model: &Model) -> impl Iterator<Item = f64> + '_ {
+    model.control_points().flatten().flat_map(|point| [point.x, point.y])
+}
+
+fn tried_iterations(error: &StepError) -> usize {
+    match error {
+        StepError::Newton { source, .. } => source.history().len(),
+        StepError::Rotation { .. } | StepError::Load { .. } => 0,
+    }
+}

@@ -1,0 +1,90 @@
+//! The times at which steps end.
+
+/// Grid points and cuts closer than this part of a step are one.
+const SAME: f64 = 1e-9;
+
+/// `t_n = t_0 + n dt`, cut where schedules jump or bend. Times are never accumulated.
+#[derive(Debug, Clone)]
+pub struct TimeGrid {
+    start: f64,
+    dt: f64,
+    /// In increasing order.
+    cuts: Vec<f64>,
+    /// The number of grid points passed.
+    passed: u64,
+}
+
+impl TimeGrid {
+    /// A grid from `start` on; `cuts` in any order.
+    pub fn new(start: f64, dt: f64, mut cuts: Vec<f64>) -> Self {
+        cuts.retain(|cut| cut.is_finite() && *cut > start);
+        cuts.sort_by(f64::total_cmp);
+        cuts.dedup();
+        Self { start, dt, cuts, passed: 0 }
+    }
+
+    /// The distance of grid points [time].
+    pub fn dt(&self) -> f64 {
+        self.dt
+    }
+
+    /// Adds a cut.
+    pub fn cut_at(&mut self, time: f64) {
+        let at = self.cuts.partition_point(|cut| *cut < time);
+        if self.cuts.get(at) != Some(&time) {
+            self.cuts.insert(at, time);
+        }
+    }
+
+    /// The end of the step that begins at `now`: the next grid point or cut, but not beyond `limit`.
+    pub fn next(&self, now: f64, limit: f64) -> f64 {
+        let same = SAME * self.dt;
+        let mut passed = self.passed;
+        let point = |n: u64| self.start + n as f64 * self.dt;
+        while point(passed + 1) <= now + same {
+            passed += 1;
+        }
+        let grid = point(passed + 1);
+        let cut = self.cuts[self.cuts.partition_point(|cut| *cut <= now + same)..].first();
+        [cut.copied(), Some(limit)].into_iter().flatten().fold(grid, |end, candidate| {
+            if candidate > now && candidate <= end + same { candidate } else { end }
+        })
+    }
+
+    /// Remembers that a time has been reached, so that the next search begins there.
+    pub fn reach(&mut self, now: f64) {
+        let same = SAME * self.dt;
+        while self.start + (self.passed + 1) as f64 * self.dt <= now + same {
+            self.passed += 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn times(dt: f64, cuts: Vec<f64>, end: f64) -> Vec<f64> {
+        let mut grid = TimeGrid::new(0.0, dt, cuts);
+        let (mut now, mut times) = (0.0, Vec::new());
+        while now < end {
+            now = grid.next(now, end);
+            grid.reach(now);
+            times.push(now);
+        }
+        times
+    }
+
+    #[test]
+    fn times_are_not_accumulated() {
+        assert_eq!(times(0.05, vec![], 25.0).len(), 500);
+        assert_eq!(times(0.1, vec![2.5], 7.5)[24], 2.5);
+    }
+
+    #[test]
+    fn the_grid_is_cut_at_jumps_and_goes_on_as_before() {
+        assert_eq!(times(1.0, vec![2.5], 4.0), [1.0, 2.0, 2.5, 3.0, 4.0]);
+        assert_eq!(times(0.3, vec![0.6], 0.9).len(), 3);
+        assert_eq!(times(1.0, vec![], 2.5), [1.0, 2.0, 2.5]);
+    }
+}

@@ -1,0 +1,89 @@
+//! Control points over time.
+
+/// Room for configurations; beyond it every second one is forgotten.
+const MOST_NUMBERS: usize = 32 << 20;
+
+/// Configurations of a run: the control points of all beams, one after another, at some of its times.
+#[derive(Debug, Clone)]
+pub struct Trajectory {
+    stride: usize,
+    times: Vec<f64>,
+    numbers: Vec<f64>,
+    /// Only every so many-th configuration that is offered is kept.
+    every: usize,
+    offered: usize,
+}
+
+impl Trajectory {
+    /// An empty trajectory of configurations of `stride` numbers.
+    pub fn new(stride: usize) -> Self {
+        Self { stride, times: Vec::new(), numbers: Vec::new(), every: 1, offered: 0 }
+    }
+
+    /// Makes room for configurations to come, as many as may be kept.
+    pub fn reserve(&mut self, configurations: usize) {
+        let room = configurations.min(MOST_NUMBERS / self.stride + 1);
+        self.times.reserve(room);
+        self.numbers.reserve(room * self.stride);
+    }
+
+    /// Offers a configuration.
+    pub fn push(&mut self, time: f64, numbers: impl Iterator<Item = f64>) {
+        if self.offered.is_multiple_of(self.every) {
+            self.times.push(time);
+            self.numbers.extend(numbers);
+        }
+        self.offered += 1;
+        if self.numbers.len() > MOST_NUMBERS {
+            self.thin_out();
+        }
+    }
+
+    fn thin_out(&mut self) {
+        let kept = self.times.len().div_ceil(2);
+        for new in 1..kept {
+            self.times[new] = self.times[2 * new];
+            self.numbers
+                .copy_within(2 * new * self.stride..(2 * new + 1) * self.stride, new * self.stride);
+        }
+        self.times.truncate(kept);
+        self.numbers.truncate(kept * self.stride);
+        self.every *= 2;
+    }
+
+    /// The times of the configurations.
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// The numbers of a configuration.
+    pub fn configuration(&self, index: usize) -> &[f64] {
+        &self.numbers[index * self.stride..(index + 1) * self.stride]
+    }
+
+    /// The index of the configuration nearest to a time.
+    pub fn nearest(&self, time: f64) -> Option<usize> {
+        let after = self.times.partition_point(|t| *t < time);
+        let candidates = [after.checked_sub(1), (after < self.times.len()).then_some(after)];
+        let distance = |index: &usize| (self.times[*index] - time).abs();
+        candidates.into_iter().flatten().min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn old_configurations_thin_out_evenly() {
+        let mut trajectory = Trajectory::new(1 << 22);
+        for index in 0..40 {
+            trajectory.push(f64::from(index), std::iter::repeat_n(f64::from(index), 1 << 22));
+        }
+        let times = trajectory.times().to_vec();
+        assert!(times.len() <= 9 && times[0] == 0.0);
+        assert!(times.windows(2).all(|pair| pair[1] - pair[0] == times[1] - times[0]), "{times:?}");
+        let nearest = trajectory.nearest(17.0).unwrap();
+        assert_eq!(trajectory.configuration(nearest)[0], times[nearest]);
+    }
+}
