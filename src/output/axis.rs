@@ -87,11 +87,6 @@ impl Axis {
         Self { scale: Scale::Logarithmic, low, high: high.max(low + 1.0), cut }
     }
 
-    /// The range on a linear axis, the exponents on a logarithmic one.
-    pub fn ends(&self) -> (f64, f64) {
-        (self.low, self.high)
-    }
-
     /// Where `x` lies, from 0 at the low end to 1 at the high end; beyond them outside the range, `nan` for `nan`.
     pub fn place(&self, x: f64) -> f64 {
         match self.scale {
@@ -179,13 +174,13 @@ pub fn extent(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     )
 }
 
-/// The least step of the form 1, 2 or 5 times a power of ten that is not below `step`.
+/// The step of the form 1, 2 or 5 times a power of ten that is next to `step`, or the next greater one.
 fn round_step(step: f64) -> (u8, i32) {
     let power = step.log10().floor() as i32;
     match step / ten_to(power) {
-        lead if lead <= 1.0 => (1, power),
-        lead if lead <= 2.0 => (2, power),
-        lead if lead <= 5.0 => (5, power),
+        lead if lead <= 1.25 => (1, power),
+        lead if lead <= 2.5 => (2, power),
+        lead if lead <= 6.25 => (5, power),
         _ => (1, power + 1),
     }
 }
@@ -215,6 +210,10 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    fn ends(axis: Axis) -> (f64, f64) {
+        (axis.low, axis.high)
+    }
+
     fn labels(axis: Axis) -> Vec<String> {
         axis.ticks(6).0.into_iter().map(|tick| tick.label).collect()
     }
@@ -233,16 +232,16 @@ mod tests {
     #[test]
     fn zero_is_at_the_bottom_of_a_logarithmic_axis() {
         let axis = Axis::logarithmic([0.0, 3e-14, 2e-12], DEFAULT_FLOOR);
-        assert_eq!(axis.ends(), (-15.0, -11.0));
+        assert_eq!(ends(axis), (-15.0, -11.0));
         assert_eq!(labels(axis), ["≤ 10⁻¹⁵", "10⁻¹⁴", "10⁻¹³", "10⁻¹²", "10⁻¹¹"]);
         assert_eq!(axis.place(0.0), 0.0);
         assert_eq!(axis.place(1e-11), 1.0);
-        assert_eq!(Axis::logarithmic([0.0, -1.0], DEFAULT_FLOOR).ends(), (-18.0, -17.0));
+        assert_eq!(ends(Axis::logarithmic([0.0, -1.0], DEFAULT_FLOOR)), (-18.0, -17.0));
     }
 
     #[test]
     fn rounding_is_shown_as_a_constant() {
-        let (low, high) = Axis::linear([374.28285, 374.28285 + 1e-12], 0.05).ends();
+        let (low, high) = ends(Axis::linear([374.28285, 374.28285 + 1e-12], 0.05));
         assert!(low < 340.0 && high > 410.0, "{low} {high}");
     }
 
@@ -250,7 +249,7 @@ mod tests {
         #[test]
         fn any_numbers_make_an_axis(values in prop::collection::vec(proptest::num::f64::ANY, 0..6), floor in proptest::num::f64::ANY) {
             for axis in [Axis::linear(values.clone(), 0.05), Axis::logarithmic(values.clone(), floor)] {
-                let (low, high) = axis.ends();
+                let (low, high) = ends(axis);
                 prop_assert!(low < high && (high - low).is_finite());
                 let (ticks, _) = axis.ticks(6);
                 prop_assert!(ticks.len() <= 14, "{ticks:?}");

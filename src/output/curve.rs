@@ -142,8 +142,8 @@ mod tests {
 
     #[test]
     fn a_million_points_become_some_thousands() {
-        let noise =
-            (0..1_000_000u32).map(|i| (f64::from(i) * 1e-5, f64::from((i % 1000 * 919) % 1000) * 0.01));
+        let noise = (0..1_000_000u32)
+            .map(|i| (f64::from(i) * 1e-5, f64::from((i % 1000 * 919) % 1000) * 0.01));
         let pieces = pieces(noise, &WINDOW);
         assert_eq!(pieces.len(), 1);
         assert!(pieces[0].len() <= 4 * 21, "{}", pieces[0].len());

@@ -14,7 +14,7 @@ const NUMBER: f64 = 12.0;
 /// Free paper around a panel.
 const EDGE: f64 = 14.0;
 /// Pixels per labelled place along a horizontal and along a vertical axis.
-const TICK_EVERY: (f64, f64) = (95.0, 52.0);
+const TICK_EVERY: (f64, f64) = (85.0, 50.0);
 
 /// The room between a panel's border and its plot.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -40,10 +40,10 @@ pub trait Panel {
     }
 }
 
-/// Of panels that share a page, each gets this part of the height it has alone when several stand in a column …
-const SHARED_HEIGHT: f64 = 0.6;
-/// … and this part of its width when several stand in a row.
-const SHARED_WIDTH: f64 = 0.72;
+/// Panels that share a page are smaller than alone: this part of their height when several rows share it, …
+const HEIGHT_IN_ROWS: f64 = 0.6;
+/// … and this part of their width and height when it is one row of several columns.
+const SIZE_IN_COLUMNS: (f64, f64) = (0.72, 0.85);
 /// Pixels per em of the title of a page.
 const TITLE: f64 = 18.0;
 
@@ -90,8 +90,12 @@ impl Page {
         let mut tracks = (vec![0f64; columns], vec![0f64; rows]);
         for (index, panel) in self.panels.iter().enumerate() {
             let (width, height) = panel.size();
-            let width = if columns > 1 { width * SHARED_WIDTH } else { width };
-            let height = if rows > 1 { height * SHARED_HEIGHT } else { height };
+            let width = if columns > 1 { width * SIZE_IN_COLUMNS.0 } else { width };
+            let height = match (rows, columns) {
+                (..=1, ..=1) => height,
+                (..=1, _) => height * SIZE_IN_COLUMNS.1,
+                _ => height * HEIGHT_IN_ROWS,
+            };
             let (column, row) = (index % columns, index / columns);
             tracks.0[column] = tracks.0[column].max(width.ceil());
             tracks.1[row] = tracks.1[row].max(height.ceil());
@@ -188,7 +192,7 @@ mod tests {
     fn rows_grids_and_empty_pages_are_pictures() {
         assert_eq!(
             Page::row().panel(chart(1.0)).panel(chart(2.0)).figure().unwrap().size(),
-            (1296, 560)
+            (1296, 476)
         );
         let grid = Page::grid(2).panel(chart(1.0)).panel(chart(2.0)).panel(chart(3.0));
         assert_eq!(grid.figure().unwrap().size(), (1296, 672));
