@@ -6,6 +6,8 @@
 //!
 //! Pictures look the same on every machine: text is drawn from an embedded font, and equal data gives equal bytes.
 
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
 mod axis;
 mod canvas;
 mod chart;
