@@ -217,6 +217,15 @@ mod tests {
     }
 
     #[test]
+    fn half_a_million_points_make_a_small_picture() {
+        let noise =
+            (0..500_000u32).map(|i| (f64::from(i), f64::from(i % 1000 * 919 % 1000))).collect();
+        let figure = LineChart::new("noise").series(Series::new("noise", noise)).figure().unwrap();
+        assert!(figure.to_svg().unwrap().len() < 200_000);
+        figure.to_png().unwrap();
+    }
+
+    #[test]
     fn an_empty_chart_says_so() {
         let nothing = Series::new("nothing", vec![(f64::NAN, 1.0), (1.0, f64::INFINITY)]);
         let svg = LineChart::new("").series(nothing).figure().unwrap().to_svg().unwrap();

@@ -33,8 +33,9 @@ mod timebar;
 mod samples;
 
 pub use axis::{DEFAULT_FLOOR, Scale};
-pub use canvas::{Area, Canvas, Point};
+pub use canvas::{Align, Area, Canvas, Direction, Point, Shape, Text};
 pub use chart::{LineChart, Series};
+pub use colour::Colour;
 pub use csv::CsvTable;
 pub use error::OutputError;
 pub use figure::{Figure, PictureKind};
