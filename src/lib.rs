@@ -16,5 +16,6 @@ pub mod linalg;
 pub mod loads;
 pub mod model;
 pub mod newton;
+pub mod output;
 pub mod script;
 pub mod simulation;

@@ -1,0 +1,263 @@
+//! Axes: from numbers to places along a side of a chart, and to the labels beside it.
+
+use super::number::format_number;
+
+/// How numbers are laid out along an axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Scale {
+    /// Equal differences are equally long.
+    #[default]
+    Linear,
+    /// Equal ratios are equally long. Numbers at or below the floor, so also zero, are shown at the bottom.
+    Logarithmic,
+}
+
+/// The floor of a logarithmic axis unless a chart sets another: well below the rounding of any double near one.
+pub const DEFAULT_FLOOR: f64 = 1e-18;
+
+/// Numbers beyond it are shown at it: the widest range whose length is still a finite number.
+const LARGEST: f64 = 1e300;
+
+/// A range narrower than this part of its numbers is rounding, and is shown as the constant it stands for.
+const ROUNDING: f64 = 1e-10;
+
+/// A place on an axis that carries a label.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tick {
+    /// Where it is, from 0 at the low end to 1 at the high end.
+    pub place: f64,
+    /// What stands beside it.
+    pub label: String,
+}
+
+/// A range of numbers and how it is laid out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axis {
+    scale: Scale,
+    /// The ends; on a logarithmic axis those of the exponents.
+    low: f64,
+    high: f64,
+    /// Whether numbers were cut at the low end of a logarithmic axis.
+    cut: Cut,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Cut {
+    Nothing,
+    Below,
+}
+
+impl Axis {
+    /// A linear axis from the least to the greatest finite value, with `margin` times its length to spare at each end.
+    pub fn linear(values: impl IntoIterator<Item = f64>, margin: f64) -> Self {
+        let (low, high) = extent(values).unwrap_or((0.0, 1.0));
+        let size = low.abs().max(high.abs());
+        let spare = if high - low > ROUNDING * size && high - low > 1e-290 {
+            margin * (high - low)
+        } else if size > 1e-280 {
+            0.1 * size
+        } else {
+            1.0
+        };
+        Self { scale: Scale::Linear, low: low - spare, high: high + spare, cut: Cut::Nothing }
+    }
+
+    /// A linear axis with the given ends.
+    pub fn between(low: f64, high: f64) -> Self {
+        Self::linear([low, high], 0.0)
+    }
+
+    /// A logarithmic axis over whole powers of ten. What lies at or below `floor` is shown at the bottom, one power of
+    /// ten below the least number that is above it.
+    pub fn logarithmic(values: impl IntoIterator<Item = f64>, floor: f64) -> Self {
+        let floor = if floor > 0.0 && floor.is_finite() { floor } else { DEFAULT_FLOOR };
+        let mut cut = Cut::Nothing;
+        let above = values.into_iter().filter(|x| x.is_finite()).filter(|&x| {
+            if x <= floor {
+                cut = Cut::Below;
+            }
+            x > floor
+        });
+        let bottom = floor.log10().floor();
+        let (least, most) = extent(above).unwrap_or((floor, floor));
+        let (mut low, high) = (least.log10().floor(), most.log10().ceil());
+        if cut == Cut::Below {
+            low = (low - 1.0).max(bottom);
+        }
+        Self { scale: Scale::Logarithmic, low, high: high.max(low + 1.0), cut }
+    }
+
+    /// Where `x` lies, from 0 at the low end to 1 at the high end; beyond them outside the range, `nan` for `nan`.
+    pub fn place(&self, x: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => (x.clamp(-LARGEST, LARGEST) - self.low) / (self.high - self.low),
+            Scale::Logarithmic if x.is_nan() => x,
+            Scale::Logarithmic if x <= 0.0 => 0.0,
+            Scale::Logarithmic => ((x.log10() - self.low) / (self.high - self.low)).max(0.0),
+        }
+    }
+
+    /// At most about `count` labelled places, and the factor that their labels have been freed of.
+    pub fn ticks(&self, count: usize) -> (Vec<Tick>, Factor) {
+        let count = count.max(2) as f64;
+        match self.scale {
+            Scale::Linear => self.linear_ticks(count),
+            Scale::Logarithmic => (self.power_ticks(count), Factor(0)),
+        }
+    }
+
+    fn linear_ticks(&self, count: f64) -> (Vec<Tick>, Factor) {
+        let (lead, power) = round_step((self.high - self.low) / count);
+        let step = f64::from(lead) * ten_to(power);
+        let size = self.low.abs().max(self.high.abs());
+        let factor = match size.log10().floor() as i32 {
+            modest @ -2..=4 if power >= -5 || modest >= 0 => 0,
+            other => other,
+        };
+        let decimals = (factor - power).max(0) as usize;
+        // A hair of a step keeps the ends of the range, which rounding may have moved.
+        let (first, last) = ((self.low / step - 1e-6).ceil(), (self.high / step + 1e-6).floor());
+        let ticks = (0..=(last - first).clamp(0.0, 100.0) as usize).map(|index| {
+            let multiple = first + index as f64;
+            let shown = multiple * f64::from(lead) * ten_to(power - factor);
+            Tick {
+                place: self.place(multiple * step).clamp(0.0, 1.0),
+                label: typeset(shown, decimals),
+            }
+        });
+        (ticks.collect(), Factor(factor))
+    }
+
+    fn power_ticks(&self, count: f64) -> Vec<Tick> {
+        let stride = ((self.high - self.low) / count).ceil().max(1.0);
+        let first = (self.low / stride).ceil() * stride;
+        let powers = (0..200)
+            .map(|index| first + f64::from(index) * stride)
+            .take_while(|&power| power <= self.high);
+        let bottom = (self.cut == Cut::Below)
+            .then(|| Tick { place: 0.0, label: format!("≤ {}", power_of_ten(self.low)) });
+        let tick =
+            |power: f64| Tick { place: self.place_of_power(power), label: power_of_ten(power) };
+        let free = powers.filter(|&power| bottom.is_none() || power >= self.low + stride / 2.0);
+        let mut ticks: Vec<Tick> = free.map(tick).collect();
+        ticks.splice(0..0, bottom);
+        ticks
+    }
+
+    fn place_of_power(&self, power: f64) -> f64 {
+        (power - self.low) / (self.high - self.low)
+    }
+}
+
+/// A power of ten that all labels of an axis have in common.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Factor(i32);
+
+impl Factor {
+    /// `label` with the factor behind it, if there is one: `energy [J] (×10⁻⁷)`.
+    pub fn after(&self, label: &str) -> String {
+        match self.0 {
+            0 => label.into(),
+            power => format!("{label} (×{})", power_of_ten(f64::from(power))).trim_start().into(),
+        }
+    }
+}
+
+/// The least and the greatest finite value.
+pub fn extent(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
+    values.into_iter().filter(|x| x.is_finite()).map(|x| x.clamp(-LARGEST, LARGEST)).fold(
+        None,
+        |range, x| {
+            let (low, high) = range.unwrap_or((x, x));
+            Some((x.min(low), x.max(high)))
+        },
+    )
+}
+
+/// The step of the form 1, 2 or 5 times a power of ten that is next to `step`, or the next greater one.
+fn round_step(step: f64) -> (u8, i32) {
+    let power = step.log10().floor() as i32;
+    match step / ten_to(power) {
+        lead if lead <= 1.25 => (1, power),
+        lead if lead <= 2.5 => (2, power),
+        lead if lead <= 6.25 => (5, power),
+        _ => (1, power + 1),
+    }
+}
+
+fn ten_to(power: i32) -> f64 {
+    10f64.powi(power)
+}
+
+/// A number with a fixed count of decimals and a true minus sign.
+fn typeset(x: f64, decimals: usize) -> String {
+    let x = if x == 0.0 { 0.0 } else { x };
+    format!("{x:.decimals$}").replace('-', "−")
+}
+
+/// `10⁻¹²`.
+fn power_of_ten(power: f64) -> String {
+    let digits = format_number(power);
+    let raised = digits.chars().map(|c| match c.to_digit(10) {
+        Some(digit) => ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize],
+        None => '⁻',
+    });
+    format!("10{}", raised.collect::<String>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn ends(axis: Axis) -> (f64, f64) {
+        (axis.low, axis.high)
+    }
+
+    fn labels(axis: Axis) -> Vec<String> {
+        axis.ticks(6).0.into_iter().map(|tick| tick.label).collect()
+    }
+
+    #[test]
+    fn labels_are_round_numbers() {
+        assert_eq!(labels(Axis::between(0.0, 0.5)), ["0.0", "0.1", "0.2", "0.3", "0.4", "0.5"]);
+        assert_eq!(labels(Axis::between(-10.0, 15.0)), ["−10", "−5", "0", "5", "10", "15"]);
+        assert_eq!(
+            labels(Axis::between(0.0, 3e-7)),
+            ["0.0", "0.5", "1.0", "1.5", "2.0", "2.5", "3.0"]
+        );
+        assert_eq!(Axis::between(0.0, 3e-7).ticks(6).1.after("drift"), "drift (×10⁻⁷)");
+    }
+
+    #[test]
+    fn zero_is_at_the_bottom_of_a_logarithmic_axis() {
+        let axis = Axis::logarithmic([0.0, 3e-14, 2e-12], DEFAULT_FLOOR);
+        assert_eq!(ends(axis), (-15.0, -11.0));
+        assert_eq!(labels(axis), ["≤ 10⁻¹⁵", "10⁻¹⁴", "10⁻¹³", "10⁻¹²", "10⁻¹¹"]);
+        assert_eq!(axis.place(0.0), 0.0);
+        assert_eq!(axis.place(1e-11), 1.0);
+        assert_eq!(ends(Axis::logarithmic([0.0, -1.0], DEFAULT_FLOOR)), (-18.0, -17.0));
+    }
+
+    #[test]
+    fn rounding_is_shown_as_a_constant() {
+        let (low, high) = ends(Axis::linear([374.28285, 374.28285 + 1e-12], 0.05));
+        assert!(low < 340.0 && high > 410.0, "{low} {high}");
+    }
+
+    proptest! {
+        #[test]
+        fn any_numbers_make_an_axis(values in prop::collection::vec(proptest::num::f64::ANY, 0..6), floor in proptest::num::f64::ANY) {
+            for axis in [Axis::linear(values.clone(), 0.05), Axis::logarithmic(values.clone(), floor)] {
+                let (low, high) = ends(axis);
+                prop_assert!(low < high && (high - low).is_finite());
+                let (ticks, _) = axis.ticks(6);
+                prop_assert!(ticks.len() <= 14, "{ticks:?}");
+                prop_assert!(ticks.iter().all(|tick| (-1e-9..=1.0 + 1e-9).contains(&tick.place)), "{:?} {:?}", axis, ticks);
+                for x in values.iter().filter(|x| x.is_finite()) {
+                    prop_assert!((-1e-9..=1.0 + 1e-9).contains(&axis.place(*x)) || x.abs() > LARGEST);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,227 @@
+//! What a picture is made of: lines, discs, filled boxes and texts, in pixels from the top left corner.
+//!
+//! Charts draw on a canvas; painters turn the canvas into a file. The two know nothing of each other, so the drawing
+//! library behind the painters can be replaced.
+
+use super::{colour::Colour, fonts};
+
+/// A place: in pixels on a canvas, in the reader's units in a chart.
+pub type Point = (f64, f64);
+
+/// Coordinates beyond this many pixels are drawn at it: far outside every picture, and safe to compute with.
+const FAR: f64 = 20_000.0;
+
+/// A box with sides along the axes of the picture; `top` is less than `bottom`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Area {
+    /// Least x.
+    pub left: f64,
+    /// Least y.
+    pub top: f64,
+    /// Greatest x.
+    pub right: f64,
+    /// Greatest y.
+    pub bottom: f64,
+}
+
+impl Area {
+    /// The length in x.
+    pub fn width(&self) -> f64 {
+        self.right - self.left
+    }
+
+    /// The length in y.
+    pub fn height(&self) -> f64 {
+        self.bottom - self.top
+    }
+}
+
+/// Where a text stands to its anchor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Align {
+    /// The text begins at the anchor.
+    Start,
+    /// The text is centred on the anchor.
+    Middle,
+    /// The text ends at the anchor.
+    End,
+}
+
+/// The direction of a text.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Direction {
+    /// From left to right.
+    Level,
+    /// From bottom to top, for the label of a vertical axis.
+    Upwards,
+}
+
+/// A text on its line; `anchor` is on the baseline.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Text {
+    /// What is written.
+    pub text: String,
+    /// Where the baseline begins, after alignment.
+    pub start: Point,
+    /// Pixels per em.
+    pub size: f64,
+    /// The colour of the glyphs.
+    pub colour: Colour,
+    /// The direction of the line.
+    pub direction: Direction,
+}
+
+/// One thing that is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A line through points, with round ends and corners.
+    Line {
+        /// The corners.
+        points: Vec<Point>,
+        /// How thick it is.
+        width: f64,
+        /// Its colour.
+        colour: Colour,
+    },
+    /// A filled circle.
+    Disc {
+        /// Its centre.
+        centre: Point,
+        /// Its radius.
+        radius: f64,
+        /// Its colour.
+        colour: Colour,
+    },
+    /// A filled box.
+    Fill {
+        /// Its place.
+        area: Area,
+        /// Its colour.
+        colour: Colour,
+    },
+    /// A text.
+    Text(Text),
+}
+
+/// A picture in the making: shapes, the later ones over the earlier ones.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Canvas {
+    shapes: Vec<Shape>,
+}
+
+impl Canvas {
+    /// What has been drawn, from back to front.
+    pub fn shapes(&self) -> &[Shape] {
+        &self.shapes
+    }
+
+    /// Draws a line; points that are not finite are left out, a single point becomes a dot.
+    pub fn line(&mut self, points: impl IntoIterator<Item = Point>, width: f64, colour: Colour) {
+        let points: Vec<Point> = points.into_iter().filter_map(reachable).collect();
+        if !points.is_empty() {
+            self.shapes.push(Shape::Line { points, width, colour });
+        }
+    }
+
+    /// Draws a filled circle.
+    pub fn disc(&mut self, centre: Point, radius: f64, colour: Colour) {
+        if let Some(centre) = reachable(centre) {
+            self.shapes.push(Shape::Disc { centre, radius, colour });
+        }
+    }
+
+    /// Fills a box.
+    pub fn fill(&mut self, area: Area, colour: Colour) {
+        let corners = reachable((area.left, area.top)).zip(reachable((area.right, area.bottom)));
+        if let Some(((left, top), (right, bottom))) = corners {
+            self.shapes.push(Shape::Fill { area: Area { left, top, right, bottom }, colour });
+        }
+    }
+
+    /// Writes a text with its baseline at `anchor`.
+    pub fn text(&mut self, text: &str, anchor: Point, size: f64, align: Align, colour: Colour) {
+        self.write(text, anchor, size, align, Direction::Level, colour);
+    }
+
+    /// Writes a text that runs from bottom to top, with its baseline at `anchor`.
+    pub fn text_upwards(
+        &mut self,
+        text: &str,
+        anchor: Point,
+        size: f64,
+        align: Align,
+        colour: Colour,
+    ) {
+        self.write(text, anchor, size, align, Direction::Upwards, colour);
+    }
+
+    fn write(
+        &mut self,
+        text: &str,
+        anchor: Point,
+        size: f64,
+        align: Align,
+        direction: Direction,
+        colour: Colour,
+    ) {
+        let back = match align {
+            Align::Start => 0.0,
+            Align::Middle => fonts::width(text, size) / 2.0,
+            Align::End => fonts::width(text, size),
+        };
+        let start = match direction {
+            Direction::Level => (anchor.0 - back, anchor.1),
+            Direction::Upwards => (anchor.0, anchor.1 + back),
+        };
+        if let Some(start) = reachable(start).filter(|_| !text.is_empty()) {
+            self.shapes.push(Shape::Text(Text {
+                text: text.into(),
+                start,
+                size,
+                colour,
+                direction,
+            }));
+        }
+    }
+}
+
+/// A finite point within reach of the painters.
+fn reachable((x, y): Point) -> Option<Point> {
+    (x.is_finite() && y.is_finite()).then(|| (x.clamp(-FAR, FAR), y.clamp(-FAR, FAR)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::colour::INK;
+
+    #[test]
+    fn only_finite_shapes_get_on_the_canvas() {
+        let mut canvas = Canvas::default();
+        canvas.line([(f64::NAN, 0.0), (1.0, f64::INFINITY)], 1.0, INK);
+        canvas.disc((f64::NAN, 0.0), 1.0, INK);
+        canvas.text("lost", (0.0, f64::NEG_INFINITY), 12.0, Align::Start, INK);
+        canvas.text("", (0.0, 0.0), 12.0, Align::Start, INK);
+        assert!(canvas.shapes().is_empty());
+        canvas.line([(1e300, 0.0), (f64::NAN, 0.0), (1.0, 1.0)], 1.0, INK);
+        let expected =
+            Shape::Line { points: vec![(FAR, 0.0), (1.0, 1.0)], width: 1.0, colour: INK };
+        assert_eq!(canvas.shapes(), [expected]);
+    }
+
+    #[test]
+    fn alignment_moves_the_start_back_along_the_line() {
+        let mut canvas = Canvas::default();
+        canvas.text("abc", (100.0, 50.0), 12.0, Align::End, INK);
+        canvas.text_upwards("abc", (100.0, 50.0), 12.0, Align::Middle, INK);
+        let width = fonts::width("abc", 12.0);
+        let starts = canvas.shapes().iter().map(|shape| match shape {
+            Shape::Text(text) => text.start,
+            other => panic!("{other:?}"),
+        });
+        assert_eq!(
+            starts.collect::<Vec<_>>(),
+            [(100.0 - width, 50.0), (100.0, 50.0 + width / 2.0)]
+        );
+    }
+}

@@ -1,0 +1,260 @@
+//! Line charts: series of points over a horizontal axis, linear or logarithmic.
+
+use super::{
+    axis::{Axis, DEFAULT_FLOOR, Scale, extent},
+    canvas::{Align, Area, Canvas, Point},
+    colour::{GREY, HUE_COUNT, hue},
+    frame::{Frame, Margins},
+    legend::Entry,
+    page::Panel,
+    stroke::Stroke,
+};
+
+const LINE: f64 = 2.0;
+const MARK: f64 = 3.5;
+
+/// A named curve. Points that are not finite leave a gap.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Series {
+    /// What the legend calls it.
+    pub name: String,
+    /// Its points, in the order in which they are joined.
+    pub points: Vec<Point>,
+    /// How its line is drawn; `None` leaves the choice to the chart, which draws unbroken lines while colours last.
+    pub stroke: Option<Stroke>,
+}
+
+impl Series {
+    /// A named curve through `points`.
+    pub fn new(name: impl Into<String>, points: Vec<Point>) -> Self {
+        Self { name: name.into(), points, stroke: None }
+    }
+
+    /// Chooses how the line is drawn.
+    pub fn stroke(mut self, stroke: Stroke) -> Self {
+        self.stroke = Some(stroke);
+        self
+    }
+}
+
+/// Series over common axes, with a title, labels and a legend.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LineChart {
+    title: String,
+    x_label: String,
+    y_label: String,
+    x_scale: Scale,
+    y_scale: Scale,
+    floor: f64,
+    y_range: Option<(f64, f64)>,
+    size: (f64, f64),
+    series: Vec<Series>,
+}
+
+impl LineChart {
+    /// An empty chart, 900 by 560 pixels large when it is alone.
+    pub fn new(title: impl Into<String>) -> Self {
+        Self {
+            title: title.into(),
+            x_label: String::new(),
+            y_label: String::new(),
+            x_scale: Scale::Linear,
+            y_scale: Scale::Linear,
+            floor: DEFAULT_FLOOR,
+            y_range: None,
+            size: (900.0, 560.0),
+            series: Vec::new(),
+        }
+    }
+
+    /// Says what the horizontal axis shows.
+    pub fn x_label(mut self, label: impl Into<String>) -> Self {
+        self.x_label = label.into();
+        self
+    }
+
+    /// Says what the vertical axis shows.
+    pub fn y_label(mut self, label: impl Into<String>) -> Self {
+        self.y_label = label.into();
+        self
+    }
+
+    /// Chooses the scale of the horizontal axis.
+    pub fn x_scale(mut self, scale: Scale) -> Self {
+        self.x_scale = scale;
+        self
+    }
+
+    /// Chooses the scale of the vertical axis.
+    pub fn y_scale(mut self, scale: Scale) -> Self {
+        self.y_scale = scale;
+        self
+    }
+
+    /// Shows numbers at or below `floor` at the bottom of logarithmic axes; [`DEFAULT_FLOOR`] unless it is positive.
+    pub fn floor(mut self, floor: f64) -> Self {
+        self.floor = floor;
+        self
+    }
+
+    /// Fixes the ends of the vertical axis; what lies beyond is cut off. Without it the axis fits the series.
+    pub fn y_range(mut self, low: f64, high: f64) -> Self {
+        self.y_range = Some((low, high));
+        self
+    }
+
+    /// Sets the size in pixels that the chart has when it is alone.
+    pub fn sized(mut self, width: f64, height: f64) -> Self {
+        self.size = (width, height);
+        self
+    }
+
+    /// Adds a series.
+    pub fn series(mut self, series: Series) -> Self {
+        self.series.push(series);
+        self
+    }
+
+    fn points(&self) -> impl Iterator<Item = Point> {
+        let points = self.series.iter().flat_map(|series| series.points.iter().copied());
+        points.filter(|(x, y)| x.is_finite() && y.is_finite())
+    }
+
+    fn frame(&self) -> Frame {
+        let marked = self.series.iter().any(|series| series.stroke == Some(Stroke::Marked));
+        let axis = |scale, values: &mut dyn Iterator<Item = f64>, margin| match scale {
+            Scale::Linear => Axis::linear(values, margin),
+            Scale::Logarithmic => Axis::logarithmic(values, self.floor),
+        };
+        let y_range =
+            self.y_range.and_then(|(low, high)| extent([low, high])).map(|(low, high)| [low, high]);
+        let y = match y_range {
+            Some(ends) => axis(self.y_scale, &mut ends.into_iter(), 0.0),
+            None => axis(self.y_scale, &mut self.points().map(|point| point.1), 0.06),
+        };
+        Frame {
+            title: self.title.clone(),
+            x_label: self.x_label.clone(),
+            y_label: self.y_label.clone(),
+            x: axis(
+                self.x_scale,
+                &mut self.points().map(|point| point.0),
+                if marked { 0.04 } else { 0.0 },
+            ),
+            y,
+            legend: self.legend(),
+        }
+    }
+
+    /// One series whose name is the title or the label of the axis needs no legend.
+    fn legend(&self) -> Vec<Entry> {
+        let entry = |(index, series): (usize, &Series)| {
+            let (colour, stroke) = look(index, series);
+            Entry { name: series.name.clone(), colour, stroke }
+        };
+        match self.series.as_slice() {
+            [only] if only.name == self.title || only.name == self.y_label => Vec::new(),
+            all => all
+                .iter()
+                .enumerate()
+                .filter(|(_, series)| !series.name.is_empty())
+                .map(entry)
+                .collect(),
+        }
+    }
+}
+
+fn look(index: usize, series: &Series) -> (super::colour::Colour, Stroke) {
+    (hue(index), series.stroke.unwrap_or(Stroke::of_round(index / HUE_COUNT)))
+}
+
+impl Panel for LineChart {
+    fn size(&self) -> (f64, f64) {
+        self.size
+    }
+
+    fn margins(&self, width: f64, height: f64) -> Margins {
+        self.frame().margins(width, height)
+    }
+
+    fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
+        let frame = self.frame();
+        frame.draw(canvas, area, plot);
+        if self.points().next().is_none() {
+            let middle = ((plot.left + plot.right) / 2.0, (plot.top + plot.bottom) / 2.0);
+            canvas.text("no data", middle, 14.0, Align::Middle, GREY);
+        }
+        for (index, series) in self.series.iter().enumerate() {
+            let (colour, stroke) = look(index, series);
+            for run in frame.curve(plot, &series.points) {
+                match run.as_slice() {
+                    [dot] => canvas.disc(*dot, MARK, colour),
+                    _ => stroke.draw(canvas, &run, LINE, colour),
+                }
+                if stroke == Stroke::Marked {
+                    run.iter().for_each(|&point| canvas.disc(point, MARK, colour));
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn two_runs_give_the_same_bytes() {
+        let points = (0..200).map(|i| (f64::from(i) * 0.05, (f64::from(i) * 0.1).sin())).collect();
+        let chart = LineChart::new("sine").x_label("t [s]").series(Series::new("sin", points));
+        let pictures = || {
+            let figure = chart.figure().unwrap();
+            (figure.to_svg().unwrap(), figure.to_png().unwrap())
+        };
+        assert_eq!(pictures(), pictures());
+        assert!(pictures().0.contains("<desc>sine | sin | 0 |"), "{}", pictures().0);
+    }
+
+    #[test]
+    fn half_a_million_points_make_a_small_picture() {
+        let noise =
+            (0..500_000u32).map(|i| (f64::from(i), f64::from(i % 1000 * 919 % 1000))).collect();
+        let figure = LineChart::new("noise").series(Series::new("noise", noise)).figure().unwrap();
+        assert!(figure.to_svg().unwrap().len() < 200_000);
+        figure.to_png().unwrap();
+    }
+
+    #[test]
+    fn an_empty_chart_says_so() {
+        let nothing = Series::new("nothing", vec![(f64::NAN, 1.0), (1.0, f64::INFINITY)]);
+        let svg = LineChart::new("").series(nothing).figure().unwrap().to_svg().unwrap();
+        assert!(svg.contains("no data"));
+    }
+
+    #[test]
+    fn a_lone_series_named_like_the_axis_needs_no_legend() {
+        let chart = LineChart::new("t").y_label("energy").series(Series::new("energy", vec![]));
+        assert!(chart.legend().is_empty());
+        assert_eq!(chart.series(Series::new("work", vec![])).legend().len(), 2);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(40))]
+        #[test]
+        fn any_points_make_a_chart(
+            points in prop::collection::vec((proptest::num::f64::ANY, proptest::num::f64::ANY), 0..12),
+            name in ".*",
+            scales in (0..4usize, 0..5usize),
+        ) {
+            let scale = |which| if which == 0 { Scale::Linear } else { Scale::Logarithmic };
+            let stroke = [Stroke::Solid, Stroke::Dashed, Stroke::Dotted, Stroke::Marked][scales.0];
+            let chart = LineChart::new(name.clone()).x_label(name.clone()).y_label("y").x_scale(scale(scales.0 % 2))
+                .y_scale(scale(scales.1 % 2)).sized(300.0, 200.0)
+                .series(Series::new(name.clone(), points.clone()).stroke(stroke)).series(Series::new(name, points));
+            let figure = chart.figure().unwrap();
+            figure.to_png().unwrap();
+            figure.to_svg().unwrap();
+        }
+    }
+}

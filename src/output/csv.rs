@@ -1,0 +1,123 @@
+//! Tables of numbers for other programs: columns of equal length with `#` comment lines above them.
+
+use std::path::Path;
+
+use super::{OutputError, files::write_whole};
+
+/// Named columns of numbers, written so that every number reads back bit for bit.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CsvTable {
+    /// Lines put above the table, each behind a `#`: what it is, its units, how it was made.
+    pub comments: Vec<String>,
+    /// Names and values of the columns, from left to right.
+    pub columns: Vec<(String, Vec<f64>)>,
+}
+
+impl CsvTable {
+    /// A table without columns.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a comment; each of its lines becomes a comment line.
+    pub fn comment(mut self, text: impl Into<String>) -> Self {
+        self.comments.push(text.into());
+        self
+    }
+
+    /// Adds a column at the right.
+    pub fn column(mut self, name: impl Into<String>, values: Vec<f64>) -> Self {
+        self.columns.push((name.into(), values));
+        self
+    }
+
+    /// The text of the file. Columns of different lengths are refused.
+    pub fn to_text(&self) -> Result<String, OutputError> {
+        let rows = self.common_length()?;
+        let mut bytes = Vec::new();
+        for line in self.comments.iter().flat_map(|comment| comment.lines()) {
+            bytes.extend(format!("# {}", line).trim_end().bytes());
+            bytes.push(b'\n');
+        }
+        if !self.columns.is_empty() {
+            let mut writer = ::csv::Writer::from_writer(&mut bytes);
+            writer.write_record(self.columns.iter().map(|(name, _)| name))?;
+            for row in 0..rows {
+                writer.write_record(self.columns.iter().map(|(_, values)| exact(values[row])))?;
+            }
+            writer.flush().map_err(::csv::Error::from)?;
+        }
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
+    }
+
+    /// Writes the table to `path`, whole or not at all.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), OutputError> {
+        write_whole(path, self.to_text()?.as_bytes())
+    }
+
+    fn common_length(&self) -> Result<usize, OutputError> {
+        let Some((first, values)) = self.columns.first() else { return Ok(0) };
+        let expected = values.len();
+        match self.columns.iter().find(|(_, values)| values.len() != expected) {
+            None => Ok(expected),
+            Some((name, values)) => Err(OutputError::RaggedColumns {
+                name: name.clone(),
+                length: values.len(),
+                first: first.clone(),
+                expected,
+            }),
+        }
+    }
+}
+
+/// 17 significant digits, which determine a double.
+fn exact(x: f64) -> String {
+    if x.is_finite() { format!("{x:.16e}") } else { super::number::format_number(x) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn comments_then_names_then_rows() {
+        let table = CsvTable::new()
+            .comment("flight\nunits: SI")
+            .column("t", vec![0.0, 0.1])
+            .column("a, b", vec![-1.0, f64::NAN]);
+        let expected = "# flight\n# units: SI\nt,\"a, b\"\n\
+                        0.0000000000000000e0,-1.0000000000000000e0\n1.0000000000000001e-1,nan\n";
+        assert_eq!(table.to_text().unwrap(), expected);
+    }
+
+    #[test]
+    fn ragged_columns_are_refused_by_name() {
+        let table = CsvTable::new().column("t", vec![0.0, 0.1]).column("energy", vec![1.0]);
+        let message = table.to_text().unwrap_err().to_string();
+        assert_eq!(
+            message,
+            "column 'energy' has 1 values but column 't' has 2; give every column one value per row"
+        );
+    }
+
+    #[test]
+    fn an_empty_table_is_a_file() {
+        let home = tempfile::tempdir().unwrap();
+        let path = home.path().join("empty.csv");
+        CsvTable::new().save(&path).unwrap();
+        assert_eq!(std::fs::read_to_string(path).unwrap(), "");
+    }
+
+    proptest! {
+        #[test]
+        fn numbers_read_back_bit_for_bit(values in prop::collection::vec(proptest::num::f64::ANY, 0..50)) {
+            let text = CsvTable::new().comment("c").column("x", values.clone()).to_text().unwrap();
+            let read: Vec<f64> = text.lines().skip(2).map(|line| line.parse().unwrap()).collect();
+            prop_assert_eq!(read.len(), values.len());
+            for (a, b) in read.iter().zip(&values) {
+                prop_assert!(a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()));
+            }
+        }
+    }
+}

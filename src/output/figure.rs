@@ -1,0 +1,100 @@
+//! A finished picture, and the files it can become.
+
+use std::path::Path;
+
+use super::{OutputError, canvas::Canvas, files::write_whole, png, svg};
+
+/// Least and greatest length of a picture's sides, in pixels.
+const SIDES: std::ops::RangeInclusive<f64> = 100.0..=8000.0;
+
+/// The kinds of picture, told apart by the ending of the file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PictureKind {
+    /// Scalable lines, `.svg`.
+    Svg,
+    /// Pixels, `.png`.
+    Png,
+}
+
+impl PictureKind {
+    /// The kind that the ending of `path` stands for.
+    pub fn of(path: &Path) -> Result<Self, OutputError> {
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        match ending.as_deref() {
+            Some("svg") => Ok(Self::Svg),
+            Some("png") => Ok(Self::Png),
+            Some(other) => {
+                Err(OutputError::PictureKind { path: path.into(), ending: format!("'.{other}'") })
+            }
+            None => Err(OutputError::PictureKind { path: path.into(), ending: "missing".into() }),
+        }
+    }
+}
+
+/// A drawn picture of fixed size. Equal drawings give equal bytes, on every machine and with any fonts or none.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    canvas: Canvas,
+    width: u32,
+    height: u32,
+}
+
+impl Figure {
+    /// A picture of `canvas` with the given size in pixels, rounded up to whole ones.
+    pub fn new(canvas: Canvas, (width, height): (f64, f64)) -> Result<Self, OutputError> {
+        if !SIDES.contains(&width) || !SIDES.contains(&height) {
+            return Err(OutputError::PictureSize { width, height });
+        }
+        Ok(Self { canvas, width: width.ceil() as u32, height: height.ceil() as u32 })
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> (u32, u32) {
+        (self.width, self.height)
+    }
+
+    /// The picture as an SVG document.
+    pub fn to_svg(&self) -> Result<String, OutputError> {
+        svg::paint(&self.canvas, self.width, self.height)
+    }
+
+    /// The picture as the bytes of a PNG file.
+    pub fn to_png(&self) -> Result<Vec<u8>, OutputError> {
+        png::paint(&self.canvas, self.width, self.height)
+    }
+
+    /// Writes the picture to `path`, whole or not at all; the ending, `.svg` or `.png`, says as what.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), OutputError> {
+        let path = path.as_ref();
+        match PictureKind::of(path)? {
+            PictureKind::Svg => write_whole(path, self.to_svg()?.as_bytes()),
+            PictureKind::Png => write_whole(path, &self.to_png()?),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn other_endings_are_refused_with_the_allowed_ones() {
+        let home = tempfile::tempdir().unwrap();
+        let figure = Figure::new(Canvas::default(), (100.0, 100.0)).unwrap();
+        let message = figure.save(home.path().join("energy.pdf")).unwrap_err().to_string();
+        assert!(message.contains("energy.pdf': its ending is '.pdf'; use '.svg'"), "{message}");
+        assert!(figure.save("energy").unwrap_err().to_string().contains("ending is missing"));
+        figure.save(home.path().join("ENERGY.PNG")).unwrap();
+        figure.save(home.path().join("new/energy.svg")).unwrap();
+    }
+
+    #[test]
+    fn impossible_sizes_are_refused() {
+        for size in [(0.0, 300.0), (f64::NAN, 300.0), (300.0, 1e9)] {
+            assert!(matches!(
+                Figure::new(Canvas::default(), size),
+                Err(OutputError::PictureSize { .. })
+            ));
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! The frame around the data of a panel: title, grid, axis lines, labels and legend.
+
+use super::{
+    axis::{Axis, Tick},
+    canvas::{Align, Area, Canvas, Point},
+    colour::{AXIS, GREY, GRID, INK},
+    curve, fonts, legend,
+    legend::Entry,
+};
+
+const TITLE: f64 = 16.0;
+const LABEL: f64 = 13.0;
+const NUMBER: f64 = 12.0;
+/// Free paper around a panel.
+const EDGE: f64 = 14.0;
+/// Pixels per labelled place along a horizontal and along a vertical axis.
+const TICK_EVERY: (f64, f64) = (85.0, 50.0);
+
+/// The room between a panel's border and its plot.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Margins {
+    /// At the left.
+    pub left: f64,
+    /// At the top.
+    pub top: f64,
+    /// At the right.
+    pub right: f64,
+    /// At the bottom.
+    pub bottom: f64,
+}
+
+impl Margins {
+    /// Room enough for both, side by side.
+    pub fn widest(self, other: Self) -> Self {
+        Self {
+            left: self.left.max(other.left),
+            top: self.top.max(other.top),
+            right: self.right.max(other.right),
+            bottom: self.bottom.max(other.bottom),
+        }
+    }
+
+    /// What they leave of `area`; some of it, however small the area is.
+    pub fn inside(&self, area: &Area) -> Area {
+        let (left, top) = (area.left + self.left, area.top + self.top);
+        let (right, bottom) = (area.right - self.right, area.bottom - self.bottom);
+        Area { left, top, right: right.max(left + 10.0), bottom: bottom.max(top + 10.0) }
+    }
+}
+
+/// Everything around the data.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// What stands above the panel.
+    pub title: String,
+    /// What the horizontal axis shows.
+    pub x_label: String,
+    /// What the vertical axis shows.
+    pub y_label: String,
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// The names of the lines; none when they need none.
+    pub legend: Vec<Entry>,
+}
+
+impl Frame {
+    /// The margins of a panel of the given size.
+    pub fn margins(&self, width: f64, height: f64) -> Margins {
+        let (x_ticks, _) = self.x.ticks(count(width - 120.0, TICK_EVERY.0));
+        let (y_ticks, _) = self.y.ticks(count(height - 110.0, TICK_EVERY.1));
+        let numbers =
+            y_ticks.iter().map(|tick| fonts::width(&tick.label, NUMBER)).fold(0.0, f64::max);
+        let last = x_ticks.last().map_or(0.0, |tick| fonts::width(&tick.label, NUMBER));
+        let left = EDGE + numbers + 10.0 + if self.has_y_label() { LABEL + 10.0 } else { 0.0 };
+        let right = (EDGE + last / 2.0).max(24.0);
+        let title = if self.title.is_empty() { 0.0 } else { TITLE + 10.0 };
+        Margins {
+            left,
+            top: EDGE + title + legend::height(&self.legend, width - left - right) + 6.0,
+            right,
+            bottom: EDGE + NUMBER + 8.0 + if self.has_x_label() { LABEL + 8.0 } else { 0.0 },
+        }
+    }
+
+    /// Draws all but the data; `plot` is what the margins leave of `area`.
+    pub fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
+        let title = fonts::fit(&self.title, TITLE, area.right - plot.left - EDGE);
+        canvas.text(&title, (plot.left, area.top + EDGE + TITLE * 0.8), TITLE, Align::Start, INK);
+        let legend_top = plot.top - 6.0 - legend::height(&self.legend, plot.width());
+        legend::draw(canvas, &self.legend, &Area { top: legend_top, bottom: plot.top, ..*plot });
+        self.draw_x_axis(canvas, area, plot);
+        self.draw_y_axis(canvas, area, plot);
+        let corner = [(plot.left, plot.top), (plot.left, plot.bottom), (plot.right, plot.bottom)];
+        canvas.line(corner.map(crisp), 1.0, AXIS);
+    }
+
+    /// Where a point of the data is on the canvas.
+    pub fn place(&self, plot: &Area, (x, y): Point) -> Point {
+        (plot.left + self.x.place(x) * plot.width(), plot.bottom - self.y.place(y) * plot.height())
+    }
+
+    /// The visible runs of a curve of the data.
+    pub fn curve(&self, plot: &Area, points: &[Point]) -> Vec<Vec<Point>> {
+        // A hair wider than the plot: rounding must not cut a line that runs along its side.
+        let window = Area {
+            left: plot.left - 0.01,
+            top: plot.top - 0.01,
+            right: plot.right + 0.01,
+            bottom: plot.bottom + 0.01,
+        };
+        curve::pieces(points.iter().map(|&point| self.place(plot, point)), &window)
+    }
+
+    fn draw_x_axis(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
+        let (ticks, factor) = self.x.ticks(count(plot.width(), TICK_EVERY.0));
+        let baseline = plot.bottom + 8.0 + NUMBER * 0.8;
+        let label_width = |tick: &Tick| fonts::width(&tick.label, NUMBER);
+        let widest = ticks.iter().map(label_width).fold(0.0, f64::max);
+        let spacing = plot.width() / ticks.len().max(2) as f64;
+        let keep = ((widest + 12.0) / spacing).ceil().clamp(1.0, 100.0) as usize;
+        for (index, tick) in ticks.iter().enumerate() {
+            let x = plot.left + tick.place * plot.width();
+            canvas.line([(x, plot.top), (x, plot.bottom)].map(crisp), 1.0, GRID);
+            if index % keep == 0 {
+                canvas.text(&tick.label, (x, baseline), NUMBER, Align::Middle, INK);
+            }
+        }
+        let label = fonts::fit(&factor.after(&self.x_label), LABEL, plot.width());
+        let middle = (plot.left + plot.right) / 2.0;
+        canvas.text(
+            &label,
+            (middle, area.bottom.min(baseline + LABEL + 11.0)),
+            LABEL,
+            Align::Middle,
+            GREY,
+        );
+    }
+
+    fn draw_y_axis(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
+        let (ticks, factor) = self.y.ticks(count(plot.height(), TICK_EVERY.1));
+        for tick in &ticks {
+            let y = plot.bottom - tick.place * plot.height();
+            canvas.line([(plot.left, y), (plot.right, y)].map(crisp), 1.0, GRID);
+            canvas.text(&tick.label, (plot.left - 8.0, y + NUMBER * 0.36), NUMBER, Align::End, INK);
+        }
+        let label = fonts::fit(&factor.after(&self.y_label), LABEL, plot.height() + 20.0);
+        let middle = (plot.top + plot.bottom) / 2.0;
+        canvas.text_upwards(
+            &label,
+            (area.left + EDGE + LABEL * 0.8, middle),
+            LABEL,
+            Align::Middle,
+            GREY,
+        );
+    }
+
+    fn has_x_label(&self) -> bool {
+        !self.x.ticks(6).1.after(&self.x_label).is_empty()
+    }
+
+    fn has_y_label(&self) -> bool {
+        !self.y.ticks(6).1.after(&self.y_label).is_empty()
+    }
+}
+
+fn count(length: f64, every: f64) -> usize {
+    (length / every).clamp(2.0, 16.0) as usize
+}
+
+/// Moves a point to the middle of its pixel, where a thin upright or level line is sharp.
+fn crisp((x, y): Point) -> Point {
+    (x.floor() + 0.5, y.floor() + 0.5)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_leaves_the_panel() {
+        let frame = Frame {
+            title: "A title that is far too long for its panel ".repeat(9),
+            x_label: "t [s]".into(),
+            y_label: "energy [J]".repeat(30),
+            x: Axis::between(0.0, 1e5),
+            y: Axis::between(-12345.678, 1.0),
+            legend: Vec::new(),
+        };
+        let area = Area { left: 0.0, top: 0.0, right: 500.0, bottom: 300.0 };
+        let mut canvas = Canvas::default();
+        frame.draw(&mut canvas, &area, &frame.margins(500.0, 300.0).inside(&area));
+        for shape in canvas.shapes() {
+            let super::super::canvas::Shape::Text(text) = shape else { continue };
+            let length = fonts::width(&text.text, text.size);
+            let (x, y) = text.start;
+            match text.direction {
+                super::super::canvas::Direction::Level => {
+                    assert!(x >= 0.0 && x + length <= 500.0, "{text:?}")
+                }
+                super::super::canvas::Direction::Upwards => {
+                    assert!(y <= 300.0 && y - length >= 0.0, "{text:?}")
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Tables, files and pictures from plain data. Nothing here knows what a simulation is.
+//!
+//! ```text
+//! chart, motion → page → frame, legend, timebar → axis, curve, stroke → canvas → figure → svg, png → files
+//! ```
+//!
+//! Pictures look the same on every machine: text is drawn from an embedded font, and equal data gives equal bytes.
+
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
+mod axis;
+mod canvas;
+mod chart;
+mod colour;
+mod csv;
+mod curve;
+mod error;
+mod figure;
+mod files;
+mod fonts;
+mod frame;
+mod legend;
+mod motion;
+mod number;
+mod page;
+mod png;
+mod stroke;
+mod svg;
+mod table;
+mod timebar;
+
+#[cfg(test)]
+mod samples;
+
+pub use axis::{DEFAULT_FLOOR, Scale};
+pub use canvas::{Align, Area, Canvas, Direction, Point, Shape, Text};
+pub use chart::{LineChart, Series};
+pub use colour::Colour;
+pub use csv::CsvTable;
+pub use error::OutputError;
+pub use figure::{Figure, PictureKind};
+pub use files::write_whole;
+pub use frame::Margins;
+pub use motion::{MotionPicture, Snapshot};
+pub use number::{format_number, scientific, significant};
+pub use page::{Page, Panel};
+pub use stroke::Stroke;
+pub use table::{Cell, Table};

@@ -1,0 +1,311 @@
+//! Pictures of motion: the shapes of beams at several times, one over the other, early ones pale and late ones dark.
+
+use super::{
+    axis::{Axis, extent},
+    canvas::{Align, Area, Canvas, Point},
+    colour::{Colour, GREY, HUE_COUNT, INK, hue, ramp, tint},
+    frame::{Frame, Margins},
+    legend::Entry,
+    page::{Page, Panel},
+    stroke::Stroke,
+    timebar::TimeBar,
+};
+
+const LINE: f64 = 2.0;
+const TRACE: f64 = 1.4;
+const MARK: f64 = 2.4;
+/// The width of the plot that a lone picture aims at, and the limits of its height and least width.
+const WIDTH: f64 = 740.0;
+const HEIGHTS: (f64, f64) = (220.0, 700.0);
+const LEAST_WIDTH: f64 = 300.0;
+/// Free paper around the data, as a part of its size.
+const SPARE: f64 = 0.05;
+
+/// The beams at one time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Snapshot {
+    /// The time.
+    pub time: f64,
+    /// The centre line of each beam, always in the same order.
+    pub lines: Vec<Vec<Point>>,
+    /// Places marked by dots: knots, nodes, joints.
+    pub marks: Vec<Point>,
+}
+
+/// Snapshots of a motion in the plane. One unit of x is as long on the paper as one unit of y.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MotionPicture {
+    title: String,
+    x_label: String,
+    y_label: String,
+    time_label: String,
+    beams: Vec<String>,
+    snapshots: Vec<Snapshot>,
+    traces: Vec<(String, Vec<Point>)>,
+    /// What the picture shows at least, beside its own data: opposite corners of a box.
+    window: Vec<Point>,
+}
+
+impl MotionPicture {
+    /// A picture without snapshots.
+    pub fn new(title: impl Into<String>) -> Self {
+        Self {
+            title: title.into(),
+            x_label: "x".into(),
+            y_label: "y".into(),
+            time_label: "t".into(),
+            ..Self::default()
+        }
+    }
+
+    /// Says what the axes show; `x` and `y` without it.
+    pub fn labels(mut self, x_label: impl Into<String>, y_label: impl Into<String>) -> Self {
+        self.x_label = x_label.into();
+        self.y_label = y_label.into();
+        self
+    }
+
+    /// Says what the bar of times shows; `t` without it.
+    pub fn time_label(mut self, label: impl Into<String>) -> Self {
+        self.time_label = label.into();
+        self
+    }
+
+    /// Names the beams, in the order of the lines of each snapshot.
+    pub fn beams(mut self, names: impl IntoIterator<Item = impl Into<String>>) -> Self {
+        self.beams = names.into_iter().map(Into::into).collect();
+        self
+    }
+
+    /// Adds the beams at one time. Later snapshots are drawn over earlier ones, whatever the order they come in.
+    pub fn snapshot(mut self, snapshot: Snapshot) -> Self {
+        self.snapshots.push(snapshot);
+        self
+    }
+
+    /// Adds the path of a station.
+    pub fn trace(mut self, name: impl Into<String>, points: Vec<Point>) -> Self {
+        self.traces.push((name.into(), points));
+        self
+    }
+
+    /// Shows at least the box between two opposite corners.
+    pub fn window(mut self, corner: Point, opposite: Point) -> Self {
+        self.window = vec![corner, opposite];
+        self
+    }
+
+    /// The pictures side by side, all with the same view, for comparing two integrators.
+    pub fn side_by_side(pictures: impl IntoIterator<Item = MotionPicture>) -> Page {
+        let pictures: Vec<MotionPicture> = pictures.into_iter().collect();
+        let all = || pictures.iter().flat_map(MotionPicture::points);
+        let (x, y) = (extent(all().map(|point| point.0)), extent(all().map(|point| point.1)));
+        let window: Vec<Point> =
+            x.zip(y).map(|(x, y)| [(x.0, y.0), (x.1, y.1)]).into_iter().flatten().collect();
+        let framed =
+            pictures.into_iter().map(|picture| MotionPicture { window: window.clone(), ..picture });
+        framed.fold(Page::row(), |page, picture| page.panel(picture))
+    }
+
+    fn points(&self) -> impl Iterator<Item = Point> {
+        let snapshots = self
+            .snapshots
+            .iter()
+            .flat_map(|snapshot| snapshot.lines.iter().flatten().chain(&snapshot.marks));
+        let points =
+            snapshots.chain(self.traces.iter().flat_map(|(_, points)| points)).chain(&self.window);
+        points.copied().filter(|(x, y)| x.is_finite() && y.is_finite())
+    }
+
+    /// The box that the data needs: its centre and its width and height, neither of them zero.
+    fn view(&self) -> (Point, Point) {
+        let side = |pick: fn(Point) -> f64| {
+            let (low, high) = extent(self.points().map(pick)).unwrap_or((-0.5, 0.5));
+            (low / 2.0 + high / 2.0, (high - low) * (1.0 + 2.0 * SPARE))
+        };
+        let ((x, width), (y, height)) = (side(|point| point.0), side(|point| point.1));
+        // A straight line has no height, and a point no size: show as much as keeps the place readable.
+        let size = width.max(height).max(1e-6 * x.abs().max(y.abs()));
+        let size = if size > 1e-280 { size } else { 1.0 };
+        ((x, y), (width.max(0.05 * size), height.max(0.05 * size)))
+    }
+
+    /// The frame of a plot of the given size in pixels, with equal units along both axes.
+    fn frame(&self, width: f64, height: f64) -> Frame {
+        let ((x, y), needs) = self.view();
+        let per_pixel = (needs.0 / width).max(needs.1 / height);
+        let axis = |centre: f64, pixels: f64| {
+            let half = per_pixel * pixels / 2.0;
+            Axis::between(centre - half, centre + half)
+        };
+        Frame {
+            title: self.title.clone(),
+            x_label: self.x_label.clone(),
+            y_label: self.y_label.clone(),
+            x: axis(x, width),
+            y: axis(y, height),
+            legend: self.legend(),
+        }
+    }
+
+    fn legend(&self) -> Vec<Entry> {
+        let beams =
+            self.beams.iter().take(self.beam_count()).enumerate().filter(|_| self.beam_count() > 1);
+        let beams = beams.map(|(index, name)| Entry {
+            name: name.clone(),
+            colour: hue(index),
+            stroke: Stroke::Solid,
+        });
+        let traces = self.traces.iter().enumerate().map(|(index, (name, _))| {
+            let (colour, stroke) = self.trace_look(index);
+            Entry { name: name.clone(), colour, stroke }
+        });
+        beams.chain(traces).filter(|entry| !entry.name.is_empty()).collect()
+    }
+
+    fn beam_count(&self) -> usize {
+        self.snapshots.iter().map(|snapshot| snapshot.lines.len()).max().unwrap_or(0)
+    }
+
+    /// Paths are dashed; their colours are none of the beams'. Vermilion stands out from the ramp of a lone beam.
+    fn trace_look(&self, index: usize) -> (Colour, Stroke) {
+        let first = if self.beam_count() > 1 { self.beam_count() } else { 1 };
+        (hue(first + index), if index < HUE_COUNT { Stroke::Dashed } else { Stroke::Dotted })
+    }
+
+    /// The colour of beam `index` at `part` of the motion. One beam runs through the ramp; of several, each has a hue.
+    fn colour(&self, index: usize, part: f64) -> Colour {
+        if self.beam_count() > 1 { tint(hue(index), part) } else { ramp(part) }
+    }
+
+    fn time_bar(&self) -> TimeBar {
+        let shade = if self.beam_count() > 1 { |part| tint(INK, part) } else { ramp };
+        TimeBar::new(&self.time_label, self.snapshots.iter().map(|snapshot| snapshot.time), shade)
+    }
+
+    fn draw_snapshot(
+        &self,
+        canvas: &mut Canvas,
+        frame: &Frame,
+        plot: &Area,
+        snapshot: &Snapshot,
+        part: f64,
+    ) {
+        for (index, line) in snapshot.lines.iter().enumerate() {
+            for run in frame.curve(plot, line) {
+                canvas.line(run, LINE, self.colour(index, part));
+            }
+        }
+        let shade = if self.beam_count() > 1 { tint(INK, part) } else { self.colour(0, part) };
+        for mark in frame_marks(frame, plot, &snapshot.marks) {
+            canvas.disc(mark, MARK, shade);
+        }
+    }
+}
+
+fn frame_marks(frame: &Frame, plot: &Area, marks: &[Point]) -> impl Iterator<Item = Point> {
+    marks.iter().flat_map(|&mark| frame.curve(plot, &[mark])).flatten()
+}
+
+impl Panel for MotionPicture {
+    fn size(&self) -> (f64, f64) {
+        let (_, (width, height)) = self.view();
+        let aspect = height / width;
+        let tall = (WIDTH * aspect).clamp(HEIGHTS.0, HEIGHTS.1);
+        let wide = (tall / aspect).clamp(LEAST_WIDTH, WIDTH);
+        let margins = self.margins(wide + 140.0, tall + 110.0);
+        (wide + margins.left + margins.right, tall + margins.top + margins.bottom)
+    }
+
+    fn margins(&self, width: f64, height: f64) -> Margins {
+        let margins = self
+            .frame((width - 140.0).max(50.0), (height - 110.0).max(50.0))
+            .margins(width, height);
+        Margins { right: margins.right.max(self.time_bar().width()), ..margins }
+    }
+
+    fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
+        let frame = self.frame(plot.width(), plot.height());
+        frame.draw(canvas, area, plot);
+        if self.points().next().is_none() {
+            let middle = ((plot.left + plot.right) / 2.0, (plot.top + plot.bottom) / 2.0);
+            canvas.text("no data", middle, 14.0, Align::Middle, GREY);
+        }
+        let bar = self.time_bar();
+        bar.draw(canvas, plot);
+        let mut snapshots: Vec<&Snapshot> = self.snapshots.iter().collect();
+        snapshots.sort_by(|a, b| a.time.total_cmp(&b.time));
+        for snapshot in snapshots {
+            self.draw_snapshot(canvas, &frame, plot, snapshot, bar.part(snapshot.time));
+        }
+        for (index, (_, points)) in self.traces.iter().enumerate() {
+            let (colour, stroke) = self.trace_look(index);
+            frame
+                .curve(plot, points)
+                .iter()
+                .for_each(|run| stroke.draw(canvas, run, TRACE, colour));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn snapshot(time: f64, lines: Vec<Vec<Point>>) -> Snapshot {
+        Snapshot { time, lines, marks: Vec::new() }
+    }
+
+    #[test]
+    fn units_are_equally_long_and_the_size_follows_the_data() {
+        let tall =
+            MotionPicture::new("").snapshot(snapshot(0.0, vec![vec![(0.0, 0.0), (1.0, 3.0)]]));
+        let flat =
+            MotionPicture::new("").snapshot(snapshot(0.0, vec![vec![(0.0, 0.0), (4.0, 2.0)]]));
+        assert!(tall.size().1 > tall.size().0 && flat.size().0 > flat.size().1);
+        for picture in [tall, flat] {
+            let (frame, plot) = (
+                picture.frame(400.0, 300.0),
+                Area { left: 0.0, top: 0.0, right: 400.0, bottom: 300.0 },
+            );
+            let (a, b, c) = (
+                frame.place(&plot, (0.0, 0.0)),
+                frame.place(&plot, (1.0, 0.0)),
+                frame.place(&plot, (0.0, 1.0)),
+            );
+            assert!(((b.0 - a.0) - (a.1 - c.1)).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn pictures_side_by_side_share_their_view() {
+        let picture = |x: f64| {
+            MotionPicture::new("").snapshot(snapshot(0.0, vec![vec![(0.0, 0.0), (x, 1.0)]]))
+        };
+        let page = MotionPicture::side_by_side([picture(1.0), picture(3.0)]);
+        let svg = page.figure().unwrap().to_svg().unwrap();
+        let texts = svg.split_once("<desc>").unwrap().1.split_once("</desc>").unwrap().0;
+        let texts: Vec<&str> = texts.split(" | ").collect();
+        let (left, right) = texts.split_at(texts.len() / 2);
+        assert_eq!(left, right, "the numbers along the axes are the same");
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(40))]
+        #[test]
+        fn any_points_make_a_picture(
+            points in prop::collection::vec((proptest::num::f64::ANY, proptest::num::f64::ANY), 0..8),
+            times in prop::collection::vec(proptest::num::f64::ANY, 0..4),
+        ) {
+            let mut picture = MotionPicture::new("").beams(["a", "b"]).trace("tip", points.clone());
+            for &time in &times {
+                let lines = vec![points.clone(); points.len() % 3];
+                picture = picture.snapshot(Snapshot { time, lines, marks: points.clone() });
+            }
+            let figure = picture.figure().unwrap();
+            figure.to_png().unwrap();
+            figure.to_svg().unwrap();
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! How numbers are shown to people: short, and never with the crumbs of binary arithmetic.
+//!
+//! Plain decimal writing for `1e-4 ≤ |x| < 1e7`, powers of ten outside it, every digit that is needed to read the
+//! same number back and none more.
+
+/// The shortest text that reads back as `x`: `0.05`, `374.28285`, `3`, `1e-12`, `1.5e10`, `inf`, `nan`.
+pub fn format_number(x: f64) -> String {
+    if x.is_nan() {
+        "nan".into()
+    } else if x == 0.0 {
+        "0".into()
+    } else if x.is_infinite() || (1e-4..1e7).contains(&x.abs()) {
+        format!("{x}")
+    } else {
+        format!("{x:e}")
+    }
+}
+
+/// `x` rounded to `digits` significant digits (at least one), shown as [`format_number`] does: `significant(1/3, 3)`
+/// is `0.333`, `significant(2.0, 3)` is `2`.
+pub fn significant(x: f64, digits: usize) -> String {
+    let rounded = format!("{:.*e}", decimals(digits), x).parse();
+    format_number(rounded.unwrap_or(x))
+}
+
+/// `x` as a power of ten with exactly `digits` significant digits (at least one): `scientific(3.14e-15, 2)` is
+/// `3.1e-15`. Zero is just `0`.
+pub fn scientific(x: f64, digits: usize) -> String {
+    if x == 0.0 || !x.is_finite() {
+        format_number(x)
+    } else {
+        format!("{:.*e}", decimals(digits), x)
+    }
+}
+
+/// Digits after the point of a mantissa with `digits` significant digits; a double has no more than 17.
+fn decimals(digits: usize) -> usize {
+    digits.clamp(1, 17) - 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn people_read_short_numbers() {
+        let cases = [
+            (1e-12, "1e-12"),
+            (0.05, "0.05"),
+            (374.28285, "374.28285"),
+            (2.5, "2.5"),
+            (3.0, "3"),
+            (-0.0, "0"),
+            (1.5e-7, "1.5e-7"),
+            (1e10, "1e10"),
+            (1e-4, "0.0001"),
+            (9999999.0, "9999999"),
+            (1e7, "1e7"),
+            (f64::INFINITY, "inf"),
+            (f64::NEG_INFINITY, "-inf"),
+            (f64::NAN, "nan"),
+        ];
+        for (x, text) in cases {
+            assert_eq!(format_number(x), text);
+        }
+    }
+
+    #[test]
+    fn rounding_keeps_the_manner() {
+        assert_eq!(significant(1.0 / 3.0, 6), "0.333333");
+        assert_eq!(significant(0.1 + 0.2, 6), "0.3");
+        assert_eq!(significant(123456789.0, 3), "1.23e8");
+        assert_eq!(significant(2.0, 0), "2");
+        assert_eq!(significant(f64::NAN, 3), "nan");
+        assert_eq!(scientific(3.14159e-15, 2), "3.1e-15");
+        assert_eq!(scientific(2.0, 3), "2.00e0");
+        assert_eq!(scientific(0.0, 2), "0");
+        assert_eq!(scientific(f64::INFINITY, 2), "inf");
+    }
+
+    proptest! {
+        #[test]
+        fn every_finite_number_reads_back_bit_for_bit(x in proptest::num::f64::NORMAL | proptest::num::f64::SUBNORMAL) {
+            prop_assert_eq!(format_number(x).parse::<f64>().unwrap().to_bits(), x.to_bits());
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! Sample pictures with the content of real studies, checked to be whole; set `WITHY_SAMPLES` to a folder to keep them
+//! and look at them.
+
+use super::*;
+
+/// Writes both kinds of the picture, to the folder that is asked for or to one that vanishes.
+fn show(name: &str, panel: &impl Panel) {
+    let vanishing = tempfile::tempdir().unwrap();
+    let folder =
+        std::env::var_os("WITHY_SAMPLES").map_or(vanishing.path().into(), std::path::PathBuf::from);
+    for ending in ["svg", "png"] {
+        let path = folder.join(format!("{name}.{ending}"));
+        panel.save(&path).unwrap();
+        assert!(std::fs::metadata(path).unwrap().len() > 3000);
+    }
+}
+
+fn series(name: &str, value: impl Fn(f64) -> f64) -> Series {
+    Series::new(name, (0..=400).map(|i| f64::from(i) * 0.025).map(|t| (t, value(t))).collect())
+}
+
+fn tumbling(time: f64, bend: f64) -> Snapshot {
+    let place = |s: f64| {
+        let angle = -0.7 - 0.9 * time + bend * (s - 0.5) * (1.3 * time).sin();
+        (1.6 * time + 5.0 * (s - 0.5) * angle.cos() + 3.0, 4.0 + 5.0 * (s - 0.5) * angle.sin())
+    };
+    let line = (0..=60).map(|i| place(f64::from(i) / 60.0)).collect();
+    Snapshot {
+        time,
+        lines: vec![line],
+        marks: (0..=7).map(|i| place(f64::from(i) / 7.0)).collect(),
+    }
+}
+
+fn flight(title: &str, bend: f64) -> MotionPicture {
+    let times = (0..=10).map(|i| 0.5 * f64::from(i));
+    let picture =
+        times.map(|t| tumbling(t, bend)).fold(MotionPicture::new(title), MotionPicture::snapshot);
+    let tip = (0..=200)
+        .filter_map(|i| tumbling(f64::from(i) * 0.025, bend).lines[0].last().copied())
+        .collect();
+    picture.labels("x [m]", "y [m]").time_label("t [s]").trace("path of the tip", tip)
+}
+
+fn energy() -> LineChart {
+    LineChart::new("Flying spaghetti: energy")
+        .x_label("t [s]")
+        .y_label("energy [J]")
+        .series(series("kinetic", |t| 300.0 - 60.0 * (-0.2 * t).exp() * (3.0 * t).cos()))
+        .series(series("strain", |t| 74.3 + 60.0 * (-0.2 * t).exp() * (3.0 * t).cos()))
+        .series(series("total", |_| 374.28285))
+}
+
+fn drift() -> LineChart {
+    LineChart::new("Relative drift")
+        .x_label("t [s]")
+        .y_label("|E − E₀| / E₀")
+        .y_scale(Scale::Logarithmic)
+        .series(series("energy", |t| (1e-15 * t * (1.0 + (17.0 * t).sin())).abs()))
+        .series(series("linear momentum", |_| 0.0))
+        .series(series("midpoint rule", |t| 1e-6 * t * t))
+}
+
+fn convergence() -> LineChart {
+    let order = |p: i32, c: f64| {
+        (0..6).map(move |i| 0.1 / 2f64.powi(i)).map(move |h| (h, c * h.powi(p))).collect()
+    };
+    LineChart::new("Error against step")
+        .x_label("dt [s]")
+        .y_label("error [m]")
+        .x_scale(Scale::Logarithmic)
+        .y_scale(Scale::Logarithmic)
+        .series(Series::new("energy–momentum", order(2, 0.5)).stroke(Stroke::Marked))
+        .series(Series::new("Gauss, two stages", order(4, 3.0)).stroke(Stroke::Marked))
+        .series(Series::new("slope 2", order(2, 1.0)).stroke(Stroke::Dotted))
+}
+
+fn two_beams() -> MotionPicture {
+    let swing = |time: f64| {
+        let (a, b) = (-1.5 + 1.2 * (2.0 * time).cos(), -1.5 + 1.8 * (2.7 * time).sin());
+        let elbow = (a.cos(), a.sin());
+        let tip = (elbow.0 + 0.8 * b.cos(), elbow.1 + 0.8 * b.sin());
+        Snapshot {
+            time,
+            lines: vec![vec![(0.0, 0.0), elbow], vec![elbow, tip]],
+            marks: vec![(0.0, 0.0), elbow, tip],
+        }
+    };
+    let times = (0..=6).map(|i| 0.25 * f64::from(i));
+    times
+        .map(swing)
+        .fold(MotionPicture::new("Double pendulum"), MotionPicture::snapshot)
+        .beams(["arm", "forearm"])
+}
+
+#[test]
+fn charts() {
+    show("energy", &energy());
+    show("drift", &drift());
+    show("convergence", &convergence());
+    let many = (0..12).fold(LineChart::new("Many series").x_label("t"), |chart, i| {
+        chart.series(series(&format!("station {i}"), move |t| {
+            f64::from(i) * 1e-7 + 1e-7 * (t + f64::from(i)).sin()
+        }))
+    });
+    show("many", &many);
+}
+
+#[test]
+fn motions() {
+    show("flight", &flight("Flying spaghetti", 2.5));
+    show("pendulum", &two_beams());
+    show("single", &MotionPicture::new("At rest").snapshot(tumbling(0.0, 0.0)));
+}
+
+#[test]
+fn pages() {
+    let momenta = LineChart::new("Momenta")
+        .x_label("t [s]")
+        .series(series("p_x [kg m/s]", |t| (8.0 * t).min(20.0)))
+        .series(series("L [kg m²/s]", |t| -(80.0 * t).min(200.0)));
+    show(
+        "column",
+        &Page::column().title("Flying spaghetti").panel(energy()).panel(momenta).panel(drift()),
+    );
+    let pair = [flight("energy–momentum", 2.5), flight("midpoint rule", 4.0)];
+    show("row", &MotionPicture::side_by_side(pair).title("Two integrators"));
+    show(
+        "hostile",
+        &Page::grid(2).panel(LineChart::new("empty")).panel(LineChart::new("huge").series(
+            Series::new("a", vec![(-1e308, 1e308), (0.0, -1e308), (f64::NAN, 0.0), (1e308, 0.0)]),
+        )),
+    );
+}

@@ -1,0 +1,59 @@
+//! How the line of a series is drawn, beside its colour.
+
+use super::{
+    canvas::{Canvas, Point},
+    colour::Colour,
+    curve,
+};
+
+/// The look of a line, which tells series apart when their colours do not.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Stroke {
+    /// An unbroken line.
+    #[default]
+    Solid,
+    /// Long dashes.
+    Dashed,
+    /// Short dashes, nearly dots.
+    Dotted,
+    /// An unbroken line with a dot at every point, for measured or computed points that are few.
+    Marked,
+}
+
+impl Stroke {
+    /// The stroke that series number `round × hues` takes when its colour has been used before.
+    pub fn of_round(round: usize) -> Self {
+        [Stroke::Solid, Stroke::Dashed, Stroke::Dotted][round % 3]
+    }
+
+    /// Draws one unbroken run of a curve, given in pixels. The dots of a marked line are not part of it.
+    pub fn draw(self, canvas: &mut Canvas, run: &[Point], width: f64, colour: Colour) {
+        let pattern: &[f64] = match self {
+            Stroke::Solid | Stroke::Marked => {
+                return canvas.line(run.iter().copied(), width, colour);
+            }
+            Stroke::Dashed => &[7.0, 5.0],
+            Stroke::Dotted => &[1.0, 5.0],
+        };
+        for dash in curve::dashes(run, pattern) {
+            canvas.line(dash, width, colour);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::colour::INK;
+
+    #[test]
+    fn a_dashed_line_is_several() {
+        let count = |stroke: Stroke| {
+            let mut canvas = Canvas::default();
+            stroke.draw(&mut canvas, &[(0.0, 0.0), (24.0, 0.0)], 2.0, INK);
+            canvas.shapes().len()
+        };
+        assert_eq!((count(Stroke::Solid), count(Stroke::Dashed), count(Stroke::Dotted)), (1, 2, 4));
+        assert_eq!(Stroke::of_round(4), Stroke::Dashed);
+    }
+}

@@ -1,0 +1,136 @@
+//! Paints a canvas as SVG through plotters. Text becomes outlines, so no reader needs a font; what it says is kept in
+//! the description of the picture.
+//!
+//! plotters' coordinates are whole numbers: the picture is drawn on a grid of [`GRID`] steps per pixel.
+
+use plotters::prelude::{DrawingBackend, RGBColor, SVGBackend, ShapeStyle};
+
+use super::{
+    OutputError,
+    canvas::{Canvas, Direction, Point, Shape, Text},
+    colour::{Colour, WHITE},
+    fonts,
+};
+
+/// Steps of the drawing grid per pixel.
+const GRID: f64 = 20.0;
+
+/// The SVG document of `canvas`, `width` by `height` pixels.
+pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<String, OutputError> {
+    let mut body = String::new();
+    let size = (width * GRID as u32, height * GRID as u32);
+    let mut backend = SVGBackend::with_string(&mut body, size);
+    let paper = style(WHITE, 1);
+    backend.draw_rect((0, 0), (size.0 as i32, size.1 as i32), &paper, true).map_err(refused)?;
+    for shape in canvas.shapes() {
+        paint_shape(&mut backend, shape)?;
+    }
+    backend.present().map_err(refused)?;
+    drop(backend);
+
+    let drawn = body.split_once(">\n").map_or("", |(_, drawn)| drawn).replace(" opacity=\"1\"", "");
+    Ok(head(canvas, width, height, size) + &drawn)
+}
+
+/// The opening of the document: its size in pixels, round corners for all lines, and all of its text.
+fn head(canvas: &Canvas, width: u32, height: u32, grid: (u32, u32)) -> String {
+    let texts: Vec<String> = canvas.shapes().iter().filter_map(text_of).collect();
+    let title = texts.first().cloned().unwrap_or_default();
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {} {}\" \
+         role=\"img\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n\
+         <title>{title}</title>\n<desc>{}</desc>\n",
+        grid.0,
+        grid.1,
+        texts.join(" | "),
+    )
+}
+
+fn text_of(shape: &Shape) -> Option<String> {
+    let Shape::Text(Text { text, .. }) = shape else { return None };
+    let text = text.replace(char::is_control, " ");
+    Some(text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;"))
+}
+
+fn refused(error: impl std::fmt::Display) -> OutputError {
+    OutputError::Paint { reason: error.to_string() }
+}
+
+fn paint_shape(backend: &mut SVGBackend<'_>, shape: &Shape) -> Result<(), OutputError> {
+    match shape {
+        Shape::Line { points, width, colour } => {
+            // A line of one point is a dot; its round end needs a second point to show.
+            let end = points.last().filter(|_| points.len() == 1);
+            backend.draw_path(
+                points.iter().chain(end).copied().map(on_grid),
+                &style(*colour, steps(*width)),
+            )
+        }
+        Shape::Disc { centre, radius, colour } => {
+            backend.draw_circle(on_grid(*centre), steps(*radius), &style(*colour, 1), true)
+        }
+        Shape::Fill { area, colour } => {
+            let corners = (on_grid((area.left, area.top)), on_grid((area.right, area.bottom)));
+            backend.draw_rect(corners.0, corners.1, &style(*colour, 1), true)
+        }
+        Shape::Text(text) => fonts::outlines(&text.text, text.size).iter().try_for_each(|glyph| {
+            backend.fill_polygon(one_polygon(glyph, text), &style(text.colour, 1))
+        }),
+    }
+    .map_err(refused)
+}
+
+/// The contours of a glyph as one polygon: bridges without area lead from the first contour to the others and back.
+fn one_polygon(contours: &[Vec<Point>], text: &Text) -> Vec<(i32, i32)> {
+    let home = contours.first().and_then(|contour| contour.first());
+    let walk = contours
+        .iter()
+        .enumerate()
+        .flat_map(|(index, contour)| contour.iter().chain(home.filter(|_| index > 0)));
+    let mut polygon: Vec<(i32, i32)> = walk.map(|&(x, y)| on_grid(placed((x, y), text))).collect();
+    polygon.dedup();
+    polygon
+}
+
+fn placed((x, y): Point, text: &Text) -> Point {
+    match text.direction {
+        Direction::Level => (text.start.0 + x, text.start.1 + y),
+        Direction::Upwards => (text.start.0 + y, text.start.1 - x),
+    }
+}
+
+fn on_grid((x, y): Point) -> (i32, i32) {
+    ((x * GRID).round() as i32, (y * GRID).round() as i32)
+}
+
+fn steps(pixels: f64) -> u32 {
+    (pixels * GRID).round().max(1.0) as u32
+}
+
+fn style(Colour(r, g, b): Colour, stroke_width: u32) -> ShapeStyle {
+    ShapeStyle { color: RGBColor(r, g, b).into(), filled: true, stroke_width }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::{canvas::Align, colour::INK};
+
+    #[test]
+    fn text_is_outlines_and_description() {
+        let mut canvas = Canvas::default();
+        canvas.text("a < b", (10.0, 20.0), 12.0, Align::Start, INK);
+        let svg = paint(&canvas, 100, 50).unwrap();
+        assert!(svg.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"100\" height=\"50\" viewBox=\"0 0 2000 1000\""));
+        assert!(svg.contains("<title>a &lt; b</title>"), "{svg}");
+        assert!(svg.contains("<polygon") && !svg.contains("<text"));
+        assert!(svg.ends_with("</svg>\n"));
+    }
+
+    #[test]
+    fn a_dot_is_a_line_with_two_ends() {
+        let mut canvas = Canvas::default();
+        canvas.line([(1.0, 2.0)], 2.0, INK);
+        assert!(paint(&canvas, 100, 50).unwrap().contains("points=\"20,40 20,40 \""));
+    }
+}

@@ -1,0 +1,173 @@
+//! Aligned text tables for the terminal and for logs.
+
+use std::fmt;
+
+use super::number::format_number;
+
+/// One entry of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    /// Words, set flush left.
+    Text(String),
+    /// A number in a text of its own, set flush right.
+    Number(String),
+}
+
+impl Cell {
+    fn text(&self) -> &str {
+        match self {
+            Cell::Text(text) | Cell::Number(text) => text,
+        }
+    }
+}
+
+impl From<&str> for Cell {
+    fn from(text: &str) -> Self {
+        Cell::Text(text.into())
+    }
+}
+
+impl From<String> for Cell {
+    fn from(text: String) -> Self {
+        Cell::Text(text)
+    }
+}
+
+impl From<f64> for Cell {
+    fn from(x: f64) -> Self {
+        Cell::Number(format_number(x))
+    }
+}
+
+impl From<usize> for Cell {
+    fn from(n: usize) -> Self {
+        Cell::Number(n.to_string())
+    }
+}
+
+impl From<i64> for Cell {
+    fn from(n: i64) -> Self {
+        Cell::Number(n.to_string())
+    }
+}
+
+/// Rows under a header, shown with [`Display`](fmt::Display).
+#[derive(Clone, Debug, Default)]
+pub struct Table {
+    title: String,
+    header: Vec<String>,
+    rows: Vec<Vec<Cell>>,
+}
+
+impl Table {
+    /// A table with the given column heads and no rows.
+    pub fn new(header: &[&str]) -> Self {
+        Self { header: header.iter().map(|head| (*head).to_string()).collect(), ..Self::default() }
+    }
+
+    /// Puts a title above the table.
+    pub fn title(mut self, title: impl Into<String>) -> Self {
+        self.title = title.into();
+        self
+    }
+
+    /// Adds a row. A row shorter than the header is filled with blanks; a longer one widens the table.
+    pub fn row<C: Into<Cell>>(&mut self, cells: impl IntoIterator<Item = C>) -> &mut Self {
+        self.rows.push(cells.into_iter().map(Into::into).collect());
+        self
+    }
+
+    fn columns(&self) -> usize {
+        self.rows.iter().map(Vec::len).chain([self.header.len()]).max().unwrap_or(0)
+    }
+
+    fn width(&self, column: usize) -> usize {
+        let heads = self.header.get(column).map(|head| width_of(head));
+        let cells =
+            self.rows.iter().filter_map(|row| row.get(column)).map(|cell| width_of(cell.text()));
+        cells.chain(heads).max().unwrap_or(0)
+    }
+
+    /// A column is numeric when it holds a number; its head is then set flush right as well.
+    fn is_numeric(&self, column: usize) -> bool {
+        self.rows.iter().any(|row| matches!(row.get(column), Some(Cell::Number(_))))
+    }
+}
+
+impl fmt::Display for Table {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let widths: Vec<usize> = (0..self.columns()).map(|column| self.width(column)).collect();
+        if !self.title.is_empty() {
+            writeln!(f, "{}", one_line(&self.title).trim_end())?;
+        }
+        let heads = self
+            .header
+            .iter()
+            .enumerate()
+            .map(|(column, head)| (head.as_str(), self.is_numeric(column)));
+        write_line(f, heads, &widths)?;
+        writeln!(
+            f,
+            "{}",
+            widths.iter().map(|&width| "─".repeat(width)).collect::<Vec<_>>().join("  ")
+        )?;
+        for row in &self.rows {
+            write_line(
+                f,
+                row.iter().map(|cell| (cell.text(), matches!(cell, Cell::Number(_)))),
+                &widths,
+            )?;
+        }
+        Ok(())
+    }
+}
+
+/// Writes one line of (text, flush right) cells, without blanks at its end.
+fn write_line<'a>(
+    f: &mut fmt::Formatter<'_>,
+    cells: impl Iterator<Item = (&'a str, bool)>,
+    widths: &[usize],
+) -> fmt::Result {
+    let padded = cells.zip(widths).map(|((text, right), &width)| {
+        let text = one_line(text);
+        if right { format!("{text:>width$}") } else { format!("{text:<width$}") }
+    });
+    writeln!(f, "{}", padded.collect::<Vec<_>>().join("  ").trim_end())
+}
+
+/// A cell stays on its line whatever it holds.
+fn one_line(text: &str) -> String {
+    text.replace(char::is_control, " ")
+}
+
+fn width_of(text: &str) -> usize {
+    text.chars().count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_left_numbers_right() {
+        let mut table = Table::new(&["method", "dt [s]", "drift"]).title("Energy drift");
+        table.row::<Cell>(["midpoint".into(), 0.05.into(), 3e-3.into()]);
+        table.row::<Cell>(["energy_momentum".into(), 0.1.into(), 1e-15.into()]);
+        let expected = "Energy drift\n\
+                        method           dt [s]  drift\n\
+                        ───────────────  ──────  ─────\n\
+                        midpoint           0.05  0.003\n\
+                        energy_momentum     0.1  1e-15\n";
+        assert_eq!(table.to_string(), expected);
+    }
+
+    #[test]
+    fn uneven_rows_and_line_breaks_stay_in_the_table() {
+        let mut table = Table::new(&["a"]);
+        table.row(["x\ny", "beyond"]).row::<Cell>([]);
+        let text = table.to_string();
+        assert_eq!(text, "a\n───  ──────\nx y  beyond\n\n");
+        assert!(text.lines().all(|line| line.trim_end() == line));
+        assert_eq!(Table::new(&[]).to_string(), "\n\n");
+    }
+}

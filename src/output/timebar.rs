@@ -1,0 +1,91 @@
+//! The bar that says which shade of a motion picture stands for which time.
+
+use super::{
+    axis::{Axis, extent},
+    canvas::{Align, Area, Canvas},
+    colour::{Colour, GREY, INK},
+    fonts,
+};
+
+const TEXT: f64 = 12.0;
+const LABEL: f64 = 13.0;
+/// The bar's distance from the plot, its breadth, and the distance of the numbers from it.
+const GAP: f64 = 22.0;
+const BREADTH: f64 = 12.0;
+const NUMBERS: f64 = 8.0;
+/// Free paper at the right.
+const EDGE: f64 = 14.0;
+/// In how many even pieces the bar is filled.
+const PIECES: usize = 100;
+
+/// Times and their shades. With fewer than two different times there is nothing to tell apart, and no bar.
+pub struct TimeBar {
+    label: String,
+    axis: Option<Axis>,
+    shade: fn(f64) -> Colour,
+}
+
+impl TimeBar {
+    /// The bar over all finite `times`; `shade` takes the part of the way from the first to the last.
+    pub fn new(
+        label: &str,
+        times: impl IntoIterator<Item = f64>,
+        shade: fn(f64) -> Colour,
+    ) -> Self {
+        let axis = extent(times)
+            .filter(|(first, last)| last > first)
+            .map(|(first, last)| Axis::between(first, last));
+        Self { label: label.into(), axis, shade }
+    }
+
+    /// How far `time` is from the first to the last; a lone time is the last.
+    pub fn part(&self, time: f64) -> f64 {
+        self.axis.map_or(1.0, |axis| axis.place(time))
+    }
+
+    /// The room that the bar needs at the right of the plot.
+    pub fn width(&self) -> f64 {
+        let Some(axis) = self.axis else { return 0.0 };
+        let (ticks, factor) = axis.ticks(8);
+        let numbers = ticks.iter().map(|tick| fonts::width(&tick.label, TEXT)).fold(0.0, f64::max);
+        let label = fonts::width(&factor.after(&self.label), LABEL).min(110.0) - BREADTH - NUMBERS;
+        GAP + BREADTH + NUMBERS + numbers.max(label) + EDGE
+    }
+
+    /// Draws the bar at the right of `plot`.
+    pub fn draw(&self, canvas: &mut Canvas, plot: &Area) {
+        let Some(axis) = self.axis else { return };
+        let (left, top) = (plot.right + GAP, plot.top + LABEL + 10.0);
+        let height = plot.bottom - top;
+        for piece in 0..PIECES {
+            let (low, high) = (piece as f64 / PIECES as f64, (piece + 1) as f64 / PIECES as f64);
+            // Each piece reaches down to the bar's end, under the ones below: no seams.
+            let (piece_top, bottom) = (plot.bottom - height * high, plot.bottom - height * low);
+            let under = if piece == 0 { 0.0 } else { 0.5 };
+            let area = Area { left, top: piece_top, right: left + BREADTH, bottom: bottom + under };
+            canvas.fill(area, (self.shade)((low + high) / 2.0));
+        }
+        let (ticks, factor) = axis.ticks((height / 45.0).clamp(2.0, 8.0) as usize);
+        for tick in ticks {
+            let y = plot.bottom - tick.place * height + 0.36 * TEXT;
+            canvas.text(&tick.label, (left + BREADTH + NUMBERS, y), TEXT, Align::Start, INK);
+        }
+        let label = fonts::fit(&factor.after(&self.label), LABEL, 110.0);
+        canvas.text(&label, (left, plot.top + LABEL * 0.8), LABEL, Align::Start, GREY);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::colour::ramp;
+
+    #[test]
+    fn a_lone_time_has_no_bar_and_is_dark() {
+        let bar = TimeBar::new("t", [2.5, 2.5, f64::NAN], ramp);
+        assert_eq!((bar.width(), bar.part(2.5)), (0.0, 1.0));
+        let bar = TimeBar::new("t", [0.0, 5.0], ramp);
+        assert!(bar.width() > 40.0);
+        assert_eq!((bar.part(0.0), bar.part(2.5), bar.part(5.0)), (0.0, 0.5, 1.0));
+    }
+}
