@@ -2,6 +2,7 @@
 
 mod arrays;
 mod checking;
+pub mod geometry;
 mod math;
 mod text;
 mod vectors;
@@ -9,8 +10,16 @@ mod vectors;
 use super::table::Table;
 
 /// All domains, in the order of the reference.
-pub const TABLES: &[&Table] =
-    &[&math::TABLE, &vectors::TABLE, &arrays::TABLE, &text::TABLE, &checking::TABLE];
+pub const TABLES: &[&Table] = &[
+    &math::TABLE,
+    &vectors::TABLE,
+    &geometry::knots::TABLE,
+    &geometry::curves::TABLE,
+    &geometry::quadrature::TABLE,
+    &arrays::TABLE,
+    &text::TABLE,
+    &checking::TABLE,
+];
 
 #[cfg(test)]
 mod tests;

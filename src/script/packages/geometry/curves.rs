@@ -1,0 +1,252 @@
+//! Planar curves, as the axes of beams are drawn.
+
+use std::rc::Rc;
+
+use rhai::{Array, Dynamic};
+
+use super::knots::{KNOTS, shared as shared_knots};
+use super::{ORDER, TIMES, XI, blame, brief, brief_point, pair, plural, vector};
+use crate::geometry::{Curve, GeometryError, KnotVector, SplineCurve, Vec2};
+use crate::script::call::Call;
+use crate::script::error::ScriptError;
+use crate::script::kind::{Scripted, Type, with_article};
+use crate::script::parameter::{Parameter, Presence, number, object, point, points};
+use crate::script::table::{Table, function, method, operator, property};
+
+/// Curves of the plane.
+pub const TABLE: Table = Table {
+    name: "curves",
+    doc: "Curves of the plane with a parameter ξ: from 0 to 1, or over the domain of the knots. A beam is drawn along a \
+          curve.",
+    types: &[CURVE],
+    constants: &[],
+    rows: &[
+        function(
+            "line",
+            &[
+                point("from").unit("length").doc("where it starts"),
+                point("to").unit("length").doc("where it ends"),
+            ],
+            |call| Ok(shared(Curve::line(call.point("from")?, call.point("to")?)?)),
+        )
+        .returns("a curve")
+        .summary("The straight line between two points.")
+        .example("let rod = line([0, 8], [6, 0]);\ncheck(rod.length == 10 && rod.at(0.5) == [3, 4]);")
+        .see(&["arc", "through", "curve"]),
+        function(
+            "arc",
+            &[
+                point("center").unit("length").doc("the center of the circle"),
+                number("radius").positive().unit("length"),
+                number("from_angle").unit("rad").doc("where it starts, from the first axis"),
+                number("to_angle").unit("rad").doc("where it ends; counter-clockwise if larger"),
+            ],
+            arc,
+        )
+        .returns("a curve")
+        .summary("The arc of a circle between two angles, at most a full turn.")
+        .example("let quarter = arc([0, 0], 2, 0, PI / 2);\ncheck_close(quarter.length, PI, 1e-15);\ncheck(quarter.curvature(0.5) == 0.5);")
+        .see(&["line", "through"]),
+        function("through", &[points("points").unit("length").doc("two or more")], through)
+            .returns("a curve")
+            .summary("The smooth cubic spline through points, by local interpolation.")
+            .doc("Through n + 1 points it has 2 n + 2 control points, double interior knots and a continuous tangent (The NURBS Book, section 9.3.4).")
+            .example("let c = through([[0, 0], [1, 1], [2, 0]]);\ncheck(c.control_points.len() == 6);\ncheck_close(distance(c.at(0.5), [1, 1]), 0, 1e-12);")
+            .see(&["curve", "line"]),
+        function(
+            "curve",
+            &[
+                object("knots", KNOTS),
+                points("points").unit("length").doc("control points, one for each function"),
+            ],
+            spline,
+        )
+        .returns("a curve")
+        .summary("The spline with these knots and control points.")
+        .example("let parabola = curve(knots(#{ spans: 1, degree: 2 }), [[0, 0], [0.5, 0], [1, 1]]);\ncheck(parabola.at(0.5) == [0.5, 0.25]);")
+        .see(&["knots", "through"]),
+        property(CURVE, "length", |call| Ok(curve(call)?.length().into()))
+            .returns("a number [length]")
+            .summary("The length.")
+            .example("check(line([0, 0], [3, 4]).length == 5);")
+            .see(&["length_to", "parameter"]),
+        property(CURVE, "start", |call| Ok(vector(ends(&*curve(call)?)?[0])))
+            .returns("a vector")
+            .summary("The point where it starts.")
+            .example("check(line([0, 8], [6, 0]).start == [0, 8]);")
+            .see(&["end", "at"]),
+        property(CURVE, "end", |call| Ok(vector(ends(&*curve(call)?)?[1])))
+            .returns("a vector")
+            .summary("The point where it ends.")
+            .example("check(line([0, 8], [6, 0]).end == [6, 0]);")
+            .see(&["start", "at"]),
+        property(CURVE, "domain", |call| Ok(pair(curve(call)?.domain())))
+            .returns("an array [a, b]")
+            .summary("The interval of the parameter ξ.")
+            .example("check(line([0, 8], [6, 0]).domain == [0, 1]);"),
+        property(CURVE, "knots", |call| Ok(shared_knots(of_spline(&*curve(call)?, call)?.knots().clone())))
+            .returns("knots")
+            .summary("The knots of a spline; lines and arcs have none.")
+            .example("check(through([[0, 0], [1, 1], [2, 0]]).knots.continuity == 1);")
+            .see(&["control_points"]),
+        property(CURVE, "control_points", control_points)
+            .returns("an array of vectors")
+            .summary("The control points of a spline; lines and arcs have none.")
+            .example("let c = through([[0, 0], [1, 1], [2, 0]]);\ncheck(c.control_points[0] == [0, 0]);")
+            .see(&["knots"]),
+        method(CURVE, "at", &[XI], |call| Ok(vector(at_xi(call, Curve::point)?)))
+            .returns("a vector")
+            .summary("The point at ξ.")
+            .example("check(line([0, 8], [6, 0]).at(0.5) == [3, 4]);")
+            .see(&["derivative", "parameter"]),
+        method(CURVE, "derivative", &[XI, ORDER.or(Presence::Whole(1))], derivative)
+            .returns("a vector")
+            .summary("The derivative by ξ, the first or of the order given; at knots from the right.")
+            .example("let c = line([0, 8], [6, 0]);\ncheck(c.derivative(0.5) == [6, -8]);\ncheck(c.derivative(0.5, 2) == [0, 0]);")
+            .see(&["angle", "curvature"]),
+        method(CURVE, "angle", &[XI], |call| Ok(at_xi(call, Curve::tangent_angle)?.into()))
+            .returns("an angle from -PI to PI")
+            .summary("The angle of the tangent from the first axis.")
+            .example("check(line([0, 0], [0, 2]).angle(0.5) == PI / 2);")
+            .see(&["derivative"]),
+        method(CURVE, "curvature", &[XI], |call| Ok(at_xi(call, Curve::curvature)?.into()))
+            .returns("a number [1/length]")
+            .summary("The curvature, positive where the curve turns counter-clockwise.")
+            .example("check(arc([0, 0], 2, 0, -PI).curvature(0.5) == -0.5);")
+            .see(&["derivative"]),
+        method(CURVE, "length_to", &[XI], |call| Ok(at_xi(call, Curve::length_to)?.into()))
+            .returns("a number [length]")
+            .summary("The length from the start to ξ.")
+            .example("check(line([0, 8], [6, 0]).length_to(0.5) == 5);")
+            .see(&["parameter", "length"]),
+        method(CURVE, "parameter", &[number("s").unit("length").doc("the length from the start")], parameter)
+            .returns("a number")
+            .summary("The parameter ξ at this length from the start.")
+            .example("let c = line([0, 8], [6, 0]);\ncheck(c.at(c.parameter(5)) == [3, 4]);")
+            .see(&["length_to", "at"]),
+        method(CURVE, "insert", &[XI, TIMES], insert)
+            .returns("a curve")
+            .summary("The same spline with a knot inserted, once or several times: the curve stays, the control points follow.")
+            .example("let c = through([[0, 0], [1, 1], [2, 0]]);\nlet finer = c.insert(0.3);\ncheck(finer.control_points.len() == 7);\ncheck_close(distance(finer.at(0.7), c.at(0.7)), 0, 1e-14);")
+            .see(&["knots"]),
+        operator("==", &[A, B], |call| Ok((a(call)? == b(call)?).into()))
+            .returns("true or false")
+            .summary("Whether two curves are of one kind and given by equal numbers.")
+            .example("check(line([0, 0], [1, 0]) == line([0, 0], [1, 0]));"),
+        operator("!=", &[A, B], |call| Ok((a(call)? != b(call)?).into()))
+            .returns("true or false")
+            .summary("Whether two curves are of different kinds or a number differs.")
+            .example("check(line([0, 0], [1, 0]) != line([0, 0], [2, 0]));"),
+    ],
+};
+
+/// Curves as a type of the language; the native value is `Rc<Curve>`.
+pub const CURVE: Type = Type::of::<Rc<Curve>>();
+
+const A: Parameter = object("a", CURVE);
+const B: Parameter = object("b", CURVE);
+
+impl Scripted for Rc<Curve> {
+    const NAME: &'static str = "curve";
+    const DOC: &'static str = "A curve of the plane.";
+
+    fn show(&self) -> String {
+        let control = match &**self {
+            Curve::Spline(spline) => {
+                let points = plural(spline.control_points().len(), "control point");
+                format!(" of degree {} with {points}", spline.knots().degree())
+            }
+            _ => String::new(),
+        };
+        let ends = ends(self).map_or_else(
+            |_| String::new(),
+            |[start, end]| format!(" from {} to {}", brief_point(start), brief_point(end)),
+        );
+        format!("{}{control}{ends}, length {}", kind(self), brief(self.length()))
+    }
+}
+
+fn kind(curve: &Curve) -> &'static str {
+    match curve {
+        Curve::Line(_) => "line",
+        Curve::Arc(_) => "arc",
+        Curve::Spline(_) => "spline",
+    }
+}
+
+fn ends(curve: &Curve) -> Result<[Vec2; 2], GeometryError> {
+    let (start, end) = curve.domain();
+    Ok([curve.point(start)?, curve.point(end)?])
+}
+
+/// The spline that `curve` is, or a refusal that says which curves are splines.
+fn of_spline<'a>(curve: &'a Curve, call: &Call) -> Result<&'a SplineCurve, ScriptError> {
+    match curve {
+        Curve::Spline(spline) => Ok(spline),
+        Curve::Line(_) | Curve::Arc(_) => {
+            let refusal = format!("{} has no knots", with_article(kind(curve)));
+            Err(call.error(refusal).hint(
+                "splines have knots and control points: make one with through(points) or curve(knots, points)",
+            ))
+        }
+    }
+}
+
+fn curve(call: &Call) -> Result<Rc<Curve>, ScriptError> {
+    call.receiver()
+}
+
+fn a(call: &Call) -> Result<Rc<Curve>, ScriptError> {
+    call.get("a")
+}
+
+fn b(call: &Call) -> Result<Rc<Curve>, ScriptError> {
+    call.get("b")
+}
+
+/// A curve for the script.
+fn shared(curve: Curve) -> Dynamic {
+    Dynamic::from(Rc::new(curve))
+}
+
+fn arc(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (from, to) = (call.number("from_angle")?, call.number("to_angle")?);
+    Ok(shared(Curve::arc(call.point("center")?, call.number("radius")?, from, to)?))
+}
+
+fn through(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    blame(0, Curve::through(&call.points("points")?)).map(shared)
+}
+
+fn spline(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let knots = call.get::<Rc<KnotVector>>("knots")?;
+    blame(1, Curve::spline(KnotVector::clone(&knots), call.points("points")?)).map(shared)
+}
+
+fn control_points(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let curve = curve(call)?;
+    let points = of_spline(&curve, call)?.control_points();
+    Ok(points.iter().copied().map(vector).collect::<Array>().into())
+}
+
+/// A quantity of the curve at the parameter of the call.
+fn at_xi<T>(
+    call: &Call,
+    quantity: fn(&Curve, f64) -> Result<T, GeometryError>,
+) -> Result<T, ScriptError> {
+    blame(0, quantity(&*curve(call)?, call.number("xi")?))
+}
+
+fn derivative(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    blame(0, curve(call)?.derivative(call.number("xi")?, call.count("order")?)).map(vector)
+}
+
+fn parameter(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    Ok(blame(0, curve(call)?.parameter_at(call.number("s")?))?.into())
+}
+
+fn insert(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let curve = curve(call)?;
+    let finer = of_spline(&curve, call)?.insert(call.number("xi")?, call.count("times")?);
+    blame(0, finer).map(Curve::Spline).map(shared)
+}

@@ -1,0 +1,204 @@
+//! Knots and their basis functions.
+
+use std::rc::Rc;
+
+use rhai::{Dynamic, Map};
+
+use super::{ORDER, TIMES, XI, all_functions, blame, brief, count, numbers, pair, plural};
+use crate::geometry::{Basis, KnotVector, MAX_DEGREE, MAX_SPANS};
+use crate::script::call::Call;
+use crate::script::error::{Place, ScriptError};
+use crate::script::kind::{Kind, Range, Scripted, Type};
+use crate::script::options::Options;
+use crate::script::parameter::{self, Parameter, Presence, either, object, whole};
+use crate::script::table::{Table, function, method, operator, property};
+
+/// Knots and basis functions.
+pub const TABLE: Table = Table {
+    name: "knots",
+    doc: "Knots say where the polynomial pieces of a spline meet, and how smoothly. They are open: the first and the \
+          last are repeated degree + 1 times. A spline of degree p has p - m continuous derivatives at an interior \
+          knot of multiplicity m.",
+    types: &[KNOTS],
+    constants: &[],
+    rows: &[
+        function("knots", &[UNIFORM], uniform)
+            .returns("knots")
+            .summary("Knots of equal spans on [0, 1], from a number of spans or from options.")
+            .doc("knots(7) has cubic splines with two continuous derivatives; options choose another degree or continuity.")
+            .example("let smooth = knots(7);\nlet paper = knots(#{ spans: 7, continuity: 1 });\ncheck(smooth.functions == 10 && paper.functions == 16);")
+            .see(&["curve", "basis"]),
+        function("knots", &[DEGREE, VALUES], explicit)
+            .returns("knots")
+            .summary("Knots from an array, in which repeated knots stand as often as they count.")
+            .example("let k = knots(2, [0, 0, 0, 0.5, 1, 1, 1]);\ncheck(k.functions == 4 && k.multiplicity(0.5) == 1);")
+            .see(&["curve", "basis"]),
+        property(KNOTS, "degree", |call| Ok(count(knots(call)?.degree())))
+            .returns("a whole number")
+            .summary("The polynomial degree.")
+            .example("check(knots(7).degree == 3);"),
+        property(KNOTS, "values", |call| Ok(numbers(knots(call)?.knots().iter().copied())))
+            .returns("an array of numbers")
+            .summary("All knots, repeated ones as often as they count.")
+            .example("check(knots(#{ spans: 2, degree: 1 }).values == [0, 0, 0.5, 1, 1]);")
+            .see(&["breaks"]),
+        property(KNOTS, "functions", |call| Ok(count(knots(call)?.functions())))
+            .returns("a whole number")
+            .summary("The number of basis functions, and of control points of a curve.")
+            .example("check(knots(7).functions == 10);"),
+        property(KNOTS, "spans", |call| Ok(count(knots(call)?.spans().len())))
+            .returns("a whole number")
+            .summary("The number of spans between distinct knots.")
+            .example("check(knots(7).spans == 7);")
+            .see(&["span"]),
+        property(KNOTS, "continuity", |call| Ok(count(basis(call)?.continuity())))
+            .returns("a whole number")
+            .summary("The number of continuous derivatives at the least smooth interior knot; the degree if there is none.")
+            .example("check(knots(7).continuity == 2);\ncheck(knots(7).insert(0.5, 3).continuity == 0);"),
+        property(KNOTS, "domain", |call| Ok(pair(knots(call)?.domain())))
+            .returns("an array [a, b]")
+            .summary("The first and the last knot.")
+            .example("check(knots(7).domain == [0, 1]);"),
+        property(KNOTS, "breaks", |call| Ok(numbers(knots(call)?.breaks())))
+            .returns("an array of numbers")
+            .summary("The distinct knots: the ends of the spans.")
+            .example("check(knots(2).breaks == [0, 0.5, 1]);")
+            .see(&["values"]),
+        property(KNOTS, "greville", |call| Ok(numbers(knots(call)?.greville())))
+            .returns("an array of numbers")
+            .summary("The Greville abscissae, one parameter for each function.")
+            .doc("Control points on a line at these places draw it with uniform speed; they are good places to interpolate at.")
+            .example("check(knots(#{ spans: 2, degree: 2 }).greville == [0, 0.25, 0.75, 1]);"),
+        method(KNOTS, "basis", &[XI, ORDER.or(Presence::Whole(0))], |call| all_functions(&basis(call)?, call))
+            .returns("an array of numbers, one for each function")
+            .summary("The values of all basis functions at ξ, or their derivatives of the order given.")
+            .doc("At most degree + 1 of them are not zero, from number span(xi).first on. At interior knots derivatives are those from the right.")
+            .example("let k = knots(4);\ncheck_close(sum(k.basis(0.3)), 1, 1e-15);\ncheck_close(sum(k.basis(0.3, 1)), 0, 1e-13);\ncheck(k.basis(0)[0] == 1);")
+            .see(&["span", "greville", "gauss"]),
+        method(KNOTS, "span", &[XI], span)
+            .returns("a map with first, start and end")
+            .summary("The span that holds ξ: its ends, and the number of the first function that is not zero there.")
+            .doc("A knot belongs to the span on its right, the last one to the last span.")
+            .example("let s = knots(4).span(0.3);\ncheck(s.first == 1 && s.start == 0.25 && s.end == 0.5);")
+            .see(&["spans", "basis"]),
+        method(KNOTS, "multiplicity", &[XI], multiplicity)
+            .returns("a whole number")
+            .summary("How often ξ occurs among the knots.")
+            .example("check(knots(4).multiplicity(0) == 4 && knots(4).multiplicity(0.3) == 0);"),
+        method(KNOTS, "insert", &[XI, TIMES], insert)
+            .returns("knots")
+            .summary("The same knots with ξ in addition, once or several times.")
+            .example("let k = knots(4).insert(0.3, 2);\ncheck(k.functions == 9 && k.multiplicity(0.3) == 2);"),
+        operator("==", &[A, B], |call| Ok((a(call)? == b(call)?).into()))
+            .returns("true or false")
+            .summary("Whether degree and all knots are equal.")
+            .example("check(knots(#{ spans: 1, degree: 1 }) == knots(1, [0, 0, 1, 1]));"),
+        operator("!=", &[A, B], |call| Ok((a(call)? != b(call)?).into()))
+            .returns("true or false")
+            .summary("Whether the degree or a knot differs.")
+            .example("check(knots(3) != knots(4));"),
+    ],
+};
+
+/// Knots as a type of the language; the native value is `Rc<KnotVector>`.
+pub const KNOTS: Type = Type::of::<Rc<KnotVector>>();
+
+const A: Parameter = object("a", KNOTS);
+const B: Parameter = object("b", KNOTS);
+const DEGREE: Parameter =
+    whole("degree").between(1.0, MAX_DEGREE as f64).doc("the polynomial degree");
+const VALUES: Parameter =
+    parameter::numbers("values").doc("the knots in order, the first and the last degree + 1 times");
+const SPANS: Range = Range::Between(1.0, MAX_SPANS as f64);
+const UNIFORM: Parameter = either("spans", &[Kind::Whole(SPANS), Kind::Options(KEYS)])
+    .doc("the number of spans, or options");
+const KEYS: &[Parameter] = &[
+    whole("spans").between(1.0, MAX_SPANS as f64).doc("the number of equal spans"),
+    DEGREE.or(Presence::Whole(3)),
+    whole("continuity")
+        .non_negative()
+        .doc("continuous derivatives at interior knots; degree - 1 if left out")
+        .optional(),
+];
+
+/// More knots than this are not printed all.
+const PRINTED: usize = 16;
+
+impl Scripted for Rc<KnotVector> {
+    const NAME: &'static str = "knots";
+    const DOC: &'static str = "Where the polynomial pieces of a spline meet, and how smoothly.";
+
+    fn show(&self) -> String {
+        let spans = self.spans().len();
+        let smooth = match spans {
+            1 => String::new(),
+            _ => format!(", C{}", Basis::BSpline(KnotVector::clone(self)).continuity()),
+        };
+        let listed = listed(self.knots());
+        format!("knots of degree {}, {}{smooth}: [{listed}]", self.degree(), plural(spans, "span"))
+    }
+}
+
+/// All knots, or the first and the last ones if they are many.
+fn listed(knots: &[f64]) -> String {
+    let texts = |part: &[f64]| part.iter().copied().map(brief).collect::<Vec<_>>().join(", ");
+    match knots.len() {
+        count if count <= PRINTED => texts(knots),
+        count => format!("{}, …, {}", texts(&knots[..PRINTED / 2]), brief(knots[count - 1])),
+    }
+}
+
+fn knots(call: &Call) -> Result<Rc<KnotVector>, ScriptError> {
+    call.receiver()
+}
+
+fn basis(call: &Call) -> Result<Basis, ScriptError> {
+    Ok(Basis::BSpline(KnotVector::clone(&*knots(call)?)))
+}
+
+fn a(call: &Call) -> Result<Rc<KnotVector>, ScriptError> {
+    call.get("a")
+}
+
+fn b(call: &Call) -> Result<Rc<KnotVector>, ScriptError> {
+    call.get("b")
+}
+
+/// Knots for the script.
+pub(super) fn shared(knots: KnotVector) -> Dynamic {
+    Dynamic::from(Rc::new(knots))
+}
+
+fn uniform(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (spans, degree, continuity) = match call.get_if::<Options>("spans") {
+        Some(options) => {
+            let degree = options.count("degree")?;
+            let continuity = options.count("continuity").unwrap_or(degree - 1);
+            (options.count("spans")?, degree, continuity)
+        }
+        None => (call.count("spans")?, 3, 2),
+    };
+    // Spans and degree are in range, so that only the continuity can be refused.
+    let knots = KnotVector::uniform(spans, degree, continuity)
+        .map_err(|error| ScriptError::from(error).at(Place::Key("continuity".into())))?;
+    Ok(shared(knots))
+}
+
+fn explicit(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    blame(1, KnotVector::new(call.count("degree")?, call.numbers("values")?)).map(shared)
+}
+
+fn span(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let span = blame(0, basis(call)?.span_at(call.number("xi")?))?;
+    let fields =
+        [("first", count(span.first)), ("start", span.start.into()), ("end", span.end.into())];
+    Ok(fields.into_iter().map(|(name, value)| (name.into(), value)).collect::<Map>().into())
+}
+
+fn multiplicity(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    Ok(count(knots(call)?.multiplicity(call.number("xi")?)))
+}
+
+fn insert(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    blame(0, knots(call)?.insert(call.number("xi")?, call.count("times")?)).map(shared)
+}

@@ -1,0 +1,43 @@
+//! Gauss rules.
+
+use rhai::{Dynamic, Map};
+
+use super::{blame, numbers};
+use crate::geometry::GaussRule;
+use crate::script::call::Call;
+use crate::script::error::ScriptError;
+use crate::script::parameter::{Presence, number, whole};
+use crate::script::table::{Table, function};
+
+/// Numerical integration.
+pub const TABLE: Table = Table {
+    name: "quadrature",
+    doc: "Points and weights for numerical integration.",
+    types: &[],
+    constants: &[],
+    rows: &[function(
+        "gauss",
+        &[
+            whole("count").non_negative().doc("number of points, 1 to 64"),
+            number("from").doc("start of the interval").or(Presence::Number(-1.0)),
+            number("to").doc("end of the interval").or(Presence::Number(1.0)),
+        ],
+        gauss,
+    )
+    .returns("a map with the arrays points and weights")
+    .summary("The Gauss-Legendre rule with this many points, on [-1, 1] or another interval.")
+    .doc("With n points it integrates polynomials up to degree 2 n - 1 exactly.")
+    .example(
+        "let rule = gauss(2, 0, 3);\nlet integral = 0;\nfor i in 0..2 {\n    \
+         integral += rule.weights[i] * rule.points[i]^2;\n}\ncheck_close(integral, 9, 1e-14);",
+    )
+    .see(&["basis"])],
+};
+
+fn gauss(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let rule = blame(0, GaussRule::new(call.count("count")?))?;
+    let (points, weights): (Vec<_>, Vec<_>) =
+        rule.iter_on(call.number("from")?, call.number("to")?).unzip();
+    let fields = [("points".into(), numbers(points)), ("weights".into(), numbers(weights))];
+    Ok(Map::from_iter(fields).into())
+}
