@@ -43,6 +43,7 @@ static TABLE: Table = Table {
     name: "springs",
     doc: "",
     types: &[SPRING],
+    setup: "",
     constants: &[],
     rows: &[
         function("spring", &[options("options", KEYS)], spring),

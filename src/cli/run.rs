@@ -10,9 +10,9 @@ use super::args::{CheckOptions, RunOptions};
 use super::bar::{self, Wish};
 use super::interrupt;
 use crate::script::catalog::Catalog;
+use crate::output::write_whole;
 use crate::script::context::{Mode, Settings};
 use crate::script::diagnose::{Colours, Diagnostic};
-use crate::script::files::write_whole;
 use crate::script::program::Program;
 use crate::script::runner::{self, Ending, Outcome};
 

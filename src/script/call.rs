@@ -8,6 +8,7 @@ use super::arguments::Arguments;
 use super::context::Context;
 use super::error::ScriptError;
 use super::numbers::{as_number, describe};
+use super::stored::StoredFunction;
 use super::table::Row;
 
 /// One call of a row, in progress.
@@ -99,6 +100,11 @@ impl<'c, 'r> Call<'c, 'r> {
             ))
             .hint("the last expression of a function is what it gives")
         })
+    }
+
+    /// Keeps a script function for calls from native loops; `role` names it in messages.
+    pub fn store(&self, function: FnPtr, role: &str) -> Result<StoredFunction, ScriptError> {
+        StoredFunction::new(function, self.native, self.context, role.to_owned())
     }
 
     /// Refuses to go on when the run was interrupted; long native loops ask once in every step.

@@ -7,6 +7,8 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use rhai::EvalAltResult;
+
 use super::checks::Checks;
 use super::error::ScriptError;
 use super::files::OutputFolder;
@@ -68,6 +70,7 @@ struct Shared {
     output: OutputFolder,
     checks: RefCell<Checks>,
     reporters: RefCell<Vec<Reporter>>,
+    callback_error: RefCell<Option<Box<EvalAltResult>>>,
 }
 
 impl Context {
@@ -83,6 +86,7 @@ impl Context {
             output: OutputFolder::new(settings.out, settings.mode),
             checks: RefCell::default(),
             reporters: RefCell::default(),
+            callback_error: RefCell::default(),
         }))
     }
 
@@ -154,13 +158,23 @@ impl Context {
         change(&mut self.0.checks.borrow_mut())
     }
 
+    /// Keeps the error of a script function that was called from inside a native loop.
+    pub fn keep_callback_error(&self, error: Box<EvalAltResult>) {
+        self.0.callback_error.replace(Some(error));
+    }
+
+    /// The error that was kept last, if there is one.
+    pub fn take_callback_error(&self) -> Option<Box<EvalAltResult>> {
+        self.0.callback_error.take()
+    }
+
     /// Adds a simulation to the report.
     pub fn add_reporter(&self, reporter: Reporter) {
         self.0.reporters.borrow_mut().push(reporter);
     }
 
-    /// What all simulations of the run say about themselves.
+    /// What all simulations of the run say about themselves; they are let go.
     pub fn report(&self) -> Vec<serde_json::Value> {
-        self.0.reporters.borrow().iter().map(|reporter| reporter()).collect()
+        self.0.reporters.take().into_iter().map(|reporter| reporter()).collect()
     }
 }

@@ -1,11 +1,11 @@
 //! Files that a script writes: inside the output folder only, each whole or not at all.
 
 use std::cell::RefCell;
-use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use super::context::Mode;
 use super::error::ScriptError;
+use crate::output::{OutputError, write_whole};
 
 /// The folder that a script may write into. It is made when the first file is written.
 pub struct OutputFolder {
@@ -24,9 +24,6 @@ impl OutputFolder {
         let path = self.path_of(name)?;
         if self.mode == Mode::DryBuild {
             return Ok(path);
-        }
-        if let Some(parent) = path.parent() {
-            fs::create_dir_all(parent).map_err(|error| self.refused(error))?;
         }
         write_whole(&path, content).map_err(|error| self.refused(error))?;
         let mut written = self.written.borrow_mut();
@@ -52,7 +49,7 @@ impl OutputFolder {
         Ok(self.folder.join(name))
     }
 
-    fn refused(&self, error: std::io::Error) -> ScriptError {
+    fn refused(&self, error: OutputError) -> ScriptError {
         ScriptError::new(format!(
             "cannot write into the output folder '{}': {error}",
             self.folder.display()
@@ -61,22 +58,10 @@ impl OutputFolder {
     }
 }
 
-/// Writes to a neighbour and renames it, so that a reader never sees half a file.
-pub fn write_whole(path: &Path, content: &[u8]) -> std::io::Result<()> {
-    let mut neighbour = path.as_os_str().to_owned();
-    neighbour.push(format!(".{}.part", std::process::id()));
-    let neighbour = PathBuf::from(neighbour);
-    let outcome = fs::write(&neighbour, content).and_then(|()| fs::rename(&neighbour, path));
-    if outcome.is_err() {
-        // The half-written neighbour is of no use; that it cannot be removed is no news either.
-        let _ = fs::remove_file(&neighbour);
-    }
-    outcome
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     #[test]
     fn only_names_inside_the_folder_are_written() {

@@ -25,6 +25,7 @@ pub mod program;
 pub mod progress;
 pub mod register;
 pub mod runner;
+pub mod stored;
 pub mod suggest;
 pub mod syntax;
 pub mod table;

@@ -3,6 +3,7 @@
 use rhai::{Array, Dynamic, Engine, INT, ImmutableString, Map};
 
 use super::kind::with_article;
+pub use crate::output::format_number;
 
 /// The largest whole number up to which every whole number has its own `f64`.
 const LARGEST_EXACT: f64 = 9_007_199_254_740_992.0;
@@ -18,23 +19,6 @@ pub fn as_whole(value: &Dynamic) -> Option<INT> {
         let x = value.as_float().ok()?;
         (x.fract() == 0.0 && x.abs() <= LARGEST_EXACT).then_some(x as INT)
     })
-}
-
-/// `x` as short as it can be without losing a digit.
-///
-/// A whole value prints without a point (`3.0` as `3`); magnitudes from 1e-4 up to 1e15 print plainly, others with an
-/// exponent: `1e-12` stays `1e-12`. Infinite values are `inf` and `-inf`, undefined ones `nan`.
-pub fn format_number(x: f64) -> String {
-    let size = x.abs();
-    if x.is_nan() {
-        "nan".into()
-    } else if x == 0.0 {
-        "0".into()
-    } else if x.is_infinite() || (1e-4..1e15).contains(&size) {
-        format!("{x}")
-    } else {
-        format!("{x:e}")
-    }
 }
 
 /// `x` with an exponent and `digits` digits after the point: `1.23e-13`.
@@ -83,25 +67,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_print_readably() {
-        let cases = [
-            (1e-12, "1e-12"),
-            (0.05, "0.05"),
-            (3.0, "3"),
-            (-0.0, "0"),
-            (374.28285, "374.28285"),
-            (1.5e-7, "1.5e-7"),
-            (1e-4, "0.0001"),
-            (123_456_789.0, "123456789"),
-            (1e300, "1e300"),
-            (f64::INFINITY, "inf"),
-            (f64::NEG_INFINITY, "-inf"),
-            (f64::NAN, "nan"),
-        ];
-        for (x, text) in cases {
-            assert_eq!(format_number(x), text);
-        }
+    fn digits_can_be_chosen() {
         assert_eq!(format_scientific(1.234e-13, 2), "1.23e-13");
+        assert_eq!(format_scientific(f64::NAN, 2), "nan");
         assert_eq!(format_fixed(0.05, 3), "0.050");
     }
 

@@ -22,6 +22,8 @@ pub struct Table {
     pub doc: &'static str,
     /// The types that the domain brings.
     pub types: &'static [Type],
+    /// Lines that all examples of the domain begin with; empty when they need none.
+    pub setup: &'static str,
     /// Names with a fixed value.
     pub constants: &'static [Constant],
     /// Functions, methods, properties and operators.

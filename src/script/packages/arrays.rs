@@ -12,6 +12,7 @@ pub const TABLE: Table = Table {
     name: "arrays",
     doc: "Arrays of numbers. Indices count from 0, and -1 is the last.",
     types: &[],
+    setup: "",
     constants: &[],
     rows: &[
         function(

@@ -16,6 +16,7 @@ pub const TABLE: Table = Table {
     name: "checks",
     doc: "Checks are recorded and the script goes on. If one fails, `withy run` ends with exit code 1.",
     types: &[PROBLEM],
+    setup: "",
     constants: &[],
     rows: &[
         function("check", &[boolean("condition"), MESSAGE], check)

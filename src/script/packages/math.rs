@@ -14,6 +14,7 @@ pub const TABLE: Table = Table {
     doc: "Elementary functions. Whole numbers are welcome everywhere, angles are in radians, and infinite or undefined \
           numbers pass through as in IEEE 754.",
     types: &[],
+    setup: "",
     constants: &[
         Constant { name: "PI", value: std::f64::consts::PI, summary: "Half a turn in radians." },
         Constant { name: "TAU", value: std::f64::consts::TAU, summary: "A full turn in radians." },

@@ -3,7 +3,15 @@
 mod arrays;
 mod checking;
 pub mod geometry;
+mod histories;
+mod live;
+mod loads;
 mod math;
+mod pictures;
+mod scenes;
+mod schedules;
+mod sections;
+mod simulations;
 mod text;
 mod vectors;
 
@@ -19,6 +27,14 @@ pub const TABLES: &[&Table] = &[
     &arrays::TABLE,
     &text::TABLE,
     &checking::TABLE,
+    &sections::TABLE,
+    &schedules::TABLE,
+    &schedules::INTEGRATOR_TABLE,
+    &scenes::TABLE,
+    &loads::TABLE,
+    &simulations::TABLE,
+    &histories::TABLE,
+    &pictures::TABLE,
 ];
 
 #[cfg(test)]

@@ -13,6 +13,7 @@ pub const TABLE: Table = Table {
     name: "text",
     doc: "Numbers print with as many digits as they need: 0.05, 3, 1e-12. These functions choose the digits.",
     types: &[],
+    setup: "",
     constants: &[],
     rows: &[
         function("sci", &[X, DIGITS.or(Presence::Whole(2))], |call| write(call, format_scientific))

@@ -15,6 +15,7 @@ pub const TABLE: Table = Table {
     name: "vectors",
     doc: "Points and vectors of the plane, with components x and y.",
     types: &[VECTOR],
+    setup: "",
     constants: &[],
     rows: &[
         function("vec", &[number("x"), number("y")], cartesian)

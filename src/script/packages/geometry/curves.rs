@@ -19,6 +19,7 @@ pub const TABLE: Table = Table {
     doc: "Curves of the plane with a parameter ξ: from 0 to 1, or over the domain of the knots. A beam is drawn along a \
           curve.",
     types: &[CURVE],
+    setup: "",
     constants: &[],
     rows: &[
         function(

@@ -20,6 +20,7 @@ pub const TABLE: Table = Table {
           last are repeated degree + 1 times. A spline of degree p has p - m continuous derivatives at an interior \
           knot of multiplicity m.",
     types: &[KNOTS],
+    setup: "",
     constants: &[],
     rows: &[
         function("knots", &[UNIFORM], uniform)

@@ -14,6 +14,7 @@ pub const TABLE: Table = Table {
     name: "quadrature",
     doc: "Points and weights for numerical integration.",
     types: &[],
+    setup: "",
     constants: &[],
     rows: &[function(
         "gauss",

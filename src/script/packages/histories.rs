@@ -1,0 +1,131 @@
+//! Histories: windows, columns, drifts.
+
+use rhai::{Array, Dynamic, INT};
+
+use super::live::HistoryHandle;
+use super::simulations::SPINNING;
+use crate::script::call::Call;
+use crate::script::error::ScriptError;
+use crate::script::kind::Type;
+use crate::script::parameter::{Parameter, choice, number};
+use crate::script::table::{Row, Table, method, property};
+use crate::simulation::Invariant;
+
+/// Histories.
+pub const TABLE: Table = Table {
+    name: "histories",
+    doc: "A row for each step. Columns: t, kinetic, strain, potential, energy, work, momentum_x, momentum_y, impulse_x, \
+          impulse_y, angular_momentum, angular_impulse, gap, dt, newton_iterations, retries.",
+    types: &[HISTORY],
+    setup: SPINNING,
+    constants: &[],
+    rows: &[
+        method(HISTORY, "after", &[T], |call| window(call, |call| Ok((call.number("t")?, f64::INFINITY))))
+            .returns("a history")
+            .summary("The rows from a time on.")
+            .example("sim.run_to(1);\ncheck(sim.history.after(0.5).first(\"t\") == 0.5);")
+            .see(&["before", "between"]),
+        method(HISTORY, "before", &[T], |call| window(call, |call| Ok((f64::NEG_INFINITY, call.number("t")?))))
+            .returns("a history")
+            .summary("The rows up to a time.")
+            .example("sim.run_to(1);\ncheck(sim.history.before(0.5).last(\"t\") == 0.5);"),
+        method(HISTORY, "between", &[number("from").unit("time"), number("to").unit("time")], |call| {
+            window(call, |call| Ok((call.number("from")?, call.number("to")?)))
+        })
+        .returns("a history")
+        .summary("The rows between two times, both included.")
+        .example("sim.run_to(1);\ncheck(sim.history.between(0.2, 0.4).rows == 3);"),
+        method(HISTORY, "drift", &[choice("invariant", &["energy", "momentum", "angular_momentum", "gap"])], drift)
+            .returns("a number")
+            .summary("The largest change of an invariant since the first row, relative to its scale.")
+            .doc(
+                "energy: E - W relative to the largest energy; momentum: p - ∫F dt and angular_momentum: L - ∫M dt relative to \
+                 the largest momenta that the energy allows; gap: the largest gap of a joint, a length.",
+            )
+            .example("sim.run_to(1);\ncheck(sim.history.drift(\"energy\") < 1e-12);")
+            .see(&["invariants"]),
+        method(HISTORY, "column", &[COLUMN], |call| {
+            let column = column(call)?;
+            Ok(Dynamic::from(column.into_iter().map(Dynamic::from).collect::<Array>()))
+        })
+        .returns("an array of numbers")
+        .summary("A column by name.")
+        .example("sim.step(4);\ncheck(sim.history.column(\"t\").len() == 5);"),
+        statistic("first", "The value in the first row.", |call| pick(call, |column| column.first().copied())),
+        statistic("last", "The value in the last row.", |call| pick(call, |column| column.last().copied())),
+        statistic("largest", "The largest value.", |call| pick(call, |column| column.into_iter().reduce(f64::maximum_or_nan))),
+        statistic("smallest", "The smallest value.", |call| pick(call, |column| column.into_iter().reduce(f64::minimum_or_nan))),
+        property(HISTORY, "rows", |call| {
+            let rows = call.receiver::<HistoryHandle>()?.read(|history| history.samples().len());
+            Ok(Dynamic::from(rows as INT))
+        })
+        .returns("a whole number")
+        .summary("The number of rows; the start is one.")
+        .example("sim.step(4);\ncheck(sim.history.rows == 5);"),
+    ],
+};
+
+/// The history type, for other domains.
+pub const HISTORY: Type = Type::of::<HistoryHandle>();
+/// The names of the columns.
+pub const COLUMN_NAMES: &[&str] = &[
+    "t", "kinetic", "strain", "potential", "energy", "work", "momentum_x", "momentum_y", "impulse_x", "impulse_y",
+    "angular_momentum", "angular_impulse", "gap", "dt", "newton_iterations", "retries",
+];
+const T: Parameter = number("t").unit("time");
+const COLUMN: Parameter = choice("column", COLUMN_NAMES);
+
+/// Extremes in which a lost value is not overlooked.
+trait Extreme {
+    fn maximum_or_nan(self, other: Self) -> Self;
+    fn minimum_or_nan(self, other: Self) -> Self;
+}
+
+impl Extreme for f64 {
+    fn maximum_or_nan(self, other: Self) -> Self {
+        if self >= other || self.is_nan() { self } else { other }
+    }
+    fn minimum_or_nan(self, other: Self) -> Self {
+        if self <= other || self.is_nan() { self } else { other }
+    }
+}
+
+const fn statistic(name: &'static str, summary: &'static str, body: crate::script::table::Body) -> Row {
+    method(HISTORY, name, &[COLUMN], body)
+        .returns("a number")
+        .summary(summary)
+        .example("sim.run_to(1);\nlet h = sim.history;\ncheck(h.first(\"t\") == 0 && h.last(\"t\") == 1);\ncheck(h.largest(\"kinetic\") >= h.smallest(\"kinetic\"));")
+}
+
+fn window(call: &Call, range: fn(&Call) -> Result<(f64, f64), ScriptError>) -> Result<Dynamic, ScriptError> {
+    let (from, to) = range(call)?;
+    Ok(Dynamic::from(call.receiver::<HistoryHandle>()?.between(from, to)))
+}
+
+fn drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let name = call.text("invariant")?;
+    let of = Invariant::ALL.iter().find(|(other, _)| *other == name.as_str()).map_or(Invariant::Energy, |(_, of)| *of);
+    Ok(call.receiver::<HistoryHandle>()?.read(|history| history.drift(of)).into())
+}
+
+fn column(call: &Call) -> Result<Vec<f64>, ScriptError> {
+    let name = call.text("column")?;
+    Ok(call.receiver::<HistoryHandle>()?.read(|history| history.column(&name)).unwrap_or_default())
+}
+
+fn pick(call: &Call, pick: fn(Vec<f64>) -> Option<f64>) -> Result<Dynamic, ScriptError> {
+    let picked = pick(column(call)?);
+    Ok(picked.ok_or_else(|| call.error("the history has no rows there").hint("choose another window"))?.into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::History;
+
+    #[test]
+    fn the_names_are_those_of_the_history() {
+        let names: Vec<_> = History::COLUMNS.iter().map(|column| column.name).collect();
+        assert_eq!(names, COLUMN_NAMES);
+    }
+}

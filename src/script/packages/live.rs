@@ -1,0 +1,258 @@
+//! A simulation that a script holds: steps, events, progress and interrupts.
+
+use std::cell::{Cell, Ref, RefCell};
+use std::rc::Rc;
+
+use rhai::{Dynamic, FnPtr};
+use serde_json::{Value, json};
+
+use crate::script::call::Call;
+use crate::script::context::{Context, Mode};
+use crate::script::error::ScriptError;
+use crate::script::kind::Scripted;
+use crate::script::numbers::format_number;
+use crate::simulation::{History, Invariant, Monitor, Simulation, SimulationError};
+
+/// A running simulation; clones are the same one.
+#[derive(Clone)]
+pub struct SimulationHandle(Rc<Live>);
+
+struct Live {
+    name: String,
+    simulation: RefCell<Simulation>,
+    events: RefCell<Vec<(f64, FnPtr)>>,
+    /// In a dry build only this clock runs.
+    clock: Cell<f64>,
+}
+
+/// How far a script goes on.
+pub enum Goal {
+    /// So many steps.
+    Steps(usize),
+    /// To a time.
+    Time(f64),
+}
+
+/// Tells the progress bar, and stops when the run is interrupted.
+struct Watch<'a>(&'a Context);
+
+impl Monitor for Watch<'_> {
+    fn goes_on(&mut self, time: f64) -> bool {
+        self.0.progress().reach(time);
+        !self.0.is_stopped()
+    }
+}
+
+impl SimulationHandle {
+    /// A handle on a simulation at its start; it will be in the report of the run.
+    pub fn new(simulation: Simulation, name: String, context: &Context) -> Self {
+        let live = Live {
+            name,
+            clock: Cell::new(simulation.time()),
+            simulation: RefCell::new(simulation),
+            events: RefCell::default(),
+        };
+        let handle = Self(Rc::new(live));
+        let reported = handle.clone();
+        context.add_reporter(Box::new(move || reported.report()));
+        handle
+    }
+
+    /// The simulation itself.
+    pub fn simulation(&self) -> Ref<'_, Simulation> {
+        self.0.simulation.borrow()
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    /// Where it is.
+    pub fn time(&self) -> f64 {
+        self.simulation().time().max(self.0.clock.get())
+    }
+
+    /// Calls a script function when a time is reached.
+    pub fn at(&self, time: f64, function: FnPtr) -> Result<(), ScriptError> {
+        let now = self.time();
+        if time < now {
+            return Err(ScriptError::new(format!("at: t = {} has passed, the simulation is at t = {}", format_number(time), format_number(now)))
+                .hint("give a later time, before the simulation gets there"));
+        }
+        self.0.simulation.borrow_mut().cut_at(time);
+        let mut events = self.0.events.borrow_mut();
+        let place = events.partition_point(|(other, _)| *other <= time);
+        events.insert(place, (time, function));
+        Ok(())
+    }
+
+    /// Goes on, calling the functions of the events on its way.
+    pub fn go_on(&self, call: &Call, goal: &Goal) -> Result<(), ScriptError> {
+        let context = call.context();
+        let dt = self.simulation().settings().dt;
+        let now = self.time();
+        let end = match goal {
+            Goal::Steps(steps) => now + *steps as f64 * dt,
+            Goal::Time(time) => *time,
+        };
+        context.progress().begin(&self.0.name, now, end);
+        let outcome = match (context.mode(), goal) {
+            (Mode::DryBuild, _) => self.pretend(call, end),
+            (Mode::Run, Goal::Steps(steps)) => {
+                (0..*steps).try_for_each(|_| {
+                    let stepped = self.0.simulation.borrow_mut().step(&mut Watch(context));
+                    stepped.map_err(|error| explain(error, context))?;
+                    self.fire_due(call)
+                })
+            }
+            (Mode::Run, Goal::Time(_)) => self.run_to(call, end),
+        };
+        context.progress().end();
+        outcome
+    }
+
+    fn run_to(&self, call: &Call, end: f64) -> Result<(), ScriptError> {
+        loop {
+            let next = self.0.events.borrow().first().map_or(f64::INFINITY, |(time, _)| *time);
+            let stop = if next < end { next } else { end };
+            let ran = self.0.simulation.borrow_mut().run_to(stop, &mut Watch(call.context()));
+            ran.map_err(|error| explain(error, call.context()))?;
+            self.fire_due(call)?;
+            if stop >= end || stop.is_nan() {
+                return Ok(());
+            }
+        }
+    }
+
+    /// What a dry build does instead of running: time passes, and events are called.
+    fn pretend(&self, call: &Call, end: f64) -> Result<(), ScriptError> {
+        call.proceed()?;
+        let now = self.time();
+        if !end.is_finite() || end < now {
+            return Err(explain(SimulationError::End { now, end, advice: "give a finite, later time" }, call.context()));
+        }
+        self.0.clock.set(end);
+        self.fire_due(call)
+    }
+
+    fn fire_due(&self, call: &Call) -> Result<(), ScriptError> {
+        let slack = 1e-9 * self.simulation().settings().dt;
+        loop {
+            let due = {
+                let mut events = self.0.events.borrow_mut();
+                let is_due = events.first().is_some_and(|(time, _)| *time <= self.time() + slack);
+                is_due.then(|| events.remove(0))
+            };
+            let Some((_, function)) = due else { return Ok(()) };
+            call.invoke(&function, [Dynamic::from(self.clone())])?;
+        }
+    }
+
+    fn report(&self) -> Value {
+        let simulation = self.simulation();
+        let (counts, history, settings) = (simulation.counts(), simulation.history(), simulation.settings());
+        let energy = history.samples().last().map(|row| row.measures.energy).unwrap_or_default();
+        let (scene, model) = (simulation.scene(), simulation.model());
+        let points = |(x, y): (f64, f64), angle: f64| json!({ "x": x, "y": y, "angle": angle });
+        let ends = scene.beams.iter().zip(model.control_points()).enumerate().map(|(index, (beam, controls))| {
+            let (start, end) = model.end_angles(index);
+            let at = |point: Option<&crate::geometry::Vec2>| point.map_or((f64::NAN, f64::NAN), |point| (point.x, point.y));
+            (beam.name.clone(), json!({ "start": points(at(controls.first()), start), "end": points(at(controls.last()), end) }))
+        });
+        let basis: Vec<String> = model.meshes().iter().map(|mesh| mesh.describe()).collect();
+        let drift: serde_json::Map<String, Value> =
+            Invariant::ALL.iter().map(|(name, of)| ((*name).to_owned(), json!(history.drift(*of)))).collect();
+        json!({
+            "name": self.0.name,
+            "steps": counts.steps,
+            "newton_iterations": counts.newton_iterations,
+            "newton_max": counts.newton_max,
+            "factorisations": counts.factorisations,
+            "retries": counts.retries,
+            "wall_s": counts.wall.as_secs_f64(),
+            "unknowns": simulation.unknowns(),
+            "half_bandwidth": simulation.half_bandwidth(),
+            "basis": basis.join("; "),
+            "integrator": settings.method.entry().name,
+            "dt": settings.dt,
+            "t": simulation.time(),
+            "drift": drift,
+            "energy": {
+                "kinetic": energy.kinetic, "strain": energy.strain, "potential": energy.potential, "total": energy.total(),
+            },
+            "ends": ends.collect::<serde_json::Map<_, _>>(),
+        })
+    }
+}
+
+/// An error of a run in the words of the script: interrupts stay interrupts, errors of closures keep their place.
+fn explain(error: SimulationError, context: &Context) -> ScriptError {
+    match error {
+        SimulationError::Interrupted { .. } => ScriptError::Interrupted,
+        SimulationError::Step { .. } => match context.take_callback_error() {
+            Some(error) => ScriptError::Engine(error),
+            None => ScriptError::from(error).hint(
+                "the history up to there is kept; try a smaller dt or a finer mesh, and check loads, stiffness and units",
+            ),
+        },
+        error => error.into(),
+    }
+}
+
+impl Scripted for SimulationHandle {
+    const NAME: &'static str = "simulation";
+    const DOC: &'static str = "A scene in motion.";
+
+    fn show(&self) -> String {
+        let simulation = self.simulation();
+        let (counts, settings) = (simulation.counts(), simulation.settings());
+        format!(
+            "simulation '{}' at t = {} after {} steps, {}, dt = {}, {} unknowns",
+            self.0.name,
+            format_number(simulation.time()),
+            counts.steps,
+            settings.method.entry().name,
+            format_number(settings.dt),
+            simulation.unknowns(),
+        )
+    }
+}
+
+/// A part of the history of a simulation; it grows with it.
+#[derive(Clone)]
+pub struct HistoryHandle {
+    /// Whose history it is.
+    pub of: SimulationHandle,
+    /// First time.
+    pub from: f64,
+    /// Last time.
+    pub to: f64,
+}
+
+impl HistoryHandle {
+    /// Reads the rows.
+    pub fn read<T>(&self, read: impl FnOnce(&History) -> T) -> T {
+        let simulation = self.of.simulation();
+        let all = simulation.history();
+        if self.from == f64::NEG_INFINITY && self.to == f64::INFINITY { read(all) } else { read(&all.between(self.from, self.to)) }
+    }
+
+    /// The part of it between two times.
+    pub fn between(&self, from: f64, to: f64) -> Self {
+        Self { of: self.of.clone(), from: self.from.max(from), to: self.to.min(to) }
+    }
+}
+
+impl Scripted for HistoryHandle {
+    const NAME: &'static str = "history";
+    const DOC: &'static str = "What a simulation was like, step by step.";
+
+    fn show(&self) -> String {
+        let (rows, first, last) = self.read(|history| {
+            let time = |row: Option<&crate::simulation::Sample>| row.map_or(f64::NAN, |row| row.measures.time);
+            (history.samples().len(), time(history.samples().first()), time(history.samples().last()))
+        });
+        format!("history of {rows} rows from t = {} to {}", format_number(first), format_number(last))
+    }
+}

@@ -1,0 +1,70 @@
+//! Loads on the beams of a scene.
+
+use rhai::Dynamic;
+
+use super::scenes::{BEAM, BeamHandle, SCENE, STATION, SceneHandle, here};
+use super::schedules::{SCHEDULE_KINDS, schedule_of};
+use crate::loads::{Frame, LoadKind};
+use crate::script::call::Call;
+use crate::script::error::ScriptError;
+use crate::script::parameter::{Parameter, Presence, choice, either, number, object, options, point};
+use crate::script::table::{Table, method};
+
+/// Loads.
+pub const TABLE: Table = Table {
+    name: "loads",
+    doc: "A load is where, what and when. Without a schedule it acts always; a number or a function of time will do too.",
+    types: &[],
+    setup: super::scenes::ROD,
+    constants: &[],
+    rows: &[
+        method(SCENE, "force", &[AT, point("force").unit("force"), WHEN, FRAME], |call| {
+            let (station, scene) = here(call, "station")?;
+            let kind = LoadKind::Force { station, force: call.point("force")?, frame: frame(call)? };
+            let schedule = schedule_of(call, call, "schedule")?;
+            scene.borrow_mut().add_load(kind, schedule);
+            Ok(Dynamic::UNIT)
+        })
+        .summary("A force at a station; it keeps its direction, or follows the section.")
+        .doc("With #{ frame: \"follower\" } its components are along the beam as drawn and across it, and turn with the section.")
+        .example("scene.force(rod.end, [8, 0], hold_for(2.5));\nscene.force(rod.end, [0, 1], 1, #{ frame: \"follower\" });")
+        .see(&["moment", "line_load", "hold_for"]),
+        method(SCENE, "moment", &[AT, number("moment").unit("force·length"), WHEN], |call| {
+            let (station, scene) = here(call, "station")?;
+            let kind = LoadKind::Moment { station, moment: call.number("moment")? };
+            let schedule = schedule_of(call, call, "schedule")?;
+            scene.borrow_mut().add_load(kind, schedule);
+            Ok(Dynamic::UNIT)
+        })
+        .summary("A moment at a station, counter-clockwise.")
+        .example("scene.moment(rod.end, -80, hold_for(2.5));")
+        .see(&["force"]),
+        method(SCENE, "line_load", &[object("beam", BEAM), point("force").unit("force/length"), WHEN, FRAME], |call| {
+            let scene = call.receiver::<SceneHandle>()?;
+            let beam = call.get::<BeamHandle>("beam")?.own(&scene)?;
+            let kind = LoadKind::Line { beam, force: call.point("force")?, frame: frame(call)? };
+            let schedule = schedule_of(call, call, "schedule")?;
+            scene.scene().borrow_mut().add_load(kind, schedule);
+            Ok(Dynamic::UNIT)
+        })
+        .summary("A force per length on a whole beam; it keeps its direction, or follows the sections like a pressure.")
+        .example("scene.line_load(rod, [0, -2], ramp(0, 1));\nscene.line_load(rod, [0, 1], 1, #{ frame: \"follower\" });")
+        .see(&["force", "gravity"]),
+    ],
+};
+
+const AT: Parameter = object("station", STATION);
+const WHEN: Parameter =
+    either("schedule", SCHEDULE_KINDS).doc("when it acts: a schedule, a factor, or a function of time").optional();
+const FRAME: Parameter = options("options", &[FRAME_KEY]).optional();
+const FRAME_KEY: Parameter = choice("frame", &["dead", "follower"])
+    .doc("dead keeps its direction, follower turns with the section")
+    .or(Presence::Text("dead"));
+
+fn frame(call: &Call) -> Result<Frame, ScriptError> {
+    if !call.has("options") {
+        return Ok(Frame::Dead);
+    }
+    let options = call.options("options")?;
+    Ok(if options.text("frame")? == "follower" { Frame::Follower } else { Frame::Dead })
+}

@@ -1,0 +1,253 @@
+//! Pictures and files of simulations.
+
+use std::path::Path;
+
+use rhai::{Array, Dynamic};
+
+use super::histories::{COLUMN_NAMES, HISTORY};
+use super::live::{HistoryHandle, SimulationHandle};
+use super::scenes::StationHandle;
+use super::simulations::{SIMULATION, SPINNING};
+use crate::output::{CsvTable, LineChart, MotionPicture, Page, Panel, PictureKind, Scale, Series, Snapshot};
+use crate::script::call::Call;
+use crate::script::error::{Place, ScriptError};
+use crate::script::kind::{Kind, Scripted};
+use crate::script::options::Options;
+use crate::script::parameter::{Parameter, array, boolean, either, number, options, text};
+use crate::script::table::{Table, function};
+use crate::simulation::{History, Invariant};
+
+/// Pictures and files.
+pub const TABLE: Table = Table {
+    name: "pictures",
+    doc: "Pictures are SVG or PNG by the ending of the file name, tables are CSV; all go into the output folder. Given an \
+          array of simulations, a picture shows them side by side.",
+    types: &[],
+    setup: SPINNING,
+    constants: &[],
+    rows: &[
+        function("plot_motion", &[MOVING, FILE, options("options", MOTION).optional()], plot_motion)
+            .summary("Draws snapshots of the motion in one picture, knots or nodes marked, axes equal.")
+            .example("sim.run_to(2);\nplot_motion(sim, \"spin.svg\", #{ every: 0.5, trace: [rod.end] });")
+            .see(&["plot_history"]),
+        function("plot_history", &[RECORDED, COLUMNS, FILE, options("options", HISTORY_OPTIONS).optional()], plot_history)
+            .summary("Draws columns of the history over time.")
+            .example("sim.run_to(2);\nplot_history(sim, [\"kinetic\", \"strain\", \"energy\"], \"energy.svg\");")
+            .see(&["plot_drift", "column"]),
+        function("plot_drift", &[RECORDED, FILE], plot_drift)
+            .summary("Draws how far energy and momenta have drifted, on a logarithmic axis.")
+            .example("sim.run_to(2);\nplot_drift(sim, \"drift.png\");")
+            .see(&["drift"]),
+        function("write_history", &[RECORDED, FILE], write_history)
+            .summary("Writes all columns of the history as CSV, every digit kept.")
+            .example("sim.run_to(1);\nwrite_history(sim, \"spin.csv\");"),
+        function("write_states", &[either("of", &[Kind::Object(SIMULATION)]), FILE], write_states)
+            .summary("Writes the control points (or nodes) of all beams over time as CSV.")
+            .example("sim.run_to(1);\nwrite_states(sim, \"points.csv\");"),
+    ],
+};
+
+const MOVING: Parameter = either("of", &[Kind::Object(SIMULATION), Kind::Array]).doc("a simulation, or an array of them");
+const RECORDED: Parameter = either("of", &[Kind::Object(SIMULATION), Kind::Object(HISTORY), Kind::Array])
+    .doc("a simulation or history, or an array of them");
+const FILE: Parameter = text("file").doc("its name in the output folder");
+const COLUMNS: Parameter = array("columns").doc("names of columns");
+const MOTION: &[Parameter] = &[
+    number("every").positive().unit("time").doc("between snapshots; a twentieth of the time shown unless given").optional(),
+    number("from").unit("time").doc("first snapshot; the start unless given").optional(),
+    number("to").unit("time").doc("last snapshot; the present unless given").optional(),
+    array("trace").doc("stations whose paths are drawn").optional(),
+    text("title").doc("the name of the simulation unless given").optional(),
+];
+const HISTORY_OPTIONS: &[Parameter] = &[
+    text("title").doc("the name of the simulation unless given").optional(),
+    boolean("logarithmic").doc("whether magnitudes are drawn on a logarithmic axis").optional(),
+];
+
+/// Most snapshots of one picture.
+const MOST_SNAPSHOTS: f64 = 2000.0;
+
+fn things<T: Scripted>(call: &Call, convert: fn(&Dynamic) -> Option<T>) -> Result<Vec<T>, ScriptError> {
+    let of = call.value("of")?;
+    let values = of.read_lock::<Array>().map_or_else(|| vec![of.clone()], |array| array.clone());
+    let things: Option<Vec<T>> = values.iter().map(convert).collect();
+    things.filter(|things| !things.is_empty()).ok_or_else(|| {
+        call.error("the array must hold simulations, at least one").hint("for example [first, second]").at(Place::Argument(0))
+    })
+}
+
+fn as_simulation(value: &Dynamic) -> Option<SimulationHandle> {
+    value.clone().try_cast()
+}
+
+fn as_history(value: &Dynamic) -> Option<HistoryHandle> {
+    let whole = |of| HistoryHandle { of, from: f64::NEG_INFINITY, to: f64::INFINITY };
+    value.clone().try_cast::<HistoryHandle>().or_else(|| as_simulation(value).map(whole))
+}
+
+/// Writes a picture in the format that the ending of its name asks for.
+fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic, ScriptError> {
+    let file = call.text("file")?;
+    let kind = PictureKind::of(Path::new(file.as_str()))?;
+    let figure = picture.figure()?;
+    let bytes = match kind {
+        PictureKind::Svg => figure.to_svg()?.into_bytes(),
+        PictureKind::Png => figure.to_png()?,
+    };
+    call.context().output().write(&file, &bytes)?;
+    Ok(Dynamic::UNIT)
+}
+
+fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let simulations = things(call, as_simulation)?;
+    let options = if call.has("options") { Some(call.options("options")?) } else { None };
+    let mut pictures =
+        simulations.iter().map(|of| motion(call, of, options.as_ref())).collect::<Result<Vec<_>, _>>()?;
+    match pictures.len() {
+        1 => write_picture(call, &pictures.remove(0)),
+        _ => write_picture(call, &MotionPicture::side_by_side(pictures)),
+    }
+}
+
+fn motion(call: &Call, of: &SimulationHandle, options: Option<&Options>) -> Result<MotionPicture, ScriptError> {
+    let given = |name: &str| options.and_then(|options| options.number_if_given(name));
+    let simulation = of.simulation();
+    let (from, to) = (given("from").unwrap_or(0.0), given("to").unwrap_or(simulation.time()));
+    let every = given("every").unwrap_or_else(|| ((to - from) / 20.0).max(f64::MIN_POSITIVE));
+    let count = ((to - from) / every + 1e-9).floor();
+    if count > MOST_SNAPSHOTS {
+        return Err(call.error(format!("{count} snapshots are too many for a picture")).hint("choose a larger `every`"));
+    }
+    let title = options.and_then(|options| options.text("title").ok()).map_or_else(|| of.name().to_owned(), |t| t.to_string());
+    let mut picture = MotionPicture::new(title).beams(simulation.scene().beams.iter().map(|beam| beam.name.clone()));
+    let plain = |point: &crate::geometry::Vec2| (point.x, point.y);
+    for index in 0..=count.max(0.0) as usize {
+        if let Some(configuration) = simulation.configuration_near(from + index as f64 * every) {
+            picture = picture.snapshot(Snapshot {
+                time: configuration.time,
+                lines: configuration.lines.iter().map(|line| line.iter().map(plain).collect()).collect(),
+                marks: configuration.marks.iter().map(plain).collect(),
+            });
+        }
+    }
+    for station in options.map_or(Ok(Array::new()), |o| if o.has("trace") { o.array("trace") } else { Ok(Array::new()) })? {
+        let station: StationHandle = station.try_cast().ok_or_else(|| {
+            call.error("trace must be an array of stations").hint("for example trace: [rod.end]").at(Place::Key("trace".into()))
+        })?;
+        let path = simulation.path(&station.on(of)?);
+        let inside = path.iter().filter(|(time, _)| (from..=to).contains(time)).map(|(_, point)| plain(point));
+        picture = picture.trace(format!("path of {}", station.show()), inside.collect());
+    }
+    Ok(picture)
+}
+
+/// A chart for each history, side by side where there are several.
+fn write_charts(call: &Call, charts: Vec<LineChart>) -> Result<Dynamic, ScriptError> {
+    let mut charts = charts;
+    match charts.len() {
+        1 => write_picture(call, &charts.remove(0)),
+        _ => write_picture(call, &charts.into_iter().fold(Page::row(), Page::panel)),
+    }
+}
+
+fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let options = if call.has("options") { Some(call.options("options")?) } else { None };
+    let logarithmic = options.as_ref().is_some_and(|options| options.boolean("logarithmic").unwrap_or(false));
+    let names = columns(call)?;
+    let chart = |of: &HistoryHandle| {
+        let title = options.as_ref().and_then(|options| options.text("title").ok());
+        let title = title.map_or_else(|| of.of.name().to_owned(), |title| title.to_string());
+        of.read(|history| {
+            let chart = LineChart::new(title).x_label("t").y_label(label(&names));
+            let chart = if logarithmic { chart.y_scale(Scale::Logarithmic) } else { chart };
+            names.iter().fold(chart, |chart, name| {
+                let values = history.column(name).unwrap_or_default();
+                let values = values.into_iter().map(|value| if logarithmic { value.abs() } else { value });
+                chart.series(Series::new(name.replace('_', " "), over_time(history, values)))
+            })
+        })
+    };
+    write_charts(call, things(call, as_history)?.iter().map(chart).collect())
+}
+
+fn columns(call: &Call) -> Result<Vec<String>, ScriptError> {
+    let name = |value: Dynamic| {
+        let name = value.clone().into_string().ok().filter(|name| COLUMN_NAMES.contains(&name.as_str()));
+        name.ok_or_else(|| {
+            let got = call.describe(&value);
+            let nearest = value.into_string().ok().and_then(|name| crate::script::suggest::nearest(&name, COLUMN_NAMES.iter().copied()));
+            let suggestion = nearest.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
+            call.error(format!("there is no column {got}"))
+                .hint(format!("{suggestion}columns: {}", COLUMN_NAMES.join(", ")))
+                .at(Place::Argument(1))
+        })
+    };
+    call.array("columns")?.into_iter().map(name).collect()
+}
+
+/// The dimension that all columns share.
+fn label(names: &[String]) -> String {
+    let dimension = |name: &String| History::COLUMNS.iter().find(|column| column.name == name).map(|column| column.dimension);
+    match names.iter().map(dimension).collect::<Option<Vec<_>>>() {
+        Some(dimensions) if dimensions.windows(2).all(|pair| pair[0] == pair[1]) => {
+            dimensions.first().copied().unwrap_or_default().to_owned()
+        }
+        _ => String::new(),
+    }
+}
+
+fn over_time(history: &History, values: impl Iterator<Item = f64>) -> Vec<(f64, f64)> {
+    history.samples().iter().map(|row| row.measures.time).zip(values).collect()
+}
+
+fn plot_drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let chart = |of: &HistoryHandle| {
+        of.read(|history| {
+            let chart = LineChart::new(of.of.name()).x_label("t").y_label("relative drift").y_scale(Scale::Logarithmic);
+            Invariant::ALL.iter().filter(|(_, of)| *of != Invariant::Gap).fold(chart, |chart, (name, of)| {
+                // The first row is zero by definition.
+                let points = over_time(history, history.drifts(*of).into_iter()).split_off(1.min(history.samples().len()));
+                chart.series(Series::new(name.replace('_', " "), points))
+            })
+        })
+    };
+    write_charts(call, things(call, as_history)?.iter().map(chart).collect())
+}
+
+fn write_csv(call: &Call, table: CsvTable) -> Result<Dynamic, ScriptError> {
+    let file = call.text("file")?;
+    if !file.ends_with(".csv") {
+        return Err(call.error(format!("\"{file}\" does not end in .csv")).at(Place::Argument(1)));
+    }
+    call.context().output().write(&file, table.to_text()?.as_bytes())?;
+    Ok(Dynamic::UNIT)
+}
+
+fn write_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let [of] = things(call, as_history)?.try_into().map_err(|_| call.error("takes one simulation or history"))?;
+    let table = of.read(|history| {
+        let table = CsvTable::new().comment(format!("simulation: {}", of.of.name()));
+        History::COLUMNS.iter().fold(table, |table, column| {
+            let values = history.samples().iter().map(column.value).collect();
+            table.column(format!("{} [{}]", column.name, column.dimension), values)
+        })
+    });
+    write_csv(call, table)
+}
+
+fn write_states(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let [of] = things(call, as_simulation)?.try_into().map_err(|_| call.error("takes one simulation"))?;
+    let simulation = of.simulation();
+    let trajectory = simulation.trajectory();
+    let names = simulation.scene().beams.iter().zip(simulation.model().control_points()).flat_map(|(beam, points)| {
+        (0..points.len()).flat_map(move |point| ["x", "y"].map(|axis| format!("{} {axis}{point} [length]", beam.name)))
+    });
+    let table = CsvTable::new()
+        .comment(format!("simulation: {}; control points (nodes) of all beams", of.name()))
+        .column("t [time]", trajectory.times().to_vec());
+    let table = names.enumerate().fold(table, |table, (index, name)| {
+        let values = (0..trajectory.times().len()).map(|row| trajectory.configuration(row)[index]).collect();
+        table.column(name, values)
+    });
+    write_csv(call, table)
+}

@@ -1,0 +1,218 @@
+//! Schedules of loads and integrators.
+
+use std::rc::Rc;
+
+use rhai::{Dynamic, FnPtr};
+
+use crate::integrators::Method;
+use crate::loads::{Schedule, Side};
+use crate::script::arguments::Arguments;
+use crate::script::call::Call;
+use crate::script::error::ScriptError;
+use crate::script::kind::{Kind, Range, Scripted, Type};
+use crate::script::parameter::{Parameter, Presence, array, callback, number, numbers, object};
+use crate::script::table::{Table, function, method, operator};
+
+/// Schedules and integrators.
+pub const TABLE: Table = Table {
+    name: "schedules",
+    doc: "A schedule is a factor over time that multiplies a load. Steps end where a schedule jumps or bends.",
+    types: &[SCHEDULE],
+    setup: "",
+    constants: &[],
+    rows: &[
+        function("constant", &[number("factor").or(Presence::Number(1.0))], |call| {
+            schedule(Schedule::constant(call.number("factor")?)?)
+        })
+        .returns("a schedule")
+        .summary("The same factor at all times; what a load has when no schedule is given.")
+        .example("check(constant(2).at(5) == 2);")
+        .see(&["hold_for"]),
+        function("hold_for", &[TIME], |call| schedule(Schedule::hold_for(call.number("time")?)?))
+            .returns("a schedule")
+            .summary("1 up to a time, then 0; the time grid is cut there.")
+            .example("let torque = hold_for(2.5);\ncheck(torque.at(2.4) == 1 && torque.at(2.5) == 0);")
+            .see(&["pulse", "ramp"]),
+        function("ramp", &[FROM, TO], |call| {
+            schedule(Schedule::ramp(call.number("from")?, call.number("to")?)?)
+        })
+        .returns("a schedule")
+        .summary("0 before the first time, 1 after the last, a straight line between.")
+        .example("check(ramp(0, 4).at(1) == 0.25);")
+        .see(&["table"]),
+        function("pulse", &[FROM, TO], |call| {
+            schedule(Schedule::pulse(call.number("from")?, call.number("to")?)?)
+        })
+        .returns("a schedule")
+        .summary("1 between two times, else 0.")
+        .example("check(pulse(1, 2).at(1.5) == 1);")
+        .see(&["smooth_pulse", "hold_for"]),
+        function("smooth_pulse", &[number("duration").positive().unit("time")], |call| {
+            schedule(Schedule::smooth_pulse(call.number("duration")?)?)
+        })
+        .returns("a schedule")
+        .summary("16/5 sin(PI t / duration)^6 up to the duration, then 0: unit mean, five continuous derivatives.")
+        .example("check_close(smooth_pulse(2).at(1), 3.2, 1e-15);")
+        .see(&["pulse"]),
+        function("sine", &[number("amplitude"), number("rate").unit("rad/time"), PHASE], |call| {
+            schedule(Schedule::sine(call.number("amplitude")?, call.number("rate")?, call.number("phase")?)?)
+        })
+        .returns("a schedule")
+        .summary("amplitude sin(rate t + phase).")
+        .example("check_close(sine(2, PI, 0).at(0.5), 2, 1e-15);"),
+        function("table", &[array("rows").doc("[time, factor] pairs; a time given twice is a jump")], table)
+            .returns("a schedule")
+            .summary("Straight lines between [time, factor] points, constant before the first and after the last.")
+            .example("let load = table([[0, 0], [1, 1], [1, 0.5], [3, 0]]);\ncheck(load.at(2) == 0.25);")
+            .see(&["ramp"]),
+        function("schedule", &[callback("function"), BREAKS], closure)
+            .returns("a schedule")
+            .summary("Any function of time; give the times at which it jumps or bends, if there are any.")
+            .doc("It is called three times a step, never inside the iteration. A jump that is not declared costs accuracy.")
+            .example("let load = schedule(|t| exp(-t) * sin(3 * t));\ncheck(load.at(0) == 0);"),
+        method(SCHEDULE, "at", &[number("t").unit("time")], |call| {
+            Ok(call.receiver::<Schedule>()?.value(call.number("t")?, Side::After)?.into())
+        })
+        .returns("a number")
+        .summary("The factor at a time, just after it where it jumps.")
+        .example("check(hold_for(1).at(0.5) == 1);"),
+        operator("+", &[object("a", SCHEDULE), object("b", SCHEDULE)], |call| {
+            schedule(Schedule::Sum(boxed(call, "a")?, boxed(call, "b")?))
+        })
+        .returns("a schedule")
+        .summary("The sum of schedules.")
+        .example("let both = hold_for(1) + pulse(2, 3);\ncheck(both.at(2.5) == 1);"),
+        operator("*", &[object("a", SCHEDULE), object("b", SCHEDULE)], |call| {
+            schedule(Schedule::Product(boxed(call, "a")?, boxed(call, "b")?))
+        })
+        .returns("a schedule")
+        .summary("The product of schedules.")
+        .example("let half = hold_for(2) * ramp(0, 2);\ncheck(half.at(1) == 0.5);"),
+        operator("*", &[number("a"), object("b", SCHEDULE)], |call| scaled(call, "a", "b"))
+            .returns("a schedule")
+            .summary("A schedule scaled.")
+            .example("check((3 * hold_for(1)).at(0) == 3);"),
+        operator("*", &[object("a", SCHEDULE), number("b")], |call| scaled(call, "b", "a"))
+            .returns("a schedule")
+            .summary("A schedule scaled.")
+            .example("check((hold_for(1) * 3).at(0) == 3);"),
+    ],
+};
+
+/// Integrators, from their registry.
+pub const INTEGRATOR_TABLE: Table = Table {
+    name: "integrators",
+    doc: "Ways to take a step. A scene is started with one: scene.start(#{ integrator: energy_momentum(), dt: 0.1 }).",
+    types: &[INTEGRATOR],
+    setup: "",
+    constants: &[],
+    rows: &[
+        function("energy_momentum", &[], |_| Ok(Dynamic::from(Method::EnergyMomentum)))
+            .returns("an integrator")
+            .summary("Keeps energy and both momenta to rounding, at any step size; the default.")
+            .doc("Second order. Stander & Stein, Eng. Comput. 16 (1996) 60-85.")
+            .example("print(energy_momentum());")
+            .see(&["trapezoidal", "start"]),
+        function("trapezoidal", &[], |_| Ok(Dynamic::from(Method::Trapezoidal)))
+            .returns("an integrator")
+            .summary("Newmark's method with β = 1/4, γ = 1/2; its energy wanders in nonlinear problems.")
+            .doc("Second order. Newmark, J. Eng. Mech. Div. ASCE 85 (1959) 67-94.")
+            .example("print(trapezoidal());")
+            .see(&["energy_momentum"]),
+    ],
+};
+
+/// The schedule type, for other domains.
+pub const SCHEDULE: Type = Type::of::<Schedule>();
+/// The integrator type, for other domains.
+pub const INTEGRATOR: Type = Type::of::<Method>();
+/// What may stand for a schedule: one, a number that is constant, or a function of time.
+pub const SCHEDULE_KINDS: &[Kind] = &[Kind::Object(SCHEDULE), Kind::Number(Range::Finite), Kind::Function];
+
+const TIME: Parameter = number("time").positive().unit("time");
+const FROM: Parameter = number("from").unit("time");
+const TO: Parameter = number("to").unit("time");
+const PHASE: Parameter = number("phase").unit("rad").or(Presence::Number(0.0));
+const BREAKS: Parameter = numbers("breaks").unit("time").optional();
+
+impl Scripted for Schedule {
+    const NAME: &'static str = "schedule";
+    const DOC: &'static str = "A factor over time that multiplies a load.";
+
+    fn show(&self) -> String {
+        self.describe()
+    }
+}
+
+impl Scripted for Method {
+    const NAME: &'static str = "integrator";
+    const DOC: &'static str = "A way to take steps.";
+
+    fn show(&self) -> String {
+        let entry = self.entry();
+        format!("{}: {}", entry.name, entry.summary)
+    }
+}
+
+fn schedule(schedule: Schedule) -> Result<Dynamic, ScriptError> {
+    Ok(Dynamic::from(schedule))
+}
+
+fn boxed(call: &Call, name: &str) -> Result<Box<Schedule>, ScriptError> {
+    call.get(name).map(Box::new)
+}
+
+fn scaled(call: &Call, factor: &str, of: &str) -> Result<Dynamic, ScriptError> {
+    let factor = Schedule::constant(call.number(factor)?)?;
+    schedule(Schedule::Product(Box::new(factor), boxed(call, of)?))
+}
+
+fn table(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let pair = |(row, value): (usize, Dynamic)| {
+        let pair = value.read_lock::<rhai::Array>().and_then(|pair| match pair.as_slice() {
+            [t, factor] => crate::script::numbers::as_number(t).zip(crate::script::numbers::as_number(factor)),
+            _ => None,
+        });
+        pair.ok_or_else(|| {
+            let got = call.describe(&value);
+            call.error(format!("row {row} must be [time, factor], got {got}"))
+        })
+    };
+    let rows = call.array("rows")?.into_iter().enumerate().map(pair).collect::<Result<_, _>>()?;
+    schedule(Schedule::table(rows)?)
+}
+
+fn closure(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let breaks = if call.has("breaks") { call.numbers("breaks")? } else { Vec::new() };
+    schedule(stored(call, call.callback("function")?, breaks)?)
+}
+
+fn stored(call: &Call, function: FnPtr, breaks: Vec<f64>) -> Result<Schedule, ScriptError> {
+    let stored = call.store(function, "the function of a schedule")?;
+    Ok(Schedule::Function { function: Rc::new(move |t| stored.number_of(t)), breaks })
+}
+
+/// The schedule of a load: given in one of [`SCHEDULE_KINDS`], or always 1.
+pub(super) fn schedule_of(call: &Call, arguments: &Arguments, name: &str) -> Result<Schedule, ScriptError> {
+    if let Some(schedule) = arguments.get_if::<Schedule>(name) {
+        return Ok(schedule);
+    }
+    match (arguments.get_if::<FnPtr>(name), arguments.number_if_given(name)) {
+        (Some(function), _) => stored(call, function, Vec::new()),
+        (None, factor) => Ok(Schedule::constant(factor.unwrap_or(1.0))?),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::integrators::INTEGRATORS;
+
+    #[test]
+    fn every_integrator_of_the_registry_has_a_row_that_cites_its_source() {
+        for entry in INTEGRATORS {
+            let row = INTEGRATOR_TABLE.rows.iter().find(|row| row.name == entry.name).unwrap();
+            assert!(row.doc.contains(entry.source), "{}: {} / {}", entry.name, row.doc, entry.source);
+        }
+    }
+}

@@ -1,0 +1,249 @@
+//! Cross sections and meshes of beams.
+
+use rhai::{Dynamic, INT};
+
+use crate::beams::{BeamError, Mesh, Quadrature, Section, Shape, Solid};
+use crate::geometry::{Basis, KnotVector};
+use crate::script::arguments::Arguments;
+use crate::script::call::Call;
+use crate::script::error::{Place, ScriptError};
+use crate::script::kind::{Kind, Range, Scripted, Type};
+use crate::script::numbers::format_number;
+use crate::script::options::Options;
+use crate::script::parameter::{Parameter, Presence, choice, either, number, options, whole};
+use crate::script::table::{Table, function, property};
+
+/// Sections and meshes.
+pub const TABLE: Table = Table {
+    name: "sections",
+    doc: "What a beam is made of and how it is discretised. Any consistent set of units will do.",
+    types: &[SECTION, MESH],
+    setup: "",
+    constants: &[],
+    rows: &[
+        function("section", &[SECTION_OPTIONS], section)
+            .returns("a section")
+            .summary("A cross section, from its stiffness and inertia or from a material and a shape.")
+            .doc(
+                "Either EA, GA, EI, rho_A and rho_I; or E, nu, density and a shape: \"rectangle\" with width and height \
+                 (height lies in the plane of motion), \"circle\" with radius, \"tube\" with outer and inner radius. GA \
+                 contains the shear correction factor; that of shapes is Cowper's (1966).",
+            )
+            .example(
+                "let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
+                 let steel = section(#{ E: 210e9, nu: 0.3, density: 7850, shape: \"rectangle\", width: 0.02, height: 0.01 });\n\
+                 check_close(steel.EA, 210e9 * 0.02 * 0.01, 1);",
+            )
+            .see(&["beam"]),
+        property(SECTION, "EA", |call| Ok(call.receiver::<Section>()?.axial_stiffness.into()))
+            .returns("a number")
+            .summary("The axial stiffness [force].")
+            .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.EA == 1e4);"),
+        property(SECTION, "GA", |call| Ok(call.receiver::<Section>()?.shear_stiffness.into()))
+            .returns("a number")
+            .summary("The shear stiffness, correction factor included [force].")
+            .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.GA == 1e4);"),
+        property(SECTION, "EI", |call| Ok(call.receiver::<Section>()?.bending_stiffness.into()))
+            .returns("a number")
+            .summary("The bending stiffness [force·length²].")
+            .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.EI == 100);"),
+        property(SECTION, "rho_A", |call| Ok(call.receiver::<Section>()?.mass.into()))
+            .returns("a number")
+            .summary("The mass per length [mass/length].")
+            .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.rho_A == 1);"),
+        property(SECTION, "rho_I", |call| Ok(call.receiver::<Section>()?.rotary_inertia.into()))
+            .returns("a number")
+            .summary("The rotary inertia per length [mass·length].")
+            .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.rho_I == 10);"),
+        function("bspline", &[either("spans", &[COUNT, Kind::Options(BSPLINE)])], bspline)
+            .returns("a mesh")
+            .summary("A mesh of B-splines; cubic and C2 unless told otherwise.")
+            .doc(
+                "bspline(14) has 14 equal spans. Options: spans, degree (3), continuity (degree - 1), quadrature. The \
+                 quadrature says where axial and shear strain are sampled: \"patch\" (the default) neither locks nor leaves \
+                 zero-energy modes; a whole number is so many Gauss points in every span.",
+            )
+            .example(
+                "let mesh = bspline(14);\ncheck(mesh.spans == 14);\n\
+                 let paper = bspline(#{ spans: 7, continuity: 1 });\nprint(paper);",
+            )
+            .see(&["lagrange", "knots", "beam"]),
+        function("lagrange", &[either("elements", &[COUNT, Kind::Options(LAGRANGE)])], lagrange)
+            .returns("a mesh")
+            .summary("A mesh of Lagrange elements of degree 1 (unless told otherwise), 2 or 3.")
+            .example("let mesh = lagrange(#{ elements: 5, degree: 3 });\ncheck(mesh.degree == 3);")
+            .see(&["bspline"]),
+        property(MESH, "spans", |call| whole_number(call.receiver::<Mesh>()?.spans()))
+            .returns("a whole number")
+            .summary("The number of spans or elements.")
+            .example("check(bspline(7).spans == 7);"),
+        property(MESH, "degree", |call| whole_number(call.receiver::<Mesh>()?.basis().degree()))
+            .returns("a whole number")
+            .summary("The degree of its functions.")
+            .example("check(bspline(7).degree == 3);"),
+        property(MESH, "functions", |call| whole_number(call.receiver::<Mesh>()?.basis().functions()))
+            .returns("a whole number")
+            .summary("The number of its functions, and of control points or nodes.")
+            .example("check(bspline(#{ spans: 7, continuity: 1 }).functions == 16);"),
+    ],
+};
+
+/// The section type, for other domains.
+pub const SECTION: Type = Type::of::<Section>();
+/// The mesh type, for other domains.
+pub const MESH: Type = Type::of::<Mesh>();
+
+const COUNT: Kind = Kind::Whole(Range::Positive);
+const SECTION_OPTIONS: Parameter = options("options", SECTION_KEYS);
+const SECTION_KEYS: &[Parameter] = &[
+    number("EA").unit("force").doc("axial stiffness").optional(),
+    number("GA").unit("force").doc("shear stiffness, with its correction factor").optional(),
+    number("EI").unit("force·length²").doc("bending stiffness").optional(),
+    number("rho_A").unit("mass/length").doc("mass per length").optional(),
+    number("rho_I").unit("mass·length").doc("rotary inertia per length").optional(),
+    number("E").unit("force/length²").doc("Young's modulus").optional(),
+    number("nu").doc("Poisson's ratio").optional(),
+    number("density").unit("mass/length³").doc("density").optional(),
+    choice("shape", &["rectangle", "circle", "tube"]).doc("the outline").optional(),
+    number("width").unit("length").doc("of a rectangle, out of the plane").optional(),
+    number("height").unit("length").doc("of a rectangle, in the plane").optional(),
+    number("radius").unit("length").doc("of a circle").optional(),
+    number("outer").unit("length").doc("outer radius of a tube").optional(),
+    number("inner").unit("length").doc("inner radius of a tube").optional(),
+];
+const QUADRATURE: Parameter = either("quadrature", &[Kind::Choice(&["patch"]), COUNT])
+    .doc("points for axial and shear strain")
+    .or(Presence::Text("patch"));
+const BSPLINE: &[Parameter] = &[
+    whole("spans").positive().doc("equal spans"),
+    whole("degree").positive().or(Presence::Whole(3)),
+    whole("continuity").non_negative().doc("continuous derivatives between spans; degree - 1 unless given").optional(),
+    QUADRATURE,
+];
+const LAGRANGE: &[Parameter] = &[
+    whole("elements").positive().doc("equal elements"),
+    whole("degree").between(1.0, 3.0).or(Presence::Whole(1)),
+    QUADRATURE,
+];
+
+impl Scripted for Section {
+    const NAME: &'static str = "section";
+    const DOC: &'static str = "A cross section: stiffness and inertia.";
+
+    fn show(&self) -> String {
+        let [ea, ga, ei, mass, rotary] =
+            [self.axial_stiffness, self.shear_stiffness, self.bending_stiffness, self.mass, self.rotary_inertia]
+                .map(format_number);
+        format!("section with EA {ea}, GA {ga}, EI {ei}, rho_A {mass}, rho_I {rotary}")
+    }
+}
+
+impl Scripted for Mesh {
+    const NAME: &'static str = "mesh";
+    const DOC: &'static str = "A basis for a beam, and where its strains are sampled.";
+
+    fn show(&self) -> String {
+        self.describe()
+    }
+}
+
+fn whole_number(count: usize) -> Result<Dynamic, ScriptError> {
+    Ok(Dynamic::from(count as INT))
+}
+
+fn section(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let options = call.options("options")?;
+    let section = if options.has("shape") || options.has("E") {
+        solid(&options).and_then(|solid| Section::from_solid(solid).map_err(blamed))
+    } else {
+        from_numbers(&options)
+    };
+    Ok(Dynamic::from(section?))
+}
+
+fn from_numbers(options: &Options) -> Result<Section, ScriptError> {
+    let section = Section {
+        axial_stiffness: required(options, "EA")?,
+        shear_stiffness: required(options, "GA")?,
+        bending_stiffness: required(options, "EI")?,
+        mass: required(options, "rho_A")?,
+        rotary_inertia: required(options, "rho_I")?,
+    };
+    section.validated().map_err(blamed)
+}
+
+fn solid(options: &Options) -> Result<Solid, ScriptError> {
+    let shape = match options.text("shape").unwrap_or_default().as_str() {
+        "rectangle" => Shape::Rectangle { width: required(options, "width")?, height: required(options, "height")? },
+        "circle" => Shape::Circle { radius: required(options, "radius")? },
+        "tube" => Shape::Tube { outer: required(options, "outer")?, inner: required(options, "inner")? },
+        _ => return Err(missing("shape", "one of \"rectangle\", \"circle\", \"tube\"")),
+    };
+    Ok(Solid {
+        young: required(options, "E")?,
+        poisson: required(options, "nu")?,
+        density: required(options, "density")?,
+        shape,
+    })
+}
+
+fn required(options: &Arguments, name: &'static str) -> Result<f64, ScriptError> {
+    let parameter = SECTION_KEYS.iter().find(|key| key.name == name);
+    let what = parameter.map(|key| format!("{} ({})", key.expectation(), key.doc)).unwrap_or_default();
+    options.number_if_given(name).ok_or_else(|| missing(name, &what))
+}
+
+fn missing(name: &str, what: &str) -> ScriptError {
+    ScriptError::new(format!("section: the option '{name}' is missing")).hint(format!(
+        "add {name}: {what}; a section is given by EA, GA, EI, rho_A, rho_I, or by E, nu, density and a shape"
+    ))
+}
+
+/// Points at the option that is wrong.
+fn blamed(error: BeamError) -> ScriptError {
+    let key = match &error {
+        BeamError::SectionValue { name, .. } => Some(*name),
+        BeamError::PoissonRatio { .. } => Some("nu"),
+        BeamError::Tube { .. } => Some("inner"),
+        _ => None,
+    };
+    let error = ScriptError::from(error);
+    match key {
+        Some(key) => error.at(Place::Key(key.to_owned())),
+        None => error,
+    }
+}
+
+fn bspline(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let Some(options) = call.get_if::<Options>("spans") else {
+        return Ok(Dynamic::from(Mesh::bspline(call.count("spans")?, 3, 2)?));
+    };
+    let degree = options.count("degree")?;
+    let continuity = if options.has("continuity") { options.count("continuity")? } else { degree.saturating_sub(1) };
+    with_quadrature(Mesh::bspline(options.count("spans")?, degree, continuity)?, &options)
+}
+
+fn lagrange(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let Some(options) = call.get_if::<Options>("elements") else {
+        return Ok(Dynamic::from(Mesh::lagrange(call.count("elements")?, 1)?));
+    };
+    with_quadrature(Mesh::lagrange(options.count("elements")?, options.count("degree")?)?, &options)
+}
+
+fn with_quadrature(mesh: Mesh, options: &Options) -> Result<Dynamic, ScriptError> {
+    let quadrature = match options.count("quadrature") {
+        Ok(points) => Quadrature::Points(points),
+        Err(_) => Quadrature::Patch,
+    };
+    let mesh = mesh.with_quadrature(quadrature);
+    Ok(Dynamic::from(mesh.map_err(|error| ScriptError::from(error).at(Place::Key("quadrature".into())))?))
+}
+
+/// A mesh given as such or as a knot vector.
+pub(super) fn mesh_of(arguments: &Arguments, name: &str) -> Option<Mesh> {
+    let knots = |knots: KnotVector| Mesh::new(Basis::BSpline(knots));
+    arguments.get_if::<Mesh>(name).or_else(|| arguments.get_if::<KnotVector>(name).map(knots))
+}
+
+/// What [`mesh_of`] reads.
+pub(super) const MESH_KINDS: &[Kind] = &[Kind::Object(MESH), Kind::Object(Type::of::<KnotVector>())];

@@ -1,0 +1,253 @@
+//! Starting a scene, and the simulation that comes of it.
+
+use rhai::{Dynamic, INT};
+
+use super::live::{Goal, HistoryHandle, SimulationHandle};
+use super::scenes::{SCENE, STATION, SceneHandle, StationHandle};
+use super::schedules::INTEGRATOR;
+use crate::beams::Place;
+use crate::integrators::Method;
+use crate::model::Measures;
+use crate::newton::Tolerance;
+use crate::output::{Cell, Table as TextTable, scientific};
+use crate::script::call::Call;
+use crate::script::error::ScriptError;
+use crate::script::kind::{Scripted, Type};
+use crate::script::parameter::{Parameter, Presence, callback, number, object, options, text, whole};
+use crate::script::table::{Row, Table, method, property};
+use crate::simulation::{Invariant, Settings, Simulation};
+
+/// Simulations.
+pub const TABLE: Table = Table {
+    name: "simulations",
+    doc: "A simulation is live: step it, look, step on. Everything it went through is in its history.",
+    types: &[SIMULATION, INVARIANTS],
+    setup: SPINNING,
+    constants: &[],
+    rows: &[
+        method(SCENE, "start", &[options("options", START)], start)
+            .returns("a simulation")
+            .summary("Builds the scene and puts it at its start, t = 0.")
+            .doc("Changes of the scene after that do not reach the simulation; start it again for another one.")
+            .example("let again = scene.start(#{ integrator: trapezoidal(), dt: 0.05 });\nprint(again);")
+            .see(&["energy_momentum", "trapezoidal", "step", "run_to"]),
+        method(SIMULATION, "step", &[whole("count").non_negative().or(Presence::Whole(1))], |call| {
+            call.receiver::<SimulationHandle>()?.go_on(call, &Goal::Steps(call.count("count")?))?;
+            Ok(Dynamic::UNIT)
+        })
+        .summary("Takes a step, or so many; a step is shorter where a schedule cuts the time grid.")
+        .example("sim.step();\nsim.step(3);\ncheck(sim.steps == 4);")
+        .see(&["run_to"]),
+        method(SIMULATION, "run_to", &[number("t").any_number().unit("time")], |call| {
+            call.receiver::<SimulationHandle>()?.go_on(call, &Goal::Time(call.number("t")?))?;
+            Ok(Dynamic::UNIT)
+        })
+        .summary("Steps until a time, which ends the last step.")
+        .example("sim.run_to(1);\ncheck(sim.t == 1);")
+        .see(&["step", "at"]),
+        method(SIMULATION, "at", &[number("t").unit("time"), callback("function")], |call| {
+            call.receiver::<SimulationHandle>()?.at(call.number("t")?, call.callback("function")?)?;
+            Ok(Dynamic::UNIT)
+        })
+        .summary("Calls a function with the simulation when a time is reached; a step ends there.")
+        .example("sim.at(0.25, |sim| print(`energy ${sim.energy} at t = ${sim.t}`));\nsim.run_to(0.5);"),
+        property(SIMULATION, "t", |call| Ok(call.receiver::<SimulationHandle>()?.time().into()))
+            .returns("a number [time]")
+            .summary("Where the simulation is.")
+            .example("sim.run_to(0.3);\ncheck(sim.t == 0.3);"),
+        measure("energy", "Kinetic, strain and potential energy together [energy].", |call| last(call, |m| m.energy.total()))
+            .example("let turning = 1 * 2^3 / 12 + 10 * 2;\ncheck_close(sim.energy, turning / 2, 1e-12);"),
+        measure("kinetic", "The kinetic energy [energy].", |call| last(call, |m| m.energy.kinetic)).example("check(sim.kinetic > 0);"),
+        measure("strain", "The strain energy [energy].", |call| last(call, |m| m.energy.strain)).example("check(sim.strain == 0);"),
+        measure("potential", "The potential of gravity, zero at the origin [energy].", |call| last(call, |m| m.energy.potential))
+            .example("check(sim.potential == 0);"),
+        measure("work", "The work of the loads so far [energy].", |call| last(call, |m| m.work)).example("check(sim.work == 0);"),
+        measure("angular_momentum", "The angular momentum about the origin [mass·length²/time].", |call| {
+            last(call, |m| m.angular_momentum)
+        })
+        .example("let before = sim.angular_momentum;\nsim.run_to(1);\ncheck_close(sim.angular_momentum, before, 1e-10);"),
+        measure("gap", "The largest distance between the partners of a joint [length].", |call| last(call, |m| m.gap))
+            .example("check(sim.gap == 0);"),
+        property(SIMULATION, "momentum", |call| {
+            let simulation = call.receiver::<SimulationHandle>()?;
+            let momentum = measures(&simulation).momentum;
+            Ok(Dynamic::from(momentum))
+        })
+        .returns("a vector [mass·length/time]")
+        .summary("The linear momentum.")
+        .example("check(norm(sim.momentum) < 1e-12);"),
+        property(SIMULATION, "history", |call| {
+            let of = call.receiver::<SimulationHandle>()?;
+            Ok(Dynamic::from(HistoryHandle { of, from: f64::NEG_INFINITY, to: f64::INFINITY }))
+        })
+        .returns("a history")
+        .summary("All steps so far.")
+        .example("sim.run_to(1);\ncheck(sim.history.drift(\"energy\") < 1e-12);"),
+        method(SIMULATION, "invariants", &[], |call| Ok(Dynamic::from(Invariants::of(&call.receiver()?))))
+            .returns("invariants")
+            .summary("How well energy, momenta and gap were kept so far; prints as a table.")
+            .doc("The values are E - W, p - ∫F dt and L - ∫M dt, with what loads, gravity and supports have given taken off.")
+            .example("sim.run_to(1);\nprint(sim.invariants());\ncheck(sim.invariants().energy < 1e-12);")
+            .see(&["drift"]),
+        invariant("energy", |call| Ok(drift(call)?[0].into())).summary("The largest relative change of E - W."),
+        invariant("momentum", |call| Ok(drift(call)?[1].into())).summary("The largest relative change of p - ∫F dt."),
+        invariant("angular_momentum", |call| Ok(drift(call)?[2].into())).summary("The largest relative change of L - ∫M dt."),
+        invariant("gap", |call| Ok(drift(call)?[3].into())).summary("The largest gap of a joint [length]."),
+        method(SIMULATION, "position", &[AT], |call| {
+            let (handle, place) = place(call)?;
+            let position = handle.simulation().model().position(&place);
+            Ok(Dynamic::from(position))
+        })
+        .returns("a vector [length]")
+        .summary("Where a station is.")
+        .example("check(norm(sim.position(rod.start)) < 1e-15);"),
+        method(SIMULATION, "velocity", &[AT], |call| {
+            let (handle, place) = place(call)?;
+            let velocity = handle.simulation().model().velocity(&place);
+            Ok(Dynamic::from(velocity))
+        })
+        .returns("a vector [length/time]")
+        .summary("How fast a station moves.")
+        .example("check_close(sim.velocity(rod.end).y, 1, 1e-12);"),
+        method(SIMULATION, "angle", &[AT], angle)
+            .returns("a number [rad]")
+            .summary("The angle of the section at a station, counter-clockwise and not wrapped.")
+            .doc("Stations inside a beam are followed if they were made before the scene was started.")
+            .example("sim.run_to(1);\ncheck_close(sim.angle(rod.end), 1, 0.01);"),
+        count("steps", |call| counted(call, |simulation| simulation.counts().steps)).summary("Steps taken."),
+        count("newton_iterations", |call| counted(call, |simulation| simulation.counts().newton_iterations))
+            .summary("Newton iterations of all steps."),
+        count("retries", |call| counted(call, |simulation| simulation.counts().retries)).summary("Steps that failed and were halved."),
+        count("unknowns", |call| counted(call, Simulation::unknowns)).summary("Unknowns of a step."),
+        property(SIMULATION, "dt", |call| Ok(call.receiver::<SimulationHandle>()?.simulation().settings().dt.into()))
+            .returns("a number [time]")
+            .summary("The step size of the grid.")
+            .example("check(sim.dt == 0.1);"),
+        property(SIMULATION, "name", |call| Ok(call.receiver::<SimulationHandle>()?.name().into()))
+            .returns("a text")
+            .summary("Its name: that of the scene unless given.")
+            .example("check(sim.name == \"example\");"),
+    ],
+};
+
+/// How examples get a simulation.
+pub(super) const SPINNING: &str = "let scene = new_scene(\"example\");\n\
+    let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
+    let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s, spin: 1 });\n\
+    let sim = scene.start(#{ dt: 0.1 });";
+
+/// The simulation type, for other domains.
+pub const SIMULATION: Type = Type::of::<SimulationHandle>();
+const INVARIANTS: Type = Type::of::<Invariants>();
+
+const AT: Parameter = object("station", STATION);
+const START: &[Parameter] = &[
+    number("dt").positive().unit("time").doc("the step size"),
+    object("integrator", INTEGRATOR).doc("energy_momentum() unless given").optional(),
+    text("name").doc("the name in the report; that of the scene unless given").optional(),
+];
+
+/// How well the invariants were kept.
+#[derive(Clone)]
+struct Invariants {
+    measures: Measures,
+    drifts: [f64; 4],
+}
+
+impl Invariants {
+    fn of(handle: &SimulationHandle) -> Self {
+        let simulation = handle.simulation();
+        let drifts = Invariant::ALL.map(|(_, invariant)| simulation.history().drift(invariant));
+        drop(simulation);
+        Self { measures: measures(handle), drifts }
+    }
+}
+
+impl Scripted for Invariants {
+    const NAME: &'static str = "invariants";
+    const DOC: &'static str = "How well energy, momenta and gap were kept.";
+
+    fn show(&self) -> String {
+        let m = &self.measures;
+        let momentum = m.momentum - m.impulse;
+        let values = [
+            ("energy E - W", m.energy.total() - m.work),
+            ("momentum p - ∫F dt", momentum.norm()),
+            ("angular momentum L - ∫M dt", m.angular_momentum - m.angular_impulse),
+            ("gap of joints", m.gap),
+        ];
+        let mut table = TextTable::new(&["invariant", "value", "largest change"]);
+        for ((name, value), drift) in values.into_iter().zip(self.drifts) {
+            let cells = [name.to_owned(), scientific(value, 7), scientific(drift, 2)];
+            let [name, numbers @ ..] = cells;
+            table.row([Cell::Text(name)].into_iter().chain(numbers.map(Cell::Number)));
+        }
+        table.to_string().trim_end().to_owned()
+    }
+}
+
+const fn measure(name: &'static str, summary: &'static str, body: crate::script::table::Body) -> Row {
+    property(SIMULATION, name, body).returns("a number").summary(summary)
+}
+
+const fn invariant(name: &'static str, body: crate::script::table::Body) -> Row {
+    property(INVARIANTS, name, body)
+        .returns("a number")
+        .example("sim.run_to(0.5);\nlet kept = sim.invariants();\ncheck(kept.energy < 1e-12 && kept.momentum < 1e-12);\ncheck(kept.angular_momentum < 1e-12 && kept.gap == 0);")
+}
+
+const fn count(name: &'static str, body: crate::script::table::Body) -> Row {
+    property(SIMULATION, name, body)
+        .returns("a whole number")
+        .example("sim.step(2);\ncheck(sim.steps == 2 && sim.newton_iterations <= 8 && sim.retries == 0 && sim.unknowns == 21);")
+}
+
+fn start(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let scene = call.receiver::<SceneHandle>()?.scene().borrow().clone();
+    let options = call.options("options")?;
+    let settings = Settings {
+        method: options.get_if::<Method>("integrator").unwrap_or_default(),
+        dt: options.number("dt")?,
+        tolerance: Tolerance::default(),
+    };
+    let name = options.text("name").map_or_else(|_| scene.name.clone(), |name| name.to_string());
+    let simulation = Simulation::start(scene, settings)?;
+    Ok(Dynamic::from(SimulationHandle::new(simulation, name, call.context())))
+}
+
+fn measures(handle: &SimulationHandle) -> Measures {
+    handle.simulation().history().samples().last().map(|row| row.measures).unwrap_or_default()
+}
+
+fn last(call: &Call, read: fn(&Measures) -> f64) -> Result<Dynamic, ScriptError> {
+    Ok(read(&measures(&call.receiver()?)).into())
+}
+
+fn drift(call: &Call) -> Result<[f64; 4], ScriptError> {
+    Ok(call.receiver::<Invariants>()?.drifts)
+}
+
+fn counted(call: &Call, read: fn(&Simulation) -> usize) -> Result<Dynamic, ScriptError> {
+    let handle = call.receiver::<SimulationHandle>()?;
+    let count = read(&handle.simulation());
+    Ok(Dynamic::from(count as INT))
+}
+
+/// The simulation that is called, and a place of it.
+fn place(call: &Call) -> Result<(SimulationHandle, Place), ScriptError> {
+    let handle = call.receiver::<SimulationHandle>()?;
+    let station = call.get::<StationHandle>("station")?;
+    let place = station.on(&handle)?;
+    Ok((handle, place))
+}
+
+fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let handle = call.receiver::<SimulationHandle>()?;
+    let station = call.get::<StationHandle>("station")?;
+    station.on(&handle)?;
+    let simulation = handle.simulation();
+    simulation.model().angle(simulation.scene(), &station.station()).map(Dynamic::from).ok_or_else(|| {
+        call.error(format!("the angle at {} was not followed", station.show()))
+            .hint("make the station with beam.at(s) before scene.start(…)")
+    })
+}
