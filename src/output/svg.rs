@@ -29,7 +29,7 @@ pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<String, OutputE
     drop(backend);
 
     let drawn = body.split_once(">\n").map_or("", |(_, drawn)| drawn).replace(" opacity=\"1\"", "");
-    Ok(head(canvas, width, height, size) + &drawn)
+    Ok(head(canvas, width, height, size) + drawn.as_str())
 }
 
 /// The opening of the document: its size in pixels, round corners for all lines, and all of its text.

@@ -5,9 +5,10 @@ use std::rc::Rc;
 
 use rhai::Dynamic;
 
+use super::geometry::CURVE;
 use super::live::SimulationHandle;
 use super::sections::{MESH_KINDS, SECTION, mesh_of};
-use crate::beams::{Mesh, Place, Station};
+use crate::beams::{self, Mesh, Station};
 use crate::geometry::Curve;
 use crate::joints::{JointKind, Partner};
 use crate::model::{BeamDefinition, PointMass, Scene, StartMotion, StationVelocity};
@@ -134,7 +135,7 @@ const OTHER: Parameter = object("other", STATION).doc("the ground unless given")
 const SPIN: Parameter = number("spin").unit("1/time").optional();
 const ROTARY: Parameter = number("rotary_inertia").unit("mass·length²").or(Presence::Number(0.0));
 const BEAM_KEYS: &[Parameter] = &[
-    object("axis", Type::of::<Curve>()).doc("the centroid line as drawn"),
+    object("axis", CURVE).doc("the centroid line as drawn"),
     either("basis", MESH_KINDS).doc("a mesh or a knot vector").optional(),
     object("section", SECTION).doc("stiffness and inertia"),
     text("name").optional(),
@@ -205,7 +206,7 @@ impl StationHandle {
     }
 
     /// Its place in a simulation, if that is one of its scene.
-    pub fn on(&self, handle: &SimulationHandle) -> Result<Place, ScriptError> {
+    pub fn on(&self, handle: &SimulationHandle) -> Result<beams::Place, ScriptError> {
         let simulation = handle.simulation();
         let known = simulation.scene().beams.get(self.station.beam);
         let same = known.is_some_and(|beam| beam.axis == self.scene.0.borrow().beams[self.station.beam].axis);
@@ -273,7 +274,7 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let definition = BeamDefinition {
         name: named.unwrap_or_else(|_| format!("beam{}", count + 1)),
-        axis: options.get("axis")?,
+        axis: Curve::clone(&*options.get::<Rc<Curve>>("axis")?),
         mesh,
         section: options.get("section")?,
         motion,

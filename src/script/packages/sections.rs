@@ -1,6 +1,10 @@
 //! Cross sections and meshes of beams.
 
+use std::rc::Rc;
+
 use rhai::{Dynamic, INT};
+
+use super::geometry::KNOTS;
 
 use crate::beams::{BeamError, Mesh, Quadrature, Section, Shape, Solid};
 use crate::geometry::{Basis, KnotVector};
@@ -241,9 +245,9 @@ fn with_quadrature(mesh: Mesh, options: &Options) -> Result<Dynamic, ScriptError
 
 /// A mesh given as such or as a knot vector.
 pub(super) fn mesh_of(arguments: &Arguments, name: &str) -> Option<Mesh> {
-    let knots = |knots: KnotVector| Mesh::new(Basis::BSpline(knots));
-    arguments.get_if::<Mesh>(name).or_else(|| arguments.get_if::<KnotVector>(name).map(knots))
+    let knots = |knots: Rc<KnotVector>| Mesh::new(Basis::BSpline(KnotVector::clone(&knots)));
+    arguments.get_if::<Mesh>(name).or_else(|| arguments.get_if::<Rc<KnotVector>>(name).map(knots))
 }
 
 /// What [`mesh_of`] reads.
-pub(super) const MESH_KINDS: &[Kind] = &[Kind::Object(MESH), Kind::Object(Type::of::<KnotVector>())];
+pub(super) const MESH_KINDS: &[Kind] = &[Kind::Object(MESH), Kind::Object(KNOTS)];
