@@ -37,7 +37,7 @@ pub enum BeamError {
     },
     /// A quadrature with too few or too many points.
     #[error(
-        "quadrature: {points} points a span, but allowed are 1 to {most} for degree {degree}; \"patch\" is the rule that neither locks nor leaves zero-energy modes"
+        "quadrature: {points} points a span, but allowed are 1 to {most} for degree {degree}, or \"patch\""
     )]
     Quadrature {
         /// Points asked for.

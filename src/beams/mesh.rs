@@ -6,8 +6,9 @@ use crate::geometry::{Basis, GaussRule, GeometryError, KnotVector, LagrangeBasis
 /// Where axial and shear strain are sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Quadrature {
-    /// One point in each span of a smooth run of spans, a few more in its first and last one: neither locks nor leaves
-    /// zero-energy modes. A run of a single span (every span of a Lagrange or C¹ cubic mesh) has `degree` points.
+    /// In a run of spans of full continuity: one point in each span, a few more in its first and last one; that neither
+    /// locks nor leaves zero-energy modes. A span on its own (every span of a Lagrange or C¹ cubic mesh) has `degree`
+    /// points, which is right for Lagrange elements and locks for C¹ cubics.
     ///
     /// After Adam, Bouabdallah, Zarroug & Maitournam, Comput. Methods Appl. Mech. Eng. 279 (2014) 1–28.
     #[default]

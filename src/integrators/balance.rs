@@ -120,7 +120,7 @@ impl StepSolver {
         if rotation < HALF_TURN {
             Ok(report)
         } else {
-            Err(StepError::Rotation { interval, rotation })
+            Err(StepError::Rotation { interval, rotation, iterations: report.iterations })
         }
     }
 

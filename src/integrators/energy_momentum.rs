@@ -10,7 +10,7 @@ use crate::newton::{NewtonReport, Tolerance};
 /// `M (v1 - v0)/Δt + F(midpoint) = 0`, `(v0 + v1)/2 = Δq/Δt`. Second order.
 ///
 /// N. Stander & E. Stein, An energy-conserving planar finite beam element for dynamics of flexible mechanisms,
-/// Eng. Comput. 16 (1996) 60–85; J. C. Simo, N. Tarnow & M. Doblaré, Int. J. Numer. Meth. Eng. 38 (1995) 1431–1473.
+/// Eng. Comput. 13 (1996) 60–85; J. C. Simo, N. Tarnow & M. Doblaré, Int. J. Numer. Meth. Eng. 38 (1995) 1431–1473.
 #[derive(Debug, Clone)]
 pub struct EnergyMomentum {
     solver: StepSolver,

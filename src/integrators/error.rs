@@ -16,14 +16,16 @@ pub enum StepError {
     },
     /// A section turns by half a turn or more within the step, where tangent-scaled rotations end.
     #[error(
-        "the step of {:e} from t = {} turns a section by {rotation:.2} rad; a step must stay below π",
+        "the step of {:e} from t = {} would turn a section by {rotation:.2} rad at its mean rate; a step must stay below π",
         interval.duration(), interval.start
     )]
     Rotation {
         /// The step.
         interval: Interval,
-        /// The rotation increment, rate times step [rad].
+        /// The rotation increment `Δω`, mean rate times step [rad].
         rotation: f64,
+        /// Newton iterations that the refused step took.
+        iterations: usize,
     },
     /// A load has no finite value in the step.
     #[error("{load}: {reason} (in the step from t = {} to {})", interval.start, interval.end)]
@@ -38,6 +40,15 @@ pub enum StepError {
 }
 
 impl StepError {
+    /// Matrices that were factorised, or could not be.
+    pub fn factorisations(&self) -> usize {
+        match self {
+            Self::Newton { source, .. } => source.factorisations(),
+            Self::Rotation { iterations, .. } => *iterations,
+            Self::Load { .. } => 0,
+        }
+    }
+
     /// Whether a smaller step may succeed.
     pub fn may_be_cured_by_a_smaller_step(&self) -> bool {
         !matches!(self, Self::Load { .. })

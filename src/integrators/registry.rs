@@ -48,7 +48,7 @@ pub const INTEGRATORS: &[IntegratorEntry] = &[
         name: "energy_momentum",
         summary: "keeps energy and both momenta to rounding at any step; the default",
         claims: Claims { order: 2, energy: true, momentum: true, angular_momentum: true },
-        source: "Stander & Stein, Eng. Comput. 16 (1996) 60-85",
+        source: "Stander & Stein, Eng. Comput. 13 (1996) 60-85",
     },
     IntegratorEntry {
         method: Method::Trapezoidal,

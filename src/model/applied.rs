@@ -45,7 +45,7 @@ impl Pattern {
     }
 
     /// The largest force and the largest moment on a control point.
-    fn largest(&self, factor: f64) -> (f64, f64) {
+    pub(super) fn largest(&self, factor: f64) -> (f64, f64) {
         self.entries.iter().fold((0.0, 0.0), |(force, moment): (f64, f64), (_, _, [x, y, m])| {
             (force.max(factor.abs() * x.abs().max(y.abs())), moment.max(factor.abs() * m.abs()))
         })

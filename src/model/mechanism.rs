@@ -129,7 +129,8 @@ impl Model {
         if let Some(gravity) = &self.weight {
             gravity.subtract_from(&self.bodies, weight, out);
         }
-        self.loads.iter_mut().fold((0.0, 0.0), |largest: (f64, f64), load| {
+        let weight_scale = self.weight.as_ref().map_or((0.0, 0.0), |gravity| gravity.largest(1.0));
+        self.loads.iter_mut().fold(weight_scale, |largest: (f64, f64), load| {
             let (force, moment) =
                 load.subtract_from(&mut self.bodies, stage, increments, weight, out);
             (largest.0.max(force), largest.1.max(moment))

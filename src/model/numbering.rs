@@ -7,7 +7,7 @@ use crate::joints::{Component, JointKind, Partner};
 use crate::linalg::reverse_cuthill_mckee;
 
 /// Largest gap of a joint when the scene starts, relative to the length of its beam.
-const CLOSED: f64 = 1e-9;
+const CLOSED: f64 = 1e-12;
 
 /// The degree of freedom of every component of every control point of every beam: the unknowns come first, the
 /// supported ones after them.

@@ -29,6 +29,11 @@ pub enum NewtonError {
 }
 
 impl NewtonError {
+    /// Matrices that were factorised, or could not be.
+    pub fn factorisations(&self) -> usize {
+        self.history().len() + usize::from(matches!(self, Self::Linear { .. }))
+    }
+
     /// The imbalance after each iteration, oldest first.
     pub fn history(&self) -> &[Imbalance] {
         match self {

@@ -89,6 +89,9 @@ impl Newton {
                 if imbalance.force.max(imbalance.strain) > self.tolerance.polish {
                     equations.condense(residual);
                     imbalance = correct(equations, &factors, &mut self.correction, u, residual);
+                    if !imbalance.is_finite() {
+                        return Err(NewtonError::NotFinite { history: self.history.clone() });
+                    }
                 }
                 return Ok(NewtonReport { iterations: self.history.len(), imbalance });
             }

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use super::{Configuration, History, Outline, Sample, SimulationError, TimeGrid, Trajectory};
 use crate::beams::{Place, Station};
 use crate::geometry::Vec2;
-use crate::integrators::{Integrator, Interval, Mechanism, Method, StepError};
+use crate::integrators::{Integrator, Interval, Mechanism, Method};
 use crate::model::{Model, ModelError, Scene};
 use crate::newton::{NewtonReport, Tolerance};
 
@@ -42,7 +42,7 @@ pub struct WorkCounts {
 
 /// Somebody who watches a run after every step.
 pub trait Monitor {
-    /// Called after every step; `false` stops the run there.
+    /// Called after every step and every failed try; `false` stops the run there.
     fn goes_on(&mut self, time: f64) -> bool;
 }
 
@@ -221,7 +221,7 @@ impl Simulation {
                 }
                 Err(source) => {
                     self.counts.retries += 1;
-                    self.counts.factorisations += tried_iterations(&source);
+                    self.counts.factorisations += source.factorisations();
                     retries += 1;
                     if halvings == MOST_HALVINGS || !source.may_be_cured_by_a_smaller_step() {
                         let divisions = 1 << halvings;
@@ -309,11 +309,4 @@ impl Simulation {
 
 fn coordinates(model: &Model) -> impl Iterator<Item = f64> + '_ {
     model.control_points().flatten().flat_map(|point| [point.x, point.y])
-}
-
-fn tried_iterations(error: &StepError) -> usize {
-    match error {
-        StepError::Newton { source, .. } => source.history().len(),
-        StepError::Rotation { .. } | StepError::Load { .. } => 0,
-    }
 }

@@ -145,7 +145,8 @@ impl SimulationHandle {
                 is_due.then(|| events.remove(0))
             };
             let Some((_, function)) = due else { return Ok(()) };
-            call.invoke(&function, [Dynamic::from(self.clone())])?;
+            // What an event gives back has no meaning.
+            let _ = call.invoke(&function, [Dynamic::from(self.clone())])?;
         }
     }
 

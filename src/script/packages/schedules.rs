@@ -110,7 +110,7 @@ pub const INTEGRATOR_TABLE: Table = Table {
         function("energy_momentum", &[], |_| Ok(Dynamic::from(Method::EnergyMomentum)))
             .returns("an integrator")
             .summary("Keeps energy and both momenta to rounding, at any step size; the default.")
-            .doc("Second order. Stander & Stein, Eng. Comput. 16 (1996) 60-85.")
+            .doc("Second order. Stander & Stein, Eng. Comput. 13 (1996) 60-85.")
             .example("print(energy_momentum());")
             .see(&["trapezoidal", "start"]),
         function("trapezoidal", &[], |_| Ok(Dynamic::from(Method::Trapezoidal)))
