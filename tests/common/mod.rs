@@ -1,0 +1,85 @@
+//! What several test files need: scenes, meshes, reference tables, random numbers.
+#![allow(dead_code)]
+
+pub mod probe;
+pub mod reference;
+pub mod scenes;
+pub mod statics;
+
+use withy::beams::{Mesh, Quadrature};
+use withy::geometry::Vec2;
+use withy::integrators::Method;
+use withy::model::Scene;
+use withy::newton::Tolerance;
+use withy::simulation::{Settings, Simulation, SimulationError, Unwatched};
+
+pub fn at(x: f64, y: f64) -> Vec2 {
+    Vec2::new(x, y)
+}
+
+pub fn settings(method: Method, dt: f64) -> Settings {
+    Settings { method, dt, tolerance: Tolerance::default() }
+}
+
+pub fn simulate(scene: Scene, method: Method, dt: f64, end: f64) -> Simulation {
+    let name = scene.name.clone();
+    let mut simulation = Simulation::start(scene, settings(method, dt)).unwrap();
+    run(&mut simulation, end).unwrap_or_else(|error| panic!("{name}, dt = {dt}: {error}"));
+    simulation
+}
+
+pub fn run(simulation: &mut Simulation, end: f64) -> Result<(), SimulationError> {
+    simulation.run_to(end, &mut Unwatched)
+}
+
+/// Where the first beam starts and ends.
+pub fn ends(simulation: &Simulation) -> [Vec2; 2] {
+    let points = simulation.model().control_points().next().unwrap();
+    [points[0], points[points.len() - 1]]
+}
+
+/// One mesh of every kind, with its name; `spans` spans of the smooth ones, fewer of the others.
+pub fn meshes(spans: usize) -> Vec<(&'static str, Mesh)> {
+    let bspline = |spans, degree, continuity| Mesh::bspline(spans, degree, continuity).unwrap();
+    let lagrange = |elements, degree| Mesh::lagrange(elements, degree).unwrap();
+    let half = spans.div_ceil(2);
+    vec![
+        ("cubic C2", bspline(spans, 3, 2)),
+        ("cubic C1", bspline(half, 3, 1)),
+        ("cubic C1, 2 points", points(bspline(half, 3, 1), 2)),
+        ("cubic C0", bspline(half, 3, 0)),
+        ("linear", lagrange(spans, 1)),
+        ("quadratic Lagrange", lagrange(half, 2)),
+        ("cubic Lagrange", lagrange(half, 3)),
+        ("quadratic C1", bspline(spans, 2, 1)),
+        ("degree 4, C3", bspline(spans, 4, 3)),
+        ("degree 5, C4", bspline(spans, 5, 4)),
+    ]
+}
+
+pub fn points(mesh: Mesh, number: usize) -> Mesh {
+    mesh.with_quadrature(Quadrature::Points(number)).unwrap()
+}
+
+/// Splitmix64 (Steele, Lea & Flood 2014): small, seeded, the same everywhere.
+pub struct Random(pub u64);
+
+impl Random {
+    /// Uniform in [-1, 1].
+    pub fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    pub fn vector(&mut self, size: usize, magnitude: f64) -> Vec<f64> {
+        (0..size).map(|_| magnitude * self.next()).collect()
+    }
+}
+
+/// The slopes of errors whose step is halved from one to the next.
+pub fn orders(errors: &[f64]) -> Vec<f64> {
+    errors.windows(2).map(|pair| (pair[0] / pair[1]).log2()).collect()
+}

@@ -1,0 +1,227 @@
+//! Scenes that exercise every kind of beam, joint, mass and load.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use super::at;
+use withy::beams::{Mesh, Section, Station};
+use withy::geometry::{Curve, Vec2};
+use withy::joints::{JointKind, Partner};
+use withy::loads::{Frame, LoadKind, Schedule};
+use withy::model::{BeamDefinition, PointMass, Scene, StartMotion};
+
+/// The section of the flying spaghetti with `EA = GA` and `EI` as given.
+pub fn spaghetti_section(stiffness: f64, bending: f64) -> Section {
+    Section {
+        axial_stiffness: stiffness,
+        shear_stiffness: stiffness,
+        bending_stiffness: bending,
+        mass: 1.0,
+        rotary_inertia: 10.0,
+    }
+}
+
+fn rod() -> Section {
+    Section {
+        axial_stiffness: 2e3,
+        shear_stiffness: 8e2,
+        bending_stiffness: 30.0,
+        mass: 1.0,
+        rotary_inertia: 0.3,
+    }
+}
+
+pub fn add_beam(scene: &mut Scene, axis: Curve, mesh: &Mesh, section: Section) -> usize {
+    let name = format!("beam{}", scene.beams.len() + 1);
+    let motion = StartMotion::default();
+    scene.add_beam(BeamDefinition { name, axis, mesh: mesh.clone(), section, motion }).unwrap()
+}
+
+pub fn line(from: Vec2, to: Vec2) -> Curve {
+    Curve::line(from, to).unwrap()
+}
+
+fn start_of(scene: &mut Scene, beam: usize) -> Station {
+    scene.station(beam, 0.0).unwrap()
+}
+
+pub fn end_of(scene: &mut Scene, beam: usize) -> Station {
+    let length = scene.beams[beam].axis.length();
+    scene.station(beam, length).unwrap()
+}
+
+fn force(scene: &mut Scene, station: Station, force: Vec2, frame: Frame, schedule: Schedule) {
+    scene.add_load(LoadKind::Force { station, force, frame }, schedule);
+}
+
+fn always() -> Schedule {
+    Schedule::constant(1.0).unwrap()
+}
+
+fn hold(time: f64) -> Schedule {
+    Schedule::hold_for(time).unwrap()
+}
+
+/// Flying spaghetti (Simo & Vu-Quoc 1986, II) from (0, 8) + `shift` to (6, 0) + `shift`, thrown by a schedule.
+pub fn thrown(mesh: &Mesh, section: Section, schedule: Schedule, shift: Vec2) -> Scene {
+    let mut scene = Scene::new("flying spaghetti");
+    let axis = line(at(0.0, 8.0) + shift, at(6.0, 0.0) + shift);
+    let beam = add_beam(&mut scene, axis, mesh, section);
+    let station = end_of(&mut scene, beam);
+    force(&mut scene, station, at(8.0, 0.0), Frame::Dead, schedule.clone());
+    scene.add_load(LoadKind::Moment { station, moment: -80.0 }, schedule);
+    scene
+}
+
+/// Flying spaghetti with the step load of the literature.
+pub fn spaghetti(mesh: &Mesh, stiffness: f64) -> Scene {
+    thrown(mesh, spaghetti_section(stiffness, 100.0), hold(2.5), Vec2::zeros())
+}
+
+/// Flying spaghetti with the smooth pulse of the references `P1s` and `P2s`.
+pub fn smooth_spaghetti(mesh: &Mesh, bending: f64) -> Scene {
+    let pulse = Schedule::smooth_pulse(2.5).unwrap();
+    thrown(mesh, spaghetti_section(1e4, bending), pulse, Vec2::zeros())
+}
+
+/// A free beam of length 10 along the first axis.
+pub fn free_beam(mesh: &Mesh, section: Section) -> Scene {
+    let mut scene = Scene::new("free beam");
+    add_beam(&mut scene, line(Vec2::zeros(), at(10.0, 0.0)), mesh, section);
+    scene
+}
+
+/// The same, clamped at its start.
+pub fn cantilever(mesh: &Mesh, section: Section) -> Scene {
+    let mut scene = free_beam(mesh, section);
+    let start = start_of(&mut scene, 0);
+    scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
+    scene
+}
+
+/// A quarter arc, hinged to the ground, swings under gravity with a mass at its end.
+pub fn curved_pendulum(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("curved pendulum");
+    let axis = Curve::arc(at(0.5, 1.0), 2.0, 0.0, -FRAC_PI_2).unwrap();
+    let beam = add_beam(&mut scene, axis, mesh, rod());
+    let start = start_of(&mut scene, beam);
+    scene.join(JointKind::Hinge, start, Partner::Ground).unwrap();
+    let station = end_of(&mut scene, beam);
+    scene.add_mass(PointMass { station, mass: 0.7, rotary_inertia: 0.2 }).unwrap();
+    scene.gravity = at(0.0, -9.81);
+    scene
+}
+
+/// A clamped beam under a follower force at 0.6 of its length, a follower line load and a dead line load.
+pub fn blown_cantilever(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("blown cantilever");
+    let beam = add_beam(&mut scene, line(at(1.0, 0.0), at(2.5, 2.0)), mesh, rod());
+    let start = start_of(&mut scene, beam);
+    scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
+    let station = scene.station(beam, 1.5).unwrap();
+    force(&mut scene, station, at(-4.0, 3.0), Frame::Follower, hold(3.0));
+    let lines = [(at(1.0, -2.0), Frame::Follower), (at(0.5, -1.0), Frame::Dead)];
+    for (force, frame) in lines {
+        let schedule = Schedule::Sine { amplitude: 1.0, rate: 1.7, phase: 0.4 };
+        scene.add_load(LoadKind::Line { beam, force, frame }, schedule);
+    }
+    scene
+}
+
+/// Four bars hinged to a rhombus fly and turn; a moment drives one of them.
+pub fn flying_loop(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("flying four-bar loop");
+    let corners = [at(0.0, 0.0), at(2.0, 0.5), at(3.0, 2.2), at(1.0, 1.7)];
+    for (corner, &from) in corners.iter().enumerate() {
+        let axis = line(from, corners[(corner + 1) % 4]);
+        let beam = add_beam(&mut scene, axis, mesh, rod());
+        scene.beams[beam].motion =
+            StartMotion { velocity: at(1.0, 0.5), spin: 0.8, about: Some(Vec2::zeros()) };
+    }
+    for beam in 0..4 {
+        let (end, next) = (end_of(&mut scene, beam), start_of(&mut scene, (beam + 1) % 4));
+        scene.join(JointKind::Hinge, end, Partner::Station(next)).unwrap();
+    }
+    let station = start_of(&mut scene, 0);
+    scene.add_load(LoadKind::Moment { station, moment: 6.0 }, hold(1.0));
+    scene
+}
+
+/// A four-bar linkage hinged to the ground at both ends, driven by a moment, under gravity.
+pub fn four_bar_linkage(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("four-bar linkage");
+    let corners = [at(0.0, 0.0), at(0.3, 1.0), at(2.4, 1.6), at(2.2, 0.0)];
+    for pair in corners.windows(2) {
+        add_beam(&mut scene, line(pair[0], pair[1]), mesh, rod());
+    }
+    let (first, last) = (start_of(&mut scene, 0), end_of(&mut scene, 2));
+    for station in [first, last] {
+        scene.join(JointKind::Hinge, station, Partner::Ground).unwrap();
+    }
+    for beam in 0..2 {
+        let (end, next) = (end_of(&mut scene, beam), start_of(&mut scene, beam + 1));
+        scene.join(JointKind::Hinge, end, Partner::Station(next)).unwrap();
+    }
+    scene.add_load(LoadKind::Moment { station: first, moment: -5.0 }, hold(2.0));
+    scene.gravity = at(0.0, -2.0);
+    scene
+}
+
+/// A curved and a straight beam, rigidly joined inside the first, and a third one hinged on: free, with a load on.
+pub fn flying_tree(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("flying tree");
+    let arc = Curve::arc(at(0.0, 0.0), 2.0, 0.2, 1.4).unwrap();
+    let fork = arc.point(0.5).unwrap();
+    let tip = fork + at(1.6, 0.9);
+    let trunk = add_beam(&mut scene, arc, mesh, rod());
+    let branch = add_beam(&mut scene, line(fork, tip), mesh, rod());
+    let leaf = add_beam(&mut scene, line(tip, tip + at(0.4, -1.3)), mesh, rod());
+    for beam in [trunk, branch, leaf] {
+        scene.beams[beam].motion =
+            StartMotion { velocity: at(-0.4, 1.0), spin: 1.1, about: Some(fork) };
+    }
+    let middle = 0.5 * scene.beams[trunk].axis.length();
+    let middle = scene.station(trunk, middle).unwrap();
+    let (foot, end) = (start_of(&mut scene, branch), end_of(&mut scene, branch));
+    scene.join(JointKind::Rigid, foot, Partner::Station(middle)).unwrap();
+    let stalk = start_of(&mut scene, leaf);
+    scene.join(JointKind::Hinge, stalk, Partner::Station(end)).unwrap();
+    let line = LoadKind::Line { beam: branch, force: at(1.0, 0.7), frame: Frame::Dead };
+    scene.add_load(line, hold(1.5));
+    scene
+}
+
+/// A circle whose ends are joined rigidly, pushed by a follower force.
+pub fn hoop(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("hoop");
+    let circle = Curve::arc(at(1.0, 1.0), 1.5, 0.3, 0.3 + TAU).unwrap();
+    let beam = add_beam(&mut scene, circle, mesh, rod());
+    let (start, end) = (start_of(&mut scene, beam), end_of(&mut scene, beam));
+    scene.join(JointKind::Rigid, start, Partner::Station(end)).unwrap();
+    let station = scene.station(beam, 2.0).unwrap();
+    force(&mut scene, station, at(2.0, 5.0), Frame::Follower, hold(1.3));
+    scene
+}
+
+/// A free beam with a steady force: what is left when a scene has no joint.
+pub fn towed(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("towed beam");
+    let axis = Curve::through(&[at(0.0, 0.0), at(1.0, 0.4), at(2.0, 0.2), at(3.0, 1.0)]).unwrap();
+    let beam = add_beam(&mut scene, axis, mesh, rod());
+    let station = scene.station(beam, 1.0).unwrap();
+    force(&mut scene, station, at(0.0, 3.0), Frame::Dead, always());
+    scene
+}
+
+/// Every scene on a mesh.
+pub fn all(mesh: &Mesh) -> Vec<Scene> {
+    vec![
+        spaghetti(mesh, 1e4),
+        curved_pendulum(mesh),
+        blown_cantilever(mesh),
+        flying_loop(mesh),
+        four_bar_linkage(mesh),
+        flying_tree(mesh),
+        hoop(mesh),
+        towed(mesh),
+    ]
+}

@@ -1,0 +1,44 @@
+//! Equilibrium without inertia, from the forces of a mechanism and the Newton solver of the library.
+
+use withy::integrators::{Interval, Mechanism, Stage};
+use withy::linalg::BandedMatrix;
+use withy::model::Model;
+use withy::newton::{Equations, Imbalance, Newton, Tolerance};
+
+struct Balance<'a>(&'a mut Model);
+
+impl Equations for Balance<'_> {
+    fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BandedMatrix) {
+        self.0.add_linearised_forces(Stage::End, u, 1.0, residual, tangent);
+    }
+
+    fn condense(&mut self, residual: &mut [f64]) {
+        self.0.add_mismatch_forces(1.0, residual);
+    }
+
+    fn correct(&mut self, correction: &[f64]) {
+        self.0.correct_section_forces(correction);
+    }
+
+    fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> Imbalance {
+        let strain = self.0.add_forces(Stage::End, u, 1.0, residual);
+        Imbalance { force: self.0.relative_imbalance(residual), strain }
+    }
+}
+
+/// Follows the equilibrium under the loads of the model from t = 0 to 1; returns the most iterations of a step.
+pub fn load_up(model: &mut Model, steps: usize) -> usize {
+    let mut newton = Newton::new(model.unknowns(), model.half_bandwidth(), Tolerance::default());
+    let mut residual = vec![0.0; model.degrees_of_freedom()];
+    let time = |step: usize| step as f64 / steps as f64;
+    let mut most = 0;
+    for step in 0..steps {
+        model.begin_step(Interval { start: time(step), end: time(step + 1) }).unwrap();
+        let mut u = vec![0.0; model.unknowns()];
+        let report = newton.solve(&mut Balance(model), &mut u, &mut residual).unwrap();
+        most = most.max(report.iterations);
+        let rates = model.rates().to_vec();
+        model.advance(&u, &rates, &residual);
+    }
+    most
+}
