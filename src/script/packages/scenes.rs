@@ -15,7 +15,7 @@ use crate::model::{BeamDefinition, PointMass, Scene, StartMotion, StationVelocit
 use crate::script::call::Call;
 use crate::script::error::{Place, ScriptError};
 use crate::script::kind::{Scripted, Type};
-use crate::script::numbers::format_number;
+use crate::output::significant;
 use crate::script::parameter::{Parameter, Presence, either, number, object, options, point, text};
 use crate::script::table::{Table, function, method, property};
 
@@ -238,7 +238,7 @@ impl Scripted for BeamHandle {
     fn show(&self) -> String {
         let scene = self.scene.0.borrow();
         let beam = &scene.beams[self.index];
-        format!("beam '{}' of length {}, {}", beam.name, format_number(beam.axis.length()), beam.mesh.describe())
+        format!("beam '{}' of length {}, {}", beam.name, significant(beam.axis.length(), 7), beam.mesh.describe())
     }
 }
 

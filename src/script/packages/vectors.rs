@@ -6,7 +6,7 @@ use crate::geometry::{Vec2, cross, unit};
 use crate::script::call::Call;
 use crate::script::error::ScriptError;
 use crate::script::kind::{Scripted, Type};
-use crate::script::numbers::format_number;
+use crate::output::significant;
 use crate::script::parameter::{Parameter, number, object, point};
 use crate::script::table::{Table, function, operator, property};
 
@@ -105,7 +105,7 @@ impl Scripted for Vec2 {
     const DOC: &'static str = "A vector or point of the plane.";
 
     fn show(&self) -> String {
-        format!("[{}, {}]", format_number(self.x), format_number(self.y))
+        format!("[{}, {}]", significant(self.x, 7), significant(self.y, 7))
     }
 }
 
