@@ -6,7 +6,8 @@ use std::process::Command;
 fn scripts() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts");
     let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let mut scripts: Vec<_> = entries.filter(|path| path.extension().is_some_and(|e| e == "rhai")).collect();
+    let mut scripts: Vec<_> =
+        entries.filter(|path| path.extension().is_some_and(|e| e == "rhai")).collect();
     scripts.sort();
     scripts
 }
@@ -14,7 +15,9 @@ fn scripts() -> Vec<PathBuf> {
 /// The names of files that a script writes: texts that end like one.
 fn named_files(script: &str) -> Vec<&str> {
     let texts = script.split('"').skip(1).step_by(2);
-    texts.filter(|text| [".svg", ".png", ".csv"].iter().any(|ending| text.ends_with(ending))).collect()
+    texts
+        .filter(|text| [".svg", ".png", ".csv"].iter().any(|ending| text.ends_with(ending)))
+        .collect()
 }
 
 #[test]
@@ -32,7 +35,9 @@ fn every_script_runs_and_writes_its_files() {
         let text = std::fs::read_to_string(&script).unwrap();
         assert!(!named_files(&text).is_empty(), "{} draws nothing", script.display());
         for file in named_files(&text) {
-            let size = std::fs::metadata(out.path().join(file)).unwrap_or_else(|_| panic!("{file} is missing")).len();
+            let size = std::fs::metadata(out.path().join(file))
+                .unwrap_or_else(|_| panic!("{file} is missing"))
+                .len();
             assert!(size > 500, "{file} has {size} bytes");
         }
     }
@@ -41,7 +46,8 @@ fn every_script_runs_and_writes_its_files() {
 #[test]
 fn every_script_can_be_checked_without_running() {
     for script in scripts() {
-        let output = Command::new(env!("CARGO_BIN_EXE_withy")).arg("check").arg(&script).output().unwrap();
+        let output =
+            Command::new(env!("CARGO_BIN_EXE_withy")).arg("check").arg(&script).output().unwrap();
         let said = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(0), "{}: {said}", script.display());
         assert!(said.contains("no errors found"), "{said}");

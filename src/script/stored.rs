@@ -28,7 +28,8 @@ impl StoredFunction {
         role: String,
     ) -> Result<Self, ScriptError> {
         let library = native.global_runtime_state().lib.last();
-        let library = library.map_or_else(AST::empty, |module| AST::new_from_module(module.clone()));
+        let library =
+            library.map_or_else(AST::empty, |module| AST::new_from_module(module.clone()));
         let engine = engine::build(&Catalog::standard(), context).map_err(ScriptError::bug)?;
         Ok(Self { function, library, engine, context: context.clone(), role })
     }

@@ -37,6 +37,12 @@ pub enum SimulationError {
         /// Why the last try failed.
         source: StepError,
     },
+    /// A load has no value; no smaller step helps.
+    #[error("{source}")]
+    Load {
+        /// The load, the step and the reason.
+        source: StepError,
+    },
     /// The monitor asked to stop.
     #[error("interrupted at t = {time}; the history up to there is kept")]
     Interrupted {

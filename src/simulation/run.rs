@@ -219,11 +219,14 @@ impl Simulation {
                         halvings -= 1;
                     }
                 }
+                Err(source) if !source.may_be_cured_by_a_smaller_step() => {
+                    return Err(SimulationError::Load { source });
+                }
                 Err(source) => {
                     self.counts.retries += 1;
                     self.counts.factorisations += source.factorisations();
                     retries += 1;
-                    if halvings == MOST_HALVINGS || !source.may_be_cured_by_a_smaller_step() {
+                    if halvings == MOST_HALVINGS {
                         let divisions = 1 << halvings;
                         return Err(SimulationError::Step {
                             time: self.time(),

@@ -28,6 +28,14 @@ impl TimeGrid {
         self.dt
     }
 
+    /// `t_0 + n dt`. A step that is one over a whole number is taken as such: n/10 is the number people write, n · 0.1 is
+    /// often its neighbour.
+    fn point(&self, n: u64) -> f64 {
+        let rate = (1.0 / self.dt).round();
+        let is_whole = (rate * self.dt - 1.0).abs() < 1e-15;
+        self.start + if is_whole { n as f64 / rate } else { n as f64 * self.dt }
+    }
+
     /// Adds a cut.
     pub fn cut_at(&mut self, time: f64) {
         let at = self.cuts.partition_point(|cut| *cut < time);
@@ -40,11 +48,10 @@ impl TimeGrid {
     pub fn next(&self, now: f64, limit: f64) -> f64 {
         let same = SAME * self.dt;
         let mut passed = self.passed;
-        let point = |n: u64| self.start + n as f64 * self.dt;
-        while point(passed + 1) <= now + same {
+        while self.point(passed + 1) <= now + same {
             passed += 1;
         }
-        let grid = point(passed + 1);
+        let grid = self.point(passed + 1);
         let cut = self.cuts[self.cuts.partition_point(|cut| *cut <= now + same)..].first();
         [cut.copied(), Some(limit)].into_iter().flatten().fold(grid, |end, candidate| {
             if candidate > now && candidate <= end + same { candidate } else { end }
@@ -54,7 +61,7 @@ impl TimeGrid {
     /// Remembers that a time has been reached, so that the next search begins there.
     pub fn reach(&mut self, now: f64) {
         let same = SAME * self.dt;
-        while self.start + (self.passed + 1) as f64 * self.dt <= now + same {
+        while self.point(self.passed + 1) <= now + same {
             self.passed += 1;
         }
     }
@@ -79,6 +86,7 @@ mod tests {
     fn times_are_not_accumulated() {
         assert_eq!(times(0.05, vec![], 25.0).len(), 500);
         assert_eq!(times(0.1, vec![2.5], 7.5)[24], 2.5);
+        assert_eq!(times(0.1, vec![], 1.0)[5], 0.6);
     }
 
     #[test]

@@ -69,8 +69,22 @@ pub const TABLE: Table = Table {
 pub const HISTORY: Type = Type::of::<HistoryHandle>();
 /// The names of the columns.
 pub const COLUMN_NAMES: &[&str] = &[
-    "t", "kinetic", "strain", "potential", "energy", "work", "momentum_x", "momentum_y", "impulse_x", "impulse_y",
-    "angular_momentum", "angular_impulse", "gap", "dt", "newton_iterations", "retries",
+    "t",
+    "kinetic",
+    "strain",
+    "potential",
+    "energy",
+    "work",
+    "momentum_x",
+    "momentum_y",
+    "impulse_x",
+    "impulse_y",
+    "angular_momentum",
+    "angular_impulse",
+    "gap",
+    "dt",
+    "newton_iterations",
+    "retries",
 ];
 const T: Parameter = number("t").unit("time");
 const COLUMN: Parameter = choice("column", COLUMN_NAMES);
@@ -90,21 +104,31 @@ impl Extreme for f64 {
     }
 }
 
-const fn statistic(name: &'static str, summary: &'static str, body: crate::script::table::Body) -> Row {
+const fn statistic(
+    name: &'static str,
+    summary: &'static str,
+    body: crate::script::table::Body,
+) -> Row {
     method(HISTORY, name, &[COLUMN], body)
         .returns("a number")
         .summary(summary)
         .example("sim.run_to(1);\nlet h = sim.history;\ncheck(h.first(\"t\") == 0 && h.last(\"t\") == 1);\ncheck(h.largest(\"kinetic\") >= h.smallest(\"kinetic\"));")
 }
 
-fn window(call: &Call, range: fn(&Call) -> Result<(f64, f64), ScriptError>) -> Result<Dynamic, ScriptError> {
+fn window(
+    call: &Call,
+    range: fn(&Call) -> Result<(f64, f64), ScriptError>,
+) -> Result<Dynamic, ScriptError> {
     let (from, to) = range(call)?;
     Ok(Dynamic::from(call.receiver::<HistoryHandle>()?.between(from, to)))
 }
 
 fn drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let name = call.text("invariant")?;
-    let of = Invariant::ALL.iter().find(|(other, _)| *other == name.as_str()).map_or(Invariant::Energy, |(_, of)| *of);
+    let of = Invariant::ALL
+        .iter()
+        .find(|(other, _)| *other == name.as_str())
+        .map_or(Invariant::Energy, |(_, of)| *of);
     Ok(call.receiver::<HistoryHandle>()?.read(|history| history.drift(of)).into())
 }
 
@@ -115,7 +139,9 @@ fn column(call: &Call) -> Result<Vec<f64>, ScriptError> {
 
 fn pick(call: &Call, pick: fn(Vec<f64>) -> Option<f64>) -> Result<Dynamic, ScriptError> {
     let picked = pick(column(call)?);
-    Ok(picked.ok_or_else(|| call.error("the history has no rows there").hint("choose another window"))?.into())
+    Ok(picked
+        .ok_or_else(|| call.error("the history has no rows there").hint("choose another window"))?
+        .into())
 }
 
 #[cfg(test)]

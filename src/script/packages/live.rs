@@ -77,8 +77,12 @@ impl SimulationHandle {
     pub fn at(&self, time: f64, function: FnPtr) -> Result<(), ScriptError> {
         let now = self.time();
         if time < now {
-            return Err(ScriptError::new(format!("at: t = {} has passed, the simulation is at t = {}", format_number(time), format_number(now)))
-                .hint("give a later time, before the simulation gets there"));
+            return Err(ScriptError::new(format!(
+                "at: t = {} has passed, the simulation is at t = {}",
+                format_number(time),
+                format_number(now)
+            ))
+            .hint("give a later time, before the simulation gets there"));
         }
         self.0.simulation.borrow_mut().cut_at(time);
         let mut events = self.0.events.borrow_mut();
@@ -99,13 +103,11 @@ impl SimulationHandle {
         context.progress().begin(&self.0.name, now, end);
         let outcome = match (context.mode(), goal) {
             (Mode::DryBuild, _) => self.pretend(call, end),
-            (Mode::Run, Goal::Steps(steps)) => {
-                (0..*steps).try_for_each(|_| {
-                    let stepped = self.0.simulation.borrow_mut().step(&mut Watch(context));
-                    stepped.map_err(|error| explain(error, context))?;
-                    self.fire_due(call)
-                })
-            }
+            (Mode::Run, Goal::Steps(steps)) => (0..*steps).try_for_each(|_| {
+                let stepped = self.0.simulation.borrow_mut().step(&mut Watch(context));
+                stepped.map_err(|error| explain(error, context))?;
+                self.fire_due(call)
+            }),
             (Mode::Run, Goal::Time(_)) => self.run_to(call, end),
         };
         context.progress().end();
@@ -130,7 +132,10 @@ impl SimulationHandle {
         call.proceed()?;
         let now = self.time();
         if !end.is_finite() || end < now {
-            return Err(explain(SimulationError::End { now, end, advice: "give a finite, later time" }, call.context()));
+            return Err(explain(
+                SimulationError::End { now, end, advice: "give a finite, later time" },
+                call.context(),
+            ));
         }
         self.0.clock.set(end);
         self.fire_due(call)
@@ -152,7 +157,8 @@ impl SimulationHandle {
 
     fn report(&self) -> Value {
         let simulation = self.simulation();
-        let (counts, history, settings) = (simulation.counts(), simulation.history(), simulation.settings());
+        let (counts, history, settings) =
+            (simulation.counts(), simulation.history(), simulation.settings());
         let energy = history.samples().last().map(|row| row.measures.energy).unwrap_or_default();
         let (scene, model) = (simulation.scene(), simulation.model());
         let points = |(x, y): (f64, f64), angle: f64| json!({ "x": x, "y": y, "angle": angle });
@@ -162,8 +168,10 @@ impl SimulationHandle {
             (beam.name.clone(), json!({ "start": points(at(controls.first()), start), "end": points(at(controls.last()), end) }))
         });
         let basis: Vec<String> = model.meshes().iter().map(|mesh| mesh.describe()).collect();
-        let drift: serde_json::Map<String, Value> =
-            Invariant::ALL.iter().map(|(name, of)| ((*name).to_owned(), json!(history.drift(*of)))).collect();
+        let drift: serde_json::Map<String, Value> = Invariant::ALL
+            .iter()
+            .map(|(name, of)| ((*name).to_owned(), json!(history.drift(*of))))
+            .collect();
         json!({
             "name": self.0.name,
             "steps": counts.steps,
@@ -191,12 +199,13 @@ impl SimulationHandle {
 fn explain(error: SimulationError, context: &Context) -> ScriptError {
     match error {
         SimulationError::Interrupted { .. } => ScriptError::Interrupted,
-        SimulationError::Step { .. } => match context.take_callback_error() {
+        SimulationError::Load { .. } => match context.take_callback_error() {
             Some(error) => ScriptError::Engine(error),
-            None => ScriptError::from(error).hint(
-                "the history up to there is kept; try a smaller dt or a finer mesh, and check loads, stiffness and units",
-            ),
+            None => ScriptError::from(error).hint("a load needs a finite value at all times"),
         },
+        SimulationError::Step { .. } => ScriptError::from(error).hint(
+            "the history up to there is kept; try a smaller dt or a finer mesh, and check loads, stiffness and units",
+        ),
         error => error.into(),
     }
 }
@@ -236,7 +245,11 @@ impl HistoryHandle {
     pub fn read<T>(&self, read: impl FnOnce(&History) -> T) -> T {
         let simulation = self.of.simulation();
         let all = simulation.history();
-        if self.from == f64::NEG_INFINITY && self.to == f64::INFINITY { read(all) } else { read(&all.between(self.from, self.to)) }
+        if self.from == f64::NEG_INFINITY && self.to == f64::INFINITY {
+            read(all)
+        } else {
+            read(&all.between(self.from, self.to))
+        }
     }
 
     /// The part of it between two times.
@@ -251,9 +264,19 @@ impl Scripted for HistoryHandle {
 
     fn show(&self) -> String {
         let (rows, first, last) = self.read(|history| {
-            let time = |row: Option<&crate::simulation::Sample>| row.map_or(f64::NAN, |row| row.measures.time);
-            (history.samples().len(), time(history.samples().first()), time(history.samples().last()))
+            let time = |row: Option<&crate::simulation::Sample>| {
+                row.map_or(f64::NAN, |row| row.measures.time)
+            };
+            (
+                history.samples().len(),
+                time(history.samples().first()),
+                time(history.samples().last()),
+            )
         });
-        format!("history of {rows} rows from t = {} to {}", format_number(first), format_number(last))
+        format!(
+            "history of {rows} rows from t = {} to {}",
+            format_number(first),
+            format_number(last)
+        )
     }
 }

@@ -7,7 +7,9 @@ use super::schedules::{SCHEDULE_KINDS, schedule_of};
 use crate::loads::{Frame, LoadKind};
 use crate::script::call::Call;
 use crate::script::error::ScriptError;
-use crate::script::parameter::{Parameter, Presence, choice, either, number, object, options, point};
+use crate::script::parameter::{
+    Parameter, Presence, choice, either, number, object, options, point,
+};
 use crate::script::table::{Table, method};
 
 /// Loads.
@@ -54,8 +56,9 @@ pub const TABLE: Table = Table {
 };
 
 const AT: Parameter = object("station", STATION);
-const WHEN: Parameter =
-    either("schedule", SCHEDULE_KINDS).doc("when it acts: a schedule, a factor, or a function of time").optional();
+const WHEN: Parameter = either("schedule", SCHEDULE_KINDS)
+    .doc("when it acts: a schedule, a factor, or a function of time")
+    .optional();
 const FRAME: Parameter = options("options", &[FRAME_KEY]).optional();
 const FRAME_KEY: Parameter = choice("frame", &["dead", "follower"])
     .doc("dead keeps its direction, follower turns with the section")

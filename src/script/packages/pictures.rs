@@ -8,7 +8,9 @@ use super::histories::{COLUMN_NAMES, HISTORY};
 use super::live::{HistoryHandle, SimulationHandle};
 use super::scenes::StationHandle;
 use super::simulations::{SIMULATION, SPINNING};
-use crate::output::{CsvTable, LineChart, MotionPicture, Page, Panel, PictureKind, Scale, Series, Snapshot};
+use crate::output::{
+    CsvTable, LineChart, MotionPicture, Page, Panel, PictureKind, Scale, Series, Snapshot,
+};
 use crate::script::call::Call;
 use crate::script::error::{Place, ScriptError};
 use crate::script::kind::{Kind, Scripted};
@@ -47,13 +49,19 @@ pub const TABLE: Table = Table {
     ],
 };
 
-const MOVING: Parameter = either("of", &[Kind::Object(SIMULATION), Kind::Array]).doc("a simulation, or an array of them");
-const RECORDED: Parameter = either("of", &[Kind::Object(SIMULATION), Kind::Object(HISTORY), Kind::Array])
-    .doc("a simulation or history, or an array of them");
+const MOVING: Parameter =
+    either("of", &[Kind::Object(SIMULATION), Kind::Array]).doc("a simulation, or an array of them");
+const RECORDED: Parameter =
+    either("of", &[Kind::Object(SIMULATION), Kind::Object(HISTORY), Kind::Array])
+        .doc("a simulation or history, or an array of them");
 const FILE: Parameter = text("file").doc("its name in the output folder");
 const COLUMNS: Parameter = array("columns").doc("names of columns");
 const MOTION: &[Parameter] = &[
-    number("every").positive().unit("time").doc("between snapshots; a twentieth of the time shown unless given").optional(),
+    number("every")
+        .positive()
+        .unit("time")
+        .doc("between snapshots; a twentieth of the time shown unless given")
+        .optional(),
     number("from").unit("time").doc("first snapshot; the start unless given").optional(),
     number("to").unit("time").doc("last snapshot; the present unless given").optional(),
     array("trace").doc("stations whose paths are drawn").optional(),
@@ -67,12 +75,17 @@ const HISTORY_OPTIONS: &[Parameter] = &[
 /// Most snapshots of one picture.
 const MOST_SNAPSHOTS: f64 = 2000.0;
 
-fn things<T: Scripted>(call: &Call, convert: fn(&Dynamic) -> Option<T>) -> Result<Vec<T>, ScriptError> {
+fn things<T: Scripted>(
+    call: &Call,
+    convert: fn(&Dynamic) -> Option<T>,
+) -> Result<Vec<T>, ScriptError> {
     let of = call.value("of")?;
     let values = of.read_lock::<Array>().map_or_else(|| vec![of.clone()], |array| array.clone());
     let things: Option<Vec<T>> = values.iter().map(convert).collect();
     things.filter(|things| !things.is_empty()).ok_or_else(|| {
-        call.error("the array must hold simulations, at least one").hint("for example [first, second]").at(Place::Argument(0))
+        call.error("the array must hold simulations, at least one")
+            .hint("for example [first, second]")
+            .at(Place::Argument(0))
     })
 }
 
@@ -101,41 +114,63 @@ fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic, ScriptErro
 fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let simulations = things(call, as_simulation)?;
     let options = if call.has("options") { Some(call.options("options")?) } else { None };
-    let mut pictures =
-        simulations.iter().map(|of| motion(call, of, options.as_ref())).collect::<Result<Vec<_>, _>>()?;
+    let mut pictures = simulations
+        .iter()
+        .map(|of| motion(call, of, options.as_ref()))
+        .collect::<Result<Vec<_>, _>>()?;
     match pictures.len() {
         1 => write_picture(call, &pictures.remove(0)),
         _ => write_picture(call, &MotionPicture::side_by_side(pictures)),
     }
 }
 
-fn motion(call: &Call, of: &SimulationHandle, options: Option<&Options>) -> Result<MotionPicture, ScriptError> {
+fn motion(
+    call: &Call,
+    of: &SimulationHandle,
+    options: Option<&Options>,
+) -> Result<MotionPicture, ScriptError> {
     let given = |name: &str| options.and_then(|options| options.number_if_given(name));
     let simulation = of.simulation();
     let (from, to) = (given("from").unwrap_or(0.0), given("to").unwrap_or(simulation.time()));
     let every = given("every").unwrap_or_else(|| ((to - from) / 20.0).max(f64::MIN_POSITIVE));
     let count = ((to - from) / every + 1e-9).floor();
     if count > MOST_SNAPSHOTS {
-        return Err(call.error(format!("{count} snapshots are too many for a picture")).hint("choose a larger `every`"));
+        return Err(call
+            .error(format!("{count} snapshots are too many for a picture"))
+            .hint("choose a larger `every`"));
     }
-    let title = options.and_then(|options| options.text("title").ok()).map_or_else(|| of.name().to_owned(), |t| t.to_string());
-    let mut picture = MotionPicture::new(title).beams(simulation.scene().beams.iter().map(|beam| beam.name.clone()));
+    let title = options
+        .and_then(|options| options.text("title").ok())
+        .map_or_else(|| of.name().to_owned(), |t| t.to_string());
+    let mut picture = MotionPicture::new(title)
+        .beams(simulation.scene().beams.iter().map(|beam| beam.name.clone()));
     let plain = |point: &crate::geometry::Vec2| (point.x, point.y);
     for index in 0..=count.max(0.0) as usize {
         if let Some(configuration) = simulation.configuration_near(from + index as f64 * every) {
             picture = picture.snapshot(Snapshot {
                 time: configuration.time,
-                lines: configuration.lines.iter().map(|line| line.iter().map(plain).collect()).collect(),
+                lines: configuration
+                    .lines
+                    .iter()
+                    .map(|line| line.iter().map(plain).collect())
+                    .collect(),
                 marks: configuration.marks.iter().map(plain).collect(),
             });
         }
     }
-    for station in options.map_or(Ok(Array::new()), |o| if o.has("trace") { o.array("trace") } else { Ok(Array::new()) })? {
+    for station in options.map_or(Ok(Array::new()), |o| {
+        if o.has("trace") { o.array("trace") } else { Ok(Array::new()) }
+    })? {
         let station: StationHandle = station.try_cast().ok_or_else(|| {
-            call.error("trace must be an array of stations").hint("for example trace: [rod.end]").at(Place::Key("trace".into()))
+            call.error("trace must be an array of stations")
+                .hint("for example trace: [rod.end]")
+                .at(Place::Key("trace".into()))
         })?;
         let path = simulation.path(&station.on(of)?);
-        let inside = path.iter().filter(|(time, _)| (from..=to).contains(time)).map(|(_, point)| plain(point));
+        let inside = path
+            .iter()
+            .filter(|(time, _)| (from..=to).contains(time))
+            .map(|(_, point)| plain(point));
         picture = picture.trace(format!("path of {}", station.show()), inside.collect());
     }
     Ok(picture)
@@ -152,7 +187,8 @@ fn write_charts(call: &Call, charts: Vec<LineChart>) -> Result<Dynamic, ScriptEr
 
 fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = if call.has("options") { Some(call.options("options")?) } else { None };
-    let logarithmic = options.as_ref().is_some_and(|options| options.boolean("logarithmic").unwrap_or(false));
+    let logarithmic =
+        options.as_ref().is_some_and(|options| options.boolean("logarithmic").unwrap_or(false));
     let names = columns(call)?;
     let chart = |of: &HistoryHandle| {
         let title = options.as_ref().and_then(|options| options.text("title").ok());
@@ -162,7 +198,8 @@ fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
             let chart = if logarithmic { chart.y_scale(Scale::Logarithmic) } else { chart };
             names.iter().fold(chart, |chart, name| {
                 let values = history.column(name).unwrap_or_default();
-                let values = values.into_iter().map(|value| if logarithmic { value.abs() } else { value });
+                let values =
+                    values.into_iter().map(|value| if logarithmic { value.abs() } else { value });
                 chart.series(Series::new(name.replace('_', " "), over_time(history, values)))
             })
         })
@@ -172,11 +209,15 @@ fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn columns(call: &Call) -> Result<Vec<String>, ScriptError> {
     let name = |value: Dynamic| {
-        let name = value.clone().into_string().ok().filter(|name| COLUMN_NAMES.contains(&name.as_str()));
+        let name =
+            value.clone().into_string().ok().filter(|name| COLUMN_NAMES.contains(&name.as_str()));
         name.ok_or_else(|| {
             let got = call.describe(&value);
-            let nearest = value.into_string().ok().and_then(|name| crate::script::suggest::nearest(&name, COLUMN_NAMES.iter().copied()));
-            let suggestion = nearest.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
+            let nearest = value.into_string().ok().and_then(|name| {
+                crate::script::suggest::nearest(&name, COLUMN_NAMES.iter().copied())
+            });
+            let suggestion =
+                nearest.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
             call.error(format!("there is no column {got}"))
                 .hint(format!("{suggestion}columns: {}", COLUMN_NAMES.join(", ")))
                 .at(Place::Argument(1))
@@ -187,7 +228,9 @@ fn columns(call: &Call) -> Result<Vec<String>, ScriptError> {
 
 /// The dimension that all columns share.
 fn label(names: &[String]) -> String {
-    let dimension = |name: &String| History::COLUMNS.iter().find(|column| column.name == name).map(|column| column.dimension);
+    let dimension = |name: &String| {
+        History::COLUMNS.iter().find(|column| column.name == name).map(|column| column.dimension)
+    };
     match names.iter().map(dimension).collect::<Option<Vec<_>>>() {
         Some(dimensions) if dimensions.windows(2).all(|pair| pair[0] == pair[1]) => {
             dimensions.first().copied().unwrap_or_default().to_owned()
@@ -203,12 +246,19 @@ fn over_time(history: &History, values: impl Iterator<Item = f64>) -> Vec<(f64, 
 fn plot_drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let chart = |of: &HistoryHandle| {
         of.read(|history| {
-            let chart = LineChart::new(of.of.name()).x_label("t").y_label("relative drift").y_scale(Scale::Logarithmic);
-            Invariant::ALL.iter().filter(|(_, of)| *of != Invariant::Gap).fold(chart, |chart, (name, of)| {
-                // The first row is zero by definition.
-                let points = over_time(history, history.drifts(*of).into_iter()).split_off(1.min(history.samples().len()));
-                chart.series(Series::new(name.replace('_', " "), points))
-            })
+            let chart = LineChart::new(of.of.name())
+                .x_label("t")
+                .y_label("relative drift")
+                .y_scale(Scale::Logarithmic);
+            Invariant::ALL.iter().filter(|(_, of)| *of != Invariant::Gap).fold(
+                chart,
+                |chart, (name, of)| {
+                    // The first row is zero by definition.
+                    let points = over_time(history, history.drifts(*of).into_iter())
+                        .split_off(1.min(history.samples().len()));
+                    chart.series(Series::new(name.replace('_', " "), points))
+                },
+            )
         })
     };
     write_charts(call, things(call, as_history)?.iter().map(chart).collect())
@@ -224,7 +274,9 @@ fn write_csv(call: &Call, table: CsvTable) -> Result<Dynamic, ScriptError> {
 }
 
 fn write_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let [of] = things(call, as_history)?.try_into().map_err(|_| call.error("takes one simulation or history"))?;
+    let [of] = things(call, as_history)?
+        .try_into()
+        .map_err(|_| call.error("takes one simulation or history"))?;
     let table = of.read(|history| {
         let table = CsvTable::new().comment(format!("simulation: {}", of.of.name()));
         History::COLUMNS.iter().fold(table, |table, column| {
@@ -236,17 +288,23 @@ fn write_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 fn write_states(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let [of] = things(call, as_simulation)?.try_into().map_err(|_| call.error("takes one simulation"))?;
+    let [of] =
+        things(call, as_simulation)?.try_into().map_err(|_| call.error("takes one simulation"))?;
     let simulation = of.simulation();
     let trajectory = simulation.trajectory();
-    let names = simulation.scene().beams.iter().zip(simulation.model().control_points()).flat_map(|(beam, points)| {
-        (0..points.len()).flat_map(move |point| ["x", "y"].map(|axis| format!("{} {axis}{point} [length]", beam.name)))
-    });
+    let names = simulation.scene().beams.iter().zip(simulation.model().control_points()).flat_map(
+        |(beam, points)| {
+            (0..points.len()).flat_map(move |point| {
+                ["x", "y"].map(|axis| format!("{} {axis}{point} [length]", beam.name))
+            })
+        },
+    );
     let table = CsvTable::new()
         .comment(format!("simulation: {}; control points (nodes) of all beams", of.name()))
         .column("t [time]", trajectory.times().to_vec());
     let table = names.enumerate().fold(table, |table, (index, name)| {
-        let values = (0..trajectory.times().len()).map(|row| trajectory.configuration(row)[index]).collect();
+        let values =
+            (0..trajectory.times().len()).map(|row| trajectory.configuration(row)[index]).collect();
         table.column(name, values)
     });
     write_csv(call, table)

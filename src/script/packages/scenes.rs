@@ -12,10 +12,10 @@ use crate::beams::{self, Mesh, Station};
 use crate::geometry::Curve;
 use crate::joints::{JointKind, Partner};
 use crate::model::{BeamDefinition, PointMass, Scene, StartMotion, StationVelocity};
+use crate::output::significant;
 use crate::script::call::Call;
 use crate::script::error::{Place, ScriptError};
 use crate::script::kind::{Scripted, Type};
-use crate::output::significant;
 use crate::script::parameter::{Parameter, Presence, either, number, object, options, point, text};
 use crate::script::table::{Table, function, method, property};
 
@@ -141,7 +141,10 @@ const BEAM_KEYS: &[Parameter] = &[
     text("name").optional(),
     point("velocity").unit("length/time").doc("of the point `about`, at the start").optional(),
     number("spin").unit("1/time").doc("rate of rotation at the start").optional(),
-    point("about").unit("length").doc("the point it turns about at the start; its centre of mass unless given").optional(),
+    point("about")
+        .unit("length")
+        .doc("the point it turns about at the start; its centre of mass unless given")
+        .optional(),
 ];
 
 /// A scene that a script holds.
@@ -178,15 +181,20 @@ impl SceneHandle {
             return Ok(handle.station);
         }
         let (mine, other) = (self.0.borrow().name.clone(), handle.scene.0.borrow().name.clone());
-        Err(ScriptError::new(format!("the station belongs to the scene '{other}', not to '{mine}'"))
-            .hint("use a station of a beam of this scene"))
+        Err(ScriptError::new(format!(
+            "the station belongs to the scene '{other}', not to '{mine}'"
+        ))
+        .hint("use a station of a beam of this scene"))
     }
 }
 
 impl BeamHandle {
     /// The index of the beam, if it is one of the scene.
     pub fn own(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
-        scene.own(&StationHandle { scene: self.scene.clone(), station: Station { beam: self.index, arc_length: 0.0 } })?;
+        scene.own(&StationHandle {
+            scene: self.scene.clone(),
+            station: Station { beam: self.index, arc_length: 0.0 },
+        })?;
         Ok(self.index)
     }
 
@@ -209,11 +217,15 @@ impl StationHandle {
     pub fn on(&self, handle: &SimulationHandle) -> Result<beams::Place, ScriptError> {
         let simulation = handle.simulation();
         let known = simulation.scene().beams.get(self.station.beam);
-        let same = known.is_some_and(|beam| beam.axis == self.scene.0.borrow().beams[self.station.beam].axis);
+        let same = known
+            .is_some_and(|beam| beam.axis == self.scene.0.borrow().beams[self.station.beam].axis);
         if !same {
             let name = &simulation.scene().name;
-            return Err(ScriptError::new(format!("{} is not in the simulated scene '{name}'", self.show()))
-                .hint("use a station of a beam that was in the scene when it was started"));
+            return Err(ScriptError::new(format!(
+                "{} is not in the simulated scene '{name}'",
+                self.show()
+            ))
+            .hint("use a station of a beam that was in the scene when it was started"));
         }
         Ok(simulation.place(&self.station)?)
     }
@@ -225,8 +237,14 @@ impl Scripted for SceneHandle {
 
     fn show(&self) -> String {
         let scene = self.0.borrow();
-        let count = |number: usize, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
-        let parts = [count(scene.beams.len(), "beam"), count(scene.joints.len(), "joint"), count(scene.loads.len(), "load")];
+        let count = |number: usize, what: &str| {
+            format!("{number} {what}{}", if number == 1 { "" } else { "s" })
+        };
+        let parts = [
+            count(scene.beams.len(), "beam"),
+            count(scene.joints.len(), "joint"),
+            count(scene.loads.len(), "load"),
+        ];
         format!("scene '{}' with {}", scene.name, parts.join(", "))
     }
 }
@@ -238,7 +256,12 @@ impl Scripted for BeamHandle {
     fn show(&self) -> String {
         let scene = self.scene.0.borrow();
         let beam = &scene.beams[self.index];
-        format!("beam '{}' of length {}, {}", beam.name, significant(beam.axis.length(), 7), beam.mesh.describe())
+        format!(
+            "beam '{}' of length {}, {}",
+            beam.name,
+            significant(beam.axis.length(), 7),
+            beam.mesh.describe()
+        )
     }
 }
 
@@ -268,7 +291,11 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
         None => Mesh::bspline(SPANS, 3, 2)?,
     };
     let motion = StartMotion {
-        velocity: if options.has("velocity") { options.point("velocity")? } else { StartMotion::default().velocity },
+        velocity: if options.has("velocity") {
+            options.point("velocity")?
+        } else {
+            StartMotion::default().velocity
+        },
         spin: options.number_if_given("spin").unwrap_or(0.0),
         about: if options.has("about") { Some(options.point("about")?) } else { None },
     };
@@ -293,7 +320,8 @@ fn station(call: &mut Call, arc_length: impl FnOnce(f64) -> f64) -> Result<Dynam
 
 fn join(call: &mut Call, kind: JointKind) -> Result<Dynamic, ScriptError> {
     let (station, scene) = here(call, "station")?;
-    let partner = if call.has("other") { Partner::Station(here(call, "other")?.0) } else { Partner::Ground };
+    let partner =
+        if call.has("other") { Partner::Station(here(call, "other")?.0) } else { Partner::Ground };
     scene.borrow_mut().join(kind, station, partner)?;
     Ok(Dynamic::UNIT)
 }

@@ -115,7 +115,9 @@ pub const INTEGRATOR_TABLE: Table = Table {
             .see(&["trapezoidal", "start"]),
         function("trapezoidal", &[], |_| Ok(Dynamic::from(Method::Trapezoidal)))
             .returns("an integrator")
-            .summary("Newmark's method with β = 1/4, γ = 1/2; its energy wanders in nonlinear problems.")
+            .summary(
+                "Newmark's method with β = 1/4, γ = 1/2; its energy wanders in nonlinear problems.",
+            )
             .doc("Second order. Newmark, J. Eng. Mech. Div. ASCE 85 (1959) 67-94.")
             .example("print(trapezoidal());")
             .see(&["energy_momentum"]),
@@ -127,7 +129,8 @@ pub const SCHEDULE: Type = Type::of::<Schedule>();
 /// The integrator type, for other domains.
 pub const INTEGRATOR: Type = Type::of::<Method>();
 /// What may stand for a schedule: one, a number that is constant, or a function of time.
-pub const SCHEDULE_KINDS: &[Kind] = &[Kind::Object(SCHEDULE), Kind::Number(Range::Finite), Kind::Function];
+pub const SCHEDULE_KINDS: &[Kind] =
+    &[Kind::Object(SCHEDULE), Kind::Number(Range::Finite), Kind::Function];
 
 const TIME: Parameter = number("time").positive().unit("time");
 const FROM: Parameter = number("from").unit("time");
@@ -170,7 +173,9 @@ fn scaled(call: &Call, factor: &str, of: &str) -> Result<Dynamic, ScriptError> {
 fn table(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let pair = |(row, value): (usize, Dynamic)| {
         let pair = value.read_lock::<rhai::Array>().and_then(|pair| match pair.as_slice() {
-            [t, factor] => crate::script::numbers::as_number(t).zip(crate::script::numbers::as_number(factor)),
+            [t, factor] => {
+                crate::script::numbers::as_number(t).zip(crate::script::numbers::as_number(factor))
+            }
             _ => None,
         });
         pair.ok_or_else(|| {
@@ -193,7 +198,11 @@ fn stored(call: &Call, function: FnPtr, breaks: Vec<f64>) -> Result<Schedule, Sc
 }
 
 /// The schedule of a load: given in one of [`SCHEDULE_KINDS`], or always 1.
-pub(super) fn schedule_of(call: &Call, arguments: &Arguments, name: &str) -> Result<Schedule, ScriptError> {
+pub(super) fn schedule_of(
+    call: &Call,
+    arguments: &Arguments,
+    name: &str,
+) -> Result<Schedule, ScriptError> {
     if let Some(schedule) = arguments.get_if::<Schedule>(name) {
         return Ok(schedule);
     }
@@ -212,7 +221,13 @@ mod tests {
     fn every_integrator_of_the_registry_has_a_row_that_cites_its_source() {
         for entry in INTEGRATORS {
             let row = INTEGRATOR_TABLE.rows.iter().find(|row| row.name == entry.name).unwrap();
-            assert!(row.doc.contains(entry.source), "{}: {} / {}", entry.name, row.doc, entry.source);
+            assert!(
+                row.doc.contains(entry.source),
+                "{}: {} / {}",
+                entry.name,
+                row.doc,
+                entry.source
+            );
         }
     }
 }

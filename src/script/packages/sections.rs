@@ -121,7 +121,10 @@ const QUADRATURE: Parameter = either("quadrature", &[Kind::Choice(&["patch"]), C
 const BSPLINE: &[Parameter] = &[
     whole("spans").positive().doc("equal spans"),
     whole("degree").positive().or(Presence::Whole(3)),
-    whole("continuity").non_negative().doc("continuous derivatives between spans; degree - 1 unless given").optional(),
+    whole("continuity")
+        .non_negative()
+        .doc("continuous derivatives between spans; degree - 1 unless given")
+        .optional(),
     QUADRATURE,
 ];
 const LAGRANGE: &[Parameter] = &[
@@ -135,9 +138,14 @@ impl Scripted for Section {
     const DOC: &'static str = "A cross section: stiffness and inertia.";
 
     fn show(&self) -> String {
-        let [ea, ga, ei, mass, rotary] =
-            [self.axial_stiffness, self.shear_stiffness, self.bending_stiffness, self.mass, self.rotary_inertia]
-                .map(format_number);
+        let [ea, ga, ei, mass, rotary] = [
+            self.axial_stiffness,
+            self.shear_stiffness,
+            self.bending_stiffness,
+            self.mass,
+            self.rotary_inertia,
+        ]
+        .map(format_number);
         format!("section with EA {ea}, GA {ga}, EI {ei}, rho_A {mass}, rho_I {rotary}")
     }
 }
@@ -178,9 +186,14 @@ fn from_numbers(options: &Options) -> Result<Section, ScriptError> {
 
 fn solid(options: &Options) -> Result<Solid, ScriptError> {
     let shape = match options.text("shape").unwrap_or_default().as_str() {
-        "rectangle" => Shape::Rectangle { width: required(options, "width")?, height: required(options, "height")? },
+        "rectangle" => Shape::Rectangle {
+            width: required(options, "width")?,
+            height: required(options, "height")?,
+        },
         "circle" => Shape::Circle { radius: required(options, "radius")? },
-        "tube" => Shape::Tube { outer: required(options, "outer")?, inner: required(options, "inner")? },
+        "tube" => {
+            Shape::Tube { outer: required(options, "outer")?, inner: required(options, "inner")? }
+        }
         _ => return Err(missing("shape", "one of \"rectangle\", \"circle\", \"tube\"")),
     };
     Ok(Solid {
@@ -193,7 +206,8 @@ fn solid(options: &Options) -> Result<Solid, ScriptError> {
 
 fn required(options: &Arguments, name: &'static str) -> Result<f64, ScriptError> {
     let parameter = SECTION_KEYS.iter().find(|key| key.name == name);
-    let what = parameter.map(|key| format!("{} ({})", key.expectation(), key.doc)).unwrap_or_default();
+    let what =
+        parameter.map(|key| format!("{} ({})", key.expectation(), key.doc)).unwrap_or_default();
     options.number_if_given(name).ok_or_else(|| missing(name, &what))
 }
 
@@ -223,7 +237,11 @@ fn bspline(call: &mut Call) -> Result<Dynamic, ScriptError> {
         return Ok(Dynamic::from(Mesh::bspline(call.count("spans")?, 3, 2)?));
     };
     let degree = options.count("degree")?;
-    let continuity = if options.has("continuity") { options.count("continuity")? } else { degree.saturating_sub(1) };
+    let continuity = if options.has("continuity") {
+        options.count("continuity")?
+    } else {
+        degree.saturating_sub(1)
+    };
     with_quadrature(Mesh::bspline(options.count("spans")?, degree, continuity)?, &options)
 }
 
@@ -240,7 +258,9 @@ fn with_quadrature(mesh: Mesh, options: &Options) -> Result<Dynamic, ScriptError
         Err(_) => Quadrature::Patch,
     };
     let mesh = mesh.with_quadrature(quadrature);
-    Ok(Dynamic::from(mesh.map_err(|error| ScriptError::from(error).at(Place::Key("quadrature".into())))?))
+    Ok(Dynamic::from(
+        mesh.map_err(|error| ScriptError::from(error).at(Place::Key("quadrature".into())))?,
+    ))
 }
 
 /// A mesh given as such or as a knot vector.

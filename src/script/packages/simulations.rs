@@ -13,7 +13,9 @@ use crate::output::{Cell, Table as TextTable, scientific};
 use crate::script::call::Call;
 use crate::script::error::ScriptError;
 use crate::script::kind::{Scripted, Type};
-use crate::script::parameter::{Parameter, Presence, callback, number, object, options, text, whole};
+use crate::script::parameter::{
+    Parameter, Presence, callback, number, object, options, text, whole,
+};
 use crate::script::table::{Row, Table, method, property};
 use crate::simulation::{Invariant, Settings, Simulation};
 
@@ -186,7 +188,11 @@ impl Scripted for Invariants {
     }
 }
 
-const fn measure(name: &'static str, summary: &'static str, body: crate::script::table::Body) -> Row {
+const fn measure(
+    name: &'static str,
+    summary: &'static str,
+    body: crate::script::table::Body,
+) -> Row {
     property(SIMULATION, name, body).returns("a number").summary(summary)
 }
 
@@ -246,8 +252,10 @@ fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let station = call.get::<StationHandle>("station")?;
     station.on(&handle)?;
     let simulation = handle.simulation();
-    simulation.model().angle(simulation.scene(), &station.station()).map(Dynamic::from).ok_or_else(|| {
-        call.error(format!("the angle at {} was not followed", station.show()))
-            .hint("make the station with beam.at(s) before scene.start(…)")
-    })
+    simulation.model().angle(simulation.scene(), &station.station()).map(Dynamic::from).ok_or_else(
+        || {
+            call.error(format!("the angle at {} was not followed", station.show()))
+                .hint("make the station with beam.at(s) before scene.start(…)")
+        },
+    )
 }

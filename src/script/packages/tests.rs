@@ -25,8 +25,11 @@ fn every_row_has_a_summary_and_an_example() {
 
 #[test]
 fn every_example_runs() {
-    for (table, row) in TABLES.iter().flat_map(|table| table.rows.iter().map(move |row| (table, row))) {
-        let program = Program::named(&row.signature(), &format!("{}\n{}", table.setup, row.example));
+    for (table, row) in
+        TABLES.iter().flat_map(|table| table.rows.iter().map(move |row| (table, row)))
+    {
+        let program =
+            Program::named(&row.signature(), &format!("{}\n{}", table.setup, row.example));
         let outcome = run(&program, &Catalog::standard(), Settings::silent(Mode::Run));
         assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
         assert_eq!(outcome.checks.failed(), [], "{}", row.signature());

@@ -3,10 +3,10 @@
 use rhai::Dynamic;
 
 use crate::geometry::{Vec2, cross, unit};
+use crate::output::significant;
 use crate::script::call::Call;
 use crate::script::error::ScriptError;
 use crate::script::kind::{Scripted, Type};
-use crate::output::significant;
 use crate::script::parameter::{Parameter, number, object, point};
 use crate::script::table::{Table, function, operator, property};
 
