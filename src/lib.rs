@@ -7,6 +7,8 @@
 //!                                                   └→ integrators → newton → linalg
 //! ```
 
+#![forbid(unsafe_code)]
+
 pub mod beams;
 pub mod cli;
 pub mod geometry;

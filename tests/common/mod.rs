@@ -83,3 +83,8 @@ impl Random {
 pub fn orders(errors: &[f64]) -> Vec<f64> {
     errors.windows(2).map(|pair| (pair[0] / pair[1]).log2()).collect()
 }
+
+/// Small numbers in a row of a printed table.
+pub fn sci(values: &[f64]) -> String {
+    values.iter().map(|value| format!("{value:8.1e}")).collect::<Vec<_>>().join(" ")
+}

@@ -5,29 +5,35 @@ use withy::linalg::BandedMatrix;
 use withy::model::Model;
 use withy::newton::{Equations, Imbalance, Newton, Tolerance};
 
-struct Balance<'a>(&'a mut Model);
+struct Balance<'a> {
+    model: &'a mut Model,
+    /// A force of the problem: under pure moments there is no other to compare with.
+    scale: f64,
+}
 
 impl Equations for Balance<'_> {
     fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BandedMatrix) {
-        self.0.add_linearised_forces(Stage::End, u, 1.0, residual, tangent);
+        self.model.add_linearised_forces(Stage::End, u, 1.0, residual, tangent);
     }
 
     fn condense(&mut self, residual: &mut [f64]) {
-        self.0.add_mismatch_forces(1.0, residual);
+        self.model.add_mismatch_forces(1.0, residual);
     }
 
     fn correct(&mut self, correction: &[f64]) {
-        self.0.correct_section_forces(correction);
+        self.model.correct_section_forces(correction);
     }
 
     fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> Imbalance {
-        let strain = self.0.add_forces(Stage::End, u, 1.0, residual);
-        Imbalance { force: self.0.relative_imbalance(residual), strain }
+        let strain = self.model.add_forces(Stage::End, u, 1.0, residual);
+        let free = &residual[..u.len()];
+        let force = free.iter().fold(0.0, |most: f64, force| most.max(force.abs())) / self.scale;
+        Imbalance { force, strain }
     }
 }
 
-/// Follows the equilibrium under the loads of the model from t = 0 to 1; returns the most iterations of a step.
-pub fn load_up(model: &mut Model, steps: usize) -> usize {
+/// Follows the equilibrium under the loads of the model from t = 0 to 1, balanced to rounding of a force `scale`; returns the most iterations of a step.
+pub fn load_up(model: &mut Model, steps: usize, scale: f64) -> usize {
     let mut newton = Newton::new(model.unknowns(), model.half_bandwidth(), Tolerance::default());
     let mut residual = vec![0.0; model.degrees_of_freedom()];
     let time = |step: usize| step as f64 / steps as f64;
@@ -35,7 +41,7 @@ pub fn load_up(model: &mut Model, steps: usize) -> usize {
     for step in 0..steps {
         model.begin_step(Interval { start: time(step), end: time(step + 1) }).unwrap();
         let mut u = vec![0.0; model.unknowns()];
-        let report = newton.solve(&mut Balance(model), &mut u, &mut residual).unwrap();
+        let report = newton.solve(&mut Balance { model, scale }, &mut u, &mut residual).unwrap();
         most = most.max(report.iterations);
         let rates = model.rates().to_vec();
         model.advance(&u, &rates, &residual);

@@ -1,0 +1,146 @@
+//! The cost of a Newton iteration and of a step, in nanoseconds per unknown, over four decades of spans.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use withy::beams::{Mesh, Section};
+use withy::geometry::{Curve, Vec2};
+use withy::integrators::{Interval, Mechanism, Method, Stage};
+use withy::linalg::BandedMatrix;
+use withy::loads::{Frame, LoadKind, Schedule};
+use withy::model::{BeamDefinition, Model, Scene, StartMotion};
+use withy::newton::Tolerance;
+
+/// Every figure is measured for about this long.
+const PATIENCE: Duration = Duration::from_millis(300);
+const FEWEST_REPEATS: usize = 5;
+const DT: f64 = 0.1;
+
+/// A flying beam whose spans are as long as those of the spaghetti, however many there are.
+fn flying_beam(spans: usize) -> Model {
+    let mut scene = Scene::new("bench");
+    let length = 10.0 / 14.0 * spans as f64;
+    let section = Section {
+        axial_stiffness: 1e4,
+        shear_stiffness: 1e4,
+        bending_stiffness: 100.0,
+        mass: 1.0,
+        rotary_inertia: 10.0,
+    };
+    let beam = BeamDefinition {
+        name: "rod".to_owned(),
+        axis: Curve::line(Vec2::zeros(), Vec2::new(0.6, -0.8) * length).unwrap(),
+        mesh: Mesh::bspline(spans, 3, 2).unwrap(),
+        section,
+        motion: StartMotion::default(),
+    };
+    let rod = scene.add_beam(beam).unwrap();
+    let station = scene.station(rod, length).unwrap();
+    let always = Schedule::constant(1.0).unwrap();
+    let force = LoadKind::Force { station, force: Vec2::new(8.0, 0.0), frame: Frame::Dead };
+    scene.add_load(force, always.clone());
+    scene.add_load(LoadKind::Moment { station, moment: -80.0 }, always);
+    Model::assemble(&scene).unwrap()
+}
+
+/// Repeats an action whose timed part it reports itself; the shortest and the median, in nanoseconds.
+fn measure(mut action: impl FnMut() -> Duration) -> (f64, f64) {
+    let begun = Instant::now();
+    let mut times = Vec::new();
+    while times.len() < FEWEST_REPEATS || begun.elapsed() < PATIENCE {
+        times.push(action().as_secs_f64() * 1e9);
+    }
+    times.sort_by(f64::total_cmp);
+    (times[0], times[times.len() / 2])
+}
+
+fn timed(action: impl FnOnce()) -> Duration {
+    let begun = Instant::now();
+    action();
+    begun.elapsed()
+}
+
+/// Assembly, factorisation, solution, the residual after it, and a whole step; with its mean Newton iterations.
+fn costs(spans: usize) -> (usize, [(f64, f64); 5], f64) {
+    let mut model = flying_beam(spans);
+    let mut integrator = Method::EnergyMomentum.build(&model, Tolerance::default());
+    let (mut steps, mut iterations) = (0, 0);
+    let step = measure(|| {
+        let interval = Interval { start: steps as f64 * DT, end: (steps + 1) as f64 * DT };
+        steps += 1;
+        timed(|| iterations += integrator.step(&mut model, interval).unwrap().iterations)
+    });
+
+    let unknowns = model.unknowns();
+    model.begin_step(Interval { start: 0.0, end: DT }).unwrap();
+    let increments: Vec<f64> = model.rates().iter().map(|rate| DT * rate).collect();
+    let mut residual = vec![0.0; model.degrees_of_freedom()];
+    let mut tangent = BandedMatrix::zeros(unknowns, model.half_bandwidth());
+    let mut assemble = |model: &mut Model, tangent: &mut BandedMatrix| {
+        tangent.clear();
+        residual.fill(0.0);
+        model.add_inertia(2.0 / (DT * DT), &increments, &mut residual);
+        model.add_inertia_tangent(2.0 / (DT * DT), tangent);
+        model.add_linearised_forces(Stage::Midpoint, &increments, 1.0, &mut residual, tangent);
+    };
+    let assembly = measure(|| timed(|| assemble(&mut model, &mut tangent)));
+    let factorisation = measure(|| {
+        assemble(&mut model, &mut tangent);
+        timed(|| drop(black_box(tangent.factorise().unwrap())))
+    });
+    assemble(&mut model, &mut tangent);
+    let factors = tangent.factorise().unwrap();
+    let right: Vec<f64> = (0..unknowns).map(|i| (i as f64).sin()).collect();
+    let mut solution = right.clone();
+    let solving = measure(|| {
+        solution.copy_from_slice(&right);
+        timed(|| factors.solve(black_box(&mut solution)))
+    });
+    let mut out = vec![0.0; model.degrees_of_freedom()];
+    let checking = measure(|| {
+        out.fill(0.0);
+        timed(|| {
+            model.add_inertia(2.0 / (DT * DT), &increments, &mut out);
+            black_box(model.add_forces(Stage::Midpoint, &increments, 1.0, &mut out));
+        })
+    });
+    let parts = [assembly, factorisation, solving, checking, step];
+    (unknowns, parts, iterations as f64 / steps as f64)
+}
+
+fn main() {
+    println!(
+        "nanoseconds per unknown, least / median; iteration = assembly + factorisation + solution\n"
+    );
+    println!(
+        "{:>6} {:>9} {:>13} {:>13} {:>13} {:>13} {:>13} {:>15} {:>11}",
+        "spans",
+        "unknowns",
+        "assembly",
+        "factorise",
+        "solve",
+        "iteration",
+        "residual",
+        "step",
+        "iterations"
+    );
+    for spans in [10, 100, 1000, 10_000] {
+        let (unknowns, parts, iterations) = costs(spans);
+        let per_unknown = |(least, median): (f64, f64)| {
+            format!("{:.0} / {:.0}", least / unknowns as f64, median / unknowns as f64)
+        };
+        let [assembly, factorisation, solving, checking, step] = parts;
+        let sum = [assembly, factorisation, solving]
+            .iter()
+            .fold((0.0, 0.0), |sum, part| (sum.0 + part.0, sum.1 + part.1));
+        println!(
+            "{spans:>6} {unknowns:>9} {:>13} {:>13} {:>13} {:>13} {:>13} {:>15} {iterations:>11.2}",
+            per_unknown(assembly),
+            per_unknown(factorisation),
+            per_unknown(solving),
+            per_unknown(sum),
+            per_unknown(checking),
+            per_unknown(step)
+        );
+    }
+}

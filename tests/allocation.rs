@@ -1,0 +1,76 @@
+//! Steps allocate nothing: only the room for their rows is taken, before they begin.
+#![allow(unsafe_code)]
+
+mod common;
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+use common::{meshes, run, scenes, settings};
+use withy::integrators::INTEGRATORS;
+use withy::simulation::Simulation;
+
+thread_local! {
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+}
+
+/// Counts what each thread asks of the system's allocator.
+struct Counting;
+
+fn count() {
+    // A thread that is going away has nothing left to count in.
+    let _ = ALLOCATIONS.try_with(|allocations| allocations.set(allocations.get() + 1));
+}
+
+// SAFETY: every call is handed on to the system's allocator as it is.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count();
+        // SAFETY: the caller keeps the contract of `alloc`.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: the caller keeps the contract of `dealloc`.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count();
+        // SAFETY: the caller keeps the contract of `realloc`.
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+fn allocations_of(action: impl FnOnce()) -> usize {
+    let before = ALLOCATIONS.get();
+    action();
+    ALLOCATIONS.get() - before
+}
+
+#[test]
+fn the_counter_counts() {
+    assert_eq!(allocations_of(|| drop(std::hint::black_box(vec![1_u8; 100]))), 1);
+}
+
+#[test]
+fn a_hundred_times_the_steps_take_no_more_allocations() {
+    for entry in INTEGRATORS {
+        for (name, mesh) in meshes(4) {
+            for scene in scenes::all(&mesh) {
+                let label = format!("{}, {}, {name}", entry.name, scene.name);
+                let settings = settings(entry.method, 0.001);
+                let mut simulation = Simulation::start(scene, settings).unwrap();
+                let mut until = |end: f64| allocations_of(|| run(&mut simulation, end).unwrap());
+                until(0.01);
+                let (few, many) = (until(0.02), until(1.02));
+                // Room for the rows of the history, the times and the configurations of the trajectory.
+                assert!(few <= 3 && many <= 3, "{label}: {few} in 10 steps, {many} in 1000");
+                assert_eq!(simulation.counts().retries, 0, "{label}");
+            }
+        }
+    }
+}
