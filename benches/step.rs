@@ -24,7 +24,7 @@ fn flying_beam(spans: usize) -> Model {
         axial_stiffness: 1e4,
         shear_stiffness: 1e4,
         bending_stiffness: 100.0,
-        mass: 1.0,
+        mass_per_length: 1.0,
         rotary_inertia: 10.0,
     };
     let beam = BeamDefinition {

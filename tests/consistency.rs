@@ -126,7 +126,7 @@ fn forces_at_the_end_of_a_step_are_the_gradient_of_the_energy() {
             increments.len(),
             &condensed(model, Stage::End, increments)[..increments.len()],
         );
-        let state = probe::saved(model);
+        let state = model.state();
         let mut energy = |u: &[f64]| {
             advance(model, Stage::End, u);
             let now = model.measure();
@@ -170,7 +170,7 @@ fn a_rigid_motion_of_a_deformed_beam_keeps_its_strain_energy() {
         if !is_free(scene) {
             return;
         }
-        let (before, state) = (model.measure().energy.strain, probe::saved(model));
+        let (before, state) = (model.measure().energy.strain, model.state());
         for stage in STAGES {
             let u = probe::rigid(model, stage, 2.1, at(3.0, -1.0), at(5.0, 4.0));
             advance(model, stage, &u);

@@ -74,9 +74,7 @@ impl Axis<'_> {
     ) -> Result<Vec<AxisPoint<N>>, BeamError> {
         let place = |(xi, weight): (f64, f64)| {
             let values = self.basis.evaluate_in(&span, xi);
-            let controls = &self.control_points[span.first..span.first + N];
-            let derivative: Vec2 =
-                values.slopes().iter().zip(controls).map(|(slope, point)| point * *slope).sum();
+            let derivative = values.combine(1, self.control_points);
             let speed = derivative.norm();
             if speed.is_nan() || speed <= 0.0 {
                 return Err(BeamError::NoTangent { parameter: xi });
@@ -126,7 +124,8 @@ impl<const N: usize> DiscreteBeam<N> {
     }
 
     fn inertia_of(&self, entry: f64) -> Movement {
-        let (mass, rotary) = (entry * self.section.mass, entry * self.section.rotary_inertia);
+        let (mass, rotary) =
+            (entry * self.section.mass_per_length, entry * self.section.rotary_inertia);
         [mass, mass, rotary]
     }
 }
@@ -308,9 +307,7 @@ impl<const N: usize> BeamDynamics for DiscreteBeam<N> {
         }
     }
 
-    fn restore(&mut self, state: &mut dyn Iterator<Item = f64>) {
-        let mut next =
-            || state.next().expect("a saved state has as many entries as the model that saved it");
+    fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         for (point, remainder) in self.control_points.iter_mut().zip(&mut self.remainders) {
             *point = Vec2::new(next(), next());
             *remainder = Vec2::new(next(), next());

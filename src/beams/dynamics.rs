@@ -1,7 +1,7 @@
 //! What a discretised beam offers to the model, whatever its basis.
 
 use super::RotationIncrement;
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, larger};
 
 /// Components of a control point: x, y and rotation.
 pub type Movement = [f64; 3];
@@ -33,8 +33,6 @@ pub struct ForceSummary {
 impl ForceSummary {
     /// The larger of both, entry by entry.
     pub fn join(&mut self, other: &Self) {
-        // A NaN must survive: `f64::max` would drop it.
-        let larger = |a: f64, b: f64| if a >= b || a.is_nan() { a } else { b };
         self.strain_mismatch = larger(self.strain_mismatch, other.strain_mismatch);
         self.force = larger(self.force, other.force);
         self.moment = larger(self.moment, other.moment);
@@ -104,5 +102,5 @@ pub trait BeamDynamics {
     fn save(&self, state: &mut Vec<f64>);
 
     /// Takes the state back, in the order in which it was appended.
-    fn restore(&mut self, state: &mut dyn Iterator<Item = f64>);
+    fn restore(&mut self, next: &mut dyn FnMut() -> f64);
 }

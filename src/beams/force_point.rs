@@ -14,7 +14,7 @@
 use super::block::Block;
 use super::dynamics::{Collocation, ForceSummary, Movement};
 use super::{Rotation, RotationIncrement, Section};
-use crate::geometry::{Vec2, cross, perpendicular};
+use crate::geometry::{Vec2, cross, larger, perpendicular};
 
 #[derive(Debug, Clone)]
 pub(super) struct ForcePoint<const N: usize> {
@@ -133,13 +133,14 @@ impl<const N: usize> ForcePoint<N> {
         summary: &mut ForceSummary,
     ) {
         let now = self.configuration(at, moved);
-        let force = now.collocated_rotation.to_space(self.force);
-        self.distribute(weight, now.collocated_gradient, force, forces);
+        let spatial = now.collocated_rotation.to_space(self.force);
+        self.distribute(weight, now.collocated_gradient, spatial, forces);
         self.mismatch = now.collocated_strain - strain_from(section, self.force);
+        let force = larger(self.force.x.abs(), self.force.y.abs());
         summary.join(&ForceSummary {
-            strain_mismatch: self.mismatch.amax(),
-            force: self.force.amax(),
-            moment: self.weight * self.force.amax(),
+            strain_mismatch: larger(self.mismatch.x.abs(), self.mismatch.y.abs()),
+            force,
+            moment: self.weight * force,
             rotation: now.increment.abs(),
         });
     }

@@ -14,7 +14,7 @@ pub struct Section {
     /// Bending stiffness `EI` [force·length²].
     pub bending_stiffness: f64,
     /// Mass per length `ρA` [mass/length].
-    pub mass: f64,
+    pub mass_per_length: f64,
     /// Rotary inertia per length `ρI` [mass·length].
     pub rotary_inertia: f64,
 }
@@ -67,7 +67,7 @@ impl Section {
             ("EA", self.axial_stiffness, "force", ""),
             ("GA", self.shear_stiffness, "force", ""),
             ("EI", self.bending_stiffness, "force·length²", ""),
-            ("rho_A", self.mass, "mass/length", ""),
+            ("rho_A", self.mass_per_length, "mass/length", ""),
             ("rho_I", self.rotary_inertia, "mass·length", ROTARY),
         ];
         match properties.into_iter().find(|(_, value, ..)| !is_positive(*value)) {
@@ -120,7 +120,7 @@ impl Section {
             shear_stiffness: shape.shear_correction(poisson) * young / (2.0 * (1.0 + poisson))
                 * area,
             bending_stiffness: young * inertia,
-            mass: density * area,
+            mass_per_length: density * area,
             rotary_inertia: density * inertia,
         }
         .validated()

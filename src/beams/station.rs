@@ -1,7 +1,7 @@
 //! Places of a beam.
 
 use super::Mesh;
-use crate::geometry::{Curve, GeometryError, MAX_DEGREE, Vec2};
+use crate::geometry::{Curve, GeometryError, MAX_DEGREE, Vec2, corresponding};
 
 /// A place on a beam of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,9 +31,8 @@ impl Station {
     /// # Errors
     /// When the station lies outside the axis.
     pub fn parameter(&self, axis: &Curve, mesh: &Mesh) -> Result<f64, GeometryError> {
-        let ((a, b), (c, d)) = (axis.domain(), mesh.basis().domain());
-        let along = (axis.parameter_at(self.arc_length)? - a) / (b - a);
-        Ok(if along == 1.0 { d } else { c + along * (d - c) })
+        let along = axis.parameter_at(self.arc_length)?;
+        Ok(corresponding(along, axis.domain(), mesh.basis().domain()))
     }
 
     /// The basis functions at this station.
@@ -41,16 +40,25 @@ impl Station {
     /// # Errors
     /// When the station lies outside the axis.
     pub fn place(&self, axis: &Curve, mesh: &Mesh) -> Result<Place, GeometryError> {
-        let values = mesh.basis().evaluate(self.parameter(axis, mesh)?)?;
-        let mut shape = [0.0; MAX_DEGREE + 1];
-        let order = values.values().len();
-        shape[..order].copy_from_slice(values.values());
-        let tangent_angle = axis.tangent_angle(axis.parameter_at(self.arc_length)?)?;
-        Ok(Place { beam: self.beam, first: values.first, shape, order, tangent_angle })
+        Place::at(self.beam, axis, mesh, self.parameter(axis, mesh)?)
     }
 }
 
 impl Place {
+    /// The place of a beam at a parameter of its mesh.
+    ///
+    /// # Errors
+    /// When the parameter lies outside the mesh, or the axis has no tangent there.
+    pub fn at(beam: usize, axis: &Curve, mesh: &Mesh, xi: f64) -> Result<Self, GeometryError> {
+        let values = mesh.basis().evaluate(xi)?;
+        let mut shape = [0.0; MAX_DEGREE + 1];
+        let order = values.values().len();
+        shape[..order].copy_from_slice(values.values());
+        let tangent_angle =
+            axis.tangent_angle(corresponding(xi, mesh.basis().domain(), axis.domain()))?;
+        Ok(Self { beam, first: values.first, shape, order, tangent_angle })
+    }
+
     /// The basis functions that are non-zero here.
     pub fn shape(&self) -> &[f64] {
         &self.shape[..self.order]

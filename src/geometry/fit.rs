@@ -46,7 +46,7 @@ pub fn interpolate(curve: &Curve, basis: &Basis) -> Result<Vec<Vec2>, GeometryEr
 }
 
 /// The image of `xi` under the affine map of one interval to another; ends go to ends exactly.
-fn corresponding(xi: f64, (a, b): (f64, f64), (start, end): (f64, f64)) -> f64 {
+pub fn corresponding(xi: f64, (a, b): (f64, f64), (start, end): (f64, f64)) -> f64 {
     let t = (xi - a) / (b - a);
     ((1.0 - t) * start + t * end).clamp(start, end)
 }

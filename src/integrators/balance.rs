@@ -4,8 +4,8 @@ use super::{Interval, Mechanism, Stage, StepError};
 use crate::linalg::BandedMatrix;
 use crate::newton::{Equations, Imbalance, Newton, NewtonReport, Tolerance};
 
-/// A rotation increment at which half a turn is taken in one step.
-const HALF_TURN: f64 = std::f64::consts::PI;
+/// The largest increment `Δω`, mean rate times step: beyond it a turn cannot be told from one the other way round.
+const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
 
 /// `R(d) = 2/Δt² M d + weight · F(stage, u) + carried`, `u = Δt v0 + d`.
 ///
@@ -68,7 +68,7 @@ pub(super) struct StepSolver {
     deviation: Vec<f64>,
     increments: Vec<f64>,
     /// The part of the residual that does not depend on the increments.
-    pub(super) carried: Vec<f64>,
+    carried: Vec<f64>,
     rates: Vec<f64>,
     residual: Vec<f64>,
 }
@@ -95,6 +95,12 @@ impl StepSolver {
         self.carried.fill(0.0);
     }
 
+    /// Adds a share of the forces of a stage at which nothing has moved yet.
+    pub(super) fn carry(&mut self, mechanism: &mut dyn Mechanism, stage: Stage, share: f64) {
+        // The deviation is still zero: it serves as the increments of standing still.
+        mechanism.add_forces(stage, &self.deviation, share, &mut self.carried);
+    }
+
     /// Solves for the increments with the forces of `stage`.
     pub(super) fn solve(
         &mut self,
@@ -117,7 +123,7 @@ impl StepSolver {
             .solve(&mut balance, &mut self.deviation, &mut self.residual)
             .map_err(|source| StepError::Newton { interval, source })?;
         let rotation = balance.mechanism.largest_rotation();
-        if rotation < HALF_TURN {
+        if rotation < LARGEST_INCREMENT {
             Ok(report)
         } else {
             Err(StepError::Rotation { interval, rotation, iterations: report.iterations })

@@ -14,7 +14,7 @@ pub enum StepError {
         /// The solver's reason, with its residual history.
         source: NewtonError,
     },
-    /// A section turns by half a turn or more within the step, where tangent-scaled rotations end.
+    /// The mean rate of a section times the step reaches π: such a turn is not resolved.
     #[error(
         "the step of {:e} from t = {} would turn a section by {rotation:.2} rad at its mean rate; a step must stay below π",
         interval.duration(), interval.start

@@ -42,28 +42,31 @@ pub struct IntegratorEntry {
 }
 
 /// All methods.
-pub const INTEGRATORS: &[IntegratorEntry] = &[
-    IntegratorEntry {
-        method: Method::EnergyMomentum,
-        name: "energy_momentum",
-        summary: "keeps energy and both momenta to rounding at any step; the default",
-        claims: Claims { order: 2, energy: true, momentum: true, angular_momentum: true },
-        source: "Stander & Stein, Eng. Comput. 13 (1996) 60-85",
-    },
-    IntegratorEntry {
-        method: Method::Trapezoidal,
-        name: "trapezoidal",
-        summary: "Newmark's β = 1/4, γ = 1/2; for comparison: the energy wanders in nonlinear problems",
-        claims: Claims { order: 2, energy: false, momentum: true, angular_momentum: false },
-        source: "Newmark, J. Eng. Mech. Div. ASCE 85 (1959) 67-94",
-    },
-];
+pub const INTEGRATORS: &[IntegratorEntry] = &[ENERGY_MOMENTUM, TRAPEZOIDAL];
+
+const ENERGY_MOMENTUM: IntegratorEntry = IntegratorEntry {
+    method: Method::EnergyMomentum,
+    name: "energy_momentum",
+    summary: "keeps energy and both momenta to rounding at any step; the default",
+    claims: Claims { order: 2, energy: true, momentum: true, angular_momentum: true },
+    source: "Stander & Stein, Eng. Comput. 13 (1996) 60-85",
+};
+
+const TRAPEZOIDAL: IntegratorEntry = IntegratorEntry {
+    method: Method::Trapezoidal,
+    name: "trapezoidal",
+    summary: "Newmark's β = 1/4, γ = 1/2; for comparison: the energy wanders in nonlinear problems",
+    claims: Claims { order: 2, energy: false, momentum: true, angular_momentum: false },
+    source: "Newmark, J. Eng. Mech. Div. ASCE 85 (1959) 67-94",
+};
 
 impl Method {
     /// Its row in [`INTEGRATORS`].
     pub fn entry(&self) -> &'static IntegratorEntry {
-        let same = |entry: &&IntegratorEntry| entry.method == *self;
-        INTEGRATORS.iter().find(same).unwrap_or(&INTEGRATORS[0])
+        match self {
+            Self::EnergyMomentum => &ENERGY_MOMENTUM,
+            Self::Trapezoidal => &TRAPEZOIDAL,
+        }
     }
 
     /// The method with work space for a mechanism.

@@ -14,16 +14,12 @@ use crate::newton::{NewtonReport, Tolerance};
 #[derive(Debug, Clone)]
 pub struct Trapezoidal {
     solver: StepSolver,
-    standstill: Vec<f64>,
 }
 
 impl Trapezoidal {
     /// The method with work space for a mechanism.
     pub fn new(mechanism: &dyn Mechanism, tolerance: Tolerance) -> Self {
-        Self {
-            solver: StepSolver::new(mechanism, tolerance),
-            standstill: vec![0.0; mechanism.unknowns()],
-        }
+        Self { solver: StepSolver::new(mechanism, tolerance) }
     }
 }
 
@@ -35,7 +31,7 @@ impl Integrator for Trapezoidal {
     ) -> Result<NewtonReport, StepError> {
         mechanism.begin_step(interval)?;
         self.solver.predict(mechanism, interval);
-        mechanism.add_forces(Stage::Start, &self.standstill, 0.5, &mut self.solver.carried);
+        self.solver.carry(mechanism, Stage::Start, 0.5);
         let report = self.solver.solve(mechanism, interval, Stage::End, 0.5)?;
         self.solver.correct(mechanism, interval);
         Ok(report)

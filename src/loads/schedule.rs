@@ -189,7 +189,11 @@ impl Schedule {
                     3.2 * (PI * time / duration).sin().powi(6)
                 }
             }
-            Self::Function { function, .. } => function(time).map_err(LoadError::Function)?,
+            Self::Function { function, breaks } => {
+                let from_before = side == Side::Before && breaks.contains(&time);
+                let time = if from_before { time.next_down() } else { time };
+                function(time).map_err(LoadError::Function)?
+            }
             Self::Sum(a, b) => a.value(time, side)? + b.value(time, side)?,
             Self::Product(a, b) => a.value(time, side)? * b.value(time, side)?,
         };
@@ -230,7 +234,9 @@ impl Schedule {
             Self::Table(rows) => match rows.as_slice() {
                 [(time, 1.0), (same, 0.0)] if time == same => format!("hold_for({time})"),
                 [(from, 0.0), (to, 1.0)] => format!("ramp({from}, {to})"),
-                [(from, 0.0), (_, 1.0), (_, 1.0), (to, 0.0)] => format!("pulse({from}, {to})"),
+                [(from, 0.0), (on, 1.0), (off, 1.0), (to, 0.0)] if from == on && off == to => {
+                    format!("pulse({from}, {to})")
+                }
                 _ => format!("table of {} rows", rows.len()),
             },
             Self::Sine { amplitude, rate, phase } => format!("sine({amplitude}, {rate}, {phase})"),

@@ -94,11 +94,11 @@ impl Follower {
     /// The rotation at `τ` and at the end, and `Δω`.
     fn rotations(
         &self,
-        body: &mut Body,
+        body: &Body,
         at: Collocation,
         increments: &[f64],
     ) -> (Rotation, Rotation, f64) {
-        let increment = self.tracker.increment(body.gather(increments));
+        let [.., increment] = body.at(&self.tracker.place, increments);
         let end = self.tracker.rotation.turned(at.rotations, increment);
         (self.tracker.rotation.mixed(end, at.configuration), end, increment)
     }
@@ -195,7 +195,7 @@ impl AppliedLoad {
     /// Subtracts the load from the forces of a stage; returns the largest force and moment on a control point.
     pub(super) fn subtract_from(
         &mut self,
-        bodies: &mut [Body],
+        bodies: &[Body],
         stage: Stage,
         increments: &[f64],
         weight: f64,
@@ -212,7 +212,7 @@ impl AppliedLoad {
             }
             Action::Follower(followers) => {
                 followers.iter_mut().fold((0.0, 0.0), |(largest, moment): (f64, f64), each| {
-                    let body = &mut bodies[each.tracker.place.beam];
+                    let body = &bodies[each.tracker.place.beam];
                     let (rotation, ..) = each.rotations(body, collocation(stage), increments);
                     let force = rotation.to_space(each.force) * factor;
                     let used =
@@ -232,7 +232,7 @@ impl AppliedLoad {
     /// Adds the derivative of minus the load by the increments.
     pub(super) fn add_tangent(
         &self,
-        bodies: &mut [Body],
+        bodies: &[Body],
         stage: Stage,
         increments: &[f64],
         weight: f64,
@@ -242,7 +242,7 @@ impl AppliedLoad {
         let Action::Follower(followers) = &self.action else { return };
         let at = collocation(stage);
         for each in followers {
-            let body = &mut bodies[each.tracker.place.beam];
+            let body = &bodies[each.tracker.place.beam];
             let (_, end, increment) = each.rotations(body, at, increments);
             let scale =
                 -weight * self.factors.at(stage) * at.configuration * at.rotations.rate(increment);

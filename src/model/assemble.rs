@@ -10,7 +10,7 @@ use super::tracker::Tracker;
 use super::{ModelError, Scene};
 use crate::beams::{BeamDynamics, Mesh, Place, Station, discretise};
 use crate::geometry::{GaussRule, Vec2, perpendicular};
-use crate::joints::Partner;
+use crate::joints::{Component, Partner};
 use crate::loads::{Frame, Load, LoadKind};
 
 /// Largest difference of tied start velocities, relative to the velocities of the beam.
@@ -37,7 +37,7 @@ impl Model {
         let lumps = assembly.lumps()?;
         let loads =
             scene.loads.iter().map(|load| assembly.applied(load)).collect::<Result<_, _>>()?;
-        let weight = (scene.gravity != Vec2::zeros()).then(|| assembly.weight(&lumps));
+        let gravity = (scene.gravity != Vec2::zeros()).then(|| assembly.weight(&lumps));
         let trackers = assembly.trackers()?;
         let joined = assembly.joined()?;
         let rates = assembly.start_rates(&numbering)?;
@@ -45,13 +45,14 @@ impl Model {
 
         let unknowns = numbering.unknowns;
         let mut is_rotation = vec![false; unknowns];
-        let mut supports = vec![Support { beam: 0, point: 0, component: 0 }; numbering.supported];
+        let mut supports =
+            vec![Support { beam: 0, point: 0, component: Component::X }; numbering.supported];
         for (beam, points) in numbering.degrees_of_freedom.iter().enumerate() {
             for (point, degrees) in points.iter().enumerate() {
-                for (component, &at) in degrees.iter().enumerate() {
+                for (component, &at) in Component::ALL.into_iter().zip(degrees) {
                     match at.checked_sub(unknowns) {
                         Some(support) => supports[support] = Support { beam, point, component },
-                        None => is_rotation[at] = component == 2,
+                        None => is_rotation[at] = component == Component::Rotation,
                     }
                 }
             }
@@ -67,7 +68,7 @@ impl Model {
             meshes: assembly.meshes,
             lumps,
             loads,
-            weight,
+            gravity,
             trackers,
             joined,
             scratch: vec![0.0; unknowns + supports.len()],
@@ -146,7 +147,7 @@ impl<'a> Assembly<'a> {
         let mut pattern = Pattern::default();
         for (index, (beam, definition)) in self.beams.iter().zip(&self.scene.beams).enumerate() {
             for (point, length) in beam.lumped_lengths().into_iter().enumerate() {
-                let force = gravity * (length * definition.section.mass);
+                let force = gravity * (length * definition.section.mass_per_length);
                 pattern.push(index, point, [force.x, force.y, 0.0]);
             }
         }
@@ -160,10 +161,11 @@ impl<'a> Assembly<'a> {
     }
 
     fn total_mass(&self, lumps: &[Lump]) -> f64 {
-        let beam = |(beam, definition): (&Box<dyn BeamDynamics>, &BeamDefinition)| {
-            definition.section.mass * beam.lumped_lengths().iter().sum::<f64>()
-        };
-        let beams: f64 = self.beams.iter().zip(&self.scene.beams).map(beam).sum();
+        let lengths = self.beams.iter().map(|beam| beam.lumped_lengths().iter().sum::<f64>());
+        let beams: f64 = lengths
+            .zip(&self.scene.beams)
+            .map(|(length, beam)| beam.section.mass_per_length * length)
+            .sum();
         beams + lumps.iter().map(|lump| lump.mass).sum::<f64>()
     }
 
@@ -203,15 +205,13 @@ impl<'a> Assembly<'a> {
         let wrap = ModelError::geometry(&definition.name);
         let basis = self.meshes[beam].basis();
         let rule = GaussRule::new(basis.degree()).map_err(&wrap)?;
-        let ((a, b), (c, d)) = (basis.domain(), definition.axis.domain());
+        let controls = self.beams[beam].control_points();
         let mut followers = Vec::new();
         for span in basis.spans() {
             for (xi, weight) in rule.iter_on(span.start, span.end) {
-                let (along, scale) = (c + (xi - a) * (d - c) / (b - a), (d - c) / (b - a));
-                let length =
-                    weight * scale * definition.axis.derivative(along, 1).map_err(&wrap)?.norm();
-                let arc_length = definition.axis.length_to(along).map_err(&wrap)?;
-                let place = self.place(&Station { beam, arc_length })?;
+                let length = weight * basis.evaluate_in(&span, xi).combine(1, controls).norm();
+                let place =
+                    Place::at(beam, &definition.axis, &self.meshes[beam], xi).map_err(&wrap)?;
                 followers.push(Follower::new(Tracker::new(place), force * length));
             }
         }
@@ -225,13 +225,17 @@ impl<'a> Assembly<'a> {
         for (index, (beam, definition)) in self.beams.iter().zip(&self.scene.beams).enumerate() {
             let motion = definition.motion;
             let about = motion.about.unwrap_or_else(|| centre(beam.as_ref()));
-            let size = motion.velocity.norm() + motion.spin.abs() * definition.axis.length();
+            let length = definition.axis.length();
+            let speed = motion.velocity.norm() + motion.spin.abs() * length;
+            let sizes = [speed, speed, speed / length];
             for (point, degrees) in
                 beam.control_points().iter().zip(&numbering.degrees_of_freedom[index])
             {
                 let velocity = motion.velocity + perpendicular(point - about) * motion.spin;
                 let values = [velocity.x, velocity.y, motion.spin];
-                for ((&at, value), component) in degrees.iter().zip(values).zip(components) {
+                for (((&at, value), component), size) in
+                    degrees.iter().zip(values).zip(components).zip(sizes)
+                {
                     let (other, expected) = match rates.get(at) {
                         None => ("the ground there does not move".to_owned(), 0.0),
                         Some(None) => {

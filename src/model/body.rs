@@ -1,6 +1,6 @@
 //! A beam of the model: its dynamics, and where its movements stand among the degrees of freedom.
 
-use crate::beams::{BeamDynamics, Collocation, ForceSummary, Movement, RotationIncrement};
+use crate::beams::{BeamDynamics, Collocation, ForceSummary, Movement, Place, RotationIncrement};
 use crate::geometry::{Vec2, cross};
 use crate::linalg::BandedMatrix;
 
@@ -48,6 +48,17 @@ impl Body {
             *movement = degrees.map(|at| values.get(at).copied().unwrap_or(0.0));
         }
         &self.moved
+    }
+
+    /// The movement of a place, from values of the unknowns.
+    pub(super) fn at(&self, place: &Place, values: &[f64]) -> Movement {
+        let mut sum = [0.0; 3];
+        for (point, share) in place.weights() {
+            for (sum, &at) in sum.iter_mut().zip(&self.degrees_of_freedom[point]) {
+                *sum += share * values.get(at).copied().unwrap_or(0.0);
+            }
+        }
+        sum
     }
 
     /// The movements that were gathered last.

@@ -19,19 +19,8 @@ impl Lump {
         [self.mass, self.mass, self.rotary_inertia]
     }
 
-    /// The values of the unknowns at this place.
-    fn at_place(&self, body: &Body, values: &[f64]) -> [f64; 3] {
-        let mut sum = [0.0; 3];
-        for (point, weight) in self.place.weights() {
-            for (sum, &at) in sum.iter_mut().zip(&body.degrees_of_freedom[point]) {
-                *sum += weight * values.get(at).copied().unwrap_or(0.0);
-            }
-        }
-        sum
-    }
-
     pub(super) fn add_inertia(&self, body: &Body, factor: f64, rates: &[f64], out: &mut [f64]) {
-        let rate = self.at_place(body, rates);
+        let rate = body.at(&self.place, rates);
         for (point, weight) in self.place.weights() {
             for ((&at, inertia), rate) in
                 body.degrees_of_freedom[point].iter().zip(self.inertia()).zip(rate)
@@ -62,7 +51,7 @@ impl Lump {
 
     /// Twice the kinetic energy, the momentum and the angular momentum about the origin.
     pub(super) fn momenta(&self, body: &Body, rates: &[f64]) -> (f64, Vec2, f64) {
-        let [vx, vy, spin] = self.at_place(body, rates);
+        let [vx, vy, spin] = body.at(&self.place, rates);
         let velocity = Vec2::new(vx, vy);
         let momentum = velocity * self.mass;
         let at = self.place.interpolate(body.dynamics.control_points());

@@ -6,8 +6,9 @@ use super::inertia::Lump;
 use super::measures::{Energy, Measures};
 use super::tracker::Tracker;
 use crate::beams::{ForceSummary, Mesh, Place, RotationIncrement};
-use crate::geometry::{Vec2, cross};
+use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Interval, Mechanism, Stage, StepError};
+use crate::joints::Component;
 use crate::linalg::BandedMatrix;
 
 /// A supported degree of freedom: the body, its control point and the component that does not move.
@@ -15,7 +16,7 @@ use crate::linalg::BandedMatrix;
 pub(super) struct Support {
     pub(super) beam: usize,
     pub(super) point: usize,
-    pub(super) component: usize,
+    pub(super) component: Component,
 }
 
 /// Beams, masses and loads, assembled and in motion.
@@ -24,8 +25,8 @@ pub struct Model {
     pub(super) meshes: Vec<Mesh>,
     pub(super) lumps: Vec<Lump>,
     pub(super) loads: Vec<AppliedLoad>,
-    /// The weight of everything; none without gravity.
-    pub(super) weight: Option<Pattern>,
+    /// The weight of everything, if there is gravity.
+    pub(super) gravity: Option<Pattern>,
     pub(super) trackers: Vec<Tracker>,
     /// Pairs of places that joints hold together.
     pub(super) joined: Vec<(Place, Place)>,
@@ -68,8 +69,6 @@ impl Default for StepScales {
 /// The largest magnitudes among positions and among rotations.
 fn largest(values: &[f64], is_rotation: &[bool]) -> (f64, f64) {
     values.iter().zip(is_rotation).fold((0.0, 0.0), |(force, moment), (value, rotation)| {
-        // A NaN must survive: `f64::max` would drop it.
-        let larger = |a: f64, b: f64| if a >= b || a.is_nan() { a } else { b };
         if *rotation {
             (force, larger(moment, value.abs()))
         } else {
@@ -102,9 +101,9 @@ impl Model {
             kinetic: 0.5 * twice_kinetic,
             strain: self.bodies.iter().map(|body| body.dynamics.strain_energy()).sum(),
             potential: self
-                .weight
+                .gravity
                 .as_ref()
-                .map_or(0.0, |weight| -weight.potential_work(&self.bodies)),
+                .map_or(0.0, |gravity| -gravity.potential_work(&self.bodies)),
         };
         Measures {
             time: self.time,
@@ -126,13 +125,12 @@ impl Model {
         weight: f64,
         out: &mut [f64],
     ) -> (f64, f64) {
-        if let Some(gravity) = &self.weight {
+        if let Some(gravity) = &self.gravity {
             gravity.subtract_from(&self.bodies, weight, out);
         }
-        let weight_scale = self.weight.as_ref().map_or((0.0, 0.0), |gravity| gravity.largest(1.0));
+        let weight_scale = self.gravity.as_ref().map_or((0.0, 0.0), |gravity| gravity.largest(1.0));
         self.loads.iter_mut().fold(weight_scale, |largest: (f64, f64), load| {
-            let (force, moment) =
-                load.subtract_from(&mut self.bodies, stage, increments, weight, out);
+            let (force, moment) = load.subtract_from(&self.bodies, stage, increments, weight, out);
             (largest.0.max(force), largest.1.max(moment))
         })
     }
@@ -148,7 +146,7 @@ impl Model {
     fn gap(&self) -> f64 {
         let at =
             |place: &Place| place.interpolate(self.bodies[place.beam].dynamics.control_points());
-        self.joined.iter().map(|(a, b)| (at(a) - at(b)).norm()).fold(0.0, f64::max)
+        self.joined.iter().map(|(a, b)| (at(a) - at(b)).norm()).fold(0.0, larger)
     }
 
     fn exchange_in_step(&self, residual: &[f64]) -> Exchange {
@@ -157,18 +155,17 @@ impl Model {
         for load in &self.loads {
             sum += load.exchange(&self.bodies, duration);
         }
-        if let Some(weight) = &self.weight {
+        if let Some(gravity) = &self.gravity {
             // Its work is the change of the potential, which is an energy of its own.
-            sum += Exchange { work: 0.0, ..weight.exchange(&self.bodies, 1.0, duration) };
+            sum += Exchange { work: 0.0, ..gravity.exchange(&self.bodies, 1.0, duration) };
         }
         for (support, reaction) in self.supports.iter().zip(&residual[self.unknowns..]) {
             let at = self.bodies[support.beam].dynamics.control_points()[support.point];
-            let force = match support.component {
-                0 => Vec2::new(*reaction, 0.0),
-                1 => Vec2::new(0.0, *reaction),
-                _ => Vec2::zeros(),
+            let (force, moment) = match support.component {
+                Component::X => (Vec2::new(*reaction, 0.0), 0.0),
+                Component::Y => (Vec2::new(0.0, *reaction), 0.0),
+                Component::Rotation => (Vec2::zeros(), *reaction),
             };
-            let moment = if support.component == 2 { *reaction } else { 0.0 };
             sum += Exchange {
                 work: 0.0,
                 impulse: force * duration,
@@ -256,7 +253,7 @@ impl Mechanism for Model {
         }
         self.subtract_loads(stage, increments, weight, out);
         for load in &self.loads {
-            load.add_tangent(&mut self.bodies, stage, increments, weight, self.unknowns, tangent);
+            load.add_tangent(&self.bodies, stage, increments, weight, self.unknowns, tangent);
         }
     }
 
@@ -275,7 +272,7 @@ impl Mechanism for Model {
             |residual: f64, scale: f64| if residual == 0.0 { 0.0 } else { residual / scale };
         let force = relative(force, summary.force + inertia.0 + loads.0);
         let moment = relative(moment, summary.moment + inertia.1 + loads.1);
-        if force >= moment || force.is_nan() { force } else { moment }
+        larger(force, moment)
     }
 
     fn largest_rotation(&self) -> f64 {

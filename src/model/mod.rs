@@ -15,4 +15,5 @@ mod tracker;
 pub use error::ModelError;
 pub use measures::{Energy, Measures};
 pub use mechanism::Model;
+pub use queries::ModelState;
 pub use scene::{BeamDefinition, PointMass, Scene, StartMotion, StationVelocity};

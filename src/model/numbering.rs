@@ -6,7 +6,7 @@ use crate::geometry::Vec2;
 use crate::joints::{Component, JointKind, Partner};
 use crate::linalg::reverse_cuthill_mckee;
 
-/// Largest gap of a joint when the scene starts, relative to the length of its beam.
+/// Largest gap of a joint when the scene starts, relative to the length of its beam and its distance from the origin.
 const CLOSED: f64 = 1e-12;
 
 /// The degree of freedom of every component of every control point of every beam: the unknowns come first, the
@@ -120,7 +120,7 @@ fn check_closed(
 }
 
 impl Numbering {
-    /// Numbers the movements of beams whose joints tie control points: `places` are those of the stations of a joint.
+    /// Numbers the movements of beams; `place` finds the stations of joints on their meshes.
     pub(super) fn new(
         scene: &Scene,
         beams: &[Box<dyn BeamDynamics>],

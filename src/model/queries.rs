@@ -32,12 +32,8 @@ impl Model {
 
     /// How fast a place moves [length/time].
     pub fn velocity(&self, place: &Place) -> Vec2 {
-        let degrees = &self.bodies[place.beam].degrees_of_freedom;
-        let rate = |at: usize| self.rates.get(at).copied().unwrap_or(0.0);
-        let at = |(point, weight): (usize, f64)| {
-            Vec2::new(rate(degrees[point][0]), rate(degrees[point][1])) * weight
-        };
-        place.weights().map(at).sum()
+        let [x, y, _] = self.bodies[place.beam].at(place, &self.rates);
+        Vec2::new(x, y)
     }
 
     /// The angle of the section at the start or the end of a beam, unwrapped [rad].
@@ -58,31 +54,35 @@ impl Model {
         self.trackers.get(2 * self.bodies.len() + known).map(|tracker| tracker.angle)
     }
 
-    /// Appends everything that the motion from here on depends on, and the sums so far.
-    pub fn save(&self, state: &mut Vec<f64>) {
+    /// Everything that the motion from here on depends on, and the sums so far.
+    pub fn state(&self) -> ModelState {
         let sums = &self.exchanged;
-        state.extend([self.time, sums.work, sums.impulse.x, sums.impulse.y, sums.angular_impulse]);
+        let mut state =
+            vec![self.time, sums.work, sums.impulse.x, sums.impulse.y, sums.angular_impulse];
         state.extend(&self.rates);
-        self.bodies.iter().for_each(|body| body.dynamics.save(state));
-        self.all_trackers().for_each(|tracker| tracker.save(state));
+        self.bodies.iter().for_each(|body| body.dynamics.save(&mut state));
+        self.all_trackers().for_each(|tracker| tracker.save(&mut state));
+        ModelState(state)
     }
 
-    /// Takes back a state that [`save`](Self::save) of this model has written.
+    /// Takes back a [`state`](Self::state) of this model, bit for bit.
     ///
     /// # Panics
-    /// When the state is not of this model.
-    pub fn restore(&mut self, state: &[f64]) {
+    /// When the state is that of another model.
+    pub fn restore(&mut self, ModelState(state): &ModelState) {
         let mut values = state.iter().copied();
-        let mut next =
-            || values.next().expect("a saved state has as many entries as the model that saved it");
+        let next = &mut || values.next().expect("the state is one of this model");
         self.time = next();
         self.exchanged.work = next();
         self.exchanged.impulse = Vec2::new(next(), next());
         self.exchanged.angular_impulse = next();
         self.rates.iter_mut().for_each(|rate| *rate = next());
-        self.bodies.iter_mut().for_each(|body| body.dynamics.restore(&mut values));
-        let mut next =
-            || values.next().expect("a saved state has as many entries as the model that saved it");
+        self.bodies.iter_mut().for_each(|body| body.dynamics.restore(next));
         self.all_trackers_mut().for_each(|tracker| tracker.restore([next(), next(), next()]));
+        assert!(values.next().is_none(), "the state is one of this model");
     }
 }
+
+/// The state of a [`Model`], to be taken back by the same one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModelState(Vec<f64>);

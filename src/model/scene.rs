@@ -108,6 +108,12 @@ impl Scene {
         Ok(self.beams.len() - 1)
     }
 
+    /// The first of `beam1`, `beam2`, … that no beam has.
+    pub fn free_name(&self) -> String {
+        let mut names = (1..).map(|number| format!("beam{number}"));
+        names.find(|name| self.beams.iter().all(|beam| beam.name != *name)).unwrap_or_default()
+    }
+
     /// The station of a beam at an arc length; it is followed from the start.
     ///
     /// # Errors

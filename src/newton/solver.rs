@@ -31,7 +31,7 @@ impl Tolerance {
 /// What a Newton solve took.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct NewtonReport {
-    /// Linear systems solved; each has one factorisation.
+    /// Iterations, each with one factorisation; the polish at the end is not counted.
     pub iterations: usize,
     /// What was left.
     pub imbalance: Imbalance,
@@ -89,8 +89,8 @@ impl Newton {
                 if imbalance.force.max(imbalance.strain) > self.tolerance.polish {
                     equations.condense(residual);
                     imbalance = correct(equations, &factors, &mut self.correction, u, residual);
-                    if !imbalance.is_finite() {
-                        return Err(NewtonError::NotFinite { history: self.history.clone() });
+                    if !self.tolerance.accepts(&imbalance) {
+                        continue;
                     }
                 }
                 return Ok(NewtonReport { iterations: self.history.len(), imbalance });

@@ -1,5 +1,6 @@
 //! What a run was like, step by step.
 
+use crate::geometry::{Vec2, larger};
 use crate::model::Measures;
 
 /// A row of the history: what was measured at the end of a step, and what the step took.
@@ -36,6 +37,26 @@ impl Invariant {
         ("angular_momentum", Self::AngularMomentum),
         ("gap", Self::Gap),
     ];
+
+    /// Its value: a vector for the momentum, else in the first component.
+    pub fn value(self, row: &Measures) -> Vec2 {
+        match self {
+            Self::Energy => Vec2::new(row.energy.total() - row.work, 0.0),
+            Self::Momentum => row.momentum - row.impulse,
+            Self::AngularMomentum => Vec2::new(row.angular_momentum - row.angular_impulse, 0.0),
+            Self::Gap => Vec2::new(row.gap, 0.0),
+        }
+    }
+
+    /// In words and symbols.
+    pub fn describe(self) -> &'static str {
+        match self {
+            Self::Energy => "energy E - W",
+            Self::Momentum => "momentum p - ∫F dt",
+            Self::AngularMomentum => "angular momentum L - ∫M dt",
+            Self::Gap => "gap of joints",
+        }
+    }
 }
 
 /// A column of the history.
@@ -133,8 +154,13 @@ impl History {
 
     /// The rows between two times, ends included.
     pub fn between(&self, from: f64, to: f64) -> Self {
-        let slack =
-            1e-9 * self.samples.iter().map(|row| row.dt).filter(|dt| *dt > 0.0).fold(1.0, f64::min);
+        let slack = 1e-9
+            * self
+                .samples
+                .iter()
+                .map(|row| row.dt)
+                .filter(|dt| *dt > 0.0)
+                .fold(f64::INFINITY, f64::min);
         let inside =
             |row: &&Sample| row.measures.time >= from - slack && row.measures.time <= to + slack;
         Self {
@@ -159,19 +185,6 @@ impl History {
             self.samples.iter().map(|row| value(&row.measures).abs()).fold(0.0, f64::max)
         };
         let motion = (2.0 * self.mass * largest(&|row| row.energy.kinetic)).sqrt();
-        let change: Box<dyn Fn(&Measures) -> f64> = match invariant {
-            Invariant::Energy => Box::new(move |row| {
-                (row.energy.total() - row.work) - (first.energy.total() - first.work)
-            }),
-            Invariant::Momentum => Box::new(move |row| {
-                ((row.momentum - row.impulse) - (first.momentum - first.impulse)).norm()
-            }),
-            Invariant::AngularMomentum => Box::new(move |row| {
-                (row.angular_momentum - row.angular_impulse)
-                    - (first.angular_momentum - first.angular_impulse)
-            }),
-            Invariant::Gap => Box::new(|row| row.gap),
-        };
         let scale = match invariant {
             Invariant::Energy => largest(&|row| row.energy.kinetic + row.energy.strain)
                 .max(largest(&|row| row.energy.potential - first.energy.potential))
@@ -182,7 +195,11 @@ impl History {
                 .max(largest(&|row| row.angular_impulse - first.angular_impulse)),
             Invariant::Gap => 1.0,
         };
-        let relative = |row: &Sample| match change(&row.measures).abs() {
+        let change = |row: &Measures| match invariant {
+            Invariant::Gap => row.gap,
+            _ => (invariant.value(row) - invariant.value(&first)).norm(),
+        };
+        let relative = |row: &Sample| match change(&row.measures) {
             0.0 => 0.0,
             change => change / scale,
         };
@@ -191,7 +208,6 @@ impl History {
 
     /// The largest of the [`drifts`](Self::drifts); NaN when one is NaN.
     pub fn drift(&self, invariant: Invariant) -> f64 {
-        let larger = |a: f64, b: f64| if a >= b || a.is_nan() { a } else { b };
         self.drifts(invariant).into_iter().fold(0.0, larger)
     }
 }

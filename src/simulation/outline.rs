@@ -1,8 +1,8 @@
 //! How the beams look: lines to draw, and marks at knots or nodes.
 
-use crate::beams::{Mesh, Place, Station};
+use crate::beams::{Mesh, Place};
 use crate::geometry::Vec2;
-use crate::model::Scene;
+use crate::model::{BeamDefinition, ModelError, Scene};
 
 /// Points along each span of a beam of higher degree.
 const POINTS_A_SPAN: usize = 8;
@@ -27,32 +27,30 @@ pub struct Configuration {
 
 impl Outline {
     /// The outlines of the beams of a scene on their meshes.
-    pub fn of_scene(scene: &Scene, meshes: &[Mesh]) -> Vec<Self> {
-        scene
-            .beams
-            .iter()
-            .zip(meshes)
-            .enumerate()
-            .map(|(index, (beam, mesh))| {
-                let place = |xi: f64| {
-                    let ((a, b), (c, d)) = (mesh.basis().domain(), beam.axis.domain());
-                    let along = if xi == b { d } else { c + (xi - a) * (d - c) / (b - a) };
-                    let arc_length = beam.axis.length_to(along).ok()?;
-                    Station { beam: index, arc_length }.place(&beam.axis, mesh).ok()
-                };
-                let pieces = if mesh.basis().degree() == 1 { 1 } else { POINTS_A_SPAN };
-                let within = |pair: &[f64]| {
-                    let (start, end) = (pair[0], pair[1]);
-                    (0..pieces).map(move |i| start + (end - start) * i as f64 / pieces as f64)
-                };
-                let breaks = mesh.basis().breaks();
-                let parameters = breaks.windows(2).flat_map(within).chain(breaks.last().copied());
-                Self {
-                    line: parameters.filter_map(place).collect(),
-                    marks: breaks.iter().copied().filter_map(place).collect(),
-                }
+    ///
+    /// # Errors
+    /// When an axis has a point without a tangent.
+    pub fn of_scene(scene: &Scene, meshes: &[Mesh]) -> Result<Vec<Self>, ModelError> {
+        let of_beam = |(index, (beam, mesh)): (usize, (&BeamDefinition, &Mesh))| {
+            let place = |xi: f64| {
+                Place::at(index, &beam.axis, mesh, xi).map_err(|source| ModelError::Beam {
+                    beam: beam.name.clone(),
+                    source: source.into(),
+                })
+            };
+            let pieces = if mesh.basis().degree() == 1 { 1 } else { POINTS_A_SPAN };
+            let within = |pair: &[f64]| {
+                let (start, end) = (pair[0], pair[1]);
+                (0..pieces).map(move |i| start + (end - start) * i as f64 / pieces as f64)
+            };
+            let breaks = mesh.basis().breaks();
+            let parameters = breaks.windows(2).flat_map(within).chain(breaks.last().copied());
+            Ok(Self {
+                line: parameters.map(place).collect::<Result<_, _>>()?,
+                marks: breaks.iter().copied().map(place).collect::<Result<_, _>>()?,
             })
-            .collect()
+        };
+        scene.beams.iter().zip(meshes).enumerate().map(of_beam).collect()
     }
 
     /// The lines and marks of control points of all beams, one beam after another.

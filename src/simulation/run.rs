@@ -1,5 +1,6 @@
 //! The time loop: steps on the grid, halved and tried again where they fail.
 
+use std::cell::OnceCell;
 use std::time::{Duration, Instant};
 
 use super::{Configuration, History, Outline, Sample, SimulationError, TimeGrid, Trajectory};
@@ -66,7 +67,8 @@ pub struct Simulation {
     history: History,
     trajectory: Trajectory,
     counts: WorkCounts,
-    outlines: Vec<Outline>,
+    /// Made when the first picture asks for them.
+    outlines: OnceCell<Vec<Outline>>,
 }
 
 impl Simulation {
@@ -89,7 +91,6 @@ impl Simulation {
             Trajectory::new(2 * model.control_points().map(<[Vec2]>::len).sum::<usize>());
         trajectory.push(0.0, coordinates(&model));
         let grid = TimeGrid::new(0.0, settings.dt, cuts);
-        let outlines = Outline::of_scene(&scene, model.meshes());
         Ok(Self {
             scene,
             settings,
@@ -99,7 +100,7 @@ impl Simulation {
             history,
             trajectory,
             counts: WorkCounts::default(),
-            outlines,
+            outlines: OnceCell::new(),
         })
     }
 
@@ -287,9 +288,12 @@ impl Simulation {
         self.trajectory.times().iter().enumerate().map(|(index, &time)| (time, at(index))).collect()
     }
 
-    /// The configuration nearest to a time, as it is drawn.
-    pub fn configuration_near(&self, time: f64) -> Option<Configuration> {
-        let index = self.trajectory.nearest(time)?;
+    /// The configuration nearest to a time, as it is drawn; none before there is one.
+    ///
+    /// # Errors
+    /// When an axis has a point without a tangent.
+    pub fn configuration_near(&self, time: f64) -> Result<Option<Configuration>, ModelError> {
+        let Some(index) = self.trajectory.nearest(time) else { return Ok(None) };
         let points: Vec<Vec2> = self
             .trajectory
             .configuration(index)
@@ -306,7 +310,14 @@ impl Simulation {
                 own
             })
             .collect();
-        Some(Outline::draw(&self.outlines, self.trajectory.times()[index], &beams))
+        let outlines = match self.outlines.get() {
+            Some(outlines) => outlines,
+            None => {
+                let outlines = Outline::of_scene(&self.scene, self.model.meshes())?;
+                self.outlines.get_or_init(|| outlines)
+            }
+        };
+        Ok(Some(Outline::draw(outlines, self.trajectory.times()[index], &beams)))
     }
 }
 

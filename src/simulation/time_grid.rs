@@ -19,7 +19,7 @@ impl TimeGrid {
     pub fn new(start: f64, dt: f64, mut cuts: Vec<f64>) -> Self {
         cuts.retain(|cut| cut.is_finite() && *cut > start);
         cuts.sort_by(f64::total_cmp);
-        cuts.dedup();
+        cuts.dedup_by(|later, earlier| *later - *earlier <= SAME * dt);
         Self { start, dt, cuts, passed: 0 }
     }
 
@@ -36,11 +36,11 @@ impl TimeGrid {
         self.start + if is_whole { n as f64 / rate } else { n as f64 * self.dt }
     }
 
-    /// Adds a cut.
+    /// Adds a cut, where there is none yet.
     pub fn cut_at(&mut self, time: f64) {
-        let at = self.cuts.partition_point(|cut| *cut < time);
-        if self.cuts.get(at) != Some(&time) {
-            self.cuts.insert(at, time);
+        let same = SAME * self.dt;
+        if self.cuts.iter().all(|cut| (cut - time).abs() > same) {
+            self.cuts.insert(self.cuts.partition_point(|cut| *cut < time), time);
         }
     }
 
@@ -53,7 +53,8 @@ impl TimeGrid {
         }
         let grid = self.point(passed + 1);
         let cut = self.cuts[self.cuts.partition_point(|cut| *cut <= now + same)..].first();
-        [cut.copied(), Some(limit)].into_iter().flatten().fold(grid, |end, candidate| {
+        // The cut comes last: where it and the limit are one, the schedule must see its own time.
+        [Some(limit), cut.copied()].into_iter().flatten().fold(grid, |end, candidate| {
             if candidate > now && candidate <= end + same { candidate } else { end }
         })
     }
@@ -94,5 +95,6 @@ mod tests {
         assert_eq!(times(1.0, vec![2.5], 4.0), [1.0, 2.0, 2.5, 3.0, 4.0]);
         assert_eq!(times(0.3, vec![0.6], 0.9).len(), 3);
         assert_eq!(times(1.0, vec![], 2.5), [1.0, 2.0, 2.5]);
+        assert_eq!(times(0.1, vec![0.3], 3.0 * 0.1).last(), Some(&0.3));
     }
 }

@@ -20,12 +20,6 @@ fn positions(model: &Model) -> Vec<Vec2> {
     model.control_points().flatten().copied().collect()
 }
 
-pub fn saved(model: &Model) -> Vec<f64> {
-    let mut state = Vec::new();
-    model.save(&mut state);
-    state
-}
-
 /// Advances by increments of a stage, the rates as they are.
 pub fn advance(model: &mut Model, stage: Stage, increments: &[f64]) {
     model.begin_step(STEP).unwrap();
@@ -37,7 +31,7 @@ pub fn advance(model: &mut Model, stage: Stage, increments: &[f64]) {
 
 /// Moves every unknown by itself and watches what happens.
 pub fn unknowns(model: &mut Model) -> Vec<Unknown> {
-    let (state, before) = (saved(model), positions(model));
+    let (state, before) = (model.state(), positions(model));
     let mut increments = vec![0.0; model.unknowns()];
     (0..increments.len())
         .map(|index| {

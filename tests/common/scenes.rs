@@ -15,7 +15,7 @@ pub fn spaghetti_section(stiffness: f64, bending: f64) -> Section {
         axial_stiffness: stiffness,
         shear_stiffness: stiffness,
         bending_stiffness: bending,
-        mass: 1.0,
+        mass_per_length: 1.0,
         rotary_inertia: 10.0,
     }
 }
@@ -25,7 +25,7 @@ fn rod() -> Section {
         axial_stiffness: 2e3,
         shear_stiffness: 8e2,
         bending_stiffness: 30.0,
-        mass: 1.0,
+        mass_per_length: 1.0,
         rotary_inertia: 0.3,
     }
 }

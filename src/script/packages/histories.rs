@@ -4,6 +4,7 @@ use rhai::{Array, Dynamic, INT};
 
 use super::live::HistoryHandle;
 use super::simulations::SPINNING;
+use crate::geometry::{larger, smaller};
 use crate::script::call::Call;
 use crate::script::context::Mode;
 use crate::script::error::ScriptError;
@@ -54,8 +55,8 @@ pub const TABLE: Table = Table {
         .example("sim.step(4);\ncheck(sim.history.column(\"t\").len() == 5);"),
         statistic("first", "The value in the first row.", |call| pick(call, |column| column.first().copied())),
         statistic("last", "The value in the last row.", |call| pick(call, |column| column.last().copied())),
-        statistic("largest", "The largest value.", |call| pick(call, |column| column.into_iter().reduce(f64::maximum_or_nan))),
-        statistic("smallest", "The smallest value.", |call| pick(call, |column| column.into_iter().reduce(f64::minimum_or_nan))),
+        statistic("largest", "The largest value.", |call| pick(call, |column| column.into_iter().reduce(larger))),
+        statistic("smallest", "The smallest value.", |call| pick(call, |column| column.into_iter().reduce(smaller))),
         property(HISTORY, "rows", |call| {
             let rows = call.receiver::<HistoryHandle>()?.read(|history| history.samples().len());
             Ok(Dynamic::from(rows as INT))
@@ -90,21 +91,6 @@ pub const COLUMN_NAMES: &[&str] = &[
 const T: Parameter = number("t").unit("time");
 const COLUMN: Parameter = choice("column", COLUMN_NAMES);
 
-/// Extremes in which a lost value is not overlooked.
-trait Extreme {
-    fn maximum_or_nan(self, other: Self) -> Self;
-    fn minimum_or_nan(self, other: Self) -> Self;
-}
-
-impl Extreme for f64 {
-    fn maximum_or_nan(self, other: Self) -> Self {
-        if self >= other || self.is_nan() { self } else { other }
-    }
-    fn minimum_or_nan(self, other: Self) -> Self {
-        if self <= other || self.is_nan() { self } else { other }
-    }
-}
-
 const fn statistic(
     name: &'static str,
     summary: &'static str,
@@ -126,16 +112,15 @@ fn window(
 
 fn drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let name = call.text("invariant")?;
-    let of = Invariant::ALL
-        .iter()
-        .find(|(other, _)| *other == name.as_str())
-        .map_or(Invariant::Energy, |(_, of)| *of);
-    Ok(call.receiver::<HistoryHandle>()?.read(|history| history.drift(of)).into())
+    let known = Invariant::ALL.iter().find(|(other, _)| *other == name.as_str());
+    let (_, invariant) = known.ok_or_else(|| ScriptError::bug(format!("no invariant '{name}'")))?;
+    Ok(call.receiver::<HistoryHandle>()?.read(|history| history.drift(*invariant)).into())
 }
 
 fn column(call: &Call) -> Result<Vec<f64>, ScriptError> {
     let name = call.text("column")?;
-    Ok(call.receiver::<HistoryHandle>()?.read(|history| history.column(&name)).unwrap_or_default())
+    let column = call.receiver::<HistoryHandle>()?.read(|history| history.column(&name));
+    column.ok_or_else(|| ScriptError::bug(format!("no column '{name}'")))
 }
 
 fn pick(call: &Call, pick: fn(Vec<f64>) -> Option<f64>) -> Result<Dynamic, ScriptError> {

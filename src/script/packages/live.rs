@@ -6,6 +6,7 @@ use std::rc::Rc;
 use rhai::{Dynamic, FnPtr};
 use serde_json::{Value, json};
 
+use super::scenes::SceneHandle;
 use crate::script::call::Call;
 use crate::script::context::{Context, Mode};
 use crate::script::error::ScriptError;
@@ -19,6 +20,7 @@ pub struct SimulationHandle(Rc<Live>);
 
 struct Live {
     name: String,
+    scene: SceneHandle,
     simulation: RefCell<Simulation>,
     events: RefCell<Vec<(f64, FnPtr)>>,
     /// In a dry build only this clock runs.
@@ -45,9 +47,15 @@ impl Monitor for Watch<'_> {
 
 impl SimulationHandle {
     /// A handle on a simulation at its start; it will be in the report of the run.
-    pub fn new(simulation: Simulation, name: String, context: &Context) -> Self {
+    pub fn new(
+        simulation: Simulation,
+        scene: SceneHandle,
+        name: String,
+        context: &Context,
+    ) -> Self {
         let live = Live {
             name,
+            scene,
             clock: Cell::new(simulation.time()),
             simulation: RefCell::new(simulation),
             events: RefCell::default(),
@@ -61,6 +69,11 @@ impl SimulationHandle {
     /// The simulation itself.
     pub fn simulation(&self) -> Ref<'_, Simulation> {
         self.0.simulation.borrow()
+    }
+
+    /// The scene that was started.
+    pub fn scene(&self) -> &SceneHandle {
+        &self.0.scene
     }
 
     /// Its name.

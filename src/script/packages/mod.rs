@@ -4,6 +4,7 @@ mod arrays;
 mod checking;
 pub mod geometry;
 mod histories;
+mod integrators;
 mod live;
 mod loads;
 mod math;
@@ -29,7 +30,7 @@ pub const TABLES: &[&Table] = &[
     &checking::TABLE,
     &sections::TABLE,
     &schedules::TABLE,
-    &schedules::INTEGRATOR_TABLE,
+    &integrators::TABLE,
     &scenes::TABLE,
     &loads::TABLE,
     &simulations::TABLE,

@@ -146,7 +146,7 @@ fn motion(
         .beams(simulation.scene().beams.iter().map(|beam| beam.name.clone()));
     let plain = |point: &crate::geometry::Vec2| (point.x, point.y);
     for index in 0..=count.max(0.0) as usize {
-        if let Some(configuration) = simulation.configuration_near(from + index as f64 * every) {
+        if let Some(configuration) = simulation.configuration_near(from + index as f64 * every)? {
             picture = picture.snapshot(Snapshot {
                 time: configuration.time,
                 lines: configuration

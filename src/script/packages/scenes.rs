@@ -216,16 +216,12 @@ impl StationHandle {
     /// Its place in a simulation, if that is one of its scene.
     pub fn on(&self, handle: &SimulationHandle) -> Result<beams::Place, ScriptError> {
         let simulation = handle.simulation();
-        let known = simulation.scene().beams.get(self.station.beam);
-        let same = known
-            .is_some_and(|beam| beam.axis == self.scene.0.borrow().beams[self.station.beam].axis);
-        if !same {
-            let name = &simulation.scene().name;
-            return Err(ScriptError::new(format!(
-                "{} is not in the simulated scene '{name}'",
-                self.show()
-            ))
-            .hint("use a station of a beam that was in the scene when it was started"));
+        handle.scene().own(self)?;
+        if self.station.beam >= simulation.scene().beams.len() {
+            let told = format!("{} was added after the scene was started", self.show());
+            return Err(
+                ScriptError::new(told).hint("add all beams before scene.start(…), or start again")
+            );
         }
         Ok(simulation.place(&self.station)?)
     }
@@ -284,7 +280,6 @@ pub(super) fn here(call: &Call, name: &str) -> Result<(Station, Rc<RefCell<Scene
 fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let options = call.options("options")?;
-    let count = scene.0.borrow().beams.len();
     let named = options.text("name").map(|name| name.to_string());
     let mesh = match mesh_of(&options, "basis") {
         Some(mesh) => mesh,
@@ -300,7 +295,7 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
         about: if options.has("about") { Some(options.point("about")?) } else { None },
     };
     let definition = BeamDefinition {
-        name: named.unwrap_or_else(|_| format!("beam{}", count + 1)),
+        name: named.unwrap_or_else(|_| scene.0.borrow().free_name()),
         axis: Curve::clone(&*options.get::<Rc<Curve>>("axis")?),
         mesh,
         section: options.get("section")?,

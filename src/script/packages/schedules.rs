@@ -1,10 +1,9 @@
-//! Schedules of loads and integrators.
+//! Schedules of loads.
 
 use std::rc::Rc;
 
 use rhai::{Dynamic, FnPtr};
 
-use crate::integrators::Method;
 use crate::loads::{Schedule, Side};
 use crate::script::arguments::Arguments;
 use crate::script::call::Call;
@@ -13,7 +12,7 @@ use crate::script::kind::{Kind, Range, Scripted, Type};
 use crate::script::parameter::{Parameter, Presence, array, callback, number, numbers, object};
 use crate::script::table::{Table, function, method, operator};
 
-/// Schedules and integrators.
+/// Schedules.
 pub const TABLE: Table = Table {
     name: "schedules",
     doc: "A schedule is a factor over time that multiplies a load. Steps end where a schedule jumps or bends.",
@@ -99,35 +98,8 @@ pub const TABLE: Table = Table {
     ],
 };
 
-/// Integrators, from their registry.
-pub const INTEGRATOR_TABLE: Table = Table {
-    name: "integrators",
-    doc: "Ways to take a step. A scene is started with one: scene.start(#{ integrator: energy_momentum(), dt: 0.1 }).",
-    types: &[INTEGRATOR],
-    setup: "",
-    constants: &[],
-    rows: &[
-        function("energy_momentum", &[], |_| Ok(Dynamic::from(Method::EnergyMomentum)))
-            .returns("an integrator")
-            .summary("Keeps energy and both momenta to rounding, at any step size; the default.")
-            .doc("Second order. Stander & Stein, Eng. Comput. 13 (1996) 60-85.")
-            .example("print(energy_momentum());")
-            .see(&["trapezoidal", "start"]),
-        function("trapezoidal", &[], |_| Ok(Dynamic::from(Method::Trapezoidal)))
-            .returns("an integrator")
-            .summary(
-                "Newmark's method with β = 1/4, γ = 1/2; its energy wanders in nonlinear problems.",
-            )
-            .doc("Second order. Newmark, J. Eng. Mech. Div. ASCE 85 (1959) 67-94.")
-            .example("print(trapezoidal());")
-            .see(&["energy_momentum"]),
-    ],
-};
-
 /// The schedule type, for other domains.
 pub const SCHEDULE: Type = Type::of::<Schedule>();
-/// The integrator type, for other domains.
-pub const INTEGRATOR: Type = Type::of::<Method>();
 /// What may stand for a schedule: one, a number that is constant, or a function of time.
 pub const SCHEDULE_KINDS: &[Kind] =
     &[Kind::Object(SCHEDULE), Kind::Number(Range::Finite), Kind::Function];
@@ -144,16 +116,6 @@ impl Scripted for Schedule {
 
     fn show(&self) -> String {
         self.describe()
-    }
-}
-
-impl Scripted for Method {
-    const NAME: &'static str = "integrator";
-    const DOC: &'static str = "A way to take steps.";
-
-    fn show(&self) -> String {
-        let entry = self.entry();
-        format!("{}: {}", entry.name, entry.summary)
     }
 }
 
@@ -209,25 +171,5 @@ pub(super) fn schedule_of(
     match (arguments.get_if::<FnPtr>(name), arguments.number_if_given(name)) {
         (Some(function), _) => stored(call, function, Vec::new()),
         (None, factor) => Ok(Schedule::constant(factor.unwrap_or(1.0))?),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::integrators::INTEGRATORS;
-
-    #[test]
-    fn every_integrator_of_the_registry_has_a_row_that_cites_its_source() {
-        for entry in INTEGRATORS {
-            let row = INTEGRATOR_TABLE.rows.iter().find(|row| row.name == entry.name).unwrap();
-            assert!(
-                row.doc.contains(entry.source),
-                "{}: {} / {}",
-                entry.name,
-                row.doc,
-                entry.source
-            );
-        }
     }
 }

@@ -51,7 +51,7 @@ pub const TABLE: Table = Table {
             .returns("a number")
             .summary("The bending stiffness [force·length²].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.EI == 100);"),
-        property(SECTION, "rho_A", |call| Ok(call.receiver::<Section>()?.mass.into()))
+        property(SECTION, "rho_A", |call| Ok(call.receiver::<Section>()?.mass_per_length.into()))
             .returns("a number")
             .summary("The mass per length [mass/length].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.rho_A == 1);"),
@@ -142,7 +142,7 @@ impl Scripted for Section {
             self.axial_stiffness,
             self.shear_stiffness,
             self.bending_stiffness,
-            self.mass,
+            self.mass_per_length,
             self.rotary_inertia,
         ]
         .map(format_number);
@@ -178,7 +178,7 @@ fn from_numbers(options: &Options) -> Result<Section, ScriptError> {
         axial_stiffness: required(options, "EA")?,
         shear_stiffness: required(options, "GA")?,
         bending_stiffness: required(options, "EI")?,
-        mass: required(options, "rho_A")?,
+        mass_per_length: required(options, "rho_A")?,
         rotary_inertia: required(options, "rho_I")?,
     };
     section.validated().map_err(blamed)

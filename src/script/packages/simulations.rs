@@ -2,9 +2,9 @@
 
 use rhai::{Dynamic, INT};
 
+use super::integrators::INTEGRATOR;
 use super::live::{Goal, HistoryHandle, SimulationHandle};
 use super::scenes::{SCENE, STATION, SceneHandle, StationHandle};
-use super::schedules::INTEGRATOR;
 use crate::beams::Place;
 use crate::integrators::Method;
 use crate::model::Measures;
@@ -170,17 +170,12 @@ impl Scripted for Invariants {
     const DOC: &'static str = "How well energy, momenta and gap were kept.";
 
     fn show(&self) -> String {
-        let m = &self.measures;
-        let momentum = m.momentum - m.impulse;
-        let values = [
-            ("energy E - W", m.energy.total() - m.work),
-            ("momentum p - ∫F dt", momentum.norm()),
-            ("angular momentum L - ∫M dt", m.angular_momentum - m.angular_impulse),
-            ("gap of joints", m.gap),
-        ];
         let mut table = TextTable::new(&["invariant", "value", "largest change"]);
-        for ((name, value), drift) in values.into_iter().zip(self.drifts) {
-            let cells = [name.to_owned(), scientific(value, 7), scientific(drift, 2)];
+        for ((_, invariant), drift) in Invariant::ALL.iter().zip(self.drifts) {
+            let value = invariant.value(&self.measures);
+            let shown = if *invariant == Invariant::Momentum { value.norm() } else { value.x };
+            let cells =
+                [invariant.describe().to_owned(), scientific(shown, 7), scientific(drift, 2)];
             let [name, numbers @ ..] = cells;
             table.row([Cell::Text(name)].into_iter().chain(numbers.map(Cell::Number)));
         }
@@ -209,7 +204,8 @@ const fn count(name: &'static str, body: crate::script::table::Body) -> Row {
 }
 
 fn start(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let scene = call.receiver::<SceneHandle>()?.scene().borrow().clone();
+    let handle = call.receiver::<SceneHandle>()?;
+    let scene = handle.scene().borrow().clone();
     let options = call.options("options")?;
     let settings = Settings {
         method: options.get_if::<Method>("integrator").unwrap_or_default(),
@@ -218,7 +214,7 @@ fn start(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let name = options.text("name").map_or_else(|_| scene.name.clone(), |name| name.to_string());
     let simulation = Simulation::start(scene, settings)?;
-    Ok(Dynamic::from(SimulationHandle::new(simulation, name, call.context())))
+    Ok(Dynamic::from(SimulationHandle::new(simulation, handle, name, call.context())))
 }
 
 fn measures(handle: &SimulationHandle) -> Measures {
