@@ -36,10 +36,10 @@ fn flying_beam(spans: usize) -> Model {
     };
     let rod = scene.add_beam(beam).unwrap();
     let station = scene.station(rod, length).unwrap();
-    let always = Schedule::constant(1.0).unwrap();
+    let push = Schedule::hold_for(2.5).unwrap();
     let force = LoadKind::Force { station, force: Vec2::new(8.0, 0.0), frame: Frame::Dead };
-    scene.add_load(force, always.clone());
-    scene.add_load(LoadKind::Moment { station, moment: -80.0 }, always);
+    scene.add_load(force, push.clone());
+    scene.add_load(LoadKind::Moment { station, moment: -80.0 }, push);
     Model::assemble(&scene).unwrap()
 }
 
