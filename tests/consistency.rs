@@ -1,4 +1,5 @@
 //! One checker for every mesh, joint, mass and load: forces, their derivatives, energies and inertia fit together.
+#![allow(clippy::unwrap_used)]
 
 mod common;
 

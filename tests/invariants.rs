@@ -1,4 +1,5 @@
 //! What every integrator claims to keep, on every mesh and scene; and that what is not claimed is not kept.
+#![allow(clippy::unwrap_used)]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! The walls: which layer may use which, and that a file stays one idea.
+#![allow(clippy::unwrap_used)]
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,5 @@
 //! Small vibration: frequencies of exact solutions, and no modes that should not be there.
+#![allow(clippy::unwrap_used)]
 
 mod common;
 

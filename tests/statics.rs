@@ -1,4 +1,5 @@
 //! Equilibrium of cantilevers: roll-up, elastica, Reissner's cantilever, and an arc that unrolls.
+#![allow(clippy::unwrap_used)]
 
 mod common;
 
@@ -63,7 +64,13 @@ fn a_cantilever_closes_to_a_circle_with_three_iterations_a_load_step() {
         let errors = [(4, 2e-2), (8, 1.5e-3), (16, 5e-5)].map(|(spans, design)| {
             let scene = clamped(straight(), &smooth(spans), section(stiffness, stiffness));
             let tip = load_tip(scene, Vec2::zeros(), moment, 8);
-            println!("circle, EA = {stiffness:e}, {spans:2} spans: tip off by {:.2e} (design: {design:e}), angle by {:.1e}, {} iterations", tip.position.norm(), tip.angle - TAU, tip.iterations);
+            println!(
+                "circle, EA = {stiffness:e}, {spans:2} spans: \
+                 tip off by {:.2e} (design: {design:e}), angle by {:.1e}, {} iterations",
+                tip.position.norm(),
+                tip.angle - TAU,
+                tip.iterations
+            );
             assert!(tip.position.norm() < 1.2 * design, "{spans} spans: {}", tip.position);
             assert!((tip.angle - TAU).abs() < 1e-10 && tip.iterations <= 3);
             tip.position.norm()
@@ -96,7 +103,12 @@ fn the_elastica_is_met_at_third_order() {
         let scene = clamped(straight(), &smooth(spans), section(1e10, 1e10));
         let tip = load_tip(scene, at(0.0, 10.0 * BENDING / LENGTH.powi(2)), 0.0, 8);
         let error = (tip.position - exact).norm() / LENGTH;
-        println!("elastica, {spans} spans: tip off by {error:.1e} (design: {design:e}), angle by {:.1e}, {} iterations", tip.angle - number(&case["theta_L"]), tip.iterations);
+        println!(
+            "elastica, {spans} spans: \
+             tip off by {error:.1e} (design: {design:e}), angle by {:.1e}, {} iterations",
+            tip.angle - number(&case["theta_L"]),
+            tip.iterations
+        );
         error
     });
     println!("elastica: {} orders {:.2?}", sci(&errors), orders(&errors));
@@ -131,7 +143,8 @@ fn a_quarter_arc_unrolls_to_a_line() {
         let error = (tip.position - at(LENGTH, 0.0)).norm();
         let expected = 0.5 * BENDING * LENGTH / radius.powi(2);
         println!(
-            "{name:24} unrolled: tip off by {error:.1e}, angle by {:.1e}, strain energy by {:.1e}",
+            "{name:24} unrolled: tip off by {error:.1e}, \
+             angle by {:.1e}, strain energy by {:.1e}",
             tip.angle,
             tip.strain_energy / expected - 1.0
         );

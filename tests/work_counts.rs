@@ -1,4 +1,5 @@
 //! The work of named benchmarks, pinned: a change of it must be meant.
+#![allow(clippy::unwrap_used)]
 
 mod common;
 

@@ -1,5 +1,5 @@
 //! What several test files need: scenes, meshes, reference tables, random numbers.
-#![allow(dead_code)]
+#![allow(dead_code, clippy::unwrap_used)]
 
 pub mod probe;
 pub mod reference;

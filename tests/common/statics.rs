@@ -32,7 +32,8 @@ impl Equations for Balance<'_> {
     }
 }
 
-/// Follows the equilibrium under the loads of the model from t = 0 to 1, balanced to rounding of a force `scale`; returns the most iterations of a step.
+/// Follows the equilibrium under the loads of the model from t = 0 to 1, forces balanced relative to `scale`; returns
+/// the most iterations of a step.
 pub fn load_up(model: &mut Model, steps: usize, scale: f64) -> usize {
     let mut newton = Newton::new(model.unknowns(), model.half_bandwidth(), Tolerance::default());
     let mut residual = vec![0.0; model.degrees_of_freedom()];
