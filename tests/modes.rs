@@ -46,7 +46,7 @@ fn cases() -> Vec<Case> {
                     axial_stiffness,
                     shear_stiffness,
                     bending_stiffness,
-                    mass,
+                    mass_per_length: mass,
                     rotary_inertia,
                 },
                 free: case["bc"] == "free-free",
@@ -61,7 +61,8 @@ fn cases() -> Vec<Case> {
 fn vibrate(case: &Case, mesh: &Mesh) -> (usize, Vec<f64>, Vec<f64>) {
     let scene = if case.free { scenes::free_beam } else { scenes::cantilever };
     let found = frequencies(&scene(mesh, case.section));
-    let zeros = found.iter().filter(|f| **f < 2e-3 * case.flexural[0]).count();
+    // Rounding leaves a zero mode of a slender beam at some thousandths of its first frequency.
+    let zeros = found.iter().filter(|f| **f < 5e-2 * case.flexural[0]).count();
     let error = |exact: &f64| found.iter().map(|f| (f / exact - 1.0).abs()).fold(1.0, f64::min);
     (zeros, case.flexural.iter().map(error).collect(), case.axial.iter().map(error).collect())
 }
