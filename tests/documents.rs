@@ -7,17 +7,23 @@ use withy::script::context::{Mode, Settings};
 use withy::script::program::Program;
 use withy::script::runner::{Ending, run};
 
-/// The fenced blocks of a language, with the line they begin at.
-fn blocks(text: &str, language: &str) -> Vec<(usize, String)> {
-    let (mut blocks, mut current): (Vec<(usize, String)>, Option<(usize, String)>) =
-        (Vec::new(), None);
+/// A fenced block, and the line of its document that it begins at.
+struct Block {
+    line: usize,
+    text: String,
+}
+
+/// The fenced blocks of a language.
+fn blocks(text: &str, language: &str) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    let mut current: Option<Block> = None;
     for (number, line) in text.lines().enumerate() {
         match (&mut current, line.trim_start()) {
             (None, fence) if fence.strip_prefix("```") == Some(language) => {
-                current = Some((number + 2, String::new()))
+                current = Some(Block { line: number + 2, text: String::new() });
             }
             (Some(_), fence) if fence.starts_with("```") => blocks.extend(current.take()),
-            (Some((_, block)), _) => *block += &format!("{line}\n"),
+            (Some(block), _) => block.text += &format!("{line}\n"),
             _ => {}
         }
     }
@@ -35,11 +41,11 @@ fn every_block_of_rhai_in_the_documents_runs() {
         .collect();
     let mut count = 0;
     for document in documents {
-        for (line, block) in blocks(&std::fs::read_to_string(&document).unwrap(), "rhai") {
-            let name = format!("{}:{line}", document.display());
+        for block in blocks(&std::fs::read_to_string(&document).unwrap(), "rhai") {
+            let name = format!("{}:{}", document.display(), block.line);
             let out = tempfile::tempdir().unwrap();
             let settings = Settings { out: out.path().to_owned(), ..Settings::silent(Mode::Run) };
-            let outcome = run(&Program::named(&name, &block), &Catalog::standard(), settings);
+            let outcome = run(&Program::named(&name, &block.text), &Catalog::standard(), settings);
             assert!(matches!(outcome.ending, Ending::Finished), "{name}: {:?}", outcome.ending);
             assert_eq!(outcome.checks.failed(), [], "{name}");
             count += 1;
