@@ -1,5 +1,7 @@
 //! Every `rhai` block of the README and of `docs/` runs, and its checks pass.
 
+#![allow(clippy::unwrap_used)]
+
 use std::path::Path;
 
 use withy::script::catalog::Catalog;
