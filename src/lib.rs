@@ -1,4 +1,4 @@
-//! withy: planar dynamics of flexible beams that slide on each other, and the language to script it.
+//! withy: planar dynamics of flexible beams, and the language to script it.
 //!
 //! Layers, each using only those to its right:
 //!

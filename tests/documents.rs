@@ -55,3 +55,17 @@ fn every_block_of_rhai_in_the_documents_runs() {
     }
     assert!(count > 0, "the README has an example");
 }
+
+#[test]
+fn the_language_reference_is_up_to_date() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/language.md");
+    let current = withy::script::reference::reference(&Catalog::standard());
+    if std::env::var_os("WITHY_UPDATE").is_some() {
+        std::fs::write(&path, &current).unwrap();
+    }
+    let written = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(
+        written == current,
+        "docs/language.md is old: run WITHY_UPDATE=1 cargo test --test documents"
+    );
+}

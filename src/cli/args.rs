@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-/// Planar dynamics of flexible beams that slide on each other, scripted.
+/// Planar dynamics of flexible beams, scripted.
 #[derive(Parser)]
 #[command(version, after_help = EXIT_CODES)]
 pub struct Arguments {

@@ -23,6 +23,7 @@ pub mod packages;
 pub mod parameter;
 pub mod program;
 pub mod progress;
+pub mod reference;
 pub mod register;
 pub mod runner;
 pub mod stored;
