@@ -8,6 +8,7 @@ use std::sync::atomic::Ordering;
 use rhai::Dynamic;
 use withy::script::call::Call;
 use withy::script::catalog::Catalog;
+use withy::script::context::Reporter;
 use withy::script::context::{Mode, Settings};
 use withy::script::diagnose::Diagnostic;
 use withy::script::error::ScriptError;
@@ -120,7 +121,7 @@ fn mesh(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 fn work(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    call.context().add_reporter(Box::new(|| serde_json::json!({ "name": "work" })));
+    call.context().add_reporter(Box::new(Work));
     call.context().interrupt_flag().store(true, Ordering::Relaxed);
     loop {
         call.proceed()?;
@@ -287,4 +288,17 @@ fn signatures_show_what_may_be_left_out() {
     assert_eq!(signature("pull").as_deref(), Some("spring.pull(force, [times])"));
     assert_eq!(signature("spring").as_deref(), Some("spring(options)"));
     assert_eq!(signature("length").as_deref(), Some("spring.length"));
+}
+
+/// Something that ran.
+struct Work;
+
+impl Reporter for Work {
+    fn report(&self) -> serde_json::Value {
+        serde_json::json!({ "name": "work" })
+    }
+
+    fn remains(&self) -> Option<(String, String)> {
+        None
+    }
 }

@@ -107,7 +107,7 @@ fn refusal(engine: &Engine, owner: &str, parameter: &Parameter, value: &Dynamic)
 fn first_wrong_element(kind: &Kind, value: &Dynamic) -> Option<(usize, Dynamic)> {
     let array = value.read_lock::<Array>()?;
     let wrong = |element: &Dynamic| match kind {
-        Kind::Numbers => !as_number(element).is_some_and(f64::is_finite),
+        Kind::Numbers | Kind::Point => !as_number(element).is_some_and(f64::is_finite),
         Kind::Points => as_point(element).is_none(),
         _ => false,
     };

@@ -1,6 +1,7 @@
 //! What all native calls of one run share: where output goes, what was checked, whether to go on.
 
 use std::cell::{Cell, RefCell};
+use std::collections::HashSet;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::rc::Rc;
@@ -53,8 +54,14 @@ impl Settings {
     }
 }
 
-/// What a simulation says about itself in the report, asked when the run ends, however it ends.
-pub type Reporter = Box<dyn Fn() -> serde_json::Value>;
+/// Something that has gone through a run and can tell of it, such as a simulation.
+pub trait Reporter {
+    /// What it says about itself in the report, asked when the run ends, however it ends.
+    fn report(&self) -> serde_json::Value;
+
+    /// A name and the content of a file that keeps what would be lost when the script does not come to its end.
+    fn remains(&self) -> Option<(String, String)>;
+}
 
 /// A cheap handle on the state of one run.
 #[derive(Clone)]
@@ -69,7 +76,7 @@ struct Shared {
     progress: Box<dyn Progress + Send>,
     output: OutputFolder,
     checks: RefCell<Checks>,
-    reporters: RefCell<Vec<Reporter>>,
+    reporters: RefCell<Vec<Box<dyn Reporter>>>,
     callback_error: RefCell<Option<Box<EvalAltResult>>>,
 }
 
@@ -169,12 +176,29 @@ impl Context {
     }
 
     /// Adds a simulation to the report.
-    pub fn add_reporter(&self, reporter: Reporter) {
+    pub fn add_reporter(&self, reporter: Box<dyn Reporter>) {
         self.0.reporters.borrow_mut().push(reporter);
+    }
+
+    /// Writes what would be lost of the simulations, after a script that did not come to its end.
+    pub fn save_remains(&self) {
+        let reporters = self.0.reporters.borrow();
+        let mut names = HashSet::new();
+        for (number, (name, content)) in
+            reporters.iter().filter_map(|reporter| reporter.remains()).enumerate()
+        {
+            let name = if names.contains(&name) { format!("{}-{name}", number + 1) } else { name };
+            if let Err(ScriptError::Failure(failure)) =
+                self.output().write(&name, content.as_bytes())
+            {
+                self.tell(&failure.message);
+            }
+            names.insert(name);
+        }
     }
 
     /// What all simulations of the run say about themselves; they are let go.
     pub fn report(&self) -> Vec<serde_json::Value> {
-        self.0.reporters.take().into_iter().map(|reporter| reporter()).collect()
+        self.0.reporters.take().into_iter().map(|reporter| reporter.report()).collect()
     }
 }

@@ -166,9 +166,10 @@ impl fmt::Display for Kind {
     }
 }
 
-/// `noun` with its article: `a vector`, `an array`.
+/// `noun` with its article: `a vector`, `an array`; plurals such as `knots` have none.
 pub fn with_article(noun: &str) -> String {
     match noun.chars().next() {
+        _ if noun.ends_with('s') => noun.to_owned(),
         Some('a' | 'e' | 'i' | 'o' | 'A' | 'E' | 'I' | 'O') => format!("an {noun}"),
         _ => format!("a {noun}"),
     }

@@ -78,6 +78,9 @@ fn run_here(program: &Program, catalog: &Catalog, settings: Settings) -> Outcome
     let ending = panic::catch_unwind(AssertUnwindSafe(|| evaluate(program, catalog, &context)))
         .unwrap_or_else(|panic| Ending::Failed(Diagnostic::bug(panic_message(&*panic))));
     context.progress().end();
+    if !matches!(ending, Ending::Finished) {
+        context.save_remains();
+    }
     context.flush();
     Outcome {
         ending: if context.is_pipe_closed() { Ending::PipeClosed } else { ending },

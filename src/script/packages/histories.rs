@@ -2,8 +2,8 @@
 
 use rhai::{Array, Dynamic, INT};
 
-use super::live::HistoryHandle;
 use super::simulations::SPINNING;
+use super::windows::HistoryHandle;
 use crate::geometry::{larger, smaller};
 use crate::script::call::Call;
 use crate::script::context::Mode;

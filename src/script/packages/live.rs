@@ -4,7 +4,6 @@ use std::cell::{Cell, Ref, RefCell};
 use std::rc::Rc;
 
 use rhai::{Dynamic, FnPtr};
-use serde_json::{Value, json};
 
 use super::scenes::SceneHandle;
 use crate::script::call::Call;
@@ -12,7 +11,7 @@ use crate::script::context::{Context, Mode};
 use crate::script::error::ScriptError;
 use crate::script::kind::Scripted;
 use crate::script::numbers::format_number;
-use crate::simulation::{History, Invariant, Monitor, Simulation, SimulationError};
+use crate::simulation::{Monitor, Simulation, SimulationError};
 
 /// A running simulation; clones are the same one.
 #[derive(Clone)]
@@ -61,8 +60,7 @@ impl SimulationHandle {
             events: RefCell::default(),
         };
         let handle = Self(Rc::new(live));
-        let reported = handle.clone();
-        context.add_reporter(Box::new(move || reported.report()));
+        context.add_reporter(Box::new(handle.clone()));
         handle
     }
 
@@ -167,45 +165,6 @@ impl SimulationHandle {
             let _ = call.invoke(&function, [Dynamic::from(self.clone())])?;
         }
     }
-
-    fn report(&self) -> Value {
-        let simulation = self.simulation();
-        let (counts, history, settings) =
-            (simulation.counts(), simulation.history(), simulation.settings());
-        let energy = history.samples().last().map(|row| row.measures.energy).unwrap_or_default();
-        let (scene, model) = (simulation.scene(), simulation.model());
-        let points = |(x, y): (f64, f64), angle: f64| json!({ "x": x, "y": y, "angle": angle });
-        let ends = scene.beams.iter().zip(model.control_points()).enumerate().map(|(index, (beam, controls))| {
-            let (start, end) = model.end_angles(index);
-            let at = |point: Option<&crate::geometry::Vec2>| point.map_or((f64::NAN, f64::NAN), |point| (point.x, point.y));
-            (beam.name.clone(), json!({ "start": points(at(controls.first()), start), "end": points(at(controls.last()), end) }))
-        });
-        let basis: Vec<String> = model.meshes().iter().map(|mesh| mesh.describe()).collect();
-        let drift: serde_json::Map<String, Value> = Invariant::ALL
-            .iter()
-            .map(|(name, of)| ((*name).to_owned(), json!(history.drift(*of))))
-            .collect();
-        json!({
-            "name": self.0.name,
-            "steps": counts.steps,
-            "newton_iterations": counts.newton_iterations,
-            "newton_max": counts.newton_max,
-            "factorisations": counts.factorisations,
-            "retries": counts.retries,
-            "wall_s": counts.wall.as_secs_f64(),
-            "unknowns": simulation.unknowns(),
-            "half_bandwidth": simulation.half_bandwidth(),
-            "basis": basis.join("; "),
-            "integrator": settings.method.entry().name,
-            "dt": settings.dt,
-            "t": simulation.time(),
-            "drift": drift,
-            "energy": {
-                "kinetic": energy.kinetic, "strain": energy.strain, "potential": energy.potential, "total": energy.total(),
-            },
-            "ends": ends.collect::<serde_json::Map<_, _>>(),
-        })
-    }
 }
 
 /// An error of a run in the words of the script: interrupts stay interrupts, errors of closures keep their place.
@@ -238,58 +197,6 @@ impl Scripted for SimulationHandle {
             settings.method.entry().name,
             format_number(settings.dt),
             simulation.unknowns(),
-        )
-    }
-}
-
-/// A part of the history of a simulation; it grows with it.
-#[derive(Clone)]
-pub struct HistoryHandle {
-    /// Whose history it is.
-    pub of: SimulationHandle,
-    /// First time.
-    pub from: f64,
-    /// Last time.
-    pub to: f64,
-}
-
-impl HistoryHandle {
-    /// Reads the rows.
-    pub fn read<T>(&self, read: impl FnOnce(&History) -> T) -> T {
-        let simulation = self.of.simulation();
-        let all = simulation.history();
-        if self.from == f64::NEG_INFINITY && self.to == f64::INFINITY {
-            read(all)
-        } else {
-            read(&all.between(self.from, self.to))
-        }
-    }
-
-    /// The part of it between two times.
-    pub fn between(&self, from: f64, to: f64) -> Self {
-        Self { of: self.of.clone(), from: self.from.max(from), to: self.to.min(to) }
-    }
-}
-
-impl Scripted for HistoryHandle {
-    const NAME: &'static str = "history";
-    const DOC: &'static str = "What a simulation was like, step by step.";
-
-    fn show(&self) -> String {
-        let (rows, first, last) = self.read(|history| {
-            let time = |row: Option<&crate::simulation::Sample>| {
-                row.map_or(f64::NAN, |row| row.measures.time)
-            };
-            (
-                history.samples().len(),
-                time(history.samples().first()),
-                time(history.samples().last()),
-            )
-        });
-        format!(
-            "history of {rows} rows from t = {} to {}",
-            format_number(first),
-            format_number(last)
         )
     }
 }

@@ -9,12 +9,14 @@ mod live;
 mod loads;
 mod math;
 mod pictures;
+mod report;
 mod scenes;
 mod schedules;
 mod sections;
 mod simulations;
 mod text;
 mod vectors;
+mod windows;
 
 use super::table::Table;
 

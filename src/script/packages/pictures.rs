@@ -5,9 +5,11 @@ use std::path::Path;
 use rhai::{Array, Dynamic};
 
 use super::histories::{COLUMN_NAMES, HISTORY};
-use super::live::{HistoryHandle, SimulationHandle};
+use super::live::SimulationHandle;
+use super::report::history_table;
 use super::scenes::StationHandle;
 use super::simulations::{SIMULATION, SPINNING};
+use super::windows::HistoryHandle;
 use crate::output::{
     CsvTable, LineChart, MotionPicture, Page, Panel, PictureKind, Scale, Series, Snapshot,
 };
@@ -277,13 +279,7 @@ fn write_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let [of] = things(call, as_history)?
         .try_into()
         .map_err(|_| call.error("takes one simulation or history"))?;
-    let table = of.read(|history| {
-        let table = CsvTable::new().comment(format!("simulation: {}", of.of.name()));
-        History::COLUMNS.iter().fold(table, |table, column| {
-            let values = history.samples().iter().map(column.value).collect();
-            table.column(format!("{} [{}]", column.name, column.dimension), values)
-        })
-    });
+    let table = of.read(|history| history_table(of.of.name(), history));
     write_csv(call, table)
 }
 

@@ -3,8 +3,9 @@
 use rhai::{Dynamic, INT};
 
 use super::integrators::INTEGRATOR;
-use super::live::{Goal, HistoryHandle, SimulationHandle};
+use super::live::{Goal, SimulationHandle};
 use super::scenes::{SCENE, STATION, SceneHandle, StationHandle};
+use super::windows::HistoryHandle;
 use crate::beams::Place;
 use crate::integrators::Method;
 use crate::model::Measures;

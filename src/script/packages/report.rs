@@ -1,0 +1,68 @@
+//! What a simulation tells when a run ends.
+
+use serde_json::{Value, json};
+
+use super::live::SimulationHandle;
+use crate::geometry::Vec2;
+use crate::output::CsvTable;
+use crate::script::context::Reporter;
+use crate::simulation::{History, Invariant};
+
+impl Reporter for SimulationHandle {
+    fn report(&self) -> Value {
+        let simulation = self.simulation();
+        let (counts, history, settings) =
+            (simulation.counts(), simulation.history(), simulation.settings());
+        let energy = history.samples().last().map(|row| row.measures.energy).unwrap_or_default();
+        let (scene, model) = (simulation.scene(), simulation.model());
+        let points = |(x, y): (f64, f64), angle: f64| json!({ "x": x, "y": y, "angle": angle });
+        let ends = scene.beams.iter().zip(model.control_points()).enumerate().map(|(index, (beam, controls))| {
+            let (start, end) = model.end_angles(index);
+            let at = |point: Option<&Vec2>| point.map_or((f64::NAN, f64::NAN), |point| (point.x, point.y));
+            (beam.name.clone(), json!({ "start": points(at(controls.first()), start), "end": points(at(controls.last()), end) }))
+        });
+        let basis: Vec<String> = model.meshes().iter().map(|mesh| mesh.describe()).collect();
+        let drift: serde_json::Map<String, Value> = Invariant::ALL
+            .iter()
+            .map(|(name, of)| ((*name).to_owned(), json!(history.drift(*of))))
+            .collect();
+        json!({
+            "name": self.name(),
+            "steps": counts.steps,
+            "newton_iterations": counts.newton_iterations,
+            "newton_max": counts.newton_max,
+            "factorisations": counts.factorisations,
+            "retries": counts.retries,
+            "wall_s": counts.wall.as_secs_f64(),
+            "unknowns": simulation.unknowns(),
+            "half_bandwidth": simulation.half_bandwidth(),
+            "basis": basis.join("; "),
+            "integrator": settings.method.entry().name,
+            "dt": settings.dt,
+            "t": simulation.time(),
+            "drift": drift,
+            "energy": {
+                "kinetic": energy.kinetic, "strain": energy.strain, "potential": energy.potential, "total": energy.total(),
+            },
+            "ends": ends.collect::<serde_json::Map<_, _>>(),
+        })
+    }
+
+    fn remains(&self) -> Option<(String, String)> {
+        let simulation = self.simulation();
+        let table = (simulation.counts().steps > 0)
+            .then(|| history_table(self.name(), simulation.history()))?;
+        let plain = |letter: char| if letter.is_alphanumeric() { letter } else { '-' };
+        let name: String = self.name().chars().map(plain).collect();
+        Some((format!("{name}-stopped.csv"), table.to_text().ok()?))
+    }
+}
+
+/// All columns of a history.
+pub(super) fn history_table(name: &str, history: &History) -> CsvTable {
+    let table = CsvTable::new().comment(format!("simulation: {name}"));
+    History::COLUMNS.iter().fold(table, |table, column| {
+        let values = history.samples().iter().map(column.value).collect();
+        table.column(format!("{} [{}]", column.name, column.dimension), values)
+    })
+}

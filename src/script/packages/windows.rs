@@ -1,0 +1,56 @@
+//! A part of the history of a simulation.
+
+use super::live::SimulationHandle;
+use crate::script::kind::Scripted;
+use crate::script::numbers::format_number;
+use crate::simulation::{History, Sample};
+
+/// A part of the history of a simulation; it grows with it.
+#[derive(Clone)]
+pub struct HistoryHandle {
+    /// Whose history it is.
+    pub of: SimulationHandle,
+    /// First time.
+    pub from: f64,
+    /// Last time.
+    pub to: f64,
+}
+
+impl HistoryHandle {
+    /// Reads the rows.
+    pub fn read<T>(&self, read: impl FnOnce(&History) -> T) -> T {
+        let simulation = self.of.simulation();
+        let all = simulation.history();
+        if self.from == f64::NEG_INFINITY && self.to == f64::INFINITY {
+            read(all)
+        } else {
+            read(&all.between(self.from, self.to))
+        }
+    }
+
+    /// The part of it between two times.
+    pub fn between(&self, from: f64, to: f64) -> Self {
+        Self { of: self.of.clone(), from: self.from.max(from), to: self.to.min(to) }
+    }
+}
+
+impl Scripted for HistoryHandle {
+    const NAME: &'static str = "history";
+    const DOC: &'static str = "What a simulation was like, step by step.";
+
+    fn show(&self) -> String {
+        let (rows, first, last) = self.read(|history| {
+            let time = |row: Option<&Sample>| row.map_or(f64::NAN, |row| row.measures.time);
+            (
+                history.samples().len(),
+                time(history.samples().first()),
+                time(history.samples().last()),
+            )
+        });
+        format!(
+            "history of {rows} rows from t = {} to {}",
+            format_number(first),
+            format_number(last)
+        )
+    }
+}
