@@ -148,16 +148,16 @@ fn a_report_that_cannot_be_written_is_an_error() {
     assert!(first_line(&output).contains("/dev/null/folder/r.json"), "{}", said(&output));
 }
 
+/// Runs a script, interrupts it once it has printed a line, and waits for its end.
 #[cfg(unix)]
-#[test]
-fn ctrl_c_ends_an_endless_loop_with_130() {
-    let (folder, file) = script("print(\"started\"); loop { }");
-    let report = folder.path().join("report.json");
+fn interrupted(folder: &TempDir, file: &Path) -> Output {
     let mut running = withy()
         .arg("run")
-        .arg(&file)
+        .arg(file)
         .arg("--report")
-        .arg(&report)
+        .arg(folder.path().join("report.json"))
+        .arg("--out")
+        .arg(folder.path().join("out"))
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
@@ -168,10 +168,52 @@ fn ctrl_c_ends_an_endless_loop_with_130() {
     assert_eq!(line, "started\n");
     let id = running.id().to_string();
     Command::new("kill").args(["-INT", &id]).status().expect("kill runs");
-    let output = running.wait_with_output().expect("withy ends");
+    running.wait_with_output().expect("withy ends")
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_an_endless_loop_with_130() {
+    let (folder, file) = script("print(\"started\"); loop { }");
+    let output = interrupted(&folder, &file);
     assert_eq!(code(&output), 130, "{}", said(&output));
     assert!(said(&output).contains("interrupted"), "{}", said(&output));
-    assert!(report.exists());
+    assert!(folder.path().join("report.json").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_in_an_endless_run_keeps_its_history() {
+    let (folder, file) = script(
+        "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });
+         let scene = new_scene(\"a long flight\");
+         scene.beam(#{ axis: line([0, 0], [10, 0]), basis: bspline(4), section: s, spin: 1 });
+         let sim = scene.start(#{ dt: 0.1 });
+         sim.run_to(1);
+         print(\"started\");
+         sim.run_to(1e9);",
+    );
+    let output = interrupted(&folder, &file);
+    assert_eq!(code(&output), 130, "{}", said(&output));
+    let report = fs::read_to_string(folder.path().join("report.json")).expect("the report");
+    let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+    let steps = report["simulations"][0]["steps"].as_u64().expect("steps");
+    let history = fs::read_to_string(folder.path().join("out/a-long-flight-stopped.csv"));
+    // A comment, the names of the columns, and the start are no steps.
+    assert_eq!(history.expect("the history").lines().count() as u64, steps + 3);
+    assert!(steps >= 10);
+}
+
+#[test]
+fn a_file_that_imports_itself_is_an_error_and_not_a_crash() {
+    let (_folder, file) = script("import \"script\" as own;");
+    let named = file.with_file_name("script.rhai");
+    if named != file {
+        fs::copy(&file, &named).expect("a copy");
+    }
+    let output = withy().arg("run").arg(&named).output().expect("withy starts");
+    assert_eq!(code(&output), 2, "{}", said(&output));
+    assert!(first_line(&output).contains("imports itself"), "{}", said(&output));
 }
 
 #[cfg(unix)]

@@ -7,7 +7,7 @@ use crate::newton::NewtonError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepError {
     /// The equations of the step were not solved.
-    #[error("the step of {:e} from t = {} failed: {source}", interval.duration(), interval.start)]
+    #[error("the step of {:.3e} from t = {} failed: {source}", interval.duration(), interval.start)]
     Newton {
         /// The step.
         interval: Interval,
@@ -16,7 +16,7 @@ pub enum StepError {
     },
     /// The mean rate of a section times the step reaches π: such a turn is not resolved.
     #[error(
-        "the step of {:e} from t = {} would turn a section by {rotation:.2} rad at its mean rate; a step must stay below π",
+        "the step of {:.3e} from t = {} would turn a section by {rotation:.2} rad at its mean rate; a step must stay below π",
         interval.duration(), interval.start
     )]
     Rotation {

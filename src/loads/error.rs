@@ -15,6 +15,16 @@ pub enum LoadError {
         /// What it may be.
         allowed: &'static str,
     },
+    /// A combination that is too large to be evaluated in every step.
+    #[error(
+        "a schedule of {parts} parts, but at most {most} can be combined; write it as schedule(|t| …)"
+    )]
+    ManyParts {
+        /// Its parts.
+        parts: usize,
+        /// Most that are allowed.
+        most: usize,
+    },
     /// A table with too few rows.
     #[error("table: {rows} rows, but at least 2 are needed: [[t, factor], …]")]
     ShortTable {

@@ -46,11 +46,28 @@ pub enum Schedule {
         /// Where it is not smooth.
         breaks: Vec<f64>,
     },
-    /// The sum of schedules.
-    Sum(Box<Schedule>, Box<Schedule>),
-    /// The product of schedules.
-    Product(Box<Schedule>, Box<Schedule>),
+    /// Two schedules, added or multiplied.
+    Combined {
+        /// What is done with them.
+        operation: Operation,
+        /// The two.
+        parts: Rc<(Schedule, Schedule)>,
+        /// How many schedules they are made of.
+        size: usize,
+    },
 }
+
+/// How schedules are combined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Operation {
+    /// `a + b`
+    Sum,
+    /// `a · b`
+    Product,
+}
+
+/// Most parts of a combined schedule.
+const MOST_PARTS: usize = 1000;
 
 impl std::fmt::Debug for Schedule {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -173,6 +190,22 @@ impl Schedule {
         }
     }
 
+    /// Two schedules added or multiplied.
+    ///
+    /// # Errors
+    /// When they are made of very many parts.
+    pub fn combined(operation: Operation, a: Self, b: Self) -> Result<Self, LoadError> {
+        let size = a.size().saturating_add(b.size());
+        if size > MOST_PARTS {
+            return Err(LoadError::ManyParts { parts: size, most: MOST_PARTS });
+        }
+        Ok(Self::Combined { operation, parts: Rc::new((a, b)), size })
+    }
+
+    fn size(&self) -> usize {
+        if let Self::Combined { size, .. } = self { *size } else { 1 }
+    }
+
     /// The value at a time, approached from a side.
     ///
     /// # Errors
@@ -194,8 +227,13 @@ impl Schedule {
                 let time = if from_before { time.next_down() } else { time };
                 function(time).map_err(LoadError::Function)?
             }
-            Self::Sum(a, b) => a.value(time, side)? + b.value(time, side)?,
-            Self::Product(a, b) => a.value(time, side)? * b.value(time, side)?,
+            Self::Combined { operation, parts, .. } => {
+                let (a, b) = (parts.0.value(time, side)?, parts.1.value(time, side)?);
+                match operation {
+                    Operation::Sum => a + b,
+                    Operation::Product => a * b,
+                }
+            }
         };
         if value.is_finite() { Ok(value) } else { Err(LoadError::NotFinite { time, value }) }
     }
@@ -223,7 +261,7 @@ impl Schedule {
             Self::Table(rows) => rows.iter().map(|(time, _)| *time).collect(),
             Self::SmoothPulse { duration } => vec![0.0, *duration],
             Self::Function { breaks, .. } => breaks.clone(),
-            Self::Sum(a, b) | Self::Product(a, b) => [a.breaks(), b.breaks()].concat(),
+            Self::Combined { parts, .. } => [parts.0.breaks(), parts.1.breaks()].concat(),
         }
     }
 
@@ -242,8 +280,11 @@ impl Schedule {
             Self::Sine { amplitude, rate, phase } => format!("sine({amplitude}, {rate}, {phase})"),
             Self::SmoothPulse { duration } => format!("smooth_pulse({duration})"),
             Self::Function { .. } => "schedule(|t| …)".to_owned(),
-            Self::Sum(a, b) => format!("({} + {})", a.describe(), b.describe()),
-            Self::Product(a, b) => format!("{} * {}", a.describe(), b.describe()),
+            Self::Combined { size, .. } if *size > 8 => format!("combination of {size} schedules"),
+            Self::Combined { operation, parts, .. } => match operation {
+                Operation::Sum => format!("({} + {})", parts.0.describe(), parts.1.describe()),
+                Operation::Product => format!("{} * {}", parts.0.describe(), parts.1.describe()),
+            },
         }
     }
 }
@@ -283,7 +324,7 @@ mod tests {
         let pulse = Schedule::pulse(1.0, 2.0).unwrap();
         let values = [0.5, 1.5, 2.5].map(|time| pulse.value(time, Side::After).unwrap());
         assert_eq!(values, [0.0, 1.0, 0.0]);
-        let twice = Schedule::Product(Box::new(Schedule::Constant(2.0)), Box::new(pulse));
+        let twice = Schedule::combined(Operation::Product, Schedule::Constant(2.0), pulse).unwrap();
         assert_eq!(twice.value(1.0, Side::After), Ok(2.0));
         let mean = (0..100).map(|i| {
             let pulse = Schedule::smooth_pulse(2.0).unwrap();

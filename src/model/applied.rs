@@ -14,6 +14,17 @@ pub(super) struct Exchange {
     pub(super) work: f64,
     pub(super) impulse: Vec2,
     pub(super) angular_impulse: f64,
+    /// Sums of magnitudes, which do not cancel.
+    pub(super) gross_impulse: f64,
+    pub(super) gross_angular_impulse: f64,
+}
+
+impl Exchange {
+    /// That of a single force or moment.
+    pub(super) fn of(work: f64, impulse: Vec2, angular_impulse: f64) -> Self {
+        let (gross_impulse, gross_angular_impulse) = (impulse.norm(), angular_impulse.abs());
+        Self { work, impulse, angular_impulse, gross_impulse, gross_angular_impulse }
+    }
 }
 
 impl std::ops::AddAssign for Exchange {
@@ -21,6 +32,8 @@ impl std::ops::AddAssign for Exchange {
         self.work += other.work;
         self.impulse += other.impulse;
         self.angular_impulse += other.angular_impulse;
+        self.gross_impulse += other.gross_impulse;
+        self.gross_angular_impulse += other.gross_angular_impulse;
     }
 }
 
@@ -58,11 +71,11 @@ impl Pattern {
             let [x, y, omega] = bodies[*beam].moved()[*point];
             let (force, moved) = (Vec2::new(*fx, *fy) * factor, Vec2::new(x, y));
             let middle = bodies[*beam].dynamics.control_points()[*point] + moved * 0.5;
-            sum += Exchange {
-                work: force.dot(&moved) + factor * moment * omega,
-                impulse: force * duration,
-                angular_impulse: (cross(middle, force) + factor * moment) * duration,
-            };
+            sum += Exchange::of(
+                force.dot(&moved) + factor * moment * omega,
+                force * duration,
+                (cross(middle, force) + factor * moment) * duration,
+            );
         }
         sum
     }
@@ -276,11 +289,11 @@ impl AppliedLoad {
                         let [x, y, _] = body.moved()[point];
                         let moved = Vec2::new(x, y) * share;
                         let middle = body.dynamics.control_points()[point] * share + moved * 0.5;
-                        sum += Exchange {
-                            work: force.dot(&moved),
-                            impulse: force * (share * duration),
-                            angular_impulse: cross(middle, force) * duration,
-                        };
+                        sum += Exchange::of(
+                            force.dot(&moved),
+                            force * (share * duration),
+                            cross(middle, force) * duration,
+                        );
                     }
                     sum
                 })

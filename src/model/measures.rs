@@ -37,6 +37,10 @@ pub struct Measures {
     pub angular_momentum: f64,
     /// `∫ M dt` of loads, gravity and supports so far, about the origin.
     pub angular_impulse: f64,
+    /// `∫ |F| dt`, every load and support by itself.
+    pub gross_impulse: f64,
+    /// `∫ |M| dt`, every load and support by itself.
+    pub gross_angular_impulse: f64,
     /// The largest distance between the partners of a joint [length].
     pub gap: f64,
 }

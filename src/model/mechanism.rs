@@ -113,6 +113,8 @@ impl Model {
             impulse: self.exchanged.impulse,
             angular_momentum,
             angular_impulse: self.exchanged.angular_impulse,
+            gross_impulse: self.exchanged.gross_impulse,
+            gross_angular_impulse: self.exchanged.gross_angular_impulse,
             gap: self.gap(),
         }
     }
@@ -143,6 +145,11 @@ impl Model {
         self.trackers.iter_mut().chain(self.loads.iter_mut().flat_map(AppliedLoad::trackers_mut))
     }
 
+    /// Moves the clock without moving anything else.
+    pub fn pass_time_to(&mut self, time: f64) {
+        self.time = time;
+    }
+
     fn gap(&self) -> f64 {
         let at =
             |place: &Place| place.interpolate(self.bodies[place.beam].dynamics.control_points());
@@ -166,11 +173,8 @@ impl Model {
                 Component::Y => (Vec2::new(0.0, *reaction), 0.0),
                 Component::Rotation => (Vec2::zeros(), *reaction),
             };
-            sum += Exchange {
-                work: 0.0,
-                impulse: force * duration,
-                angular_impulse: (cross(at, force) + moment) * duration,
-            };
+            let angular = (cross(at, force) + moment) * duration;
+            sum += Exchange::of(0.0, force * duration, angular);
         }
         sum
     }

@@ -59,6 +59,7 @@ impl Model {
         let sums = &self.exchanged;
         let mut state =
             vec![self.time, sums.work, sums.impulse.x, sums.impulse.y, sums.angular_impulse];
+        state.extend([sums.gross_impulse, sums.gross_angular_impulse]);
         state.extend(&self.rates);
         self.bodies.iter().for_each(|body| body.dynamics.save(&mut state));
         self.all_trackers().for_each(|tracker| tracker.save(&mut state));
@@ -76,6 +77,8 @@ impl Model {
         self.exchanged.work = next();
         self.exchanged.impulse = Vec2::new(next(), next());
         self.exchanged.angular_impulse = next();
+        self.exchanged.gross_impulse = next();
+        self.exchanged.gross_angular_impulse = next();
         self.rates.iter_mut().for_each(|rate| *rate = next());
         self.bodies.iter_mut().for_each(|body| body.dynamics.restore(next));
         self.all_trackers_mut().for_each(|tracker| tracker.restore([next(), next(), next()]));

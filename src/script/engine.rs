@@ -2,11 +2,12 @@
 
 use std::ops::{Range, RangeInclusive};
 
-use rhai::module_resolvers::FileModuleResolver;
-use rhai::{Dynamic, Engine, FnPtr, INT, ImmutableString, Map};
+use rhai::{Dynamic, Engine, EvalAltResult, FnPtr, INT, ImmutableString, Map, Position};
 
 use super::catalog::Catalog;
 use super::context::Context;
+use super::error::ScriptError;
+use super::imports::AcyclicResolver;
 use super::numbers::format_number;
 use super::register::register;
 use super::{operators, syntax};
@@ -30,6 +31,7 @@ pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     syntax::install(&mut engine)?;
     operators::install(&mut engine);
     print_numbers(&mut engine);
+    refuse_exit(&mut engine);
     for table in catalog.tables() {
         register(&mut engine, table, context);
     }
@@ -39,7 +41,7 @@ pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
 
 /// Lets `import "name"` find files beside the script.
 pub fn import_from(engine: &mut Engine, folder: &std::path::Path) {
-    engine.set_module_resolver(FileModuleResolver::new_with_path(folder));
+    engine.set_module_resolver(AcyclicResolver::new(folder));
 }
 
 fn limit(engine: &mut Engine) {
@@ -76,6 +78,20 @@ fn print_numbers(engine: &mut Engine) {
     }
     engine.register_fn("+", |text: ImmutableString, x: f64| format!("{text}{}", format_number(x)));
     engine.register_fn("+", |x: f64, text: ImmutableString| format!("{}{text}", format_number(x)));
+}
+
+/// Rhai's `exit` would end a script as if all were well, its later checks unjudged.
+fn refuse_exit(engine: &mut Engine) {
+    let refusal = || {
+        let refusal = ScriptError::new("a script cannot leave with exit()");
+        refusal.hint("throw \"reason\" ends it with an error; check(…) decides the exit code")
+    };
+    engine.register_fn("exit", move || -> Result<(), Box<EvalAltResult>> {
+        Err(refusal().into_engine(Position::NONE))
+    });
+    engine.register_fn("exit", move |_: Dynamic| -> Result<(), Box<EvalAltResult>> {
+        Err(refusal().into_engine(Position::NONE))
+    });
 }
 
 fn connect(engine: &mut Engine, context: &Context) {

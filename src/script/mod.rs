@@ -14,6 +14,7 @@ pub mod diagnose;
 pub mod engine;
 pub mod error;
 pub mod files;
+pub mod imports;
 pub mod kind;
 pub mod lexing;
 pub mod numbers;

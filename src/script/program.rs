@@ -46,6 +46,10 @@ impl Program {
         })?;
         let folder =
             path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        // A mark of byte order is no text, and a line for the shell is a comment here.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+        let text =
+            text.strip_prefix("#!").map_or_else(|| text.to_owned(), |rest| format!("// {rest}"));
         Ok(Self { name, text: text.into(), folder: folder.into() })
     }
 

@@ -26,7 +26,7 @@ pub enum SimulationError {
         advice: &'static str,
     },
     /// No step of any size worked.
-    #[error("no step from t = {time} works, down to dt/{divisions} (dt = {dt}): {source}")]
+    #[error("no step from t = {time} works, down to dt/{divisions} (dt = {dt:e}): {source}")]
     Step {
         /// The end of the last good step.
         time: f64,

@@ -70,13 +70,22 @@ pub struct Column {
     pub value: fn(&Sample) -> f64,
 }
 
+/// What the drift of a quantity is relative to when the rows themselves give no scale.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Scales {
+    /// The mass of everything.
+    pub mass: f64,
+    /// A length of the scene.
+    pub length: f64,
+    /// The energy that rounding of the strains stands for: no drift is relative to less.
+    pub rounding_energy: f64,
+}
+
 /// Rows in the order of time.
 #[derive(Debug, Clone, Default)]
 pub struct History {
     samples: Vec<Sample>,
-    /// The mass of everything, and a length of the scene: they give momenta a scale.
-    mass: f64,
-    length: f64,
+    scales: Scales,
 }
 
 impl History {
@@ -132,9 +141,9 @@ impl History {
         Column { name: "retries", dimension: "-", value: |row| row.retries as f64 },
     ];
 
-    /// An empty history of a scene with the given total mass and length.
-    pub fn new(mass: f64, length: f64) -> Self {
-        Self { samples: Vec::new(), mass, length }
+    /// An empty history.
+    pub fn new(scales: Scales) -> Self {
+        Self { samples: Vec::new(), scales }
     }
 
     /// Makes room for rows to come.
@@ -154,18 +163,13 @@ impl History {
 
     /// The rows between two times, ends included.
     pub fn between(&self, from: f64, to: f64) -> Self {
-        let slack = 1e-9
-            * self
-                .samples
-                .iter()
-                .map(|row| row.dt)
-                .filter(|dt| *dt > 0.0)
-                .fold(f64::INFINITY, f64::min);
+        let steps = self.samples.iter().map(|row| row.dt).filter(|dt| *dt > 0.0);
+        let slack = 1e-9 * steps.reduce(f64::min).unwrap_or(0.0);
         let inside =
             |row: &&Sample| row.measures.time >= from - slack && row.measures.time <= to + slack;
         Self {
             samples: self.samples.iter().filter(inside).copied().collect(),
-            ..Self::new(self.mass, self.length)
+            ..Self::new(self.scales)
         }
     }
 
@@ -178,21 +182,27 @@ impl History {
     /// How far an invariant is from its value in the first row, row by row: relative to the largest energy, momentum or
     /// angular momentum of these rows; the gap as a length.
     ///
-    /// The scale of the momenta includes `sqrt(2 m K)`, so that a body whose momentum is zero has one too.
+    /// The scale of the momenta includes `sqrt(2 m K)`, so that a body whose momentum is zero has one too, and all
+    /// impulses exchanged, also those of loads and supports that balance.
     pub fn drifts(&self, invariant: Invariant) -> Vec<f64> {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return Vec::new() };
         let largest = |value: &dyn Fn(&Measures) -> f64| {
             self.samples.iter().map(|row| value(&row.measures).abs()).fold(0.0, f64::max)
         };
-        let motion = (2.0 * self.mass * largest(&|row| row.energy.kinetic)).sqrt();
+        let Scales { mass, length, rounding_energy } = self.scales;
+        let kinetic = largest(&|row| row.energy.kinetic).max(rounding_energy);
+        let motion = (2.0 * mass * kinetic).sqrt();
         let scale = match invariant {
             Invariant::Energy => largest(&|row| row.energy.kinetic + row.energy.strain)
                 .max(largest(&|row| row.energy.potential - first.energy.potential))
-                .max(largest(&|row| row.work - first.work)),
-            Invariant::Momentum => motion.max(largest(&|row| (row.impulse - first.impulse).norm())),
-            Invariant::AngularMomentum => (motion * self.length)
+                .max(largest(&|row| row.work - first.work))
+                .max(rounding_energy),
+            Invariant::Momentum => {
+                motion.max(largest(&|row| row.gross_impulse - first.gross_impulse))
+            }
+            Invariant::AngularMomentum => (motion * length)
                 .max(largest(&|row| row.angular_momentum))
-                .max(largest(&|row| row.angular_impulse - first.angular_impulse)),
+                .max(largest(&|row| row.gross_angular_impulse - first.gross_angular_impulse)),
             Invariant::Gap => 1.0,
         };
         let change = |row: &Measures| match invariant {
@@ -206,8 +216,11 @@ impl History {
         self.samples.iter().map(relative).collect()
     }
 
-    /// The largest of the [`drifts`](Self::drifts); NaN when one is NaN.
+    /// The largest of the [`drifts`](Self::drifts); NaN when one is NaN or there is no row.
     pub fn drift(&self, invariant: Invariant) -> f64 {
+        if self.samples.is_empty() {
+            return f64::NAN;
+        }
         self.drifts(invariant).into_iter().fold(0.0, larger)
     }
 }
@@ -218,7 +231,7 @@ mod tests {
     use crate::model::Energy;
 
     fn history(energies: &[f64]) -> History {
-        let mut history = History::new(1.0, 1.0);
+        let mut history = History::new(Scales { mass: 1.0, length: 1.0, rounding_energy: 0.0 });
         for (index, &kinetic) in energies.iter().enumerate() {
             let measures = Measures {
                 time: index as f64,

@@ -8,7 +8,7 @@ mod time_grid;
 mod trajectory;
 
 pub use error::SimulationError;
-pub use history::{Column, History, Invariant, Sample};
+pub use history::{Column, History, Invariant, Sample, Scales};
 pub use outline::{Configuration, Outline};
 pub use run::{Monitor, Settings, Simulation, Unwatched, WorkCounts};
 pub use time_grid::TimeGrid;

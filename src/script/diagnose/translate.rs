@@ -134,6 +134,10 @@ impl Explainer<'_> {
                 let hint = "import looks for NAME.rhai beside the script";
                 (format!("there is no module '{name}' to import"), Some(hint.into()))
             }
+            Error::ErrorDataRace(..) => (
+                "a closure uses the very object whose method it is given to".into(),
+                Some("take the object from the argument of the closure: sim.at(t, |sim| print(sim.t))".into()),
+            ),
             Error::ErrorTerminated(..) => ("the run was interrupted".into(), None),
             Error::ErrorSystem(message, cause) => {
                 (format!("{message} {cause}").trim().to_owned(), None)

@@ -6,9 +6,9 @@ use super::simulations::SPINNING;
 use super::windows::HistoryHandle;
 use crate::geometry::{larger, smaller};
 use crate::script::call::Call;
-use crate::script::context::Mode;
 use crate::script::error::ScriptError;
 use crate::script::kind::Type;
+use crate::script::numbers::format_number;
 use crate::script::parameter::{Parameter, choice, number};
 use crate::script::table::{Row, Table, method, property};
 use crate::simulation::Invariant;
@@ -107,6 +107,10 @@ fn window(
     range: fn(&Call) -> Result<(f64, f64), ScriptError>,
 ) -> Result<Dynamic, ScriptError> {
     let (from, to) = range(call)?;
+    if to < from {
+        let told = format!("it goes from t = {} to {}", format_number(from), format_number(to));
+        return Err(call.error(told).hint("the earlier time comes first"));
+    }
     Ok(Dynamic::from(call.receiver::<HistoryHandle>()?.between(from, to)))
 }
 
@@ -114,7 +118,9 @@ fn drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let name = call.text("invariant")?;
     let known = Invariant::ALL.iter().find(|(other, _)| *other == name.as_str());
     let (_, invariant) = known.ok_or_else(|| ScriptError::bug(format!("no invariant '{name}'")))?;
-    Ok(call.receiver::<HistoryHandle>()?.read(|history| history.drift(*invariant)).into())
+    let history = call.receiver::<HistoryHandle>()?;
+    let drift = history.read(|rows| (!rows.samples().is_empty()).then(|| rows.drift(*invariant)));
+    Ok(drift.ok_or_else(|| history.no_rows(call))?.into())
 }
 
 fn column(call: &Call) -> Result<Vec<f64>, ScriptError> {
@@ -125,10 +131,8 @@ fn column(call: &Call) -> Result<Vec<f64>, ScriptError> {
 
 fn pick(call: &Call, pick: fn(Vec<f64>) -> Option<f64>) -> Result<Dynamic, ScriptError> {
     let picked = pick(column(call)?);
-    // Nothing has run in a dry build: there are no rows to miss.
-    let nothing = (call.context().mode() == Mode::DryBuild).then_some(f64::NAN);
-    let none = || call.error("the history has no rows there").hint("choose another window");
-    Ok(picked.or(nothing).ok_or_else(none)?.into())
+    let history = call.receiver::<HistoryHandle>()?;
+    Ok(picked.ok_or_else(|| history.no_rows(call))?.into())
 }
 
 #[cfg(test)]

@@ -22,8 +22,8 @@ struct Live {
     scene: SceneHandle,
     simulation: RefCell<Simulation>,
     events: RefCell<Vec<(f64, FnPtr)>>,
-    /// In a dry build only this clock runs.
-    clock: Cell<f64>,
+    /// While an event is called, no other may be set for the same time.
+    is_firing: Cell<bool>,
 }
 
 /// How far a script goes on.
@@ -55,7 +55,7 @@ impl SimulationHandle {
         let live = Live {
             name,
             scene,
-            clock: Cell::new(simulation.time()),
+            is_firing: Cell::new(false),
             simulation: RefCell::new(simulation),
             events: RefCell::default(),
         };
@@ -81,13 +81,14 @@ impl SimulationHandle {
 
     /// Where it is.
     pub fn time(&self) -> f64 {
-        self.simulation().time().max(self.0.clock.get())
+        self.simulation().time()
     }
 
     /// Calls a script function when a time is reached.
     pub fn at(&self, time: f64, function: FnPtr) -> Result<(), ScriptError> {
         let now = self.time();
-        if time < now {
+        let is_late = if self.0.is_firing.get() { time <= now } else { time < now };
+        if is_late {
             return Err(ScriptError::new(format!(
                 "at: t = {} has passed, the simulation is at t = {}",
                 format_number(time),
@@ -132,7 +133,8 @@ impl SimulationHandle {
             let ran = self.0.simulation.borrow_mut().run_to(stop, &mut Watch(call.context()));
             ran.map_err(|error| explain(error, call.context()))?;
             self.fire_due(call)?;
-            if stop >= end || stop.is_nan() {
+            // An event may have gone further by itself.
+            if self.time() >= end || stop >= end || stop.is_nan() {
                 return Ok(());
             }
         }
@@ -141,14 +143,8 @@ impl SimulationHandle {
     /// What a dry build does instead of running: time passes, and events are called.
     fn pretend(&self, call: &Call, end: f64) -> Result<(), ScriptError> {
         call.proceed()?;
-        let now = self.time();
-        if !end.is_finite() || end < now {
-            return Err(explain(
-                SimulationError::End { now, end, advice: "give a finite, later time" },
-                call.context(),
-            ));
-        }
-        self.0.clock.set(end);
+        let pretended = self.0.simulation.borrow_mut().pretend_to(end);
+        pretended.map_err(|error| explain(error, call.context()))?;
         self.fire_due(call)
     }
 
@@ -162,7 +158,10 @@ impl SimulationHandle {
             };
             let Some((_, function)) = due else { return Ok(()) };
             // What an event gives back has no meaning.
-            let _ = call.invoke(&function, [Dynamic::from(self.clone())])?;
+            self.0.is_firing.set(true);
+            let called = call.invoke(&function, [Dynamic::from(self.clone())]);
+            self.0.is_firing.set(false);
+            let _ = called?;
         }
     }
 }

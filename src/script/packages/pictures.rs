@@ -16,6 +16,7 @@ use crate::output::{
 use crate::script::call::Call;
 use crate::script::error::{Place, ScriptError};
 use crate::script::kind::{Kind, Scripted};
+use crate::script::numbers::format_number;
 use crate::script::options::Options;
 use crate::script::parameter::{Parameter, array, boolean, either, number, options, text};
 use crate::script::table::{Table, function};
@@ -91,6 +92,15 @@ fn things<T: Scripted>(
     })
 }
 
+/// The histories given, none of them empty.
+fn histories(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
+    let histories = things(call, as_history)?;
+    match histories.iter().find(|of| of.read(|rows| rows.samples().is_empty())) {
+        Some(empty) => Err(empty.no_rows(call)),
+        None => Ok(histories),
+    }
+}
+
 fn as_simulation(value: &Dynamic) -> Option<SimulationHandle> {
     value.clone().try_cast()
 }
@@ -135,6 +145,13 @@ fn motion(
     let simulation = of.simulation();
     let (from, to) = (given("from").unwrap_or(0.0), given("to").unwrap_or(simulation.time()));
     let every = given("every").unwrap_or_else(|| ((to - from) / 20.0).max(f64::MIN_POSITIVE));
+    if to < from || from > simulation.time() || to < 0.0 {
+        let told =
+            format!("there is nothing from t = {} to {}", format_number(from), format_number(to));
+        let hint =
+            format!("the simulation has run from t = 0 to {}", format_number(simulation.time()));
+        return Err(call.error(told).hint(hint));
+    }
     let count = ((to - from) / every + 1e-9).floor();
     if count > MOST_SNAPSHOTS {
         return Err(call
@@ -206,7 +223,7 @@ fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
             })
         })
     };
-    write_charts(call, things(call, as_history)?.iter().map(chart).collect())
+    write_charts(call, histories(call)?.iter().map(chart).collect())
 }
 
 fn columns(call: &Call) -> Result<Vec<String>, ScriptError> {
@@ -225,7 +242,12 @@ fn columns(call: &Call) -> Result<Vec<String>, ScriptError> {
                 .at(Place::Argument(1))
         })
     };
-    call.array("columns")?.into_iter().map(name).collect()
+    let columns = call.array("columns")?;
+    if columns.is_empty() {
+        let hint = format!("columns: {}", COLUMN_NAMES.join(", "));
+        return Err(call.error("no column is named").hint(hint).at(Place::Argument(1)));
+    }
+    columns.into_iter().map(name).collect()
 }
 
 /// The dimension that all columns share.
@@ -263,7 +285,7 @@ fn plot_drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
             )
         })
     };
-    write_charts(call, things(call, as_history)?.iter().map(chart).collect())
+    write_charts(call, histories(call)?.iter().map(chart).collect())
 }
 
 fn write_csv(call: &Call, table: CsvTable) -> Result<Dynamic, ScriptError> {
@@ -276,9 +298,8 @@ fn write_csv(call: &Call, table: CsvTable) -> Result<Dynamic, ScriptError> {
 }
 
 fn write_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let [of] = things(call, as_history)?
-        .try_into()
-        .map_err(|_| call.error("takes one simulation or history"))?;
+    let [of] =
+        histories(call)?.try_into().map_err(|_| call.error("takes one simulation or history"))?;
     let table = of.read(|history| history_table(of.of.name(), history));
     write_csv(call, table)
 }

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use rhai::{Dynamic, FnPtr};
 
-use crate::loads::{Schedule, Side};
+use crate::loads::{Operation, Schedule, Side};
 use crate::script::arguments::Arguments;
 use crate::script::call::Call;
 use crate::script::error::ScriptError;
@@ -76,25 +76,46 @@ pub const TABLE: Table = Table {
         .summary("The factor at a time, just after it where it jumps.")
         .example("check(hold_for(1).at(0.5) == 1);"),
         operator("+", &[object("a", SCHEDULE), object("b", SCHEDULE)], |call| {
-            schedule(Schedule::Sum(boxed(call, "a")?, boxed(call, "b")?))
+            schedule(Schedule::combined(Operation::Sum, call.get("a")?, call.get("b")?)?)
         })
         .returns("a schedule")
         .summary("The sum of schedules.")
         .example("let both = hold_for(1) + pulse(2, 3);\ncheck(both.at(2.5) == 1);"),
         operator("*", &[object("a", SCHEDULE), object("b", SCHEDULE)], |call| {
-            schedule(Schedule::Product(boxed(call, "a")?, boxed(call, "b")?))
+            schedule(Schedule::combined(Operation::Product, call.get("a")?, call.get("b")?)?)
         })
         .returns("a schedule")
         .summary("The product of schedules.")
         .example("let half = hold_for(2) * ramp(0, 2);\ncheck(half.at(1) == 0.5);"),
-        operator("*", &[number("a"), object("b", SCHEDULE)], |call| scaled(call, "a", "b"))
+        operator("*", &[number("a"), object("b", SCHEDULE)], |call| {
+            schedule(scaled(call, call.number("a")?, "b")?)
+        })
             .returns("a schedule")
             .summary("A schedule scaled.")
             .example("check((3 * hold_for(1)).at(0) == 3);"),
-        operator("*", &[object("a", SCHEDULE), number("b")], |call| scaled(call, "b", "a"))
+        operator("*", &[object("a", SCHEDULE), number("b")], |call| {
+            schedule(scaled(call, call.number("b")?, "a")?)
+        })
             .returns("a schedule")
             .summary("A schedule scaled.")
             .example("check((hold_for(1) * 3).at(0) == 3);"),
+        operator("/", &[object("a", SCHEDULE), number("b")], |call| {
+            schedule(scaled(call, 1.0 / call.number("b")?, "a")?)
+        })
+        .returns("a schedule")
+        .summary("A schedule divided by a number.")
+        .example("check((hold_for(1) / 2).at(0) == 0.5);"),
+        operator("-", &[object("a", SCHEDULE), object("b", SCHEDULE)], |call| {
+            let opposite = scaled(call, -1.0, "b")?;
+            schedule(Schedule::combined(Operation::Sum, call.get("a")?, opposite)?)
+        })
+        .returns("a schedule")
+        .summary("The difference of schedules.")
+        .example("let later = hold_for(2) - hold_for(1);\ncheck(later.at(0.5) == 0 && later.at(1.5) == 1);"),
+        operator("-", &[object("a", SCHEDULE)], |call| schedule(scaled(call, -1.0, "a")?))
+            .returns("a schedule")
+            .summary("The opposite schedule.")
+            .example("check((-hold_for(1)).at(0) == -1);"),
     ],
 };
 
@@ -123,13 +144,9 @@ fn schedule(schedule: Schedule) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(schedule))
 }
 
-fn boxed(call: &Call, name: &str) -> Result<Box<Schedule>, ScriptError> {
-    call.get(name).map(Box::new)
-}
-
-fn scaled(call: &Call, factor: &str, of: &str) -> Result<Dynamic, ScriptError> {
-    let factor = Schedule::constant(call.number(factor)?)?;
-    schedule(Schedule::Product(Box::new(factor), boxed(call, of)?))
+fn scaled(call: &Call, factor: f64, of: &str) -> Result<Schedule, ScriptError> {
+    let factor = Schedule::constant(factor)?;
+    Ok(Schedule::combined(Operation::Product, factor, call.get(of)?)?)
 }
 
 fn table(call: &mut Call) -> Result<Dynamic, ScriptError> {

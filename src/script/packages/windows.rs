@@ -1,6 +1,8 @@
 //! A part of the history of a simulation.
 
 use super::live::SimulationHandle;
+use crate::script::call::Call;
+use crate::script::error::ScriptError;
 use crate::script::kind::Scripted;
 use crate::script::numbers::format_number;
 use crate::simulation::{History, Sample};
@@ -26,6 +28,13 @@ impl HistoryHandle {
         } else {
             read(&all.between(self.from, self.to))
         }
+    }
+
+    /// The error of a window in which nothing was recorded.
+    pub fn no_rows(&self, call: &Call) -> ScriptError {
+        let now = format_number(self.of.time());
+        call.error("the history has no rows there")
+            .hint(format!("the simulation has run from t = 0 to {now}"))
     }
 
     /// The part of it between two times.
