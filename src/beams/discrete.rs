@@ -7,6 +7,9 @@ use super::moment_point::MomentPoint;
 use super::{BeamError, Mesh, RotationIncrement, Section};
 use crate::geometry::{Basis, Curve, GaussRule, Span, Vec2, interpolate};
 
+/// The slowest an axis may run along its parameter, relative to its mean.
+const STANDSTILL: f64 = 1e-9;
+
 /// A beam whose basis has `N` non-zero functions on a span.
 #[derive(Debug, Clone)]
 struct DiscreteBeam<const N: usize> {
@@ -36,18 +39,19 @@ pub fn discretise(
     section: Section,
 ) -> Result<Box<dyn BeamDynamics>, BeamError> {
     let control_points = interpolate(axis, mesh.basis())?;
+    let length = axis.length();
     Ok(match mesh.basis().degree() {
-        1 => Box::new(DiscreteBeam::<2>::new(mesh, section, control_points)?),
-        2 => Box::new(DiscreteBeam::<3>::new(mesh, section, control_points)?),
-        3 => Box::new(DiscreteBeam::<4>::new(mesh, section, control_points)?),
-        4 => Box::new(DiscreteBeam::<5>::new(mesh, section, control_points)?),
-        5 => Box::new(DiscreteBeam::<6>::new(mesh, section, control_points)?),
-        6 => Box::new(DiscreteBeam::<7>::new(mesh, section, control_points)?),
-        7 => Box::new(DiscreteBeam::<8>::new(mesh, section, control_points)?),
-        8 => Box::new(DiscreteBeam::<9>::new(mesh, section, control_points)?),
-        9 => Box::new(DiscreteBeam::<10>::new(mesh, section, control_points)?),
+        1 => Box::new(DiscreteBeam::<2>::new(mesh, section, length, control_points)?),
+        2 => Box::new(DiscreteBeam::<3>::new(mesh, section, length, control_points)?),
+        3 => Box::new(DiscreteBeam::<4>::new(mesh, section, length, control_points)?),
+        4 => Box::new(DiscreteBeam::<5>::new(mesh, section, length, control_points)?),
+        5 => Box::new(DiscreteBeam::<6>::new(mesh, section, length, control_points)?),
+        6 => Box::new(DiscreteBeam::<7>::new(mesh, section, length, control_points)?),
+        7 => Box::new(DiscreteBeam::<8>::new(mesh, section, length, control_points)?),
+        8 => Box::new(DiscreteBeam::<9>::new(mesh, section, length, control_points)?),
+        9 => Box::new(DiscreteBeam::<10>::new(mesh, section, length, control_points)?),
         // Knot vectors refuse degrees above 10.
-        _ => Box::new(DiscreteBeam::<11>::new(mesh, section, control_points)?),
+        _ => Box::new(DiscreteBeam::<11>::new(mesh, section, length, control_points)?),
     })
 }
 
@@ -64,6 +68,8 @@ struct AxisPoint<const N: usize> {
 struct Axis<'a> {
     basis: &'a Basis,
     control_points: &'a [Vec2],
+    /// Derivatives by the parameter below this are rounding, not a direction.
+    standstill: f64,
 }
 
 impl Axis<'_> {
@@ -76,7 +82,7 @@ impl Axis<'_> {
             let values = self.basis.evaluate_in(&span, xi);
             let derivative = values.combine(1, self.control_points);
             let speed = derivative.norm();
-            if speed.is_nan() || speed <= 0.0 {
+            if speed.is_nan() || speed <= self.standstill {
                 return Err(BeamError::NoTangent { parameter: xi });
             }
             let (mut shape, mut slope) = ([0.0; N], [0.0; N]);
@@ -89,8 +95,15 @@ impl Axis<'_> {
 }
 
 impl<const N: usize> DiscreteBeam<N> {
-    fn new(mesh: &Mesh, section: Section, control_points: Vec<Vec2>) -> Result<Self, BeamError> {
-        let axis = Axis { basis: mesh.basis(), control_points: &control_points };
+    fn new(
+        mesh: &Mesh,
+        section: Section,
+        length: f64,
+        control_points: Vec<Vec2>,
+    ) -> Result<Self, BeamError> {
+        let (start, end) = mesh.basis().domain();
+        let standstill = STANDSTILL * length / (end - start);
+        let axis = Axis { basis: mesh.basis(), control_points: &control_points, standstill };
         let inertia_rule = mesh.inertia_rule()?;
         let mut gram = vec![[0.0; N]; control_points.len()];
         let mut spans = Vec::new();

@@ -52,7 +52,7 @@ pub enum BeamError {
     Geometry(#[from] GeometryError),
     /// The axis has a point without a direction.
     #[error(
-        "the axis has no tangent at parameter {parameter}: its derivative vanishes there; move the control points apart"
+        "the axis has no tangent at parameter {parameter}: its derivative vanishes there; use more spans or elements, or move the control points apart"
     )]
     NoTangent {
         /// Where.

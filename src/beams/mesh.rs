@@ -106,11 +106,15 @@ impl Mesh {
             Quadrature::Patch => String::new(),
             Quadrature::Points(points) => format!(", {points} points for the strain"),
         };
+        let plural = if spans == 1 { "" } else { "s" };
         match &self.basis {
             Basis::BSpline(_) => {
-                format!("{degree} B-splines C{}, {spans} spans{rule}", self.basis.continuity())
+                format!(
+                    "{degree} B-splines C{}, {spans} span{plural}{rule}",
+                    self.basis.continuity()
+                )
             }
-            Basis::Lagrange(_) => format!("{degree} Lagrange, {spans} elements{rule}"),
+            Basis::Lagrange(_) => format!("{degree} Lagrange, {spans} element{plural}{rule}"),
         }
     }
 

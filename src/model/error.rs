@@ -14,6 +14,12 @@ pub enum ModelError {
         /// Its name.
         scene: String,
     },
+    /// A name that nobody could read.
+    #[error("{name:?} is no name for a beam; use letters, numbers and spaces")]
+    Unnamed {
+        /// The name.
+        name: String,
+    },
     /// Two beams of the same name.
     #[error("the scene already has a beam '{name}'; give this one another name")]
     DuplicateName {

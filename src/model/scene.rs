@@ -99,8 +99,11 @@ impl Scene {
     /// Adds a beam and returns its index.
     ///
     /// # Errors
-    /// When a beam of that name exists.
+    /// When a beam of that name exists, or the name is empty or cannot be printed.
     pub fn add_beam(&mut self, beam: BeamDefinition) -> Result<usize, ModelError> {
+        if beam.name.trim().is_empty() || beam.name.chars().any(char::is_control) {
+            return Err(ModelError::Unnamed { name: beam.name });
+        }
         if self.beams.iter().any(|other| other.name == beam.name) {
             return Err(ModelError::DuplicateName { name: beam.name });
         }

@@ -2,7 +2,7 @@
 
 use std::ops::Deref;
 
-use rhai::{Dynamic, FnPtr, NativeCallContext};
+use rhai::{AST, Dynamic, FnPtr, NativeCallContext};
 
 use super::arguments::Arguments;
 use super::context::Context;
@@ -100,6 +100,33 @@ impl<'c, 'r> Call<'c, 'r> {
             ))
             .hint("the last expression of a function is what it gives")
         })
+    }
+
+    /// Refuses a script function that takes another number of arguments; `shape` shows the right one.
+    pub fn expect_arguments(
+        &self,
+        function: &FnPtr,
+        count: usize,
+        shape: &str,
+    ) -> Result<(), ScriptError> {
+        let libraries = &self.native.global_runtime_state().lib;
+        let known = libraries.iter().find_map(|library| {
+            let library = AST::new_from_module(library.clone());
+            let mut functions = library.iter_functions();
+            functions.find(|known| known.name == function.fn_name()).map(|known| known.params.len())
+        });
+        let given = known.map(|parameters| parameters.saturating_sub(function.curry().len()));
+        match given {
+            Some(given) if given != count => {
+                let plural = if given == 1 { "" } else { "s" };
+                Err(self
+                    .error(format!(
+                        "the function takes {given} argument{plural}, but is called with {count}"
+                    ))
+                    .hint(format!("write {shape}")))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Keeps a script function for calls from native loops; `role` names it in messages.

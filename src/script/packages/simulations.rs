@@ -49,7 +49,9 @@ pub const TABLE: Table = Table {
         .example("sim.run_to(1);\ncheck(sim.t == 1);")
         .see(&["step", "at"]),
         method(SIMULATION, "at", &[number("t").unit("time"), callback("function")], |call| {
-            call.receiver::<SimulationHandle>()?.at(call.number("t")?, call.callback("function")?)?;
+            let function = call.callback("function")?;
+            call.expect_arguments(&function, 1, "|sim| …, a function of the simulation")?;
+            call.receiver::<SimulationHandle>()?.at(call.number("t")?, function)?;
             Ok(Dynamic::UNIT)
         })
         .summary("Calls a function with the simulation when a time is reached; a step ends there.")
