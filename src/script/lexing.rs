@@ -30,9 +30,36 @@ pub fn tokens(source: &str) -> Vec<(Token, Position)> {
     found
 }
 
+/// Where a comment begins that is never closed: Rhai would take the rest of the script for a part of it.
+///
+/// Only for a source that compiles: an open text would look the same.
+pub fn open_comment(source: &str) -> Option<Position> {
+    const PROBE: &str = "end_of_script";
+    let probed = tokens(&format!("{source}\n{PROBE}"));
+    let is_seen =
+        matches!(probed.last(), Some((Token::Identifier(name), _)) if name.as_str() == PROBE);
+    if is_seen {
+        return None;
+    }
+    let before = &source[..source.rfind("/*")?];
+    let column = before.chars().rev().take_while(|letter| *letter != '\n').count() + 1;
+    let line = before.matches('\n').count() + 1;
+    Some(Position::new(line.try_into().ok()?, column.try_into().ok()?))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_comment_that_is_never_closed_is_found() {
+        assert_eq!(open_comment("let a = 1;\n  /* lost"), Some(Position::new(2, 3)));
+        for closed in
+            ["", "let a = 1; // end", "/* a /* b */ */ 1", "`text /* ${ 1 }`", "let t = \"/*\";"]
+        {
+            assert_eq!(open_comment(closed), None, "{closed}");
+        }
+    }
 
     #[test]
     fn interpolated_texts_do_not_confuse_the_lexer() {

@@ -11,6 +11,8 @@ use super::checks::Checks;
 use super::context::{Context, Settings};
 use super::diagnose::{Diagnostic, Explainer, is_interrupt};
 use super::engine;
+use super::error::ScriptError;
+use super::lexing::open_comment;
 use super::program::Program;
 use super::syntax::mark_assignments;
 
@@ -69,7 +71,12 @@ pub fn compile(engine: &mut Engine, program: &Program) -> Result<AST, Box<EvalAl
     engine::import_from(engine, &program.folder);
     let mut ast = engine.compile(mark_assignments(&program.text))?;
     ast.set_source(program.name.as_str());
-    Ok(ast)
+    match open_comment(&program.text) {
+        Some(position) => Err(ScriptError::new("a comment that begins with /* is never closed")
+            .hint("write */ where it ends")
+            .into_engine(position)),
+        None => Ok(ast),
+    }
 }
 
 fn run_here(program: &Program, catalog: &Catalog, settings: Settings) -> Outcome {
