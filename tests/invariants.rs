@@ -5,8 +5,10 @@ mod common;
 
 use common::{at, meshes, run, scenes, settings, simulate};
 use withy::beams::Mesh;
-use withy::integrators::{INTEGRATORS, Method};
+use withy::integrators::{INTEGRATORS, Interval, Method};
 use withy::loads::{LoadKind, Schedule};
+use withy::model::Model;
+use withy::newton::Tolerance;
 use withy::simulation::{History, Invariant, Simulation, SimulationError};
 
 fn smooth(spans: usize) -> Mesh {
@@ -160,4 +162,28 @@ fn half_a_turn_in_a_step_is_tried_again_in_smaller_steps() {
         "spun by 7.2 rad a step: {} steps instead of 10, {} retries",
         counts.steps, counts.retries
     );
+}
+
+#[test]
+fn a_restored_state_goes_on_bit_for_bit_as_it_did() {
+    for entry in INTEGRATORS {
+        for scene in scenes::all(&smooth(6)) {
+            let mut model = Model::assemble(&scene).unwrap();
+            let mut integrator = entry.method.build(&model, Tolerance::default());
+            let mut advance = |model: &mut Model, steps: std::ops::Range<u32>| {
+                for n in steps {
+                    let (start, end) = (f64::from(n) * 0.05, f64::from(n + 1) * 0.05);
+                    integrator.step(model, Interval { start, end }).unwrap();
+                }
+            };
+            advance(&mut model, 0..10);
+            let state = model.state();
+            advance(&mut model, 10..20);
+            let later = model.state();
+            model.restore(&state);
+            assert_eq!(model.state(), state, "{}, {}", entry.name, scene.name);
+            advance(&mut model, 10..20);
+            assert_eq!(model.state(), later, "{}, {}", entry.name, scene.name);
+        }
+    }
 }
