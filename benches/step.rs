@@ -73,7 +73,7 @@ fn costs(spans: usize) -> (usize, [(f64, f64); 5], f64) {
     });
 
     let unknowns = model.unknowns();
-    model.begin_step(Interval { start: 0.0, end: DT }).unwrap();
+    model.begin_step(Interval { start: 0.0, end: DT }, &Stage::ALL).unwrap();
     let increments: Vec<f64> = model.rates().iter().map(|rate| DT * rate).collect();
     let mut residual = vec![0.0; model.degrees_of_freedom()];
     let mut tangent = BandedMatrix::zeros(unknowns, model.half_bandwidth());

@@ -29,7 +29,7 @@ impl Integrator for EnergyMomentum {
         mechanism: &mut dyn Mechanism,
         interval: Interval,
     ) -> Result<NewtonReport, StepError> {
-        mechanism.begin_step(interval)?;
+        mechanism.begin_step(interval, &[Stage::Midpoint])?;
         self.solver.predict(mechanism, interval);
         let report = self.solver.solve(mechanism, interval, Stage::Midpoint, 1.0)?;
         self.solver.correct(mechanism, interval);

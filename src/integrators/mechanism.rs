@@ -17,6 +17,11 @@ pub enum Stage {
     End,
 }
 
+impl Stage {
+    /// All of them, in the order of time.
+    pub const ALL: [Self; 3] = [Self::Start, Self::Midpoint, Self::End];
+}
+
 /// A mechanical system with a constant inertia matrix `M` and forces that depend on its configuration.
 ///
 /// Increments and rates are those of the unknowns. Forces have, after the entries of the unknowns, those of the
@@ -34,11 +39,11 @@ pub trait Mechanism {
     /// The rates of the unknowns at the start of the step [length/time, 1/time].
     fn rates(&self) -> &[f64];
 
-    /// Prepares a step: evaluates what depends on time only.
+    /// Prepares a step that takes forces at the given stages: evaluates what depends on time only.
     ///
     /// # Errors
     /// When a load has no finite value.
-    fn begin_step(&mut self, interval: Interval) -> Result<(), StepError>;
+    fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), StepError>;
 
     /// Adds `factor · M · rates` to `out`.
     fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]);

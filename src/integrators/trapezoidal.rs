@@ -29,7 +29,7 @@ impl Integrator for Trapezoidal {
         mechanism: &mut dyn Mechanism,
         interval: Interval,
     ) -> Result<NewtonReport, StepError> {
-        mechanism.begin_step(interval)?;
+        mechanism.begin_step(interval, &[Stage::Start, Stage::End])?;
         self.solver.predict(mechanism, interval);
         self.solver.carry(mechanism, Stage::Start, 0.5);
         let report = self.solver.solve(mechanism, interval, Stage::End, 0.5)?;

@@ -42,10 +42,14 @@ impl std::ops::AddAssign for Exchange {
 pub(super) struct Pattern {
     /// (beam, control point, force and moment)
     entries: Vec<(usize, usize, Movement)>,
+    /// The largest force and the largest moment on a control point.
+    largest: (f64, f64),
 }
 
 impl Pattern {
     pub(super) fn push(&mut self, beam: usize, point: usize, force: Movement) {
+        let [x, y, moment] = force.map(f64::abs);
+        self.largest = (self.largest.0.max(x).max(y), self.largest.1.max(moment));
         self.entries.push((beam, point, force));
     }
 
@@ -59,9 +63,7 @@ impl Pattern {
 
     /// The largest force and the largest moment on a control point.
     pub(super) fn largest(&self, factor: f64) -> (f64, f64) {
-        self.entries.iter().fold((0.0, 0.0), |(force, moment): (f64, f64), (_, _, [x, y, m])| {
-            (force.max(factor.abs() * x.abs().max(y.abs())), moment.max(factor.abs() * m.abs()))
-        })
+        (factor.abs() * self.largest.0, factor.abs() * self.largest.1)
     }
 
     /// What it gives in a step of the movements that the bodies gathered last, acting at their midpoint.
@@ -136,11 +138,18 @@ pub(super) struct AppliedLoad {
     current: f64,
 }
 
-#[derive(Debug, Clone, Copy, Default)]
+/// Factors of the schedule; not a number at stages that the step did not announce.
+#[derive(Debug, Clone, Copy)]
 struct StageFactors {
     start: f64,
     mean: f64,
     end: f64,
+}
+
+impl Default for StageFactors {
+    fn default() -> Self {
+        Self { start: f64::NAN, mean: f64::NAN, end: f64::NAN }
+    }
 }
 
 impl StageFactors {
@@ -175,12 +184,24 @@ impl AppliedLoad {
         }
     }
 
-    pub(super) fn begin_step(&mut self, interval: Interval) -> Result<(), LoadError> {
-        self.factors = StageFactors {
-            start: self.schedule.value(interval.start, Side::After)?,
-            mean: self.schedule.mean(interval.start, interval.end)?,
-            end: self.schedule.value(interval.end, Side::Before)?,
-        };
+    /// Evaluates the schedule for the stages of a step, and for no other: it may be a function of a script.
+    pub(super) fn begin_step(
+        &mut self,
+        interval: Interval,
+        stages: &[Stage],
+    ) -> Result<(), LoadError> {
+        self.factors = StageFactors::default();
+        for stage in stages {
+            match stage {
+                Stage::Start => {
+                    self.factors.start = self.schedule.value(interval.start, Side::After)?
+                }
+                Stage::Midpoint => {
+                    self.factors.mean = self.schedule.mean(interval.start, interval.end)?
+                }
+                Stage::End => self.factors.end = self.schedule.value(interval.end, Side::Before)?,
+            }
+        }
         (self.carried, self.current) = (0.0, 0.0);
         if let Action::Follower(followers) = &mut self.action {
             followers

@@ -197,9 +197,9 @@ impl Mechanism for Model {
         &self.rates
     }
 
-    fn begin_step(&mut self, interval: Interval) -> Result<(), StepError> {
+    fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), StepError> {
         for load in &mut self.loads {
-            load.begin_step(interval).map_err(|reason| StepError::Load {
+            load.begin_step(interval, stages).map_err(|reason| StepError::Load {
                 interval,
                 load: load.name.clone(),
                 reason: reason.to_string(),

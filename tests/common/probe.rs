@@ -22,7 +22,7 @@ fn positions(model: &Model) -> Vec<Vec2> {
 
 /// Advances by increments of a stage, the rates as they are.
 pub fn advance(model: &mut Model, stage: Stage, increments: &[f64]) {
-    model.begin_step(STEP).unwrap();
+    model.begin_step(STEP, &Stage::ALL).unwrap();
     let mut residual = vec![0.0; model.degrees_of_freedom()];
     model.add_forces(stage, increments, 1.0, &mut residual);
     let rates = model.rates().to_vec();
@@ -111,7 +111,7 @@ pub fn differences(point: &[f64], h: f64, f: &mut dyn FnMut(&[f64]) -> Vec<f64>)
 
 /// Squares of the circular frequencies of small vibration about the present state, smallest first.
 pub fn eigenvalues(model: &mut Model) -> Vec<f64> {
-    model.begin_step(STEP).unwrap();
+    model.begin_step(STEP, &Stage::ALL).unwrap();
     let standstill = vec![0.0; model.unknowns()];
     let stiffness = tangent(model, Stage::End, &standstill);
     let lower = inertia(model).cholesky().expect("the inertia is positive definite").l();

@@ -67,7 +67,7 @@ pub const TABLE: Table = Table {
         function("schedule", &[callback("function"), BREAKS], closure)
             .returns("a schedule")
             .summary("Any function of time; give the times at which it jumps or bends, if there are any.")
-            .doc("It is called three times a step, never inside the iteration. A jump that is not declared costs accuracy.")
+            .doc("It is called two or three times a step, never inside the iteration. A jump that is not declared costs accuracy.")
             .example("let load = schedule(|t| exp(-t) * sin(3 * t));\ncheck(load.at(0) == 0);"),
         method(SCHEDULE, "at", &[number("t").unit("time")], |call| {
             Ok(call.receiver::<Schedule>()?.value(call.number("t")?, Side::After)?.into())
