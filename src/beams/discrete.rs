@@ -1,5 +1,6 @@
 //! A beam on its mesh: the quadrature points of all spans, the control points and the inertia.
 
+use super::axis_point::AxisPoint;
 use super::block::zero_block;
 use super::dynamics::{BeamDynamics, Collocation, ForceSummary, Movement};
 use super::force_point::ForcePoint;
@@ -55,16 +56,6 @@ pub fn discretise(
     })
 }
 
-/// A place of the undeformed axis as quadrature needs it.
-struct AxisPoint<const N: usize> {
-    shape: [f64; N],
-    /// Derivatives by arc length [1/length].
-    slope: [f64; N],
-    tangent: Vec2,
-    /// Weight of the quadrature, as a length.
-    weight: f64,
-}
-
 struct Axis<'a> {
     basis: &'a Basis,
     control_points: &'a [Vec2],
@@ -73,11 +64,12 @@ struct Axis<'a> {
 }
 
 impl Axis<'_> {
+    /// The points of a rule on a span, with the unit tangents there.
     fn points<const N: usize>(
         &self,
         span: Span,
         rule: &GaussRule,
-    ) -> Result<Vec<AxisPoint<N>>, BeamError> {
+    ) -> Result<Vec<(AxisPoint<N>, Vec2)>, BeamError> {
         let place = |(xi, weight): (f64, f64)| {
             let values = self.basis.evaluate_in(&span, xi);
             let derivative = values.combine(1, self.control_points);
@@ -88,7 +80,7 @@ impl Axis<'_> {
             let (mut shape, mut slope) = ([0.0; N], [0.0; N]);
             shape.copy_from_slice(values.values());
             slope.iter_mut().zip(values.slopes()).for_each(|(to, from)| *to = from / speed);
-            Ok(AxisPoint { shape, slope, tangent: derivative / speed, weight: weight * speed })
+            Ok((AxisPoint { shape, slope, weight: weight * speed }, derivative / speed))
         };
         rule.iter_on(span.start, span.end).map(place).collect()
     }
@@ -116,15 +108,15 @@ impl<const N: usize> DiscreteBeam<N> {
                 force_points: axis
                     .points(span, &force_rule)?
                     .into_iter()
-                    .map(|at| ForcePoint::new(at.shape, at.slope, at.weight, at.tangent))
+                    .map(ForcePoint::new)
                     .collect(),
                 moment_points: axis
                     .points(span, &moment_rule)?
                     .into_iter()
-                    .map(|at| MomentPoint::new(at.shape, at.slope, at.weight))
+                    .map(|(axis, _)| MomentPoint::new(axis))
                     .collect(),
             });
-            for at in axis.points::<N>(span, &inertia_rule)? {
+            for (at, _) in axis.points::<N>(span, &inertia_rule)? {
                 for (a, row) in gram[span.first..span.first + N].iter_mut().enumerate() {
                     for (k, entry) in row[..N - a].iter_mut().enumerate() {
                         *entry += at.weight * at.shape[a] * at.shape[a + k];

@@ -11,6 +11,7 @@
 //! The gradient `g = x'` and the rotation are kept at the point and advanced by increments, so that the strains do not
 //! depend on how far from the origin the beam has flown.
 
+use super::axis_point::AxisPoint;
 use super::block::Block;
 use super::dynamics::{Collocation, ForceSummary, Movement};
 use super::{Rotation, RotationIncrement, Section};
@@ -18,9 +19,7 @@ use crate::geometry::{Vec2, cross, larger, perpendicular};
 
 #[derive(Debug, Clone)]
 pub(super) struct ForcePoint<const N: usize> {
-    shape: [f64; N],
-    slope: [f64; N],
-    weight: f64,
+    axis: AxisPoint<N>,
     /// `g0`
     gradient: Vec2,
     /// `Λ0`
@@ -51,8 +50,8 @@ struct Configuration {
 }
 
 impl<const N: usize> ForcePoint<N> {
-    /// A point of the undeformed axis: basis values, their derivatives by arc length, weight and unit tangent.
-    pub(super) fn new(shape: [f64; N], slope: [f64; N], weight: f64, tangent: Vec2) -> Self {
+    /// A point of the undeformed axis, and its unit tangent there.
+    pub(super) fn new((axis, tangent): (AxisPoint<N>, Vec2)) -> Self {
         let rotation = Rotation { cos: tangent.x, sin: tangent.y };
         let undeformed = Configuration {
             end_rotation: rotation,
@@ -65,9 +64,7 @@ impl<const N: usize> ForcePoint<N> {
             increment: 0.0,
         };
         Self {
-            shape,
-            slope,
-            weight,
+            axis,
             gradient: tangent,
             rotation,
             strain: Vec2::zeros(),
@@ -85,7 +82,9 @@ impl<const N: usize> ForcePoint<N> {
     #[inline]
     fn interpolate(&self, moved: &[Movement; N]) -> (Vec2, f64) {
         let (mut gradient, mut rotation) = (Vec2::zeros(), 0.0);
-        for ((shape, slope), [x, y, omega]) in self.shape.iter().zip(&self.slope).zip(moved) {
+        for ((shape, slope), [x, y, omega]) in
+            self.axis.shape.iter().zip(&self.axis.slope).zip(moved)
+        {
             gradient.x += slope * x;
             gradient.y += slope * y;
             rotation += shape * omega;
@@ -113,9 +112,13 @@ impl<const N: usize> ForcePoint<N> {
 
     #[inline]
     fn distribute(&self, weight: f64, gradient: Vec2, force: Vec2, forces: &mut [Movement; N]) {
-        let (force, torque) =
-            (force * (weight * self.weight), cross(gradient, force) * (weight * self.weight));
-        for ((shape, slope), [x, y, omega]) in self.shape.iter().zip(&self.slope).zip(forces) {
+        let (force, torque) = (
+            force * (weight * self.axis.weight),
+            cross(gradient, force) * (weight * self.axis.weight),
+        );
+        for ((shape, slope), [x, y, omega]) in
+            self.axis.shape.iter().zip(&self.axis.slope).zip(forces)
+        {
             *x += slope * force.x;
             *y += slope * force.y;
             *omega -= shape * torque;
@@ -140,7 +143,7 @@ impl<const N: usize> ForcePoint<N> {
         summary.join(&ForceSummary {
             strain_mismatch: larger(self.mismatch.x.abs(), self.mismatch.y.abs()),
             force,
-            moment: self.weight * force,
+            moment: self.axis.weight * force,
             rotation: now.increment.abs(),
         });
     }
@@ -175,15 +178,18 @@ impl<const N: usize> ForcePoint<N> {
         let e = Vec2::new(a1.dot(&lever), a2.dot(&lever)) - geometric;
         let f = lever.dot(&b);
 
-        let w = weight * self.weight;
+        let w = weight * self.axis.weight;
         let force_rows = [[a1.x, a2.x, b.x], [a1.y, a2.y, b.y]];
         let torque_row = [e.x, e.y, f];
-        for ((slope_a, shape_a), rows) in self.slope.iter().zip(&self.shape).zip(block.iter_mut()) {
+        for ((slope_a, shape_a), rows) in
+            self.axis.slope.iter().zip(&self.axis.shape).zip(block.iter_mut())
+        {
             let (force_weight, torque_weight) = (w * slope_a, -w * shape_a);
             let [row_x, row_y, row_omega] = rows;
             let add = |row: &mut [[f64; 3]; N], weight: f64, by: &[f64; 3]| {
                 let by = by.map(|entry| entry * weight);
-                for ((entry, slope_b), shape_b) in row.iter_mut().zip(&self.slope).zip(&self.shape)
+                for ((entry, slope_b), shape_b) in
+                    row.iter_mut().zip(&self.axis.slope).zip(&self.axis.shape)
                 {
                     entry[0] += by[0] * slope_b;
                     entry[1] += by[1] * slope_b;
@@ -229,7 +235,7 @@ impl<const N: usize> ForcePoint<N> {
     }
 
     pub(super) fn strain_energy(&self, section: &Section) -> f64 {
-        0.5 * self.weight * self.strain.dot(&force_of(section, self.strain))
+        0.5 * self.axis.weight * self.strain.dot(&force_of(section, self.strain))
     }
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {

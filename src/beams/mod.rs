@@ -2,6 +2,7 @@
 //!
 //! J. C. Simo & L. Vu-Quoc, ASME J. Appl. Mech. 53 (1986) 849–863; E. Reissner, ZAMP 23 (1972) 795–804.
 
+mod axis_point;
 mod block;
 mod discrete;
 mod dynamics;

@@ -4,15 +4,14 @@
 //! κ1 = κ0 + Δω'/q     1/q = dΔθ/dΔω     M = EI ((1-σ) κ0 + σ κ1)     S_a = w N_a' M/q
 //! ```
 
+use super::axis_point::AxisPoint;
 use super::block::Block;
 use super::dynamics::{Collocation, ForceSummary, Movement};
 use super::{RotationIncrement, Section};
 
 #[derive(Debug, Clone)]
 pub(super) struct MomentPoint<const N: usize> {
-    shape: [f64; N],
-    slope: [f64; N],
-    weight: f64,
+    axis: AxisPoint<N>,
     /// `κ0`
     curvature: f64,
 }
@@ -25,16 +24,18 @@ struct Response {
 }
 
 impl<const N: usize> MomentPoint<N> {
-    /// A point of the undeformed axis: basis values, their derivatives by arc length, and weight.
-    pub(super) fn new(shape: [f64; N], slope: [f64; N], weight: f64) -> Self {
-        Self { shape, slope, weight, curvature: 0.0 }
+    /// A point of the undeformed axis.
+    pub(super) fn new(axis: AxisPoint<N>) -> Self {
+        Self { axis, curvature: 0.0 }
     }
 
     /// `(Δω', Δω)` of movements.
     #[inline]
     fn interpolate(&self, moved: &[Movement; N]) -> (f64, f64) {
         let (mut slope, mut rotation) = (0.0, 0.0);
-        for ((shape, derivative), [_, _, omega]) in self.shape.iter().zip(&self.slope).zip(moved) {
+        for ((shape, derivative), [_, _, omega]) in
+            self.axis.shape.iter().zip(&self.axis.slope).zip(moved)
+        {
             slope += derivative * omega;
             rotation += shape * omega;
         }
@@ -56,7 +57,7 @@ impl<const N: usize> MomentPoint<N> {
 
     #[inline]
     fn distribute(&self, moment: f64, forces: &mut [Movement; N]) {
-        for (slope, [_, _, omega]) in self.slope.iter().zip(forces) {
+        for (slope, [_, _, omega]) in self.axis.slope.iter().zip(forces) {
             *omega += slope * moment;
         }
     }
@@ -72,7 +73,7 @@ impl<const N: usize> MomentPoint<N> {
         summary: &mut ForceSummary,
     ) {
         let moment = self.response(section, at, moved).moment;
-        self.distribute(weight * self.weight * moment, forces);
+        self.distribute(weight * self.axis.weight * moment, forces);
         summary.join(&ForceSummary { moment: moment.abs(), ..ForceSummary::default() });
     }
 
@@ -87,13 +88,13 @@ impl<const N: usize> MomentPoint<N> {
         block: &mut Block<N>,
     ) {
         let response = self.response(section, at, moved);
-        let w = weight * self.weight;
+        let w = weight * self.axis.weight;
         self.distribute(w * response.moment, forces);
-        for (slope_a, [_, _, row_omega]) in self.slope.iter().zip(block.iter_mut()) {
+        for (slope_a, [_, _, row_omega]) in self.axis.slope.iter().zip(block.iter_mut()) {
             let (by_slope, by_rotation) =
                 (w * slope_a * response.by_slope, w * slope_a * response.by_rotation);
             for ((entry, slope_b), shape_b) in
-                row_omega.iter_mut().zip(&self.slope).zip(&self.shape)
+                row_omega.iter_mut().zip(&self.axis.slope).zip(&self.axis.shape)
             {
                 entry[2] += by_slope * slope_b + by_rotation * shape_b;
             }
@@ -106,7 +107,7 @@ impl<const N: usize> MomentPoint<N> {
     }
 
     pub(super) fn strain_energy(&self, section: &Section) -> f64 {
-        0.5 * self.weight * section.bending_stiffness * self.curvature * self.curvature
+        0.5 * self.axis.weight * section.bending_stiffness * self.curvature * self.curvature
     }
 
     pub(super) fn curvature(&self) -> f64 {
