@@ -12,6 +12,7 @@ mod knots;
 mod lagrange;
 mod line;
 mod local_cubic;
+mod passage;
 mod planar;
 mod quadrature;
 #[cfg(test)]
@@ -28,6 +29,7 @@ pub use fit::{corresponding, interpolate};
 pub use knots::{KnotVector, MAX_DEGREE, MAX_SPANS, Span};
 pub use lagrange::LagrangeBasis;
 pub use line::Line;
+pub use passage::Passage;
 pub use planar::{Vec2, cross, perpendicular, unit};
 pub use quadrature::GaussRule;
 pub use spline_curve::SplineCurve;

@@ -1,0 +1,258 @@
+//! Basis functions along a way between two parameters, for a point that slides along a beam.
+
+use super::{Basis, GaussRule, Span};
+
+/// The basis functions `B_i` along a way from the parameter ξ₀ to ξ₁, as a point needs them that
+/// slides along `Σ B_i(ξ) x_i` during a time step: above all the quotients
+/// `(B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)`, which are accurate for ways of any length, zero included, and
+/// across breaks of any smoothness.
+///
+/// The window of the functions `first, first + 1, …` contains those that are non-zero anywhere on
+/// the spans of the way; every accessor returns one number for each of them. Parameters are
+/// dimensionless, and so is all that is returned.
+///
+/// A way that starts at a break starts in the span ahead, and one that ends at a break ends in the
+/// span it came through. A way of length zero at a break lies in the right span. Outside the
+/// domain the polynomials of the end spans are continued.
+#[derive(Debug, Clone)]
+pub struct Passage {
+    basis: Basis,
+    spans: Vec<Span>,
+    /// For each span, the number of breaks up to its start at which slopes jump.
+    kinks: Vec<usize>,
+    /// Points and weights on `[0, 1]`, exact for polynomials of one degree less than the basis.
+    rule: Vec<(f64, f64)>,
+    first: usize,
+    length: usize,
+    start: Vec<f64>,
+    end: Vec<f64>,
+    mean: Vec<f64>,
+    slope: Vec<f64>,
+    difference: Vec<f64>,
+    change: Vec<f64>,
+}
+
+/// Where a way starts and ends, and the indices of the spans in which it does.
+#[derive(Clone, Copy)]
+struct Way {
+    from: f64,
+    to: f64,
+    departure: usize,
+    arrival: usize,
+}
+
+/// The part of a way within one span.
+struct Piece {
+    enter: f64,
+    leave: f64,
+    /// The fraction of the way that lies before the piece.
+    before: f64,
+    /// The fraction of the way that is the piece.
+    share: f64,
+}
+
+impl Passage {
+    /// A way of length zero at the start of the domain of `basis`. All the room that longer ways
+    /// need is taken here; [`go`](Self::go) allocates nothing.
+    pub fn new(basis: Basis) -> Self {
+        let room = vec![0.0; basis.functions()];
+        let (start, _) = basis.domain();
+        let spans = basis.spans();
+        let kinks = kinks(&spans, basis.degree());
+        let mut passage = Self {
+            spans,
+            kinks,
+            rule: GaussRule::legendre(basis.degree().div_ceil(2)).iter_on(0.0, 1.0).collect(),
+            first: 0,
+            length: 0,
+            start: room.clone(),
+            end: room.clone(),
+            mean: room.clone(),
+            slope: room.clone(),
+            difference: room.clone(),
+            change: room,
+            basis,
+        };
+        passage.go(start, start);
+        passage
+    }
+
+    /// Replaces the way by the one from ξ₀ = `from`, in the domain, to ξ₁ = `to`, which may lie
+    /// outside.
+    ///
+    /// If either is not finite, all numbers are NaN, and the window is that of the span of `from`.
+    pub fn go(&mut self, from: f64, to: f64) {
+        let finite = from.is_finite() && to.is_finite();
+        let way = self.way(from, if finite { to } else { from });
+        let (low, high) = way.lowest_and_highest();
+        self.first = self.spans[low].first;
+        self.length = self.spans[high].first + self.basis.degree() + 1 - self.first;
+        if finite {
+            self.fill(0.0);
+            self.add_ends(way);
+            self.add_quotients(way);
+        } else {
+            self.fill(f64::NAN);
+        }
+    }
+
+    /// The basis.
+    pub fn basis(&self) -> &Basis {
+        &self.basis
+    }
+
+    /// The index of the first function of the window.
+    pub fn first(&self) -> usize {
+        self.first
+    }
+
+    /// `B_i(ξ₀)`. They sum to one.
+    pub fn start(&self) -> &[f64] {
+        &self.start[..self.length]
+    }
+
+    /// `B_i(ξ₁)`. They sum to one.
+    pub fn end(&self) -> &[f64] {
+        &self.end[..self.length]
+    }
+
+    /// `½ (B_i(ξ₀) + B_i(ξ₁))`. They sum to one.
+    pub fn mean(&self) -> &[f64] {
+        &self.mean[..self.length]
+    }
+
+    /// `B_i'(ξ₁)`, on the side of the way. They sum to zero.
+    pub fn slope(&self) -> &[f64] {
+        &self.slope[..self.length]
+    }
+
+    /// `D_i = (B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)`, the mean of `B_i'` over the way, to rounding;
+    /// `B_i'(ξ₀)` for a way of length zero. They sum to zero.
+    pub fn difference(&self) -> &[f64] {
+        &self.difference[..self.length]
+    }
+
+    /// `∂D_i/∂ξ₁ = (B_i'(ξ₁) - D_i) / (ξ₁ - ξ₀)` for fixed ξ₀; `½ B_i''(ξ₀)` for a way of length
+    /// zero. They sum to zero.
+    ///
+    /// To rounding, unless the way crosses a break at which the `B_i'` jump: then the rounding of
+    /// `D_i` is divided by the length of the way.
+    pub fn change(&self) -> &[f64] {
+        &self.change[..self.length]
+    }
+
+    /// The way with its spans found.
+    fn way(&self, from: f64, to: f64) -> Way {
+        let last = self.spans.len() - 1;
+        let (departure, arrival) = if to < from {
+            let departure = self.spans.partition_point(|span| span.end < from).min(last);
+            let arrival = self.spans.partition_point(|span| span.end <= to);
+            (departure, arrival.min(departure))
+        } else {
+            let departure = self.spans.partition_point(|span| span.start <= from).max(1) - 1;
+            let arrival = self.spans.partition_point(|span| span.start < to).max(1) - 1;
+            (departure, arrival.max(departure))
+        };
+        Way { from, to, departure, arrival }
+    }
+
+    /// Sets every number of the window.
+    fn fill(&mut self, value: f64) {
+        let all = [
+            &mut self.start,
+            &mut self.end,
+            &mut self.mean,
+            &mut self.slope,
+            &mut self.difference,
+            &mut self.change,
+        ];
+        all.into_iter().for_each(|row| row[..self.length].fill(value));
+    }
+
+    /// What the functions are at the ends, added to zeros.
+    fn add_ends(&mut self, way: Way) {
+        let values = self.basis.evaluate_in(&self.spans[way.departure], way.from);
+        add(&mut self.start, values.first - self.first, 1.0, values.values());
+        let values = self.basis.evaluate_in(&self.spans[way.arrival], way.to);
+        add(&mut self.end, values.first - self.first, 1.0, values.values());
+        add(&mut self.slope, values.first - self.first, 1.0, values.slopes());
+        add(&mut self.mean, 0, 0.5, &self.start[..self.length]);
+        add(&mut self.mean, 0, 0.5, &self.end[..self.length]);
+    }
+
+    /// The integrals over the way, added to zeros: `D = ∫ B'(ξ₀ + s Δξ) ds` over `0 < s < 1` and its
+    /// derivative `∫ s B''(ξ₀ + s Δξ) ds`, unless `B'` jumps on the way.
+    fn add_quotients(&mut self, way: Way) {
+        let smooth = self.kinks[way.departure] == self.kinks[way.arrival];
+        let (low, high) = way.lowest_and_highest();
+        for (index, span) in self.spans[low..=high].iter().enumerate() {
+            let piece = way.piece(low + index, span);
+            let skip = span.first - self.first;
+            for &(t, weight) in &self.rule {
+                let xi = piece.enter + t * (piece.leave - piece.enter);
+                let values = self.basis.evaluate_in(span, xi);
+                let weight = weight * piece.share;
+                add(&mut self.difference, skip, weight, values.slopes());
+                if smooth {
+                    let moment = weight * (piece.before + t * piece.share);
+                    add(&mut self.change, skip, moment, values.derivatives(2));
+                }
+            }
+        }
+        if !smooth {
+            let length = way.to - way.from;
+            add(&mut self.change, 0, 1.0 / length, &self.slope[..self.length]);
+            add(&mut self.change, 0, -1.0 / length, &self.difference[..self.length]);
+        }
+    }
+}
+
+impl Way {
+    /// The indices of the leftmost and of the rightmost span.
+    fn lowest_and_highest(self) -> (usize, usize) {
+        (self.departure.min(self.arrival), self.departure.max(self.arrival))
+    }
+
+    /// The part within `span`, one of those of the way, with its `index`.
+    fn piece(self, index: usize, span: &Span) -> Piece {
+        if self.departure == self.arrival {
+            // Apart from the rest, which divides by the length of the way: it may be zero.
+            return Piece { enter: self.from, leave: self.to, before: 0.0, share: 1.0 };
+        }
+        let (behind, ahead) = if self.departure < self.arrival {
+            (span.start, span.end)
+        } else {
+            (span.end, span.start)
+        };
+        let enter = if index == self.departure { self.from } else { behind };
+        let leave = if index == self.arrival { self.to } else { ahead };
+        let length = self.to - self.from;
+        Piece {
+            enter,
+            leave,
+            before: (enter - self.from) / length,
+            share: (leave - enter) / length,
+        }
+    }
+}
+
+/// For each span, the number of breaks up to its start at which slopes of the functions jump:
+/// those across which no more than one function lives on both sides.
+fn kinks(spans: &[Span], degree: usize) -> Vec<usize> {
+    let jumps = spans.windows(2).map(|pair| usize::from(pair[1].first - pair[0].first >= degree));
+    std::iter::once(0)
+        .chain(jumps)
+        .scan(0, |count, jump| {
+            *count += jump;
+            Some(*count)
+        })
+        .collect()
+}
+
+/// Adds `factor · values` to the entries of `row` behind the first `skip`.
+fn add(row: &mut [f64], skip: usize, factor: f64, values: &[f64]) {
+    row[skip..].iter_mut().zip(values).for_each(|(entry, value)| *entry += factor * value);
+}
+
+#[cfg(test)]
+mod tests;
