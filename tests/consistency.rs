@@ -7,7 +7,7 @@ use common::probe::{self, STEP, advance, condensed, differences, settle, tangent
 use common::{Random, at, meshes, scenes};
 use nalgebra::{DMatrix, DVector};
 use withy::geometry::Vec2;
-use withy::integrators::{Mechanism, Stage};
+use withy::integrators::{Mechanism, Solution, Stage};
 use withy::loads::{Frame, LoadKind};
 use withy::model::{Model, Scene};
 
@@ -97,7 +97,9 @@ fn midpoint_forces_do_exactly_the_work_by_which_the_energy_changes() {
         let work: f64 = forces.iter().zip(increments).map(|(force, u)| force * u).sum();
         let before = model.measure();
         let rates = model.rates().to_vec();
-        model.advance(increments, &rates, &forces);
+        let solution =
+            Solution { increments, constraints: &[], rates: &rates, residual: &forces };
+        model.advance(&solution);
         let after = model.measure();
         let potential = |m: &withy::model::Measures| m.energy.strain + m.energy.potential - m.work;
         let error = (potential(&after) - potential(&before) - work).abs() / after.energy.strain;

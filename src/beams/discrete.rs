@@ -2,11 +2,11 @@
 
 use super::axis_point::AxisPoint;
 use super::block::zero_block;
-use super::dynamics::{BeamDynamics, Collocation, ForceSummary, Movement};
+use super::dynamics::{BodyDynamics, Collocation, ForceSummary, Movement};
 use super::force_point::ForcePoint;
 use super::moment_point::MomentPoint;
 use super::{BeamError, Mesh, RotationIncrement, Section};
-use crate::geometry::{Basis, Curve, GaussRule, Span, Vec2, interpolate};
+use crate::geometry::{Basis, GaussRule, Span, Vec2};
 
 /// The slowest an axis may run along its parameter, relative to its mean.
 const STANDSTILL: f64 = 1e-9;
@@ -16,7 +16,6 @@ const STANDSTILL: f64 = 1e-9;
 struct DiscreteBeam<const N: usize> {
     section: Section,
     control_points: Vec<Vec2>,
-    /// What rounding has cut off the control points so far (compensated summation, Kahan 1965).
     remainders: Vec<Vec2>,
     spans: Vec<SpanPoints<N>>,
     /// `∫ N_a N_{a+k} dX` for k = 0 … N-1 [length].
@@ -30,17 +29,17 @@ struct SpanPoints<const N: usize> {
     moment_points: Vec<MomentPoint<N>>,
 }
 
-/// Puts a drawn axis on a mesh; the beam is free of stress as drawn.
+/// A beam with the axis that the control points draw on a mesh, where it is free of stress; `length` is about that of the
+/// axis.
 ///
 /// # Errors
-/// When the axis cannot be represented or has a point without a tangent.
+/// When the axis has a point without a tangent.
 pub fn discretise(
-    axis: &Curve,
+    control_points: Vec<Vec2>,
+    length: f64,
     mesh: &Mesh,
     section: Section,
-) -> Result<Box<dyn BeamDynamics>, BeamError> {
-    let control_points = interpolate(axis, mesh.basis())?;
-    let length = axis.length();
+) -> Result<Box<dyn BodyDynamics>, BeamError> {
     Ok(match mesh.basis().degree() {
         1 => Box::new(DiscreteBeam::<2>::new(mesh, section, length, control_points)?),
         2 => Box::new(DiscreteBeam::<3>::new(mesh, section, length, control_points)?),
@@ -135,6 +134,14 @@ impl<const N: usize> DiscreteBeam<N> {
     }
 }
 
+/// Moves a point, and keeps what rounding cuts off for the next time (compensated summation, Kahan 1965).
+pub(super) fn move_compensated(point: &mut Vec2, remainder: &mut Vec2, [x, y, _]: &Movement) {
+    let wanted = Vec2::new(*x, *y) + *remainder;
+    let reached = *point + wanted;
+    *remainder = wanted - (reached - *point);
+    *point = reached;
+}
+
 /// The movements of the `N` control points from `first` on.
 #[inline]
 fn window<const N: usize>(movements: &[Movement], first: usize) -> &[Movement; N] {
@@ -150,7 +157,7 @@ fn window_mut<const N: usize>(movements: &mut [Movement], first: usize) -> &mut 
         .expect("a span has as many control points as its basis has functions")
 }
 
-impl<const N: usize> BeamDynamics for DiscreteBeam<N> {
+impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
     fn order(&self) -> usize {
         N
     }
@@ -161,6 +168,10 @@ impl<const N: usize> BeamDynamics for DiscreteBeam<N> {
 
     fn control_points(&self) -> &[Vec2] {
         &self.control_points
+    }
+
+    fn remainders(&self) -> &[Vec2] {
+        &self.remainders
     }
 
     fn begin_step(&mut self) {
@@ -229,13 +240,10 @@ impl<const N: usize> BeamDynamics for DiscreteBeam<N> {
     }
 
     fn advance(&mut self, moved: &[Movement], rotations: RotationIncrement) {
-        for ((point, remainder), [x, y, _]) in
+        for ((point, remainder), movement) in
             self.control_points.iter_mut().zip(&mut self.remainders).zip(moved)
         {
-            let wanted = Vec2::new(*x, *y) + *remainder;
-            let reached = *point + wanted;
-            *remainder = wanted - (reached - *point);
-            *point = reached;
+            move_compensated(point, remainder, movement);
         }
         for span in &mut self.spans {
             let moved = window(moved, span.first);

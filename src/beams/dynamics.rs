@@ -1,4 +1,4 @@
-//! What a discretised beam offers to the model, whatever its basis.
+//! What a body offers to the model: a beam, whatever its basis, or a particle.
 
 use super::RotationIncrement;
 use crate::geometry::{Vec2, larger};
@@ -40,10 +40,10 @@ impl ForceSummary {
     }
 }
 
-/// A beam on its basis: reference quantities, state at the start of a step, and the iterate of the step.
+/// A beam on its basis, or a particle: reference quantities, state at the start of a step, and the iterate of the step.
 ///
 /// Movements, rates and forces are indexed by control point.
-pub trait BeamDynamics {
+pub trait BodyDynamics {
     /// The number of functions that are non-zero on a span, degree + 1.
     fn order(&self) -> usize;
 
@@ -52,6 +52,9 @@ pub trait BeamDynamics {
 
     /// Control points at the start of the step [length].
     fn control_points(&self) -> &[Vec2];
+
+    /// What rounding has cut off the control points so far [length].
+    fn remainders(&self) -> &[Vec2];
 
     /// Sets the section forces to those of the start of the step.
     fn begin_step(&mut self);

@@ -10,14 +10,16 @@ mod error;
 mod force_point;
 mod mesh;
 mod moment_point;
+mod particle;
 mod rotation;
 mod section;
 mod station;
 
 pub use discrete::discretise;
-pub use dynamics::{BeamDynamics, Collocation, ForceSummary, Movement};
+pub use dynamics::{BodyDynamics, Collocation, ForceSummary, Movement};
 pub use error::BeamError;
 pub use mesh::{Mesh, Quadrature};
+pub use particle::Particle;
 pub use rotation::{Rotation, RotationIncrement};
 pub use section::{Section, Shape, Solid};
-pub use station::{Place, Station};
+pub use station::{BodyIndex, Place, Station};

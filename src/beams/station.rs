@@ -1,22 +1,31 @@
-//! Places of a beam.
+//! Places of a body.
 
 use super::Mesh;
 use crate::geometry::{Curve, GeometryError, MAX_DEGREE, Vec2, corresponding};
 
-/// A place on a beam of a scene.
+/// Which body of a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BodyIndex {
+    /// A beam, by its index among the beams.
+    Beam(usize),
+    /// A particle, by its index among the particles.
+    Particle(usize),
+}
+
+/// A place on a body of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Station {
-    /// The index of the beam in its scene.
-    pub beam: usize,
-    /// The arc length from the start of the beam as drawn [length].
+    /// The body.
+    pub body: BodyIndex,
+    /// The arc length from the start of the beam as drawn; zero on a particle [length].
     pub arc_length: f64,
 }
 
 /// A place with the basis functions that are non-zero there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
-    /// The index of the beam in its scene.
-    pub beam: usize,
+    /// The index of the body in the model: beams come first, then particles.
+    pub body: usize,
     /// The first control point with a non-zero function.
     pub first: usize,
     shape: [f64; MAX_DEGREE + 1],
@@ -26,6 +35,24 @@ pub struct Place {
 }
 
 impl Station {
+    /// A station of a beam.
+    pub fn on_beam(beam: usize, arc_length: f64) -> Self {
+        Self { body: BodyIndex::Beam(beam), arc_length }
+    }
+
+    /// The only station of a particle.
+    pub fn on_particle(particle: usize) -> Self {
+        Self { body: BodyIndex::Particle(particle), arc_length: 0.0 }
+    }
+
+    /// The beam it is on, if it is on one.
+    pub fn beam(&self) -> Option<usize> {
+        match self.body {
+            BodyIndex::Beam(beam) => Some(beam),
+            BodyIndex::Particle(_) => None,
+        }
+    }
+
     /// The parameter of the mesh at this station of an axis.
     ///
     /// # Errors
@@ -34,29 +61,28 @@ impl Station {
         let along = axis.parameter_at(self.arc_length)?;
         Ok(corresponding(along, axis.domain(), mesh.basis().domain()))
     }
-
-    /// The basis functions at this station.
-    ///
-    /// # Errors
-    /// When the station lies outside the axis.
-    pub fn place(&self, axis: &Curve, mesh: &Mesh) -> Result<Place, GeometryError> {
-        Place::at(self.beam, axis, mesh, self.parameter(axis, mesh)?)
-    }
 }
 
 impl Place {
+    /// The place of a particle: its one control point.
+    pub fn of_particle(body: usize) -> Self {
+        let mut shape = [0.0; MAX_DEGREE + 1];
+        shape[0] = 1.0;
+        Self { body, first: 0, shape, order: 1, tangent_angle: 0.0 }
+    }
+
     /// The place of a beam at a parameter of its mesh.
     ///
     /// # Errors
     /// When the parameter lies outside the mesh, or the axis has no tangent there.
-    pub fn at(beam: usize, axis: &Curve, mesh: &Mesh, xi: f64) -> Result<Self, GeometryError> {
+    pub fn at(body: usize, axis: &Curve, mesh: &Mesh, xi: f64) -> Result<Self, GeometryError> {
         let values = mesh.basis().evaluate(xi)?;
         let mut shape = [0.0; MAX_DEGREE + 1];
         let order = values.values().len();
         shape[..order].copy_from_slice(values.values());
         let tangent_angle =
             axis.tangent_angle(corresponding(xi, mesh.basis().domain(), axis.domain()))?;
-        Ok(Self { beam, first: values.first, shape, order, tangent_angle })
+        Ok(Self { body, first: values.first, shape, order, tangent_angle })
     }
 
     /// The basis functions that are non-zero here.

@@ -1,15 +1,15 @@
 //! The equations of one step, and the work space to solve them: what all integrators here share.
 
-use super::{Interval, Mechanism, Stage, StepError};
-use crate::linalg::BandedMatrix;
+use super::{Interval, Mechanism, Solution, Stage, StepError};
+use crate::linalg::BorderedMatrix;
 use crate::newton::{Equations, Imbalance, Newton, NewtonReport, Tolerance};
 
 /// The largest increment `Δω`, mean rate times step: beyond it a turn cannot be told from one the other way round.
 const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
 
-/// `R(d) = 2/Δt² M d + weight · F(stage, u) + carried`, `u = Δt v0 + d`.
+/// `R(d, z) = 2/Δt² M d + weight · F(stage, u) + carried + G(u, z)`, `u = Δt v0 + d`.
 ///
-/// The unknown is the deviation `d` from coasting, not the increment `u`: `v1 = v0 + 2/Δt d` then rounds like the change
+/// `z` are the unknowns of constraints and `G` their forces, for the whole step. The unknown of the movements is the deviation `d` from coasting, not the increment `u`: `v1 = v0 + 2/Δt d` then rounds like the change
 /// of the velocity, so that momenta do not creep over many steps.
 struct StepBalance<'a> {
     mechanism: &'a mut dyn Mechanism,
@@ -19,9 +19,15 @@ struct StepBalance<'a> {
     carried: &'a [f64],
     coasting: &'a [f64],
     increments: &'a mut [f64],
+    movements: usize,
 }
 
 impl StepBalance<'_> {
+    /// The deviation from coasting, and the unknowns of the constraints.
+    fn split<'u>(&self, unknowns: &'u [f64]) -> (&'u [f64], &'u [f64]) {
+        unknowns.split_at(self.movements)
+    }
+
     fn begin(&mut self, deviation: &[f64], residual: &mut [f64]) {
         for ((u, coasting), d) in self.increments.iter_mut().zip(self.coasting).zip(deviation) {
             *u = coasting + d;
@@ -32,16 +38,15 @@ impl StepBalance<'_> {
 }
 
 impl Equations for StepBalance<'_> {
-    fn linearise(&mut self, deviation: &[f64], residual: &mut [f64], tangent: &mut BandedMatrix) {
+    fn linearise(&mut self, unknowns: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix) {
+        let (deviation, constraints) = self.split(unknowns);
         self.begin(deviation, residual);
-        self.mechanism.add_inertia_tangent(2.0 / self.duration.powi(2), tangent);
-        self.mechanism.add_linearised_forces(
-            self.stage,
-            self.increments,
-            self.weight,
-            residual,
-            tangent,
-        );
+        let Self { mechanism, stage, weight, increments, .. } = self;
+        let band = tangent.band_mut();
+        mechanism.add_inertia_tangent(2.0 / self.duration.powi(2), band);
+        mechanism.add_linearised_forces(*stage, increments, *weight, residual, band);
+        let border = tangent.border_mut();
+        mechanism.add_linearised_constraints(increments, constraints, residual, border);
     }
 
     fn condense(&mut self, residual: &mut [f64]) {
@@ -49,13 +54,19 @@ impl Equations for StepBalance<'_> {
     }
 
     fn correct(&mut self, correction: &[f64]) {
-        self.mechanism.correct_section_forces(correction);
+        self.mechanism.correct_section_forces(self.split(correction).0);
     }
 
-    fn imbalance(&mut self, deviation: &[f64], residual: &mut [f64]) -> Imbalance {
+    fn imbalance(&mut self, unknowns: &[f64], residual: &mut [f64]) -> Imbalance {
+        let (deviation, constraints) = self.split(unknowns);
         self.begin(deviation, residual);
         let strain = self.mechanism.add_forces(self.stage, self.increments, self.weight, residual);
-        Imbalance { force: self.mechanism.relative_imbalance(residual), strain }
+        self.mechanism.add_constraints(self.increments, constraints, residual);
+        Imbalance {
+            force: self.mechanism.relative_imbalance(residual),
+            strain,
+            constraint: self.mechanism.relative_violation(residual),
+        }
     }
 }
 
@@ -65,7 +76,8 @@ pub(super) struct StepSolver {
     newton: Newton,
     /// `Δt v0`
     coasting: Vec<f64>,
-    deviation: Vec<f64>,
+    /// The deviation from coasting, then the unknowns of the constraints.
+    unknowns: Vec<f64>,
     increments: Vec<f64>,
     /// The part of the residual that does not depend on the increments.
     carried: Vec<f64>,
@@ -75,30 +87,34 @@ pub(super) struct StepSolver {
 
 impl StepSolver {
     pub(super) fn new(mechanism: &dyn Mechanism, tolerance: Tolerance) -> Self {
-        let (unknowns, all) = (mechanism.unknowns(), mechanism.degrees_of_freedom());
+        let (movements, all) = (mechanism.unknowns(), mechanism.degrees_of_freedom());
+        let border = mechanism.constraint_shape();
         Self {
-            newton: Newton::new(unknowns, mechanism.half_bandwidth(), tolerance),
-            coasting: vec![0.0; unknowns],
-            deviation: vec![0.0; unknowns],
-            increments: vec![0.0; unknowns],
+            newton: Newton::new(movements, mechanism.half_bandwidth(), border, tolerance),
+            coasting: vec![0.0; movements],
+            unknowns: vec![0.0; movements + border.width],
+            increments: vec![0.0; movements],
             carried: vec![0.0; all],
-            rates: vec![0.0; unknowns],
+            rates: vec![0.0; movements],
             residual: vec![0.0; all],
         }
     }
 
     /// Predicts that every rate stays as it is.
-    pub(super) fn predict(&mut self, mechanism: &dyn Mechanism, interval: Interval) {
+    pub(super) fn predict(&mut self, mechanism: &mut dyn Mechanism, interval: Interval) {
         let duration = interval.duration();
         self.coasting.iter_mut().zip(mechanism.rates()).for_each(|(u, rate)| *u = duration * rate);
-        self.deviation.fill(0.0);
+        let (deviation, constraints) = self.unknowns.split_at_mut(self.coasting.len());
+        deviation.fill(0.0);
+        mechanism.predict_constraints(interval, constraints);
         self.carried.fill(0.0);
     }
 
     /// Adds a share of the forces of a stage at which nothing has moved yet.
     pub(super) fn carry(&mut self, mechanism: &mut dyn Mechanism, stage: Stage, share: f64) {
         // The deviation is still zero: it serves as the increments of standing still.
-        mechanism.add_forces(stage, &self.deviation, share, &mut self.carried);
+        let deviation = &self.unknowns[..self.coasting.len()];
+        mechanism.add_forces(stage, deviation, share, &mut self.carried);
     }
 
     /// Solves for the increments with the forces of `stage`.
@@ -117,25 +133,35 @@ impl StepSolver {
             carried: &self.carried,
             coasting: &self.coasting,
             increments: &mut self.increments,
+            movements: self.coasting.len(),
         };
         let report = self
             .newton
-            .solve(&mut balance, &mut self.deviation, &mut self.residual)
+            .solve(&mut balance, &mut self.unknowns, &mut self.residual)
             .map_err(|source| StepError::Newton { interval, source })?;
         let rotation = balance.mechanism.largest_rotation();
-        if rotation < LARGEST_INCREMENT {
-            Ok(report)
-        } else {
-            Err(StepError::Rotation { interval, rotation, iterations: report.iterations })
+        if !(rotation < LARGEST_INCREMENT) {
+            return Err(StepError::Rotation { interval, rotation, iterations: report.iterations });
+        }
+        let (_, constraints) = self.unknowns.split_at(self.coasting.len());
+        match mechanism.check_constraints(constraints) {
+            Ok(()) => Ok(report),
+            Err(overshoot) => Err(StepError::Overshoot {
+                interval,
+                overshoot,
+                iterations: report.iterations,
+            }),
         }
     }
 
     /// Accepts the increments, with the rates `v1 = 2 u/Δt - v0`.
     pub(super) fn correct(&mut self, mechanism: &mut dyn Mechanism, interval: Interval) {
         let twice_inverse = 2.0 / interval.duration();
-        for ((v1, d), v0) in self.rates.iter_mut().zip(&self.deviation).zip(mechanism.rates()) {
+        let (deviation, constraints) = self.unknowns.split_at(self.coasting.len());
+        for ((v1, d), v0) in self.rates.iter_mut().zip(deviation).zip(mechanism.rates()) {
             *v1 = v0 + twice_inverse * d;
         }
-        mechanism.advance(&self.increments, &self.rates, &self.residual);
+        let Self { increments, rates, residual, .. } = self;
+        mechanism.advance(&Solution { increments, constraints, rates, residual });
     }
 }

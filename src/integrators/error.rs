@@ -1,6 +1,6 @@
 //! Why a step could not be taken.
 
-use super::Interval;
+use super::{Interval, Overshoot};
 use crate::newton::NewtonError;
 
 /// A step that was refused; the mechanism is still at its start.
@@ -27,6 +27,19 @@ pub enum StepError {
         /// Newton iterations that the refused step took.
         iterations: usize,
     },
+    /// A constraint ends within the step, which has to be cut there.
+    #[error(
+        "limit {} of a constraint is passed within the step of {:.3e} from t = {}",
+        overshoot.limit, interval.duration(), interval.start
+    )]
+    Overshoot {
+        /// The step.
+        interval: Interval,
+        /// Which limit, and how far beyond it the step went.
+        overshoot: Overshoot,
+        /// Newton iterations that the refused step took.
+        iterations: usize,
+    },
     /// A load has no finite value in the step.
     #[error("{load}: {reason} (in the step from t = {} to {})", interval.start, interval.end)]
     Load {
@@ -44,7 +57,7 @@ impl StepError {
     pub fn factorisations(&self) -> usize {
         match self {
             Self::Newton { source, .. } => source.factorisations(),
-            Self::Rotation { iterations, .. } => *iterations,
+            Self::Rotation { iterations, .. } | Self::Overshoot { iterations, .. } => *iterations,
             Self::Load { .. } => 0,
         }
     }

@@ -1,7 +1,7 @@
 //! What an integrator may ask of the mechanical system that it advances.
 
 use super::{Interval, StepError};
-use crate::linalg::BandedMatrix;
+use crate::linalg::{BandedMatrix, Border, BorderShape};
 
 /// Where in a step forces are taken. Increments are counted from the start of the step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,13 +24,18 @@ impl Stage {
 
 /// A mechanical system with a constant inertia matrix `M` and forces that depend on its configuration.
 ///
-/// Increments and rates are those of the unknowns. Forces have, after the entries of the unknowns, those of the
-/// supported degrees of freedom, which do not move: what is left of a residual there is the reaction of the supports.
+/// Increments and rates are those of the movements that are unknown. Constraints add unknowns of their own (contact forces,
+/// places of contacts), which have no inertia and stand behind the movements, with as many equations. Forces have, after the
+/// entries of all these, those of the supported degrees of freedom, which do not move: what is left of a residual there is
+/// the reaction of the supports.
 pub trait Mechanism {
-    /// The number of unknowns of a step.
+    /// The number of unknown movements of a step.
     fn unknowns(&self) -> usize;
 
-    /// The number of entries of a force vector: unknowns and supported degrees of freedom.
+    /// How many unknowns the constraints add, and how many entries their equations may have.
+    fn constraint_shape(&self) -> BorderShape;
+
+    /// The number of entries of a force vector: movements, constraints and supported degrees of freedom.
     fn degrees_of_freedom(&self) -> usize;
 
     /// How far from the diagonal the tangent reaches.
@@ -74,12 +79,58 @@ pub trait Mechanism {
     /// Carries a correction of the increments over to the section forces of the last linearisation.
     fn correct_section_forces(&mut self, correction: &[f64]);
 
-    /// The largest residual of an unknown, relative to the forces that balance in this step [-].
+    /// Guesses the unknowns of the constraints.
+    fn predict_constraints(&mut self, interval: Interval, unknowns: &mut [f64]);
+
+    /// Adds the forces of the constraints, and behind the movements by how much the constraints are violated.
+    fn add_constraints(&mut self, increments: &[f64], unknowns: &[f64], out: &mut [f64]);
+
+    /// The same, with the derivatives by the increments and by the unknowns of the constraints.
+    fn add_linearised_constraints(
+        &mut self,
+        increments: &[f64],
+        unknowns: &[f64],
+        out: &mut [f64],
+        border: &mut Border,
+    );
+
+    /// The largest residual of a movement, relative to the forces that balance in this step [-].
     fn relative_imbalance(&self, residual: &[f64]) -> f64;
+
+    /// The largest violation of a constraint, relative to its size [-].
+    fn relative_violation(&self, residual: &[f64]) -> f64;
+
+    /// Whether the unknowns of the constraints are such that the step may be accepted.
+    ///
+    /// # Errors
+    /// When a constraint ends within the step, or not where it should.
+    fn check_constraints(&self, unknowns: &[f64]) -> Result<(), Overshoot>;
 
     /// The largest rotation increment `Δω` that the last forces met at any section [rad].
     fn largest_rotation(&self) -> f64;
 
     /// Accepts a step: new configuration and rates, work and impulse of loads and supports.
-    fn advance(&mut self, increments: &[f64], rates: &[f64], residual: &[f64]);
+    fn advance(&mut self, solution: &Solution<'_>);
+}
+
+/// What a step has found.
+#[derive(Debug, Clone, Copy)]
+pub struct Solution<'a> {
+    /// Of the movements [length, rad].
+    pub increments: &'a [f64],
+    /// Of the constraints, in the units of each.
+    pub constraints: &'a [f64],
+    /// At the end of the step [length/time, 1/time].
+    pub rates: &'a [f64],
+    /// What is left of the equations; reactions at supported degrees of freedom.
+    pub residual: &'a [f64],
+}
+
+/// A limit of a constraint that is passed within a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Overshoot {
+    /// The number of the limit.
+    pub limit: usize,
+    /// How far beyond its end it was found; negative when it should have come further.
+    pub distance: f64,
 }

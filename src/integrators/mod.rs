@@ -11,7 +11,7 @@ mod trapezoidal;
 pub use energy_momentum::EnergyMomentum;
 pub use error::StepError;
 pub use interval::Interval;
-pub use mechanism::{Mechanism, Stage};
+pub use mechanism::{Mechanism, Overshoot, Solution, Stage};
 pub use registry::{Claims, INTEGRATORS, IntegratorEntry, Method};
 pub use trapezoidal::Trapezoidal;
 
@@ -22,7 +22,8 @@ pub trait Integrator {
     /// Advances the mechanism over the interval; on an error it is left as it was.
     ///
     /// # Errors
-    /// When no solution is found, the rotation increment is too large, or a load cannot be evaluated.
+    /// When no solution is found, the rotation increment is too large, a constraint ends within the interval, or a load
+    /// cannot be evaluated.
     fn step(
         &mut self,
         mechanism: &mut dyn Mechanism,

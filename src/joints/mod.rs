@@ -1,5 +1,12 @@
-//! What ties beams to each other and to the ground.
+//! Joints: which movements are tied, to what, and where; and the laws of joints that slide.
 
 mod joint;
+mod slider;
+mod sliding;
 
 pub use joint::{Component, Joint, JointKind, Partner};
+pub use slider::{EndAction, Slider, StartVelocities};
+pub use sliding::{
+    CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Held, Relaxed,
+    Released, RuleClaims, RuleEntry, SLIDING_RULES, SlidingLaw, SlidingRule, Unit,
+};

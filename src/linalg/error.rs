@@ -22,3 +22,17 @@ pub enum LinearError {
         size: usize,
     },
 }
+
+impl LinearError {
+    /// The same error of a block that stands behind `rows` other rows.
+    pub(super) fn behind(self, rows: usize) -> Self {
+        match self {
+            Self::Singular { unknown, size } => {
+                Self::Singular { unknown: unknown + rows, size: size + rows }
+            }
+            Self::NotFinite { unknown, size } => {
+                Self::NotFinite { unknown: unknown + rows, size: size + rows }
+            }
+        }
+    }
+}

@@ -1,9 +1,12 @@
-//! Matrices of one step: banded storage with a pivoted LU, and the ordering that keeps the band narrow.
+//! Matrices of one step: banded storage with a pivoted LU, a border for what reaches further, and the ordering that
+//! keeps the band narrow.
 
 mod banded;
+mod bordered;
 mod error;
 mod ordering;
 
 pub use banded::{BandedLu, BandedMatrix};
+pub use bordered::{Border, BorderShape, BorderedLu, BorderedMatrix};
 pub use error::LinearError;
 pub use ordering::{Ordering, reverse_cuthill_mckee};

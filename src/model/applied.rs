@@ -47,15 +47,15 @@ pub(super) struct Pattern {
 }
 
 impl Pattern {
-    pub(super) fn push(&mut self, beam: usize, point: usize, force: Movement) {
+    pub(super) fn push(&mut self, body: usize, point: usize, force: Movement) {
         let [x, y, moment] = force.map(f64::abs);
         self.largest = (self.largest.0.max(x).max(y), self.largest.1.max(moment));
-        self.entries.push((beam, point, force));
+        self.entries.push((body, point, force));
     }
 
     pub(super) fn subtract_from(&self, bodies: &[Body], factor: f64, out: &mut [f64]) {
-        for (beam, point, force) in &self.entries {
-            for (&at, value) in bodies[*beam].degrees_of_freedom[*point].iter().zip(force) {
+        for (body, point, force) in &self.entries {
+            for (&at, value) in bodies[*body].degrees_of_freedom[*point].iter().zip(force) {
                 out[at] -= factor * value;
             }
         }
@@ -69,10 +69,10 @@ impl Pattern {
     /// What it gives in a step of the movements that the bodies gathered last, acting at their midpoint.
     pub(super) fn exchange(&self, bodies: &[Body], factor: f64, duration: f64) -> Exchange {
         let mut sum = Exchange::default();
-        for (beam, point, [fx, fy, moment]) in &self.entries {
-            let [x, y, omega] = bodies[*beam].moved()[*point];
+        for (body, point, [fx, fy, moment]) in &self.entries {
+            let [x, y, omega] = bodies[*body].moved()[*point];
             let (force, moved) = (Vec2::new(*fx, *fy) * factor, Vec2::new(x, y));
-            let middle = bodies[*beam].dynamics.control_points()[*point] + moved * 0.5;
+            let middle = bodies[*body].dynamics.control_points()[*point] + moved * 0.5;
             sum += Exchange::of(
                 force.dot(&moved) + factor * moment * omega,
                 force * duration,
@@ -84,8 +84,8 @@ impl Pattern {
 
     /// `Σ f·x`: minus the potential of these forces, were they constant.
     pub(super) fn potential_work(&self, bodies: &[Body]) -> f64 {
-        let work = |(beam, point, [fx, fy, _]): &(usize, usize, Movement)| {
-            bodies[*beam].dynamics.control_points()[*point].dot(&Vec2::new(*fx, *fy))
+        let work = |(body, point, [fx, fy, _]): &(usize, usize, Movement)| {
+            bodies[*body].dynamics.control_points()[*point].dot(&Vec2::new(*fx, *fy))
         };
         self.entries.iter().map(work).sum()
     }
@@ -246,7 +246,7 @@ impl AppliedLoad {
             }
             Action::Follower(followers) => {
                 followers.iter_mut().fold((0.0, 0.0), |(largest, moment): (f64, f64), each| {
-                    let body = &bodies[each.tracker.place.beam];
+                    let body = &bodies[each.tracker.place.body];
                     let (rotation, ..) = each.rotations(body, collocation(stage), increments);
                     let force = rotation.to_space(each.force) * factor;
                     let used =
@@ -276,7 +276,7 @@ impl AppliedLoad {
         let Action::Follower(followers) = &self.action else { return };
         let at = collocation(stage);
         for each in followers {
-            let body = &bodies[each.tracker.place.beam];
+            let body = &bodies[each.tracker.place.body];
             let (_, end, increment) = each.rotations(body, at, increments);
             let scale =
                 -weight * self.factors.at(stage) * at.configuration * at.rotations.rate(increment);
@@ -304,7 +304,7 @@ impl AppliedLoad {
             }
             Action::Follower(followers) => {
                 followers.iter().fold(Exchange::default(), |mut sum, each| {
-                    let body = &bodies[each.tracker.place.beam];
+                    let body = &bodies[each.tracker.place.body];
                     let force = each.carried + each.current;
                     for (point, share) in each.tracker.place.weights() {
                         let [x, y, _] = body.moved()[point];

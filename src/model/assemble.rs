@@ -4,12 +4,13 @@ use super::applied::{Action, AppliedLoad, Exchange, Follower, Pattern};
 use super::body::Body;
 use super::inertia::Lump;
 use super::mechanism::{Model, StepScales, Support};
-use super::numbering::Numbering;
+use super::numbering::{Numbering, same_place};
 use super::scene::BeamDefinition;
+use super::sliders::contact_unknowns;
 use super::tracker::Tracker;
 use super::{ModelError, Scene};
-use crate::beams::{BeamDynamics, Mesh, Place, Station, discretise};
-use crate::geometry::{GaussRule, Vec2, perpendicular};
+use crate::beams::{BodyDynamics, BodyIndex, Mesh, Particle, Place, Station, discretise};
+use crate::geometry::{GaussRule, Vec2, interpolate, perpendicular};
 use crate::joints::{Component, Partner};
 use crate::loads::{Frame, Load, LoadKind};
 
@@ -17,10 +18,12 @@ use crate::loads::{Frame, Load, LoadKind};
 const SAME_VELOCITY: f64 = 1e-9;
 
 /// The parts of a scene that its model is made of.
-struct Assembly<'a> {
-    scene: &'a Scene,
-    meshes: Vec<Mesh>,
-    beams: Vec<Box<dyn BeamDynamics>>,
+pub(super) struct Assembly<'a> {
+    pub(super) scene: &'a Scene,
+    /// Of the beams.
+    pub(super) meshes: Vec<Mesh>,
+    /// Beams, then particles.
+    bodies: Vec<Box<dyn BodyDynamics>>,
 }
 
 impl Model {
@@ -29,11 +32,14 @@ impl Model {
     /// # Errors
     /// When the scene is empty, a beam cannot be put on its mesh, or start velocities do not fit the joints.
     pub fn assemble(scene: &Scene) -> Result<Self, ModelError> {
-        if scene.beams.is_empty() {
+        if scene.beams.is_empty() && scene.particles.is_empty() {
             return Err(ModelError::Empty { scene: scene.name.clone() });
         }
         let assembly = Assembly::new(scene)?;
-        let numbering = Numbering::new(scene, &assembly.beams, |station| assembly.place(station))?;
+        let border = contact_unknowns(scene);
+        let numbering =
+            Numbering::new(scene, &assembly.bodies, border, |station| assembly.place(station))?;
+        let sliders = assembly.sliders(&numbering)?;
         let lumps = assembly.lumps()?;
         let loads =
             scene.loads.iter().map(|load| assembly.applied(load)).collect::<Result<_, _>>()?;
@@ -46,24 +52,24 @@ impl Model {
         let unknowns = numbering.unknowns;
         let mut is_rotation = vec![false; unknowns];
         let mut supports =
-            vec![Support { beam: 0, point: 0, component: Component::X }; numbering.supported];
-        for (beam, points) in numbering.degrees_of_freedom.iter().enumerate() {
+            vec![Support { body: 0, point: 0, component: Component::X }; numbering.supported];
+        for (body, points) in numbering.degrees_of_freedom.iter().enumerate() {
             for (point, degrees) in points.iter().enumerate() {
                 for (component, &at) in Component::ALL.into_iter().zip(degrees) {
-                    match at.checked_sub(unknowns) {
-                        Some(support) => supports[support] = Support { beam, point, component },
+                    match at.checked_sub(unknowns + border) {
+                        Some(support) => supports[support] = Support { body, point, component },
                         None => is_rotation[at] = component == Component::Rotation,
                     }
                 }
             }
         }
         let bodies = assembly
-            .beams
+            .bodies
             .into_iter()
             .zip(numbering.degrees_of_freedom)
             .map(|(dynamics, degrees)| Body::new(dynamics, degrees, unknowns))
             .collect();
-        Ok(Self {
+        let mut model = Self {
             bodies,
             meshes: assembly.meshes,
             lumps,
@@ -71,7 +77,9 @@ impl Model {
             gravity,
             trackers,
             joined,
-            scratch: vec![0.0; unknowns + supports.len()],
+            sliders,
+            aim: None,
+            scratch: vec![0.0; unknowns + border + supports.len()],
             supports,
             unknowns,
             half_bandwidth: numbering.half_bandwidth,
@@ -81,7 +89,9 @@ impl Model {
             time: 0.0,
             exchanged: Exchange::default(),
             step: StepScales::default(),
-        })
+        };
+        model.settle_start_velocities(scene.sliders.iter().map(|slider| slider.velocities))?;
+        Ok(model)
     }
 }
 
@@ -91,24 +101,74 @@ impl<'a> Assembly<'a> {
             Partner::Ground => vec![joint.station],
             Partner::Station(other) => vec![joint.station, other],
         });
-        let nodes: Vec<Station> =
-            joined.chain(scene.velocities.iter().map(|velocity| velocity.station)).collect();
+        let nodes: Vec<Station> = joined
+            .chain(scene.velocities.iter().map(|velocity| velocity.station))
+            .chain(scene.sliders.iter().map(|slider| slider.slave))
+            .collect();
         let mut meshes = Vec::with_capacity(scene.beams.len());
-        let mut beams = Vec::with_capacity(scene.beams.len());
         for (index, beam) in scene.beams.iter().enumerate() {
-            let mesh = mesh_with_nodes(beam, nodes.iter().filter(|node| node.beam == index))?;
-            let wrap = |source| ModelError::Beam { beam: beam.name.clone(), source };
-            beams.push(discretise(&beam.axis, &mesh, beam.section).map_err(wrap)?);
-            meshes.push(mesh);
+            let own = nodes.iter().filter(|node| node.beam() == Some(index));
+            meshes.push(mesh_with_nodes(beam, own)?);
         }
-        Ok(Self { scene, meshes, beams })
+        let mut assembly = Self { scene, meshes, bodies: Vec::new() };
+        let control_points = assembly.drawn()?;
+        for (index, points) in control_points.into_iter().enumerate() {
+            assembly.bodies.push(match scene.beams.get(index) {
+                Some(beam) => {
+                    let wrap = |source| ModelError::Beam { beam: beam.name.clone(), source };
+                    let (length, mesh) = (beam.axis.length(), &assembly.meshes[index]);
+                    discretise(points, length, mesh, beam.section).map_err(wrap)?
+                }
+                None => Box::new(Particle::new(points[0])),
+            });
+        }
+        Ok(assembly)
     }
 
-    fn place(&self, station: &Station) -> Result<Place, ModelError> {
-        let beam = &self.scene.beams[station.beam];
-        station
-            .place(&beam.axis, &self.meshes[station.beam])
-            .map_err(ModelError::geometry(&beam.name))
+    /// The control points of all bodies; the slaves of sliders are moved onto their masters as the meshes draw them.
+    fn drawn(&self) -> Result<Vec<Vec<Vec2>>, ModelError> {
+        let beams = self.scene.beams.iter().zip(&self.meshes).map(|(beam, mesh)| {
+            interpolate(&beam.axis, mesh.basis()).map_err(ModelError::geometry(&beam.name))
+        });
+        let particles = self.scene.particles.iter().map(|particle| Ok(vec![particle.position]));
+        let mut points = beams.chain(particles).collect::<Result<Vec<_>, ModelError>>()?;
+        // A slave may be on a master that slides itself: its own place is right once that of its master is.
+        for _ in &self.scene.sliders {
+            for slider in &self.scene.sliders {
+                let beam = &self.scene.beams[slider.master];
+                let (mesh, parameter) = (&self.meshes[slider.master], self.slider_parameter(slider)?);
+                let place = Place::at(slider.master, &beam.axis, mesh, parameter)
+                    .map_err(ModelError::geometry(&beam.name))?;
+                let target = place.interpolate(&points[slider.master]);
+                for node in self.nodes_at(&slider.slave)? {
+                    points[node.body][node.nearest_control_point()] = target;
+                }
+            }
+        }
+        Ok(points)
+    }
+
+    /// The nodes at a station: its own, and those of the stations that joints hold there.
+    fn nodes_at(&self, station: &Station) -> Result<Vec<Place>, ModelError> {
+        let mut stations = vec![*station];
+        let mut next = 0;
+        while let Some(&at) = stations.get(next) {
+            next += 1;
+            for joint in &self.scene.joints {
+                let Partner::Station(other) = joint.partner else { continue };
+                for (here, there) in [(joint.station, other), (other, joint.station)] {
+                    if same_place(&here, &at, self.scene) && !stations.contains(&there) {
+                        stations.push(there);
+                    }
+                }
+            }
+        }
+        stations.iter().map(|station| self.place(station)).collect()
+    }
+
+    /// The place of a station on the mesh of its body.
+    pub(super) fn place(&self, station: &Station) -> Result<Place, ModelError> {
+        self.scene.place(station, &self.meshes)
     }
 
     fn lumps(&self) -> Result<Vec<Lump>, ModelError> {
@@ -135,7 +195,7 @@ impl<'a> Assembly<'a> {
     /// Starts and ends of all beams, then the stations of the scene.
     fn trackers(&self) -> Result<Vec<Tracker>, ModelError> {
         let ends = self.scene.beams.iter().enumerate().flat_map(|(beam, definition)| {
-            [0.0, definition.axis.length()].map(|arc_length| Station { beam, arc_length })
+            [0.0, definition.axis.length()].map(|arc_length| Station::on_beam(beam, arc_length))
         });
         ends.chain(self.scene.stations.iter().copied())
             .map(|station| Ok(Tracker::new(self.place(&station)?)))
@@ -145,7 +205,7 @@ impl<'a> Assembly<'a> {
     fn weight(&self, lumps: &[Lump]) -> Pattern {
         let gravity = self.scene.gravity;
         let mut pattern = Pattern::default();
-        for (index, (beam, definition)) in self.beams.iter().zip(&self.scene.beams).enumerate() {
+        for (index, (beam, definition)) in self.bodies.iter().zip(&self.scene.beams).enumerate() {
             for (point, length) in beam.lumped_lengths().into_iter().enumerate() {
                 let force = gravity * (length * definition.section.mass_per_length);
                 pattern.push(index, point, [force.x, force.y, 0.0]);
@@ -154,14 +214,14 @@ impl<'a> Assembly<'a> {
         for lump in lumps {
             for (point, share) in lump.place.weights() {
                 let force = gravity * (share * lump.mass);
-                pattern.push(lump.place.beam, point, [force.x, force.y, 0.0]);
+                pattern.push(lump.place.body, point, [force.x, force.y, 0.0]);
             }
         }
         pattern
     }
 
     fn total_mass(&self, lumps: &[Lump]) -> f64 {
-        let lengths = self.beams.iter().map(|beam| beam.lumped_lengths().iter().sum::<f64>());
+        let lengths = self.bodies.iter().map(|beam| beam.lumped_lengths().iter().sum::<f64>());
         let beams: f64 = lengths
             .zip(&self.scene.beams)
             .map(|(length, beam)| beam.section.mass_per_length * length)
@@ -172,11 +232,18 @@ impl<'a> Assembly<'a> {
     fn applied(&self, load: &Load) -> Result<AppliedLoad, ModelError> {
         let at_station = |station: &Station, force: [f64; 3]| -> Result<Action, ModelError> {
             let mut pattern = Pattern::default();
-            for (point, share) in self.place(station)?.weights() {
-                pattern.push(station.beam, point, force.map(|value| share * value));
+            let place = self.place(station)?;
+            for (point, share) in place.weights() {
+                pattern.push(place.body, point, force.map(|value| share * value));
             }
             Ok(Action::Dead(pattern))
         };
+        if let LoadKind::Moment { station, .. }
+        | LoadKind::Force { station, frame: Frame::Follower, .. } = &load.kind
+            && let BodyIndex::Particle(_) = station.body
+        {
+            return Err(ModelError::ParticleTurned { joint: load.name.clone() });
+        }
         let action = match &load.kind {
             LoadKind::Force { station, force, frame: Frame::Dead } => {
                 at_station(station, [force.x, force.y, 0.0])?
@@ -187,7 +254,7 @@ impl<'a> Assembly<'a> {
             }
             LoadKind::Line { beam, force, frame: Frame::Dead } => {
                 let mut pattern = Pattern::default();
-                for (point, length) in self.beams[*beam].lumped_lengths().into_iter().enumerate() {
+                for (point, length) in self.bodies[*beam].lumped_lengths().into_iter().enumerate() {
                     pattern.push(*beam, point, [length * force.x, length * force.y, 0.0]);
                 }
                 Action::Dead(pattern)
@@ -205,7 +272,7 @@ impl<'a> Assembly<'a> {
         let wrap = ModelError::geometry(&definition.name);
         let basis = self.meshes[beam].basis();
         let rule = GaussRule::new(basis.degree()).map_err(&wrap)?;
-        let controls = self.beams[beam].control_points();
+        let controls = self.bodies[beam].control_points();
         let mut followers = Vec::new();
         for span in basis.spans() {
             for (xi, weight) in rule.iter_on(span.start, span.end) {
@@ -222,7 +289,7 @@ impl<'a> Assembly<'a> {
     fn start_rates(&self, numbering: &Numbering) -> Result<Vec<f64>, ModelError> {
         let mut rates: Vec<Option<(usize, f64)>> = vec![None; numbering.unknowns];
         let components = ["velocity along x", "velocity along y", "spin"];
-        for (index, (beam, definition)) in self.beams.iter().zip(&self.scene.beams).enumerate() {
+        for (index, (beam, definition)) in self.bodies.iter().zip(&self.scene.beams).enumerate() {
             let motion = definition.motion;
             let about = motion.about.unwrap_or_else(|| centre(beam.as_ref()));
             let length = definition.axis.length();
@@ -264,16 +331,16 @@ impl<'a> Assembly<'a> {
         let mut rates: Vec<f64> =
             rates.into_iter().map(|rate| rate.map_or(0.0, |(_, value)| value)).collect();
         for velocity in &self.scene.velocities {
-            let beam = velocity.station.beam;
-            let point = self.place(&velocity.station)?.nearest_control_point();
+            let place = self.place(&velocity.station)?;
+            let (body, point) = (place.body, place.nearest_control_point());
             let values = [Some(velocity.velocity.x), Some(velocity.velocity.y), velocity.spin];
-            let degrees = numbering.degrees_of_freedom[beam][point];
+            let degrees = numbering.degrees_of_freedom[body][point];
             for ((at, value), component) in degrees.into_iter().zip(values).zip(components) {
                 match (value, rates.get_mut(at)) {
                     (Some(value), Some(rate)) => *rate = value,
                     (Some(value), None) if value != 0.0 => {
                         return Err(ModelError::StartVelocity {
-                            beam: self.scene.beams[beam].name.clone(),
+                            beam: self.scene.name_at(&velocity.station).to_owned(),
                             place: format!("support ({component})"),
                             velocity: value,
                             other: "the ground there does not move".to_owned(),
@@ -300,7 +367,7 @@ fn mesh_with_nodes<'s>(
 }
 
 /// The centre of mass of a beam as drawn.
-fn centre(beam: &dyn BeamDynamics) -> Vec2 {
+fn centre(beam: &dyn BodyDynamics) -> Vec2 {
     let lengths = beam.lumped_lengths();
     let moment: Vec2 =
         beam.control_points().iter().zip(&lengths).map(|(point, length)| point * *length).sum();

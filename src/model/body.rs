@@ -1,12 +1,12 @@
-//! A beam of the model: its dynamics, and where its movements stand among the degrees of freedom.
+//! A body of the model: its dynamics, and where its movements stand among the degrees of freedom.
 
-use crate::beams::{BeamDynamics, Collocation, ForceSummary, Movement, Place, RotationIncrement};
+use crate::beams::{BodyDynamics, Collocation, ForceSummary, Movement, Place, RotationIncrement};
 use crate::geometry::{Vec2, cross};
 use crate::linalg::BandedMatrix;
 
-/// A beam with the places of its movements in the vectors of the mechanism.
+/// A beam or a particle with the places of its movements in the vectors of the mechanism.
 pub(super) struct Body {
-    pub(super) dynamics: Box<dyn BeamDynamics>,
+    pub(super) dynamics: Box<dyn BodyDynamics>,
     pub(super) degrees_of_freedom: Vec<[usize; 3]>,
     /// For each span that moves consecutive unknowns only: the first of them.
     consecutive: Vec<Option<usize>>,
@@ -17,7 +17,7 @@ pub(super) struct Body {
 
 impl Body {
     pub(super) fn new(
-        dynamics: Box<dyn BeamDynamics>,
+        dynamics: Box<dyn BodyDynamics>,
         degrees_of_freedom: Vec<[usize; 3]>,
         unknowns: usize,
     ) -> Self {
@@ -42,7 +42,7 @@ impl Body {
         }
     }
 
-    /// The values of the unknowns at this beam; supported movements are zero.
+    /// The values of the unknowns at this body; supported movements are zero.
     pub(super) fn gather(&mut self, values: &[f64]) -> &[Movement] {
         for (movement, degrees) in self.moved.iter_mut().zip(&self.degrees_of_freedom) {
             *movement = degrees.map(|at| values.get(at).copied().unwrap_or(0.0));
@@ -59,6 +59,18 @@ impl Body {
             }
         }
         sum
+    }
+
+    /// The x and y components of a control point, from values of the unknowns.
+    pub(super) fn vector_at(&self, point: usize, values: &[f64]) -> Vec2 {
+        let [x, y, _] = self.degrees_of_freedom[point];
+        let value = |at: usize| values.get(at).copied().unwrap_or(0.0);
+        Vec2::new(value(x), value(y))
+    }
+
+    /// A control point, and what rounding has cut off it so far [length].
+    pub(super) fn precise_point(&self, point: usize) -> (Vec2, Vec2) {
+        (self.dynamics.control_points()[point], self.dynamics.remainders()[point])
     }
 
     /// The movements that were gathered last.

@@ -4,17 +4,18 @@ use super::applied::{AppliedLoad, Exchange, Pattern, collocation};
 use super::body::Body;
 use super::inertia::Lump;
 use super::measures::{Energy, Measures};
+use super::sliding::{LANDED, Sliding, TrackEnd};
 use super::tracker::Tracker;
 use crate::beams::{ForceSummary, Mesh, Place, RotationIncrement};
 use crate::geometry::{Vec2, cross, larger};
-use crate::integrators::{Interval, Mechanism, Stage, StepError};
-use crate::joints::Component;
-use crate::linalg::BandedMatrix;
+use crate::integrators::{Interval, Mechanism, Overshoot, Solution, Stage, StepError};
+use crate::joints::{CONTACT_UNKNOWNS, Component};
+use crate::linalg::{BandedMatrix, Border, BorderShape};
 
 /// A supported degree of freedom: the body, its control point and the component that does not move.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Support {
-    pub(super) beam: usize,
+    pub(super) body: usize,
     pub(super) point: usize,
     pub(super) component: Component,
 }
@@ -30,6 +31,9 @@ pub struct Model {
     pub(super) trackers: Vec<Tracker>,
     /// Pairs of places that joints hold together.
     pub(super) joined: Vec<(Place, Place)>,
+    pub(super) sliders: Vec<Sliding>,
+    /// The limit at which the next step is to end.
+    pub(super) aim: Option<usize>,
     /// In the order of their degrees of freedom, which follow the unknowns.
     pub(super) supports: Vec<Support>,
     pub(super) unknowns: usize,
@@ -77,12 +81,22 @@ fn largest(values: &[f64], is_rotation: &[bool]) -> (f64, f64) {
     })
 }
 
+/// A residual compared with the forces that should balance it; nothing is nothing, whatever it is compared with.
+fn relative(residual: f64, scale: f64) -> f64 {
+    if residual == 0.0 { 0.0 } else { residual / scale }
+}
+
 impl Model {
-    fn add_inertia_of_all(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
+    /// The sum of the largest forces of every kind in this step [force].
+    fn force_scale(&self) -> f64 {
+        self.step.summary.force + self.step.inertia.0 + self.step.loads.0
+    }
+
+    pub(super) fn add_inertia_of_all(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
         self.bodies.iter_mut().for_each(|body| body.add_inertia(factor, rates, out));
         self.lumps
             .iter()
-            .for_each(|lump| lump.add_inertia(&self.bodies[lump.place.beam], factor, rates, out));
+            .for_each(|lump| lump.add_inertia(&self.bodies[lump.place.body], factor, rates, out));
     }
 
     /// Energy, momenta and what was exchanged so far.
@@ -96,7 +110,7 @@ impl Model {
         self.bodies.iter_mut().for_each(|body| add(body.momenta(&self.rates)));
         self.lumps
             .iter()
-            .for_each(|lump| add(lump.momenta(&self.bodies[lump.place.beam], &self.rates)));
+            .for_each(|lump| add(lump.momenta(&self.bodies[lump.place.body], &self.rates)));
         let energy = Energy {
             kinetic: 0.5 * twice_kinetic,
             strain: self.bodies.iter().map(|body| body.dynamics.strain_energy()).sum(),
@@ -152,8 +166,11 @@ impl Model {
 
     fn gap(&self) -> f64 {
         let at =
-            |place: &Place| place.interpolate(self.bodies[place.beam].dynamics.control_points());
-        self.joined.iter().map(|(a, b)| (at(a) - at(b)).norm()).fold(0.0, larger)
+            |place: &Place| place.interpolate(self.bodies[place.body].dynamics.control_points());
+        let joined = self.joined.iter().map(|(a, b)| (at(a) - at(b)).norm());
+        joined
+            .chain(self.sliders.iter().map(|slider| slider.gap(&self.bodies).norm()))
+            .fold(0.0, larger)
     }
 
     fn exchange_in_step(&self, residual: &[f64]) -> Exchange {
@@ -166,8 +183,16 @@ impl Model {
             // Its work is the change of the potential, which is an energy of its own.
             sum += Exchange { work: 0.0, ..gravity.exchange(&self.bodies, 1.0, duration) };
         }
-        for (support, reaction) in self.supports.iter().zip(&residual[self.unknowns..]) {
-            let at = self.bodies[support.beam].dynamics.control_points()[support.point];
+        sum += self.reactions(residual, duration);
+        sum
+    }
+
+    /// What the supports give with these reactions in such a time.
+    pub(super) fn reactions(&self, residual: &[f64], duration: f64) -> Exchange {
+        let mut sum = Exchange::default();
+        let reactions = &residual[self.degrees_of_freedom() - self.supports.len()..];
+        for (support, reaction) in self.supports.iter().zip(reactions) {
+            let at = self.bodies[support.body].dynamics.control_points()[support.point];
             let (force, moment) = match support.component {
                 Component::X => (Vec2::new(*reaction, 0.0), 0.0),
                 Component::Y => (Vec2::new(0.0, *reaction), 0.0),
@@ -178,6 +203,13 @@ impl Model {
         }
         sum
     }
+
+    /// The ends of masters at which sliders could arrive: two for each.
+    fn limits(&self) -> impl Iterator<Item = (usize, &Sliding, TrackEnd)> {
+        let ends = |slider| [(slider, TrackEnd::Start), (slider, TrackEnd::End)];
+        let limits = self.sliders.iter().flat_map(ends);
+        limits.enumerate().map(|(limit, (slider, end))| (limit, slider, end))
+    }
 }
 
 impl Mechanism for Model {
@@ -185,8 +217,15 @@ impl Mechanism for Model {
         self.unknowns
     }
 
+    fn constraint_shape(&self) -> BorderShape {
+        BorderShape {
+            width: CONTACT_UNKNOWNS * self.sliders.len(),
+            row_entries: self.sliders.iter().map(Sliding::row_entries).sum(),
+        }
+    }
+
     fn degrees_of_freedom(&self) -> usize {
-        self.unknowns + self.supports.len()
+        self.unknowns + self.constraint_shape().width + self.supports.len()
     }
 
     fn half_bandwidth(&self) -> usize {
@@ -223,7 +262,7 @@ impl Mechanism for Model {
     fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
         self.bodies.iter().for_each(|body| body.add_inertia_tangent(factor, tangent));
         for lump in &self.lumps {
-            lump.add_inertia_tangent(&self.bodies[lump.place.beam], factor, self.unknowns, tangent);
+            lump.add_inertia_tangent(&self.bodies[lump.place.body], factor, self.unknowns, tangent);
         }
     }
 
@@ -269,21 +308,67 @@ impl Mechanism for Model {
         self.bodies.iter_mut().for_each(|body| body.correct_section_forces(correction));
     }
 
+    fn predict_constraints(&mut self, interval: Interval, unknowns: &mut [f64]) {
+        for slider in &self.sliders {
+            slider.predict(&self.bodies, &self.rates, interval, unknowns);
+        }
+    }
+
+    fn add_constraints(&mut self, increments: &[f64], unknowns: &[f64], out: &mut [f64]) {
+        for slider in &mut self.sliders {
+            slider.add(&self.bodies, increments, unknowns, out);
+        }
+    }
+
+    fn add_linearised_constraints(
+        &mut self,
+        increments: &[f64],
+        unknowns: &[f64],
+        out: &mut [f64],
+        border: &mut Border,
+    ) {
+        for slider in &mut self.sliders {
+            slider.add_linearised(&self.bodies, increments, unknowns, out, border);
+        }
+    }
+
     fn relative_imbalance(&self, residual: &[f64]) -> f64 {
         let (force, moment) = largest(residual, &self.is_rotation);
         let StepScales { inertia, loads, summary, .. } = &self.step;
-        let relative =
-            |residual: f64, scale: f64| if residual == 0.0 { 0.0 } else { residual / scale };
-        let force = relative(force, summary.force + inertia.0 + loads.0);
+        let force = relative(force, self.force_scale());
         let moment = relative(moment, summary.moment + inertia.1 + loads.1);
         larger(force, moment)
+    }
+
+    fn relative_violation(&self, residual: &[f64]) -> f64 {
+        let equations = &residual[self.unknowns..];
+        self.sliders.iter().fold(0.0, |largest, slider| {
+            let (length, force) = slider.violation(equations);
+            larger(largest, larger(length, relative(force, self.force_scale())))
+        })
+    }
+
+    fn check_constraints(&self, unknowns: &[f64]) -> Result<(), Overshoot> {
+        let mut furthest: Option<Overshoot> = None;
+        for (limit, slider, end) in self.limits().filter(|(_, slider, _)| slider.is_sliding()) {
+            let distance = slider.beyond(unknowns, end);
+            let is_aim = self.aim == Some(limit);
+            if is_aim && distance.abs() > LANDED {
+                return Err(Overshoot { limit, distance });
+            }
+            if distance > LANDED && furthest.is_none_or(|other| distance > other.distance) {
+                furthest = Some(Overshoot { limit, distance });
+            }
+        }
+        furthest.map_or(Ok(()), Err)
     }
 
     fn largest_rotation(&self) -> f64 {
         self.step.summary.rotation
     }
 
-    fn advance(&mut self, increments: &[f64], rates: &[f64], residual: &[f64]) {
+    fn advance(&mut self, solution: &Solution<'_>) {
+        let Solution { increments, constraints, rates, residual } = *solution;
         for body in &mut self.bodies {
             body.gather(increments);
         }
@@ -294,9 +379,10 @@ impl Mechanism for Model {
         for tracker in
             trackers.iter_mut().chain(loads.iter_mut().flat_map(AppliedLoad::trackers_mut))
         {
-            tracker.advance(bodies[tracker.place.beam].moved(), rotations);
+            tracker.advance(bodies[tracker.place.body].moved(), rotations);
         }
         self.bodies.iter_mut().for_each(|body| body.advance(rotations));
+        self.sliders.iter_mut().for_each(|slider| slider.advance(&self.bodies, constraints));
         self.rates.copy_from_slice(rates);
         self.time = self.step.interval.end;
     }

@@ -3,17 +3,25 @@
 mod applied;
 mod assemble;
 mod body;
+mod connection;
 mod error;
+mod impact;
 mod inertia;
 mod measures;
 mod mechanism;
 mod numbering;
 mod queries;
 mod scene;
+mod sliders;
+mod sliding;
 mod tracker;
 
 pub use error::ModelError;
 pub use measures::{Energy, Measures};
 pub use mechanism::Model;
 pub use queries::ModelState;
-pub use scene::{BeamDefinition, PointMass, Scene, StartMotion, StationVelocity};
+pub use scene::{
+    BeamDefinition, ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity,
+};
+pub use sliders::TrackLimit;
+pub use sliding::{SliderState, TrackEnd};

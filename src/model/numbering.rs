@@ -1,7 +1,7 @@
 //! Which movements are tied to each other or to the ground, and the numbers of the unknowns that are left.
 
 use super::{ModelError, Scene};
-use crate::beams::{BeamDynamics, Place, Station};
+use crate::beams::{BodyDynamics, Place, Station};
 use crate::geometry::Vec2;
 use crate::joints::{Component, JointKind, Partner};
 use crate::linalg::reverse_cuthill_mckee;
@@ -9,8 +9,8 @@ use crate::linalg::reverse_cuthill_mckee;
 /// Largest gap of a joint when the scene starts, relative to the length of its beam and its distance from the origin.
 const CLOSED: f64 = 1e-12;
 
-/// The degree of freedom of every component of every control point of every beam: the unknowns come first, the
-/// supported ones after them.
+/// The degree of freedom of every component of every control point of every body: the unknowns come first,
+/// the supported ones last.
 #[derive(Debug, Clone)]
 pub(super) struct Numbering {
     pub(super) degrees_of_freedom: Vec<Vec<[usize; 3]>>,
@@ -65,9 +65,16 @@ pub(super) fn check_ties(scene: &Scene) -> Result<(), ModelError> {
         .collect();
     let mut ties = Ties::new(1 + 3 * places.len());
     for (joint, (place, partner)) in scene.joints.iter().zip(pairs) {
+        let stations = match &joint.partner {
+            Partner::Ground => vec![joint.station],
+            Partner::Station(other) => vec![joint.station, *other],
+        };
+        if joint.kind == JointKind::Rigid && stations.iter().any(|at| at.beam().is_none()) {
+            return Err(ModelError::ParticleTurned { joint: joint.name.clone() });
+        }
         if let Partner::Station(other) = &joint.partner {
             if partner == Some(place) {
-                let beam = scene.beams[joint.station.beam].name.clone();
+                let beam = scene.name_at(&joint.station).to_owned();
                 return Err(ModelError::JointWithItself { joint: joint.name.clone(), beam });
             }
             check_closed(scene, &joint.name, &joint.station, other)?;
@@ -93,15 +100,8 @@ pub(super) fn check_ties(scene: &Scene) -> Result<(), ModelError> {
     Ok(())
 }
 
-fn same_place(a: &Station, b: &Station, scene: &Scene) -> bool {
-    a.beam == b.beam
-        && (a.arc_length - b.arc_length).abs() <= 1e-10 * scene.beams[a.beam].axis.length()
-}
-
-fn drawn_at(scene: &Scene, station: &Station) -> Result<Vec2, ModelError> {
-    let beam = &scene.beams[station.beam];
-    let at = beam.axis.parameter_at(station.arc_length).and_then(|xi| beam.axis.point(xi));
-    at.map_err(ModelError::geometry(&beam.name))
+pub(super) fn same_place(a: &Station, b: &Station, scene: &Scene) -> bool {
+    a.body == b.body && (a.arc_length - b.arc_length).abs() <= 1e-10 * scene.length_at(a)
 }
 
 fn check_closed(
@@ -110,35 +110,46 @@ fn check_closed(
     station: &Station,
     other: &Station,
 ) -> Result<(), ModelError> {
-    let (from, to) = (drawn_at(scene, station)?, drawn_at(scene, other)?);
-    let (gap, size) = ((to - from).norm(), scene.beams[station.beam].axis.length());
+    let (from, to) = (scene.drawn_at(station)?, scene.drawn_at(other)?);
+    let (gap, size) = ((to - from).norm(), scene.length_at(station));
     if gap <= CLOSED * (size + from.norm()) {
         return Ok(());
     }
-    let write = |at: Vec2| format!("({}, {})", at.x, at.y);
-    Err(ModelError::OpenJoint { joint: joint.to_owned(), from: write(from), to: write(to), gap })
+    Err(ModelError::OpenJoint { joint: joint.to_owned(), from: written(from), to: written(to), gap })
+}
+
+/// A point as it stands in messages.
+pub(super) fn written(at: Vec2) -> String {
+    format!("({}, {})", at.x, at.y)
 }
 
 impl Numbering {
-    /// Numbers the movements of beams; `place` finds the stations of joints on their meshes.
+    /// Numbers the movements of bodies; `place` finds the stations of joints on their meshes. Constraints with `border`
+    /// unknowns stand between the unknown and the supported movements.
     pub(super) fn new(
         scene: &Scene,
-        beams: &[Box<dyn BeamDynamics>],
+        bodies: &[Box<dyn BodyDynamics>],
+        border: usize,
         place: impl Fn(&Station) -> Result<Place, ModelError>,
     ) -> Result<Self, ModelError> {
-        let counts = beams.iter().map(|beam| beam.control_points().len());
+        let counts = bodies.iter().map(|body| body.control_points().len());
         let offsets: Vec<usize> = std::iter::once(1)
             .chain(counts.scan(1, |offset, count| {
                 *offset += 3 * count;
                 Some(*offset)
             }))
             .collect();
-        let all = offsets[beams.len()];
+        let all = offsets[bodies.len()];
         let mut ties = Ties::new(all);
+        // Particles do not turn.
+        for offset in offsets[scene.beams.len()..].iter().take(scene.particles.len()) {
+            ties.tie(0, offset + Component::Rotation as usize);
+        }
         for joint in &scene.joints {
             let node = |station: &Station| -> Result<usize, ModelError> {
                 // Stations of joints are breaks of the mesh, where a control point lies on the axis.
-                Ok(offsets[station.beam] + 3 * place(station)?.nearest_control_point())
+                let place = place(station)?;
+                Ok(offsets[place.body] + 3 * place.nearest_control_point())
             };
             let from = node(&joint.station)?;
             let to = match &joint.partner {
@@ -164,9 +175,9 @@ impl Numbering {
             return Err(ModelError::NothingMoves { scene: scene.name.clone() });
         }
         let mut groups = Vec::new();
-        for (beam, offset) in beams.iter().zip(&offsets) {
-            for first in beam.span_starts() {
-                let nodes = offset + 3 * first..offset + 3 * (first + beam.order());
+        for (body, offset) in bodies.iter().zip(&offsets) {
+            for first in body.span_starts() {
+                let nodes = offset + 3 * first..offset + 3 * (first + body.order());
                 let mut group: Vec<usize> =
                     nodes.map(|at| number[ties.root(at)]).filter(|&n| n != usize::MAX).collect();
                 group.sort_unstable();
@@ -177,18 +188,18 @@ impl Numbering {
         let ordering = reverse_cuthill_mckee(unknowns, &groups);
 
         let mut supported = 0;
-        let degrees_of_freedom = beams
+        let degrees_of_freedom = bodies
             .iter()
             .zip(&offsets)
-            .map(|(beam, offset)| {
+            .map(|(body, offset)| {
                 let mut degree = |at: usize| match ties.root(at) {
                     0 => {
                         supported += 1;
-                        unknowns + supported - 1
+                        unknowns + border + supported - 1
                     }
                     root => ordering.position[number[root]],
                 };
-                (0..beam.control_points().len())
+                (0..body.control_points().len())
                     .map(|point| {
                         Component::ALL
                             .map(|component| degree(offset + 3 * point + component as usize))

@@ -15,7 +15,7 @@ impl Model {
         &self.meshes
     }
 
-    /// The control points of all beams, beam by beam [length].
+    /// The control points of all bodies: beams first, then particles [length].
     pub fn control_points(&self) -> impl Iterator<Item = &[Vec2]> {
         self.bodies.iter().map(|body| body.dynamics.control_points())
     }
@@ -27,12 +27,12 @@ impl Model {
 
     /// Where a place is [length].
     pub fn position(&self, place: &Place) -> Vec2 {
-        place.interpolate(self.bodies[place.beam].dynamics.control_points())
+        place.interpolate(self.bodies[place.body].dynamics.control_points())
     }
 
     /// How fast a place moves [length/time].
     pub fn velocity(&self, place: &Place) -> Vec2 {
-        let [x, y, _] = self.bodies[place.beam].at(place, &self.rates);
+        let [x, y, _] = self.bodies[place.body].at(place, &self.rates);
         Vec2::new(x, y)
     }
 
@@ -43,15 +43,16 @@ impl Model {
 
     /// The angle of the section at a station, unwrapped [rad]; none when the scene did not know it at the start.
     pub fn angle(&self, scene: &Scene, station: &Station) -> Option<f64> {
-        let (start, end) = self.end_angles(station.beam);
+        let beam = station.beam()?;
+        let (start, end) = self.end_angles(beam);
         if station.arc_length == 0.0 {
             return Some(start);
         }
-        if station.arc_length == scene.beams[station.beam].axis.length() {
+        if station.arc_length == scene.beams[beam].axis.length() {
             return Some(end);
         }
         let known = scene.stations.iter().position(|other| other == station)?;
-        self.trackers.get(2 * self.bodies.len() + known).map(|tracker| tracker.angle)
+        self.trackers.get(2 * scene.beams.len() + known).map(|tracker| tracker.angle)
     }
 
     /// Everything that the motion from here on depends on, and the sums so far.
@@ -63,6 +64,7 @@ impl Model {
         state.extend(&self.rates);
         self.bodies.iter().for_each(|body| body.dynamics.save(&mut state));
         self.all_trackers().for_each(|tracker| tracker.save(&mut state));
+        self.sliders.iter().for_each(|slider| slider.save(&mut state));
         ModelState(state)
     }
 
@@ -82,6 +84,7 @@ impl Model {
         self.rates.iter_mut().for_each(|rate| *rate = next());
         self.bodies.iter_mut().for_each(|body| body.dynamics.restore(next));
         self.all_trackers_mut().for_each(|tracker| tracker.restore([next(), next(), next()]));
+        self.sliders.iter_mut().for_each(|slider| slider.restore(next));
         assert!(values.next().is_none(), "the state is one of this model");
     }
 }

@@ -1,9 +1,9 @@
 //! The editable description of what is simulated. Nothing is assembled here.
 
 use super::ModelError;
-use crate::beams::{Mesh, Section, Station};
+use crate::beams::{BodyIndex, Mesh, Place, Section, Station};
 use crate::geometry::{Curve, Vec2};
-use crate::joints::{Joint, JointKind, Partner};
+use crate::joints::{Joint, JointKind, Partner, Slider};
 use crate::loads::{Load, LoadKind, Schedule};
 
 /// How a beam moves when the scene starts: a rigid motion.
@@ -38,6 +38,15 @@ pub struct BeamDefinition {
     pub motion: StartMotion,
 }
 
+/// A point that moves by itself; its mass is one of the masses of the scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ParticleDefinition {
+    /// Its name in messages and reports.
+    pub name: String,
+    /// Where it starts [length].
+    pub position: Vec2,
+}
+
 /// A mass at a station.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointMass {
@@ -60,17 +69,21 @@ pub struct StationVelocity {
     pub spin: Option<f64>,
 }
 
-/// Beams, joints, masses and loads.
+/// Beams, particles, joints, masses and loads.
 #[derive(Debug, Clone)]
 pub struct Scene {
     /// For messages and reports.
     pub name: String,
     /// In the order in which they were added.
     pub beams: Vec<BeamDefinition>,
+    /// In the order in which they were added.
+    pub particles: Vec<ParticleDefinition>,
     /// Places whose angle is followed, besides the ends of all beams.
     pub stations: Vec<Station>,
     /// Supports and joints between beams.
     pub joints: Vec<Joint>,
+    /// Joints that slide.
+    pub sliders: Vec<Slider>,
     /// Masses at stations.
     pub masses: Vec<PointMass>,
     /// Velocities of single nodes.
@@ -87,8 +100,10 @@ impl Scene {
         Self {
             name: name.into(),
             beams: Vec::new(),
+            particles: Vec::new(),
             stations: Vec::new(),
             joints: Vec::new(),
+            sliders: Vec::new(),
             masses: Vec::new(),
             velocities: Vec::new(),
             loads: Vec::new(),
@@ -99,22 +114,63 @@ impl Scene {
     /// Adds a beam and returns its index.
     ///
     /// # Errors
-    /// When a beam of that name exists, or the name is empty or cannot be printed.
+    /// When something of that name exists, or the name is empty or cannot be printed.
     pub fn add_beam(&mut self, beam: BeamDefinition) -> Result<usize, ModelError> {
-        if beam.name.trim().is_empty() || beam.name.chars().any(char::is_control) {
-            return Err(ModelError::Unnamed { name: beam.name });
-        }
-        if self.beams.iter().any(|other| other.name == beam.name) {
-            return Err(ModelError::DuplicateName { name: beam.name });
-        }
+        self.check_name(&beam.name)?;
         self.beams.push(beam);
         Ok(self.beams.len() - 1)
     }
 
-    /// The first of `beam1`, `beam2`, … that no beam has.
-    pub fn free_name(&self) -> String {
-        let mut names = (1..).map(|number| format!("beam{number}"));
-        names.find(|name| self.beams.iter().all(|beam| beam.name != *name)).unwrap_or_default()
+    /// Adds a particle and returns its station.
+    ///
+    /// # Errors
+    /// When something of that name exists, the name is empty or cannot be printed, or the mass is not positive and finite.
+    pub fn add_particle(
+        &mut self,
+        particle: ParticleDefinition,
+        mass: f64,
+    ) -> Result<Station, ModelError> {
+        self.check_name(&particle.name)?;
+        self.particles.push(particle);
+        let station = Station::on_particle(self.particles.len() - 1);
+        self.add_mass(PointMass { station, mass, rotary_inertia: 0.0 }).inspect_err(|_| {
+            self.particles.pop();
+        })?;
+        Ok(station)
+    }
+
+    /// Adds a sliding joint and returns its index.
+    ///
+    /// # Errors
+    /// When something of that name exists, the slave is not on the master or part of it, or it slides there already.
+    pub fn add_slider(&mut self, slider: Slider) -> Result<usize, ModelError> {
+        self.check_name(&slider.name)?;
+        self.check_slider(&slider)?;
+        self.sliders.push(slider);
+        Ok(self.sliders.len() - 1)
+    }
+
+    fn names(&self) -> impl Iterator<Item = &String> {
+        let beams = self.beams.iter().map(|beam| &beam.name);
+        let particles = self.particles.iter().map(|particle| &particle.name);
+        beams.chain(particles).chain(self.sliders.iter().map(|slider| &slider.name))
+    }
+
+    fn check_name(&self, name: &str) -> Result<(), ModelError> {
+        let name = || name.to_owned();
+        if name().trim().is_empty() || name().chars().any(char::is_control) {
+            return Err(ModelError::Unnamed { name: name() });
+        }
+        if self.names().any(|other| *other == name()) {
+            return Err(ModelError::DuplicateName { name: name() });
+        }
+        Ok(())
+    }
+
+    /// The first of `kind1`, `kind2`, … that nothing in the scene is called.
+    pub fn free_name(&self, kind: &str) -> String {
+        let mut names = (1..).map(|number| format!("{kind}{number}"));
+        names.find(|name| self.names().all(|other| other != name)).unwrap_or_default()
     }
 
     /// The station of a beam at an arc length; it is followed from the start.
@@ -132,7 +188,7 @@ impl Scene {
                 length,
             });
         }
-        let station = Station { beam, arc_length: arc_length.clamp(0.0, length) };
+        let station = Station::on_beam(beam, arc_length.clamp(0.0, length));
         if !self.stations.contains(&station) {
             self.stations.push(station);
         }
@@ -197,9 +253,62 @@ impl Scene {
         self.loads.push(Load { name, kind, schedule });
     }
 
+    /// The length of the beam that a station is on, as drawn; zero for a particle [length].
+    pub fn length_at(&self, station: &Station) -> f64 {
+        station.beam().map_or(0.0, |beam| self.beams[beam].axis.length())
+    }
+
+    /// Where a station is as drawn [length].
+    ///
+    /// # Errors
+    /// When it lies outside its beam.
+    pub fn drawn_at(&self, station: &Station) -> Result<Vec2, ModelError> {
+        match station.body {
+            BodyIndex::Beam(beam) => {
+                let BeamDefinition { axis, name, .. } = &self.beams[beam];
+                let at = axis.parameter_at(station.arc_length).and_then(|xi| axis.point(xi));
+                at.map_err(ModelError::geometry(name))
+            }
+            BodyIndex::Particle(particle) => Ok(self.particles[particle].position),
+        }
+    }
+
+    /// The place of a station, given the meshes of the beams.
+    ///
+    /// # Errors
+    /// When it lies outside its beam.
+    pub fn place(&self, station: &Station, meshes: &[Mesh]) -> Result<Place, ModelError> {
+        match station.body {
+            BodyIndex::Beam(index) => {
+                let BeamDefinition { axis, name, .. } = &self.beams[index];
+                let mesh = &meshes[index];
+                let place = station
+                    .parameter(axis, mesh)
+                    .and_then(|xi| Place::at(index, axis, mesh, xi));
+                place.map_err(ModelError::geometry(name))
+            }
+            BodyIndex::Particle(particle) => {
+                Ok(Place::of_particle(self.beams.len() + particle))
+            }
+        }
+    }
+
+    /// The name of the body that a station is on.
+    pub fn name_at(&self, station: &Station) -> &str {
+        match station.body {
+            BodyIndex::Beam(beam) => &self.beams[beam].name,
+            BodyIndex::Particle(particle) => &self.particles[particle].name,
+        }
+    }
+
     /// A station in words.
     pub fn describe(&self, station: &Station) -> String {
-        let beam = &self.beams[station.beam];
+        let beam = match station.body {
+            BodyIndex::Beam(beam) => &self.beams[beam],
+            BodyIndex::Particle(particle) => {
+                return format!("particle '{}'", self.particles[particle].name);
+            }
+        };
         let length = beam.axis.length();
         match station.arc_length {
             0.0 => format!("the start of beam '{}'", beam.name),

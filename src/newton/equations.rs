@@ -1,6 +1,6 @@
 //! What the Newton solver asks of a set of equations.
 
-use crate::linalg::BandedMatrix;
+use crate::linalg::BorderedMatrix;
 
 /// How far a set of equations is from being satisfied.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -9,12 +9,19 @@ pub struct Imbalance {
     pub force: f64,
     /// The largest mismatch between the strain of the section forces and that of the configuration [-].
     pub strain: f64,
+    /// The largest violation of a constraint, relative to its size [-].
+    pub constraint: f64,
 }
 
 impl Imbalance {
-    /// Whether both parts are finite numbers.
+    /// Whether all parts are finite numbers.
     pub fn is_finite(&self) -> bool {
-        self.force.is_finite() && self.strain.is_finite()
+        [self.force, self.strain, self.constraint].iter().all(|part| part.is_finite())
+    }
+
+    /// The largest part.
+    pub fn largest(&self) -> f64 {
+        self.force.max(self.strain).max(self.constraint)
     }
 }
 
@@ -25,7 +32,7 @@ impl Imbalance {
 /// (Magisano, Leonetti & Garcea 2017, "mixed integration point" Newton).
 pub trait Equations {
     /// Fills the condensed residual and tangent at `u`; both come zeroed.
-    fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BandedMatrix);
+    fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix);
 
     /// Condenses a residual that [`imbalance`](Equations::imbalance) has just filled in the manner of the last
     /// linearisation, whose factors can then correct it once more.

@@ -1,7 +1,7 @@
 //! Newton's method with a full tangent at every iteration.
 
 use super::{Equations, Imbalance, NewtonError};
-use crate::linalg::{BandedLu, BandedMatrix};
+use crate::linalg::{BorderShape, BorderedLu, BorderedMatrix};
 
 /// When a solution is good enough, and when to give up.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -10,6 +10,8 @@ pub struct Tolerance {
     pub force: f64,
     /// Largest strain mismatch at which iteration ends.
     pub strain: f64,
+    /// Largest relative violation of a constraint at which iteration ends.
+    pub constraint: f64,
     /// Imbalances above this are corrected once more with the last factors, which takes them to rounding.
     pub polish: f64,
     /// Most iterations.
@@ -18,13 +20,15 @@ pub struct Tolerance {
 
 impl Default for Tolerance {
     fn default() -> Self {
-        Self { force: 1e-11, strain: 1e-11, polish: 5e-16, iterations: 15 }
+        Self { force: 1e-11, strain: 1e-11, constraint: 1e-11, polish: 5e-16, iterations: 15 }
     }
 }
 
 impl Tolerance {
     fn accepts(&self, imbalance: &Imbalance) -> bool {
-        imbalance.force <= self.force && imbalance.strain <= self.strain
+        imbalance.force <= self.force
+            && imbalance.strain <= self.strain
+            && imbalance.constraint <= self.constraint
     }
 }
 
@@ -41,17 +45,22 @@ pub struct NewtonReport {
 #[derive(Debug, Clone)]
 pub struct Newton {
     tolerance: Tolerance,
-    tangent: BandedMatrix,
+    tangent: BorderedMatrix,
     correction: Vec<f64>,
     history: Vec<Imbalance>,
 }
 
 impl Newton {
-    /// A solver for `unknowns` unknowns whose tangent has the given half-bandwidth.
-    pub fn new(unknowns: usize, half_bandwidth: usize, tolerance: Tolerance) -> Self {
+    /// A solver for `unknowns` unknowns whose tangent has the given half-bandwidth, and those of a border behind them.
+    pub fn new(
+        unknowns: usize,
+        half_bandwidth: usize,
+        border: BorderShape,
+        tolerance: Tolerance,
+    ) -> Self {
         Self {
-            tangent: BandedMatrix::zeros(unknowns, half_bandwidth),
-            correction: Vec::with_capacity(unknowns),
+            tangent: BorderedMatrix::zeros(unknowns, half_bandwidth, border),
+            correction: Vec::with_capacity(unknowns + border.width),
             history: Vec::with_capacity(tolerance.iterations),
             tolerance,
         }
@@ -86,7 +95,7 @@ impl Newton {
                 return Err(NewtonError::NotFinite { history: self.history.clone() });
             }
             if self.tolerance.accepts(&imbalance) {
-                if imbalance.force.max(imbalance.strain) > self.tolerance.polish {
+                if imbalance.largest() > self.tolerance.polish {
                     equations.condense(residual);
                     imbalance = correct(equations, &factors, &mut self.correction, u, residual);
                     if !self.tolerance.accepts(&imbalance) {
@@ -103,7 +112,7 @@ impl Newton {
 /// Corrects `u` and the hidden unknowns for a condensed residual; leaves the residual and the imbalance after it.
 fn correct(
     equations: &mut impl Equations,
-    factors: &BandedLu<'_>,
+    factors: &BorderedLu<'_>,
     correction: &mut Vec<f64>,
     u: &mut [f64],
     residual: &mut [f64],
@@ -125,8 +134,9 @@ mod tests {
     struct SquareRoot;
 
     impl Equations for SquareRoot {
-        fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BandedMatrix) {
+        fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix) {
             self.imbalance(u, residual);
+            let tangent = tangent.band_mut();
             tangent.add(0, 0, 2.0 * u[0]);
             tangent.add(1, 0, u[1]);
             tangent.add(1, 1, u[0]);
@@ -136,14 +146,15 @@ mod tests {
         fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> Imbalance {
             residual[0] = u[0] * u[0] - 2.0;
             residual[1] = u[0] * u[1] - 1.0;
-            Imbalance { force: residual[0].abs().max(residual[1].abs()), strain: 0.0 }
+            Imbalance { force: residual[0].abs().max(residual[1].abs()), ..Imbalance::default() }
         }
     }
 
     fn solve(start: [f64; 2]) -> (Result<NewtonReport, NewtonError>, [f64; 2]) {
         let mut u = start;
         let report =
-            Newton::new(2, 1, Tolerance::default()).solve(&mut SquareRoot, &mut u, &mut [0.0; 2]);
+            Newton::new(2, 1, BorderShape::default(), Tolerance::default())
+                .solve(&mut SquareRoot, &mut u, &mut [0.0; 2]);
         (report, u)
     }
 

@@ -43,6 +43,20 @@ pub enum SimulationError {
         /// The load, the step and the reason.
         source: StepError,
     },
+    /// A slider has reached an end of its master at which the run ends.
+    #[error("the run has ended: {ending}; give the slider the option ends: \"bounce\" or \"release\" to go on, or ask sim.ended before a step")]
+    Ended {
+        /// What ended it.
+        ending: String,
+    },
+    /// A slider that does not get away from an end of its master.
+    #[error("{arrival}, {most} times within one step of the grid; try ends: \"release\" or \"stop\"")]
+    Rattles {
+        /// The last arrival.
+        arrival: String,
+        /// How often it came there.
+        most: usize,
+    },
     /// The monitor asked to stop.
     #[error("interrupted at t = {time}; the history up to there is kept")]
     Interrupted {

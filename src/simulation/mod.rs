@@ -2,6 +2,7 @@
 
 mod error;
 mod history;
+mod landing;
 mod outline;
 mod run;
 mod time_grid;
@@ -9,6 +10,7 @@ mod trajectory;
 
 pub use error::SimulationError;
 pub use history::{Column, History, Invariant, Sample, Scales};
+pub use landing::{Arrival, ArrivalKind};
 pub use outline::{Configuration, Outline};
 pub use run::{Monitor, Settings, Simulation, Unwatched, WorkCounts};
 pub use time_grid::TimeGrid;

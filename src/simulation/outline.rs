@@ -55,7 +55,7 @@ impl Outline {
 
     /// The lines and marks of control points of all beams, one beam after another.
     pub fn draw(outlines: &[Self], time: f64, control_points: &[&[Vec2]]) -> Configuration {
-        let at = |place: &Place| place.interpolate(control_points[place.beam]);
+        let at = |place: &Place| place.interpolate(control_points[place.body]);
         Configuration {
             time,
             lines: outlines.iter().map(|outline| outline.line.iter().map(at).collect()).collect(),

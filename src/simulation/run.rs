@@ -3,12 +3,13 @@
 use std::cell::OnceCell;
 use std::time::{Duration, Instant};
 
+use super::landing::{Arrival, Landing, MOST_ARRIVALS};
 use super::{
     Configuration, History, Outline, Sample, Scales, SimulationError, TimeGrid, Trajectory,
 };
 use crate::beams::{Place, Station};
 use crate::geometry::Vec2;
-use crate::integrators::{Integrator, Interval, Mechanism, Method};
+use crate::integrators::{Integrator, Interval, Mechanism, Method, StepError};
 use crate::model::{Model, ModelError, Scene};
 use crate::newton::{NewtonReport, Tolerance};
 
@@ -62,16 +63,24 @@ impl Monitor for Unwatched {
     }
 }
 
+/// How much of an interval was covered.
+enum Covered {
+    All,
+    UntilAnArrival,
+    UntilTheRunEnded,
+}
+
 /// A scene in motion.
 pub struct Simulation {
-    scene: Scene,
+    pub(super) scene: Scene,
     settings: Settings,
-    model: Model,
-    integrator: Box<dyn Integrator>,
+    pub(super) model: Model,
+    pub(super) integrator: Box<dyn Integrator>,
     grid: TimeGrid,
     history: History,
     trajectory: Trajectory,
-    counts: WorkCounts,
+    pub(super) counts: WorkCounts,
+    pub(super) arrivals: Vec<Arrival>,
     /// Made when the first picture asks for them.
     outlines: OnceCell<Vec<Outline>>,
 }
@@ -104,6 +113,7 @@ impl Simulation {
             history,
             trajectory,
             counts: WorkCounts::default(),
+            arrivals: Vec::new(),
             outlines: OnceCell::new(),
         })
     }
@@ -161,12 +171,15 @@ impl Simulation {
     /// Takes one step: to the next point of the grid, or to the next cut of it.
     ///
     /// # Errors
-    /// When no step works or the monitor stops the run.
+    /// When no step works, the run has ended at the end of a master, or the monitor stops it.
     pub fn step(&mut self, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
+        if let Some(ending) = self.ending() {
+            return Err(SimulationError::Ended { ending });
+        }
         self.step_at_most_to(f64::INFINITY, monitor)
     }
 
-    /// Steps until a time, which ends the last step.
+    /// Steps until a time, which ends the last step, or until a slider ends the run.
     ///
     /// # Errors
     /// When the time has passed, no step works, or the monitor stops the run.
@@ -176,7 +189,7 @@ impl Simulation {
         let steps = ((end - now) / self.grid.dt()).min(1e6) as usize + 8;
         self.history.reserve(steps);
         self.trajectory.reserve(steps);
-        while self.time() < end - 1e-9 * self.grid.dt() {
+        while self.time() < end - 1e-9 * self.grid.dt() && self.ending().is_none() {
             self.step_at_most_to(end, monitor)?;
         }
         Ok(())
@@ -227,14 +240,39 @@ impl Simulation {
     ) -> Result<(), SimulationError> {
         let begun = Instant::now();
         let end = self.grid.next(self.time(), limit);
-        let stepped = self.cover(Interval { start: self.time(), end }, monitor);
+        let stepped = self.cover_with_arrivals(end, monitor);
         self.grid.reach(self.time());
         self.counts.wall += begun.elapsed();
         stepped
     }
 
+    /// Goes on to a time, cutting the way where sliders arrive at ends of their masters.
+    fn cover_with_arrivals(
+        &mut self,
+        end: f64,
+        monitor: &mut dyn Monitor,
+    ) -> Result<(), SimulationError> {
+        for _ in 0..MOST_ARRIVALS {
+            match self.cover(Interval { start: self.time(), end }, monitor)? {
+                Covered::All | Covered::UntilTheRunEnded => return Ok(()),
+                Covered::UntilAnArrival if self.time() >= end - 1e-9 * self.grid.dt() => {
+                    return Ok(());
+                }
+                Covered::UntilAnArrival => {}
+            }
+        }
+        let last = self.arrivals.last().map(|last| {
+            last.describe(&self.scene.sliders[last.limit.slider].name)
+        });
+        Err(SimulationError::Rattles { arrival: last.unwrap_or_default(), most: MOST_ARRIVALS })
+    }
+
     /// Covers an interval by one step or, where that fails, by halves of it, growing again after success.
-    fn cover(&mut self, whole: Interval, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
+    fn cover(
+        &mut self,
+        whole: Interval,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Covered, SimulationError> {
         const PARTS: u64 = 1 << MOST_HALVINGS;
         let time = |part: u64| match part {
             PARTS => whole.end,
@@ -244,7 +282,15 @@ impl Simulation {
         while covered < PARTS {
             let width = PARTS >> halvings;
             let interval = Interval { start: time(covered), end: time(covered + width) };
-            match self.integrator.step(&mut self.model, interval) {
+            let mut stepped = self.integrator.step(&mut self.model, interval);
+            if let Err(StepError::Overshoot { overshoot, iterations, .. }) = stepped {
+                self.counts.factorisations += iterations;
+                match self.land(interval, overshoot) {
+                    Ok(landing) => return self.take_landing(&landing, retries),
+                    Err(source) => stepped = Err(source),
+                }
+            }
+            match stepped {
                 Ok(report) => {
                     self.record(interval, report, retries);
                     covered += width;
@@ -276,7 +322,19 @@ impl Simulation {
                 return Err(SimulationError::Interrupted { time: self.time() });
             }
         }
-        Ok(())
+        Ok(Covered::All)
+    }
+
+    fn take_landing(
+        &mut self,
+        landing: &Landing,
+        retries: usize,
+    ) -> Result<Covered, SimulationError> {
+        if let Landing::At(interval, report, _) = landing {
+            self.record(*interval, *report, retries);
+        }
+        let has_ended = self.arrive(landing)?;
+        Ok(if has_ended { Covered::UntilTheRunEnded } else { Covered::UntilAnArrival })
     }
 
     fn record(&mut self, interval: Interval, report: NewtonReport, retries: usize) {
@@ -299,16 +357,13 @@ impl Simulation {
     /// # Errors
     /// When it lies outside its beam.
     pub fn place(&self, station: &Station) -> Result<Place, ModelError> {
-        let beam = &self.scene.beams[station.beam];
-        station
-            .place(&beam.axis, &self.model.meshes()[station.beam])
-            .map_err(|source| ModelError::Beam { beam: beam.name.clone(), source: source.into() })
+        self.scene.place(station, self.model.meshes())
     }
 
     /// Where a place was, at all times of the trajectory.
     pub fn path(&self, place: &Place) -> Vec<(f64, Vec2)> {
         let counts: Vec<usize> = self.model.control_points().map(<[Vec2]>::len).collect();
-        let offset = counts[..place.beam].iter().sum::<usize>();
+        let offset = counts[..place.body].iter().sum::<usize>();
         let at = |index: usize| -> Vec2 {
             let numbers = self.trajectory.configuration(index);
             place

@@ -4,6 +4,7 @@
 pub mod probe;
 pub mod reference;
 pub mod scenes;
+pub mod sliding;
 pub mod statics;
 
 use withy::beams::{Mesh, Quadrature};

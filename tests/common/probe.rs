@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use withy::geometry::{Vec2, cross, perpendicular};
-use withy::integrators::{Interval, Mechanism, Stage};
+use withy::integrators::{Interval, Mechanism, Solution, Stage};
 use withy::linalg::BandedMatrix;
 use withy::model::Model;
 
@@ -26,7 +26,8 @@ pub fn advance(model: &mut Model, stage: Stage, increments: &[f64]) {
     let mut residual = vec![0.0; model.degrees_of_freedom()];
     model.add_forces(stage, increments, 1.0, &mut residual);
     let rates = model.rates().to_vec();
-    model.advance(increments, &rates, &residual);
+    let solution = Solution { increments, constraints: &[], rates: &rates, residual: &residual };
+    model.advance(&solution);
 }
 
 /// Moves every unknown by itself and watches what happens.

@@ -8,7 +8,7 @@ use rhai::Dynamic;
 use super::geometry::CURVE;
 use super::live::SimulationHandle;
 use super::sections::{MESH_KINDS, SECTION, mesh_of};
-use crate::beams::{self, Mesh, Station};
+use crate::beams::{self, BodyIndex, Mesh, Station};
 use crate::geometry::Curve;
 use crate::joints::{JointKind, Partner};
 use crate::model::{BeamDefinition, PointMass, Scene, StartMotion, StationVelocity};
@@ -193,7 +193,7 @@ impl BeamHandle {
     pub fn own(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
         scene.own(&StationHandle {
             scene: self.scene.clone(),
-            station: Station { beam: self.index, arc_length: 0.0 },
+            station: Station::on_beam(self.index, 0.0),
         })?;
         Ok(self.index)
     }
@@ -217,7 +217,12 @@ impl StationHandle {
     pub fn on(&self, handle: &SimulationHandle) -> Result<beams::Place, ScriptError> {
         let simulation = handle.simulation();
         handle.scene().own(self)?;
-        if self.station.beam >= simulation.scene().beams.len() {
+        let scene = simulation.scene();
+        let known = match self.station.body {
+            BodyIndex::Beam(beam) => beam < scene.beams.len(),
+            BodyIndex::Particle(particle) => particle < scene.particles.len(),
+        };
+        if !known {
             let told = format!("{} was added after the scene was started", self.show());
             return Err(
                 ScriptError::new(told).hint("add all beams before scene.start(…), or start again")
@@ -295,7 +300,7 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
         about: if options.has("about") { Some(options.point("about")?) } else { None },
     };
     let definition = BeamDefinition {
-        name: named.unwrap_or_else(|_| scene.0.borrow().free_name()),
+        name: named.unwrap_or_else(|_| scene.0.borrow().free_name("beam")),
         axis: Curve::clone(&*options.get::<Rc<Curve>>("axis")?),
         mesh,
         section: options.get("section")?,

@@ -1,0 +1,91 @@
+//! A particle: a body of one point, without a section, strain or extent. Its mass is a point mass of the scene.
+
+use super::discrete::move_compensated;
+use super::dynamics::{BodyDynamics, Collocation, ForceSummary, Movement};
+use super::RotationIncrement;
+use crate::geometry::Vec2;
+
+/// A point that moves by itself.
+#[derive(Debug, Clone)]
+pub struct Particle {
+    position: [Vec2; 1],
+    remainder: [Vec2; 1],
+}
+
+impl Particle {
+    /// A particle at a position [length].
+    pub fn new(position: Vec2) -> Self {
+        Self { position: [position], remainder: [Vec2::zeros()] }
+    }
+}
+
+impl BodyDynamics for Particle {
+    fn order(&self) -> usize {
+        1
+    }
+
+    fn span_starts(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
+    fn control_points(&self) -> &[Vec2] {
+        &self.position
+    }
+
+    fn remainders(&self) -> &[Vec2] {
+        &self.remainder
+    }
+
+    fn begin_step(&mut self) {}
+
+    fn add_forces(
+        &mut self,
+        _at: Collocation,
+        _moved: &[Movement],
+        _weight: f64,
+        _forces: &mut [Movement],
+    ) -> ForceSummary {
+        ForceSummary::default()
+    }
+
+    fn add_linearised_forces(
+        &mut self,
+        _at: Collocation,
+        _moved: &[Movement],
+        _weight: f64,
+        _forces: &mut [Movement],
+        _tangent: &mut dyn FnMut(usize, &[f64]),
+    ) {
+    }
+
+    fn add_mismatch_forces(&self, _weight: f64, _forces: &mut [Movement]) {}
+
+    fn correct_section_forces(&mut self, _correction: &[Movement]) {}
+
+    fn advance(&mut self, moved: &[Movement], _rotations: RotationIncrement) {
+        let points = self.position.iter_mut().zip(&mut self.remainder).zip(moved);
+        points.for_each(|((point, remainder), moved)| move_compensated(point, remainder, moved));
+    }
+
+    fn add_inertia(&self, _factor: f64, _rates: &[Movement], _forces: &mut [Movement]) {}
+
+    fn add_inertia_tangent(&self, _factor: f64, _tangent: &mut dyn FnMut(usize, usize, Movement)) {}
+
+    fn strain_energy(&self) -> f64 {
+        0.0
+    }
+
+    fn lumped_lengths(&self) -> Vec<f64> {
+        vec![0.0]
+    }
+
+    fn save(&self, state: &mut Vec<f64>) {
+        let ([position], [remainder]) = (&self.position, &self.remainder);
+        state.extend([position.x, position.y, remainder.x, remainder.y]);
+    }
+
+    fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.position = [Vec2::new(next(), next())];
+        self.remainder = [Vec2::new(next(), next())];
+    }
+}

@@ -1,0 +1,72 @@
+//! The point of a curve that is nearest to a given one.
+
+use super::{Curve, GeometryError, Vec2};
+
+/// Places of a curve that are tried at first.
+const SAMPLES: usize = 512;
+
+/// Halvings of the interval around the nearest sample: more than a parameter has digits.
+const HALVINGS: usize = 60;
+
+/// The parameter at which a curve comes nearest to a point; of several equally near ones, the first found.
+///
+/// Details of the curve smaller than a five-hundredth of it may be missed.
+///
+/// # Errors
+/// None but those of evaluating the curve inside its domain.
+pub fn nearest(curve: &Curve, point: Vec2) -> Result<f64, GeometryError> {
+    let (start, end) = curve.domain();
+    let sample = |index: usize| start + (end - start) * (index as f64 / SAMPLES as f64);
+    let mut best = (f64::INFINITY, 0);
+    for index in 0..=SAMPLES {
+        let distance = (curve.point(sample(index))? - point).norm_squared();
+        if distance < best.0 {
+            best = (distance, index);
+        }
+    }
+    // Half the slope of the squared distance changes its sign between the neighbours, or an end is nearest.
+    let slope = |xi: f64| Ok((curve.point(xi)? - point).dot(&curve.derivative(xi, 1)?));
+    let mut low = sample(best.1.saturating_sub(1));
+    let mut high = sample((best.1 + 1).min(SAMPLES));
+    if slope(low)? >= 0.0 {
+        return Ok(low);
+    }
+    if slope(high)? <= 0.0 {
+        return Ok(high);
+    }
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if slope(middle)? < 0.0 { low = middle } else { high = middle }
+    }
+    Ok(0.5 * (low + high))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::unit;
+
+    #[test]
+    fn points_of_a_curve_are_nearest_to_themselves() {
+        let arc = Curve::arc(Vec2::new(1.0, 2.0), 3.0, 0.2, 2.9).unwrap();
+        let wave = Curve::through(&[0.0, 1.0, 2.0, 3.0].map(|x| Vec2::new(x, (2.0 * x).sin()))).unwrap();
+        let line = Curve::line(Vec2::zeros(), Vec2::new(3.0, 1.0)).unwrap();
+        for curve in [arc, wave, line] {
+            let (start, end) = curve.domain();
+            for t in [0.0, 1e-3, 0.3, 0.5, 0.95, 1.0] {
+                let xi = start + (end - start) * t;
+                let found = nearest(&curve, curve.point(xi).unwrap()).unwrap();
+                assert!((found - xi).abs() < 1e-14 * (end - start), "{found} for {xi}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_point_beside_a_curve_is_dropped_on_it() {
+        let arc = Curve::arc(Vec2::zeros(), 2.0, 0.0, 3.0).unwrap();
+        let found = arc.point(nearest(&arc, unit(1.2) * 5.0).unwrap()).unwrap();
+        assert!((found - unit(1.2) * 2.0).norm() < 1e-14);
+        let beyond = arc.point(nearest(&arc, unit(-0.5) * 2.0).unwrap()).unwrap();
+        assert!((beyond - Vec2::new(2.0, 0.0)).norm() < 1e-15);
+    }
+}

@@ -1,0 +1,28 @@
+//! The laws of sliding joints: how the contact of a step is closed, and what equation its sliding obeys.
+//!
+//! A step has, for each slider, the contact force `λ` on the master, the couple force `η` and the way `Δξ` as unknowns. All
+//! laws put the same forces on slave and master (see [`Contact`]) and differ in the five equations for these unknowns.
+
+mod conserving;
+mod contact;
+mod equation;
+mod exact;
+mod held;
+mod relaxed;
+mod released;
+mod rule;
+
+pub use conserving::Conserving;
+pub use contact::{CONTACT_UNKNOWNS, Contact, ContactUnknowns};
+pub use equation::{Equation, Unit};
+pub use exact::Exact;
+pub use held::Held;
+pub use relaxed::Relaxed;
+pub use released::Released;
+pub use rule::{RuleClaims, RuleEntry, SLIDING_RULES, SlidingRule};
+
+/// A law of a sliding joint.
+pub trait SlidingLaw {
+    /// The five equations of a step for the unknowns of the contact, with their derivatives.
+    fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS];
+}

@@ -1,0 +1,247 @@
+//! A banded matrix with a few full columns and rows at its end, factorised by blocks.
+//!
+//! ```text
+//! [ A  B ] [x]   [f]        Z = A⁻¹ B      y = A⁻¹ f
+//! [ C  D ] [z] = [g]        (D - C Z) z = g - C y      x = y - Z z
+//! ```
+//!
+//! The band keeps its width whatever the border couples (Govaerts & Pryce, Block elimination with one refinement solves
+//! bordered linear systems accurately, BIT 30 (1990) 490–507; the refinement is the business of the caller).
+
+use super::{BandedLu, BandedMatrix, LinearError};
+
+/// A square matrix that is banded but for its last rows and columns, the border.
+#[derive(Debug, Clone)]
+pub struct BorderedMatrix {
+    band: BandedMatrix,
+    border: Border,
+}
+
+/// The size of a border.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct BorderShape {
+    /// The number of its rows, and of its columns.
+    pub width: usize,
+    /// Room for the entries of its rows in the columns of the band.
+    pub row_entries: usize,
+}
+
+/// The last rows and columns of a [`BorderedMatrix`]: `B`, `C` and `D`.
+#[derive(Debug, Clone)]
+pub struct Border {
+    width: usize,
+    /// `B`, row by row; after factorising `Z`.
+    columns: Vec<f64>,
+    /// The first row of `B` with an entry.
+    first_row: Option<usize>,
+    /// `C`: (row of the border, column, value); entries of one place add up.
+    rows: Vec<(usize, usize, f64)>,
+    corner: BandedMatrix,
+}
+
+/// The factors of a [`BorderedMatrix`], kept in its storage.
+#[derive(Debug)]
+pub struct BorderedLu<'a> {
+    band: BandedLu<'a>,
+    /// `Z`, and `C`.
+    border: Option<FactorisedBorder<'a>>,
+}
+
+#[derive(Debug)]
+struct FactorisedBorder<'a> {
+    width: usize,
+    solved: &'a [f64],
+    rows: &'a [(usize, usize, f64)],
+    complement: BandedLu<'a>,
+}
+
+impl Border {
+    fn zeros(size: usize, BorderShape { width, row_entries }: BorderShape) -> Self {
+        Self {
+            width,
+            columns: vec![0.0; size * width],
+            first_row: None,
+            rows: Vec::with_capacity(row_entries),
+            corner: BandedMatrix::zeros(width, width.saturating_sub(1)),
+        }
+    }
+
+    /// The number of rows and columns of the border.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    fn clear(&mut self) {
+        self.columns.fill(0.0);
+        self.first_row = None;
+        self.rows.clear();
+        self.corner.clear();
+    }
+
+    /// Adds to `B`, at a row of the band and a column of the border.
+    pub fn add_to_column(&mut self, row: usize, border_column: usize, value: f64) {
+        self.columns[row * self.width + border_column] += value;
+        self.first_row = Some(self.first_row.map_or(row, |first| first.min(row)));
+    }
+
+    /// Adds to `C`, at a row of the border and a column of the band.
+    pub fn add_to_row(&mut self, border_row: usize, column: usize, value: f64) {
+        self.rows.push((border_row, column, value));
+    }
+
+    /// Adds to `D`.
+    pub fn add_to_corner(&mut self, border_row: usize, border_column: usize, value: f64) {
+        self.corner.add(border_row, border_column, value);
+    }
+
+    /// Makes `Z` of `B` and `D - C Z` of `D`.
+    fn eliminate(&mut self, band: &BandedLu<'_>) {
+        let width = self.width;
+        if let Some(first) = self.first_row {
+            band.solve_block(&mut self.columns, width, first);
+        }
+        for &(row, column, value) in &self.rows {
+            let solved = &self.columns[column * width..(column + 1) * width];
+            for (border_column, z) in solved.iter().enumerate() {
+                self.corner.add(row, border_column, -value * z);
+            }
+        }
+    }
+}
+
+impl BorderedMatrix {
+    /// The zero matrix: `size` rows with entries up to `half_bandwidth` places off the diagonal, and a border.
+    pub fn zeros(size: usize, half_bandwidth: usize, border: BorderShape) -> Self {
+        Self {
+            band: BandedMatrix::zeros(size, half_bandwidth),
+            border: Border::zeros(size, border),
+        }
+    }
+
+    /// The number of rows, those of the border included.
+    pub fn size(&self) -> usize {
+        self.band.size() + self.border.width
+    }
+
+    /// The banded part, `A`.
+    pub fn band(&self) -> &BandedMatrix {
+        &self.band
+    }
+
+    /// The banded part, `A`.
+    pub fn band_mut(&mut self) -> &mut BandedMatrix {
+        &mut self.band
+    }
+
+    /// The border.
+    pub fn border_mut(&mut self) -> &mut Border {
+        &mut self.border
+    }
+
+    /// Sets every entry to zero.
+    pub fn clear(&mut self) {
+        self.band.clear();
+        self.border.clear();
+    }
+
+    /// The entry at `(row, column)`; zero outside band and border.
+    pub fn get(&self, row: usize, column: usize) -> f64 {
+        let (n, Border { width, columns, rows, corner, .. }) = (self.band.size(), &self.border);
+        match (row.checked_sub(n), column.checked_sub(n)) {
+            (None, None) => self.band.get(row, column),
+            (None, Some(border_column)) => columns[row * width + border_column],
+            (Some(border_row), None) => {
+                let here = |(r, c, _): &&(usize, usize, f64)| (*r, *c) == (border_row, column);
+                rows.iter().filter(here).map(|(.., value)| value).sum()
+            }
+            (Some(border_row), Some(border_column)) => corner.get(border_row, border_column),
+        }
+    }
+
+    /// Replaces the entries by factors. Without a border these are the factors of the band and nothing else.
+    ///
+    /// # Errors
+    /// When a column has no non-zero or no finite pivot; the entries are then lost.
+    pub fn factorise(&mut self) -> Result<BorderedLu<'_>, LinearError> {
+        let Self { band, border } = self;
+        let size = band.size();
+        let band = band.factorise()?;
+        if border.width == 0 {
+            return Ok(BorderedLu { band, border: None });
+        }
+        border.eliminate(&band);
+        let Border { width, columns, rows, corner, .. } = border;
+        let complement = corner.factorise().map_err(|error| error.behind(size))?;
+        let border = FactorisedBorder { width: *width, solved: columns, rows, complement };
+        Ok(BorderedLu { band, border: Some(border) })
+    }
+}
+
+impl BorderedLu<'_> {
+    /// Replaces the right-hand side by the solution; the entries of the border come last.
+    pub fn solve(&self, x: &mut [f64]) {
+        let Some(border) = &self.border else { return self.band.solve(x) };
+        let (x, z) = x.split_at_mut(x.len() - border.width);
+        self.band.solve(x);
+        for &(row, column, value) in border.rows {
+            z[row] -= value * x[column];
+        }
+        border.complement.solve(z);
+        for (x, solved) in x.iter_mut().zip(border.solved.chunks_exact(border.width)) {
+            *x -= solved.iter().zip(z.iter()).map(|(solved, z)| solved * z).sum::<f64>();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{DMatrix, DVector};
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn the_bordered_solution_is_the_dense_one(
+            size in 1_usize..30, half_bandwidth in 0_usize..6, width in 0_usize..8,
+            entries in prop::collection::vec(-1.0..1.0_f64, 997), sparse in any::<u64>(),
+        ) {
+            let border = BorderShape { width, row_entries: 0 };
+            let mut matrix = BorderedMatrix::zeros(size, half_bandwidth, border);
+            let mut entries = entries.iter().cycle();
+            let mut next = || *entries.next().unwrap();
+            for i in 0..size {
+                for j in i.saturating_sub(half_bandwidth)..(i + half_bandwidth + 1).min(size) {
+                    matrix.band_mut().add(i, j, next());
+                }
+                if sparse >> (i % 64) & 1 == 1 {
+                    for k in 0..width {
+                        matrix.border_mut().add_to_column(i, k, next());
+                        matrix.border_mut().add_to_row(k, i, next());
+                    }
+                }
+            }
+            for i in 0..width {
+                (0..width).for_each(|j| matrix.border_mut().add_to_corner(i, j, next()));
+            }
+            let dense = DMatrix::from_fn(matrix.size(), matrix.size(), |i, j| matrix.get(i, j));
+            let smallest = |m: &DMatrix<f64>| m.clone().svd(false, false).singular_values.min();
+            prop_assume!(smallest(&dense) > 1e-2);
+            prop_assume!(smallest(&dense.view((0, 0), (size, size)).into_owned()) > 1e-2);
+            let right = DVector::from_fn(matrix.size(), |i, _| (i as f64 + 1.0).sin());
+            let mut x = right.as_slice().to_vec();
+            matrix.factorise().unwrap().solve(&mut x);
+            let error = dense * DVector::from_vec(x) - right;
+            prop_assert!(error.amax() < 1e-8, "residual {}", error.amax());
+        }
+    }
+
+    #[test]
+    fn a_border_that_determines_nothing_is_named_by_its_unknown() {
+        let mut matrix = BorderedMatrix::zeros(2, 0, BorderShape { width: 1, row_entries: 0 });
+        matrix.band_mut().add(0, 0, 1.0);
+        matrix.band_mut().add(1, 1, 1.0);
+        matrix.border_mut().add_to_column(1, 0, 1.0);
+        let error = matrix.factorise().unwrap_err();
+        assert_eq!(error, LinearError::Singular { unknown: 2, size: 3 });
+    }
+}

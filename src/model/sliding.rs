@@ -1,0 +1,314 @@
+//! Sliders of the model: where they are, and what they add to the equations of a step.
+
+use super::body::Body;
+use super::connection::Connection;
+use crate::geometry::{Passage, Vec2, larger};
+use crate::integrators::Interval;
+use crate::joints::{
+    CONTACT_UNKNOWNS, Contact, ContactUnknowns, EndAction, Held, Released, Slider, SlidingLaw,
+    SlidingRule, Unit,
+};
+use crate::linalg::Border;
+
+/// How far a slider may end beside the end of its master and still be there, relative to the master's parameters.
+pub(super) const LANDED: f64 = 4e-15;
+
+/// An end of the master.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TrackEnd {
+    /// Where its parameter starts.
+    Start,
+    /// Where its parameter ends.
+    End,
+}
+
+impl TrackEnd {
+    /// The sign of `dξ/dt` with which it is reached.
+    pub(super) fn outward(self) -> f64 {
+        match self {
+            Self::Start => -1.0,
+            Self::End => 1.0,
+        }
+    }
+}
+
+/// What a slider does at present.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SliderState {
+    /// It slides.
+    Sliding,
+    /// It rests against the stop at an end.
+    Held(TrackEnd),
+    /// It has left its master.
+    Released,
+}
+
+/// A slider with its contact.
+#[derive(Debug, Clone)]
+pub(super) struct Sliding {
+    pub(super) name: String,
+    pub(super) connection: Connection,
+    pub(super) rule: SlidingRule,
+    pub(super) ends: EndAction,
+    pub(super) state: SliderState,
+    /// Where on the master it is: `ξ`.
+    pub(super) parameter: f64,
+    /// Of the last step, or of its iterate.
+    pub(super) unknowns: ContactUnknowns,
+    domain: (f64, f64),
+    /// The length of the master for a parameter of one [length].
+    length: f64,
+    passage: Passage,
+    /// Control points of the master in the window of the passage, counted from the slave.
+    before: Vec<Vec2>,
+    moved: Vec<Vec2>,
+    units: [Unit; CONTACT_UNKNOWNS],
+}
+
+impl Sliding {
+    pub(super) fn new(
+        slider: &Slider,
+        connection: Connection,
+        passage: Passage,
+        parameter: f64,
+        length: f64,
+    ) -> Self {
+        let domain = passage.basis().domain();
+        let functions = passage.basis().functions();
+        let mut new = Self {
+            name: slider.name.clone(),
+            connection,
+            rule: slider.rule,
+            ends: slider.ends,
+            state: SliderState::Sliding,
+            parameter,
+            unknowns: ContactUnknowns::of([0.0; CONTACT_UNKNOWNS]),
+            domain,
+            length: length / (domain.1 - domain.0),
+            passage,
+            before: Vec::with_capacity(functions),
+            moved: Vec::with_capacity(functions),
+            units: [Unit::Force; CONTACT_UNKNOWNS],
+        };
+        new.passage.go(parameter, parameter);
+        new
+    }
+
+    /// The most entries that its equations have.
+    pub(super) fn row_entries(&self) -> usize {
+        CONTACT_UNKNOWNS * 2 * (1 + self.passage.basis().functions())
+    }
+
+    fn law(&self) -> &'static dyn SlidingLaw {
+        match self.state {
+            SliderState::Sliding => self.rule.law(),
+            SliderState::Held(_) => &Held,
+            SliderState::Released => &Released,
+        }
+    }
+
+    pub(super) fn is_sliding(&self) -> bool {
+        self.state == SliderState::Sliding
+    }
+
+    pub(super) fn domain(&self) -> (f64, f64) {
+        self.domain
+    }
+
+    /// It leaves its master.
+    pub(super) fn release(&mut self) {
+        self.state = SliderState::Released;
+        self.unknowns = ContactUnknowns::of([0.0; CONTACT_UNKNOWNS]);
+    }
+
+    pub(super) fn save(&self, state: &mut Vec<f64>) {
+        let mark = match self.state {
+            SliderState::Sliding => 0.0,
+            SliderState::Held(TrackEnd::Start) => 1.0,
+            SliderState::Held(TrackEnd::End) => 2.0,
+            SliderState::Released => 3.0,
+        };
+        state.extend([mark, self.parameter]);
+        state.extend(self.unknowns.to_array());
+    }
+
+    pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        let marks = [
+            SliderState::Sliding,
+            SliderState::Held(TrackEnd::Start),
+            SliderState::Held(TrackEnd::End),
+        ];
+        self.state = marks.get(next() as usize).copied().unwrap_or(SliderState::Released);
+        self.parameter = next();
+        self.unknowns = ContactUnknowns::of(std::array::from_fn(|_| next()));
+        self.passage.go(self.parameter, self.parameter);
+    }
+
+    /// The end of the master at which it is, if it is at one.
+    pub(super) fn at_end(&self) -> Option<TrackEnd> {
+        [TrackEnd::Start, TrackEnd::End]
+            .into_iter()
+            .find(|end| self.parameter == self.end_parameter(*end))
+    }
+
+    pub(super) fn end_parameter(&self, end: TrackEnd) -> f64 {
+        match end {
+            TrackEnd::Start => self.domain.0,
+            TrackEnd::End => self.domain.1,
+        }
+    }
+
+    /// The control points of the master with their functions where the slider is.
+    pub(super) fn weights(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        (self.passage.first()..).zip(self.passage.end().iter().copied())
+    }
+
+    /// The derivative of the place on the master by the parameter, `Σ B_i'(ξ) x_i` [length].
+    pub(super) fn tangent(&self, bodies: &[Body]) -> Vec2 {
+        let points = &bodies[self.connection.master].dynamics.control_points()[self.passage.first()..];
+        // Slopes sum to zero: an origin amid the points changes nothing but the rounding.
+        self.passage.slope().iter().zip(points).map(|(slope, point)| (point - points[0]) * *slope).sum()
+    }
+
+    /// From the slave to its place on the master.
+    pub(super) fn gap(&self, bodies: &[Body]) -> Vec2 {
+        if self.state == SliderState::Released {
+            return Vec2::zeros();
+        }
+        let (body, point) = self.connection.slave;
+        let slave = bodies[body].dynamics.control_points()[point];
+        let master = bodies[self.connection.master].dynamics.control_points();
+        self.weights().map(|(index, weight)| (master[index] - slave) * weight).sum()
+    }
+
+    /// The velocity of the slave relative to its place on the master [length/time].
+    pub(super) fn relative_velocity(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
+        let Connection { master, slave: (body, point), .. } = self.connection;
+        let on_master = |(index, weight)| bodies[master].vector_at(index, rates) * weight;
+        bodies[body].vector_at(point, rates) - self.weights().map(on_master).sum::<Vec2>()
+    }
+
+    /// `dξ/dt` of the present velocities [1/time].
+    pub(super) fn rate(&self, bodies: &[Body], rates: &[f64]) -> f64 {
+        match self.state {
+            SliderState::Sliding => {
+                let tangent = self.tangent(bodies);
+                self.relative_velocity(bodies, rates).dot(&tangent) / tangent.norm_squared()
+            }
+            SliderState::Held(_) | SliderState::Released => 0.0,
+        }
+    }
+
+    fn read(&self, unknowns: &[f64]) -> ContactUnknowns {
+        let mut own = [0.0; CONTACT_UNKNOWNS];
+        own.copy_from_slice(&unknowns[self.connection.places()]);
+        ContactUnknowns::of(own)
+    }
+
+    /// Guesses that it slides on as it does, and that the contact force stays.
+    pub(super) fn predict(
+        &self,
+        bodies: &[Body],
+        rates: &[f64],
+        interval: Interval,
+        unknowns: &mut [f64],
+    ) {
+        let (start, end) = self.domain;
+        let ahead = self.parameter + interval.duration() * self.rate(bodies, rates);
+        let way = ahead.clamp(start, end) - self.parameter;
+        let guess = ContactUnknowns { way, ..self.unknowns };
+        unknowns[self.connection.places()].copy_from_slice(&guess.to_array());
+    }
+
+    /// Takes over the iterate of a step.
+    fn take(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) -> Contact<'_> {
+        self.unknowns = self.read(unknowns);
+        self.passage.go(self.parameter, self.parameter + self.unknowns.way);
+        let Connection { master, slave: (body, point), .. } = self.connection;
+        let (slave, master) = (&bodies[body], &bodies[master]);
+        let (origin, cut_off) = slave.precise_point(point);
+        let window = self.passage.first()..self.passage.first() + self.passage.end().len();
+        self.before.clear();
+        self.before.extend(window.clone().map(|at| {
+            let (position, remainder) = master.precise_point(at);
+            (position - origin) + (remainder - cut_off)
+        }));
+        self.moved.clear();
+        self.moved.extend(window.map(|at| master.vector_at(at, increments)));
+        let slave_moved = slave.vector_at(point, increments);
+        let Self { passage, before, moved, unknowns, length, .. } = self;
+        Contact::new(passage, before, moved, slave_moved, *unknowns, *length)
+    }
+
+    /// Adds the forces on slave and master, and behind the movements the equations of the contact.
+    pub(super) fn add(
+        &mut self,
+        bodies: &[Body],
+        increments: &[f64],
+        unknowns: &[f64],
+        out: &mut [f64],
+    ) {
+        let (law, connection) = (self.law(), self.connection);
+        let contact = self.take(bodies, increments, unknowns);
+        let equations = law.equations(&contact);
+        connection.add_values(bodies, &contact, &equations, increments.len(), out);
+        self.units = equations.map(|equation| equation.unit);
+    }
+
+    /// The same, with all derivatives.
+    pub(super) fn add_linearised(
+        &mut self,
+        bodies: &[Body],
+        increments: &[f64],
+        unknowns: &[f64],
+        out: &mut [f64],
+        border: &mut Border,
+    ) {
+        let (law, connection, movements) = (self.law(), self.connection, increments.len());
+        let contact = self.take(bodies, increments, unknowns);
+        let equations = law.equations(&contact);
+        connection.add_values(bodies, &contact, &equations, movements, out);
+        connection.add_derivatives(bodies, &contact, &equations, movements, border);
+    }
+
+    /// The largest violations: relative to the length of the master, and a force [force].
+    pub(super) fn violation(&self, equations: &[f64]) -> (f64, f64) {
+        let values = equations[self.connection.places()].iter().zip(self.units);
+        values.fold((0.0, 0.0), |(length, force), (value, unit)| match unit {
+            Unit::Length => (larger(length, value.abs() / self.length), force),
+            Unit::Force => (length, larger(force, value.abs())),
+        })
+    }
+
+    /// How far beyond an end of the master the unknowns lead, relative to its parameters.
+    pub(super) fn beyond(&self, unknowns: &[f64], end: TrackEnd) -> f64 {
+        let ahead = self.parameter + self.read(unknowns).way;
+        let (first, last) = self.domain;
+        let distance = match end {
+            TrackEnd::Start => first - ahead,
+            TrackEnd::End => ahead - last,
+        };
+        distance / (last - first)
+    }
+
+    /// Accepts a step; the bodies are at its end already.
+    ///
+    /// A stop that had to pull in this step lets go.
+    pub(super) fn advance(&mut self, bodies: &[Body], unknowns: &[f64]) {
+        self.unknowns = self.read(unknowns);
+        let landed = [TrackEnd::Start, TrackEnd::End]
+            .into_iter()
+            .find(|end| self.beyond(unknowns, *end).abs() <= LANDED);
+        self.parameter = match landed {
+            Some(end) => self.end_parameter(end),
+            None => self.parameter + self.unknowns.way,
+        };
+        self.passage.go(self.parameter, self.parameter);
+        if let SliderState::Held(end) = self.state {
+            let outward = self.unknowns.force.dot(&self.tangent(bodies)) * end.outward();
+            if outward < 0.0 {
+                self.state = SliderState::Sliding;
+            }
+        }
+    }
+}

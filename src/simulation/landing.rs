@@ -1,0 +1,237 @@
+//! Steps that end exactly where a slider reaches the end of its master, and what happens there.
+
+use super::{Simulation, SimulationError};
+use crate::integrators::{Interval, Overshoot, StepError};
+use crate::joints::EndAction;
+use crate::model::{SliderState, TrackEnd, TrackLimit};
+use crate::newton::NewtonReport;
+
+/// Most tries to find the time of an arrival; few are needed, the rest is for bad luck.
+const MOST_TRIES: usize = 60;
+
+/// How often a step is halved to see whether a slider at an end leaves it for a while.
+const PROBES: i32 = 12;
+
+/// Most arrivals within one step of the grid.
+pub(super) const MOST_ARRIVALS: usize = 10_000;
+
+/// What happened to a slider at the end of its master.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ArrivalKind {
+    /// The run ended.
+    Stopped,
+    /// It bounced off.
+    Bounced,
+    /// It came to rest against the stop.
+    Rested,
+    /// It left the master.
+    Released,
+}
+
+/// A slider reached the end of its master.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Arrival {
+    /// When.
+    pub time: f64,
+    /// Which slider, and which end.
+    pub limit: TrackLimit,
+    /// What came of it.
+    pub kind: ArrivalKind,
+}
+
+impl Arrival {
+    /// In words: `slider 'ring' bounced off the end of its beam at t = 1.5`.
+    pub fn describe(&self, slider: &str) -> String {
+        let end = match self.limit.end {
+            TrackEnd::Start => "start",
+            TrackEnd::End => "end",
+        };
+        let did = match self.kind {
+            ArrivalKind::Stopped => "reached",
+            ArrivalKind::Bounced => "bounced off",
+            ArrivalKind::Rested => "came to rest against",
+            ArrivalKind::Released => "left over",
+        };
+        format!("slider '{slider}' {did} the {end} of its beam at t = {}", self.time)
+    }
+}
+
+/// A step that was cut where a slider arrives.
+pub(super) enum Landing {
+    /// The step ends with the arrival.
+    At(Interval, NewtonReport, TrackLimit),
+    /// The slider is at the end already, and every step leads beyond it.
+    AtOnce(TrackLimit),
+}
+
+/// What is known of an arrival before it is searched for.
+enum Prospect {
+    /// It lies between two times.
+    Between(Bracket),
+    /// A step was taken that ends with it.
+    Landed(Interval, NewtonReport),
+    /// The slider is at the limit already and stays beyond it in steps of any size.
+    Beyond,
+}
+
+/// Times before and after an arrival, with the distances beyond the limit there.
+struct Bracket {
+    before: (f64, f64),
+    after: (f64, f64),
+}
+
+impl Bracket {
+    /// The next time to try: false position, with the weight of an end halved that stays (Illinois; Dowell & Jarratt 1971).
+    fn guess(&self) -> f64 {
+        let ((t0, f0), (t1, f1)) = (self.before, self.after);
+        let t = t1 - f1 * (t1 - t0) / (f1 - f0);
+        // Rounding may put it on an end, and far from the solution it may be of no use.
+        let margin = 1e-3 * (t1 - t0);
+        if t > t0 && t < t1 { t } else { (t0 + margin).max(0.5 * (t0 + t1)) }
+    }
+}
+
+impl Simulation {
+    /// Takes a step that ends where the slider arrives that went too far in the whole interval.
+    pub(super) fn land(
+        &mut self,
+        interval: Interval,
+        overshoot: Overshoot,
+    ) -> Result<Landing, StepError> {
+        let landing = self.search(interval, overshoot);
+        self.model.aim_at(None);
+        landing
+    }
+
+    fn search(&mut self, interval: Interval, first: Overshoot) -> Result<Landing, StepError> {
+        let mut limit = self.model.limit(first.limit);
+        self.model.aim_at(Some(limit));
+        let mut bracket = match self.prospect(interval, limit, first.distance)? {
+            Prospect::Between(bracket) => bracket,
+            Prospect::Landed(cut, report) => return Ok(Landing::At(cut, report, limit)),
+            Prospect::Beyond => return Ok(Landing::AtOnce(limit)),
+        };
+        let mut last_side = 0.0;
+        for _ in 0..MOST_TRIES {
+            let end = bracket.guess();
+            let cut = Interval { start: interval.start, end };
+            match self.integrator.step(&mut self.model, cut) {
+                Ok(report) => return Ok(Landing::At(cut, report, limit)),
+                Err(StepError::Overshoot { overshoot, iterations, .. }) => {
+                    self.counts.retries += 1;
+                    self.counts.factorisations += iterations;
+                    let other = self.model.limit(overshoot.limit);
+                    if other != limit {
+                        // Another slider arrives before.
+                        limit = other;
+                        self.model.aim_at(Some(limit));
+                        bracket = match self.prospect(cut, limit, overshoot.distance)? {
+                            Prospect::Between(bracket) => bracket,
+                            Prospect::Landed(cut, report) => {
+                                return Ok(Landing::At(cut, report, limit));
+                            }
+                            Prospect::Beyond => return Ok(Landing::AtOnce(limit)),
+                        };
+                        last_side = 0.0;
+                    } else if overshoot.distance > 0.0 {
+                        bracket.after = (end, overshoot.distance);
+                        if last_side > 0.0 {
+                            bracket.before.1 *= 0.5;
+                        }
+                        last_side = 1.0;
+                    } else {
+                        bracket.before = (end, overshoot.distance);
+                        if last_side < 0.0 {
+                            bracket.after.1 *= 0.5;
+                        }
+                        last_side = -1.0;
+                    }
+                }
+                Err(other) => return Err(other),
+            }
+        }
+        Err(StepError::Overshoot { interval, overshoot: first, iterations: 0 })
+    }
+
+    /// Looks for a time before the arrival, given one after it.
+    fn prospect(
+        &mut self,
+        interval: Interval,
+        limit: TrackLimit,
+        distance: f64,
+    ) -> Result<Prospect, StepError> {
+        let mut after = (interval.end, distance);
+        if !self.model.is_at(limit) {
+            let before = (interval.start, -self.model.distance_to(limit));
+            return Ok(Prospect::Between(Bracket { before, after }));
+        }
+        if self.model.leads_beyond(limit) {
+            return Ok(Prospect::Beyond);
+        }
+        for halving in 1..=PROBES {
+            let end = interval.start + interval.duration() * 0.5_f64.powi(halving);
+            let cut = Interval { start: interval.start, end };
+            match self.integrator.step(&mut self.model, cut) {
+                Err(StepError::Overshoot { overshoot, iterations, .. }) => {
+                    self.counts.retries += 1;
+                    self.counts.factorisations += iterations;
+                    if overshoot.limit != self.model.number(limit) {
+                        continue;
+                    }
+                    if overshoot.distance < 0.0 {
+                        let before = (end, overshoot.distance);
+                        return Ok(Prospect::Between(Bracket { before, after }));
+                    }
+                    after = (end, overshoot.distance);
+                }
+                Ok(report) => return Ok(Prospect::Landed(cut, report)),
+                Err(other) => return Err(other),
+            }
+        }
+        Ok(Prospect::Beyond)
+    }
+
+    /// Does what is to be done where a slider arrives; `true` when the run ends there.
+    pub(super) fn arrive(&mut self, landing: &Landing) -> Result<bool, SimulationError> {
+        let (Landing::At(_, _, limit) | Landing::AtOnce(limit)) = *landing;
+        let leads_beyond = self.model.leads_beyond(limit);
+        let kind = match self.model.end_action(limit.slider) {
+            EndAction::Stop => ArrivalKind::Stopped,
+            EndAction::Bounce => match landing {
+                _ if leads_beyond => {
+                    self.model.bounce(limit.slider)?;
+                    ArrivalKind::Bounced
+                }
+                // It only touched the stop, or its velocity has turned round just there.
+                Landing::At(..) => ArrivalKind::Bounced,
+                Landing::AtOnce(_) => {
+                    self.model.hold(limit);
+                    ArrivalKind::Rested
+                }
+            },
+            EndAction::Release => {
+                self.model.release(limit.slider);
+                ArrivalKind::Released
+            }
+        };
+        self.arrivals.push(Arrival { time: self.model.time(), limit, kind });
+        Ok(kind == ArrivalKind::Stopped)
+    }
+
+    /// Sliders that reached the end of their masters so far.
+    pub fn arrivals(&self) -> &[Arrival] {
+        &self.arrivals
+    }
+
+    /// Why the run has ended, if it has.
+    pub fn ending(&self) -> Option<String> {
+        let stopped = self.arrivals.iter().find(|arrival| arrival.kind == ArrivalKind::Stopped)?;
+        let name = &self.scene.sliders[stopped.limit.slider].name;
+        Some(stopped.describe(name))
+    }
+
+    /// What a slider does at present.
+    pub fn slider_state(&self, slider: usize) -> SliderState {
+        self.model.slider_state(slider)
+    }
+}
