@@ -176,7 +176,7 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
 
     fn begin_step(&mut self) {
         for span in &mut self.spans {
-            span.force_points.iter_mut().for_each(|point| point.begin_step(&self.section));
+            span.force_points.iter_mut().for_each(ForcePoint::begin_step);
         }
     }
 
@@ -328,7 +328,7 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
         for span in &mut self.spans {
             span.force_points
                 .iter_mut()
-                .for_each(|point| point.restore([next(), next(), next(), next()]));
+                .for_each(|point| point.restore(std::array::from_fn(|_| next())));
             span.moment_points.iter_mut().for_each(|point| point.set_curvature(next()));
         }
     }

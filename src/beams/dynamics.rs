@@ -56,7 +56,7 @@ pub trait BodyDynamics {
     /// What rounding has cut off the control points so far [length].
     fn remainders(&self) -> &[Vec2];
 
-    /// Sets the section forces to those of the start of the step.
+    /// Sets the section forces to those of the last step.
     fn begin_step(&mut self);
 
     /// Adds `weight` times the internal forces with the section forces as they are.

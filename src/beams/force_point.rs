@@ -28,6 +28,9 @@ pub(super) struct ForcePoint<const N: usize> {
     strain: Vec2,
     /// The section force `N` of the iterate.
     force: Vec2,
+    /// That of the last step, from which the next one starts: in a motion with fast vibration it is nearer to the solution
+    /// than `C Γ0`, whose sign may change from step to step.
+    last_force: Vec2,
     /// `m = Γσ - C⁻¹ N`, where forces were taken last.
     mismatch: Vec2,
     linearised_at: Configuration,
@@ -69,13 +72,14 @@ impl<const N: usize> ForcePoint<N> {
             rotation,
             strain: Vec2::zeros(),
             force: Vec2::zeros(),
+            last_force: Vec2::zeros(),
             mismatch: Vec2::zeros(),
             linearised_at: undeformed,
         }
     }
 
-    pub(super) fn begin_step(&mut self, section: &Section) {
-        self.force = force_of(section, self.strain);
+    pub(super) fn begin_step(&mut self) {
+        self.force = self.last_force;
     }
 
     /// `(Δg, Δω)` of movements.
@@ -136,10 +140,12 @@ impl<const N: usize> ForcePoint<N> {
         summary: &mut ForceSummary,
     ) {
         let now = self.configuration(at, moved);
-        let spatial = now.collocated_rotation.to_space(self.force);
+        // Where the strain of the start alone counts, the section force is known.
+        let force = if at.stress == 0.0 { force_of(section, self.strain) } else { self.force };
+        let spatial = now.collocated_rotation.to_space(force);
         self.distribute(weight, now.collocated_gradient, spatial, forces);
-        self.mismatch = now.collocated_strain - strain_from(section, self.force);
-        let force = larger(self.force.x.abs(), self.force.y.abs());
+        self.mismatch = now.collocated_strain - strain_from(section, force);
+        let force = larger(force.x.abs(), force.y.abs());
         summary.join(&ForceSummary {
             strain_mismatch: larger(self.mismatch.x.abs(), self.mismatch.y.abs()),
             force,
@@ -229,6 +235,7 @@ impl<const N: usize> ForcePoint<N> {
 
     pub(super) fn advance(&mut self, moved: &[Movement; N], rotations: RotationIncrement) {
         let (change, increment) = self.interpolate(moved);
+        self.last_force = self.force;
         self.gradient += change;
         self.rotation = self.rotation.turned(rotations, increment).normalised();
         self.strain = strain_of(self.rotation, self.gradient);
@@ -240,10 +247,12 @@ impl<const N: usize> ForcePoint<N> {
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.gradient.x, self.gradient.y, self.rotation.cos, self.rotation.sin]);
+        state.extend([self.last_force.x, self.last_force.y]);
     }
 
-    pub(super) fn restore(&mut self, [x, y, cos, sin]: [f64; 4]) {
+    pub(super) fn restore(&mut self, [x, y, cos, sin, axial, shear]: [f64; 6]) {
         (self.gradient, self.rotation) = (Vec2::new(x, y), Rotation { cos, sin });
+        self.last_force = Vec2::new(axial, shear);
         self.strain = strain_of(self.rotation, self.gradient);
     }
 }

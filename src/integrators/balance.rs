@@ -100,21 +100,24 @@ impl StepSolver {
         }
     }
 
-    /// Predicts that every rate stays as it is.
+    /// Predicts a step with the rates that the mechanism expects.
     pub(super) fn predict(&mut self, mechanism: &mut dyn Mechanism, interval: Interval) {
         let duration = interval.duration();
         self.coasting.iter_mut().zip(mechanism.rates()).for_each(|(u, rate)| *u = duration * rate);
         let (deviation, constraints) = self.unknowns.split_at_mut(self.coasting.len());
-        deviation.fill(0.0);
+        let expected = mechanism.expected_rates().iter().zip(mechanism.rates());
+        deviation
+            .iter_mut()
+            .zip(expected)
+            .for_each(|(d, (expected, rate))| *d = duration * (expected - rate));
         mechanism.predict_constraints(interval, constraints);
         self.carried.fill(0.0);
     }
 
     /// Adds a share of the forces of a stage at which nothing has moved yet.
     pub(super) fn carry(&mut self, mechanism: &mut dyn Mechanism, stage: Stage, share: f64) {
-        // The deviation is still zero: it serves as the increments of standing still.
-        let deviation = &self.unknowns[..self.coasting.len()];
-        mechanism.add_forces(stage, deviation, share, &mut self.carried);
+        self.increments.fill(0.0);
+        mechanism.add_forces(stage, &self.increments, share, &mut self.carried);
     }
 
     /// Solves for the increments with the forces of `stage`.

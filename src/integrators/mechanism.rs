@@ -44,6 +44,9 @@ pub trait Mechanism {
     /// The rates of the unknowns at the start of the step [length/time, 1/time].
     fn rates(&self) -> &[f64];
 
+    /// The rates with which the movements of the next step may be guessed [length/time, 1/time].
+    fn expected_rates(&self) -> &[f64];
+
     /// Prepares a step that takes forces at the given stages: evaluates what depends on time only.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 use super::applied::{Action, AppliedLoad, Exchange, Follower, Pattern};
 use super::body::Body;
 use super::inertia::Lump;
-use super::mechanism::{Model, StepScales, Support};
+use super::mechanism::{Model, Motion, StepScales, Support};
 use super::numbering::{Numbering, same_place};
 use super::scene::BeamDefinition;
 use super::sliders::contact_unknowns;
@@ -84,12 +84,16 @@ impl Model {
             unknowns,
             half_bandwidth: numbering.half_bandwidth,
             is_rotation,
+            mean_rates: rates.clone(),
+            motion: Motion::Smooth,
+            inertia_diagonal: Vec::new(),
             rates,
             total_mass,
             time: 0.0,
             exchanged: Exchange::default(),
             step: StepScales::default(),
         };
+        model.inertia_diagonal = model.diagonal_of_inertia();
         model.settle_start_velocities(scene.sliders.iter().map(|slider| slider.velocities))?;
         Ok(model)
     }

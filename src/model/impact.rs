@@ -78,8 +78,7 @@ impl Model {
         factor: f64,
     ) -> Result<(), crate::linalg::LinearError> {
         let (unknowns, count) = (self.unknowns, directions.len());
-        let mut inertia = BandedMatrix::zeros(unknowns, self.half_bandwidth);
-        self.add_inertia_tangent(1.0, &mut inertia);
+        let mut inertia = self.inertia();
         let inertia = inertia.factorise()?;
         let transmitted: Vec<Vec<f64>> =
             directions.iter().map(|direction| self.transmit(direction)).collect();
@@ -112,10 +111,25 @@ impl Model {
         }
         // What is left of `M (v⁺ - v⁻) - Gᵀ P` at supports is their impulse.
         self.add_inertia_of_all(1.0, &change, &mut residual);
-        self.rates.iter_mut().zip(&change).for_each(|(rate, change)| *rate += change);
+        for rates in [&mut self.rates, &mut self.mean_rates] {
+            rates.iter_mut().zip(&change).for_each(|(rate, change)| *rate += change);
+        }
         let reactions = self.reactions(&residual, 1.0);
         self.exchanged += reactions;
         Ok(())
+    }
+
+    /// The inertia matrix.
+    fn inertia(&self) -> BandedMatrix {
+        let mut inertia = BandedMatrix::zeros(self.unknowns, self.half_bandwidth);
+        self.add_inertia_tangent(1.0, &mut inertia);
+        inertia
+    }
+
+    /// Its diagonal.
+    pub(super) fn diagonal_of_inertia(&self) -> Vec<f64> {
+        let inertia = self.inertia();
+        (0..self.unknowns).map(|at| inertia.get(at, at)).collect()
     }
 
     /// `Gᵀ` times a unit impulse: on the slave, and the opposite one on the master.

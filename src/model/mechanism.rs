@@ -41,6 +41,10 @@ pub struct Model {
     /// Which unknowns are rotations.
     pub(super) is_rotation: Vec<bool>,
     pub(super) rates: Vec<f64>,
+    /// Of the last step: increments over duration.
+    pub(super) mean_rates: Vec<f64>,
+    pub(super) motion: Motion,
+    pub(super) inertia_diagonal: Vec<f64>,
     pub(super) total_mass: f64,
     pub(super) time: f64,
     pub(super) exchanged: Exchange,
@@ -56,6 +60,15 @@ pub(super) struct StepScales {
     loads: (f64, f64),
     summary: ForceSummary,
     rotations: RotationIncrement,
+}
+
+/// What the next step is best guessed from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Motion {
+    /// The rates at its start.
+    Smooth,
+    /// The mean rates of the last step: those at its end alternate from step to step.
+    Rough,
 }
 
 impl Default for StepScales {
@@ -204,6 +217,23 @@ impl Model {
         sum
     }
 
+    /// Finds the guess that would have been the better one for the step just taken, in the norm of the kinetic energy.
+    fn learn(&mut self, increments: &[f64]) {
+        let inverse = 1.0 / self.step.interval.duration();
+        let (mut missed_by_start, mut missed_by_mean) = (0.0, 0.0);
+        let guesses = self.rates.iter().zip(&mut self.mean_rates);
+        for ((u, (rate, mean)), inertia) in
+            increments.iter().zip(guesses).zip(&self.inertia_diagonal)
+        {
+            let found = u * inverse;
+            missed_by_start += inertia * (found - rate).powi(2);
+            missed_by_mean += inertia * (found - *mean).powi(2);
+            *mean = found;
+        }
+        self.motion =
+            if missed_by_mean < missed_by_start { Motion::Rough } else { Motion::Smooth };
+    }
+
     /// The ends of masters at which sliders could arrive: two for each.
     fn limits(&self) -> impl Iterator<Item = (usize, &Sliding, TrackEnd)> {
         let ends = |slider| [(slider, TrackEnd::Start), (slider, TrackEnd::End)];
@@ -234,6 +264,13 @@ impl Mechanism for Model {
 
     fn rates(&self) -> &[f64] {
         &self.rates
+    }
+
+    fn expected_rates(&self) -> &[f64] {
+        match self.motion {
+            Motion::Smooth => &self.rates,
+            Motion::Rough => &self.mean_rates,
+        }
     }
 
     fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), StepError> {
@@ -383,6 +420,7 @@ impl Mechanism for Model {
         }
         self.bodies.iter_mut().for_each(|body| body.advance(rotations));
         self.sliders.iter_mut().for_each(|slider| slider.advance(&self.bodies, constraints));
+        self.learn(increments);
         self.rates.copy_from_slice(rates);
         self.time = self.step.interval.end;
     }

@@ -53,11 +53,14 @@ pub(super) struct Sliding {
     pub(super) state: SliderState,
     /// Where on the master it is: `ξ`.
     pub(super) parameter: f64,
-    /// Of the last step, or of its iterate.
+    /// Of the last step.
     pub(super) unknowns: ContactUnknowns,
     domain: (f64, f64),
     /// The length of the master for a parameter of one [length].
     length: f64,
+    /// Where it is at the start of the step.
+    here: Passage,
+    /// Its way in the iterate of the step.
     passage: Passage,
     /// Control points of the master in the window of the passage, counted from the slave.
     before: Vec<Vec2>,
@@ -85,12 +88,13 @@ impl Sliding {
             unknowns: ContactUnknowns::of([0.0; CONTACT_UNKNOWNS]),
             domain,
             length: length / (domain.1 - domain.0),
+            here: passage.clone(),
             passage,
             before: Vec::with_capacity(functions),
             moved: Vec::with_capacity(functions),
             units: [Unit::Force; CONTACT_UNKNOWNS],
         };
-        new.passage.go(parameter, parameter);
+        new.here.go(parameter, parameter);
         new
     }
 
@@ -141,7 +145,7 @@ impl Sliding {
         self.state = marks.get(next() as usize).copied().unwrap_or(SliderState::Released);
         self.parameter = next();
         self.unknowns = ContactUnknowns::of(std::array::from_fn(|_| next()));
-        self.passage.go(self.parameter, self.parameter);
+        self.here.go(self.parameter, self.parameter);
     }
 
     /// The end of the master at which it is, if it is at one.
@@ -160,14 +164,14 @@ impl Sliding {
 
     /// The control points of the master with their functions where the slider is.
     pub(super) fn weights(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
-        (self.passage.first()..).zip(self.passage.end().iter().copied())
+        (self.here.first()..).zip(self.here.end().iter().copied())
     }
 
     /// The derivative of the place on the master by the parameter, `Σ B_i'(ξ) x_i` [length].
     pub(super) fn tangent(&self, bodies: &[Body]) -> Vec2 {
-        let points = &bodies[self.connection.master].dynamics.control_points()[self.passage.first()..];
+        let points = &bodies[self.connection.master].dynamics.control_points()[self.here.first()..];
         // Slopes sum to zero: an origin amid the points changes nothing but the rounding.
-        self.passage.slope().iter().zip(points).map(|(slope, point)| (point - points[0]) * *slope).sum()
+        self.here.slope().iter().zip(points).map(|(slope, point)| (point - points[0]) * *slope).sum()
     }
 
     /// From the slave to its place on the master.
@@ -220,10 +224,10 @@ impl Sliding {
         unknowns[self.connection.places()].copy_from_slice(&guess.to_array());
     }
 
-    /// Takes over the iterate of a step.
+    /// The contact in the iterate of a step.
     fn take(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) -> Contact<'_> {
-        self.unknowns = self.read(unknowns);
-        self.passage.go(self.parameter, self.parameter + self.unknowns.way);
+        let unknowns = self.read(unknowns);
+        self.passage.go(self.parameter, self.parameter + unknowns.way);
         let Connection { master, slave: (body, point), .. } = self.connection;
         let (slave, master) = (&bodies[body], &bodies[master]);
         let (origin, cut_off) = slave.precise_point(point);
@@ -236,8 +240,8 @@ impl Sliding {
         self.moved.clear();
         self.moved.extend(window.map(|at| master.vector_at(at, increments)));
         let slave_moved = slave.vector_at(point, increments);
-        let Self { passage, before, moved, unknowns, length, .. } = self;
-        Contact::new(passage, before, moved, slave_moved, *unknowns, *length)
+        let Self { passage, before, moved, length, .. } = self;
+        Contact::new(passage, before, moved, slave_moved, unknowns, *length)
     }
 
     /// Adds the forces on slave and master, and behind the movements the equations of the contact.
@@ -303,7 +307,7 @@ impl Sliding {
             Some(end) => self.end_parameter(end),
             None => self.parameter + self.unknowns.way,
         };
-        self.passage.go(self.parameter, self.parameter);
+        self.here.go(self.parameter, self.parameter);
         if let SliderState::Held(end) = self.state {
             let outward = self.unknowns.force.dot(&self.tangent(bodies)) * end.outward();
             if outward < 0.0 {
