@@ -1,5 +1,6 @@
 //! Running a scene and remembering what happened.
 
+mod columns;
 mod error;
 mod history;
 mod outline;
@@ -7,8 +8,9 @@ mod run;
 mod time_grid;
 mod trajectory;
 
+pub use columns::{Column, ExtraColumn};
 pub use error::SimulationError;
-pub use history::{Column, History, Invariant, Sample, Scales};
+pub use history::{History, Invariant, Sample, Scales};
 pub use outline::{Configuration, Outline};
 pub use run::{Monitor, Settings, Simulation, Unwatched, WorkCounts};
 pub use time_grid::TimeGrid;

@@ -3,6 +3,7 @@
 use std::cell::OnceCell;
 use std::time::{Duration, Instant};
 
+use super::columns::{extra_columns, extra_values};
 use super::{
     Configuration, History, Outline, Sample, Scales, SimulationError, TimeGrid, Trajectory,
 };
@@ -89,8 +90,9 @@ impl Simulation {
         let integrator = settings.method.build(&model, settings.tolerance);
         let cuts = scene.loads.iter().flat_map(|load| load.schedule.breaks()).collect();
         let longest = scene.beams.iter().map(|beam| beam.axis.length()).fold(0.0, f64::max);
-        let mut history = History::new(scales(&scene, &model, longest));
-        history.push(Sample { measures: model.measure(), ..Sample::default() });
+        let mut history = History::new(scales(&scene, &model, longest), extra_columns(&model));
+        let measures = model.measure();
+        history.push(Sample { measures, ..Sample::default() }, extra_values(&model));
         let mut trajectory =
             Trajectory::new(2 * model.control_points().map(<[Vec2]>::len).sum::<usize>());
         trajectory.push(0.0, coordinates(&model));
@@ -214,7 +216,8 @@ impl Simulation {
             self.grid.reach(next);
             self.counts.steps += 1;
             let measures = self.model.measure();
-            self.history.push(Sample { measures, dt, ..Sample::default() });
+            let sample = Sample { measures, dt, ..Sample::default() };
+            self.history.push(sample, extra_values(&self.model));
             self.trajectory.push(next, coordinates(&self.model));
         }
         Ok(())
@@ -285,12 +288,13 @@ impl Simulation {
         self.counts.newton_max = self.counts.newton_max.max(report.iterations);
         self.counts.factorisations += report.iterations;
         let measures = self.model.measure();
-        self.history.push(Sample {
+        let sample = Sample {
             measures,
             dt: interval.duration(),
             newton_iterations: report.iterations,
             retries,
-        });
+        };
+        self.history.push(sample, extra_values(&self.model));
         self.trajectory.push(interval.end, coordinates(&self.model));
     }
 

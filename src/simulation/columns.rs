@@ -1,0 +1,58 @@
+//! The columns of a history: those that every history has, and those that a scene adds.
+
+use super::Sample;
+use crate::model::Model;
+
+/// A column that every history has.
+#[derive(Debug, Clone, Copy)]
+pub struct Column {
+    /// Its name.
+    pub name: &'static str,
+    /// Its dimension.
+    pub dimension: &'static str,
+    /// Its value in a row.
+    pub value: fn(&Sample) -> f64,
+}
+
+/// A column that a history has because of its scene.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ExtraColumn {
+    /// Its name: a thing of the scene and a quantity of it, such as `slider1.force`.
+    pub name: String,
+    /// Its dimension.
+    pub dimension: &'static str,
+}
+
+/// The columns that every history has, in their order.
+pub(super) const FIXED: &[Column] = &[
+    fixed("t", "time", |row| row.measures.time),
+    fixed("kinetic", "energy", |row| row.measures.energy.kinetic),
+    fixed("strain", "energy", |row| row.measures.energy.strain),
+    fixed("potential", "energy", |row| row.measures.energy.potential),
+    fixed("energy", "energy", |row| row.measures.energy.total()),
+    fixed("work", "energy", |row| row.measures.work),
+    fixed("momentum_x", "mass·length/time", |row| row.measures.momentum.x),
+    fixed("momentum_y", "mass·length/time", |row| row.measures.momentum.y),
+    fixed("impulse_x", "mass·length/time", |row| row.measures.impulse.x),
+    fixed("impulse_y", "mass·length/time", |row| row.measures.impulse.y),
+    fixed("angular_momentum", "mass·length²/time", |row| row.measures.angular_momentum),
+    fixed("angular_impulse", "mass·length²/time", |row| row.measures.angular_impulse),
+    fixed("gap", "length", |row| row.measures.gap),
+    fixed("dt", "time", |row| row.dt),
+    fixed("newton_iterations", "-", |row| row.newton_iterations as f64),
+    fixed("retries", "-", |row| row.retries as f64),
+];
+
+const fn fixed(name: &'static str, dimension: &'static str, value: fn(&Sample) -> f64) -> Column {
+    Column { name, dimension, value }
+}
+
+/// The columns that the scene of a model adds.
+pub(super) fn extra_columns(_model: &Model) -> Vec<ExtraColumn> {
+    Vec::new()
+}
+
+/// The values of these columns at the present state of the model, in the same order.
+pub(super) fn extra_values(_model: &Model) -> impl Iterator<Item = f64> {
+    std::iter::empty()
+}
