@@ -97,8 +97,7 @@ fn midpoint_forces_do_exactly_the_work_by_which_the_energy_changes() {
         let work: f64 = forces.iter().zip(increments).map(|(force, u)| force * u).sum();
         let before = model.measure();
         let rates = model.rates().to_vec();
-        let solution =
-            Solution { increments, constraints: &[], rates: &rates, residual: &forces };
+        let solution = Solution { increments, constraints: &[], rates: &rates, residual: &forces };
         model.advance(&solution);
         let after = model.measure();
         let potential = |m: &withy::model::Measures| m.energy.strain + m.energy.potential - m.work;

@@ -27,14 +27,20 @@ fn probe() {
                     for factor in [1.0, 0.1, 3.0] {
                         let scene = free_sliding_mass([&ab, &cm], axial, support, rule);
                         let dt = 0.01067 * factor;
-                        let mut s = Simulation::start(scene, settings(Method::EnergyMomentum, dt)).unwrap();
+                        let mut s =
+                            Simulation::start(scene, settings(Method::EnergyMomentum, dt)).unwrap();
                         let ended = run(&mut s, 0.6);
                         let drifts = Invariant::ALL.map(|(_, i)| s.history().drift(i));
                         println!(
                             "{:10} {name:8} {support:?} EA {axial:e} dt x{factor}: steps {} t {:.4} xi {:.4} drift {} newton max {} mean {:.2} retries {} {}{}",
-                            rule.entry().name, s.counts().steps, s.time(), s.model().slider_position(s.scene(), 0),
-                            common::sci(&drifts), s.counts().newton_max,
-                            s.counts().newton_iterations as f64 / s.counts().steps as f64, s.counts().retries,
+                            rule.entry().name,
+                            s.counts().steps,
+                            s.time(),
+                            s.model().slider_position(s.scene(), 0),
+                            common::sci(&drifts),
+                            s.counts().newton_max,
+                            s.counts().newton_iterations as f64 / s.counts().steps as f64,
+                            s.counts().retries,
                             s.ending().unwrap_or_default(),
                             ended.err().map(|e| e.to_string()).unwrap_or_default()
                         );

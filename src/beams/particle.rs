@@ -1,8 +1,8 @@
 //! A particle: a body of one point, without a section, strain or extent. Its mass is a point mass of the scene.
 
+use super::RotationIncrement;
 use super::discrete::move_compensated;
 use super::dynamics::{BodyDynamics, Collocation, ForceSummary, Movement};
-use super::RotationIncrement;
 use crate::geometry::Vec2;
 
 /// A point that moves by itself.

@@ -49,7 +49,8 @@ mod tests {
     #[test]
     fn points_of_a_curve_are_nearest_to_themselves() {
         let arc = Curve::arc(Vec2::new(1.0, 2.0), 3.0, 0.2, 2.9).unwrap();
-        let wave = Curve::through(&[0.0, 1.0, 2.0, 3.0].map(|x| Vec2::new(x, (2.0 * x).sin()))).unwrap();
+        let wave =
+            Curve::through(&[0.0, 1.0, 2.0, 3.0].map(|x| Vec2::new(x, (2.0 * x).sin()))).unwrap();
         let line = Curve::line(Vec2::zeros(), Vec2::new(3.0, 1.0)).unwrap();
         for curve in [arc, wave, line] {
             let (start, end) = curve.domain();

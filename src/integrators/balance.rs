@@ -149,11 +149,9 @@ impl StepSolver {
         let (_, constraints) = self.unknowns.split_at(self.coasting.len());
         match mechanism.check_constraints(constraints) {
             Ok(()) => Ok(report),
-            Err(overshoot) => Err(StepError::Overshoot {
-                interval,
-                overshoot,
-                iterations: report.iterations,
-            }),
+            Err(overshoot) => {
+                Err(StepError::Overshoot { interval, overshoot, iterations: report.iterations })
+            }
         }
     }
 

@@ -140,7 +140,8 @@ impl<'a> Assembly<'a> {
         for _ in &self.scene.sliders {
             for slider in &self.scene.sliders {
                 let beam = &self.scene.beams[slider.master];
-                let (mesh, parameter) = (&self.meshes[slider.master], self.slider_parameter(slider)?);
+                let (mesh, parameter) =
+                    (&self.meshes[slider.master], self.slider_parameter(slider)?);
                 let place = Place::at(slider.master, &beam.axis, mesh, parameter)
                     .map_err(ModelError::geometry(&beam.name))?;
                 let target = place.interpolate(&points[slider.master]);

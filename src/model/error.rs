@@ -129,7 +129,9 @@ pub enum ModelError {
         advice: String,
     },
     /// A slave that slides on the same master already.
-    #[error("slider '{slider}': {slave} already slides on the beam '{beam}'; remove one of the two sliders")]
+    #[error(
+        "slider '{slider}': {slave} already slides on the beam '{beam}'; remove one of the two sliders"
+    )]
     SliderTwice {
         /// The slider.
         slider: String,
@@ -161,7 +163,9 @@ pub enum ModelError {
         speed: f64,
     },
     /// Sliders that do not determine their forces.
-    #[error("the sliders '{sliders}' hold each other: their contact forces are not determined; remove one of them, or a support")]
+    #[error(
+        "the sliders '{sliders}' hold each other: their contact forces are not determined; remove one of them, or a support"
+    )]
     Overdetermined {
         /// Their names.
         sliders: String,

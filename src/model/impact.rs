@@ -6,7 +6,7 @@
 use super::body::Body;
 use super::error::ModelError;
 use super::mechanism::Model;
-use super::sliding::{Sliding, SliderState};
+use super::sliding::{SliderState, Sliding};
 use crate::geometry::{Vec2, perpendicular};
 use crate::integrators::Mechanism;
 use crate::joints::StartVelocities;
@@ -35,7 +35,8 @@ impl Model {
             }
         }
         if is_projected {
-            let across: Vec<Direction> = (0..self.sliders.len()).map(|at| self.across(at)).collect();
+            let across: Vec<Direction> =
+                (0..self.sliders.len()).map(|at| self.across(at)).collect();
             // Projection: the impulses take the velocities across away (Gauss's principle of least constraint).
             self.strike(&across, -1.0).map_err(|_| self.overdetermined())?;
         }
@@ -97,10 +98,8 @@ impl Model {
                 response.add(row, column, product(rates, forces));
             }
         }
-        let mut impulses: Vec<f64> = transmitted
-            .iter()
-            .map(|forces| factor * product(&self.rates, forces))
-            .collect();
+        let mut impulses: Vec<f64> =
+            transmitted.iter().map(|forces| factor * product(&self.rates, forces)).collect();
         response.factorise()?.solve(&mut impulses);
 
         let mut change = vec![0.0; unknowns];

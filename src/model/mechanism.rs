@@ -231,7 +231,7 @@ impl Model {
             *mean = found;
         }
         self.motion =
-            if missed_by_mean < missed_by_start { Motion::Rough } else { Motion::Smooth };
+            if missed_by_mean <= missed_by_start { Motion::Rough } else { Motion::Smooth };
     }
 
     /// The ends of masters at which sliders could arrive: two for each.

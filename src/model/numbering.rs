@@ -115,7 +115,12 @@ fn check_closed(
     if gap <= CLOSED * (size + from.norm()) {
         return Ok(());
     }
-    Err(ModelError::OpenJoint { joint: joint.to_owned(), from: written(from), to: written(to), gap })
+    Err(ModelError::OpenJoint {
+        joint: joint.to_owned(),
+        from: written(from),
+        to: written(to),
+        gap,
+    })
 }
 
 /// A point as it stands in messages.

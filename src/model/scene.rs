@@ -282,14 +282,11 @@ impl Scene {
             BodyIndex::Beam(index) => {
                 let BeamDefinition { axis, name, .. } = &self.beams[index];
                 let mesh = &meshes[index];
-                let place = station
-                    .parameter(axis, mesh)
-                    .and_then(|xi| Place::at(index, axis, mesh, xi));
+                let place =
+                    station.parameter(axis, mesh).and_then(|xi| Place::at(index, axis, mesh, xi));
                 place.map_err(ModelError::geometry(name))
             }
-            BodyIndex::Particle(particle) => {
-                Ok(Place::of_particle(self.beams.len() + particle))
-            }
+            BodyIndex::Particle(particle) => Ok(Place::of_particle(self.beams.len() + particle)),
         }
     }
 

@@ -41,7 +41,11 @@ impl Scene {
         let beam = || self.beams[slider.master].name.clone();
         let (name, slave) = (|| slider.name.clone(), || self.describe(&slider.slave));
         if slider.slave.beam() == Some(slider.master) {
-            return Err(ModelError::SlidesOnItself { slider: name(), slave: slave(), beam: beam() });
+            return Err(ModelError::SlidesOnItself {
+                slider: name(),
+                slave: slave(),
+                beam: beam(),
+            });
         }
         let same = |other: &&Slider| {
             other.master == slider.master && same_place(&other.slave, &slider.slave, self)
@@ -59,9 +63,15 @@ impl Scene {
         let nearest_point = self.drawn_at(&Station::on_beam(slider.master, best))?;
         let distance = (from - nearest_point).norm();
         let advice = if distance <= CLOSED * (length + from.norm()) {
-            format!("it lies on that beam at {} of its length: give that as `at`, or leave `at` out", best / length)
+            format!(
+                "it lies on that beam at {} of its length: give that as `at`, or leave `at` out",
+                best / length
+            )
         } else {
-            format!("move one of them: the beam comes no nearer than {distance:.3e}, at {} of its length", best / length)
+            format!(
+                "move one of them: the beam comes no nearer than {distance:.3e}, at {} of its length",
+                best / length
+            )
         };
         Err(ModelError::OpenSlider {
             slider: name(),
@@ -105,13 +115,7 @@ impl Assembly<'_> {
             let basis = self.meshes[slider.master].basis();
             let parameter = self.slider_parameter(slider)?;
             let passage = Passage::new(basis.clone());
-            sliders.push(Sliding::new(
-                slider,
-                connection,
-                passage,
-                parameter,
-                beam.axis.length(),
-            ));
+            sliders.push(Sliding::new(slider, connection, passage, parameter, beam.axis.length()));
         }
         Ok(sliders)
     }

@@ -171,7 +171,12 @@ impl Sliding {
     pub(super) fn tangent(&self, bodies: &[Body]) -> Vec2 {
         let points = &bodies[self.connection.master].dynamics.control_points()[self.here.first()..];
         // Slopes sum to zero: an origin amid the points changes nothing but the rounding.
-        self.here.slope().iter().zip(points).map(|(slope, point)| (point - points[0]) * *slope).sum()
+        self.here
+            .slope()
+            .iter()
+            .zip(points)
+            .map(|(slope, point)| (point - points[0]) * *slope)
+            .sum()
     }
 
     /// From the slave to its place on the master.

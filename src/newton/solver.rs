@@ -152,9 +152,11 @@ mod tests {
 
     fn solve(start: [f64; 2]) -> (Result<NewtonReport, NewtonError>, [f64; 2]) {
         let mut u = start;
-        let report =
-            Newton::new(2, 1, BorderShape::default(), Tolerance::default())
-                .solve(&mut SquareRoot, &mut u, &mut [0.0; 2]);
+        let report = Newton::new(2, 1, BorderShape::default(), Tolerance::default()).solve(
+            &mut SquareRoot,
+            &mut u,
+            &mut [0.0; 2],
+        );
         (report, u)
     }
 

@@ -44,13 +44,17 @@ pub enum SimulationError {
         source: StepError,
     },
     /// A slider has reached an end of its master at which the run ends.
-    #[error("the run has ended: {ending}; give the slider the option ends: \"bounce\" or \"release\" to go on, or ask sim.ended before a step")]
+    #[error(
+        "the run has ended: {ending}; give the slider the option ends: \"bounce\" or \"release\" to go on, or ask sim.ended before a step"
+    )]
     Ended {
         /// What ended it.
         ending: String,
     },
     /// A slider that does not get away from an end of its master.
-    #[error("{arrival}, {most} times within one step of the grid; try ends: \"release\" or \"stop\"")]
+    #[error(
+        "{arrival}, {most} times within one step of the grid; try ends: \"release\" or \"stop\""
+    )]
     Rattles {
         /// The last arrival.
         arrival: String,

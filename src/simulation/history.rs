@@ -1,5 +1,6 @@
 //! What a run was like, step by step.
 
+use super::columns::{self, Column, ExtraColumn};
 use crate::geometry::{Vec2, larger};
 use crate::model::Measures;
 
@@ -59,17 +60,6 @@ impl Invariant {
     }
 }
 
-/// A column of the history.
-#[derive(Debug, Clone, Copy)]
-pub struct Column {
-    /// Its name.
-    pub name: &'static str,
-    /// Its dimension.
-    pub dimension: &'static str,
-    /// Its value in a row.
-    pub value: fn(&Sample) -> f64,
-}
-
 /// What the drift of a quantity is relative to when the rows themselves give no scale.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Scales {
@@ -85,78 +75,39 @@ pub struct Scales {
 #[derive(Debug, Clone, Default)]
 pub struct History {
     samples: Vec<Sample>,
+    extra_columns: Vec<ExtraColumn>,
+    /// The values of the extra columns, row after row.
+    extra: Vec<f64>,
     scales: Scales,
 }
 
 impl History {
-    /// The columns by name.
-    pub const COLUMNS: &'static [Column] = &[
-        Column { name: "t", dimension: "time", value: |row| row.measures.time },
-        Column { name: "kinetic", dimension: "energy", value: |row| row.measures.energy.kinetic },
-        Column { name: "strain", dimension: "energy", value: |row| row.measures.energy.strain },
-        Column {
-            name: "potential",
-            dimension: "energy",
-            value: |row| row.measures.energy.potential,
-        },
-        Column { name: "energy", dimension: "energy", value: |row| row.measures.energy.total() },
-        Column { name: "work", dimension: "energy", value: |row| row.measures.work },
-        Column {
-            name: "momentum_x",
-            dimension: "mass·length/time",
-            value: |row| row.measures.momentum.x,
-        },
-        Column {
-            name: "momentum_y",
-            dimension: "mass·length/time",
-            value: |row| row.measures.momentum.y,
-        },
-        Column {
-            name: "impulse_x",
-            dimension: "mass·length/time",
-            value: |row| row.measures.impulse.x,
-        },
-        Column {
-            name: "impulse_y",
-            dimension: "mass·length/time",
-            value: |row| row.measures.impulse.y,
-        },
-        Column {
-            name: "angular_momentum",
-            dimension: "mass·length²/time",
-            value: |row| row.measures.angular_momentum,
-        },
-        Column {
-            name: "angular_impulse",
-            dimension: "mass·length²/time",
-            value: |row| row.measures.angular_impulse,
-        },
-        Column { name: "gap", dimension: "length", value: |row| row.measures.gap },
-        Column { name: "dt", dimension: "time", value: |row| row.dt },
-        Column {
-            name: "newton_iterations",
-            dimension: "-",
-            value: |row| row.newton_iterations as f64,
-        },
-        Column { name: "retries", dimension: "-", value: |row| row.retries as f64 },
-    ];
+    /// The columns that every history has.
+    pub const COLUMNS: &'static [Column] = columns::FIXED;
 
-    /// An empty history.
-    pub fn new(scales: Scales) -> Self {
-        Self { samples: Vec::new(), scales }
+    /// An empty history with columns of its own besides [`COLUMNS`](Self::COLUMNS).
+    pub fn new(scales: Scales, extra_columns: Vec<ExtraColumn>) -> Self {
+        Self { samples: Vec::new(), extra_columns, extra: Vec::new(), scales }
     }
 
     /// Makes room for rows to come.
     pub fn reserve(&mut self, rows: usize) {
         self.samples.reserve(rows);
+        self.extra.reserve(rows * self.extra_columns.len());
     }
 
-    /// Appends a row.
-    pub fn push(&mut self, sample: Sample) {
+    /// Appends a row: the sample, and a value for each of the extra columns in their order.
+    ///
+    /// # Panics
+    /// When there are more or fewer values than extra columns.
+    pub fn push(&mut self, sample: Sample, extra: impl Iterator<Item = f64>) {
         self.samples.push(sample);
+        self.extra.extend(extra);
+        let expected = self.samples.len() * self.extra_columns.len();
+        assert_eq!(self.extra.len(), expected, "a row has one value for each extra column");
     }
 
-    /// The rows.
+    /// The rows, without their extra columns.
     pub fn samples(&self) -> &[Sample] {
         &self.samples
     }
@@ -165,18 +116,47 @@ impl History {
     pub fn between(&self, from: f64, to: f64) -> Self {
         let steps = self.samples.iter().map(|row| row.dt).filter(|dt| *dt > 0.0);
         let slack = 1e-9 * steps.reduce(f64::min).unwrap_or(0.0);
-        let inside =
-            |row: &&Sample| row.measures.time >= from - slack && row.measures.time <= to + slack;
-        Self {
-            samples: self.samples.iter().filter(inside).copied().collect(),
-            ..Self::new(self.scales)
+        let width = self.extra_columns.len();
+        let mut inside = Self::new(self.scales, self.extra_columns.clone());
+        for (index, row) in self.samples.iter().enumerate() {
+            if row.measures.time >= from - slack && row.measures.time <= to + slack {
+                inside.push(*row, self.extra[index * width..][..width].iter().copied());
+            }
         }
+        inside
+    }
+
+    /// Name and dimension of each column, the extra ones last.
+    pub fn columns(&self) -> impl Iterator<Item = (&str, &'static str)> {
+        let fixed = Self::COLUMNS.iter().map(|column| (column.name, column.dimension));
+        let extra = self.extra_columns.iter().map(|column| (&*column.name, column.dimension));
+        fixed.chain(extra)
+    }
+
+    /// The dimension of a column by name.
+    pub fn dimension(&self, name: &str) -> Option<&'static str> {
+        self.columns().find(|(other, _)| *other == name).map(|(_, dimension)| dimension)
     }
 
     /// A column by name.
     pub fn column(&self, name: &str) -> Option<Vec<f64>> {
-        let column = Self::COLUMNS.iter().find(|column| column.name == name)?;
-        Some(self.samples.iter().map(column.value).collect())
+        if let Some(column) = Self::COLUMNS.iter().find(|column| column.name == name) {
+            return Some(self.samples.iter().map(column.value).collect());
+        }
+        let index = self.extra_columns.iter().position(|column| column.name == name)?;
+        let rows = self.extra.chunks_exact(self.extra_columns.len());
+        Some(rows.map(|row| row[index]).collect())
+    }
+
+    /// A column by name, each value replaced by the mean of it and the value in the row before; the first stays.
+    ///
+    /// This removes a sawtooth, an alternation from step to step. A mean belongs to the middle of its step.
+    pub fn averaged(&self, name: &str) -> Option<Vec<f64>> {
+        let mut column = self.column(name)?;
+        for row in (1..column.len()).rev() {
+            column[row] = 0.5 * (column[row - 1] + column[row]);
+        }
+        Some(column)
     }
 
     /// How far an invariant is from its value in the first row, row by row: relative to the largest energy, momentum or
@@ -231,7 +211,14 @@ mod tests {
     use crate::model::Energy;
 
     fn history(energies: &[f64]) -> History {
-        let mut history = History::new(Scales { mass: 1.0, length: 1.0, rounding_energy: 0.0 });
+        history_with(vec![], energies)
+    }
+
+    /// The extra columns hold 10, 20, … in the first row, 11, 21, … in the second.
+    fn history_with(extra: Vec<ExtraColumn>, energies: &[f64]) -> History {
+        let width = extra.len();
+        let scales = Scales { mass: 1.0, length: 1.0, rounding_energy: 0.0 };
+        let mut history = History::new(scales, extra);
         for (index, &kinetic) in energies.iter().enumerate() {
             let measures = Measures {
                 time: index as f64,
@@ -239,7 +226,8 @@ mod tests {
                 work: 1.0,
                 ..Measures::default()
             };
-            history.push(Sample { measures, dt: 1.0, newton_iterations: 3, retries: 0 });
+            let extra = (1..=width).map(|column| (10 * column + index) as f64);
+            history.push(Sample { measures, dt: 1.0, newton_iterations: 3, retries: 0 }, extra);
         }
         history
     }
@@ -256,5 +244,48 @@ mod tests {
     #[test]
     fn a_lost_run_has_no_small_drift() {
         assert!(history(&[1.0, f64::NAN, 1.0]).drift(Invariant::Energy).is_nan());
+    }
+    fn slider_columns() -> Vec<ExtraColumn> {
+        let column = |name: &str, dimension| ExtraColumn { name: name.to_owned(), dimension };
+        vec![column("slider.position", "-"), column("slider.force", "force")]
+    }
+
+    #[test]
+    fn extra_columns_are_found_by_name_and_kept_by_windows() {
+        let history = history_with(slider_columns(), &[1.0, 2.0, 3.0]);
+        assert_eq!(history.column("slider.position"), Some(vec![10.0, 11.0, 12.0]));
+        assert_eq!(history.column("kinetic"), Some(vec![1.0, 2.0, 3.0]));
+        assert_eq!(history.column("slider"), None);
+        let window = history.between(1.0, 2.0);
+        assert_eq!(window.column("slider.force"), Some(vec![21.0, 22.0]));
+        assert_eq!(history.between(5.0, 6.0).column("slider.force"), Some(vec![]));
+    }
+
+    #[test]
+    fn extra_columns_are_named_after_the_others() {
+        let history = history_with(slider_columns(), &[]);
+        let names: Vec<_> = history.columns().map(|(name, _)| name).collect();
+        assert_eq!(names[..2], ["t", "kinetic"]);
+        assert_eq!(names[History::COLUMNS.len()..], ["slider.position", "slider.force"]);
+        assert_eq!(history.dimension("slider.force"), Some("force"));
+        assert_eq!(history.dimension("work"), Some("energy"));
+        assert_eq!(history.dimension("slider.energy"), None);
+    }
+
+    #[test]
+    #[should_panic(expected = "one value for each extra column")]
+    fn a_row_with_a_value_too_few_is_a_mistake() {
+        let mut history = history_with(slider_columns(), &[]);
+        history.push(Sample::default(), std::iter::once(1.0));
+    }
+
+    #[test]
+    fn a_mean_of_two_rows_removes_a_sawtooth() {
+        let rows = history(&[1.0, 3.0, 1.0, 3.0]);
+        assert_eq!(rows.averaged("kinetic"), Some(vec![1.0, 2.0, 2.0, 2.0]));
+        assert_eq!(history(&[]).averaged("kinetic"), Some(vec![]));
+        let rows = history_with(slider_columns(), &[0.0; 3]);
+        assert_eq!(rows.averaged("slider.force"), Some(vec![20.0, 20.5, 21.5]));
+        assert_eq!(rows.averaged("slider"), None);
     }
 }

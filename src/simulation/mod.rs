@@ -1,5 +1,6 @@
 //! Running a scene and remembering what happened.
 
+mod columns;
 mod error;
 mod history;
 mod landing;
@@ -7,9 +8,11 @@ mod outline;
 mod run;
 mod time_grid;
 mod trajectory;
+mod views;
 
+pub use columns::{Column, ExtraColumn};
 pub use error::SimulationError;
-pub use history::{Column, History, Invariant, Sample, Scales};
+pub use history::{History, Invariant, Sample, Scales};
 pub use landing::{Arrival, ArrivalKind};
 pub use outline::{Configuration, Outline};
 pub use run::{Monitor, Settings, Simulation, Unwatched, WorkCounts};

@@ -3,14 +3,13 @@
 use std::cell::OnceCell;
 use std::time::{Duration, Instant};
 
+use super::columns::{extra_columns, extra_values};
 use super::landing::{Arrival, Landing, MOST_ARRIVALS};
-use super::{
-    Configuration, History, Outline, Sample, Scales, SimulationError, TimeGrid, Trajectory,
-};
-use crate::beams::{Place, Station};
+use super::{History, Outline, Sample, Scales, SimulationError, TimeGrid, Trajectory};
+
 use crate::geometry::Vec2;
 use crate::integrators::{Integrator, Interval, Mechanism, Method, StepError};
-use crate::model::{Model, ModelError, Scene};
+use crate::model::{Model, Scene};
 use crate::newton::{NewtonReport, Tolerance};
 
 /// Most steps that a pretended run has.
@@ -78,11 +77,11 @@ pub struct Simulation {
     pub(super) integrator: Box<dyn Integrator>,
     grid: TimeGrid,
     history: History,
-    trajectory: Trajectory,
+    pub(super) trajectory: Trajectory,
     pub(super) counts: WorkCounts,
     pub(super) arrivals: Vec<Arrival>,
     /// Made when the first picture asks for them.
-    outlines: OnceCell<Vec<Outline>>,
+    pub(super) outlines: OnceCell<Vec<Outline>>,
 }
 
 impl Simulation {
@@ -98,8 +97,9 @@ impl Simulation {
         let integrator = settings.method.build(&model, settings.tolerance);
         let cuts = scene.loads.iter().flat_map(|load| load.schedule.breaks()).collect();
         let longest = scene.beams.iter().map(|beam| beam.axis.length()).fold(0.0, f64::max);
-        let mut history = History::new(scales(&scene, &model, longest));
-        history.push(Sample { measures: model.measure(), ..Sample::default() });
+        let mut history = History::new(scales(&scene, &model, longest), extra_columns(&scene));
+        let measures = model.measure();
+        history.push(Sample { measures, ..Sample::default() }, extra_values(&scene, &model));
         let mut trajectory =
             Trajectory::new(2 * model.control_points().map(<[Vec2]>::len).sum::<usize>());
         trajectory.push(0.0, coordinates(&model));
@@ -227,7 +227,8 @@ impl Simulation {
             self.grid.reach(next);
             self.counts.steps += 1;
             let measures = self.model.measure();
-            self.history.push(Sample { measures, dt, ..Sample::default() });
+            let sample = Sample { measures, dt, ..Sample::default() };
+            self.history.push(sample, extra_values(&self.scene, &self.model));
             self.trajectory.push(next, coordinates(&self.model));
         }
         Ok(())
@@ -261,9 +262,10 @@ impl Simulation {
                 Covered::UntilAnArrival => {}
             }
         }
-        let last = self.arrivals.last().map(|last| {
-            last.describe(&self.scene.sliders[last.limit.slider].name)
-        });
+        let last = self
+            .arrivals
+            .last()
+            .map(|last| last.describe(&self.scene.sliders[last.limit.slider].name));
         Err(SimulationError::Rattles { arrival: last.unwrap_or_default(), most: MOST_ARRIVALS })
     }
 
@@ -343,69 +345,14 @@ impl Simulation {
         self.counts.newton_max = self.counts.newton_max.max(report.iterations);
         self.counts.factorisations += report.iterations;
         let measures = self.model.measure();
-        self.history.push(Sample {
+        let sample = Sample {
             measures,
             dt: interval.duration(),
             newton_iterations: report.iterations,
             retries,
-        });
+        };
+        self.history.push(sample, extra_values(&self.scene, &self.model));
         self.trajectory.push(interval.end, coordinates(&self.model));
-    }
-
-    /// The place of a station on the mesh of its beam.
-    ///
-    /// # Errors
-    /// When it lies outside its beam.
-    pub fn place(&self, station: &Station) -> Result<Place, ModelError> {
-        self.scene.place(station, self.model.meshes())
-    }
-
-    /// Where a place was, at all times of the trajectory.
-    pub fn path(&self, place: &Place) -> Vec<(f64, Vec2)> {
-        let counts: Vec<usize> = self.model.control_points().map(<[Vec2]>::len).collect();
-        let offset = counts[..place.body].iter().sum::<usize>();
-        let at = |index: usize| -> Vec2 {
-            let numbers = self.trajectory.configuration(index);
-            place
-                .weights()
-                .map(|(point, w)| {
-                    Vec2::new(numbers[2 * (offset + point)], numbers[2 * (offset + point) + 1]) * w
-                })
-                .sum()
-        };
-        self.trajectory.times().iter().enumerate().map(|(index, &time)| (time, at(index))).collect()
-    }
-
-    /// The configuration nearest to a time, as it is drawn; none before there is one.
-    ///
-    /// # Errors
-    /// When an axis has a point without a tangent.
-    pub fn configuration_near(&self, time: f64) -> Result<Option<Configuration>, ModelError> {
-        let Some(index) = self.trajectory.nearest(time) else { return Ok(None) };
-        let points: Vec<Vec2> = self
-            .trajectory
-            .configuration(index)
-            .chunks_exact(2)
-            .map(|xy| Vec2::new(xy[0], xy[1]))
-            .collect();
-        let mut rest = points.as_slice();
-        let beams: Vec<&[Vec2]> = self
-            .model
-            .control_points()
-            .map(|beam| {
-                let (own, others) = rest.split_at(beam.len());
-                rest = others;
-                own
-            })
-            .collect();
-        let outlines = match self.outlines.get() {
-            Some(outlines) => outlines,
-            None => {
-                let outlines = Outline::of_scene(&self.scene, self.model.meshes())?;
-                self.outlines.get_or_init(|| outlines)
-            }
-        };
-        Ok(Some(Outline::draw(outlines, self.trajectory.times()[index], &beams)))
     }
 }
 

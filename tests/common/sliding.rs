@@ -1,13 +1,11 @@
 //! Scenes with sliders.
 
-use super::scenes::{add_beam, end_of, line};
 use super::at;
+use super::scenes::{add_beam, end_of, line};
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::Vec2;
-use withy::joints::{
-    EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities,
-};
-use withy::model::{PointMass, ParticleDefinition, Scene, StationVelocity};
+use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
+use withy::model::{ParticleDefinition, PointMass, Scene, StationVelocity};
 
 /// How point A of the free sliding mass is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,7 +48,12 @@ pub fn particle(scene: &mut Scene, position: Vec2, mass: f64) -> Station {
 }
 
 /// The free sliding mass of the paper: CM slides with C on AB, a mass at M starts with (-10, -10), that node alone.
-pub fn free_sliding_mass(meshes: [&Mesh; 2], axial: f64, support: Support, rule: SlidingRule) -> Scene {
+pub fn free_sliding_mass(
+    meshes: [&Mesh; 2],
+    axial: f64,
+    support: Support,
+    rule: SlidingRule,
+) -> Scene {
     let mut scene = two_beams(meshes, axial, support, rule);
     let station = end_of(&mut scene, 1);
     scene.velocities.push(StationVelocity { station, velocity: at(-10.0, -10.0), spin: None });

@@ -106,9 +106,7 @@ impl<'a> Contact<'a> {
         let by_way = force * 0.5 - couple;
         let weights =
             self.passage.mean().iter().zip(self.passage.difference()).zip(self.passage.slope());
-        weights.map(move |((mean, difference), slope)| {
-            (*mean, -way * difference, by_way * *slope)
-        })
+        weights.map(move |((mean, difference), slope)| (*mean, -way * difference, by_way * *slope))
     }
 
     /// `B_i(ξ1)`, `B̄_i` and `D_i` of the control points in the window.

@@ -9,15 +9,16 @@ use crate::script::call::Call;
 use crate::script::error::ScriptError;
 use crate::script::kind::Type;
 use crate::script::numbers::format_number;
-use crate::script::parameter::{Parameter, choice, number};
+use crate::script::parameter::{Parameter, choice, number, text};
 use crate::script::table::{Row, Table, method, property};
-use crate::simulation::Invariant;
+use crate::simulation::{History, Invariant};
 
 /// Histories.
 pub const TABLE: Table = Table {
     name: "histories",
     doc: "A row for each step. Columns: t, kinetic, strain, potential, energy, work, momentum_x, momentum_y, impulse_x, \
-          impulse_y, angular_momentum, angular_impulse, gap, dt, newton_iterations, retries.",
+          impulse_y, angular_momentum, angular_impulse, gap, dt, newton_iterations, retries. Each slider adds \
+          NAME.position, NAME.speed, NAME.force, NAME.force_x and NAME.force_y, where NAME is its name.",
     types: &[HISTORY],
     setup: SPINNING,
     constants: &[],
@@ -46,13 +47,20 @@ pub const TABLE: Table = Table {
             )
             .example("sim.run_to(1);\ncheck(sim.history.drift(\"energy\") < 1e-12);")
             .see(&["invariants"]),
-        method(HISTORY, "column", &[COLUMN], |call| {
-            let column = column(call)?;
-            Ok(Dynamic::from(column.into_iter().map(Dynamic::from).collect::<Array>()))
-        })
-        .returns("an array of numbers")
-        .summary("A column by name.")
-        .example("sim.step(4);\ncheck(sim.history.column(\"t\").len() == 5);"),
+        method(HISTORY, "column", &[COLUMN], |call| Ok(numbers(column(call, History::column)?)))
+            .returns("an array of numbers")
+            .summary("A column by name.")
+            .example("sim.step(4);\ncheck(sim.history.column(\"t\").len() == 5);")
+            .see(&["averaged"]),
+        method(HISTORY, "averaged", &[COLUMN], |call| Ok(numbers(column(call, History::averaged)?)))
+            .returns("an array of numbers")
+            .summary("A column in which each value is the mean of it and the value in the row before; the first stays.")
+            .doc(
+                "This removes a sawtooth, an alternation from step to step, as a force of constraint may have. A mean belongs to \
+                 the middle of its step.",
+            )
+            .example("sim.step(2);\nlet h = sim.history;\ncheck(h.column(\"t\") == [0, 0.1, 0.2]);\ncheck_close(h.averaged(\"t\")[2], 0.15, 1e-14);")
+            .see(&["column", "plot_history"]),
         statistic("first", "The value in the first row.", |call| pick(call, |column| column.first().copied())),
         statistic("last", "The value in the last row.", |call| pick(call, |column| column.last().copied())),
         statistic("largest", "The largest value.", |call| pick(call, |column| column.into_iter().reduce(larger))),
@@ -69,27 +77,8 @@ pub const TABLE: Table = Table {
 
 /// The history type, for other domains.
 pub const HISTORY: Type = Type::of::<HistoryHandle>();
-/// The names of the columns.
-pub const COLUMN_NAMES: &[&str] = &[
-    "t",
-    "kinetic",
-    "strain",
-    "potential",
-    "energy",
-    "work",
-    "momentum_x",
-    "momentum_y",
-    "impulse_x",
-    "impulse_y",
-    "angular_momentum",
-    "angular_impulse",
-    "gap",
-    "dt",
-    "newton_iterations",
-    "retries",
-];
 const T: Parameter = number("t").unit("time");
-const COLUMN: Parameter = choice("column", COLUMN_NAMES);
+const COLUMN: Parameter = text("column").doc("the name of a column of this history");
 
 const fn statistic(
     name: &'static str,
@@ -123,14 +112,23 @@ fn drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(drift.ok_or_else(|| history.no_rows(call))?.into())
 }
 
-fn column(call: &Call) -> Result<Vec<f64>, ScriptError> {
-    let name = call.text("column")?;
-    let column = call.receiver::<HistoryHandle>()?.read(|history| history.column(&name));
-    column.ok_or_else(|| ScriptError::bug(format!("no column '{name}'")))
+fn column(
+    call: &Call,
+    read: fn(&History, &str) -> Option<Vec<f64>>,
+) -> Result<Vec<f64>, ScriptError> {
+    let history = call.receiver::<HistoryHandle>()?;
+    let name = history.expect_column(call, &call.value("column")?, 0)?;
+    history
+        .read(|history| read(history, &name))
+        .ok_or_else(|| ScriptError::bug(format!("no column '{name}'")))
+}
+
+fn numbers(column: Vec<f64>) -> Dynamic {
+    Dynamic::from(column.into_iter().map(Dynamic::from).collect::<Array>())
 }
 
 fn pick(call: &Call, pick: fn(Vec<f64>) -> Option<f64>) -> Result<Dynamic, ScriptError> {
-    let picked = pick(column(call)?);
+    let picked = pick(column(call, History::column)?);
     let history = call.receiver::<HistoryHandle>()?;
     Ok(picked.ok_or_else(|| history.no_rows(call))?.into())
 }
@@ -138,11 +136,11 @@ fn pick(call: &Call, pick: fn(Vec<f64>) -> Option<f64>) -> Result<Dynamic, Scrip
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simulation::History;
 
     #[test]
-    fn the_names_are_those_of_the_history() {
+    fn the_columns_of_every_history_are_documented() {
         let names: Vec<_> = History::COLUMNS.iter().map(|column| column.name).collect();
-        assert_eq!(names, COLUMN_NAMES);
+        let listed = format!("Columns: {}.", names.join(", "));
+        assert!(TABLE.doc.contains(&listed), "{listed}");
     }
 }

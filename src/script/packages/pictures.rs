@@ -4,7 +4,7 @@ use std::path::Path;
 
 use rhai::{Array, Dynamic};
 
-use super::histories::{COLUMN_NAMES, HISTORY};
+use super::histories::HISTORY;
 use super::live::SimulationHandle;
 use super::report::history_table;
 use super::scenes::StationHandle;
@@ -37,8 +37,12 @@ pub const TABLE: Table = Table {
             .see(&["plot_history"]),
         function("plot_history", &[RECORDED, COLUMNS, FILE, options("options", HISTORY_OPTIONS).optional()], plot_history)
             .summary("Draws columns of the history over time.")
-            .example("sim.run_to(2);\nplot_history(sim, [\"kinetic\", \"strain\", \"energy\"], \"energy.svg\");")
-            .see(&["plot_drift", "column"]),
+            .doc("Of several histories, each must have the columns named.")
+            .example(
+                "sim.run_to(2);\nplot_history(sim, [\"kinetic\", \"strain\", \"energy\"], \"energy.svg\");\n\
+                 plot_history(sim, [\"strain\"], \"strain.svg\", #{ average: true, title: \"Strain energy\" });",
+            )
+            .see(&["plot_drift", "column", "averaged"]),
         function("plot_drift", &[RECORDED, FILE], plot_drift)
             .summary("Draws how far energy and momenta have drifted, on a logarithmic axis.")
             .example("sim.run_to(2);\nplot_drift(sim, \"drift.png\");")
@@ -58,7 +62,7 @@ const RECORDED: Parameter =
     either("of", &[Kind::Object(SIMULATION), Kind::Object(HISTORY), Kind::Array])
         .doc("a simulation or history, or an array of them");
 const FILE: Parameter = text("file").doc("its name in the output folder");
-const COLUMNS: Parameter = array("columns").doc("names of columns");
+const COLUMNS: Parameter = array("columns").doc("names of columns of the history");
 const MOTION: &[Parameter] = &[
     number("every")
         .positive()
@@ -73,6 +77,9 @@ const MOTION: &[Parameter] = &[
 const HISTORY_OPTIONS: &[Parameter] = &[
     text("title").doc("the name of the simulation unless given").optional(),
     boolean("logarithmic").doc("whether magnitudes are drawn on a logarithmic axis").optional(),
+    boolean("average")
+        .doc("whether each value is drawn as its mean with the one before, as `averaged` gives it")
+        .optional(),
 ];
 
 /// Most snapshots of one picture.
@@ -206,61 +213,57 @@ fn write_charts(call: &Call, charts: Vec<LineChart>) -> Result<Dynamic, ScriptEr
 
 fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = if call.has("options") { Some(call.options("options")?) } else { None };
-    let logarithmic =
-        options.as_ref().is_some_and(|options| options.boolean("logarithmic").unwrap_or(false));
-    let names = columns(call)?;
+    let is_asked =
+        |name: &str| options.as_ref().is_some_and(|options| options.boolean(name).unwrap_or(false));
+    let (scale, shown): (_, fn(f64) -> f64) = match is_asked("logarithmic") {
+        true => (Scale::Logarithmic, f64::abs),
+        false => (Scale::Linear, |value| value),
+    };
+    let read = if is_asked("average") { History::averaged } else { History::column };
+    let histories = histories(call)?;
+    let names = columns(call, &histories)?;
     let chart = |of: &HistoryHandle| {
         let title = options.as_ref().and_then(|options| options.text("title").ok());
         let title = title.map_or_else(|| of.of.name().to_owned(), |title| title.to_string());
         of.read(|history| {
-            let chart = LineChart::new(title).x_label("t").y_label(label(&names));
-            let chart = if logarithmic { chart.y_scale(Scale::Logarithmic) } else { chart };
-            names.iter().fold(chart, |chart, name| {
-                let values = history.column(name).unwrap_or_default();
-                let values =
-                    values.into_iter().map(|value| if logarithmic { value.abs() } else { value });
-                chart.series(Series::new(name.replace('_', " "), over_time(history, values)))
+            let chart = LineChart::new(title).x_label("t").y_label(label(history, &names));
+            names.iter().fold(chart.y_scale(scale), |chart, name| {
+                let values = read(history, name).unwrap_or_default().into_iter().map(shown);
+                chart.series(Series::new(series_name(name), over_time(history, values)))
             })
         })
     };
-    write_charts(call, histories(call)?.iter().map(chart).collect())
+    write_charts(call, histories.iter().map(chart).collect())
 }
 
-fn columns(call: &Call) -> Result<Vec<String>, ScriptError> {
-    let name = |value: Dynamic| {
-        let name =
-            value.clone().into_string().ok().filter(|name| COLUMN_NAMES.contains(&name.as_str()));
-        name.ok_or_else(|| {
-            let got = call.describe(&value);
-            let nearest = value.into_string().ok().and_then(|name| {
-                crate::script::suggest::nearest(&name, COLUMN_NAMES.iter().copied())
-            });
-            let suggestion =
-                nearest.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
-            call.error(format!("there is no column {got}"))
-                .hint(format!("{suggestion}columns: {}", COLUMN_NAMES.join(", ")))
-                .at(Place::Argument(1))
-        })
-    };
+/// The names of the columns asked for, which all of the histories have.
+fn columns(call: &Call, histories: &[HistoryHandle]) -> Result<Vec<String>, ScriptError> {
     let columns = call.array("columns")?;
-    if columns.is_empty() {
-        let hint = format!("columns: {}", COLUMN_NAMES.join(", "));
-        return Err(call.error("no column is named").hint(hint).at(Place::Argument(1)));
+    for (history, name) in histories.iter().flat_map(|of| columns.iter().map(move |n| (of, n))) {
+        history.expect_column(call, name, 1)?;
     }
-    columns.into_iter().map(name).collect()
+    match (columns.as_slice(), histories) {
+        ([], [first, ..]) => {
+            let hint = format!("columns: {}", first.column_names());
+            Err(call.error("no column is named").hint(hint).at(Place::Argument(1)))
+        }
+        _ => Ok(columns.iter().map(Dynamic::to_string).collect()),
+    }
+}
+
+/// A column in the words of a legend; the name of a thing of the scene stays as it is.
+fn series_name(column: &str) -> String {
+    match column.rsplit_once('.') {
+        Some((thing, quantity)) => format!("{thing} {}", quantity.replace('_', " ")),
+        None => column.replace('_', " "),
+    }
 }
 
 /// The dimension that all columns share.
-fn label(names: &[String]) -> String {
-    let dimension = |name: &String| {
-        History::COLUMNS.iter().find(|column| column.name == name).map(|column| column.dimension)
-    };
-    match names.iter().map(dimension).collect::<Option<Vec<_>>>() {
-        Some(dimensions) if dimensions.windows(2).all(|pair| pair[0] == pair[1]) => {
-            dimensions.first().copied().unwrap_or_default().to_owned()
-        }
-        _ => String::new(),
-    }
+fn label(history: &History, names: &[String]) -> &'static str {
+    let mut dimensions = names.iter().map(|name| history.dimension(name).unwrap_or_default());
+    let first = dimensions.next().unwrap_or_default();
+    if dimensions.all(|dimension| dimension == first) { first } else { "" }
 }
 
 fn over_time(history: &History, values: impl Iterator<Item = f64>) -> Vec<(f64, f64)> {
@@ -325,4 +328,29 @@ fn write_states(call: &mut Call) -> Result<Dynamic, ScriptError> {
         table.column(name, values)
     });
     write_csv(call, table)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::{ExtraColumn, Scales};
+
+    #[test]
+    fn an_axis_has_the_dimension_that_all_columns_share() {
+        let column = |name: &str, dimension| ExtraColumn { name: name.to_owned(), dimension };
+        let extra = vec![column("my_slider.force", "force"), column("my_slider.force_x", "force")];
+        let history = History::new(Scales::default(), extra);
+        let of = |names: &[&str]| {
+            label(&history, &names.iter().map(|&name| name.to_owned()).collect::<Vec<_>>())
+        };
+        assert_eq!(of(&["my_slider.force", "my_slider.force_x"]), "force");
+        assert_eq!(of(&["kinetic", "work"]), "energy");
+        assert_eq!(of(&["my_slider.force", "energy"]), "");
+    }
+
+    #[test]
+    fn legends_keep_the_names_of_things() {
+        assert_eq!(series_name("momentum_x"), "momentum x");
+        assert_eq!(series_name("my_slider.force_x"), "my_slider force x");
+    }
 }

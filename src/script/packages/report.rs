@@ -61,8 +61,24 @@ impl Reporter for SimulationHandle {
 /// All columns of a history.
 pub(super) fn history_table(name: &str, history: &History) -> CsvTable {
     let table = CsvTable::new().comment(format!("simulation: {name}"));
-    History::COLUMNS.iter().fold(table, |table, column| {
-        let values = history.samples().iter().map(column.value).collect();
-        table.column(format!("{} [{}]", column.name, column.dimension), values)
+    history.columns().fold(table, |table, (column, dimension)| {
+        let values = history.column(column).unwrap_or_default();
+        table.column(format!("{column} [{dimension}]"), values)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::{ExtraColumn, Sample, Scales};
+
+    #[test]
+    fn a_table_has_the_columns_of_the_scene_too() {
+        let extra = vec![ExtraColumn { name: "slider.force".into(), dimension: "force" }];
+        let mut history = History::new(Scales::default(), extra);
+        history.push(Sample::default(), std::iter::once(2.0));
+        let table = history_table("rod", &history);
+        assert_eq!(table.columns.len(), History::COLUMNS.len() + 1);
+        assert_eq!(table.columns.last(), Some(&("slider.force [force]".into(), vec![2.0])));
+    }
 }

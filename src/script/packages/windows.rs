@@ -1,10 +1,13 @@
 //! A part of the history of a simulation.
 
+use rhai::Dynamic;
+
 use super::live::SimulationHandle;
 use crate::script::call::Call;
-use crate::script::error::ScriptError;
+use crate::script::error::{Place, ScriptError};
 use crate::script::kind::Scripted;
 use crate::script::numbers::format_number;
+use crate::script::suggest::nearest;
 use crate::simulation::{History, Sample};
 
 /// A part of the history of a simulation; it grows with it.
@@ -35,6 +38,34 @@ impl HistoryHandle {
         let now = format_number(self.of.time());
         call.error("the history has no rows there")
             .hint(format!("the simulation has run from t = 0 to {now}"))
+    }
+
+    /// The names of its columns in a line.
+    pub fn column_names(&self) -> String {
+        let simulation = self.of.simulation();
+        simulation.history().columns().map(|(name, _)| name).collect::<Vec<_>>().join(", ")
+    }
+
+    /// Refuses what is not the name of one of its columns; `argument` is where the script gives it.
+    pub fn expect_column(
+        &self,
+        call: &Call,
+        given: &Dynamic,
+        argument: usize,
+    ) -> Result<String, ScriptError> {
+        let name = given.clone().into_string().unwrap_or_default();
+        let simulation = self.of.simulation();
+        let history = simulation.history();
+        if history.dimension(&name).is_some() {
+            return Ok(name);
+        }
+        let meant = nearest(&name, history.columns().map(|(name, _)| name));
+        let suggestion = meant.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
+        let got = call.show(given);
+        Err(call
+            .error(format!("the history of '{}' has no column {got}", self.of.name()))
+            .hint(format!("{suggestion}columns: {}", self.column_names()))
+            .at(Place::Argument(argument)))
     }
 
     /// The part of it between two times.
