@@ -5,8 +5,8 @@
 //! [ C  D ] [z] = [g]        (D - C Z) z = g - C y      x = y - Z z
 //! ```
 //!
-//! The band keeps its width whatever the border couples (Govaerts & Pryce, Block elimination with one refinement solves
-//! bordered linear systems accurately, BIT 30 (1990) 490–507; the refinement is the business of the caller).
+//! The band keeps its width whatever the border couples (Govaerts & Pryce, Block elimination with one iterative
+//! refinement solves bordered linear systems accurately, BIT 30 (1990) 490–507; refining is the business of the caller).
 
 use super::{BandedLu, BandedMatrix, LinearError};
 
