@@ -4,21 +4,24 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use withy::beams::{Mesh, Section};
+use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Curve, Vec2};
 use withy::integrators::{Interval, Mechanism, Method, Stage};
+use withy::joints::{EndAction, Slider, SlidingRule, StartVelocities};
 use withy::linalg::BandedMatrix;
 use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{BeamDefinition, Model, Scene, StartMotion};
+use withy::model::{BeamDefinition, Model, ParticleDefinition, Scene, StartMotion};
 use withy::newton::Tolerance;
 
 /// Every figure is measured for about this long.
 const PATIENCE: Duration = Duration::from_millis(300);
 const FEWEST_REPEATS: usize = 5;
 const DT: f64 = 0.1;
+/// Steps of a run with sliders.
+const RUN: usize = 15;
 
 /// A flying beam whose spans are as long as those of the spaghetti, however many there are.
-fn flying_beam(spans: usize) -> Model {
+fn flying_scene(spans: usize) -> Scene {
     let mut scene = Scene::new("bench");
     let length = 10.0 / 14.0 * spans as f64;
     let section = Section {
@@ -41,7 +44,54 @@ fn flying_beam(spans: usize) -> Model {
     let force = LoadKind::Force { station, force: Vec2::new(8.0, 0.0), frame: Frame::Dead };
     scene.add_load(force, push.clone());
     scene.add_load(LoadKind::Moment { station, moment: -80.0 }, push);
+    scene
+}
+
+fn flying_beam(spans: usize) -> Model {
+    Model::assemble(&flying_scene(spans)).unwrap()
+}
+
+/// The same with particles that slide along it.
+fn beaded_beam(spans: usize, beads: usize) -> Model {
+    let mut scene = flying_scene(spans);
+    let length = scene.beams[0].axis.length();
+    for bead in 0..beads {
+        let arc_length = length * (bead as f64 + 0.5) / beads as f64;
+        let station = Station::on_beam(0, arc_length);
+        let position = scene.drawn_at(&station).unwrap();
+        let particle = ParticleDefinition { name: format!("bead{bead}"), position };
+        let slave = scene.add_particle(particle, 1.0).unwrap();
+        let slider = Slider {
+            name: format!("slider{bead}"),
+            slave,
+            master: 0,
+            arc_length,
+            rule: SlidingRule::Conserving,
+            ends: EndAction::Bounce,
+            velocities: StartVelocities::Check,
+        };
+        scene.add_slider(slider).unwrap();
+    }
     Model::assemble(&scene).unwrap()
+}
+
+/// A whole step with so many sliders.
+fn sliding_cost(spans: usize, beads: usize) -> (usize, (f64, f64), f64) {
+    let mut model = beaded_beam(spans, beads);
+    let mut integrator = Method::EnergyMomentum.build(&model, Tolerance::default());
+    let (mut steps, mut iterations) = (0, 0);
+    let start = model.state();
+    let cost = measure(|| {
+        // Starting anew again and again keeps the particles on the beam.
+        let step = steps % RUN;
+        if step == 0 {
+            model.restore(&start);
+        }
+        let interval = Interval { start: step as f64 * DT, end: (step + 1) as f64 * DT };
+        steps += 1;
+        timed(|| iterations += integrator.step(&mut model, interval).unwrap().iterations)
+    });
+    (model.unknowns(), cost, iterations as f64 / steps as f64)
 }
 
 /// Repeats an action whose timed part it reports itself; the shortest and the median, in nanoseconds.
@@ -143,5 +193,20 @@ fn main() {
             per_unknown(checking),
             per_unknown(step)
         );
+    }
+    println!(
+        "\nnanoseconds per unknown and step, least / median, with particles that slide along the beam\n"
+    );
+    println!(
+        "{:>6} {:>8} {:>9} {:>13} {:>11}",
+        "spans", "sliders", "unknowns", "step", "iterations"
+    );
+    for (spans, sliders) in
+        [(10, 0), (10, 1), (100, 0), (100, 1), (100, 4), (1000, 0), (1000, 1), (1000, 4)]
+    {
+        let (unknowns, (least, median), iterations) = sliding_cost(spans, sliders);
+        let per = |cost: f64| format!("{:.0}", cost / unknowns as f64);
+        let step = format!("{} / {}", per(least), per(median));
+        println!("{spans:>6} {sliders:>8} {unknowns:>9} {step:>13} {iterations:>11.2}");
     }
 }

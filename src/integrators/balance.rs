@@ -143,7 +143,8 @@ impl StepSolver {
             .solve(&mut balance, &mut self.unknowns, &mut self.residual)
             .map_err(|source| StepError::Newton { interval, source })?;
         let rotation = balance.mechanism.largest_rotation();
-        if !(rotation < LARGEST_INCREMENT) {
+        let is_resolved = rotation < LARGEST_INCREMENT;
+        if !is_resolved {
             return Err(StepError::Rotation { interval, rotation, iterations: report.iterations });
         }
         let (_, constraints) = self.unknowns.split_at(self.coasting.len());

@@ -1,5 +1,6 @@
 //! What can be wrong with a scene.
 
+use super::SliderError;
 use crate::beams::BeamError;
 use crate::geometry::GeometryError;
 
@@ -96,80 +97,9 @@ pub enum ModelError {
         /// The joint or load.
         joint: String,
     },
-    /// A slave that is a part of its master.
-    #[error(
-        "slider '{slider}': {slave} is on the beam '{beam}' itself; a beam cannot slide on itself, choose another beam"
-    )]
-    SlidesOnItself {
-        /// The slider.
-        slider: String,
-        /// The slave.
-        slave: String,
-        /// The beam.
-        beam: String,
-    },
-    /// A slave that is not on its master.
-    #[error(
-        "slider '{slider}': {slave} is at {from}, {gap:.3e} from its place {to} on the beam '{beam}'; {advice}"
-    )]
-    OpenSlider {
-        /// The slider.
-        slider: String,
-        /// The slave.
-        slave: String,
-        /// Where the slave is.
-        from: String,
-        /// Where it should be.
-        to: String,
-        /// How far that is [length].
-        gap: f64,
-        /// The master.
-        beam: String,
-        /// What would be right.
-        advice: String,
-    },
-    /// A slave that slides on the same master already.
-    #[error(
-        "slider '{slider}': {slave} already slides on the beam '{beam}'; remove one of the two sliders"
-    )]
-    SliderTwice {
-        /// The slider.
-        slider: String,
-        /// The slave.
-        slave: String,
-        /// The master.
-        beam: String,
-    },
-    /// A slave that is tied to its master as well.
-    #[error(
-        "slider '{slider}': {slave} is also joined to the beam '{beam}', on which it then cannot slide; remove the joint or the slider"
-    )]
-    SliderTied {
-        /// The slider.
-        slider: String,
-        /// The slave.
-        slave: String,
-        /// The master.
-        beam: String,
-    },
-    /// Start velocities that would leave the master.
-    #[error(
-        "slider '{slider}': at the start its point moves across its beam with a speed of {speed:e}; give both the same velocity there, or the slider the option velocities: \"project\", which takes the nearest velocities that fit"
-    )]
-    LeavesMaster {
-        /// The slider.
-        slider: String,
-        /// The relative speed across the master [length/time].
-        speed: f64,
-    },
-    /// Sliders that do not determine their forces.
-    #[error(
-        "the sliders '{sliders}' hold each other: their contact forces are not determined; remove one of them, or a support"
-    )]
-    Overdetermined {
-        /// Their names.
-        sliders: String,
-    },
+    /// A sliding joint that cannot be.
+    #[error(transparent)]
+    Slider(Box<SliderError>),
     /// A number that is out of range.
     #[error("{object}: {name} is {value}, but must be {allowed}")]
     Value {
@@ -196,5 +126,11 @@ impl ModelError {
     /// For `map_err`: a geometry error of a beam.
     pub(super) fn geometry(beam: &str) -> impl Fn(GeometryError) -> Self + '_ {
         move |source| Self::Beam { beam: beam.to_owned(), source: source.into() }
+    }
+}
+
+impl From<SliderError> for ModelError {
+    fn from(error: SliderError) -> Self {
+        Self::Slider(Box::new(error))
     }
 }

@@ -6,14 +6,19 @@
 use super::body::Body;
 use super::error::ModelError;
 use super::mechanism::Model;
+use super::slider_error::SliderError;
 use super::sliding::{SliderState, Sliding};
 use crate::geometry::{Vec2, perpendicular};
 use crate::integrators::Mechanism;
 use crate::joints::StartVelocities;
-use crate::linalg::BandedMatrix;
+use crate::linalg::{BandedLu, BandedMatrix, LinearError};
+use nalgebra::DMatrix;
 
 /// Largest start velocity across the master, relative to the velocities there.
 const SAME_VELOCITY: f64 = 1e-9;
+
+/// How independent the answers to impulses at different sliders must be, relative to their size.
+const DETERMINED: f64 = 1e-12;
 
 /// The component of a relative velocity on which an impulse acts.
 struct Direction {
@@ -34,9 +39,9 @@ impl Model {
                 StartVelocities::Project => is_projected = true,
             }
         }
+        let across: Vec<Direction> = (0..self.sliders.len()).map(|at| self.across(at)).collect();
+        self.check_determined(&across)?;
         if is_projected {
-            let across: Vec<Direction> =
-                (0..self.sliders.len()).map(|at| self.across(at)).collect();
             // Projection: the impulses take the velocities across away (Gauss's principle of least constraint).
             self.strike(&across, -1.0).map_err(|_| self.overdetermined())?;
         }
@@ -58,6 +63,38 @@ impl Model {
         self.strike(&directions, -2.0).map_err(|_| self.overdetermined())
     }
 
+    /// Whether every slider can move its slave and its master against each other, whatever the others do.
+    fn check_determined(&self, across: &[Direction]) -> Result<(), ModelError> {
+        if across.is_empty() {
+            return Ok(());
+        }
+        let mut inertia = self.inertia();
+        let inertia = inertia.factorise().map_err(|_| self.overdetermined())?;
+        let answers = self.answers(&inertia, across);
+        let entry = |row: usize, column: usize| product(&answers[column].1, &answers[row].0);
+        let scale = |at: usize| entry(at, at).sqrt().max(f64::MIN_POSITIVE);
+        let relative = DMatrix::from_fn(across.len(), across.len(), |row, column| {
+            let slack = if row == column { DETERMINED } else { 0.0 };
+            entry(row, column) / (scale(row) * scale(column)) - slack
+        });
+        relative.cholesky().map(|_| ()).ok_or_else(|| self.overdetermined())
+    }
+
+    /// What unit impulses transmit, and how the velocities answer.
+    fn answers(
+        &self,
+        inertia: &BandedLu<'_>,
+        directions: &[Direction],
+    ) -> Vec<(Vec<f64>, Vec<f64>)> {
+        let answer = |direction| {
+            let forces = self.transmit(direction);
+            let mut rates = forces[..self.unknowns].to_vec();
+            inertia.solve(&mut rates);
+            (forces, rates)
+        };
+        directions.iter().map(answer).collect()
+    }
+
     fn along(&self, slider: usize) -> Direction {
         Direction { slider, unit: self.sliders[slider].tangent(&self.bodies).normalize() }
     }
@@ -68,43 +105,29 @@ impl Model {
     }
 
     fn overdetermined(&self) -> ModelError {
-        let names: Vec<&str> = self.sliders.iter().map(|slider| slider.name.as_str()).collect();
-        ModelError::Overdetermined { sliders: names.join("', '") }
+        let names: Vec<&str> = self.slider_names().collect();
+        SliderError::Overdetermined { sliders: names.join("', '") }.into()
     }
 
     /// Changes the components of the relative velocities by `factor` times themselves, by impulses at the sliders.
-    fn strike(
-        &mut self,
-        directions: &[Direction],
-        factor: f64,
-    ) -> Result<(), crate::linalg::LinearError> {
+    fn strike(&mut self, directions: &[Direction], factor: f64) -> Result<(), LinearError> {
         let (unknowns, count) = (self.unknowns, directions.len());
         let mut inertia = self.inertia();
         let inertia = inertia.factorise()?;
-        let transmitted: Vec<Vec<f64>> =
-            directions.iter().map(|direction| self.transmit(direction)).collect();
-        let answers: Vec<Vec<f64>> = transmitted
-            .iter()
-            .map(|forces| {
-                let mut rates = forces[..unknowns].to_vec();
-                inertia.solve(&mut rates);
-                rates
-            })
-            .collect();
-        let product = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
+        let answers = self.answers(&inertia, directions);
         let mut response = BandedMatrix::zeros(count, count.saturating_sub(1));
-        for (row, forces) in transmitted.iter().enumerate() {
-            for (column, rates) in answers.iter().enumerate() {
+        for (row, (forces, _)) in answers.iter().enumerate() {
+            for (column, (_, rates)) in answers.iter().enumerate() {
                 response.add(row, column, product(rates, forces));
             }
         }
         let mut impulses: Vec<f64> =
-            transmitted.iter().map(|forces| factor * product(&self.rates, forces)).collect();
+            answers.iter().map(|(forces, _)| factor * product(&self.rates, forces)).collect();
         response.factorise()?.solve(&mut impulses);
 
         let mut change = vec![0.0; unknowns];
         let mut residual = vec![0.0; self.degrees_of_freedom()];
-        for ((impulse, rates), forces) in impulses.iter().zip(&answers).zip(&transmitted) {
+        for (impulse, (forces, rates)) in impulses.iter().zip(&answers) {
             change.iter_mut().zip(rates).for_each(|(change, rate)| *change += impulse * rate);
             residual.iter_mut().zip(forces).for_each(|(out, force)| *out -= impulse * force);
         }
@@ -149,6 +172,11 @@ impl Model {
     }
 }
 
+/// Of as many entries as the shorter one has.
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
 impl Sliding {
     fn check_velocity(&self, bodies: &[Body], rates: &[f64]) -> Result<(), ModelError> {
         let relative = self.relative_velocity(bodies, rates);
@@ -158,6 +186,6 @@ impl Sliding {
         if across.abs() <= SAME_VELOCITY * size {
             return Ok(());
         }
-        Err(ModelError::LeavesMaster { slider: self.name.clone(), speed: across.abs() })
+        Err(SliderError::LeavesMaster { slider: self.name.clone(), speed: across.abs() }.into())
     }
 }

@@ -12,6 +12,7 @@ mod mechanism;
 mod numbering;
 mod queries;
 mod scene;
+mod slider_error;
 mod sliders;
 mod sliding;
 mod tracker;
@@ -23,5 +24,6 @@ pub use queries::ModelState;
 pub use scene::{
     BeamDefinition, ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity,
 };
+pub use slider_error::{SliderError, SliderParts};
 pub use sliders::TrackLimit;
 pub use sliding::{SliderState, TrackEnd};

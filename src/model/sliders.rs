@@ -6,6 +6,7 @@ use super::error::ModelError;
 use super::mechanism::Model;
 use super::numbering::{Numbering, same_place, written};
 use super::scene::Scene;
+use super::slider_error::{SliderError, SliderParts};
 use super::sliding::{SliderState, Sliding, TrackEnd};
 use crate::beams::Station;
 use crate::geometry::{Passage, Vec2, corresponding, nearest};
@@ -38,50 +39,44 @@ impl Scene {
     }
 
     pub(super) fn check_slider(&self, slider: &Slider) -> Result<(), ModelError> {
-        let beam = || self.beams[slider.master].name.clone();
-        let (name, slave) = (|| slider.name.clone(), || self.describe(&slider.slave));
+        let parts = self.parts(slider);
         if slider.slave.beam() == Some(slider.master) {
-            return Err(ModelError::SlidesOnItself {
-                slider: name(),
-                slave: slave(),
-                beam: beam(),
-            });
+            return Err(SliderError::OnItself(parts).into());
         }
-        let same = |other: &&Slider| {
+        let is_same = |other: &Slider| {
             other.master == slider.master && same_place(&other.slave, &slider.slave, self)
         };
-        if self.sliders.iter().any(|other| same(&other)) {
-            return Err(ModelError::SliderTwice { slider: name(), slave: slave(), beam: beam() });
+        if self.sliders.iter().any(is_same) {
+            return Err(SliderError::Twice(parts).into());
         }
         let on_master = Station::on_beam(slider.master, slider.arc_length);
         let (from, to) = (self.drawn_at(&slider.slave)?, self.drawn_at(&on_master)?);
-        let (gap, length) = ((from - to).norm(), self.beams[slider.master].axis.length());
-        if gap <= CLOSED * (length + from.norm()) {
+        let length = self.beams[slider.master].axis.length();
+        let (gap, tolerance) = ((from - to).norm(), CLOSED * (length + from.norm()));
+        if gap <= tolerance {
             return Ok(());
         }
         let best = self.nearest_arc_length(slider.master, &slider.slave)?;
-        let nearest_point = self.drawn_at(&Station::on_beam(slider.master, best))?;
-        let distance = (from - nearest_point).norm();
-        let advice = if distance <= CLOSED * (length + from.norm()) {
+        let distance = (from - self.drawn_at(&Station::on_beam(slider.master, best))?).norm();
+        let place = best / length;
+        let advice = if distance <= tolerance {
             format!(
-                "it lies on that beam at {} of its length: give that as `at`, or leave `at` out",
-                best / length
+                "it lies on that beam at {place} of its length: give that as `at`, or leave `at` out"
             )
         } else {
             format!(
-                "move one of them: the beam comes no nearer than {distance:.3e}, at {} of its length",
-                best / length
+                "move one of them: the beam comes no nearer than {distance:.3e}, at {place} of its length"
             )
         };
-        Err(ModelError::OpenSlider {
-            slider: name(),
-            slave: slave(),
-            from: written(from),
-            to: written(to),
-            gap,
-            beam: beam(),
-            advice,
-        })
+        Err(SliderError::Open { parts, from: written(from), to: written(to), gap, advice }.into())
+    }
+
+    fn parts(&self, slider: &Slider) -> SliderParts {
+        SliderParts {
+            slider: slider.name.clone(),
+            slave: self.describe(&slider.slave),
+            beam: self.beams[slider.master].name.clone(),
+        }
     }
 }
 
@@ -93,29 +88,24 @@ impl Assembly<'_> {
             let place = self.place(&slider.slave)?;
             let slave = (place.body, place.nearest_control_point());
             let [x, ..] = numbering.degrees_of_freedom[slave.0][slave.1];
-            let describe = || (slider.name.clone(), self.scene.describe(&slider.slave));
-            let beam = &self.scene.beams[slider.master];
             let of_master = &numbering.degrees_of_freedom[slider.master];
             let is_unknown = x < numbering.unknowns;
             if is_unknown && of_master.iter().any(|degrees| degrees[0] == x) {
-                let (slider, slave) = describe();
-                return Err(ModelError::SliderTied { slider, slave, beam: beam.name.clone() });
+                return Err(SliderError::Tied(self.scene.parts(slider)).into());
             }
-            let twice = sliders.iter().any(|other| {
+            let is_twice = |other: &Sliding| {
                 let Connection { master, slave: (body, point), .. } = other.connection;
-                is_unknown
-                    && master == slider.master
-                    && numbering.degrees_of_freedom[body][point][0] == x
-            });
-            if twice {
-                let (slider, slave) = describe();
-                return Err(ModelError::SliderTwice { slider, slave, beam: beam.name.clone() });
+                master == slider.master && numbering.degrees_of_freedom[body][point][0] == x
+            };
+            if is_unknown && sliders.iter().any(is_twice) {
+                return Err(SliderError::Twice(self.scene.parts(slider)).into());
             }
             let connection = Connection { master: slider.master, slave, index };
             let basis = self.meshes[slider.master].basis();
             let parameter = self.slider_parameter(slider)?;
             let passage = Passage::new(basis.clone());
-            sliders.push(Sliding::new(slider, connection, passage, parameter, beam.axis.length()));
+            let length = self.scene.beams[slider.master].axis.length();
+            sliders.push(Sliding::new(slider, connection, passage, parameter, length));
         }
         Ok(sliders)
     }

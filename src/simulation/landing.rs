@@ -214,8 +214,11 @@ impl Simulation {
                 ArrivalKind::Released
             }
         };
-        self.arrivals.push(Arrival { time: self.model.time(), limit, kind });
-        Ok(kind == ArrivalKind::Stopped)
+        let arrival = Arrival { time: self.model.time(), limit, kind };
+        self.arrivals.push(arrival);
+        let ends = kind == ArrivalKind::Stopped;
+        self.last_arrival = ends.then_some(arrival);
+        Ok(ends)
     }
 
     /// Sliders that reached the end of their masters so far.
@@ -225,7 +228,7 @@ impl Simulation {
 
     /// Why the run has ended, if it has.
     pub fn ending(&self) -> Option<String> {
-        let stopped = self.arrivals.iter().find(|arrival| arrival.kind == ArrivalKind::Stopped)?;
+        let stopped = self.last_arrival?;
         let name = &self.scene.sliders[stopped.limit.slider].name;
         Some(stopped.describe(name))
     }

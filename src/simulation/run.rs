@@ -80,6 +80,8 @@ pub struct Simulation {
     pub(super) trajectory: Trajectory,
     pub(super) counts: WorkCounts,
     pub(super) arrivals: Vec<Arrival>,
+    /// The arrival that ended the run.
+    pub(super) last_arrival: Option<Arrival>,
     /// Made when the first picture asks for them.
     pub(super) outlines: OnceCell<Vec<Outline>>,
 }
@@ -114,6 +116,7 @@ impl Simulation {
             trajectory,
             counts: WorkCounts::default(),
             arrivals: Vec::new(),
+            last_arrival: None,
             outlines: OnceCell::new(),
         })
     }
@@ -189,7 +192,7 @@ impl Simulation {
         let steps = ((end - now) / self.grid.dt()).min(1e6) as usize + 8;
         self.history.reserve(steps);
         self.trajectory.reserve(steps);
-        while self.time() < end - 1e-9 * self.grid.dt() && self.ending().is_none() {
+        while self.time() < end - 1e-9 * self.grid.dt() && self.last_arrival.is_none() {
             self.step_at_most_to(end, monitor)?;
         }
         Ok(())

@@ -1,0 +1,70 @@
+//! What can be wrong with a sliding joint.
+
+/// The parts of a slider in words.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SliderParts {
+    /// Its name.
+    pub slider: String,
+    /// The point that slides.
+    pub slave: String,
+    /// The name of the beam that it slides on.
+    pub beam: String,
+}
+
+/// A sliding joint that cannot be described or built.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SliderError {
+    /// A slave that is a part of its master.
+    #[error(
+        "slider '{}': {} is on the beam '{}' itself; a beam cannot slide on itself, choose another beam",
+        _0.slider, _0.slave, _0.beam
+    )]
+    OnItself(SliderParts),
+    /// A slave that is not on its master.
+    #[error(
+        "slider '{}': {} is at {from}, {gap:.3e} from its place {to} on the beam '{}'; {advice}",
+        parts.slider, parts.slave, parts.beam
+    )]
+    Open {
+        /// The slider.
+        parts: SliderParts,
+        /// Where the slave is.
+        from: String,
+        /// Where it should be.
+        to: String,
+        /// How far that is [length].
+        gap: f64,
+        /// What would be right.
+        advice: String,
+    },
+    /// A slave that slides on the same master already.
+    #[error(
+        "slider '{}': {} already slides on the beam '{}'; remove one of the two sliders",
+        _0.slider, _0.slave, _0.beam
+    )]
+    Twice(SliderParts),
+    /// A slave that is tied to its master as well.
+    #[error(
+        "slider '{}': {} is also joined to the beam '{}', on which it then cannot slide; remove the joint or the slider",
+        _0.slider, _0.slave, _0.beam
+    )]
+    Tied(SliderParts),
+    /// Start velocities that would leave the master.
+    #[error(
+        "slider '{slider}': at the start its point moves across its beam with a speed of {speed:e}; give both the same velocity there, or the slider the option velocities: \"project\", which takes the nearest velocities that fit"
+    )]
+    LeavesMaster {
+        /// The slider.
+        slider: String,
+        /// The relative speed across the master [length/time].
+        speed: f64,
+    },
+    /// Sliders that do not determine their forces.
+    #[error(
+        "the sliders '{sliders}' hold each other, or all that they connect is held: their contact forces are not determined; remove one of them, or a support"
+    )]
+    Overdetermined {
+        /// Their names.
+        sliders: String,
+    },
+}
