@@ -157,43 +157,34 @@ impl BandedLu<'_> {
         }
     }
 
-    /// Replaces `width` right-hand sides, stored row by row, by their solutions.
+    /// Replaces `W` right-hand sides, the entries of a row side by side, by their solutions.
     ///
-    /// Rows before `first` must be zero; the work of finding that they stay so is saved.
-    pub fn solve_block(&self, x: &mut [f64], width: usize, first: usize) {
+    /// Rows before `first` must be zero: forward elimination begins there.
+    pub fn solve_strip<const W: usize>(&self, x: &mut [[f64; W]], first: usize) {
         let (n, b, stride) =
             (self.factors.size, self.factors.half_bandwidth, self.factors.stride());
         let rows = &self.factors.rows;
         // Row exchanges reach back by at most the half-bandwidth.
         for column in first.saturating_sub(b)..n {
-            let pivot = self.factors.pivots[column];
-            let (above, below) = x.split_at_mut((column + 1) * width);
-            let row = &mut above[column * width..];
-            if pivot > column {
-                let start = (pivot - column - 1) * width;
-                row.swap_with_slice(&mut below[start..start + width]);
-            }
-            if row.iter().all(|value| *value == 0.0) {
-                continue;
-            }
+            x.swap(column, self.factors.pivots[column]);
+            let value = x[column];
             let diagonal = column * stride + b;
-            let targets = below.chunks_exact_mut(width).take(b).enumerate();
-            for (index, target) in targets {
+            let below = x[column + 1..].iter_mut().take(b).enumerate();
+            for (index, target) in below {
                 let factor = rows[diagonal + (index + 1) * (stride - 1)];
-                target.iter_mut().zip(row.iter()).for_each(|(x, value)| *x -= factor * value);
+                target.iter_mut().zip(&value).for_each(|(x, value)| *x -= factor * value);
             }
         }
         for row in (0..n).rev() {
-            let reach = (row + 2 * b).min(n - 1) - row;
+            let last = (row + 2 * b).min(n - 1);
             let diagonal = row * stride + b;
-            let upper = &rows[diagonal + 1..diagonal + 1 + reach];
-            let (above, below) = x.split_at_mut((row + 1) * width);
-            let target = &mut above[row * width..];
-            for (factor, known) in upper.iter().zip(below.chunks_exact(width)) {
-                target.iter_mut().zip(known).for_each(|(x, known)| *x -= factor * known);
+            let upper = &rows[diagonal + 1..diagonal + 1 + last - row];
+            let mut value = x[row];
+            for (factor, known) in upper.iter().zip(&x[row + 1..=last]) {
+                value.iter_mut().zip(known).for_each(|(x, known)| *x -= factor * known);
             }
-            let inverse = 1.0 / rows[diagonal];
-            target.iter_mut().for_each(|x| *x *= inverse);
+            let pivot = rows[diagonal];
+            x[row] = value.map(|x| x / pivot);
         }
     }
 }

@@ -26,14 +26,23 @@ pub struct BorderShape {
     pub row_entries: usize,
 }
 
+/// Columns of the border are kept and solved in strips of so many, a number that the compiler knows: that of the unknowns of
+/// a sliding contact, for which borders are.
+const STRIP: usize = 5;
+
+/// Some columns of `B`; after factorising, of `Z`.
+#[derive(Debug, Clone)]
+struct Strip {
+    rows: Vec<[f64; STRIP]>,
+    /// The first row with an entry.
+    first_row: Option<usize>,
+}
+
 /// The last rows and columns of a [`BorderedMatrix`]: `B`, `C` and `D`.
 #[derive(Debug, Clone)]
 pub struct Border {
     width: usize,
-    /// `B`, row by row; after factorising `Z`.
-    columns: Vec<f64>,
-    /// The first row of `B` with an entry.
-    first_row: Option<usize>,
+    strips: Vec<Strip>,
     /// `C`: (row of the border, column, value); entries of one place add up.
     rows: Vec<(usize, usize, f64)>,
     corner: BandedMatrix,
@@ -43,24 +52,40 @@ pub struct Border {
 #[derive(Debug)]
 pub struct BorderedLu<'a> {
     band: BandedLu<'a>,
-    /// `Z`, and `C`.
     border: Option<FactorisedBorder<'a>>,
 }
 
 #[derive(Debug)]
 struct FactorisedBorder<'a> {
     width: usize,
-    solved: &'a [f64],
+    /// `Z`
+    solved: &'a [Strip],
+    /// `C`
     rows: &'a [(usize, usize, f64)],
     complement: BandedLu<'a>,
+}
+
+impl Strip {
+    fn zeros(size: usize) -> Self {
+        Self { rows: vec![[0.0; STRIP]; size], first_row: None }
+    }
+
+    fn clear(&mut self) {
+        self.rows.fill([0.0; STRIP]);
+        self.first_row = None;
+    }
+
+    fn add(&mut self, row: usize, column: usize, value: f64) {
+        self.rows[row][column] += value;
+        self.first_row = Some(self.first_row.map_or(row, |first| first.min(row)));
+    }
 }
 
 impl Border {
     fn zeros(size: usize, BorderShape { width, row_entries }: BorderShape) -> Self {
         Self {
             width,
-            columns: vec![0.0; size * width],
-            first_row: None,
+            strips: vec![Strip::zeros(size); width.div_ceil(STRIP)],
             rows: Vec::with_capacity(row_entries),
             corner: BandedMatrix::zeros(width, width.saturating_sub(1)),
         }
@@ -72,16 +97,14 @@ impl Border {
     }
 
     fn clear(&mut self) {
-        self.columns.fill(0.0);
-        self.first_row = None;
+        self.strips.iter_mut().for_each(Strip::clear);
         self.rows.clear();
         self.corner.clear();
     }
 
     /// Adds to `B`, at a row of the band and a column of the border.
     pub fn add_to_column(&mut self, row: usize, border_column: usize, value: f64) {
-        self.columns[row * self.width + border_column] += value;
-        self.first_row = Some(self.first_row.map_or(row, |first| first.min(row)));
+        self.strips[border_column / STRIP].add(row, border_column % STRIP, value);
     }
 
     /// Adds to `C`, at a row of the border and a column of the band.
@@ -96,13 +119,14 @@ impl Border {
 
     /// Makes `Z` of `B` and `D - C Z` of `D`.
     fn eliminate(&mut self, band: &BandedLu<'_>) {
-        let width = self.width;
-        if let Some(first) = self.first_row {
-            band.solve_block(&mut self.columns, width, first);
+        for strip in &mut self.strips {
+            if let Some(first) = strip.first_row {
+                band.solve_strip(&mut strip.rows, first);
+            }
         }
         for &(row, column, value) in &self.rows {
-            let solved = &self.columns[column * width..(column + 1) * width];
-            for (border_column, z) in solved.iter().enumerate() {
+            let solved = self.strips.iter().flat_map(|strip| strip.rows[column]);
+            for (border_column, z) in solved.take(self.width).enumerate() {
                 self.corner.add(row, border_column, -value * z);
             }
         }
@@ -146,10 +170,12 @@ impl BorderedMatrix {
 
     /// The entry at `(row, column)`; zero outside band and border.
     pub fn get(&self, row: usize, column: usize) -> f64 {
-        let (n, Border { width, columns, rows, corner, .. }) = (self.band.size(), &self.border);
+        let (n, Border { strips, rows, corner, .. }) = (self.band.size(), &self.border);
         match (row.checked_sub(n), column.checked_sub(n)) {
             (None, None) => self.band.get(row, column),
-            (None, Some(border_column)) => columns[row * width + border_column],
+            (None, Some(border_column)) => {
+                strips[border_column / STRIP].rows[row][border_column % STRIP]
+            }
             (Some(border_row), None) => {
                 let here = |(r, c, _): &&(usize, usize, f64)| (*r, *c) == (border_row, column);
                 rows.iter().filter(here).map(|(.., value)| value).sum()
@@ -170,9 +196,9 @@ impl BorderedMatrix {
             return Ok(BorderedLu { band, border: None });
         }
         border.eliminate(&band);
-        let Border { width, columns, rows, corner, .. } = border;
+        let Border { width, strips, rows, corner } = border;
         let complement = corner.factorise().map_err(|error| error.behind(size))?;
-        let border = FactorisedBorder { width: *width, solved: columns, rows, complement };
+        let border = FactorisedBorder { width: *width, solved: strips, rows, complement };
         Ok(BorderedLu { band, border: Some(border) })
     }
 }
@@ -187,8 +213,10 @@ impl BorderedLu<'_> {
             z[row] -= value * x[column];
         }
         border.complement.solve(z);
-        for (x, solved) in x.iter_mut().zip(border.solved.chunks_exact(border.width)) {
-            *x -= solved.iter().zip(z.iter()).map(|(solved, z)| solved * z).sum::<f64>();
+        for (strip, z) in border.solved.iter().zip(z.chunks(STRIP)) {
+            for (x, solved) in x.iter_mut().zip(&strip.rows) {
+                *x -= solved.iter().zip(z).map(|(solved, z)| solved * z).sum::<f64>();
+            }
         }
     }
 }
@@ -202,7 +230,7 @@ mod tests {
     proptest! {
         #[test]
         fn the_bordered_solution_is_the_dense_one(
-            size in 1_usize..30, half_bandwidth in 0_usize..6, width in 0_usize..8,
+            size in 1_usize..30, half_bandwidth in 0_usize..6, width in 0_usize..12,
             entries in prop::collection::vec(-1.0..1.0_f64, 997), sparse in any::<u64>(),
         ) {
             let border = BorderShape { width, row_entries: 0 };
