@@ -87,7 +87,7 @@ fn sliding_cost(spans: usize, beads: usize) -> (usize, (f64, f64), f64) {
         if step == 0 {
             model.restore(&start);
         }
-        let interval = Interval { start: step as f64 * DT, end: (step + 1) as f64 * DT };
+        let interval = Interval::between(step as f64 * DT, (step + 1) as f64 * DT);
         steps += 1;
         timed(|| iterations += integrator.step(&mut model, interval).unwrap().iterations)
     });
@@ -117,13 +117,13 @@ fn costs(spans: usize) -> (usize, [(f64, f64); 5], f64) {
     let mut integrator = Method::EnergyMomentum.build(&model, Tolerance::default());
     let (mut steps, mut iterations) = (0, 0);
     let step = measure(|| {
-        let interval = Interval { start: steps as f64 * DT, end: (steps + 1) as f64 * DT };
+        let interval = Interval::between(steps as f64 * DT, (steps + 1) as f64 * DT);
         steps += 1;
         timed(|| iterations += integrator.step(&mut model, interval).unwrap().iterations)
     });
 
     let unknowns = model.unknowns();
-    model.begin_step(Interval { start: 0.0, end: DT }, &Stage::ALL).unwrap();
+    model.begin_step(Interval::between(0.0, DT), &Stage::ALL).unwrap();
     let increments: Vec<f64> = model.rates().iter().map(|rate| DT * rate).collect();
     let mut residual = vec![0.0; model.degrees_of_freedom()];
     let mut tangent = BandedMatrix::zeros(unknowns, model.half_bandwidth());

@@ -173,7 +173,7 @@ fn a_restored_state_goes_on_bit_for_bit_as_it_did() {
             let mut advance = |model: &mut Model, steps: std::ops::Range<u32>| {
                 for n in steps {
                     let (start, end) = (f64::from(n) * 0.05, f64::from(n + 1) * 0.05);
-                    integrator.step(model, Interval { start, end }).unwrap();
+                    integrator.step(model, Interval::between(start, end)).unwrap();
                 }
             };
             advance(&mut model, 0..10);

@@ -74,7 +74,7 @@ pub(super) enum Motion {
 impl Default for StepScales {
     fn default() -> Self {
         Self {
-            interval: Interval { start: 0.0, end: 0.0 },
+            interval: Interval::between(0.0, 0.0),
             inertia: (0.0, 0.0),
             loads: (0.0, 0.0),
             summary: ForceSummary::default(),

@@ -183,9 +183,7 @@ impl Model {
 
     /// How far a slider is from a limit, as a part of the parameters of its master [-].
     pub fn distance_to(&self, limit: TrackLimit) -> f64 {
-        let slider = &self.sliders[limit.slider];
-        let (first, last) = slider.domain();
-        (slider.end_parameter(limit.end) - slider.parameter).abs() / (last - first)
+        self.sliders[limit.slider].distance_to(limit.end)
     }
 
     /// The limit of that number.
@@ -196,7 +194,7 @@ impl Model {
 
     /// Whether a slider is at a limit.
     pub fn is_at(&self, limit: TrackLimit) -> bool {
-        self.sliders[limit.slider].at_end() == Some(limit.end)
+        self.sliders[limit.slider].is_at(limit.end)
     }
 
     /// Whether the present velocities lead beyond a limit at which a slider is.

@@ -148,11 +148,15 @@ impl Sliding {
         self.here.go(self.parameter, self.parameter);
     }
 
-    /// The end of the master at which it is, if it is at one.
-    pub(super) fn at_end(&self) -> Option<TrackEnd> {
-        [TrackEnd::Start, TrackEnd::End]
-            .into_iter()
-            .find(|end| self.parameter == self.end_parameter(*end))
+    /// How far it is from an end of the master, as a part of the parameters of its master.
+    pub(super) fn distance_to(&self, end: TrackEnd) -> f64 {
+        let (first, last) = self.domain;
+        (self.end_parameter(end) - self.parameter).abs() / (last - first)
+    }
+
+    /// Whether it is at an end of the master.
+    pub(super) fn is_at(&self, end: TrackEnd) -> bool {
+        self.distance_to(end) <= LANDED
     }
 
     pub(super) fn end_parameter(&self, end: TrackEnd) -> f64 {
@@ -305,13 +309,7 @@ impl Sliding {
     /// A stop that had to pull in this step lets go.
     pub(super) fn advance(&mut self, bodies: &[Body], unknowns: &[f64]) {
         self.unknowns = self.read(unknowns);
-        let landed = [TrackEnd::Start, TrackEnd::End]
-            .into_iter()
-            .find(|end| self.beyond(unknowns, *end).abs() <= LANDED);
-        self.parameter = match landed {
-            Some(end) => self.end_parameter(end),
-            None => self.parameter + self.unknowns.way,
-        };
+        self.parameter += self.unknowns.way;
         self.here.go(self.parameter, self.parameter);
         if let SliderState::Held(end) = self.state {
             let outward = self.unknowns.force.dot(&self.tangent(bodies)) * end.outward();

@@ -74,14 +74,14 @@ enum Prospect {
     Beyond,
 }
 
-/// Times before and after an arrival, with the distances beyond the limit there.
+/// Durations of steps that end before and after an arrival, with the distances beyond the limit there.
 struct Bracket {
     before: (f64, f64),
     after: (f64, f64),
 }
 
 impl Bracket {
-    /// The next time to try: false position, with the weight of an end halved that stays (Illinois; Dowell & Jarratt 1971).
+    /// The next duration to try: false position, with the weight of an end halved that stays (Illinois; Dowell & Jarratt 1971).
     fn guess(&self) -> f64 {
         let ((t0, f0), (t1, f1)) = (self.before, self.after);
         let t = t1 - f1 * (t1 - t0) / (f1 - f0);
@@ -113,13 +113,12 @@ impl Simulation {
         };
         let mut last_side = 0.0;
         for _ in 0..MOST_TRIES {
-            let end = bracket.guess();
-            let cut = Interval { start: interval.start, end };
+            let duration = bracket.guess();
+            let cut = Interval::lasting(interval.start, duration);
             match self.integrator.step(&mut self.model, cut) {
                 Ok(report) => return Ok(Landing::At(cut, report, limit)),
                 Err(StepError::Overshoot { overshoot, iterations, .. }) => {
-                    self.counts.retries += 1;
-                    self.counts.factorisations += iterations;
+                    self.count_try(iterations);
                     let other = self.model.limit(overshoot.limit);
                     if other != limit {
                         // Another slider arrives before.
@@ -134,13 +133,13 @@ impl Simulation {
                         };
                         last_side = 0.0;
                     } else if overshoot.distance > 0.0 {
-                        bracket.after = (end, overshoot.distance);
+                        bracket.after = (duration, overshoot.distance);
                         if last_side > 0.0 {
                             bracket.before.1 *= 0.5;
                         }
                         last_side = 1.0;
                     } else {
-                        bracket.before = (end, overshoot.distance);
+                        bracket.before = (duration, overshoot.distance);
                         if last_side < 0.0 {
                             bracket.after.1 *= 0.5;
                         }
@@ -153,42 +152,46 @@ impl Simulation {
         Err(StepError::Overshoot { interval, overshoot: first, iterations: 0 })
     }
 
-    /// Looks for a time before the arrival, given one after it.
+    /// Looks for a step that ends before the arrival, given one that ends after it.
     fn prospect(
         &mut self,
         interval: Interval,
         limit: TrackLimit,
         distance: f64,
     ) -> Result<Prospect, StepError> {
-        let mut after = (interval.end, distance);
+        let mut after = (interval.duration(), distance);
         if !self.model.is_at(limit) {
-            let before = (interval.start, -self.model.distance_to(limit));
+            let before = (0.0, -self.model.distance_to(limit));
             return Ok(Prospect::Between(Bracket { before, after }));
         }
         if self.model.leads_beyond(limit) {
             return Ok(Prospect::Beyond);
         }
         for halving in 1..=PROBES {
-            let end = interval.start + interval.duration() * 0.5_f64.powi(halving);
-            let cut = Interval { start: interval.start, end };
+            let duration = interval.duration() * 0.5_f64.powi(halving);
+            let cut = Interval::lasting(interval.start, duration);
             match self.integrator.step(&mut self.model, cut) {
                 Err(StepError::Overshoot { overshoot, iterations, .. }) => {
-                    self.counts.retries += 1;
-                    self.counts.factorisations += iterations;
+                    self.count_try(iterations);
                     if overshoot.limit != self.model.number(limit) {
                         continue;
                     }
                     if overshoot.distance < 0.0 {
-                        let before = (end, overshoot.distance);
+                        let before = (duration, overshoot.distance);
                         return Ok(Prospect::Between(Bracket { before, after }));
                     }
-                    after = (end, overshoot.distance);
+                    after = (duration, overshoot.distance);
                 }
                 Ok(report) => return Ok(Prospect::Landed(cut, report)),
                 Err(other) => return Err(other),
             }
         }
         Ok(Prospect::Beyond)
+    }
+
+    pub(super) fn count_try(&mut self, iterations: usize) {
+        self.counts.arrival_tries += 1;
+        self.counts.factorisations += iterations;
     }
 
     /// Does what is to be done where a slider arrives; `true` when the run ends there.

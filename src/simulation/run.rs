@@ -42,6 +42,8 @@ pub struct WorkCounts {
     pub factorisations: usize,
     /// Failed tries.
     pub retries: usize,
+    /// Steps that were tried to find when a slider arrives at the end of its master.
+    pub arrival_tries: usize,
     /// Time spent in steps.
     pub wall: Duration,
 }
@@ -257,7 +259,7 @@ impl Simulation {
         monitor: &mut dyn Monitor,
     ) -> Result<(), SimulationError> {
         for _ in 0..MOST_ARRIVALS {
-            match self.cover(Interval { start: self.time(), end }, monitor)? {
+            match self.cover(Interval::between(self.time(), end), monitor)? {
                 Covered::All | Covered::UntilTheRunEnded => return Ok(()),
                 Covered::UntilAnArrival if self.time() >= end - 1e-9 * self.grid.dt() => {
                     return Ok(());
@@ -286,10 +288,10 @@ impl Simulation {
         let (mut covered, mut halvings, mut retries) = (0, 0, 0);
         while covered < PARTS {
             let width = PARTS >> halvings;
-            let interval = Interval { start: time(covered), end: time(covered + width) };
+            let interval = Interval::between(time(covered), time(covered + width));
             let mut stepped = self.integrator.step(&mut self.model, interval);
             if let Err(StepError::Overshoot { overshoot, iterations, .. }) = stepped {
-                self.counts.factorisations += iterations;
+                self.count_try(iterations);
                 match self.land(interval, overshoot) {
                     Ok(landing) => return self.take_landing(&landing, retries),
                     Err(source) => stepped = Err(source),

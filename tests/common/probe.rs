@@ -6,7 +6,7 @@ use withy::integrators::{Interval, Mechanism, Solution, Stage};
 use withy::linalg::BandedMatrix;
 use withy::model::Model;
 
-pub const STEP: Interval = Interval { start: 0.3, end: 0.35 };
+pub const STEP: Interval = Interval::between(0.3, 0.35);
 
 /// What an unknown moves.
 #[derive(Debug, Clone, Copy, PartialEq)]

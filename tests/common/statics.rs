@@ -42,7 +42,7 @@ pub fn load_up(model: &mut Model, steps: usize, scale: f64) -> usize {
     let time = |step: usize| step as f64 / steps as f64;
     let mut most = 0;
     for step in 0..steps {
-        model.begin_step(Interval { start: time(step), end: time(step + 1) }, &Stage::ALL).unwrap();
+        model.begin_step(Interval::between(time(step), time(step + 1)), &Stage::ALL).unwrap();
         let mut u = vec![0.0; model.unknowns()];
         let report = newton.solve(&mut Balance { model, scale }, &mut u, &mut residual).unwrap();
         most = most.max(report.iterations);
