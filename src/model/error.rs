@@ -8,21 +8,27 @@ use crate::geometry::GeometryError;
 pub enum ModelError {
     /// There is nothing to simulate.
     #[error(
-        "the scene '{scene}' has no beams; add one with scene.beam(#{{ axis: …, section: … }})"
+        "the scene '{scene}' has no beams and no particles; add one with scene.beam(#{{ axis: …, section: … }}) or scene.particle([x, y], mass)"
     )]
     Empty {
         /// Its name.
         scene: String,
     },
     /// A name that nobody could read.
-    #[error("{name:?} is no name for a beam; use letters, numbers and spaces")]
+    #[error("{name:?} is no name for a {kind}; use letters, numbers and spaces")]
     Unnamed {
+        /// What should be called that.
+        kind: &'static str,
         /// The name.
         name: String,
     },
-    /// Two beams of the same name.
-    #[error("the scene already has a beam '{name}'; give this one another name")]
+    /// Two things of the same name.
+    #[error("the scene already has a {kind} '{name}'; give this {new} another name")]
     DuplicateName {
+        /// What is called that.
+        kind: &'static str,
+        /// What should be called that as well.
+        new: &'static str,
         /// The name.
         name: String,
     },
@@ -39,16 +45,16 @@ pub enum ModelError {
         length: f64,
     },
     /// A joint of a place with itself.
-    #[error("{joint}: both stations are the same place of beam '{beam}'; a joint needs two places")]
+    #[error("{joint}: both stations are the same place of {body}; a joint needs two places")]
     JointWithItself {
         /// The joint.
         joint: String,
-        /// The beam.
-        beam: String,
+        /// The beam or particle.
+        body: String,
     },
     /// Partners that do not meet.
     #[error(
-        "{joint}: its stations at {from} and {to} are {gap} apart; they must lie at the same place when the scene starts: move a beam"
+        "{joint}: its stations at {from} and {to} are {gap} apart; they must lie at the same place when the scene starts: move one of them"
     )]
     OpenJoint {
         /// The joint.
@@ -78,11 +84,11 @@ pub enum ModelError {
     },
     /// Start velocities that tied things do not share.
     #[error(
-        "beam '{beam}' starts with a velocity of {velocity} at its {place}, but {other}; give it a start velocity that fits (velocity, spin, about)"
+        "{body} starts with a velocity of {velocity} at its {place}, but {other}; give it a start velocity that fits"
     )]
     StartVelocity {
-        /// The beam.
-        beam: String,
+        /// The beam or particle.
+        body: String,
         /// Which component of which place.
         place: String,
         /// Its value.
@@ -90,11 +96,13 @@ pub enum ModelError {
         /// What it is tied to.
         other: String,
     },
-    /// A rigid joint at a particle.
-    #[error("{joint}: a particle does not turn; use scene.hinge(…), or scene.mass(…) on the beam")]
+    /// A joint, load, inertia or spin that would turn a particle.
+    #[error("{object}: a particle does not turn; {advice}")]
     ParticleTurned {
-        /// The joint or load.
-        joint: String,
+        /// What would turn it.
+        object: String,
+        /// What would be right.
+        advice: &'static str,
     },
     /// A slave that is a part of its master.
     #[error(
@@ -109,22 +117,14 @@ pub enum ModelError {
         beam: String,
     },
     /// A slave that is not on its master.
-    #[error(
-        "slider '{slider}': {slave} is at {from}, {gap:.3e} from its place {to} on the beam '{beam}'; {advice}"
-    )]
+    #[error("slider '{slider}': {slave} {where_it_is}; {advice}")]
     OpenSlider {
         /// The slider.
         slider: String,
         /// The slave.
         slave: String,
-        /// Where the slave is.
-        from: String,
-        /// Where it should be.
-        to: String,
-        /// How far that is [length].
-        gap: f64,
-        /// The master.
-        beam: String,
+        /// Where it is, where it should be, and how far that is.
+        where_it_is: String,
         /// What would be right.
         advice: String,
     },
@@ -161,6 +161,18 @@ pub enum ModelError {
         slider: String,
         /// The relative speed across the master [length/time].
         speed: f64,
+    },
+    /// A slider between places that are held already.
+    #[error(
+        "slider '{slider}': {slave} and its place on the beam '{beam}' are both held already, so that the contact force is not determined; remove the slider or a support"
+    )]
+    HeldBesides {
+        /// The slider.
+        slider: String,
+        /// The slave.
+        slave: String,
+        /// The master.
+        beam: String,
     },
     /// Sliders that do not determine their forces.
     #[error(

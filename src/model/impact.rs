@@ -67,7 +67,7 @@ impl Model {
         Direction { slider, unit: perpendicular(unit) }
     }
 
-    fn overdetermined(&self) -> ModelError {
+    pub(super) fn overdetermined(&self) -> ModelError {
         let names: Vec<&str> = self.sliders.iter().map(|slider| slider.name.as_str()).collect();
         ModelError::Overdetermined { sliders: names.join("', '") }
     }
@@ -91,7 +91,6 @@ impl Model {
                 rates
             })
             .collect();
-        let product = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
         let mut response = BandedMatrix::zeros(count, count.saturating_sub(1));
         for (row, forces) in transmitted.iter().enumerate() {
             for (column, rates) in answers.iter().enumerate() {
@@ -116,6 +115,20 @@ impl Model {
         let reactions = self.reactions(&residual, 1.0);
         self.exchanged += reactions;
         Ok(())
+    }
+
+    /// How velocities across the masters answer to unit impulses across them: `G M⁻¹ Gᵀ`.
+    pub(super) fn response_across(&self) -> Result<Vec<Vec<f64>>, crate::linalg::LinearError> {
+        let mut inertia = self.inertia();
+        let inertia = inertia.factorise()?;
+        let transmitted: Vec<Vec<f64>> =
+            (0..self.sliders.len()).map(|at| self.transmit(&self.across(at))).collect();
+        let answers = transmitted.iter().map(|forces| {
+            let mut rates = forces[..self.unknowns].to_vec();
+            inertia.solve(&mut rates);
+            transmitted.iter().map(|forces| product(&rates, forces)).collect()
+        });
+        Ok(answers.collect())
     }
 
     /// The inertia matrix.
@@ -147,6 +160,11 @@ impl Model {
         }
         forces
     }
+}
+
+/// The scalar product, as long as the shorter one.
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 impl Sliding {

@@ -11,6 +11,7 @@ mod measures;
 mod mechanism;
 mod numbering;
 mod queries;
+mod redundancy;
 mod scene;
 mod sliders;
 mod sliding;

@@ -73,15 +73,13 @@ impl Scene {
                 best / length
             )
         };
-        Err(ModelError::OpenSlider {
-            slider: name(),
-            slave: slave(),
-            from: written(from),
-            to: written(to),
-            gap,
-            beam: beam(),
-            advice,
-        })
+        let where_it_is = format!(
+            "is at {}, {gap:.3e} from its place {} on the beam '{}'",
+            written(from),
+            written(to),
+            beam()
+        );
+        Err(ModelError::OpenSlider { slider: name(), slave: slave(), where_it_is, advice })
     }
 }
 
