@@ -39,13 +39,22 @@ pub struct Arrival {
     pub kind: ArrivalKind,
 }
 
+impl ArrivalKind {
+    /// A word for scripts.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Stopped => "stopped",
+            Self::Bounced => "bounced",
+            Self::Rested => "rested",
+            Self::Released => "released",
+        }
+    }
+}
+
 impl Arrival {
     /// In words: `slider 'ring' bounced off the end of its beam at t = 1.5`.
     pub fn describe(&self, slider: &str) -> String {
-        let end = match self.limit.end {
-            TrackEnd::Start => "start",
-            TrackEnd::End => "end",
-        };
+        let end = self.limit.end.name();
         let did = match self.kind {
             ArrivalKind::Stopped => "reached",
             ArrivalKind::Bounced => "bounced off",
@@ -218,6 +227,22 @@ impl Simulation {
         Ok(kind == ArrivalKind::Stopped)
     }
 
+    /// Lets every slider arrive at the end of its master, for a pretended run: scripts may wait for that.
+    pub(super) fn pretend_arrivals(&mut self) {
+        let time = self.model.time();
+        let arrival = |slider: usize| {
+            let kind = match self.model.end_action(slider) {
+                EndAction::Stop => ArrivalKind::Stopped,
+                EndAction::Bounce => ArrivalKind::Bounced,
+                EndAction::Release => ArrivalKind::Released,
+            };
+            Arrival { time, limit: TrackLimit { slider, end: TrackEnd::End }, kind }
+        };
+        let mut arrivals: Vec<Arrival> = (0..self.scene.sliders.len()).map(arrival).collect();
+        arrivals.sort_by_key(|arrival| arrival.kind == ArrivalKind::Stopped);
+        self.arrivals = arrivals;
+    }
+
     /// Sliders that reached the end of their masters so far.
     pub fn arrivals(&self) -> &[Arrival] {
         &self.arrivals
@@ -225,7 +250,8 @@ impl Simulation {
 
     /// Why the run has ended, if it has.
     pub fn ending(&self) -> Option<String> {
-        let stopped = self.arrivals.iter().find(|arrival| arrival.kind == ArrivalKind::Stopped)?;
+        // Nothing happens after a stop.
+        let stopped = self.arrivals.last().filter(|last| last.kind == ArrivalKind::Stopped)?;
         let name = &self.scene.sliders[stopped.limit.slider].name;
         Some(stopped.describe(name))
     }
