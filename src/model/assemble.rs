@@ -2,9 +2,11 @@
 
 use super::applied::{Action, AppliedLoad, Exchange, Follower, Pattern};
 use super::body::Body;
+use super::forecast::Forecast;
 use super::inertia::Lump;
-use super::mechanism::{Model, Motion, StepScales, Support};
+use super::mechanism::{Model, Support};
 use super::numbering::{Numbering, same_place};
+use super::scales::StepScales;
 use super::scene::BeamDefinition;
 use super::sliders::contact_unknowns;
 use super::tracker::Tracker;
@@ -84,17 +86,18 @@ impl Model {
             unknowns,
             half_bandwidth: numbering.half_bandwidth,
             is_rotation,
-            mean_rates: rates.clone(),
-            motion: Motion::Smooth,
-            inertia_diagonal: Vec::new(),
+            forecast: Forecast::new(&[], Vec::new()),
             rates,
             total_mass,
             time: 0.0,
             exchanged: Exchange::default(),
             step: StepScales::default(),
         };
-        model.inertia_diagonal = model.diagonal_of_inertia();
+        if !scene.sliders.is_empty() {
+            model.check_determined(scene)?;
+        }
         model.settle_start_velocities(scene.sliders.iter().map(|slider| slider.velocities))?;
+        model.forecast = Forecast::new(&model.rates, model.diagonal_of_inertia());
         Ok(model)
     }
 }
@@ -247,7 +250,8 @@ impl<'a> Assembly<'a> {
         | LoadKind::Force { station, frame: Frame::Follower, .. } = &load.kind
             && let BodyIndex::Particle(_) = station.body
         {
-            return Err(ModelError::ParticleTurned { joint: load.name.clone() });
+            let advice = "only a force of fixed direction can act on it";
+            return Err(ModelError::ParticleTurned { object: load.name.clone(), advice });
         }
         let action = match &load.kind {
             LoadKind::Force { station, force, frame: Frame::Dead } => {
@@ -324,7 +328,7 @@ impl<'a> Assembly<'a> {
                     };
                     if (value - expected).abs() > SAME_VELOCITY * size.max(expected.abs()) {
                         return Err(ModelError::StartVelocity {
-                            beam: definition.name.clone(),
+                            body: format!("beam '{}'", definition.name),
                             place: format!("joint ({component})"),
                             velocity: value,
                             other,
@@ -336,6 +340,11 @@ impl<'a> Assembly<'a> {
         let mut rates: Vec<f64> =
             rates.into_iter().map(|rate| rate.map_or(0.0, |(_, value)| value)).collect();
         for velocity in &self.scene.velocities {
+            if velocity.station.beam().is_none() && velocity.spin.is_some() {
+                let object =
+                    format!("start velocity of {}", self.scene.describe(&velocity.station));
+                return Err(ModelError::ParticleTurned { object, advice: "leave out the spin" });
+            }
             let place = self.place(&velocity.station)?;
             let (body, point) = (place.body, place.nearest_control_point());
             let values = [Some(velocity.velocity.x), Some(velocity.velocity.y), velocity.spin];
@@ -345,7 +354,7 @@ impl<'a> Assembly<'a> {
                     (Some(value), Some(rate)) => *rate = value,
                     (Some(value), None) if value != 0.0 => {
                         return Err(ModelError::StartVelocity {
-                            beam: self.scene.name_at(&velocity.station).to_owned(),
+                            body: self.scene.name_of_body(&velocity.station),
                             place: format!("support ({component})"),
                             velocity: value,
                             other: "the ground there does not move".to_owned(),

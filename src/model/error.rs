@@ -9,21 +9,27 @@ use crate::geometry::GeometryError;
 pub enum ModelError {
     /// There is nothing to simulate.
     #[error(
-        "the scene '{scene}' has no beams; add one with scene.beam(#{{ axis: …, section: … }})"
+        "the scene '{scene}' has no beams and no particles; add one with scene.beam(#{{ axis: …, section: … }}) or scene.particle([x, y], mass)"
     )]
     Empty {
         /// Its name.
         scene: String,
     },
     /// A name that nobody could read.
-    #[error("{name:?} is no name for a beam; use letters, numbers and spaces")]
+    #[error("{name:?} is no name for a {kind}; use letters, numbers and spaces")]
     Unnamed {
+        /// What should be called that.
+        kind: &'static str,
         /// The name.
         name: String,
     },
-    /// Two beams of the same name.
-    #[error("the scene already has a beam '{name}'; give this one another name")]
+    /// Two things of the same name.
+    #[error("the scene already has a {kind} '{name}'; give this {new} another name")]
     DuplicateName {
+        /// What is called that.
+        kind: &'static str,
+        /// What should be called that as well.
+        new: &'static str,
         /// The name.
         name: String,
     },
@@ -40,16 +46,16 @@ pub enum ModelError {
         length: f64,
     },
     /// A joint of a place with itself.
-    #[error("{joint}: both stations are the same place of beam '{beam}'; a joint needs two places")]
+    #[error("{joint}: both stations are the same place of {body}; a joint needs two places")]
     JointWithItself {
         /// The joint.
         joint: String,
-        /// The beam.
-        beam: String,
+        /// The beam or particle.
+        body: String,
     },
     /// Partners that do not meet.
     #[error(
-        "{joint}: its stations at {from} and {to} are {gap} apart; they must lie at the same place when the scene starts: move a beam"
+        "{joint}: its stations at {from} and {to} are {gap} apart; they must lie at the same place when the scene starts: move one of them"
     )]
     OpenJoint {
         /// The joint.
@@ -79,11 +85,11 @@ pub enum ModelError {
     },
     /// Start velocities that tied things do not share.
     #[error(
-        "beam '{beam}' starts with a velocity of {velocity} at its {place}, but {other}; give it a start velocity that fits (velocity, spin, about)"
+        "{body} starts with a velocity of {velocity} at its {place}, but {other}; give it a start velocity that fits"
     )]
     StartVelocity {
-        /// The beam.
-        beam: String,
+        /// The beam or particle.
+        body: String,
         /// Which component of which place.
         place: String,
         /// Its value.
@@ -91,11 +97,13 @@ pub enum ModelError {
         /// What it is tied to.
         other: String,
     },
-    /// A rigid joint at a particle.
-    #[error("{joint}: a particle does not turn; use scene.hinge(…), or scene.mass(…) on the beam")]
+    /// A joint, load, inertia or spin that would turn a particle.
+    #[error("{object}: a particle does not turn; {advice}")]
     ParticleTurned {
-        /// The joint or load.
-        joint: String,
+        /// What would turn it.
+        object: String,
+        /// What would be right.
+        advice: &'static str,
     },
     /// A sliding joint that cannot be.
     #[error(transparent)]

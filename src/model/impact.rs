@@ -12,13 +12,9 @@ use crate::geometry::{Vec2, perpendicular};
 use crate::integrators::Mechanism;
 use crate::joints::StartVelocities;
 use crate::linalg::{BandedLu, BandedMatrix, LinearError};
-use nalgebra::DMatrix;
 
 /// Largest start velocity across the master, relative to the velocities there.
 const SAME_VELOCITY: f64 = 1e-9;
-
-/// How independent the answers to impulses at different sliders must be, relative to their size.
-const DETERMINED: f64 = 1e-12;
 
 /// The component of a relative velocity on which an impulse acts.
 struct Direction {
@@ -39,9 +35,9 @@ impl Model {
                 StartVelocities::Project => is_projected = true,
             }
         }
-        let across: Vec<Direction> = (0..self.sliders.len()).map(|at| self.across(at)).collect();
-        self.check_determined(&across)?;
         if is_projected {
+            let across: Vec<Direction> =
+                (0..self.sliders.len()).map(|at| self.across(at)).collect();
             // Projection: the impulses take the velocities across away (Gauss's principle of least constraint).
             self.strike(&across, -1.0).map_err(|_| self.overdetermined())?;
         }
@@ -61,23 +57,6 @@ impl Model {
         });
         let directions: Vec<Direction> = directions.collect();
         self.strike(&directions, -2.0).map_err(|_| self.overdetermined())
-    }
-
-    /// Whether every slider can move its slave and its master against each other, whatever the others do.
-    fn check_determined(&self, across: &[Direction]) -> Result<(), ModelError> {
-        if across.is_empty() {
-            return Ok(());
-        }
-        let mut inertia = self.inertia();
-        let inertia = inertia.factorise().map_err(|_| self.overdetermined())?;
-        let answers = self.answers(&inertia, across);
-        let entry = |row: usize, column: usize| product(&answers[column].1, &answers[row].0);
-        let scale = |at: usize| entry(at, at).sqrt().max(f64::MIN_POSITIVE);
-        let relative = DMatrix::from_fn(across.len(), across.len(), |row, column| {
-            let slack = if row == column { DETERMINED } else { 0.0 };
-            entry(row, column) / (scale(row) * scale(column)) - slack
-        });
-        relative.cholesky().map(|_| ()).ok_or_else(|| self.overdetermined())
     }
 
     /// What unit impulses transmit, and how the velocities answer.
@@ -104,7 +83,7 @@ impl Model {
         Direction { slider, unit: perpendicular(unit) }
     }
 
-    fn overdetermined(&self) -> ModelError {
+    pub(super) fn overdetermined(&self) -> ModelError {
         let names: Vec<&str> = self.slider_names().collect();
         SliderError::Overdetermined { sliders: names.join("', '") }.into()
     }
@@ -133,12 +112,20 @@ impl Model {
         }
         // What is left of `M (v⁺ - v⁻) - Gᵀ P` at supports is their impulse.
         self.add_inertia_of_all(1.0, &change, &mut residual);
-        for rates in [&mut self.rates, &mut self.mean_rates] {
-            rates.iter_mut().zip(&change).for_each(|(rate, change)| *rate += change);
-        }
+        self.rates.iter_mut().zip(&change).for_each(|(rate, change)| *rate += change);
+        self.forecast.jump(&change);
         let reactions = self.reactions(&residual, 1.0);
         self.exchanged += reactions;
         Ok(())
+    }
+
+    /// How velocities across the masters answer to unit impulses across them: `G M⁻¹ Gᵀ`.
+    pub(super) fn response_across(&self) -> Result<Vec<Vec<f64>>, LinearError> {
+        let across: Vec<Direction> = (0..self.sliders.len()).map(|at| self.across(at)).collect();
+        let mut inertia = self.inertia();
+        let answers = self.answers(&inertia.factorise()?, &across);
+        let row = |rates| answers.iter().map(|(forces, _)| product(rates, forces)).collect();
+        Ok(answers.iter().map(|(_, rates)| row(rates)).collect())
     }
 
     /// The inertia matrix.

@@ -2,11 +2,13 @@
 
 use super::applied::{AppliedLoad, Exchange, Pattern, collocation};
 use super::body::Body;
+use super::forecast::Forecast;
 use super::inertia::Lump;
 use super::measures::{Energy, Measures};
+use super::scales::{StepScales, largest, relative};
 use super::sliding::{LANDED, Sliding, TrackEnd};
 use super::tracker::Tracker;
-use crate::beams::{ForceSummary, Mesh, Place, RotationIncrement};
+use crate::beams::{ForceSummary, Mesh, Place};
 use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Interval, Mechanism, Overshoot, Solution, Stage, StepError};
 use crate::joints::{CONTACT_UNKNOWNS, Component};
@@ -41,10 +43,7 @@ pub struct Model {
     /// Which unknowns are rotations.
     pub(super) is_rotation: Vec<bool>,
     pub(super) rates: Vec<f64>,
-    /// Of the last step: increments over duration.
-    pub(super) mean_rates: Vec<f64>,
-    pub(super) motion: Motion,
-    pub(super) inertia_diagonal: Vec<f64>,
+    pub(super) forecast: Forecast,
     pub(super) total_mass: f64,
     pub(super) time: f64,
     pub(super) exchanged: Exchange,
@@ -52,59 +51,7 @@ pub struct Model {
     pub(super) scratch: Vec<f64>,
 }
 
-/// The interval of the current step and the forces met in it, to which a residual is compared.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct StepScales {
-    pub(super) interval: Interval,
-    inertia: (f64, f64),
-    loads: (f64, f64),
-    summary: ForceSummary,
-    rotations: RotationIncrement,
-}
-
-/// What the next step is best guessed from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Motion {
-    /// The rates at its start.
-    Smooth,
-    /// The mean rates of the last step: those at its end alternate from step to step.
-    Rough,
-}
-
-impl Default for StepScales {
-    fn default() -> Self {
-        Self {
-            interval: Interval::between(0.0, 0.0),
-            inertia: (0.0, 0.0),
-            loads: (0.0, 0.0),
-            summary: ForceSummary::default(),
-            rotations: RotationIncrement::TangentScaled,
-        }
-    }
-}
-
-/// The largest magnitudes among positions and among rotations.
-fn largest(values: &[f64], is_rotation: &[bool]) -> (f64, f64) {
-    values.iter().zip(is_rotation).fold((0.0, 0.0), |(force, moment), (value, rotation)| {
-        if *rotation {
-            (force, larger(moment, value.abs()))
-        } else {
-            (larger(force, value.abs()), moment)
-        }
-    })
-}
-
-/// A residual compared with the forces that should balance it; nothing is nothing, whatever it is compared with.
-fn relative(residual: f64, scale: f64) -> f64 {
-    if residual == 0.0 { 0.0 } else { residual / scale }
-}
-
 impl Model {
-    /// The sum of the largest forces of every kind in this step [force].
-    fn force_scale(&self) -> f64 {
-        self.step.summary.force + self.step.inertia.0 + self.step.loads.0
-    }
-
     pub(super) fn add_inertia_of_all(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
         self.bodies.iter_mut().for_each(|body| body.add_inertia(factor, rates, out));
         self.lumps
@@ -217,23 +164,6 @@ impl Model {
         sum
     }
 
-    /// Finds the guess that would have been the better one for the step just taken, in the norm of the kinetic energy.
-    fn learn(&mut self, increments: &[f64]) {
-        let inverse = 1.0 / self.step.interval.duration();
-        let (mut missed_by_start, mut missed_by_mean) = (0.0, 0.0);
-        let guesses = self.rates.iter().zip(&mut self.mean_rates);
-        for ((u, (rate, mean)), inertia) in
-            increments.iter().zip(guesses).zip(&self.inertia_diagonal)
-        {
-            let found = u * inverse;
-            missed_by_start += inertia * (found - rate).powi(2);
-            missed_by_mean += inertia * (found - *mean).powi(2);
-            *mean = found;
-        }
-        self.motion =
-            if missed_by_mean <= missed_by_start { Motion::Rough } else { Motion::Smooth };
-    }
-
     /// The ends of masters at which sliders could arrive: two for each.
     fn limits(&self) -> impl Iterator<Item = (usize, &Sliding, TrackEnd)> {
         let ends = |slider| [(slider, TrackEnd::Start), (slider, TrackEnd::End)];
@@ -267,10 +197,7 @@ impl Mechanism for Model {
     }
 
     fn expected_rates(&self) -> &[f64] {
-        match self.motion {
-            Motion::Smooth => &self.rates,
-            Motion::Rough => &self.mean_rates,
-        }
+        self.forecast.rates(&self.rates)
     }
 
     fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), StepError> {
@@ -371,17 +298,14 @@ impl Mechanism for Model {
 
     fn relative_imbalance(&self, residual: &[f64]) -> f64 {
         let (force, moment) = largest(residual, &self.is_rotation);
-        let StepScales { inertia, loads, summary, .. } = &self.step;
-        let force = relative(force, self.force_scale());
-        let moment = relative(moment, summary.moment + inertia.1 + loads.1);
-        larger(force, moment)
+        larger(relative(force, self.step.force()), relative(moment, self.step.moment()))
     }
 
     fn relative_violation(&self, residual: &[f64]) -> f64 {
         let equations = &residual[self.unknowns..];
         self.sliders.iter().fold(0.0, |largest, slider| {
             let (length, force) = slider.violation(equations);
-            larger(largest, larger(length, relative(force, self.force_scale())))
+            larger(largest, larger(length, relative(force, self.step.force())))
         })
     }
 
@@ -420,7 +344,7 @@ impl Mechanism for Model {
         }
         self.bodies.iter_mut().for_each(|body| body.advance(rotations));
         self.sliders.iter_mut().for_each(|slider| slider.advance(&self.bodies, constraints));
-        self.learn(increments);
+        self.forecast.learn(&self.rates, increments, self.step.interval.duration());
         self.rates.copy_from_slice(rates);
         self.time = self.step.interval.end;
     }

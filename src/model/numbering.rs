@@ -70,12 +70,13 @@ pub(super) fn check_ties(scene: &Scene) -> Result<(), ModelError> {
             Partner::Station(other) => vec![joint.station, *other],
         };
         if joint.kind == JointKind::Rigid && stations.iter().any(|at| at.beam().is_none()) {
-            return Err(ModelError::ParticleTurned { joint: joint.name.clone() });
+            let advice = "use scene.hinge(…), or scene.mass(…) on the beam";
+            return Err(ModelError::ParticleTurned { object: joint.name.clone(), advice });
         }
         if let Partner::Station(other) = &joint.partner {
             if partner == Some(place) {
-                let beam = scene.name_at(&joint.station).to_owned();
-                return Err(ModelError::JointWithItself { joint: joint.name.clone(), beam });
+                let body = scene.name_of_body(&joint.station);
+                return Err(ModelError::JointWithItself { joint: joint.name.clone(), body });
             }
             check_closed(scene, &joint.name, &joint.station, other)?;
         }

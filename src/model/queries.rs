@@ -1,6 +1,5 @@
 //! Looking at a model: places, angles, and its state as numbers.
 
-use super::mechanism::Motion;
 use super::{Model, Scene};
 use crate::beams::{Mesh, Place, Station};
 use crate::geometry::Vec2;
@@ -63,8 +62,7 @@ impl Model {
             vec![self.time, sums.work, sums.impulse.x, sums.impulse.y, sums.angular_impulse];
         state.extend([sums.gross_impulse, sums.gross_angular_impulse]);
         state.extend(&self.rates);
-        state.extend(&self.mean_rates);
-        state.push(if self.motion == Motion::Rough { 1.0 } else { 0.0 });
+        self.forecast.save(&mut state);
         self.bodies.iter().for_each(|body| body.dynamics.save(&mut state));
         self.all_trackers().for_each(|tracker| tracker.save(&mut state));
         self.sliders.iter().for_each(|slider| slider.save(&mut state));
@@ -85,8 +83,7 @@ impl Model {
         self.exchanged.gross_impulse = next();
         self.exchanged.gross_angular_impulse = next();
         self.rates.iter_mut().for_each(|rate| *rate = next());
-        self.mean_rates.iter_mut().for_each(|rate| *rate = next());
-        self.motion = if next() == 0.0 { Motion::Smooth } else { Motion::Rough };
+        self.forecast.restore(next);
         self.bodies.iter_mut().for_each(|body| body.dynamics.restore(next));
         self.all_trackers_mut().for_each(|tracker| tracker.restore([next(), next(), next()]));
         self.sliders.iter_mut().for_each(|slider| slider.restore(next));

@@ -116,7 +116,7 @@ impl Scene {
     /// # Errors
     /// When something of that name exists, or the name is empty or cannot be printed.
     pub fn add_beam(&mut self, beam: BeamDefinition) -> Result<usize, ModelError> {
-        self.check_name(&beam.name)?;
+        self.check_name("beam", &beam.name)?;
         self.beams.push(beam);
         Ok(self.beams.len() - 1)
     }
@@ -130,7 +130,7 @@ impl Scene {
         particle: ParticleDefinition,
         mass: f64,
     ) -> Result<Station, ModelError> {
-        self.check_name(&particle.name)?;
+        self.check_name("particle", &particle.name)?;
         self.particles.push(particle);
         let station = Station::on_particle(self.particles.len() - 1);
         self.add_mass(PointMass { station, mass, rotary_inertia: 0.0 }).inspect_err(|_| {
@@ -144,33 +144,35 @@ impl Scene {
     /// # Errors
     /// When something of that name exists, the slave is not on the master or part of it, or it slides there already.
     pub fn add_slider(&mut self, slider: Slider) -> Result<usize, ModelError> {
-        self.check_name(&slider.name)?;
+        self.check_name("slider", &slider.name)?;
         self.check_slider(&slider)?;
         self.sliders.push(slider);
         Ok(self.sliders.len() - 1)
     }
 
-    fn names(&self) -> impl Iterator<Item = &String> {
-        let beams = self.beams.iter().map(|beam| &beam.name);
-        let particles = self.particles.iter().map(|particle| &particle.name);
-        beams.chain(particles).chain(self.sliders.iter().map(|slider| &slider.name))
+    /// What everything with a name is, and its name.
+    fn names(&self) -> impl Iterator<Item = (&'static str, &String)> {
+        let beams = self.beams.iter().map(|beam| ("beam", &beam.name));
+        let particles = self.particles.iter().map(|particle| ("particle", &particle.name));
+        let sliders = self.sliders.iter().map(|slider| ("slider", &slider.name));
+        beams.chain(particles).chain(sliders)
     }
 
-    fn check_name(&self, name: &str) -> Result<(), ModelError> {
+    fn check_name(&self, new: &'static str, name: &str) -> Result<(), ModelError> {
         let name = || name.to_owned();
         if name().trim().is_empty() || name().chars().any(char::is_control) {
-            return Err(ModelError::Unnamed { name: name() });
+            return Err(ModelError::Unnamed { kind: new, name: name() });
         }
-        if self.names().any(|other| *other == name()) {
-            return Err(ModelError::DuplicateName { name: name() });
+        match self.names().find(|(_, other)| **other == name()) {
+            Some((kind, _)) => Err(ModelError::DuplicateName { kind, new, name: name() }),
+            None => Ok(()),
         }
-        Ok(())
     }
 
     /// The first of `kind1`, `kind2`, … that nothing in the scene is called.
     pub fn free_name(&self, kind: &str) -> String {
         let mut names = (1..).map(|number| format!("{kind}{number}"));
-        names.find(|name| self.names().all(|other| other != name)).unwrap_or_default()
+        names.find(|name| self.names().all(|(_, other)| other != name)).unwrap_or_default()
     }
 
     /// The station of a beam at an arc length; it is followed from the start.
@@ -237,6 +239,10 @@ impl Scene {
                 allowed,
             });
         }
+        if mass.rotary_inertia > 0.0 && mass.station.beam().is_none() {
+            let advice = "leave out the rotary inertia";
+            return Err(ModelError::ParticleTurned { object: object(), advice });
+        }
         self.masses.push(mass);
         Ok(())
     }
@@ -290,27 +296,24 @@ impl Scene {
         }
     }
 
-    /// The name of the body that a station is on.
-    pub fn name_at(&self, station: &Station) -> &str {
+    /// The body that a station is on, in words.
+    pub fn name_of_body(&self, station: &Station) -> String {
         match station.body {
-            BodyIndex::Beam(beam) => &self.beams[beam].name,
-            BodyIndex::Particle(particle) => &self.particles[particle].name,
+            BodyIndex::Beam(beam) => format!("beam '{}'", self.beams[beam].name),
+            BodyIndex::Particle(particle) => {
+                format!("particle '{}'", self.particles[particle].name)
+            }
         }
     }
 
     /// A station in words.
     pub fn describe(&self, station: &Station) -> String {
-        let beam = match station.body {
-            BodyIndex::Beam(beam) => &self.beams[beam],
-            BodyIndex::Particle(particle) => {
-                return format!("particle '{}'", self.particles[particle].name);
-            }
-        };
-        let length = beam.axis.length();
+        let (body, length) = (self.name_of_body(station), self.length_at(station));
         match station.arc_length {
-            0.0 => format!("the start of beam '{}'", beam.name),
-            s if s == length => format!("the end of beam '{}'", beam.name),
-            s => format!("station {s} of beam '{}'", beam.name),
+            _ if station.beam().is_none() => body,
+            0.0 => format!("the start of {body}"),
+            s if s == length => format!("the end of {body}"),
+            s => format!("station {s} of {body}"),
         }
     }
 }

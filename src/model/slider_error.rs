@@ -59,9 +59,15 @@ pub enum SliderError {
         /// The relative speed across the master [length/time].
         speed: f64,
     },
+    /// A slider between places that are held already.
+    #[error(
+        "slider '{}': {} and its place on the beam '{}' are both held already, so that the contact force is not determined; remove the slider or a support",
+        _0.slider, _0.slave, _0.beam
+    )]
+    HeldBesides(SliderParts),
     /// Sliders that do not determine their forces.
     #[error(
-        "the sliders '{sliders}' hold each other, or all that they connect is held: their contact forces are not determined; remove one of them, or a support"
+        "the sliders '{sliders}' hold each other: their contact forces are not determined; remove one of them, or a support"
     )]
     Overdetermined {
         /// Their names.

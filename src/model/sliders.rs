@@ -71,7 +71,7 @@ impl Scene {
         Err(SliderError::Open { parts, from: written(from), to: written(to), gap, advice }.into())
     }
 
-    fn parts(&self, slider: &Slider) -> SliderParts {
+    pub(super) fn parts(&self, slider: &Slider) -> SliderParts {
         SliderParts {
             slider: slider.name.clone(),
             slave: self.describe(&slider.slave),

@@ -23,6 +23,14 @@ pub enum TrackEnd {
 }
 
 impl TrackEnd {
+    /// A word for messages and scripts.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Start => "start",
+            Self::End => "end",
+        }
+    }
+
     /// The sign of `dξ/dt` with which it is reached.
     pub(super) fn outward(self) -> f64 {
         match self {
@@ -41,6 +49,17 @@ pub enum SliderState {
     Held(TrackEnd),
     /// It has left its master.
     Released,
+}
+
+impl SliderState {
+    /// A word for reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sliding => "sliding",
+            Self::Held(_) => "held",
+            Self::Released => "released",
+        }
+    }
 }
 
 /// A slider with its contact.

@@ -1,4 +1,4 @@
-//! Pictures of motion: the shapes of beams at several times, one over the other, early ones pale and late ones dark.
+//! Pictures of motion: beams and particles at several times, one over the other, early ones pale and late ones dark.
 
 use super::{
     axis::{Axis, extent},
@@ -14,6 +14,7 @@ use super::{
 const LINE: f64 = 2.0;
 const TRACE: f64 = 1.4;
 const MARK: f64 = 2.4;
+const PARTICLE: f64 = 4.5;
 /// The width of the plot that a lone picture aims at, and the limits of its height and least width.
 const WIDTH: f64 = 740.0;
 const HEIGHTS: (f64, f64) = (220.0, 700.0);
@@ -30,6 +31,8 @@ pub struct Snapshot {
     pub lines: Vec<Vec<Point>>,
     /// Places marked by dots: knots, nodes, joints.
     pub marks: Vec<Point>,
+    /// Bodies without extent, drawn as larger dots.
+    pub particles: Vec<Point>,
 }
 
 /// Snapshots of a motion in the plane. One unit of x is as long on the paper as one unit of y.
@@ -108,10 +111,9 @@ impl MotionPicture {
     }
 
     fn points(&self) -> impl Iterator<Item = Point> {
-        let snapshots = self
-            .snapshots
-            .iter()
-            .flat_map(|snapshot| snapshot.lines.iter().flatten().chain(&snapshot.marks));
+        let snapshots = self.snapshots.iter().flat_map(|snapshot| {
+            snapshot.lines.iter().flatten().chain(&snapshot.marks).chain(&snapshot.particles)
+        });
         let points =
             snapshots.chain(self.traces.iter().flat_map(|(_, points)| points)).chain(&self.window);
         points.copied().filter(|(x, y)| x.is_finite() && y.is_finite())
@@ -197,8 +199,10 @@ impl MotionPicture {
             }
         }
         let shade = if self.beam_count() > 1 { tint(INK, part) } else { self.colour(0, part) };
-        for mark in frame_marks(frame, plot, &snapshot.marks) {
-            canvas.disc(mark, MARK, shade);
+        for (places, radius) in [(&snapshot.marks, MARK), (&snapshot.particles, PARTICLE)] {
+            for place in frame_marks(frame, plot, places) {
+                canvas.disc(place, radius, shade);
+            }
         }
     }
 }
@@ -254,7 +258,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn snapshot(time: f64, lines: Vec<Vec<Point>>) -> Snapshot {
-        Snapshot { time, lines, marks: Vec::new() }
+        Snapshot { time, lines, ..Snapshot::default() }
     }
 
     #[test]
@@ -301,7 +305,8 @@ mod tests {
             let mut picture = MotionPicture::new("").beams(["a", "b"]).trace("tip", points.clone());
             for &time in &times {
                 let lines = vec![points.clone(); points.len() % 3];
-                picture = picture.snapshot(Snapshot { time, lines, marks: points.clone() });
+                let (marks, particles) = (points.clone(), points.clone());
+                picture = picture.snapshot(Snapshot { time, lines, marks, particles });
             }
             let figure = picture.figure().unwrap();
             figure.to_png().unwrap();

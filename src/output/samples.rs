@@ -29,6 +29,7 @@ fn tumbling(time: f64, bend: f64) -> Snapshot {
         time,
         lines: vec![line],
         marks: (0..=7).map(|i| place(f64::from(i) / 7.0)).collect(),
+        ..Snapshot::default()
     }
 }
 
@@ -83,7 +84,8 @@ fn two_beams() -> MotionPicture {
         Snapshot {
             time,
             lines: vec![vec![(0.0, 0.0), elbow], vec![elbow, tip]],
-            marks: vec![(0.0, 0.0), elbow, tip],
+            marks: vec![(0.0, 0.0), elbow],
+            particles: vec![tip],
         }
     };
     let times = (0..=6).map(|i| 0.25 * f64::from(i));

@@ -3,6 +3,7 @@
 use rhai::{Array, Dynamic, FnPtr, INT, ImmutableString};
 
 use super::error::ScriptError;
+use super::kind::Kind;
 use super::options::Options;
 use super::parameter::Parameter;
 use crate::geometry::Vec2;
@@ -89,6 +90,16 @@ impl Arguments {
     /// A map of options.
     pub fn options(&self, name: &str) -> Result<Options, ScriptError> {
         self.get(name)
+    }
+
+    /// A map of options that may be left out: then all of its keys have their defaults.
+    pub fn options_or_defaults(&self, name: &str) -> Result<Options, ScriptError> {
+        match self.parameters.iter().find(|parameter| parameter.name == name) {
+            Some(Parameter { kind: Kind::Options(keys), .. }) if !self.has(name) => {
+                Ok(Options::defaults(keys))
+            }
+            _ => self.options(name),
+        }
     }
 
     /// A value of a native type; handles are cloned, which is cheap.

@@ -26,6 +26,11 @@ impl Deref for Options {
 }
 
 impl Options {
+    /// Those of a map in which nothing is given.
+    pub fn defaults(keys: &'static [Parameter]) -> Self {
+        Self { arguments: Arguments::new(keys, Vec::new()) }
+    }
+
     /// Checks `map` against `keys` on behalf of `owner`.
     pub fn read(
         engine: &Engine,

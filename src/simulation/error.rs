@@ -37,6 +37,22 @@ pub enum SimulationError {
         /// Why the last try failed.
         source: StepError,
     },
+    /// No step that ends with the arrival of a slider was found.
+    #[error(
+        "slider '{slider}' arrives at the {end} of its beam soon after t = {time}, but no step that ends there was found, down to dt/{divisions} (dt = {dt:e}); try a smaller dt, or ends: \"release\" or \"stop\""
+    )]
+    Landing {
+        /// The slider.
+        slider: String,
+        /// The end of its master.
+        end: &'static str,
+        /// The end of the last good step.
+        time: f64,
+        /// The step of the grid.
+        dt: f64,
+        /// By what the step was divided at last.
+        divisions: u64,
+    },
     /// A load has no value; no smaller step helps.
     #[error("{source}")]
     Load {

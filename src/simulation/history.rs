@@ -65,7 +65,7 @@ impl Invariant {
 pub struct Scales {
     /// The mass of everything.
     pub mass: f64,
-    /// A length of the scene.
+    /// A length of the scene; zero when it has none, such as a lone particle at the origin.
     pub length: f64,
     /// The energy that rounding of the strains stands for: no drift is relative to less.
     pub rounding_energy: f64,
@@ -172,6 +172,7 @@ impl History {
         let Scales { mass, length, rounding_energy } = self.scales;
         let kinetic = largest(&|row| row.energy.kinetic).max(rounding_energy);
         let motion = (2.0 * mass * kinetic).sqrt();
+        let length = if length > 0.0 { length } else { largest(&|row| row.time) * motion / mass };
         let scale = match invariant {
             Invariant::Energy => largest(&|row| row.energy.kinetic + row.energy.strain)
                 .max(largest(&|row| row.energy.potential - first.energy.potential))

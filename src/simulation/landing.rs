@@ -39,13 +39,22 @@ pub struct Arrival {
     pub kind: ArrivalKind,
 }
 
+impl ArrivalKind {
+    /// A word for scripts.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Stopped => "stopped",
+            Self::Bounced => "bounced",
+            Self::Rested => "rested",
+            Self::Released => "released",
+        }
+    }
+}
+
 impl Arrival {
     /// In words: `slider 'ring' bounced off the end of its beam at t = 1.5`.
     pub fn describe(&self, slider: &str) -> String {
-        let end = match self.limit.end {
-            TrackEnd::Start => "start",
-            TrackEnd::End => "end",
-        };
+        let end = self.limit.end.name();
         let did = match self.kind {
             ArrivalKind::Stopped => "reached",
             ArrivalKind::Bounced => "bounced off",
@@ -222,6 +231,24 @@ impl Simulation {
         let ends = kind == ArrivalKind::Stopped;
         self.last_arrival = ends.then_some(arrival);
         Ok(ends)
+    }
+
+    /// Lets every slider arrive at the end of its master, for a pretended run: scripts may wait for that.
+    pub(super) fn pretend_arrivals(&mut self) {
+        let time = self.model.time();
+        let arrival = |slider: usize| {
+            let kind = match self.model.end_action(slider) {
+                EndAction::Stop => ArrivalKind::Stopped,
+                EndAction::Bounce => ArrivalKind::Bounced,
+                EndAction::Release => ArrivalKind::Released,
+            };
+            Arrival { time, limit: TrackLimit { slider, end: TrackEnd::End }, kind }
+        };
+        let mut arrivals: Vec<Arrival> = (0..self.scene.sliders.len()).map(arrival).collect();
+        arrivals.sort_by_key(|arrival| arrival.kind == ArrivalKind::Stopped);
+        self.last_arrival =
+            arrivals.last().filter(|last| last.kind == ArrivalKind::Stopped).copied();
+        self.arrivals = arrivals;
     }
 
     /// Sliders that reached the end of their masters so far.

@@ -1,4 +1,4 @@
-//! How the beams look: lines to draw, and marks at knots or nodes.
+//! How beams and particles look: lines to draw, and marks at knots or nodes.
 
 use crate::beams::{Mesh, Place};
 use crate::geometry::Vec2;
@@ -23,6 +23,8 @@ pub struct Configuration {
     pub lines: Vec<Vec<Vec2>>,
     /// Knots or nodes of all beams.
     pub marks: Vec<Vec2>,
+    /// Where the particles are.
+    pub particles: Vec<Vec2>,
 }
 
 impl Outline {
@@ -53,13 +55,14 @@ impl Outline {
         scene.beams.iter().zip(meshes).enumerate().map(of_beam).collect()
     }
 
-    /// The lines and marks of control points of all beams, one beam after another.
+    /// The lines and marks of the control points of all bodies: one beam after another, then the particles.
     pub fn draw(outlines: &[Self], time: f64, control_points: &[&[Vec2]]) -> Configuration {
         let at = |place: &Place| place.interpolate(control_points[place.body]);
         Configuration {
             time,
             lines: outlines.iter().map(|outline| outline.line.iter().map(at).collect()).collect(),
             marks: outlines.iter().flat_map(|outline| outline.marks.iter().map(at)).collect(),
+            particles: control_points[outlines.len()..].iter().flat_map(|of| of.to_vec()).collect(),
         }
     }
 }

@@ -236,6 +236,9 @@ impl Simulation {
             self.history.push(sample, extra_values(&self.scene, &self.model));
             self.trajectory.push(next, coordinates(&self.model));
         }
+        if rows > 0 {
+            self.pretend_arrivals();
+        }
         Ok(())
     }
 
@@ -314,13 +317,7 @@ impl Simulation {
                     self.counts.factorisations += source.factorisations();
                     retries += 1;
                     if halvings == MOST_HALVINGS {
-                        let divisions = 1 << halvings;
-                        return Err(SimulationError::Step {
-                            time: self.time(),
-                            dt: whole.duration(),
-                            divisions,
-                            source,
-                        });
+                        return Err(self.no_step(whole.duration(), 1 << halvings, source));
                     }
                     halvings += 1;
                 }
@@ -330,6 +327,17 @@ impl Simulation {
             }
         }
         Ok(Covered::All)
+    }
+
+    /// The error of steps that failed in every size.
+    fn no_step(&self, dt: f64, divisions: u64, source: StepError) -> SimulationError {
+        let time = self.time();
+        if let StepError::Overshoot { overshoot, .. } = &source {
+            let limit = self.model.limit(overshoot.limit);
+            let slider = self.scene.sliders[limit.slider].name.clone();
+            return SimulationError::Landing { slider, end: limit.end.name(), time, dt, divisions };
+        }
+        SimulationError::Step { time, dt, divisions, source }
     }
 
     fn take_landing(

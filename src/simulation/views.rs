@@ -6,7 +6,7 @@ use crate::geometry::Vec2;
 use crate::model::ModelError;
 
 impl Simulation {
-    /// The place of a station on the mesh of its beam.
+    /// The place of a station on its body.
     ///
     /// # Errors
     /// When it lies outside its beam.
@@ -43,11 +43,11 @@ impl Simulation {
             .map(|xy| Vec2::new(xy[0], xy[1]))
             .collect();
         let mut rest = points.as_slice();
-        let beams: Vec<&[Vec2]> = self
+        let bodies: Vec<&[Vec2]> = self
             .model
             .control_points()
-            .map(|beam| {
-                let (own, others) = rest.split_at(beam.len());
+            .map(|body| {
+                let (own, others) = rest.split_at(body.len());
                 rest = others;
                 own
             })
@@ -59,6 +59,6 @@ impl Simulation {
                 self.outlines.get_or_init(|| outlines)
             }
         };
-        Ok(Some(Outline::draw(outlines, self.trajectory.times()[index], &beams)))
+        Ok(Some(Outline::draw(outlines, self.trajectory.times()[index], &bodies)))
     }
 }

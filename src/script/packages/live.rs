@@ -24,6 +24,8 @@ struct Live {
     events: RefCell<Vec<(f64, FnPtr)>>,
     /// While an event is called, no other may be set for the same time.
     is_firing: Cell<bool>,
+    /// Whether the user knows that the run ended earlier than the script wanted.
+    is_ending_told: Cell<bool>,
 }
 
 /// How far a script goes on.
@@ -56,6 +58,7 @@ impl SimulationHandle {
             name,
             scene,
             is_firing: Cell::new(false),
+            is_ending_told: Cell::new(false),
             simulation: RefCell::new(simulation),
             events: RefCell::default(),
         };
@@ -115,15 +118,37 @@ impl SimulationHandle {
         context.progress().begin(&self.0.name, now, end);
         let outcome = match (context.mode(), goal) {
             (Mode::DryBuild, _) => self.pretend(call, end),
-            (Mode::Run, Goal::Steps(steps)) => (0..*steps).try_for_each(|_| {
-                let stepped = self.0.simulation.borrow_mut().step(&mut Watch(context));
-                stepped.map_err(|error| explain(error, context))?;
-                self.fire_due(call)
-            }),
+            (Mode::Run, Goal::Steps(steps)) => self.take_steps(call, *steps),
             (Mode::Run, Goal::Time(_)) => self.run_to(call, end),
         };
         context.progress().end();
         outcome
+    }
+
+    fn take_steps(&self, call: &Call, steps: usize) -> Result<(), ScriptError> {
+        for taken in 0..steps {
+            // A script that asks for a step after the end is wrong; one that asks for some too many is told.
+            if taken > 0 && self.has_ended() {
+                self.tell_ending(call.context(), &format!("before it had taken {steps} steps"));
+                break;
+            }
+            let stepped = self.0.simulation.borrow_mut().step(&mut Watch(call.context()));
+            stepped.map_err(|error| explain(error, call.context()))?;
+            self.fire_due(call)?;
+        }
+        Ok(())
+    }
+
+    fn has_ended(&self) -> bool {
+        self.simulation().ending().is_some()
+    }
+
+    /// Tells once that a run ended earlier than the script wanted.
+    fn tell_ending(&self, context: &Context, when: &str) {
+        let ending = self.simulation().ending().filter(|_| !self.0.is_ending_told.replace(true));
+        if let Some(ending) = ending {
+            context.tell(&format!("note: simulation '{}' ended {when}: {ending}", self.0.name));
+        }
     }
 
     fn run_to(&self, call: &Call, end: f64) -> Result<(), ScriptError> {
@@ -133,6 +158,11 @@ impl SimulationHandle {
             let ran = self.0.simulation.borrow_mut().run_to(stop, &mut Watch(call.context()));
             ran.map_err(|error| explain(error, call.context()))?;
             self.fire_due(call)?;
+            if self.has_ended() && self.time() < end {
+                let when = format!("before t = {}", format_number(end));
+                self.tell_ending(call.context(), &when);
+                return Ok(());
+            }
             // An event may have gone further by itself.
             if self.time() >= end || stop >= end || stop.is_nan() {
                 return Ok(());
@@ -175,7 +205,7 @@ fn explain(error: SimulationError, context: &Context) -> ScriptError {
             None => ScriptError::from(error).hint("a load needs a finite value at all times"),
         },
         SimulationError::Step { .. } => ScriptError::from(error).hint(
-            "the history up to there is kept; try a smaller dt or a finer mesh, and check loads, stiffness and units",
+            "the history up to there is kept; try a smaller dt or a finer mesh, and check loads, stiffness, units and what is held",
         ),
         error => error.into(),
     }
@@ -188,14 +218,16 @@ impl Scripted for SimulationHandle {
     fn show(&self) -> String {
         let simulation = self.simulation();
         let (counts, settings) = (simulation.counts(), simulation.settings());
+        let ended = simulation.ending().map(|ending| format!("; ended: {ending}"));
         format!(
-            "simulation '{}' at t = {} after {} steps, {}, dt = {}, {} unknowns",
+            "simulation '{}' at t = {} after {} steps, {}, dt = {}, {} unknowns{}",
             self.0.name,
             format_number(simulation.time()),
             counts.steps,
             settings.method.entry().name,
             format_number(settings.dt),
             simulation.unknowns(),
+            ended.unwrap_or_default(),
         )
     }
 }

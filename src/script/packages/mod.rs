@@ -14,6 +14,7 @@ mod scenes;
 mod schedules;
 mod sections;
 mod simulations;
+mod sliding;
 mod text;
 mod vectors;
 mod windows;
@@ -36,6 +37,7 @@ pub const TABLES: &[&Table] = &[
     &scenes::TABLE,
     &loads::TABLE,
     &simulations::TABLE,
+    &sliding::TABLE,
     &histories::TABLE,
     &pictures::TABLE,
 ];

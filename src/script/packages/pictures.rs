@@ -32,7 +32,7 @@ pub const TABLE: Table = Table {
     constants: &[],
     rows: &[
         function("plot_motion", &[MOVING, FILE, options("options", MOTION).optional()], plot_motion)
-            .summary("Draws snapshots of the motion in one picture, knots or nodes marked, axes equal.")
+            .summary("Draws snapshots of the motion in one picture, knots or nodes marked, particles as dots, axes equal.")
             .example("sim.run_to(2);\nplot_motion(sim, \"spin.svg\", #{ every: 0.5, trace: [rod.end] });")
             .see(&["plot_history"]),
         function("plot_history", &[RECORDED, COLUMNS, FILE, options("options", HISTORY_OPTIONS).optional()], plot_history)
@@ -51,7 +51,7 @@ pub const TABLE: Table = Table {
             .summary("Writes all columns of the history as CSV, every digit kept.")
             .example("sim.run_to(1);\nwrite_history(sim, \"spin.csv\");"),
         function("write_states", &[either("of", &[Kind::Object(SIMULATION)]), FILE], write_states)
-            .summary("Writes the control points (or nodes) of all beams over time as CSV.")
+            .summary("Writes the control points (or nodes) of all beams, and the particles, over time as CSV.")
             .example("sim.run_to(1);\nwrite_states(sim, \"points.csv\");"),
     ],
 };
@@ -132,11 +132,9 @@ fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic, ScriptErro
 
 fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let simulations = things(call, as_simulation)?;
-    let options = if call.has("options") { Some(call.options("options")?) } else { None };
-    let mut pictures = simulations
-        .iter()
-        .map(|of| motion(call, of, options.as_ref()))
-        .collect::<Result<Vec<_>, _>>()?;
+    let options = call.options_or_defaults("options")?;
+    let mut pictures =
+        simulations.iter().map(|of| motion(call, of, &options)).collect::<Result<Vec<_>, _>>()?;
     match pictures.len() {
         1 => write_picture(call, &pictures.remove(0)),
         _ => write_picture(call, &MotionPicture::side_by_side(pictures)),
@@ -146,9 +144,9 @@ fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
 fn motion(
     call: &Call,
     of: &SimulationHandle,
-    options: Option<&Options>,
+    options: &Options,
 ) -> Result<MotionPicture, ScriptError> {
-    let given = |name: &str| options.and_then(|options| options.number_if_given(name));
+    let given = |name: &str| options.number_if_given(name);
     let simulation = of.simulation();
     let (from, to) = (given("from").unwrap_or(0.0), given("to").unwrap_or(simulation.time()));
     let every = given("every").unwrap_or_else(|| ((to - from) / 20.0).max(f64::MIN_POSITIVE));
@@ -165,9 +163,7 @@ fn motion(
             .error(format!("{count} snapshots are too many for a picture"))
             .hint("choose a larger `every`"));
     }
-    let title = options
-        .and_then(|options| options.text("title").ok())
-        .map_or_else(|| of.name().to_owned(), |t| t.to_string());
+    let title = options.text("title").map_or_else(|_| of.name().to_owned(), |t| t.to_string());
     let mut picture = MotionPicture::new(title)
         .beams(simulation.scene().beams.iter().map(|beam| beam.name.clone()));
     let plain = |point: &crate::geometry::Vec2| (point.x, point.y);
@@ -181,12 +177,11 @@ fn motion(
                     .map(|line| line.iter().map(plain).collect())
                     .collect(),
                 marks: configuration.marks.iter().map(plain).collect(),
+                particles: configuration.particles.iter().map(plain).collect(),
             });
         }
     }
-    for station in options.map_or(Ok(Array::new()), |o| {
-        if o.has("trace") { o.array("trace") } else { Ok(Array::new()) }
-    })? {
+    for station in if options.has("trace") { options.array("trace")? } else { Array::new() } {
         let station: StationHandle = station.try_cast().ok_or_else(|| {
             call.error("trace must be an array of stations")
                 .hint("for example trace: [rod.end]")
@@ -212,9 +207,8 @@ fn write_charts(call: &Call, charts: Vec<LineChart>) -> Result<Dynamic, ScriptEr
 }
 
 fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let options = if call.has("options") { Some(call.options("options")?) } else { None };
-    let is_asked =
-        |name: &str| options.as_ref().is_some_and(|options| options.boolean(name).unwrap_or(false));
+    let options = call.options_or_defaults("options")?;
+    let is_asked = |name: &str| options.boolean(name).unwrap_or(false);
     let (scale, shown): (_, fn(f64) -> f64) = match is_asked("logarithmic") {
         true => (Scale::Logarithmic, f64::abs),
         false => (Scale::Linear, |value| value),
@@ -223,8 +217,8 @@ fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let histories = histories(call)?;
     let names = columns(call, &histories)?;
     let chart = |of: &HistoryHandle| {
-        let title = options.as_ref().and_then(|options| options.text("title").ok());
-        let title = title.map_or_else(|| of.of.name().to_owned(), |title| title.to_string());
+        let title = options.text("title");
+        let title = title.map_or_else(|_| of.of.name().to_owned(), |title| title.to_string());
         of.read(|history| {
             let chart = LineChart::new(title).x_label("t").y_label(label(history, &names));
             names.iter().fold(chart.y_scale(scale), |chart, name| {
@@ -312,15 +306,21 @@ fn write_states(call: &mut Call) -> Result<Dynamic, ScriptError> {
         things(call, as_simulation)?.try_into().map_err(|_| call.error("takes one simulation"))?;
     let simulation = of.simulation();
     let trajectory = simulation.trajectory();
-    let names = simulation.scene().beams.iter().zip(simulation.model().control_points()).flat_map(
-        |(beam, points)| {
+    let scene = simulation.scene();
+    let of_beams =
+        scene.beams.iter().zip(simulation.model().control_points()).flat_map(|(beam, points)| {
             (0..points.len()).flat_map(move |point| {
                 ["x", "y"].map(|axis| format!("{} {axis}{point} [length]", beam.name))
             })
-        },
-    );
+        });
+    let of_particles = scene
+        .particles
+        .iter()
+        .flat_map(|particle| ["x", "y"].map(|axis| format!("{} {axis} [length]", particle.name)));
+    let names = of_beams.chain(of_particles);
+    let comment = "control points (nodes) of all beams, and particles";
     let table = CsvTable::new()
-        .comment(format!("simulation: {}; control points (nodes) of all beams", of.name()))
+        .comment(format!("simulation: {}; {comment}", of.name()))
         .column("t [time]", trajectory.times().to_vec());
     let table = names.enumerate().fold(table, |table, (index, name)| {
         let values =

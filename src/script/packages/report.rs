@@ -26,6 +26,16 @@ impl Reporter for SimulationHandle {
             .iter()
             .map(|(name, of)| ((*name).to_owned(), json!(history.drift(*of))))
             .collect();
+        let slider = |(index, name): (usize, &str)| {
+            let force = model.contact_force(index);
+            json!({
+                "name": name,
+                "position": model.slider_position(scene, index),
+                "speed": model.slider_speed(scene, index),
+                "force": [force.x, force.y],
+                "state": model.slider_state(index).name(),
+            })
+        };
         json!({
             "name": self.name(),
             "steps": counts.steps,
@@ -44,6 +54,9 @@ impl Reporter for SimulationHandle {
             "energy": {
                 "kinetic": energy.kinetic, "strain": energy.strain, "potential": energy.potential, "total": energy.total(),
             },
+            "ended": simulation.ending(),
+            "events": simulation.arrivals().len(),
+            "sliders": model.slider_names().enumerate().map(slider).collect::<Vec<_>>(),
             "ends": ends.collect::<serde_json::Map<_, _>>(),
         })
     }

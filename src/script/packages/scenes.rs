@@ -1,4 +1,4 @@
-//! Scenes: beams, stations, supports and joints, masses and start velocities.
+//! Scenes: beams, particles, stations, supports and joints, masses and start velocities.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -11,7 +11,9 @@ use super::sections::{MESH_KINDS, SECTION, mesh_of};
 use crate::beams::{self, BodyIndex, Mesh, Station};
 use crate::geometry::Curve;
 use crate::joints::{JointKind, Partner};
-use crate::model::{BeamDefinition, PointMass, Scene, StartMotion, StationVelocity};
+use crate::model::{
+    BeamDefinition, ModelError, ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity,
+};
 use crate::output::significant;
 use crate::script::call::Call;
 use crate::script::error::{Place, ScriptError};
@@ -22,7 +24,7 @@ use crate::script::table::{Table, function, method, property};
 /// Scenes and what stands in them.
 pub const TABLE: Table = Table {
     name: "scenes",
-    doc: "A scene is a description: beams, joints, masses and loads. scene.start(…) makes a simulation of it.",
+    doc: "A scene is a description: beams, particles, joints, masses and loads. scene.start(…) makes a simulation of it.",
     types: &[SCENE, BEAM, STATION],
     setup: ROD,
     constants: &[],
@@ -44,6 +46,18 @@ pub const TABLE: Table = Table {
             )
             .example("let mast = scene.beam(#{ name: \"mast\", axis: line([0, 0], [0, 3]), section: s });\nprint(mast);")
             .see(&["section", "bspline", "line"]),
+        method(SCENE, "particle", &[point("position").unit("length"), number("mass").unit("mass"), options("options", PARTICLE_KEYS).optional()], particle)
+            .returns("a station")
+            .summary("Adds a point mass that moves by itself; what is returned is its only station.")
+            .doc(
+                "The station takes forces, hinges, velocities and sliders; a particle does not turn, so it takes no moment, clamp or \
+                 rigid joint. Particles are called particle1, particle2, … unless they get a name.",
+            )
+            .example(
+                "let stone = scene.particle([0, 3], 0.5, #{ name: \"stone\", velocity: [1, 0] });\n\
+                 scene.gravity([0, -9.81]);\nprint(stone);",
+            )
+            .see(&["slider", "mass"]),
         property(BEAM, "start", |call| station(call, |_| 0.0))
             .returns("a station")
             .summary("The station at its start.")
@@ -146,6 +160,10 @@ const BEAM_KEYS: &[Parameter] = &[
         .doc("the point it turns about at the start; its centre of mass unless given")
         .optional(),
 ];
+const PARTICLE_KEYS: &[Parameter] = &[
+    text("name").optional(),
+    point("velocity").unit("length/time").doc("at the start; at rest unless given").optional(),
+];
 
 /// A scene that a script holds.
 #[derive(Clone)]
@@ -177,24 +195,28 @@ impl SceneHandle {
 
     /// The station of a handle, if it is one of this scene.
     pub fn own(&self, handle: &StationHandle) -> Result<Station, ScriptError> {
-        if Rc::ptr_eq(&self.0, &handle.scene.0) {
-            return Ok(handle.station);
+        self.expect_same(&handle.scene, "station")?;
+        Ok(handle.station)
+    }
+
+    /// Refuses a thing of another scene; `what` is the kind of the thing.
+    pub fn expect_same(&self, other: &Self, what: &str) -> Result<(), ScriptError> {
+        if Rc::ptr_eq(&self.0, &other.0) {
+            return Ok(());
         }
-        let (mine, other) = (self.0.borrow().name.clone(), handle.scene.0.borrow().name.clone());
-        Err(ScriptError::new(format!(
-            "the station belongs to the scene '{other}', not to '{mine}'"
-        ))
-        .hint("use a station of a beam of this scene"))
+        let (mine, other) = (&self.0.borrow().name, &other.0.borrow().name);
+        let told = match mine == other {
+            true => format!("the {what} belongs to another scene that is called '{other}' too"),
+            false => format!("the {what} belongs to the scene '{other}', not to '{mine}'"),
+        };
+        Err(ScriptError::new(told).hint(format!("use a {what} of this scene")))
     }
 }
 
 impl BeamHandle {
     /// The index of the beam, if it is one of the scene.
     pub fn own(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
-        scene.own(&StationHandle {
-            scene: self.scene.clone(),
-            station: Station::on_beam(self.index, 0.0),
-        })?;
+        scene.expect_same(&self.scene, "beam")?;
         Ok(self.index)
     }
 
@@ -225,7 +247,7 @@ impl StationHandle {
         if !known {
             let told = format!("{} was added after the scene was started", self.show());
             return Err(
-                ScriptError::new(told).hint("add all beams before scene.start(…), or start again")
+                ScriptError::new(told).hint("add everything before scene.start(…), or start again")
             );
         }
         Ok(simulation.place(&self.station)?)
@@ -234,18 +256,18 @@ impl StationHandle {
 
 impl Scripted for SceneHandle {
     const NAME: &'static str = "scene";
-    const DOC: &'static str = "A description of beams, joints, masses and loads.";
+    const DOC: &'static str = "A description of beams, particles, joints, masses and loads.";
 
     fn show(&self) -> String {
         let scene = self.0.borrow();
-        let count = |number: usize, what: &str| {
+        let count = |(number, what): (usize, &str)| {
             format!("{number} {what}{}", if number == 1 { "" } else { "s" })
         };
-        let parts = [
-            count(scene.beams.len(), "beam"),
-            count(scene.joints.len(), "joint"),
-            count(scene.loads.len(), "load"),
-        ];
+        let always = [(scene.beams.len(), "beam")];
+        let if_any = [(scene.particles.len(), "particle"), (scene.sliders.len(), "slider")];
+        let last = [(scene.joints.len(), "joint"), (scene.loads.len(), "load")];
+        let some = if_any.into_iter().filter(|(number, _)| *number > 0);
+        let parts: Vec<String> = always.into_iter().chain(some).chain(last).map(count).collect();
         format!("scene '{}' with {}", scene.name, parts.join(", "))
     }
 }
@@ -268,7 +290,7 @@ impl Scripted for BeamHandle {
 
 impl Scripted for StationHandle {
     const NAME: &'static str = "station";
-    const DOC: &'static str = "A place on a beam.";
+    const DOC: &'static str = "A place on a beam, or a particle.";
 
     fn show(&self) -> String {
         self.scene.0.borrow().describe(&self.station)
@@ -309,6 +331,27 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let added = scene.0.borrow_mut().add_beam(definition);
     let index = added.map_err(|error| ScriptError::from(error).at(Place::Key("name".into())))?;
     Ok(Dynamic::from(BeamHandle { scene, index }))
+}
+
+fn particle(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let scene = call.receiver::<SceneHandle>()?;
+    let options = call.options_or_defaults("options")?;
+    let name = options.text("name").map(|name| name.to_string());
+    let definition = ParticleDefinition {
+        name: name.unwrap_or_else(|_| scene.0.borrow().free_name("particle")),
+        position: call.point("position")?,
+    };
+    let added = scene.0.borrow_mut().add_particle(definition, call.number("mass")?);
+    let station = added.map_err(|error| match error {
+        ModelError::Value { .. } => ScriptError::from(error).at(Place::Argument(1)),
+        _ => ScriptError::from(error).at(Place::Key("name".into())),
+    })?;
+    if options.has("velocity") {
+        let velocity = options.point("velocity")?;
+        let moving = StationVelocity { station, velocity, spin: None };
+        scene.0.borrow_mut().velocities.push(moving);
+    }
+    Ok(Dynamic::from(StationHandle { scene, station }))
 }
 
 fn station(call: &mut Call, arc_length: impl FnOnce(f64) -> f64) -> Result<Dynamic, ScriptError> {

@@ -250,11 +250,14 @@ fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let station = call.get::<StationHandle>("station")?;
     station.on(&handle)?;
+    if station.station().beam().is_none() {
+        let told = format!("{} does not turn: it has no angle", station.show());
+        return Err(call.error(told).hint("ask for the angle at a station of a beam"));
+    }
     let simulation = handle.simulation();
-    simulation.model().angle(simulation.scene(), &station.station()).map(Dynamic::from).ok_or_else(
-        || {
-            call.error(format!("the angle at {} was not followed", station.show()))
-                .hint("make the station with beam.at(s) before scene.start(…)")
-        },
-    )
+    let angle = simulation.model().angle(simulation.scene(), &station.station());
+    angle.map(Dynamic::from).ok_or_else(|| {
+        call.error(format!("the angle at {} was not followed", station.show()))
+            .hint("make the station with beam.at(s) before scene.start(…)")
+    })
 }

@@ -1,0 +1,85 @@
+//! With which rates the next step is best guessed.
+
+/// What the next step is best guessed from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Motion {
+    /// The rates at its start.
+    Smooth,
+    /// The mean rates of the last step: those at its end alternate from step to step.
+    Rough,
+}
+
+/// The mean motion of the last step, and whether that or its end tells more about the next one.
+#[derive(Debug, Clone)]
+pub(super) struct Forecast {
+    /// Increments over duration.
+    mean_rates: Vec<f64>,
+    motion: Motion,
+    /// The diagonal of the inertia matrix.
+    inertia: Vec<f64>,
+}
+
+impl Forecast {
+    /// Before the first step.
+    pub(super) fn new(rates: &[f64], inertia: Vec<f64>) -> Self {
+        Self { mean_rates: rates.to_vec(), motion: Motion::Smooth, inertia }
+    }
+
+    /// The rates to go on with, given those at the start of the step.
+    pub(super) fn rates<'a>(&'a self, at_start: &'a [f64]) -> &'a [f64] {
+        match self.motion {
+            Motion::Smooth => at_start,
+            Motion::Rough => &self.mean_rates,
+        }
+    }
+
+    /// Learns from the increments of a step and the rates at its start, which guess would have been the better one for
+    /// it, in the norm of the kinetic energy.
+    pub(super) fn learn(&mut self, at_start: &[f64], increments: &[f64], duration: f64) {
+        let inverse = 1.0 / duration;
+        let (mut missed_by_start, mut missed_by_mean) = (0.0, 0.0);
+        let guesses = at_start.iter().zip(&mut self.mean_rates);
+        for ((u, (rate, mean)), inertia) in increments.iter().zip(guesses).zip(&self.inertia) {
+            let found = u * inverse;
+            missed_by_start += inertia * (found - rate).powi(2);
+            missed_by_mean += inertia * (found - *mean).powi(2);
+            *mean = found;
+        }
+        self.motion =
+            if missed_by_mean <= missed_by_start { Motion::Rough } else { Motion::Smooth };
+    }
+
+    /// Takes over a sudden change of all rates.
+    pub(super) fn jump(&mut self, change: &[f64]) {
+        self.mean_rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
+    }
+
+    pub(super) fn save(&self, state: &mut Vec<f64>) {
+        state.extend(&self.mean_rates);
+        state.push(if self.motion == Motion::Rough { 1.0 } else { 0.0 });
+    }
+
+    pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.mean_rates.iter_mut().for_each(|rate| *rate = next());
+        self.motion = if next() == 0.0 { Motion::Smooth } else { Motion::Rough };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_that_alternate_are_averaged_and_rates_that_grow_are_not() {
+        let mut forecast = Forecast::new(&[0.0], vec![1.0]);
+        for step in 0..5 {
+            let (start, end) = (f64::from(step), f64::from(step + 1));
+            forecast.learn(&[start], &[0.5 * (start + end)], 1.0);
+        }
+        assert_eq!(forecast.rates(&[5.0]), [5.0]);
+        for sign in [1.0, -1.0, 1.0] {
+            forecast.learn(&[3.0 + sign], &[3.0], 1.0);
+        }
+        assert_eq!(forecast.rates(&[4.0]), [3.0]);
+    }
+}

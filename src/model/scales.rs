@@ -1,0 +1,55 @@
+//! The forces met in a step, to which its residual is compared.
+
+use crate::beams::{ForceSummary, RotationIncrement};
+use crate::geometry::larger;
+use crate::integrators::Interval;
+
+/// The interval of the current step, and the largest force and moment of each kind in it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StepScales {
+    pub(super) interval: Interval,
+    pub(super) inertia: (f64, f64),
+    pub(super) loads: (f64, f64),
+    pub(super) summary: ForceSummary,
+    pub(super) rotations: RotationIncrement,
+}
+
+impl Default for StepScales {
+    fn default() -> Self {
+        Self {
+            interval: Interval::between(0.0, 0.0),
+            inertia: (0.0, 0.0),
+            loads: (0.0, 0.0),
+            summary: ForceSummary::default(),
+            rotations: RotationIncrement::TangentScaled,
+        }
+    }
+}
+
+impl StepScales {
+    /// The sum of the largest forces of every kind [force].
+    pub(super) fn force(&self) -> f64 {
+        self.summary.force + self.inertia.0 + self.loads.0
+    }
+
+    /// The sum of the largest moments of every kind [force·length].
+    pub(super) fn moment(&self) -> f64 {
+        self.summary.moment + self.inertia.1 + self.loads.1
+    }
+}
+
+/// The largest magnitudes among positions and among rotations.
+pub(super) fn largest(values: &[f64], is_rotation: &[bool]) -> (f64, f64) {
+    values.iter().zip(is_rotation).fold((0.0, 0.0), |(force, moment), (value, rotation)| {
+        if *rotation {
+            (force, larger(moment, value.abs()))
+        } else {
+            (larger(force, value.abs()), moment)
+        }
+    })
+}
+
+/// A residual compared with the forces that should balance it; nothing is nothing, whatever it is compared with.
+pub(super) fn relative(residual: f64, scale: f64) -> f64 {
+    if residual == 0.0 { 0.0 } else { residual / scale }
+}

@@ -1,0 +1,299 @@
+//! Sliding joints: rules, sliders of a scene, and what a simulation says about them.
+
+use rhai::{Array, Dynamic, Map};
+
+use super::live::SimulationHandle;
+use super::scenes::{BEAM, BeamHandle, SCENE, STATION, SceneHandle, here};
+use super::simulations::SIMULATION;
+use crate::beams::Station;
+use crate::joints::{EndAction, Slider, SlidingRule, StartVelocities};
+use crate::model::{Model, ModelError, Scene, SliderError};
+use crate::output::significant;
+use crate::script::call::Call;
+use crate::script::error::{Place, ScriptError};
+use crate::script::kind::{Scripted, Type};
+use crate::script::parameter::{Parameter, Presence, choice, number, object, options, text};
+use crate::script::table::{Row, Table, function, method, property};
+use crate::simulation::Arrival;
+
+/// Sliding joints.
+pub const TABLE: Table = Table {
+    name: "sliding joints",
+    doc: "A slider keeps a station, the end of a beam or a particle, on the axis of another beam, along which it slides without \
+          friction. Its rule says how a step does that; its history has NAME.position, NAME.speed, NAME.force, NAME.force_x and \
+          NAME.force_y.",
+    types: &[RULE, SLIDER],
+    setup: "let scene = new_scene(\"example\");\n\
+            let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 1 });\n\
+            let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });\n\
+            scene.clamp(rod.start);\n\
+            scene.gravity([0, -10]);\n\
+            let bead = scene.particle([0.5, 0], 1, #{ name: \"bead\", velocity: [1, 0] });\n\
+            let ring = scene.slider(bead, rod, #{ name: \"ring\" });\n\
+            let sim = scene.start(#{ dt: 0.05 });",
+    constants: &[],
+    rows: &[
+        rule("conserving", |_| Ok(Dynamic::from(SlidingRule::Conserving)))
+            .summary("The rule that keeps everything at any step size; the default.")
+            .doc("Keeps energy, linear momentum, angular momentum and the gap to rounding. withy, docs/theory.md, section 10.")
+            .see(&["exact", "relaxed", "slider"]),
+        rule("exact", |_| Ok(Dynamic::from(SlidingRule::Exact)))
+            .summary("For comparison: the slave is exactly on the beam at the end of a step; angular momentum is lost at second order.")
+            .doc("Keeps energy, linear momentum and the gap to rounding. Sibileau & Muñoz, equations 15 and 17.")
+            .see(&["conserving", "relaxed"]),
+        rule("relaxed", |_| Ok(Dynamic::from(SlidingRule::Relaxed)))
+            .summary("For comparison: the slave is on the beam in the mean of a step; the gap drifts, and a step may have no solution.")
+            .doc("Keeps energy, linear momentum and angular momentum to rounding. Sibileau & Muñoz, equations 11 to 14.")
+            .see(&["conserving", "exact"]),
+        method(SCENE, "slider", &[object("station", STATION), object("beam", BEAM), options("options", SLIDER_KEYS).optional()], slider)
+            .returns("a slider")
+            .summary("Lets a station, the end of another beam or a particle, slide along a beam.")
+            .doc(
+                "The joint must close at the start: the station lies on the beam as drawn, at `at`. Where the beam ends, the run \
+                 stops, or the slider bounces off, or is released. A station held by the ground is an eyelet through which the \
+                 beam slides. Sliders are called slider1, slider2, … unless they get a name.",
+            )
+            .example(
+                "let hook = scene.beam(#{ name: \"hook\", axis: line([1, 0], [1, 1]), basis: bspline(4), section: s });\n\
+                 let runner = scene.slider(hook.start, rod, #{ at: 0.5, rule: conserving(), ends: \"bounce\" });\n\
+                 print(runner);",
+            )
+            .see(&["particle", "conserving", "contact_force"]),
+        property(SLIDER, "name", |call| Ok(call.receiver::<SliderHandle>()?.name().into()))
+            .returns("a text")
+            .summary("Its name.")
+            .example("check(ring.name == \"ring\");"),
+        method(SIMULATION, "contact_force", &[WHICH], |call| {
+            asked(call, |model, _, slider| Dynamic::from(model.contact_force(slider)))
+        })
+        .returns("a vector [force]")
+        .summary("The force that a slider put on its beam in the last step, the mean of the step; its station got the opposite.")
+        .doc(
+            "Zero before the first step and after a release. From step to step it may alternate about its mean; in the history, \
+             averaged(\"ring.force\") is free of that.",
+        )
+        .example("check(norm(sim.contact_force(ring)) == 0);\nsim.step();\ncheck(sim.contact_force(ring).y < 0);")
+        .see(&["slider_position", "averaged"]),
+        method(SIMULATION, "slider_position", &[WHICH], |call| {
+            asked(call, |model, scene, slider| model.slider_position(scene, slider).into())
+        })
+        .returns("a number")
+        .summary("Where a slider is on its beam: 0 at the start, 1 at the end, by length as drawn.")
+        .example("check_close(sim.slider_position(ring), 0.25, 1e-12);")
+        .see(&["slider_speed"]),
+        method(SIMULATION, "slider_speed", &[WHICH], |call| {
+            asked(call, |model, scene, slider| model.slider_speed(scene, slider).into())
+        })
+        .returns("a number [length/time]")
+        .summary("How fast a slider moves along its beam as drawn, positive towards the end.")
+        .example("check_close(sim.slider_speed(ring), 1, 1e-12);")
+        .see(&["slider_position"]),
+        property(SIMULATION, "ended", |call| Ok(call.receiver::<SimulationHandle>()?.simulation().ending().is_some().into()))
+            .returns("true or false")
+            .summary("Whether a slider has reached the end of its beam and ended the run.")
+            .example("while !sim.ended {\n    sim.step();\n}\ncheck(sim.ended);\ncheck_close(sim.slider_position(ring), 1, 1e-12);")
+            .see(&["ending", "slider"]),
+        property(SIMULATION, "ending", |call| {
+            Ok(call.receiver::<SimulationHandle>()?.simulation().ending().unwrap_or_default().into())
+        })
+        .returns("a text, empty while the run goes on")
+        .summary("Why the run has ended.")
+        .example("check(sim.ending == \"\");\nsim.run_to(5);\nprint(sim.ending);")
+        .see(&["ended", "events"]),
+        property(SIMULATION, "events", events)
+            .returns("an array of maps #{ t, slider, end, what }")
+            .summary("When sliders reached ends of their beams so far, and what happened there.")
+            .doc(
+                "slider is its name; end is \"start\" or \"end\"; what is \"stopped\", \"bounced\", \"rested\" (it stays against the \
+                 end until it is drawn away) or \"released\".",
+            )
+            .example("sim.run_to(5);\nfor event in sim.events {\n    print(`${event.slider} ${event.what} at the ${event.end}, t = ${event.t}`);\n}")
+            .see(&["ended", "slider"]),
+    ],
+};
+
+/// The type of rules.
+const RULE: Type = Type::of::<SlidingRule>();
+/// The slider type.
+const SLIDER: Type = Type::of::<SliderHandle>();
+
+const WHICH: Parameter = object("slider", SLIDER);
+const ENDS: [(&str, EndAction); 3] =
+    [("stop", EndAction::Stop), ("bounce", EndAction::Bounce), ("release", EndAction::Release)];
+const VELOCITIES: [(&str, StartVelocities); 2] =
+    [("check", StartVelocities::Check), ("project", StartVelocities::Project)];
+const SLIDER_KEYS: &[Parameter] = &[
+    number("at")
+        .between(0.0, 1.0)
+        .doc("where it starts, as a part of the length of the beam as drawn; the nearest place unless given")
+        .optional(),
+    object("rule", RULE).doc("conserving() unless given").optional(),
+    choice("ends", &[ENDS[0].0, ENDS[1].0, ENDS[2].0])
+        .doc("what happens where the beam ends: the run stops, the slider bounces off an elastic stop, or it flies free")
+        .or(Presence::Text("stop")),
+    choice("velocities", &[VELOCITIES[0].0, VELOCITIES[1].0])
+        .doc("start velocities across the beam: an error, or replaced by the nearest that fit")
+        .or(Presence::Text("check")),
+    text("name").optional(),
+];
+
+/// A slider of a scene.
+#[derive(Clone)]
+struct SliderHandle {
+    scene: SceneHandle,
+    index: usize,
+}
+
+impl SliderHandle {
+    fn name(&self) -> String {
+        self.scene.scene().borrow().sliders[self.index].name.clone()
+    }
+
+    /// Its index in a simulation, if that is one of its scene.
+    fn on(&self, handle: &SimulationHandle) -> Result<usize, ScriptError> {
+        handle.scene().expect_same(&self.scene, "slider")?;
+        if self.index < handle.simulation().scene().sliders.len() {
+            return Ok(self.index);
+        }
+        let told = format!("the slider '{}' was added after the scene was started", self.name());
+        Err(ScriptError::new(told).hint("add all sliders before scene.start(…), or start again"))
+    }
+}
+
+impl Scripted for SliderHandle {
+    const NAME: &'static str = "slider";
+    const DOC: &'static str = "A sliding joint of a scene.";
+
+    fn show(&self) -> String {
+        let scene = self.scene.scene().borrow();
+        let slider = &scene.sliders[self.index];
+        let master = &scene.beams[slider.master];
+        format!(
+            "slider '{}': {} on beam '{}' at {} of its length, {} rule",
+            slider.name,
+            scene.describe(&slider.slave),
+            master.name,
+            significant(slider.arc_length / master.axis.length(), 7),
+            slider.rule.entry().name
+        )
+    }
+}
+
+impl Scripted for SlidingRule {
+    const NAME: &'static str = "sliding rule";
+    const DOC: &'static str = "How a step keeps a slider on its beam.";
+
+    fn show(&self) -> String {
+        let entry = self.entry();
+        format!("{}: {}", entry.name, entry.summary)
+    }
+}
+
+const fn rule(name: &'static str, body: crate::script::table::Body) -> Row {
+    function(name, &[], body)
+        .returns("a sliding rule")
+        .example("for rule in [conserving(), exact(), relaxed()] {\n    print(rule);\n}")
+}
+
+fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (slave, scene) = here(call, "station")?;
+    let handle = call.receiver::<SceneHandle>()?;
+    let master = call.get::<BeamHandle>("beam")?.own(&handle)?;
+    let options = call.options_or_defaults("options")?;
+    let at = options.number_if_given("at");
+    let name = options.text("name").map(|name| name.to_string());
+    let definition = Slider {
+        name: name.unwrap_or_else(|_| scene.borrow().free_name("slider")),
+        slave,
+        master,
+        arc_length: start(&scene.borrow(), slave, master, at)?,
+        rule: options.get_if("rule").unwrap_or_default(),
+        ends: meant(&ENDS, &options.text("ends")?),
+        velocities: meant(&VELOCITIES, &options.text("velocities")?),
+    };
+    let added = scene.borrow_mut().add_slider(definition);
+    let index = added.map_err(|error| blame(error, at.is_some()))?;
+    Ok(Dynamic::from(SliderHandle { scene: handle, index }))
+}
+
+/// The arc length at which a slider starts: where it is said, or at the nearest place.
+fn start(scene: &Scene, slave: Station, master: usize, at: Option<f64>) -> Result<f64, ModelError> {
+    match at {
+        Some(part) => Ok(part * scene.beams[master].axis.length()),
+        None => scene.nearest_arc_length(master, &slave),
+    }
+}
+
+/// What one of the words of a choice stands for; a row lets no other words through.
+fn meant<T: Copy + Default>(words: &[(&str, T)], word: &str) -> T {
+    let found = words.iter().find(|(other, _)| *other == word);
+    found.map(|(_, meaning)| *meaning).unwrap_or_default()
+}
+
+/// Points at what is wrong in the call.
+fn blame(error: ModelError, is_placed: bool) -> ScriptError {
+    let place = match &error {
+        ModelError::Unnamed { .. } | ModelError::DuplicateName { .. } => Place::Key("name".into()),
+        ModelError::Slider(error) => match **error {
+            SliderError::Open { .. } if is_placed => Place::Key("at".into()),
+            SliderError::OnItself(_) => Place::Argument(1),
+            _ => Place::Argument(0),
+        },
+        _ => Place::Argument(0),
+    };
+    ScriptError::from(error).at(place)
+}
+
+/// Asks a model about the slider of a call.
+fn asked(
+    call: &Call,
+    ask: impl FnOnce(&Model, &Scene, usize) -> Dynamic,
+) -> Result<Dynamic, ScriptError> {
+    let handle = call.receiver::<SimulationHandle>()?;
+    let slider = call.get::<SliderHandle>("slider")?.on(&handle)?;
+    let simulation = handle.simulation();
+    Ok(ask(simulation.model(), simulation.scene(), slider))
+}
+
+fn events(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let handle = call.receiver::<SimulationHandle>()?;
+    let simulation = handle.simulation();
+    let event = |arrival: &Arrival| {
+        let slider = &simulation.scene().sliders[arrival.limit.slider].name;
+        let words = [
+            ("slider", slider.as_str()),
+            ("end", arrival.limit.end.name()),
+            ("what", arrival.kind.name()),
+        ];
+        let mut map: Map = words.into_iter().map(|(key, word)| (key.into(), word.into())).collect();
+        map.insert("t".into(), arrival.time.into());
+        Dynamic::from(map)
+    };
+    Ok(Dynamic::from(simulation.arrivals().iter().map(event).collect::<Array>()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::joints::SLIDING_RULES;
+
+    #[test]
+    fn every_rule_of_the_registry_has_a_row_with_its_claims_and_its_source() {
+        for entry in SLIDING_RULES {
+            let row = TABLE.rows.iter().find(|row| row.name == entry.name).unwrap();
+            let claims = [
+                (entry.claims.energy, "energy"),
+                (true, "linear momentum"),
+                (entry.claims.angular_momentum, "angular momentum"),
+                (entry.claims.gap, "the gap"),
+            ];
+            let kept: Vec<&str> =
+                claims.into_iter().filter(|(keeps, _)| *keeps).map(|(_, what)| what).collect();
+            let kept = match kept.as_slice() {
+                [first @ .., last] => format!("Keeps {} and {last} to rounding.", first.join(", ")),
+                [] => String::new(),
+            };
+            assert_eq!(row.doc, format!("{kept} {}.", entry.source), "{}", entry.name);
+        }
+    }
+}
