@@ -144,6 +144,12 @@ impl Model {
 
     /// The place of a slider along its master as drawn: 0 at its start, 1 at its end [-].
     pub fn slider_position(&self, scene: &Scene, slider: usize) -> f64 {
+        // Arrivals are a few digits short of the end, or beyond it.
+        match [TrackEnd::Start, TrackEnd::End].map(|end| self.sliders[slider].is_at(end)) {
+            [true, _] => return 0.0,
+            [_, true] => return 1.0,
+            _ => {}
+        }
         let axis = &scene.beams[self.sliders[slider].connection.master].axis;
         let along = axis.length_to(self.drawn_parameter(scene, slider));
         along.map_or(f64::NAN, |along| along / axis.length())
