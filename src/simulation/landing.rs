@@ -9,6 +9,10 @@ use crate::newton::NewtonReport;
 /// Most tries to find the time of an arrival; few are needed, the rest is for bad luck.
 const MOST_TRIES: usize = 60;
 
+/// A slider that is about to reach an end and as near to it as this, as a part of its master, has reached it: a step over what
+/// is left would make velocities out of the rounding of places.
+const NEAR: f64 = 1e-10;
+
 /// How often a step is halved to see whether a slider at an end leaves it for a while.
 const PROBES: i32 = 12;
 
@@ -169,8 +173,10 @@ impl Simulation {
         distance: f64,
     ) -> Result<Prospect, StepError> {
         let mut after = (interval.duration(), distance);
-        if !self.model.is_at(limit) {
-            let before = (0.0, -self.model.distance_to(limit));
+        let distance_left = self.model.distance_to(limit);
+        let has_reached = distance_left <= NEAR && self.model.leads_beyond(limit);
+        if !self.model.is_at(limit) && !has_reached {
+            let before = (0.0, -distance_left);
             return Ok(Prospect::Between(Bracket { before, after }));
         }
         if self.model.leads_beyond(limit) {
