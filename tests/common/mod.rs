@@ -1,10 +1,13 @@
 //! What several test files need: scenes, meshes, reference tables, random numbers.
 #![allow(dead_code, clippy::unwrap_used)]
 
+pub mod fixed_way;
 pub mod probe;
+pub mod rails;
 pub mod reference;
 pub mod scenes;
 pub mod sliding;
+pub mod sliding_scenes;
 pub mod statics;
 
 use withy::beams::{Mesh, Quadrature};

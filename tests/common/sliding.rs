@@ -3,9 +3,10 @@
 use super::at;
 use super::scenes::{add_beam, end_of, line};
 use withy::beams::{Mesh, Section, Station};
-use withy::geometry::Vec2;
+use withy::geometry::{Vec2, perpendicular};
 use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
-use withy::model::{ParticleDefinition, PointMass, Scene, StationVelocity};
+use withy::loads::{Frame, LoadKind, Schedule};
+use withy::model::{ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity};
 
 /// How point A of the free sliding mass is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,3 +77,50 @@ pub fn two_beams(meshes: [&Mesh; 2], axial: f64, support: Support, rule: Sliding
     scene.add_slider(slider(slave, ab, start, rule)).unwrap();
     scene
 }
+
+/// The same with a smooth start: a pulse on M gives it the momentum (-10, -10), from rest (references `P8s`).
+pub fn smoothly_pushed_mass(meshes: [&Mesh; 2], support: Support, rule: SlidingRule) -> Scene {
+    let mut scene = two_beams(meshes, 1e2, support, rule);
+    let station = end_of(&mut scene, 1);
+    let duration = 0.1;
+    let force = LoadKind::Force { station, force: at(-10.0, -10.0) / duration, frame: Frame::Dead };
+    scene.add_load(force, Schedule::smooth_pulse(duration).unwrap());
+    scene
+}
+
+/// A particle slides on the hinged beam AB of the paper, from 19/20 of it inwards with a speed of 5 along it, while both
+/// turn about A (references `P7`).
+pub fn sliding_particle(mesh: &Mesh, spin: f64, rule: SlidingRule) -> Scene {
+    let mut scene = Scene::new("sliding particle");
+    let b = at(3.0, 1.0);
+    let ab = add_beam(&mut scene, line(Vec2::zeros(), b), mesh, paper_section(1e2));
+    scene.beams[ab].motion =
+        StartMotion { velocity: Vec2::zeros(), spin, about: Some(Vec2::zeros()) };
+    hinge_start(&mut scene, ab);
+    let c = b * 0.95;
+    let station = particle(&mut scene, c, 1.0);
+    let velocity = perpendicular(c) * spin - b.normalize() * 5.0;
+    scene.velocities.push(StationVelocity { station, velocity, spin: None });
+    let start = 0.95 * scene.beams[ab].axis.length();
+    scene.add_slider(slider(station, ab, start, rule)).unwrap();
+    scene
+}
+
+/// The same without rotation at the start: a smooth moment at A bends the beam (reference `P7d`).
+pub fn kicked_sliding_particle(mesh: &Mesh, rule: SlidingRule) -> Scene {
+    let mut scene = sliding_particle(mesh, 0.0, rule);
+    let (station, duration) = (scene.station(0, 0.0).unwrap(), 0.2);
+    let moment = LoadKind::Moment { station, moment: 0.4 / duration };
+    scene.add_load(moment, Schedule::smooth_pulse(duration).unwrap());
+    scene
+}
+
+/// Meshes of beam AB (2 spans) and CM (4 spans): the paper's C¹ splines and Lagrange elements, and C² splines.
+pub fn paper_meshes() -> Vec<(&'static str, [Mesh; 2])> {
+    let bspline = |continuity| [2, 4].map(|spans| Mesh::bspline(spans, 3, continuity).unwrap());
+    let lagrange = [2, 4].map(|elements| Mesh::lagrange(elements, 3).unwrap());
+    vec![("cubic C1", bspline(1)), ("cubic C2", bspline(2)), ("cubic Lagrange", lagrange)]
+}
+
+/// The time step of the paper.
+pub const PAPER_STEP: f64 = 0.01067;

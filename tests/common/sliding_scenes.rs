@@ -1,0 +1,152 @@
+//! A scene for every way in which a slider may be part of a mechanism.
+
+use std::f64::consts::PI;
+
+use super::at;
+use super::scenes::{add_beam, end_of, line};
+use super::sliding::{
+    Support, free_sliding_mass, hinge_start, paper_section, particle, slider, sliding_particle,
+};
+use withy::beams::{Mesh, Station};
+use withy::geometry::{Curve, Vec2, perpendicular};
+use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
+use withy::loads::{Frame, LoadKind, Schedule};
+use withy::model::{PointMass, Scene, StartMotion, StationVelocity};
+
+/// Adds a slider with a name of its own that bounces at the ends, its start velocities projected.
+fn slide(scene: &mut Scene, slave: Station, master: usize, along: f64, rule: SlidingRule) {
+    let arc_length = along * scene.beams[master].axis.length();
+    let (ends, velocities) = (EndAction::Bounce, StartVelocities::Project);
+    let name = scene.free_name("slider");
+    let slider = Slider { name, ends, velocities, ..slider(slave, master, arc_length, rule) };
+    scene.add_slider(slider).unwrap();
+}
+
+/// A particle on a beam, with a speed along it besides the velocity of the beam there.
+fn bead(
+    scene: &mut Scene,
+    master: usize,
+    along: f64,
+    mass: f64,
+    speed: f64,
+    rule: SlidingRule,
+) -> Station {
+    let axis = &scene.beams[master].axis;
+    let xi = axis.parameter_at(along * axis.length()).unwrap();
+    let (place, tangent) = (axis.point(xi).unwrap(), axis.derivative(xi, 1).unwrap().normalize());
+    let StartMotion { velocity, spin, about } = scene.beams[master].motion;
+    let arm = about.map_or(Vec2::zeros(), |about| place - about);
+    let station = particle(scene, place, mass);
+    let velocity = velocity + perpendicular(arm) * spin + tangent * speed;
+    scene.velocities.push(StationVelocity { station, velocity, spin: None });
+    slide(scene, station, master, along, rule);
+    station
+}
+
+/// Three beads of different mass on a free beam that turns; they pass each other.
+pub fn abacus(mesh: &Mesh, rule: SlidingRule) -> Scene {
+    let mut scene = Scene::new("abacus");
+    let rail = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 1.0)), mesh, paper_section(300.0));
+    scene.beams[rail].motion =
+        StartMotion { velocity: at(0.2, -0.3), spin: 0.7, about: Some(at(1.5, 0.5)) };
+    for (along, mass, speed) in [(0.2, 0.1, 2.0), (0.55, 0.04, -1.0), (0.8, 0.3, -1.5)] {
+        bead(&mut scene, rail, along, mass, speed, rule);
+    }
+    scene
+}
+
+/// A beam slides on a hinged beam, and a bead on the sliding one, in a field of gravity.
+pub fn sliding_beam_with_bead(mesh: &Mesh, rule: SlidingRule) -> Scene {
+    let mut scene = Scene::new("bead on a sliding beam");
+    let rail = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 1.0)), mesh, paper_section(300.0));
+    let foot = at(3.0, 1.0) * 0.6;
+    let arm = line(foot, foot + at(0.6, -1.2));
+    let arm = add_beam(&mut scene, arm, mesh, paper_section(300.0));
+    hinge_start(&mut scene, rail);
+    let slave = scene.station(arm, 0.0).unwrap();
+    slide(&mut scene, slave, rail, 0.6, rule);
+    bead(&mut scene, arm, 0.5, 0.2, 1.0, rule);
+    scene.gravity = at(0.0, -9.81);
+    scene
+}
+
+/// A hinged beam on which another one slides, whose end there carries a mass, a force and a moment.
+pub fn loaded_slave(mesh: &Mesh, rule: SlidingRule) -> Scene {
+    let mut scene = Scene::new("loaded slave");
+    let rail = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 1.0)), mesh, paper_section(300.0));
+    let foot = at(3.0, 1.0) * 0.7;
+    let arm = add_beam(&mut scene, line(foot, foot + at(1.0, 0.4)), mesh, paper_section(300.0));
+    hinge_start(&mut scene, rail);
+    let station = scene.station(arm, 0.0).unwrap();
+    scene.add_mass(PointMass { station, mass: 0.3, rotary_inertia: 0.02 }).unwrap();
+    let pulse = Schedule::smooth_pulse(0.3).unwrap();
+    let force = LoadKind::Force { station, force: at(-4.0, -3.0), frame: Frame::Dead };
+    scene.add_load(force, pulse.clone());
+    scene.add_load(LoadKind::Moment { station, moment: 0.5 }, pulse);
+    let tip = end_of(&mut scene, arm);
+    scene.add_mass(PointMass { station: tip, mass: 0.2, rotary_inertia: 0.0 }).unwrap();
+    slide(&mut scene, station, rail, 0.7, rule);
+    scene
+}
+
+/// A bead on half a circle that is hinged at one end and falls.
+pub fn bead_on_an_arc(mesh: &Mesh, rule: SlidingRule) -> Scene {
+    let mut scene = Scene::new("bead on an arc");
+    let axis = Curve::arc(at(1.0, 0.0), 1.0, PI, 2.0 * PI).unwrap();
+    let arc = add_beam(&mut scene, axis, mesh, paper_section(300.0));
+    hinge_start(&mut scene, arc);
+    bead(&mut scene, arc, 0.25, 0.3, 0.5, rule);
+    scene.gravity = at(0.0, -9.81);
+    scene
+}
+
+/// A free beam that turns and passes through an eyelet, a point held by the ground.
+pub fn eyelet(mesh: &Mesh, rule: SlidingRule) -> Scene {
+    let mut scene = Scene::new("eyelet");
+    let rail = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 1.0)), mesh, paper_section(300.0));
+    let place = at(3.0, 1.0) * 0.3;
+    let along = at(3.0, 1.0).normalize();
+    scene.beams[rail].motion = StartMotion { velocity: along, spin: 0.9, about: Some(place) };
+    let eye = particle(&mut scene, place, 1.0);
+    scene.join(JointKind::Hinge, eye, Partner::Ground).unwrap();
+    slide(&mut scene, eye, rail, 0.3, rule);
+    scene
+}
+
+/// A pin through two crossing beams, one of them hinged, the other one free.
+pub fn pinned_cross(mesh: &Mesh, rule: SlidingRule) -> Scene {
+    let mut scene = Scene::new("pinned cross");
+    let cross = at(1.2, 0.4);
+    let one = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 1.0)), mesh, paper_section(300.0));
+    let other = at(-0.5, 1.5);
+    let other = line(cross - other * 0.4, cross + other * 0.6);
+    let two = add_beam(&mut scene, other, mesh, paper_section(300.0));
+    hinge_start(&mut scene, one);
+    scene.beams[two].motion =
+        StartMotion { velocity: at(1.0, 0.3), spin: -0.5, about: Some(cross) };
+    let pin = particle(&mut scene, cross, 0.05);
+    slide(&mut scene, pin, one, 0.4, rule);
+    slide(&mut scene, pin, two, 0.4, rule);
+    scene
+}
+
+/// Every scene, with a rule for all sliders.
+pub fn all(mesh: &Mesh, rule: SlidingRule) -> Vec<Scene> {
+    let mut scenes = vec![
+        free_sliding_mass([mesh, mesh], 300.0, Support::Free, rule),
+        free_sliding_mass([mesh, mesh], 300.0, Support::Hinged, rule),
+        sliding_particle(mesh, 1.0, rule),
+        abacus(mesh, rule),
+        sliding_beam_with_bead(mesh, rule),
+        loaded_slave(mesh, rule),
+        bead_on_an_arc(mesh, rule),
+        eyelet(mesh, rule),
+        pinned_cross(mesh, rule),
+    ];
+    for slider in scenes.iter_mut().flat_map(|scene| &mut scene.sliders) {
+        slider.ends = EndAction::Bounce;
+    }
+    scenes[0].name = "free sliding mass, A free".to_owned();
+    scenes[1].name = "free sliding mass, A hinged".to_owned();
+    scenes
+}
