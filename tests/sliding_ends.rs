@@ -112,7 +112,7 @@ fn a_bead_between_walls_bounces_at_exact_times_however_often_in_a_step() {
             println!(
                 "dt = {dt:4}: {} arrivals off by {error:.1e}, {:.1} tries each, drift {}",
                 arrivals.len(),
-                simulation.counts().retries as f64 / arrivals.len() as f64,
+                simulation.counts().arrival_tries as f64 / arrivals.len() as f64,
                 sci(&drifts)
             );
             assert!(arrivals.len() == 40 && error < 1e-12, "{error:e}");
@@ -257,7 +257,7 @@ fn beads_a_million_times_lighter_or_heavier_bounce_and_leave_as_well() {
                 println!(
                     "mass {mass:7e} {action:8?} {:4} arrivals, {:4.1} tries each, drift {}",
                     simulation.arrivals().len(),
-                    simulation.counts().retries as f64 / simulation.arrivals().len() as f64,
+                    simulation.counts().arrival_tries as f64 / simulation.arrivals().len() as f64,
                     sci(&drifts)
                 );
                 assert!(!simulation.arrivals().is_empty());

@@ -59,7 +59,7 @@ fn the_free_sliding_mass_keeps_all_to_rounding_in_at_most_five_iterations() {
                     // No step failed, but for those that led beyond the end.
                     let retries = rows.split_last().unwrap().1.iter().map(|row| row.retries);
                     assert_eq!(retries.sum::<usize>(), 0, "{label}");
-                    assert!(counts.retries <= 10, "{label}: {} tries to arrive", counts.retries);
+                    assert!(counts.arrival_tries <= 10, "{label}: {} tries", counts.arrival_tries);
                 }
             }
         }
@@ -149,7 +149,7 @@ fn a_restored_state_goes_on_bit_for_bit_with_sliders_too() {
             let mut advance = |model: &mut Model, steps: std::ops::Range<u32>| {
                 for n in steps {
                     let (start, end) = (f64::from(n) * 0.004, f64::from(n + 1) * 0.004);
-                    integrator.step(model, Interval { start, end }).unwrap();
+                    integrator.step(model, Interval::between(start, end)).unwrap();
                 }
             };
             advance(&mut model, 0..5);

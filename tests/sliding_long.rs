@@ -73,7 +73,7 @@ fn a_bead_bounces_for_a_hundred_thousand_steps() {
             "{:6} steps, {:5} bounces, {:.1} tries each, {:.2} iterations a step: drift {}",
             counts.steps,
             simulation.arrivals().len(),
-            counts.retries as f64 / simulation.arrivals().len() as f64,
+            counts.arrival_tries as f64 / simulation.arrivals().len() as f64,
             counts.newton_iterations as f64 / counts.steps as f64,
             sci(&drifts)
         );

@@ -12,7 +12,7 @@ use withy::model::Model;
 use withy::newton::Tolerance;
 
 fn interval(step: u32) -> Interval {
-    Interval { start: f64::from(step) * PAPER_STEP, end: f64::from(step + 1) * PAPER_STEP }
+    Interval::between(f64::from(step) * PAPER_STEP, f64::from(step + 1) * PAPER_STEP)
 }
 
 /// How often the sliding equation changes its sign along all ways from 1e-7 to 0.3, in both directions.
