@@ -6,8 +6,10 @@ mod common;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use common::{meshes, run, scenes, settings};
-use withy::integrators::INTEGRATORS;
+use common::{meshes, run, scenes, settings, sliding_scenes};
+use withy::integrators::{INTEGRATORS, Method};
+use withy::joints::SLIDING_RULES;
+use withy::model::Scene;
 use withy::simulation::Simulation;
 
 thread_local! {
@@ -56,20 +58,37 @@ fn the_counter_counts() {
     assert_eq!(allocations_of(|| drop(std::hint::black_box(vec![1_u8; 100]))), 1);
 }
 
+/// Runs a scene for few and for many steps; both must take no more than `most` allocations.
+fn assert_bounded(label: &str, scene: Scene, method: Method, most: usize) {
+    let mut simulation = Simulation::start(scene, settings(method, 0.001)).unwrap();
+    let mut until = |end: f64| allocations_of(|| run(&mut simulation, end).unwrap());
+    until(0.01);
+    let (few, many) = (until(0.02), until(0.17));
+    assert!(few <= most && many <= most, "{label}: {few} in 10 steps, {many} in 150");
+    assert_eq!(simulation.counts().retries, 0, "{label}");
+}
+
 #[test]
-fn thirty_times_the_steps_take_no_more_allocations() {
+fn fifteen_times_the_steps_take_no_more_allocations() {
     for entry in INTEGRATORS {
         for (name, mesh) in meshes(4) {
             for scene in scenes::all(&mesh) {
                 let label = format!("{}, {}, {name}", entry.name, scene.name);
-                let settings = settings(entry.method, 0.001);
-                let mut simulation = Simulation::start(scene, settings).unwrap();
-                let mut until = |end: f64| allocations_of(|| run(&mut simulation, end).unwrap());
-                until(0.01);
-                let (few, many) = (until(0.02), until(0.32));
                 // Room for the rows of the history, the times and the configurations of the trajectory.
-                assert!(few <= 3 && many <= 3, "{label}: {few} in 10 steps, {many} in 300");
-                assert_eq!(simulation.counts().retries, 0, "{label}");
+                assert_bounded(&label, scene, entry.method, 3);
+            }
+        }
+    }
+}
+
+#[test]
+fn sliders_take_no_allocations_in_steps_either() {
+    for entry in SLIDING_RULES.iter().filter(|entry| entry.claims.gap) {
+        for (name, mesh) in meshes(4) {
+            for scene in sliding_scenes::all(&mesh, entry.rule) {
+                let label = format!("{}, {}, {name}", entry.name, scene.name);
+                // One more: room for their columns of the history.
+                assert_bounded(&label, scene, Method::EnergyMomentum, 4);
             }
         }
     }

@@ -10,7 +10,8 @@ use withy::beams::Mesh;
 use withy::geometry::{Passage, Vec2, cross};
 use withy::integrators::{Mechanism, Stage};
 use withy::joints::{
-    Conserving, Contact, ContactUnknowns, Exact, Held, Relaxed, Released, SLIDING_RULES, SlidingLaw, Unit,
+    Conserving, Contact, ContactUnknowns, Exact, Held, Relaxed, Released, SLIDING_RULES,
+    SlidingLaw, Unit,
 };
 use withy::linalg::BorderedMatrix;
 use withy::model::{Model, TrackEnd, TrackLimit};
@@ -168,9 +169,11 @@ fn what_a_contact_does_is_what_its_equations_leave() {
             };
             close("force along x", force.x, 0.0);
             close("force along y", force.y, 0.0);
-            let turning = way * (cross(tau, eta) + cross(d, lambda)) + cross(gap_before + gap, lambda) * 0.5;
+            let turning =
+                way * (cross(tau, eta) + cross(d, lambda)) + cross(gap_before + gap, lambda) * 0.5;
             close("moment", moment, -turning);
-            let lost = way * (4.0 * eta.dot(&d) + lambda.dot(&tau)) + lambda.dot(&(gap - gap_before));
+            let lost =
+                way * (4.0 * eta.dot(&d) + lambda.dot(&tau)) + lambda.dot(&(gap - gap_before));
             close("work", work, -lost);
 
             let length = contact.length;
@@ -179,8 +182,16 @@ fn what_a_contact_does_is_what_its_equations_leave() {
             close("the gap along y", y, gap.y);
             close("sliding", sliding * length, lambda.dot(&tau) + 4.0 * eta.dot(&d));
             let couple = Vec2::new(cx, cy) * length.powi(2);
-            close("couple", cross(tau, couple) / tau.norm_squared(), cross(tau, eta) + cross(d, lambda));
-            close("no more couple than needed", couple.dot(&tau), eta.dot(&tau) * tau.norm_squared());
+            close(
+                "couple",
+                cross(tau, couple) / tau.norm_squared(),
+                cross(tau, eta) + cross(d, lambda),
+            );
+            close(
+                "no more couple than needed",
+                couple.dot(&tau),
+                eta.dot(&tau) * tau.norm_squared(),
+            );
             close("exact sliding", Exact.equations(contact)[4].value * length, lambda.dot(&tau));
 
             // Without a couple the relaxed rule leaves nothing but its own equations.
@@ -190,7 +201,11 @@ fn what_a_contact_does_is_what_its_equations_leave() {
                 let no_couple = moment + way * cross(tau, eta);
                 close("relaxed moment", no_couple, -cross(mean_gap, lambda));
                 let no_couple = work + way * 4.0 * eta.dot(&d);
-                close("relaxed work", no_couple, -2.0 * lambda.dot(&mean_gap) - way * sliding * length);
+                close(
+                    "relaxed work",
+                    no_couple,
+                    -2.0 * lambda.dot(&mean_gap) - way * sliding * length,
+                );
             }
         });
     }

