@@ -3,11 +3,16 @@
 /// What the next step is best guessed from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Motion {
+    /// No step has been taken: the rates at its start are all there is.
+    Unknown,
     /// The rates at its start.
     Smooth,
     /// The mean rates of the last step: those at its end alternate from step to step.
     Rough,
 }
+
+/// By how much the mean of the last step must have been the better guess, in squares, to be taken for the next.
+const CLEARLY_LESS: f64 = 0.8;
 
 /// The mean motion of the last step, and whether that or its end tells more about the next one.
 #[derive(Debug, Clone)]
@@ -22,19 +27,19 @@ pub(super) struct Forecast {
 impl Forecast {
     /// Before the first step.
     pub(super) fn new(rates: &[f64], inertia: Vec<f64>) -> Self {
-        Self { mean_rates: rates.to_vec(), motion: Motion::Smooth, inertia }
+        Self { mean_rates: rates.to_vec(), motion: Motion::Unknown, inertia }
     }
 
     /// The rates to go on with, given those at the start of the step.
     pub(super) fn rates<'a>(&'a self, at_start: &'a [f64]) -> &'a [f64] {
         match self.motion {
-            Motion::Smooth => at_start,
+            Motion::Unknown | Motion::Smooth => at_start,
             Motion::Rough => &self.mean_rates,
         }
     }
 
-    /// Learns from the increments of a step and the rates at its start, which guess would have been the better one for
-    /// it, in the norm of the kinetic energy.
+    /// Learns from the increments of a step and the rates at its start which guess would have been the better one for it,
+    /// in the norm of the kinetic energy.
     pub(super) fn learn(&mut self, at_start: &[f64], increments: &[f64], duration: f64) {
         let inverse = 1.0 / duration;
         let (mut missed_by_start, mut missed_by_mean) = (0.0, 0.0);
@@ -45,8 +50,12 @@ impl Forecast {
             missed_by_mean += inertia * (found - *mean).powi(2);
             *mean = found;
         }
-        self.motion =
-            if missed_by_mean <= missed_by_start { Motion::Rough } else { Motion::Smooth };
+        self.motion = match self.motion {
+            // Start velocities may be those of single nodes; how these go on, the first step has told.
+            Motion::Unknown => Motion::Rough,
+            _ if missed_by_mean < CLEARLY_LESS * missed_by_start => Motion::Rough,
+            _ => Motion::Smooth,
+        };
     }
 
     /// Takes over a sudden change of all rates.
@@ -56,12 +65,20 @@ impl Forecast {
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
         state.extend(&self.mean_rates);
-        state.push(if self.motion == Motion::Rough { 1.0 } else { 0.0 });
+        state.push(match self.motion {
+            Motion::Unknown => 0.0,
+            Motion::Smooth => 1.0,
+            Motion::Rough => 2.0,
+        });
     }
 
     pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.mean_rates.iter_mut().for_each(|rate| *rate = next());
-        self.motion = if next() == 0.0 { Motion::Smooth } else { Motion::Rough };
+        self.motion = match next() {
+            0.0 => Motion::Unknown,
+            1.0 => Motion::Smooth,
+            _ => Motion::Rough,
+        };
     }
 }
 
