@@ -138,6 +138,44 @@ fn the_report_is_written_also_after_a_failure() {
     assert_eq!(left.len(), 2, "only the script and the report: {left:?}");
 }
 
+/// A bead that reaches the end of its rod at t = 1.
+const BEAD: &str = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 1 });
+    let scene = new_scene(\"bead\");
+    let rod = scene.beam(#{ axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });
+    let bead = scene.particle([1, 0], 1, #{ velocity: [1, 0] });
+    let ring = scene.slider(bead, rod, #{ name: \"ring\" });
+    let sim = scene.start(#{ dt: 0.3 });\n";
+
+#[test]
+fn a_run_that_ends_early_is_told_once_and_reported() {
+    let (folder, file) = script(&format!("{BEAD} sim.run_to(3); sim.run_to(4);"));
+    let report = folder.path().join("report.json");
+    let output =
+        withy().arg("run").arg(&file).arg("--report").arg(&report).output().expect("withy starts");
+    assert_eq!(code(&output), 0, "{}", said(&output));
+    let told = "note: simulation 'bead' ended before t = 3: slider 'ring' reached the end of its beam at t = 1\n";
+    assert_eq!(said(&output), told);
+    let report = fs::read_to_string(&report).expect("the report");
+    let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+    let simulation = &report["simulations"][0];
+    assert_eq!(simulation["ended"], "slider 'ring' reached the end of its beam at t = 1");
+    assert_eq!(simulation["events"], 1);
+    let slider = &simulation["sliders"][0];
+    assert_eq!(slider["name"], "ring");
+    assert_eq!(slider["position"], 1.0);
+    assert_eq!(slider["state"], "sliding");
+    assert_eq!(slider["force"].as_array().expect("a vector").len(), 2);
+}
+
+#[test]
+fn a_script_that_waits_for_an_end_can_be_checked() {
+    let (_folder, file) = script(&format!(
+        "{BEAD} while !sim.ended {{ sim.step(); }} print(sim.events[0].t); print(sim.contact_force(ring));"
+    ));
+    let output = withy().arg("check").arg(&file).output().expect("withy starts");
+    assert_eq!(code(&output), 0, "{}", said(&output));
+}
+
 #[test]
 fn a_report_that_cannot_be_written_is_an_error() {
     let (_folder, file) = script("");

@@ -69,8 +69,9 @@ pub const TABLE: Table = Table {
         .returns("a vector [force]")
         .summary("The force that a slider put on its beam in the last step, the mean of the step; its station got the opposite.")
         .doc(
-            "Zero before the first step and after a release. From step to step it may alternate about its mean; in the history, \
-             averaged(\"ring.force\") is free of that.",
+            "Zero before the first step and after a release. On splines and with the conserving rule it is smooth where the motion \
+             is; where it alternates from step to step (kinks of Lagrange elements, the relaxed rule), averaged(\"ring.force\") of \
+             the history is free of that. scripts/contact_force.rhai shows how much.",
         )
         .example("check(norm(sim.contact_force(ring)) == 0);\nsim.step();\ncheck(sim.contact_force(ring).y < 0);")
         .see(&["slider_position", "averaged"]),

@@ -1,17 +1,19 @@
-//! Numbers as text, with a chosen number of digits.
+//! Numbers as text, with a chosen number of digits, and tables of them.
 
-use rhai::Dynamic;
+use rhai::{Array, Dynamic};
 
+use crate::output::{Cell, Table as TextTable};
 use crate::script::call::Call;
-use crate::script::error::ScriptError;
+use crate::script::error::{Place, ScriptError};
 use crate::script::numbers::{format_fixed, format_scientific};
-use crate::script::parameter::{Parameter, Presence, number, whole};
+use crate::script::parameter::{Parameter, Presence, array, number, whole};
 use crate::script::table::{Table, function};
 
 /// Formats for numbers.
 pub const TABLE: Table = Table {
     name: "text",
-    doc: "Numbers print with as many digits as they need: 0.05, 3, 1e-12. These functions choose the digits.",
+    doc: "Numbers print with as many digits as they need: 0.05, 3, 1e-12. These functions choose the digits, and \
+          set tables.",
     types: &[],
     setup: "",
     constants: &[],
@@ -25,7 +27,12 @@ pub const TABLE: Table = Table {
             .returns("a text")
             .summary("A number with a fixed count of digits after the point; three unless told otherwise.")
             .example("check(fixed(0.05) == \"0.050\");\ncheck(fixed(PI, 1) == \"3.1\");")
-            .see(&["sci", "round_to"]),
+            .see(&["sci", "round_to", "tabulate"]),
+        function("tabulate", &[array("headings"), array("rows").doc("arrays of numbers, texts or anything that prints")], tabulate)
+            .returns("a text")
+            .summary("A table with aligned columns: words to the left, numbers to the right.")
+            .example("print(tabulate([\"rule\", \"drift\"], [[\"conserving\", sci(2e-14)], [\"exact\", sci(3e-4)]]));")
+            .see(&["sci", "fixed"]),
     ],
 };
 
@@ -34,4 +41,26 @@ const DIGITS: Parameter = whole("digits").between(0.0, 17.0).doc("digits after t
 
 fn write(call: &Call, format: fn(f64, usize) -> String) -> Result<Dynamic, ScriptError> {
     Ok(format(call.number("x")?, call.count("digits")?).into())
+}
+
+fn tabulate(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let words = |cell: &Dynamic| {
+        let text = cell.clone().into_immutable_string().map(|text| text.to_string());
+        text.unwrap_or_else(|_| call.show(cell))
+    };
+    let headings: Vec<String> = call.array("headings")?.iter().map(words).collect();
+    let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
+    let mut table = TextTable::new(&headings);
+    for (number, row) in call.array("rows")?.into_iter().enumerate() {
+        let row = row.try_cast::<Array>().filter(|row| row.len() == headings.len());
+        let row = row.ok_or_else(|| {
+            let told = format!("row {number} is not an array of {} cells", headings.len());
+            call.error(told).hint("a row has one cell for each heading").at(Place::Argument(1))
+        })?;
+        table.row(row.iter().map(|cell| {
+            let text = words(cell);
+            if text.parse::<f64>().is_ok() { Cell::Number(text) } else { Cell::Text(text) }
+        }));
+    }
+    Ok(table.to_string().trim_end().into())
 }
