@@ -138,8 +138,10 @@ fn the_trapezoidal_rule_keeps_the_gap_and_the_momentum_under_every_rule_that_clo
     }
 }
 
-/// What is done to the sliders of a model between its steps.
-const DEEDS: [(&str, fn(&mut Model, usize)); 4] = [
+/// What is done to a slider between steps.
+type Deed = fn(&mut Model, usize);
+
+const DEEDS: [(&str, Deed); 4] = [
     ("nothing", |_, _| ()),
     ("bounce", |model, slider| model.bounce(slider).unwrap()),
     ("hold", |model, slider| model.hold(TrackLimit { slider, end: TrackEnd::End })),
