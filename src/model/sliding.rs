@@ -85,6 +85,8 @@ pub(super) struct Sliding {
     before: Vec<Vec2>,
     moved: Vec<Vec2>,
     units: [Unit; CONTACT_UNKNOWNS],
+    /// The length of the master and the way of the slave in the iterate: what rounding of places is relative to [length].
+    size: f64,
 }
 
 impl Sliding {
@@ -112,6 +114,7 @@ impl Sliding {
             before: Vec::with_capacity(functions),
             moved: Vec::with_capacity(functions),
             units: [Unit::Force; CONTACT_UNKNOWNS],
+            size: length,
         };
         new.here.go(parameter, parameter);
         new
@@ -284,6 +287,7 @@ impl Sliding {
         let contact = self.take(bodies, increments, unknowns);
         let equations = law.equations(&contact);
         connection.add_values(bodies, &contact, &equations, increments.len(), out);
+        self.size = contact.length + contact.slave_moved.norm();
         self.units = equations.map(|equation| equation.unit);
     }
 
@@ -303,11 +307,11 @@ impl Sliding {
         connection.add_derivatives(bodies, &contact, &equations, movements, border);
     }
 
-    /// The largest violations: relative to the length of the master, and a force [force].
+    /// The largest violations: relative to the lengths met, and a force [force].
     pub(super) fn violation(&self, equations: &[f64]) -> (f64, f64) {
         let values = equations[self.connection.places()].iter().zip(self.units);
         values.fold((0.0, 0.0), |(length, force), (value, unit)| match unit {
-            Unit::Length => (larger(length, value.abs() / self.length), force),
+            Unit::Length => (larger(length, value.abs() / self.size), force),
             Unit::Force => (length, larger(force, value.abs())),
         })
     }
