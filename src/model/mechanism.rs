@@ -279,8 +279,10 @@ impl Mechanism for Model {
     }
 
     fn add_constraints(&mut self, increments: &[f64], unknowns: &[f64], out: &mut [f64]) {
+        self.step.contact = 0.0;
         for slider in &mut self.sliders {
-            slider.add(&self.bodies, increments, unknowns, out);
+            let force = slider.add(&self.bodies, increments, unknowns, out);
+            self.step.contact = larger(self.step.contact, force);
         }
     }
 

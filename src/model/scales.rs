@@ -11,6 +11,8 @@ pub(super) struct StepScales {
     pub(super) inertia: (f64, f64),
     pub(super) loads: (f64, f64),
     pub(super) summary: ForceSummary,
+    /// The largest force of a contact [force].
+    pub(super) contact: f64,
     pub(super) rotations: RotationIncrement,
 }
 
@@ -21,6 +23,7 @@ impl Default for StepScales {
             inertia: (0.0, 0.0),
             loads: (0.0, 0.0),
             summary: ForceSummary::default(),
+            contact: 0.0,
             rotations: RotationIncrement::TangentScaled,
         }
     }
@@ -29,7 +32,7 @@ impl Default for StepScales {
 impl StepScales {
     /// The sum of the largest forces of every kind [force].
     pub(super) fn force(&self) -> f64 {
-        self.summary.force + self.inertia.0 + self.loads.0
+        self.summary.force + self.inertia.0 + self.loads.0 + self.contact
     }
 
     /// The sum of the largest moments of every kind [force·length].

@@ -275,20 +275,22 @@ impl Sliding {
         Contact::new(passage, before, moved, slave_moved, unknowns, *length)
     }
 
-    /// Adds the forces on slave and master, and behind the movements the equations of the contact.
+    /// Adds the forces on slave and master, and behind the movements the equations of the contact; returns the contact force.
     pub(super) fn add(
         &mut self,
         bodies: &[Body],
         increments: &[f64],
         unknowns: &[f64],
         out: &mut [f64],
-    ) {
+    ) -> f64 {
         let (law, connection) = (self.law(), self.connection);
         let contact = self.take(bodies, increments, unknowns);
         let equations = law.equations(&contact);
         connection.add_values(bodies, &contact, &equations, increments.len(), out);
+        let force = contact.unknowns.force.norm();
         self.size = contact.length + contact.slave_moved.norm();
         self.units = equations.map(|equation| equation.unit);
+        force
     }
 
     /// The same, with all derivatives.

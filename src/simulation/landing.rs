@@ -73,6 +73,8 @@ impl Arrival {
 pub(super) enum Landing {
     /// The step ends with the arrival.
     At(Interval, NewtonReport, TrackLimit),
+    /// The step ends just before: no step of any length ends with the arrival, as longer ones lead by a jump beyond it.
+    Before(Interval, NewtonReport),
     /// The slider is at the end already, and every step leads beyond it.
     AtOnce(TrackLimit),
 }
@@ -91,9 +93,41 @@ enum Prospect {
 struct Bracket {
     before: (f64, f64),
     after: (f64, f64),
+    /// The side that was replaced last.
+    last: Option<Side>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Before,
+    After,
 }
 
 impl Bracket {
+    fn new(before: (f64, f64), after: (f64, f64)) -> Self {
+        Self { before, after, last: None }
+    }
+
+    /// Puts a duration in the place of the one on its side.
+    fn narrow(&mut self, duration: f64, distance: f64) {
+        let side = if distance > 0.0 { Side::After } else { Side::Before };
+        let is_again = self.last == Some(side);
+        let (replaced, other) = match side {
+            Side::Before => (&mut self.before, &mut self.after),
+            Side::After => (&mut self.after, &mut self.before),
+        };
+        *replaced = (duration, distance);
+        if is_again {
+            other.1 *= 0.5;
+        }
+        self.last = Some(side);
+    }
+
+    /// Whether there is no duration between the two any more.
+    fn is_closed(&self) -> bool {
+        self.after.0 - self.before.0 <= 4.0 * f64::EPSILON * self.after.0
+    }
+
     /// The next duration to try: false position, with the weight of an end halved that stays (Illinois; Dowell & Jarratt 1971).
     fn guess(&self) -> f64 {
         let ((t0, f0), (t1, f1)) = (self.before, self.after);
@@ -124,8 +158,12 @@ impl Simulation {
             Prospect::Landed(cut, report) => return Ok(Landing::At(cut, report, limit)),
             Prospect::Beyond => return Ok(Landing::AtOnce(limit)),
         };
-        let mut last_side = 0.0;
         for _ in 0..MOST_TRIES {
+            if bracket.is_closed() {
+                self.model.aim_at(None);
+                let cut = Interval::lasting(interval.start, bracket.before.0);
+                return Ok(Landing::Before(cut, self.integrator.step(&mut self.model, cut)?));
+            }
             let duration = bracket.guess();
             let cut = Interval::lasting(interval.start, duration);
             match self.integrator.step(&mut self.model, cut) {
@@ -144,19 +182,8 @@ impl Simulation {
                             }
                             Prospect::Beyond => return Ok(Landing::AtOnce(limit)),
                         };
-                        last_side = 0.0;
-                    } else if overshoot.distance > 0.0 {
-                        bracket.after = (duration, overshoot.distance);
-                        if last_side > 0.0 {
-                            bracket.before.1 *= 0.5;
-                        }
-                        last_side = 1.0;
                     } else {
-                        bracket.before = (duration, overshoot.distance);
-                        if last_side < 0.0 {
-                            bracket.after.1 *= 0.5;
-                        }
-                        last_side = -1.0;
+                        bracket.narrow(duration, overshoot.distance);
                     }
                 }
                 Err(other) => return Err(other),
@@ -177,7 +204,7 @@ impl Simulation {
         let has_reached = distance_left <= NEAR && self.model.leads_beyond(limit);
         if !self.model.is_at(limit) && !has_reached {
             let before = (0.0, -distance_left);
-            return Ok(Prospect::Between(Bracket { before, after }));
+            return Ok(Prospect::Between(Bracket::new(before, after)));
         }
         if self.model.leads_beyond(limit) {
             return Ok(Prospect::Beyond);
@@ -193,7 +220,7 @@ impl Simulation {
                     }
                     if overshoot.distance < 0.0 {
                         let before = (duration, overshoot.distance);
-                        return Ok(Prospect::Between(Bracket { before, after }));
+                        return Ok(Prospect::Between(Bracket::new(before, after)));
                     }
                     after = (duration, overshoot.distance);
                 }
@@ -211,7 +238,10 @@ impl Simulation {
 
     /// Does what is to be done where a slider arrives; `true` when the run ends there.
     pub(super) fn arrive(&mut self, landing: &Landing) -> Result<bool, SimulationError> {
-        let (Landing::At(_, _, limit) | Landing::AtOnce(limit)) = *landing;
+        let limit = match *landing {
+            Landing::At(_, _, limit) | Landing::AtOnce(limit) => limit,
+            Landing::Before(..) => return Ok(false),
+        };
         let leads_beyond = self.model.leads_beyond(limit);
         let kind = match self.model.end_action(limit.slider) {
             EndAction::Stop => ArrivalKind::Stopped,
@@ -222,7 +252,7 @@ impl Simulation {
                 }
                 // It only touched the stop, or its velocity has turned round just there.
                 Landing::At(..) => ArrivalKind::Bounced,
-                Landing::AtOnce(_) => {
+                Landing::Before(..) | Landing::AtOnce(_) => {
                     self.model.hold(limit);
                     ArrivalKind::Rested
                 }

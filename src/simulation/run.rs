@@ -345,7 +345,7 @@ impl Simulation {
         landing: &Landing,
         retries: usize,
     ) -> Result<Covered, SimulationError> {
-        if let Landing::At(interval, report, _) = landing {
+        if let Landing::At(interval, report, _) | Landing::Before(interval, report) = landing {
             self.record(*interval, *report, retries);
         }
         let has_ended = self.arrive(landing)?;
