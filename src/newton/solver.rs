@@ -3,6 +3,9 @@
 use super::{Equations, Imbalance, NewtonError};
 use crate::linalg::{BorderShape, BorderedLu, BorderedMatrix};
 
+/// Imbalances below this need no new factors: two corrections with the old ones take them to rounding.
+const NEAR: f64 = 1e-9;
+
 /// When a solution is good enough, and when to give up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance {
@@ -25,6 +28,17 @@ impl Default for Tolerance {
 }
 
 impl Tolerance {
+    /// How many corrections with the factors at hand are worth while before new ones are made.
+    fn polishes(&self, imbalance: &Imbalance) -> usize {
+        if self.accepts(imbalance) {
+            1
+        } else if imbalance.largest() <= NEAR {
+            2
+        } else {
+            0
+        }
+    }
+
     fn accepts(&self, imbalance: &Imbalance) -> bool {
         imbalance.force <= self.force
             && imbalance.strain <= self.strain
@@ -94,14 +108,14 @@ impl Newton {
             if !imbalance.is_finite() {
                 return Err(NewtonError::NotFinite { history: self.history.clone() });
             }
-            if self.tolerance.accepts(&imbalance) {
-                if imbalance.largest() > self.tolerance.polish {
-                    equations.condense(residual);
-                    imbalance = correct(equations, &factors, &mut self.correction, u, residual);
-                    if !self.tolerance.accepts(&imbalance) {
-                        continue;
-                    }
+            for _ in 0..self.tolerance.polishes(&imbalance) {
+                if imbalance.largest() <= self.tolerance.polish {
+                    break;
                 }
+                equations.condense(residual);
+                imbalance = correct(equations, &factors, &mut self.correction, u, residual);
+            }
+            if self.tolerance.accepts(&imbalance) {
                 return Ok(NewtonReport { iterations: self.history.len(), imbalance });
             }
         }
