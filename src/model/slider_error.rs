@@ -51,7 +51,7 @@ pub enum SliderError {
     Tied(SliderParts),
     /// Start velocities that would leave the master.
     #[error(
-        "slider '{slider}': at the start its point moves across its beam with a speed of {speed:e}; give both the same velocity there, or the slider the option velocities: \"project\", which takes the nearest velocities that fit"
+        "slider '{slider}': at the start its point moves across its beam with a speed of {speed}; start it with the velocity of the beam there and whatever it has along the beam, or give the slider the option velocities: \"project\", which takes the nearest velocities that fit"
     )]
     LeavesMaster {
         /// The slider.

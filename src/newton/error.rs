@@ -7,13 +7,13 @@ use crate::linalg::LinearError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NewtonError {
     /// The iteration limit was reached.
-    #[error("Newton's method did not converge in {} iterations (relative force imbalance {})", history.len(), describe(history))]
+    #[error("Newton's method did not converge in {} iterations ({})", history.len(), describe(history))]
     NotConverged {
         /// The imbalance after each iteration.
         history: Vec<Imbalance>,
     },
     /// The iteration left the finite numbers.
-    #[error("Newton's method met a number that is not finite after {} iterations (relative force imbalance {})", history.len(), describe(history))]
+    #[error("Newton's method met a number that is not finite after {} iterations ({})", history.len(), describe(history))]
     NotFinite {
         /// The imbalance after each iteration.
         history: Vec<Imbalance>,
@@ -44,10 +44,21 @@ impl NewtonError {
     }
 }
 
+/// A part of an imbalance, and its name.
+type Part = (&'static str, fn(&Imbalance) -> f64);
+
+/// The part that is left at the end, iteration by iteration.
 fn describe(history: &[Imbalance]) -> String {
-    history
-        .iter()
-        .map(|imbalance| format!("{:.1e}", imbalance.force))
-        .collect::<Vec<_>>()
-        .join(", ")
+    let last = history.last().copied().unwrap_or_default();
+    let parts: [Part; 3] = [
+        ("relative force imbalance", |imbalance| imbalance.force),
+        ("strain mismatch", |imbalance| imbalance.strain),
+        ("relative violation of a sliding constraint", |imbalance| imbalance.constraint),
+    ];
+    let [force, others @ ..] = parts;
+    let (name, part) = others
+        .into_iter()
+        .fold(force, |worst, other| if other.1(&last) > worst.1(&last) { other } else { worst });
+    let numbers: Vec<String> = history.iter().map(|row| format!("{:.1e}", part(row))).collect();
+    format!("{name} {}", numbers.join(", "))
 }

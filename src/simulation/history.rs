@@ -148,12 +148,13 @@ impl History {
         Some(rows.map(|row| row[index]).collect())
     }
 
-    /// A column by name, each value replaced by the mean of it and the value in the row before; the first stays.
+    /// A column by name, each value replaced by the mean of it and the value in the row before. The first value stays, and
+    /// the first after the start: what belongs to a step, such as a contact force, has no value at the start.
     ///
     /// This removes a sawtooth, an alternation from step to step. A mean belongs to the middle of its step.
     pub fn averaged(&self, name: &str) -> Option<Vec<f64>> {
         let mut column = self.column(name)?;
-        for row in (1..column.len()).rev() {
+        for row in (1..column.len()).rev().filter(|row| self.samples[row - 1].dt > 0.0) {
             column[row] = 0.5 * (column[row - 1] + column[row]);
         }
         Some(column)

@@ -54,10 +54,11 @@ pub const TABLE: Table = Table {
             .see(&["averaged"]),
         method(HISTORY, "averaged", &[COLUMN], |call| Ok(numbers(column(call, History::averaged)?)))
             .returns("an array of numbers")
-            .summary("A column in which each value is the mean of it and the value in the row before; the first stays.")
+            .summary("A column in which each value is the mean of it and the value in the row before.")
             .doc(
                 "This removes a sawtooth, an alternation from step to step, as a force of constraint may have. A mean belongs to \
-                 the middle of its step.",
+                 the middle of its step. The first value stays, and the first after the start: what belongs to a step has none at \
+                 the start.",
             )
             .example("sim.step(2);\nlet h = sim.history;\ncheck(h.column(\"t\") == [0, 0.1, 0.2]);\ncheck_close(h.averaged(\"t\")[2], 0.15, 1e-14);")
             .see(&["column", "plot_history"]),

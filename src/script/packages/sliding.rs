@@ -35,15 +35,15 @@ pub const TABLE: Table = Table {
     rows: &[
         rule("conserving", |_| Ok(Dynamic::from(SlidingRule::Conserving)))
             .summary("The rule that keeps everything at any step size; the default.")
-            .doc("Keeps energy, linear momentum, angular momentum and the gap to rounding. withy, docs/theory.md, section 10.")
+            .doc("With energy_momentum(): keeps energy, linear momentum, angular momentum and the gap to rounding. withy, docs/theory.md, section 10.")
             .see(&["exact", "relaxed", "slider"]),
         rule("exact", |_| Ok(Dynamic::from(SlidingRule::Exact)))
             .summary("For comparison: the slave is exactly on the beam at the end of a step; angular momentum is lost at second order.")
-            .doc("Keeps energy, linear momentum and the gap to rounding. Sibileau & Muñoz, equations 15 and 17.")
+            .doc("With energy_momentum(): keeps energy, linear momentum and the gap to rounding. Sibileau & Muñoz, equations 15 and 17.")
             .see(&["conserving", "relaxed"]),
         rule("relaxed", |_| Ok(Dynamic::from(SlidingRule::Relaxed)))
             .summary("For comparison: the slave is on the beam in the mean of a step; the gap drifts, and a step may have no solution.")
-            .doc("Keeps energy, linear momentum and angular momentum to rounding. Sibileau & Muñoz, equations 11 to 14.")
+            .doc("With energy_momentum(): keeps energy, linear momentum and angular momentum to rounding. Sibileau & Muñoz, equations 11 to 14.")
             .see(&["conserving", "exact"]),
         method(SCENE, "slider", &[object("station", STATION), object("beam", BEAM), options("options", SLIDER_KEYS).optional()], slider)
             .returns("a slider")
@@ -51,7 +51,13 @@ pub const TABLE: Table = Table {
             .doc(
                 "The joint must close at the start: the station lies on the beam as drawn, at `at`. Where the beam ends, the run \
                  stops, or the slider bounces off, or is released. A station held by the ground is an eyelet through which the \
-                 beam slides. Sliders are called slider1, slider2, … unless they get a name.",
+                 beam slides. On a curved beam, whose mesh is slightly off the curve, the station is moved onto the line of the mesh, and \
+                 velocities: \"project\" makes start velocities fit that line. A bounce reverses the velocity against the node \
+                 at the end of the beam, and the beam rings on: it is resolved where steps are shorter than an axial wave takes \
+                 through a span, h √(rho_A/EA). On a stiffer beam the slider strikes the ringing end many times, and may come to \
+                 rest against it; energy and momenta are kept, but how fast it leaves depends on step and mesh. Each slider adds \
+                 five full columns to the matrix of a step: hundreds of them get slow. Sliders are called slider1, slider2, … \
+                 unless they get a name.",
             )
             .example(
                 "let hook = scene.beam(#{ name: \"hook\", axis: line([1, 0], [1, 1]), basis: bspline(4), section: s });\n\
@@ -92,6 +98,7 @@ pub const TABLE: Table = Table {
         property(SIMULATION, "ended", |call| Ok(call.receiver::<SimulationHandle>()?.simulation().ending().is_some().into()))
             .returns("true or false")
             .summary("Whether a slider has reached the end of its beam and ended the run.")
+            .doc("After that run_to returns at once, step is an error, and functions set for later times are not called.")
             .example("while !sim.ended {\n    sim.step();\n}\ncheck(sim.ended);\ncheck_close(sim.slider_position(ring), 1, 1e-12);")
             .see(&["ending", "slider"]),
         property(SIMULATION, "ending", |call| {
@@ -106,7 +113,7 @@ pub const TABLE: Table = Table {
             .summary("When sliders reached ends of their beams so far, and what happened there.")
             .doc(
                 "slider is its name; end is \"start\" or \"end\"; what is \"stopped\", \"bounced\", \"rested\" (it stays against the \
-                 end until it is drawn away) or \"released\".",
+                 end until it is drawn away) or \"released\". A slider may strike a ringing end many times in one arrival.",
             )
             .example("sim.run_to(5);\nfor event in sim.events {\n    print(`${event.slider} ${event.what} at the ${event.end}, t = ${event.t}`);\n}")
             .see(&["ended", "slider"]),
