@@ -298,7 +298,10 @@ mod tests {
             let kept: Vec<&str> =
                 claims.into_iter().filter(|(keeps, _)| *keeps).map(|(_, what)| what).collect();
             let kept = match kept.as_slice() {
-                [first @ .., last] => format!("Keeps {} and {last} to rounding.", first.join(", ")),
+                [first @ .., last] => {
+                    let first = first.join(", ");
+                    format!("With energy_momentum(): keeps {first} and {last} to rounding.")
+                }
                 [] => String::new(),
             };
             assert_eq!(row.doc, format!("{kept} {}.", entry.source), "{}", entry.name);
