@@ -170,6 +170,15 @@ fn resting(mut scene: Scene, lift: f64) -> Scene {
 }
 
 #[test]
+fn a_bead_pressed_against_a_stop_rests_there_in_steps_of_any_size() {
+    for dt in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
+        let scene = resting(clamped_rail(&smooth(4), at(0.0, -1.0)), 30.0);
+        let simulation = simulated(scene, dt, 20.0 * dt);
+        assert_eq!(kinds(&simulation), [ArrivalKind::Rested], "dt = {dt:e}");
+    }
+}
+
+#[test]
 fn a_bead_pressed_against_a_stop_rests_there_until_it_is_lifted() {
     for dt in [0.01, 0.03] {
         let scene = resting(clamped_rail(&smooth(4), at(0.0, -1.0)), 30.0);

@@ -26,16 +26,16 @@ hoop                      unknowns  48 band 25 steps 150 iterations 315 most 3 f
 ";
 
 const EXPECTED_OF_SLIDERS: &str = "\
-sliding mass, C1          unknowns  48 band 11 steps  35 iterations 107 most 4 factorised 128 retries 0 tries 7
-sliding mass, C2          unknowns  36 band 11 steps  34 iterations 104 most 4 factorised 119 retries 0 tries 5
-sliding mass, Lagrange    unknowns  60 band 11 steps  34 iterations 108 most 4 factorised 130 retries 0 tries 7
-sliding mass, C2, hinged  unknowns  34 band 11 steps  53 iterations 162 most 4 factorised 184 retries 0 tries 7
-sliding mass, C2, exact   unknowns  36 band 11 steps  34 iterations 104 most 4 factorised 119 retries 0 tries 5
-sliding mass, trapezoidal unknowns  36 band 11 steps  29 iterations  89 most 4 factorised  89 retries 0 tries 0
-pushed mass               unknowns 100 band 11 steps 100 iterations 275 most 3 factorised 275 retries 0 tries 0
-abacus                    unknowns  57 band 11 steps  50 iterations 100 most 2 factorised 100 retries 0 tries 0
-eyelet                    unknowns  51 band 11 steps  70 iterations 140 most 2 factorised 140 retries 0 tries 0
-pinned cross              unknowns 102 band 11 steps  70 iterations 198 most 3 factorised 198 retries 0 tries 0
+sliding mass, C1          unknowns  53 band 11 steps  35 iterations 107 most 4 factorised 128 retries 0 tries 7
+sliding mass, C2          unknowns  41 band 11 steps  34 iterations 104 most 4 factorised 119 retries 0 tries 5
+sliding mass, Lagrange    unknowns  65 band 11 steps  34 iterations 108 most 4 factorised 130 retries 0 tries 7
+sliding mass, C2, hinged  unknowns  39 band 11 steps  53 iterations 162 most 4 factorised 184 retries 0 tries 7
+sliding mass, C2, exact   unknowns  41 band 11 steps  34 iterations 104 most 4 factorised 119 retries 0 tries 5
+sliding mass, trapezoidal unknowns  41 band 11 steps  29 iterations  89 most 4 factorised  89 retries 0 tries 0
+pushed mass               unknowns 105 band 11 steps 100 iterations 275 most 3 factorised 275 retries 0 tries 0
+abacus                    unknowns  72 band 11 steps  50 iterations 100 most 2 factorised 100 retries 0 tries 0
+eyelet                    unknowns  56 band 11 steps  70 iterations 140 most 2 factorised 140 retries 0 tries 0
+pinned cross              unknowns 112 band 11 steps  70 iterations 198 most 3 factorised 198 retries 0 tries 0
 ";
 
 fn benchmarks() -> Vec<(&'static str, Scene, Method, f64)> {

@@ -97,6 +97,8 @@ impl Model {
             model.check_determined(scene)?;
         }
         model.settle_start_velocities(scene.sliders.iter().map(|slider| slider.velocities))?;
+        // What supports gave to make the velocities fit was before the start.
+        model.exchanged = Exchange::default();
         model.forecast = Forecast::new(&model.rates, model.diagonal_of_inertia());
         Ok(model)
     }

@@ -39,7 +39,7 @@ impl Forecast {
     }
 
     /// Learns from the increments of a step and the rates at its start which guess would have been the better one for it,
-    /// in the norm of the kinetic energy.
+    /// in a norm with the diagonal of the inertia matrix.
     pub(super) fn learn(&mut self, at_start: &[f64], increments: &[f64], duration: f64) {
         let inverse = 1.0 / duration;
         let (mut missed_by_start, mut missed_by_mean) = (0.0, 0.0);

@@ -1,7 +1,8 @@
 //! Impulses at sliders: consistent start velocities, and bounces off the ends of a master.
 //!
 //! An impulse `P` at a contact changes the velocities by `M (v⁺ - v⁻) = Gᵀ P`, `G v` being the velocity of the slave relative
-//! to its place on the master. The contact is closed, so linear and angular momentum stay.
+//! to its place on the master. Where the contact is closed, linear and angular momentum stay;
+//! a gap of the relaxed rule costs angular momentum.
 
 use super::body::Body;
 use super::error::ModelError;

@@ -39,7 +39,7 @@ pub enum SimulationError {
     },
     /// No step that ends with the arrival of a slider was found.
     #[error(
-        "slider '{slider}' arrives at the {end} of its beam soon after t = {time}, but no step that ends there was found, down to dt/{divisions} (dt = {dt:e}); try a smaller dt, or ends: \"release\" or \"stop\""
+        "slider '{slider}' arrives at the {end} of its beam soon after t = {time}, but no step that ends there was found, down to dt/{divisions} (dt = {dt:e}); try a smaller dt or a finer mesh"
     )]
     Landing {
         /// The slider.

@@ -132,9 +132,8 @@ impl Bracket {
     fn guess(&self) -> f64 {
         let ((t0, f0), (t1, f1)) = (self.before, self.after);
         let t = t1 - f1 * (t1 - t0) / (f1 - f0);
-        // Rounding may put it on an end, and far from the solution it may be of no use.
-        let margin = 1e-3 * (t1 - t0);
-        if t > t0 && t < t1 { t } else { (t0 + margin).max(0.5 * (t0 + t1)) }
+        // Rounding may put it on an end.
+        if t > t0 && t < t1 { t } else { 0.5 * (t0 + t1) }
     }
 }
 
@@ -209,7 +208,11 @@ impl Simulation {
         if self.model.leads_beyond(limit) {
             return Ok(Prospect::Beyond);
         }
+        // Where the whole step hardly leaves the end, the slider rests there: halves of it would tell rounding from rounding.
         for halving in 1..=PROBES {
+            if after.1 <= NEAR {
+                break;
+            }
             let duration = interval.duration() * 0.5_f64.powi(halving);
             let cut = Interval::lasting(interval.start, duration);
             match self.integrator.step(&mut self.model, cut) {

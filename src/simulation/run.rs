@@ -158,9 +158,9 @@ impl Simulation {
         &self.counts
     }
 
-    /// The number of unknowns of a step.
+    /// The number of unknowns of a step, those of contacts included.
     pub fn unknowns(&self) -> usize {
-        self.model.unknowns()
+        self.model.unknowns() + self.model.constraint_shape().width
     }
 
     /// How far from the diagonal the matrix of a step reaches.
@@ -274,7 +274,9 @@ impl Simulation {
             .arrivals
             .last()
             .map(|last| last.describe(&self.scene.sliders[last.limit.slider].name));
-        Err(SimulationError::Rattles { arrival: last.unwrap_or_default(), most: MOST_ARRIVALS })
+        let arrival = last
+            .unwrap_or_else(|| format!("a slider is about to arrive after t = {}", self.time()));
+        Err(SimulationError::Rattles { arrival, most: MOST_ARRIVALS })
     }
 
     /// Covers an interval by one step or, where that fails, by halves of it, growing again after success.
@@ -296,7 +298,13 @@ impl Simulation {
             if let Err(StepError::Overshoot { overshoot, iterations, .. }) = stepped {
                 self.count_try(iterations);
                 match self.land(interval, overshoot) {
-                    Ok(landing) => return self.take_landing(&landing, retries),
+                    Ok(landing) => {
+                        let covered = self.take_landing(&landing, retries)?;
+                        if !monitor.goes_on(self.time()) {
+                            return Err(SimulationError::Interrupted { time: self.time() });
+                        }
+                        return Ok(covered);
+                    }
                     Err(source) => stepped = Err(source),
                 }
             }
