@@ -47,7 +47,13 @@ impl State {
         passage.go(self.from, self.from + unknowns.way);
         let window = passage.first()..passage.first() + passage.end().len();
         let (before, moved) = (&self.before[window.clone()], &moved[window]);
-        let contact = Contact::new(&passage, before, moved, vector(0), unknowns, self.length);
+        let contact = Contact {
+            passage: &passage,
+            master: (before, moved),
+            slave_moved: vector(0),
+            unknowns,
+            length: self.length,
+        };
         f(&contact, &passage)
     }
 
@@ -105,7 +111,7 @@ fn the_derivatives_of_every_law_are_those_of_its_equations() {
                         let slope = equation.by_master(weights);
                         (row[at], row[at + 1]) = (slope.x, slope.y);
                     }
-                    row[last..].copy_from_slice(&equation.by_unknowns);
+                    row[last..].copy_from_slice(&equation.by_unknowns.to_array());
                     row
                 });
                 DMatrix::from_fn(5, numbers.len(), |i, j| rows[i][j])
@@ -128,7 +134,7 @@ fn the_derivatives_by_the_way_hold_where_it_passes_zero() {
     for state in states().iter().filter(|state| state.unknowns.way.abs() < 1e-3) {
         let numbers = state.numbers();
         for (law_name, law) in LAWS.into_iter().filter(|(name, _)| *name != "relaxed") {
-            let found = state.with(&numbers, |c, _| law.equations(c).map(|e| e.by_unknowns[4]));
+            let found = state.with(&numbers, |c, _| law.equations(c).map(|e| e.by_unknowns.way));
             let mut only_way = |way: &[f64]| {
                 let mut numbers = numbers.clone();
                 *numbers.last_mut().unwrap() = way[0];
@@ -161,8 +167,9 @@ fn what_a_contact_does_is_what_its_equations_leave() {
         state.with(&state.numbers(), |contact, passage| {
             let (force, moment, work) = balance(&state, contact, passage);
             let ContactUnknowns { force: lambda, couple: eta, way } = contact.unknowns;
-            let (tau, d) = (contact.tangent.0, contact.swing.0);
-            let (gap_before, gap) = (-contact.start_gap, state.slave_moved - contact.end_point.0);
+            let (tau, d) = (contact.tangent().value, contact.swing().value);
+            let (gap_before, gap) =
+                (-contact.start_gap(), state.slave_moved - contact.end_point().value);
             let close = |what: &str, found: f64, expected: f64| {
                 let error = (found - expected).abs();
                 assert!(error < 1e-11, "{what}, {}: {found} is not {expected}", state.name);

@@ -74,7 +74,7 @@ impl Connection {
             column(y, way, -by_way.y);
         }
         for (row, equation) in self.places().zip(equations) {
-            for (unknown, slope) in self.places().zip(equation.by_unknowns) {
+            for (unknown, slope) in self.places().zip(equation.by_unknowns.to_array()) {
                 border.add_to_corner(row, unknown, slope);
             }
             let mut entry = |at: usize, slope: f64| {

@@ -106,7 +106,7 @@ impl Sliding {
             ends: slider.ends,
             state: SliderState::Sliding,
             parameter,
-            unknowns: ContactUnknowns::of([0.0; CONTACT_UNKNOWNS]),
+            unknowns: ContactUnknowns::zeros(),
             domain,
             length: length / (domain.1 - domain.0),
             here: passage.clone(),
@@ -144,7 +144,7 @@ impl Sliding {
     /// It leaves its master.
     pub(super) fn release(&mut self) {
         self.state = SliderState::Released;
-        self.unknowns = ContactUnknowns::of([0.0; CONTACT_UNKNOWNS]);
+        self.unknowns = ContactUnknowns::zeros();
     }
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
@@ -272,7 +272,7 @@ impl Sliding {
         self.moved.extend(window.map(|at| master.vector_at(at, increments)));
         let slave_moved = slave.vector_at(point, increments);
         let Self { passage, before, moved, length, .. } = self;
-        Contact::new(passage, before, moved, slave_moved, unknowns, *length)
+        Contact { passage, master: (before, moved), slave_moved, unknowns, length: *length }
     }
 
     /// Adds the forces on slave and master, and behind the movements the equations of the contact; returns the contact force.

@@ -1,7 +1,8 @@
 //! The rule that keeps energy, both momenta and the gap.
 
-use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw, Unit};
-use crate::geometry::{Vec2, cross, perpendicular};
+use super::contact::AXES;
+use super::{CONTACT_UNKNOWNS, Contact, ContactUnknowns, Equation, SlidingLaw, Unit};
+use crate::geometry::{cross, perpendicular};
 
 /// The gap is closed at the end of every step, and energy, linear and angular momentum are kept, for any step.
 ///
@@ -24,40 +25,34 @@ impl SlidingLaw for Conserving {
 
 /// `(|τ|² η + (d × λ) Jτ)/ℓ² = 0`: `d × λ + τ × η = 0` with the smallest `η`.
 fn balanced_moment(contact: &Contact<'_>) -> [Equation; 2] {
-    let (tangent, tangent_by_way) = contact.tangent;
-    let (swing, swing_by_way) = contact.swing;
-    let (force, couple) = (contact.unknowns.force, contact.unknowns.couple);
+    let (tangent, swing) = (contact.tangent(), contact.swing());
+    let ContactUnknowns { force, couple, .. } = contact.unknowns;
     let scale = 1.0 / contact.length.powi(2);
-    let (square, moment, normal) =
-        (tangent.norm_squared(), cross(swing, force), perpendicular(tangent));
-    let by_force = perpendicular(swing);
-    let components = [(couple.x, normal.x, -Vec2::y()), (couple.y, normal.y, Vec2::x())];
-    let mut index = 2;
-    components.map(|(couple, normal, normal_by_tangent)| {
-        let mut equation = Equation::new((square * couple + moment * normal) * scale, Unit::Force);
-        let by_tangent = (tangent * (2.0 * couple) + normal_by_tangent * moment) * scale;
+    let (square, moment) = (tangent.value.norm_squared(), cross(swing.value, force));
+    AXES.map(|axis| {
+        let (couple, normal) = (couple.dot(&axis), perpendicular(tangent.value).dot(&axis));
+        let by_tangent = (tangent.value * (2.0 * couple) - perpendicular(axis) * moment) * scale;
         let by_swing = perpendicular(force) * (-normal * scale);
-        equation.by_difference = by_tangent * 0.5 + by_swing * 0.25;
-        let by_way = by_tangent.dot(&tangent_by_way) + by_swing.dot(&swing_by_way);
-        let of_force = by_force * (normal * scale);
-        equation.by_unknowns = [of_force.x, of_force.y, 0.0, 0.0, by_way];
-        equation.by_unknowns[index] = square * scale;
-        index += 1;
-        equation
+        Equation {
+            by_difference: by_tangent * 0.5 + by_swing * 0.25,
+            by_unknowns: ContactUnknowns {
+                force: perpendicular(swing.value) * (normal * scale),
+                couple: axis * (square * scale),
+                way: by_tangent.dot(&tangent.by_way) + by_swing.dot(&swing.by_way),
+            },
+            ..Equation::new((square * couple + moment * normal) * scale, Unit::Force)
+        }
     })
 }
 
 /// `(λ·τ + 4 η·d)/ℓ = 0`: the contact does no work.
 fn kept_energy(contact: &Contact<'_>) -> Equation {
-    let (tangent, tangent_by_way) = contact.tangent;
-    let (swing, swing_by_way) = contact.swing;
-    let (force, couple) = (contact.unknowns.force, contact.unknowns.couple);
-    let scale = 1.0 / contact.length;
-    let power = force.dot(&tangent) + 4.0 * couple.dot(&swing);
-    let mut equation = Equation::new(power * scale, Unit::Force);
+    let ContactUnknowns { force, couple, .. } = contact.unknowns;
+    let (swing, scale) = (contact.swing(), 1.0 / contact.length);
+    let mut equation = contact.frictionless(contact.tangent());
+    equation.value += 4.0 * couple.dot(&swing.value) * scale;
     equation.by_difference = (force * 0.5 + couple) * scale;
-    let by_way = force.dot(&tangent_by_way) + 4.0 * couple.dot(&swing_by_way);
-    equation.by_unknowns =
-        [tangent.x, tangent.y, 4.0 * swing.x, 4.0 * swing.y, by_way].map(|slope| scale * slope);
+    equation.by_unknowns.couple = swing.value * (4.0 * scale);
+    equation.by_unknowns.way += 4.0 * couple.dot(&swing.by_way) * scale;
     equation
 }

@@ -6,7 +6,7 @@ use crate::geometry::{Passage, Vec2};
 /// The number of unknowns of a contact: `λ` and `η` with two components each, and `Δξ`.
 pub const CONTACT_UNKNOWNS: usize = 5;
 
-/// The unknowns of a contact.
+/// The unknowns of a contact, or a derivative by each of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactUnknowns {
     /// `λ`: the force on the master; `-λ` acts on the slave [force].
@@ -17,7 +17,19 @@ pub struct ContactUnknowns {
     pub way: f64,
 }
 
+/// The components of a vector are its products with these.
+pub(super) const AXES: [Vec2; 2] = [Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0)];
+
+/// No force, no couple, no way; and derivatives by none of them.
+const NONE: ContactUnknowns =
+    ContactUnknowns { force: Vec2::new(0.0, 0.0), couple: Vec2::new(0.0, 0.0), way: 0.0 };
+
 impl ContactUnknowns {
+    /// No force, no couple, no way.
+    pub fn zeros() -> Self {
+        NONE
+    }
+
     /// As they stand in a vector of unknowns.
     pub fn of([force_x, force_y, couple_x, couple_y, way]: [f64; CONTACT_UNKNOWNS]) -> Self {
         Self { force: Vec2::new(force_x, force_y), couple: Vec2::new(couple_x, couple_y), way }
@@ -29,63 +41,80 @@ impl ContactUnknowns {
     }
 }
 
+/// A place or direction on the way, and its derivative by `ξ1` [length].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Along {
+    /// The vector itself.
+    pub value: Vec2,
+    /// Its derivative by `ξ1`.
+    pub by_way: Vec2,
+}
+
 /// What the laws of sliding are made of, with places counted from where the slave starts the step.
 ///
 /// The forces are the same in all laws: the slave gets `-λ`, control point `i` of the master `B̄_i λ - Δξ D_i η`.
 #[derive(Debug, Clone, Copy)]
 pub struct Contact<'a> {
-    passage: &'a Passage,
+    /// The way of the slave along the master.
+    pub passage: &'a Passage,
+    /// The control points of the master in the window of the passage, counted from the slave, and how they move in the step
+    /// [length].
+    pub master: (&'a [Vec2], &'a [Vec2]),
+    /// `Δx_s` [length]
+    pub slave_moved: Vec2,
     /// `λ`, `η`, `Δξ`
     pub unknowns: ContactUnknowns,
     /// The length of the master for a parameter of one; makes equations lengths and forces [length].
     pub length: f64,
-    /// `Δx_s` [length]
-    pub slave_moved: Vec2,
-    /// `Σ B_i(ξ0) x_i0`: the gap at the start [length].
-    pub start_gap: Vec2,
-    /// `Σ D_i x_i0` and its derivative by `ξ1` [length].
-    pub start_tangent: (Vec2, Vec2),
-    /// `Σ B_i(ξ1) x_i1` and its derivative by `ξ1` [length].
-    pub end_point: (Vec2, Vec2),
-    /// `Σ B̄_i x̄_i` and its derivative by `ξ1` [length].
-    pub mean_point: (Vec2, Vec2),
-    /// `τ = Σ D_i x̄_i` and its derivative by `ξ1` [length].
-    pub tangent: (Vec2, Vec2),
-    /// `d = ¼ Σ D_i Δx_i` and its derivative by `ξ1` [length].
-    pub swing: (Vec2, Vec2),
 }
 
-impl<'a> Contact<'a> {
-    /// The contact on the way of a `passage`. `before` are the control points of the master in its window, counted from the
-    /// slave, and `moved` how they move in the step.
-    pub fn new(
-        passage: &'a Passage,
-        before: &[Vec2],
-        moved: &[Vec2],
-        slave_moved: Vec2,
-        unknowns: ContactUnknowns,
-        length: f64,
-    ) -> Self {
-        let sum = |weights: &[f64], share: f64| -> Vec2 {
-            let points = before.iter().zip(moved);
-            weights.iter().zip(points).map(|(w, (x, moved))| (x + moved * share) * *w).sum()
-        };
-        let movement = |weights: &[f64]| -> Vec2 {
-            weights.iter().zip(moved).map(|(w, moved)| moved * *w).sum()
-        };
-        let (difference, change) = (passage.difference(), passage.change());
-        Self {
-            passage,
-            unknowns,
-            length,
-            slave_moved,
-            start_gap: sum(passage.start(), 0.0),
-            start_tangent: (sum(difference, 0.0), sum(change, 0.0)),
-            end_point: (sum(passage.end(), 1.0), sum(passage.slope(), 1.0)),
-            mean_point: (sum(passage.mean(), 0.5), sum(passage.slope(), 0.5) * 0.5),
-            tangent: (sum(difference, 0.5), sum(change, 0.5)),
-            swing: (movement(difference) * 0.25, movement(change) * 0.25),
-        }
+impl Contact<'_> {
+    /// `Σ w_i (x_i0 + share Δx_i)`
+    fn sum(&self, weights: &[f64], share: f64) -> Vec2 {
+        let (before, moved) = self.master;
+        let points = before.iter().zip(moved);
+        weights.iter().zip(points).map(|(w, (x, moved))| (x + moved * share) * *w).sum()
+    }
+
+    /// `Σ w_i Δx_i`
+    fn movement(&self, weights: &[f64]) -> Vec2 {
+        let (_, moved) = self.master;
+        weights.iter().zip(moved).map(|(w, moved)| moved * *w).sum()
+    }
+
+    /// `Σ B_i(ξ0) x_i0`: the gap at the start.
+    pub fn start_gap(&self) -> Vec2 {
+        self.sum(self.passage.start(), 0.0)
+    }
+
+    /// `Σ D_i x_i0`
+    pub fn start_tangent(&self) -> Along {
+        let value = self.sum(self.passage.difference(), 0.0);
+        Along { value, by_way: self.sum(self.passage.change(), 0.0) }
+    }
+
+    /// `Σ B_i(ξ1) x_i1`
+    pub fn end_point(&self) -> Along {
+        let value = self.sum(self.passage.end(), 1.0);
+        Along { value, by_way: self.sum(self.passage.slope(), 1.0) }
+    }
+
+    /// `Σ B̄_i x̄_i`
+    pub fn mean_point(&self) -> Along {
+        let value = self.sum(self.passage.mean(), 0.5);
+        Along { value, by_way: self.sum(self.passage.slope(), 0.5) * 0.5 }
+    }
+
+    /// `τ = Σ D_i x̄_i`
+    pub fn tangent(&self) -> Along {
+        let value = self.sum(self.passage.difference(), 0.5);
+        Along { value, by_way: self.sum(self.passage.change(), 0.5) }
+    }
+
+    /// `d = ¼ Σ D_i Δx_i`
+    pub fn swing(&self) -> Along {
+        let value = self.movement(self.passage.difference()) * 0.25;
+        Along { value, by_way: self.movement(self.passage.change()) * 0.25 }
     }
 
     /// The first control point of the window.
@@ -118,23 +147,47 @@ impl<'a> Contact<'a> {
 
     /// `x_s1 = Σ B_i(ξ1) x_i1`: the gap at the end of the step is closed (paper, equation 15).
     pub(super) fn closed(&self) -> [Equation; 2] {
-        let (point, tangent) = self.end_point;
-        let gap = self.slave_moved - point;
-        [Vec2::x(), Vec2::y()].map(|axis| {
-            let mut equation = Equation::new(gap.dot(&axis), Unit::Length);
-            equation.by_slave = axis;
-            equation.by_end = -axis;
-            equation.by_unknowns[4] = -tangent.dot(&axis);
-            equation
+        let point = self.end_point();
+        let gap = self.slave_moved - point.value;
+        AXES.map(|axis| Equation {
+            by_slave: axis,
+            by_end: -axis,
+            by_unknowns: ContactUnknowns { way: -point.by_way.dot(&axis), ..NONE },
+            ..Equation::new(gap.dot(&axis), Unit::Length)
         })
     }
 
     /// `η = 0`
     pub(super) fn no_couple(&self) -> [Equation; 2] {
-        let couple = self.unknowns.couple;
-        [
-            Equation::vanishing(2, couple.x, 1.0, Unit::Force),
-            Equation::vanishing(3, couple.y, 1.0, Unit::Force),
-        ]
+        AXES.map(|axis| Equation {
+            by_unknowns: ContactUnknowns { couple: axis, ..NONE },
+            ..Equation::new(self.unknowns.couple.dot(&axis), Unit::Force)
+        })
+    }
+
+    /// `λ = 0`
+    pub(super) fn no_force(&self) -> [Equation; 2] {
+        AXES.map(|axis| Equation {
+            by_unknowns: ContactUnknowns { force: axis, ..NONE },
+            ..Equation::new(self.unknowns.force.dot(&axis), Unit::Force)
+        })
+    }
+
+    /// `Δξ = 0`, times `ℓ`.
+    pub(super) fn no_way(&self) -> Equation {
+        Equation {
+            by_unknowns: ContactUnknowns { way: self.length, ..NONE },
+            ..Equation::new(self.length * self.unknowns.way, Unit::Length)
+        }
+    }
+
+    /// `λ·direction/ℓ = 0`, for a direction that does not move with the master.
+    pub(super) fn frictionless(&self, direction: Along) -> Equation {
+        let (force, scale) = (self.unknowns.force, 1.0 / self.length);
+        let way = force.dot(&direction.by_way) * scale;
+        Equation {
+            by_unknowns: ContactUnknowns { force: direction.value * scale, way, ..NONE },
+            ..Equation::new(force.dot(&direction.value) * scale, Unit::Force)
+        }
     }
 }

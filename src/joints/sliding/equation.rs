@@ -1,6 +1,6 @@
 //! One equation of a contact, with its derivatives.
 
-use super::CONTACT_UNKNOWNS;
+use super::ContactUnknowns;
 use crate::geometry::Vec2;
 
 /// What the value of an equation is measured in.
@@ -28,7 +28,7 @@ pub struct Equation {
     /// plus `D_i` times this.
     pub by_difference: Vec2,
     /// Its derivatives by `λ`, `η` and `Δξ`.
-    pub by_unknowns: [f64; CONTACT_UNKNOWNS],
+    pub by_unknowns: ContactUnknowns,
 }
 
 impl Equation {
@@ -41,19 +41,12 @@ impl Equation {
             by_end: Vec2::zeros(),
             by_mean: Vec2::zeros(),
             by_difference: Vec2::zeros(),
-            by_unknowns: [0.0; CONTACT_UNKNOWNS],
+            by_unknowns: ContactUnknowns::zeros(),
         }
     }
 
     /// The derivative by a control point of the master with these `B_i(ξ1)`, `B̄_i` and `D_i`.
     pub fn by_master(&self, (end, mean, difference): (f64, f64, f64)) -> Vec2 {
         self.by_end * end + self.by_mean * mean + self.by_difference * difference
-    }
-
-    /// The unknown of that index itself vanishes; `scale` gives it its unit.
-    pub(super) fn vanishing(unknown: usize, value: f64, scale: f64, unit: Unit) -> Self {
-        let mut equation = Self::new(scale * value, unit);
-        equation.by_unknowns[unknown] = scale;
-        equation
     }
 }

@@ -1,6 +1,6 @@
 //! A slider that rests against the stop at an end of its master.
 
-use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw, Unit};
+use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 
 /// The slave stays where it is on the master, as in a hinge: `x_s1 = Σ B_i(ξ1) x_i1`, `Δξ = 0`, `η = 0`.
 #[derive(Debug, Clone, Copy)]
@@ -10,7 +10,6 @@ impl SlidingLaw for Held {
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
         let [gap_x, gap_y] = contact.closed();
         let [couple_x, couple_y] = contact.no_couple();
-        let way = Equation::vanishing(4, contact.unknowns.way, contact.length, Unit::Length);
-        [gap_x, gap_y, couple_x, couple_y, way]
+        [gap_x, gap_y, couple_x, couple_y, contact.no_way()]
     }
 }

@@ -13,7 +13,7 @@ mod released;
 mod rule;
 
 pub use conserving::Conserving;
-pub use contact::{CONTACT_UNKNOWNS, Contact, ContactUnknowns};
+pub use contact::{Along, CONTACT_UNKNOWNS, Contact, ContactUnknowns};
 pub use equation::{Equation, Unit};
 pub use exact::Exact;
 pub use held::Held;

@@ -1,7 +1,7 @@
 //! The rule of the paper's equations 11 to 14: energy and momenta are kept, the gap drifts.
 
+use super::contact::AXES;
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw, Unit};
-use crate::geometry::Vec2;
 
 /// A gap smaller than this part of the master is rounding and gives no direction.
 const ROUNDING: f64 = 1e-13;
@@ -19,32 +19,32 @@ pub struct Relaxed;
 
 impl SlidingLaw for Relaxed {
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
-        let (mean_point, mean_by_way) = contact.mean_point;
-        let gap = contact.slave_moved * 0.5 - mean_point;
-        let closed = |axis: Vec2| {
-            let mut equation = Equation::new(gap.dot(&axis), Unit::Length);
-            equation.by_slave = axis * 0.5;
-            equation.by_mean = axis * -0.5;
-            equation.by_unknowns[4] = -mean_by_way.dot(&axis);
-            equation
-        };
+        let [gap_x, gap_y] = closed_mean(contact);
         let [couple_x, couple_y] = contact.no_couple();
-        [closed(Vec2::x()), closed(Vec2::y()), couple_x, couple_y, sliding(contact)]
+        [gap_x, gap_y, couple_x, couple_y, sliding(contact)]
     }
+}
+
+/// `½ (x_s0 + x_s1) = Σ B̄_i x̄_i`
+fn closed_mean(contact: &Contact<'_>) -> [Equation; 2] {
+    let point = contact.mean_point();
+    let gap = contact.slave_moved * 0.5 - point.value;
+    AXES.map(|axis| {
+        let mut equation = Equation::new(gap.dot(&axis), Unit::Length);
+        equation.by_slave = axis * 0.5;
+        equation.by_mean = axis * -0.5;
+        equation.by_unknowns.way = -point.by_way.dot(&axis);
+        equation
+    })
 }
 
 /// `2/Δξ (Σ B̄_i x_i0 - x_s0) = Σ D_i x_i0 + 2/Δξ (Σ B_i(ξ0) x_i0 - x_s0)`: tangent and gap.
 fn sliding(contact: &Contact<'_>) -> Equation {
-    let force = contact.unknowns.force;
-    let (mut direction, mut by_way) = contact.start_tangent;
-    if contact.start_gap.norm() > ROUNDING * contact.length {
-        let tilt = contact.start_gap * (2.0 / contact.unknowns.way);
-        direction += tilt;
-        by_way -= tilt / contact.unknowns.way;
+    let (mut direction, gap) = (contact.start_tangent(), contact.start_gap());
+    if gap.norm() > ROUNDING * contact.length {
+        let tilt = gap * (2.0 / contact.unknowns.way);
+        direction.value += tilt;
+        direction.by_way -= tilt / contact.unknowns.way;
     }
-    let scale = 1.0 / contact.length;
-    let mut equation = Equation::new(force.dot(&direction) * scale, Unit::Force);
-    equation.by_unknowns =
-        [direction.x, direction.y, 0.0, 0.0, force.dot(&by_way)].map(|slope| scale * slope);
-    equation
+    contact.frictionless(direction)
 }
