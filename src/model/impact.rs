@@ -45,9 +45,12 @@ impl Model {
         Ok(())
     }
 
-    /// A slider bounces off the end of its master: all velocities relative to masters are reversed in the directions that
-    /// transmit forces, which keeps the energy (`P·(G v⁺ + G v⁻) = 0`).
-    pub(super) fn bounce_off(&mut self, slider: usize) -> Result<(), ModelError> {
+    /// A slider bounces off the end of its master, as off an elastic stop: all velocities relative to masters are reversed in
+    /// the directions that transmit forces, which keeps the energy (`P·(G v⁺ + G v⁻) = 0`).
+    ///
+    /// # Errors
+    /// When the impulse is not determined.
+    pub fn bounce(&mut self, slider: usize) -> Result<(), ModelError> {
         let directions = self.sliders.iter().enumerate().flat_map(|(at, other)| {
             let along = match other.state {
                 SliderState::Released => return Vec::new(),

@@ -6,7 +6,8 @@ use super::forecast::Forecast;
 use super::inertia::Lump;
 use super::measures::{Energy, Measures};
 use super::scales::{StepScales, largest, relative};
-use super::sliding::{LANDED, Sliding, TrackEnd};
+use super::sliders::TrackLimit;
+use super::sliding::{LANDED, Sliding};
 use super::tracker::Tracker;
 use crate::beams::{ForceSummary, Mesh, Place};
 use crate::geometry::{Vec2, cross, larger};
@@ -35,7 +36,7 @@ pub struct Model {
     pub(super) joined: Vec<(Place, Place)>,
     pub(super) sliders: Vec<Sliding>,
     /// The limit at which the next step is to end.
-    pub(super) aim: Option<usize>,
+    pub(super) aim: Option<TrackLimit>,
     /// In the order of their degrees of freedom, which follow the unknowns.
     pub(super) supports: Vec<Support>,
     pub(super) unknowns: usize,
@@ -162,13 +163,6 @@ impl Model {
             sum += Exchange::of(0.0, force * duration, angular);
         }
         sum
-    }
-
-    /// The ends of masters at which sliders could arrive: two for each.
-    fn limits(&self) -> impl Iterator<Item = (usize, &Sliding, TrackEnd)> {
-        let ends = |slider| [(slider, TrackEnd::Start), (slider, TrackEnd::End)];
-        let limits = self.sliders.iter().flat_map(ends);
-        limits.enumerate().map(|(limit, (slider, end))| (limit, slider, end))
     }
 }
 
@@ -313,14 +307,15 @@ impl Mechanism for Model {
 
     fn check_constraints(&self, unknowns: &[f64]) -> Result<(), Overshoot> {
         let mut furthest: Option<Overshoot> = None;
-        for (limit, slider, end) in self.limits().filter(|(_, slider, _)| slider.is_sliding()) {
-            let distance = slider.beyond(unknowns, end);
-            let is_aim = self.aim == Some(limit);
-            if is_aim && distance.abs() > LANDED {
-                return Err(Overshoot { limit, distance });
+        let limits = (0..self.sliders.len()).flat_map(TrackLimit::both);
+        for limit in limits.filter(|limit| self.sliders[limit.slider].is_sliding()) {
+            let distance = self.sliders[limit.slider].beyond(unknowns, limit.end);
+            let overshoot = Overshoot { limit: limit.number(), distance };
+            if self.aim == Some(limit) && distance.abs() > LANDED {
+                return Err(overshoot);
             }
             if distance > LANDED && furthest.is_none_or(|other| distance > other.distance) {
-                furthest = Some(Overshoot { limit, distance });
+                furthest = Some(overshoot);
             }
         }
         furthest.map_or(Ok(()), Err)

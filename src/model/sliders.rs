@@ -25,6 +25,23 @@ pub struct TrackLimit {
     pub end: TrackEnd,
 }
 
+impl TrackLimit {
+    /// The ends of the master of a slider, in the order of their numbers.
+    pub(super) fn both(slider: usize) -> [Self; 2] {
+        [TrackEnd::Start, TrackEnd::End].map(|end| Self { slider, end })
+    }
+
+    /// Its number among those of all sliders.
+    pub fn number(self) -> usize {
+        2 * self.slider + self.end as usize
+    }
+
+    /// The limit of that number.
+    pub fn of(number: usize) -> Self {
+        Self::both(number / 2)[number % 2]
+    }
+}
+
 impl Scene {
     /// The arc length at which a beam comes nearest to a station, both as drawn [length].
     ///
@@ -144,13 +161,15 @@ impl Model {
 
     /// The place of a slider along its master as drawn: 0 at its start, 1 at its end [-].
     pub fn slider_position(&self, scene: &Scene, slider: usize) -> f64 {
+        let sliding = &self.sliders[slider];
         // Arrivals are a few digits short of the end, or beyond it.
-        match [TrackEnd::Start, TrackEnd::End].map(|end| self.sliders[slider].is_at(end)) {
-            [true, _] => return 0.0,
-            [_, true] => return 1.0,
-            _ => {}
+        if sliding.is_at(TrackEnd::Start) {
+            return 0.0;
         }
-        let axis = &scene.beams[self.sliders[slider].connection.master].axis;
+        if sliding.is_at(TrackEnd::End) {
+            return 1.0;
+        }
+        let axis = &scene.beams[sliding.connection.master].axis;
         let along = axis.length_to(self.drawn_parameter(scene, slider));
         along.map_or(f64::NAN, |along| along / axis.length())
     }
@@ -176,26 +195,12 @@ impl Model {
 
     /// Makes steps end at a limit, or lets them go where they lead again.
     pub fn aim_at(&mut self, limit: Option<TrackLimit>) {
-        self.aim = limit.map(|limit| self.number(limit));
-    }
-
-    /// The number of a limit.
-    pub fn number(&self, TrackLimit { slider, end }: TrackLimit) -> usize {
-        match end {
-            TrackEnd::Start => 2 * slider,
-            TrackEnd::End => 2 * slider + 1,
-        }
+        self.aim = limit;
     }
 
     /// How far a slider is from a limit, as a part of the parameters of its master [-].
     pub fn distance_to(&self, limit: TrackLimit) -> f64 {
         self.sliders[limit.slider].distance_to(limit.end)
-    }
-
-    /// The limit of that number.
-    pub fn limit(&self, number: usize) -> TrackLimit {
-        let end = if number.is_multiple_of(2) { TrackEnd::Start } else { TrackEnd::End };
-        TrackLimit { slider: number / 2, end }
     }
 
     /// Whether a slider is at a limit.
@@ -213,14 +218,6 @@ impl Model {
         self.sliders[slider].ends
     }
 
-    /// Reverses the velocity of a slider along its master, as an elastic stop does: energy and momenta are kept.
-    ///
-    /// # Errors
-    /// When the impulse is not determined.
-    pub fn bounce(&mut self, slider: usize) -> Result<(), ModelError> {
-        self.bounce_off(slider)
-    }
-
     /// Lets a slider leave its master.
     pub fn release(&mut self, slider: usize) {
         self.sliders[slider].release();
@@ -229,5 +226,18 @@ impl Model {
     /// Lets a slider rest against the stop at a limit, until the stop would have to pull.
     pub fn hold(&mut self, limit: TrackLimit) {
         self.sliders[limit.slider].state = SliderState::Held(limit.end);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_are_numbered_in_their_order() {
+        let limits: Vec<TrackLimit> = (0..3).flat_map(TrackLimit::both).collect();
+        for (number, limit) in limits.into_iter().enumerate() {
+            assert_eq!((limit.number(), TrackLimit::of(number)), (number, limit));
+        }
     }
 }

@@ -70,23 +70,19 @@ impl Arrival {
 }
 
 /// A step that was cut where a slider arrives.
-pub(super) enum Landing {
-    /// The step ends with the arrival.
-    At(Interval, NewtonReport, TrackLimit),
-    /// The step ends just before: no step of any length ends with the arrival, as longer ones lead by a jump beyond it.
-    Before(Interval, NewtonReport),
-    /// The slider is at the end already, and every step leads beyond it.
-    AtOnce(TrackLimit),
+pub(super) struct Landing {
+    /// The step; none for a slider that is at the end already and led beyond it by every step.
+    pub(super) step: Option<(Interval, NewtonReport)>,
+    /// The end that is reached; none where the step ends just before, because longer ones lead by a jump beyond it.
+    reached: Option<TrackLimit>,
 }
 
 /// What is known of an arrival before it is searched for.
 enum Prospect {
     /// It lies between two times.
     Between(Bracket),
-    /// A step was taken that ends with it.
-    Landed(Interval, NewtonReport),
-    /// The slider is at the limit already and stays beyond it in steps of any size.
-    Beyond,
+    /// A step was taken that ends with it, or none is needed.
+    Landed(Landing),
 }
 
 /// Durations of steps that end before and after an arrival, with the distances beyond the limit there.
@@ -150,45 +146,40 @@ impl Simulation {
     }
 
     fn search(&mut self, interval: Interval, first: Overshoot) -> Result<Landing, StepError> {
-        let mut limit = self.model.limit(first.limit);
-        self.model.aim_at(Some(limit));
-        let mut bracket = match self.prospect(interval, limit, first.distance)? {
-            Prospect::Between(bracket) => bracket,
-            Prospect::Landed(cut, report) => return Ok(Landing::At(cut, report, limit)),
-            Prospect::Beyond => return Ok(Landing::AtOnce(limit)),
-        };
-        for _ in 0..MOST_TRIES {
-            if bracket.is_closed() {
-                self.model.aim_at(None);
-                let cut = Interval::lasting(interval.start, bracket.before.0);
-                return Ok(Landing::Before(cut, self.integrator.step(&mut self.model, cut)?));
-            }
-            let duration = bracket.guess();
-            let cut = Interval::lasting(interval.start, duration);
-            match self.integrator.step(&mut self.model, cut) {
-                Ok(report) => return Ok(Landing::At(cut, report, limit)),
-                Err(StepError::Overshoot { overshoot, iterations, .. }) => {
-                    self.count_try(iterations);
-                    let other = self.model.limit(overshoot.limit);
-                    if other != limit {
-                        // Another slider arrives before.
-                        limit = other;
-                        self.model.aim_at(Some(limit));
-                        bracket = match self.prospect(cut, limit, overshoot.distance)? {
-                            Prospect::Between(bracket) => bracket,
-                            Prospect::Landed(cut, report) => {
-                                return Ok(Landing::At(cut, report, limit));
-                            }
-                            Prospect::Beyond => return Ok(Landing::AtOnce(limit)),
-                        };
-                    } else {
-                        bracket.narrow(duration, overshoot.distance);
-                    }
+        let (mut cut, mut overshoot) = (interval, first);
+        let mut tries = 0..MOST_TRIES;
+        // Once for each slider that turns out to arrive before the one aimed at.
+        loop {
+            let limit = TrackLimit::of(overshoot.limit);
+            self.model.aim_at(Some(limit));
+            let mut bracket = match self.prospect(cut, limit, overshoot.distance)? {
+                Prospect::Between(bracket) => bracket,
+                Prospect::Landed(landing) => return Ok(landing),
+            };
+            loop {
+                if bracket.is_closed() {
+                    self.model.aim_at(None);
+                    let short = Interval::lasting(interval.start, bracket.before.0);
+                    let report = self.integrator.step(&mut self.model, short)?;
+                    return Ok(Landing { step: Some((short, report)), reached: None });
                 }
-                Err(other) => return Err(other),
+                if tries.next().is_none() {
+                    return Err(StepError::Overshoot { interval, overshoot: first, iterations: 0 });
+                }
+                let duration = bracket.guess();
+                cut = Interval::lasting(interval.start, duration);
+                overshoot = match self.attempt(cut)? {
+                    Ok(report) => {
+                        return Ok(Landing { step: Some((cut, report)), reached: Some(limit) });
+                    }
+                    Err(overshoot) => overshoot,
+                };
+                if overshoot.limit != limit.number() {
+                    break;
+                }
+                bracket.narrow(duration, overshoot.distance);
             }
         }
-        Err(StepError::Overshoot { interval, overshoot: first, iterations: 0 })
     }
 
     /// Looks for a step that ends before the arrival, given one that ends after it.
@@ -199,14 +190,13 @@ impl Simulation {
         distance: f64,
     ) -> Result<Prospect, StepError> {
         let mut after = (interval.duration(), distance);
-        let distance_left = self.model.distance_to(limit);
-        let has_reached = distance_left <= NEAR && self.model.leads_beyond(limit);
-        if !self.model.is_at(limit) && !has_reached {
-            let before = (0.0, -distance_left);
-            return Ok(Prospect::Between(Bracket::new(before, after)));
+        let left = self.model.distance_to(limit);
+        let at_once = Landing { step: None, reached: Some(limit) };
+        if self.model.leads_beyond(limit) && left <= NEAR {
+            return Ok(Prospect::Landed(at_once));
         }
-        if self.model.leads_beyond(limit) {
-            return Ok(Prospect::Beyond);
+        if !self.model.is_at(limit) {
+            return Ok(Prospect::Between(Bracket::new((0.0, -left), after)));
         }
         // Where the whole step hardly leaves the end, the slider rests there: halves of it would tell rounding from rounding.
         for halving in 1..=PROBES {
@@ -215,23 +205,31 @@ impl Simulation {
             }
             let duration = interval.duration() * 0.5_f64.powi(halving);
             let cut = Interval::lasting(interval.start, duration);
-            match self.integrator.step(&mut self.model, cut) {
-                Err(StepError::Overshoot { overshoot, iterations, .. }) => {
-                    self.count_try(iterations);
-                    if overshoot.limit != self.model.number(limit) {
-                        continue;
-                    }
-                    if overshoot.distance < 0.0 {
-                        let before = (duration, overshoot.distance);
-                        return Ok(Prospect::Between(Bracket::new(before, after)));
-                    }
-                    after = (duration, overshoot.distance);
+            match self.attempt(cut)? {
+                Ok(report) => {
+                    let landing = Landing { step: Some((cut, report)), reached: Some(limit) };
+                    return Ok(Prospect::Landed(landing));
                 }
-                Ok(report) => return Ok(Prospect::Landed(cut, report)),
-                Err(other) => return Err(other),
+                Err(overshoot) if overshoot.limit != limit.number() => {}
+                Err(Overshoot { distance, .. }) if distance < 0.0 => {
+                    return Ok(Prospect::Between(Bracket::new((duration, distance), after)));
+                }
+                Err(Overshoot { distance, .. }) => after = (duration, distance),
             }
         }
-        Ok(Prospect::Beyond)
+        Ok(Prospect::Landed(at_once))
+    }
+
+    /// Tries a step; one that does not end where it is aimed at is counted, and not taken.
+    fn attempt(&mut self, cut: Interval) -> Result<Result<NewtonReport, Overshoot>, StepError> {
+        match self.integrator.step(&mut self.model, cut) {
+            Ok(report) => Ok(Ok(report)),
+            Err(StepError::Overshoot { overshoot, iterations, .. }) => {
+                self.count_try(iterations);
+                Ok(Err(overshoot))
+            }
+            Err(other) => Err(other),
+        }
     }
 
     pub(super) fn count_try(&mut self, iterations: usize) {
@@ -239,37 +237,29 @@ impl Simulation {
         self.counts.factorisations += iterations;
     }
 
-    /// Does what is to be done where a slider arrives; `true` when the run ends there.
-    pub(super) fn arrive(&mut self, landing: &Landing) -> Result<bool, SimulationError> {
-        let limit = match *landing {
-            Landing::At(_, _, limit) | Landing::AtOnce(limit) => limit,
-            Landing::Before(..) => return Ok(false),
-        };
+    /// Does what is to be done where a slider arrives.
+    pub(super) fn arrive(&mut self, landing: &Landing) -> Result<(), SimulationError> {
+        let Some(limit) = landing.reached else { return Ok(()) };
         let leads_beyond = self.model.leads_beyond(limit);
         let kind = match self.model.end_action(limit.slider) {
             EndAction::Stop => ArrivalKind::Stopped,
-            EndAction::Bounce => match landing {
-                _ if leads_beyond => {
-                    self.model.bounce(limit.slider)?;
-                    ArrivalKind::Bounced
-                }
-                // It only touched the stop, or its velocity has turned round just there.
-                Landing::At(..) => ArrivalKind::Bounced,
-                Landing::Before(..) | Landing::AtOnce(_) => {
-                    self.model.hold(limit);
-                    ArrivalKind::Rested
-                }
-            },
+            EndAction::Bounce if leads_beyond => {
+                self.model.bounce(limit.slider)?;
+                ArrivalKind::Bounced
+            }
+            // It only touched the stop, or its velocity has turned round just there.
+            EndAction::Bounce if landing.step.is_some() => ArrivalKind::Bounced,
+            EndAction::Bounce => {
+                self.model.hold(limit);
+                ArrivalKind::Rested
+            }
             EndAction::Release => {
                 self.model.release(limit.slider);
                 ArrivalKind::Released
             }
         };
-        let arrival = Arrival { time: self.model.time(), limit, kind };
-        self.arrivals.push(arrival);
-        let ends = kind == ArrivalKind::Stopped;
-        self.last_arrival = ends.then_some(arrival);
-        Ok(ends)
+        self.arrivals.push(Arrival { time: self.model.time(), limit, kind });
+        Ok(())
     }
 
     /// Lets every slider arrive at the end of its master, for a pretended run: scripts may wait for that.
@@ -285,8 +275,6 @@ impl Simulation {
         };
         let mut arrivals: Vec<Arrival> = (0..self.scene.sliders.len()).map(arrival).collect();
         arrivals.sort_by_key(|arrival| arrival.kind == ArrivalKind::Stopped);
-        self.last_arrival =
-            arrivals.last().filter(|last| last.kind == ArrivalKind::Stopped).copied();
         self.arrivals = arrivals;
     }
 
@@ -295,11 +283,24 @@ impl Simulation {
         &self.arrivals
     }
 
+    /// The arrival that ended the run: nothing happens after it.
+    fn stopped(&self) -> Option<&Arrival> {
+        self.arrivals.last().filter(|last| last.kind == ArrivalKind::Stopped)
+    }
+
+    /// Whether a slider has ended the run.
+    pub fn has_ended(&self) -> bool {
+        self.stopped().is_some()
+    }
+
     /// Why the run has ended, if it has.
     pub fn ending(&self) -> Option<String> {
-        let stopped = self.last_arrival?;
-        let name = &self.scene.sliders[stopped.limit.slider].name;
-        Some(stopped.describe(name))
+        self.stopped().map(|stopped| self.describe(stopped))
+    }
+
+    /// An arrival in words.
+    pub(super) fn describe(&self, arrival: &Arrival) -> String {
+        arrival.describe(&self.scene.sliders[arrival.limit.slider].name)
     }
 
     /// What a slider does at present.

@@ -4,12 +4,12 @@ use std::cell::OnceCell;
 use std::time::{Duration, Instant};
 
 use super::columns::{extra_columns, extra_values};
-use super::landing::{Arrival, Landing, MOST_ARRIVALS};
+use super::landing::{Arrival, MOST_ARRIVALS};
 use super::{History, Outline, Sample, Scales, SimulationError, TimeGrid, Trajectory};
 
 use crate::geometry::Vec2;
 use crate::integrators::{Integrator, Interval, Mechanism, Method, StepError};
-use crate::model::{Model, Scene};
+use crate::model::{Model, Scene, TrackLimit};
 use crate::newton::{NewtonReport, Tolerance};
 
 /// Most steps that a pretended run has.
@@ -65,10 +65,10 @@ impl Monitor for Unwatched {
 }
 
 /// How much of an interval was covered.
+#[derive(PartialEq, Eq)]
 enum Covered {
     All,
     UntilAnArrival,
-    UntilTheRunEnded,
 }
 
 /// A scene in motion.
@@ -82,8 +82,6 @@ pub struct Simulation {
     pub(super) trajectory: Trajectory,
     pub(super) counts: WorkCounts,
     pub(super) arrivals: Vec<Arrival>,
-    /// The arrival that ended the run.
-    pub(super) last_arrival: Option<Arrival>,
     /// Made when the first picture asks for them.
     pub(super) outlines: OnceCell<Vec<Outline>>,
 }
@@ -118,7 +116,6 @@ impl Simulation {
             trajectory,
             counts: WorkCounts::default(),
             arrivals: Vec::new(),
-            last_arrival: None,
             outlines: OnceCell::new(),
         })
     }
@@ -194,7 +191,7 @@ impl Simulation {
         let steps = ((end - now) / self.grid.dt()).min(1e6) as usize + 8;
         self.history.reserve(steps);
         self.trajectory.reserve(steps);
-        while self.time() < end - 1e-9 * self.grid.dt() && self.last_arrival.is_none() {
+        while self.time() < end - 1e-9 * self.grid.dt() && !self.has_ended() {
             self.step_at_most_to(end, monitor)?;
         }
         Ok(())
@@ -262,20 +259,16 @@ impl Simulation {
         monitor: &mut dyn Monitor,
     ) -> Result<(), SimulationError> {
         for _ in 0..MOST_ARRIVALS {
-            match self.cover(Interval::between(self.time(), end), monitor)? {
-                Covered::All | Covered::UntilTheRunEnded => return Ok(()),
-                Covered::UntilAnArrival if self.time() >= end - 1e-9 * self.grid.dt() => {
-                    return Ok(());
-                }
-                Covered::UntilAnArrival => {}
+            let covered = self.cover(Interval::between(self.time(), end), monitor)?;
+            let is_there = self.time() >= end - 1e-9 * self.grid.dt();
+            if covered == Covered::All || is_there || self.has_ended() {
+                return Ok(());
             }
         }
-        let last = self
-            .arrivals
-            .last()
-            .map(|last| last.describe(&self.scene.sliders[last.limit.slider].name));
-        let arrival = last
-            .unwrap_or_else(|| format!("a slider is about to arrive after t = {}", self.time()));
+        let arrival = self.arrivals.last().map_or_else(
+            || format!("a slider is about to arrive after t = {}", self.time()),
+            |last| self.describe(last),
+        );
         Err(SimulationError::Rattles { arrival, most: MOST_ARRIVALS })
     }
 
@@ -299,11 +292,11 @@ impl Simulation {
                 self.count_try(iterations);
                 match self.land(interval, overshoot) {
                     Ok(landing) => {
-                        let covered = self.take_landing(&landing, retries)?;
-                        if !monitor.goes_on(self.time()) {
-                            return Err(SimulationError::Interrupted { time: self.time() });
+                        if let Some((interval, report)) = landing.step {
+                            self.record(interval, report, retries);
                         }
-                        return Ok(covered);
+                        self.arrive(&landing)?;
+                        return self.ask(monitor).map(|()| Covered::UntilAnArrival);
                     }
                     Err(source) => stepped = Err(source),
                 }
@@ -330,34 +323,26 @@ impl Simulation {
                     halvings += 1;
                 }
             }
-            if !monitor.goes_on(self.time()) {
-                return Err(SimulationError::Interrupted { time: self.time() });
-            }
+            self.ask(monitor)?;
         }
         Ok(Covered::All)
+    }
+
+    /// Asks whether the run goes on.
+    fn ask(&self, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
+        let time = self.time();
+        if monitor.goes_on(time) { Ok(()) } else { Err(SimulationError::Interrupted { time }) }
     }
 
     /// The error of steps that failed in every size.
     fn no_step(&self, dt: f64, divisions: u64, source: StepError) -> SimulationError {
         let time = self.time();
         if let StepError::Overshoot { overshoot, .. } = &source {
-            let limit = self.model.limit(overshoot.limit);
+            let limit = TrackLimit::of(overshoot.limit);
             let slider = self.scene.sliders[limit.slider].name.clone();
             return SimulationError::Landing { slider, end: limit.end.name(), time, dt, divisions };
         }
         SimulationError::Step { time, dt, divisions, source }
-    }
-
-    fn take_landing(
-        &mut self,
-        landing: &Landing,
-        retries: usize,
-    ) -> Result<Covered, SimulationError> {
-        if let Landing::At(interval, report, _) | Landing::Before(interval, report) = landing {
-            self.record(*interval, *report, retries);
-        }
-        let has_ended = self.arrive(landing)?;
-        Ok(if has_ended { Covered::UntilTheRunEnded } else { Covered::UntilAnArrival })
     }
 
     fn record(&mut self, interval: Interval, report: NewtonReport, retries: usize) {

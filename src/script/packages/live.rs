@@ -140,7 +140,7 @@ impl SimulationHandle {
     }
 
     fn has_ended(&self) -> bool {
-        self.simulation().ending().is_some()
+        self.simulation().has_ended()
     }
 
     /// Tells once that a run ended earlier than the script wanted.

@@ -95,7 +95,7 @@ pub const TABLE: Table = Table {
         .summary("How fast a slider moves along its beam as drawn, positive towards the end.")
         .example("check_close(sim.slider_speed(ring), 1, 1e-12);")
         .see(&["slider_position"]),
-        property(SIMULATION, "ended", |call| Ok(call.receiver::<SimulationHandle>()?.simulation().ending().is_some().into()))
+        property(SIMULATION, "ended", |call| Ok(call.receiver::<SimulationHandle>()?.simulation().has_ended().into()))
             .returns("true or false")
             .summary("Whether a slider has reached the end of its beam and ended the run.")
             .doc("After that run_to returns at once, step is an error, and functions set for later times are not called.")
