@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use super::limits::LimitOptions;
+
 /// Planar dynamics of flexible beams, scripted.
 #[derive(Parser)]
 #[command(version, after_help = EXIT_CODES)]
@@ -38,6 +40,9 @@ pub struct RunOptions {
     /// No progress bar and no closing lines; what the script prints and what fails is still shown.
     #[arg(long, short)]
     pub quiet: bool,
+    /// What the script may use.
+    #[command(flatten)]
+    pub limits: LimitOptions,
 }
 
 /// Options of `withy check`.
@@ -45,6 +50,9 @@ pub struct RunOptions {
 pub struct CheckOptions {
     /// The script, a .rhai file.
     pub file: PathBuf,
+    /// What the script may use.
+    #[command(flatten)]
+    pub limits: LimitOptions,
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 all is well, 1 a check in the script failed, 2 the script or an argument is wrong, \

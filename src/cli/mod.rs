@@ -3,6 +3,7 @@
 mod args;
 mod bar;
 mod interrupt;
+mod limits;
 mod run;
 
 use std::process::ExitCode;

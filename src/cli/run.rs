@@ -22,6 +22,7 @@ pub fn run(options: &RunOptions) -> Exit {
     let settings = Settings {
         out: options.out.clone(),
         interrupt: interrupt::flag(),
+        limits: options.limits.limits(),
         printed: Box::new(stdout()),
         told: Box::new(stderr()),
         progress: bar::progress(wish),
@@ -44,7 +45,11 @@ pub fn run(options: &RunOptions) -> Exit {
 
 /// Parses a script and builds its scenes.
 pub fn check(options: &CheckOptions) -> Exit {
-    let settings = Settings { interrupt: interrupt::flag(), ..Settings::silent(Mode::DryBuild) };
+    let settings = Settings {
+        interrupt: interrupt::flag(),
+        limits: options.limits.limits(),
+        ..Settings::silent(Mode::DryBuild)
+    };
     match start(&options.file, settings) {
         Ok(outcome) => {
             if let Ending::Finished = outcome.ending {

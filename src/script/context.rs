@@ -13,6 +13,7 @@ use rhai::EvalAltResult;
 use super::checks::Checks;
 use super::error::ScriptError;
 use super::files::OutputFolder;
+use super::limits::{Limits, Meter, Stop};
 use super::progress::{NoProgress, Progress};
 
 /// Whether simulations really run.
@@ -32,6 +33,8 @@ pub struct Settings {
     pub out: PathBuf,
     /// Set from outside (Ctrl-C) to stop as soon as possible.
     pub interrupt: Arc<AtomicBool>,
+    /// What the run may use.
+    pub limits: Limits,
     /// Where `print` writes.
     pub printed: Box<dyn Write + Send>,
     /// Where failed checks and `debug` are told, at once.
@@ -47,6 +50,7 @@ impl Settings {
             mode,
             out: PathBuf::from("out"),
             interrupt: Arc::default(),
+            limits: Limits::default(),
             printed: Box::new(io::sink()),
             told: Box::new(io::sink()),
             progress: Box::new(NoProgress),
@@ -70,6 +74,7 @@ pub struct Context(Rc<Shared>);
 struct Shared {
     mode: Mode,
     interrupt: Arc<AtomicBool>,
+    meter: Meter,
     printed: RefCell<Box<dyn Write + Send>>,
     told: RefCell<Box<dyn Write + Send>>,
     pipe_closed: Cell<bool>,
@@ -86,6 +91,7 @@ impl Context {
         Self(Rc::new(Shared {
             mode: settings.mode,
             interrupt: settings.interrupt,
+            meter: Meter::new(settings.limits),
             printed: RefCell::new(settings.printed),
             told: RefCell::new(settings.told),
             pipe_closed: Cell::new(false),
@@ -112,14 +118,31 @@ impl Context {
         &*self.0.progress
     }
 
-    /// Refuses to go on after an interrupt or when nobody reads the output any more.
+    /// Refuses to go on after an interrupt, beyond a limit, or when nobody reads the output any more.
     pub fn proceed(&self) -> Result<(), ScriptError> {
-        if self.is_stopped() { Err(ScriptError::Interrupted) } else { Ok(()) }
+        self.stopped_by().map_or(Ok(()), |stop| Err(ScriptError::Stopped(stop)))
     }
 
     /// Whether the run should end as soon as it can.
     pub fn is_stopped(&self) -> bool {
-        self.0.pipe_closed.get() || self.0.interrupt.load(Ordering::Relaxed)
+        self.stopped_by().is_some()
+    }
+
+    /// Why the run should end as soon as it can, if it should.
+    pub fn stopped_by(&self) -> Option<Stop> {
+        if self.0.pipe_closed.get() {
+            return Some(Stop::PipeClosed);
+        }
+        if self.0.interrupt.load(Ordering::Relaxed) {
+            return Some(Stop::Interrupt);
+        }
+        self.0.meter.passed()
+    }
+
+    /// What the run may use, and how much of it is used. Whoever lets a script run calls
+    /// [`watch`](Meter::watch) before, and keeps the guard until it has ended.
+    pub fn meter(&self) -> &Meter {
+        &self.0.meter
     }
 
     /// The flag that stops the run, for native loops that know nothing of scripts.

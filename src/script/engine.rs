@@ -8,12 +8,11 @@ use super::catalog::Catalog;
 use super::context::Context;
 use super::error::ScriptError;
 use super::imports::AcyclicResolver;
+use super::limits::DEEPEST;
 use super::numbers::format_number;
 use super::register::register;
 use super::{operators, syntax};
 
-/// Calls within calls. Together with the depth of expressions it must fit [`STACK_BYTES`](super::runner::STACK_BYTES).
-const CALL_LEVELS: usize = 400;
 /// Nesting of one expression at the top level, and inside a function where it adds up with calls.
 const EXPRESSION_DEPTH: usize = 256;
 const EXPRESSION_DEPTH_IN_FUNCTION: usize = 64;
@@ -26,7 +25,7 @@ const LARGEST_MAP: usize = 1_000_000;
 /// An error means that a token hook of Rhai no longer works as this crate needs it.
 pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     let mut engine = Engine::new();
-    limit(&mut engine);
+    limit(&mut engine, context);
     name_types(&mut engine);
     syntax::install(&mut engine)?;
     operators::install(&mut engine);
@@ -44,9 +43,9 @@ pub fn import_from(engine: &mut Engine, folder: &std::path::Path) {
     engine.set_module_resolver(AcyclicResolver::new(folder));
 }
 
-fn limit(engine: &mut Engine) {
+fn limit(engine: &mut Engine, context: &Context) {
     engine
-        .set_max_call_levels(CALL_LEVELS)
+        .set_max_call_levels(context.meter().limits().depth.min(DEEPEST))
         .set_max_expr_depths(EXPRESSION_DEPTH, EXPRESSION_DEPTH_IN_FUNCTION)
         .set_max_string_size(LONGEST_TEXT)
         .set_max_array_size(LARGEST_ARRAY)
@@ -103,5 +102,5 @@ fn connect(engine: &mut Engine, context: &Context) {
         None => teller.tell(text),
     });
     let watched = context.clone();
-    engine.on_progress(move |_| watched.is_stopped().then_some(Dynamic::UNIT));
+    engine.on_progress(move |_| watched.stopped_by().map(Dynamic::from));
 }

@@ -3,6 +3,7 @@
 use rhai::{Dynamic, EvalAltResult, Position};
 
 use super::kind::Scripted;
+use super::limits::Stop;
 
 /// Marks errors of the engine that are our own mistakes.
 pub(super) const BUG: &str = "a bug in withy";
@@ -12,8 +13,8 @@ pub(super) const BUG: &str = "a bug in withy";
 pub enum ScriptError {
     /// The script asked for something that is wrong.
     Failure(Failure),
-    /// The run was interrupted from outside; scripts cannot catch this.
-    Interrupted,
+    /// The run was interrupted from outside or passed a limit; scripts cannot catch this.
+    Stopped(Stop),
     /// Our own mistake; the user is asked to report it.
     Bug(String),
     /// A script function that was called back failed; its own error is handed on untouched.
@@ -75,7 +76,7 @@ impl ScriptError {
             Self::Failure(failure) => {
                 EvalAltResult::ErrorRuntime(Dynamic::from(failure), call).into()
             }
-            Self::Interrupted => EvalAltResult::ErrorTerminated(Dynamic::UNIT, call).into(),
+            Self::Stopped(stop) => EvalAltResult::ErrorTerminated(Dynamic::from(stop), call).into(),
             Self::Bug(message) => EvalAltResult::ErrorSystem(message, BUG.into()).into(),
             Self::Engine(error) => error,
         }

@@ -17,6 +17,7 @@ pub mod files;
 pub mod imports;
 pub mod kind;
 pub mod lexing;
+pub mod limits;
 pub mod numbers;
 pub mod operators;
 pub mod options;

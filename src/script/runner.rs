@@ -102,6 +102,13 @@ fn evaluate(program: &Program, catalog: &Catalog, context: &Context) -> Ending {
         Ok(engine) => engine,
         Err(reason) => return Ending::Failed(Diagnostic::bug(reason)),
     };
+    let _watchdog = match context.meter().watch() {
+        Ok(watchdog) => watchdog,
+        Err(error) => {
+            let told = format!("cannot start a thread that keeps the limits: {error}");
+            return Ending::Failed(Diagnostic::general(told));
+        }
+    };
     let outcome = compile(&mut engine, program).and_then(|ast| engine.run_ast(&ast));
     match outcome {
         Ok(()) => Ending::Finished,

@@ -8,6 +8,7 @@ use super::{Diagnostic, Step, locate, parsing};
 use crate::script::catalog::Catalog;
 use crate::script::error::{BUG, Failure};
 use crate::script::kind::with_article;
+use crate::script::limits::Stop;
 use crate::script::program::Program;
 use crate::script::suggest::nearest;
 use crate::script::table::{Form, Row};
@@ -25,9 +26,19 @@ pub struct Explainer<'a> {
 /// What is wrong, what to do, and where.
 type Words = (String, Option<String>);
 
-/// Whether the run was stopped from outside, at whatever depth of calls.
+/// Whether the run was stopped from outside and not by a limit, at whatever depth of calls.
 pub fn is_interrupt(error: &EvalAltResult) -> bool {
-    matches!(error.unwrap_inner(), EvalAltResult::ErrorTerminated(..))
+    match error.unwrap_inner() {
+        EvalAltResult::ErrorTerminated(stop, _) => {
+            matches!(stopped_by(stop), Stop::Interrupt | Stop::PipeClosed)
+        }
+        _ => false,
+    }
+}
+
+/// What stopped a run, from the token that the engine carries.
+fn stopped_by(token: &Dynamic) -> Stop {
+    token.read_lock::<Stop>().map_or(Stop::Interrupt, |stop| *stop)
 }
 
 impl Explainer<'_> {
@@ -125,7 +136,7 @@ impl Explainer<'_> {
             }
             Error::ErrorStackOverflow(_) => (
                 "functions call each other too deeply".into(),
-                Some("does a function call itself for ever?".into()),
+                Some("does a function call itself for ever? --max-depth N allows more".into()),
             ),
             Error::ErrorDataTooLarge(what, _) => {
                 (too_large(what), Some("is something added for ever in a loop?".into()))
@@ -138,7 +149,7 @@ impl Explainer<'_> {
                 "a closure uses the very object whose method it is given to".into(),
                 Some("take the object from the argument of the closure: sim.at(t, |sim| print(sim.t))".into()),
             ),
-            Error::ErrorTerminated(..) => ("the run was interrupted".into(), None),
+            Error::ErrorTerminated(stop, _) => stopped_by(stop).words(),
             Error::ErrorSystem(message, cause) => {
                 (format!("{message} {cause}").trim().to_owned(), None)
             }

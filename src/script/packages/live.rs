@@ -10,6 +10,7 @@ use crate::script::call::Call;
 use crate::script::context::{Context, Mode};
 use crate::script::error::ScriptError;
 use crate::script::kind::Scripted;
+use crate::script::limits::Stop;
 use crate::script::numbers::format_number;
 use crate::simulation::{Monitor, Simulation, SimulationError};
 
@@ -36,13 +37,19 @@ pub enum Goal {
     Time(f64),
 }
 
-/// Tells the progress bar, and stops when the run is interrupted.
-struct Watch<'a>(&'a Context);
+/// Tells the progress bar, counts steps, and stops when the run is interrupted or beyond a limit.
+struct Watch<'a> {
+    context: &'a Context,
+    /// Steps beyond this time are no longer wanted.
+    end: f64,
+}
 
 impl Monitor for Watch<'_> {
     fn goes_on(&mut self, time: f64) -> bool {
-        self.0.progress().reach(time);
-        !self.0.is_stopped()
+        self.context.progress().reach(time);
+        self.context.meter().count_step();
+        let may_step = time >= self.end || self.context.meter().allows_a_step();
+        may_step && !self.context.is_stopped()
     }
 }
 
@@ -132,7 +139,13 @@ impl SimulationHandle {
                 self.tell_ending(call.context(), &format!("before it had taken {steps} steps"));
                 break;
             }
-            let stepped = self.0.simulation.borrow_mut().step(&mut Watch(call.context()));
+            let context = call.context();
+            if !context.meter().allows_a_step() {
+                context.proceed()?;
+            }
+            // How many parts the step needs is not known beforehand: it is always finished.
+            let mut watch = Watch { context, end: f64::NEG_INFINITY };
+            let stepped = self.0.simulation.borrow_mut().step(&mut watch);
             stepped.map_err(|error| explain(error, call.context()))?;
             self.fire_due(call)?;
         }
@@ -155,7 +168,13 @@ impl SimulationHandle {
         loop {
             let next = self.0.events.borrow().first().map_or(f64::INFINITY, |(time, _)| *time);
             let stop = if next < end { next } else { end };
-            let ran = self.0.simulation.borrow_mut().run_to(stop, &mut Watch(call.context()));
+            let slack = 1e-9 * self.simulation().settings().dt;
+            let context = call.context();
+            if self.time() < stop - slack && !context.meter().allows_a_step() {
+                context.proceed()?;
+            }
+            let mut watch = Watch { context, end: stop - slack };
+            let ran = self.0.simulation.borrow_mut().run_to(stop, &mut watch);
             ran.map_err(|error| explain(error, call.context()))?;
             self.fire_due(call)?;
             if self.has_ended() && self.time() < end {
@@ -199,7 +218,9 @@ impl SimulationHandle {
 /// An error of a run in the words of the script: interrupts stay interrupts, errors of closures keep their place.
 fn explain(error: SimulationError, context: &Context) -> ScriptError {
     match error {
-        SimulationError::Interrupted { .. } => ScriptError::Interrupted,
+        SimulationError::Interrupted { .. } => {
+            ScriptError::Stopped(context.stopped_by().unwrap_or(Stop::Interrupt))
+        }
         SimulationError::Load { .. } => match context.take_callback_error() {
             Some(error) => ScriptError::Engine(error),
             None => ScriptError::from(error).hint("a load needs a finite value at all times"),
