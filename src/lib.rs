@@ -3,8 +3,8 @@
 //! Layers, each using only those to its right:
 //!
 //! ```text
-//! main → cli → script → output → simulation → model ┬→ joints, loads → beams → geometry
-//!                                                   └→ integrators → newton → linalg
+//! main → cli → repl → script → output → simulation → model ┬→ joints, loads → beams → geometry
+//!                                                          └→ integrators → newton → linalg
 //! ```
 
 #![forbid(unsafe_code)]
@@ -19,5 +19,6 @@ pub mod loads;
 pub mod model;
 pub mod newton;
 pub mod output;
+pub mod repl;
 pub mod script;
 pub mod simulation;

@@ -220,6 +220,11 @@ impl Context {
         }
     }
 
+    /// Lets go of the simulations that the report would tell of: a session has no report.
+    pub fn forget_reporters(&self) {
+        self.0.reporters.borrow_mut().clear();
+    }
+
     /// What all simulations of the run say about themselves; they are let go.
     pub fn report(&self) -> Vec<serde_json::Value> {
         self.0.reporters.take().into_iter().map(|reporter| reporter.report()).collect()

@@ -68,7 +68,7 @@ impl Program {
     }
 
     /// The byte offset of a line and column, both from 1 and columns in characters.
-    pub(super) fn offset(&self, line: usize, column: usize) -> usize {
+    pub fn offset(&self, line: usize, column: usize) -> usize {
         let mut start = 0;
         for (index, text) in self.text.split_inclusive('\n').enumerate() {
             if index + 1 == line {

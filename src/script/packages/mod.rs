@@ -19,6 +19,8 @@ mod text;
 mod vectors;
 mod windows;
 
+pub use live::SimulationHandle;
+
 use super::table::Table;
 
 /// All domains, in the order of the reference.

@@ -1,0 +1,87 @@
+//! Commands that move the last simulation.
+
+use crate::repl::shell::{Outcome, Shell};
+use crate::script::diagnose::Diagnostic;
+use crate::script::numbers::format_number;
+
+/// `:step [count]`
+pub fn step(shell: &mut Shell, operand: &str) -> Outcome {
+    let count = match whole(operand, "step") {
+        Ok(count) => count,
+        Err(refusal) => return shell.refuse(&refusal),
+    };
+    if !shell.is_watching() {
+        return shell.call_latest(&format!("step({count})"));
+    }
+    let mut taken = 0;
+    let mut outcome = Outcome::Good;
+    while taken < count && outcome == Outcome::Good {
+        outcome = shell.call_latest_quietly("step()");
+        if outcome == Outcome::Good {
+            taken += 1;
+            outcome = shell.show_watched();
+        }
+    }
+    shell.note_call(&format!("step({taken})"));
+    outcome
+}
+
+/// `:run time`
+pub fn run(shell: &mut Shell, operand: &str) -> Outcome {
+    let Ok(end) = operand.parse::<f64>() else {
+        let hint = "write :run T, with the time to run to";
+        return shell.refuse(&not_a_number(operand, "a time").with_hint(hint));
+    };
+    if !shell.is_watching() {
+        return shell.call_latest(&format!("run_to({})", format_number(end)));
+    }
+    let mut outcome = Outcome::Good;
+    let mut is_under_way = false;
+    while let (Outcome::Good, Some(next)) = (outcome, shell.next_stop(end)) {
+        is_under_way = true;
+        outcome = shell.call_latest_quietly(&format!("run_to({})", format_number(next)));
+        if outcome == Outcome::Good {
+            outcome = shell.show_watched();
+        }
+    }
+    if !is_under_way {
+        // It says what is wrong with this time.
+        return shell.call_latest(&format!("run_to({})", format_number(end)));
+    }
+    if let Some(now) = shell.latest().map(|latest| latest.time()) {
+        shell.note_call(&format!("run_to({})", format_number(now)));
+    }
+    outcome
+}
+
+/// `:back [count]`
+pub fn back(shell: &mut Shell, operand: &str) -> Outcome {
+    match whole(operand, "back") {
+        Ok(count) => shell.call_latest(&format!("back({count})")),
+        Err(refusal) => shell.refuse(&refusal),
+    }
+}
+
+/// `:watch [expression]`
+pub fn watch(shell: &mut Shell, operand: &str) -> Outcome {
+    if operand.is_empty() {
+        shell.watch_nothing();
+        return Outcome::Good;
+    }
+    shell.watch(operand)
+}
+
+fn whole(operand: &str, command: &str) -> Result<u64, Diagnostic> {
+    if operand.is_empty() {
+        return Ok(1);
+    }
+    let hint = format!("write :{command} or, for example, :{command} 10");
+    operand.parse().map_err(|_| not_a_number(operand, "a number of steps").with_hint(hint))
+}
+
+fn not_a_number(operand: &str, wanted: &str) -> Diagnostic {
+    Diagnostic::general(match operand {
+        "" => format!("{wanted} is missing"),
+        _ => format!("'{operand}' is not {wanted}"),
+    })
+}

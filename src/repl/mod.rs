@@ -1,0 +1,5 @@
+//! The session at a prompt: what is typed is evaluated, remembered, and can be gone back from.
+
+pub mod record;
+pub mod session;
+pub mod transcript;

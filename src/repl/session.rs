@@ -1,0 +1,288 @@
+//! A session of the language without a terminal: inputs are evaluated one after another and see what the earlier ones left.
+
+use std::collections::HashSet;
+use std::panic::{self, AssertUnwindSafe};
+use std::path::PathBuf;
+use std::sync::atomic::Ordering;
+
+use rhai::{AST, Caches, Dynamic, Engine, EvalAltResult, GlobalRuntimeState, Scope};
+
+use super::record::{Record, whereabouts};
+use super::transcript::Transcript;
+use crate::script::catalog::Catalog;
+use crate::script::context::{Context, Settings};
+use crate::script::diagnose::{Diagnostic, Explainer, is_interrupt};
+use crate::script::engine;
+use crate::script::error::ScriptError;
+use crate::script::lexing::{open_comment, tokens};
+use crate::script::program::Program;
+use crate::script::runner::panic_message;
+use crate::script::syntax::mark_assignments;
+
+/// The name of the value of the last expression.
+pub const ANSWER: &str = "ans";
+
+/// What came of an input.
+#[derive(Debug)]
+pub enum Reply {
+    /// It worked, and there is nothing to show.
+    Done,
+    /// It is an expression with this value.
+    Value(Dynamic),
+    /// It is wrong. Names that it declared are gone; what it did to scenes and simulations stays.
+    Failed(Diagnostic),
+    /// It was stopped by Ctrl-C.
+    Interrupted,
+    /// Nobody reads what is printed any more.
+    PipeClosed,
+}
+
+/// Variables, functions, constants and imports, and the engine that knows the language.
+pub struct Session {
+    catalog: Catalog,
+    context: Context,
+    engine: Engine,
+    folder: PathBuf,
+    scope: Scope<'static>,
+    global: GlobalRuntimeState,
+    /// The functions and closures of all inputs.
+    library: AST,
+    transcript: Transcript,
+    record: Record,
+}
+
+impl Session {
+    /// A session in which nothing has happened; `folder` is where it may read.
+    ///
+    /// # Errors
+    /// Only by a mistake of this program.
+    pub fn new(catalog: Catalog, settings: Settings, folder: PathBuf) -> Result<Self, Diagnostic> {
+        let context = Context::new(settings);
+        let mut engine = engine::build(&catalog, &context).map_err(Diagnostic::bug)?;
+        engine::import_from(&mut engine, &folder);
+        let global = engine.new_global_runtime_state();
+        Ok(Self {
+            catalog,
+            context,
+            engine,
+            scope: Scope::new(),
+            global,
+            library: AST::empty(),
+            transcript: Transcript::new(folder.clone()),
+            record: Record::default(),
+            folder,
+        })
+    }
+
+    /// Forgets everything that was typed and what came of it.
+    pub fn reset(&mut self) {
+        self.scope.clear();
+        self.global = self.engine.new_global_runtime_state();
+        self.library = AST::empty();
+        self.transcript = Transcript::new(self.folder.clone());
+        self.record = Record::default();
+    }
+
+    /// Evaluates what was typed.
+    pub fn eval(&mut self, text: &str) -> Reply {
+        let program = self.transcript.typed(text);
+        self.eval_program(program)
+    }
+
+    /// Evaluates a program, such as a file, as if it had been typed.
+    pub fn eval_program(&mut self, program: Program) -> Reply {
+        let text = program.text.clone();
+        let before = self.transcript.add(program);
+        let moved = whereabouts(&self.scope);
+        let reply = self.evaluate(&text, before).map_or_else(
+            |failed| failed,
+            |(value, library)| {
+                self.library = library;
+                self.publish_constants();
+                self.forget_shadowed();
+                self.answer(value, &text)
+            },
+        );
+        match &reply {
+            Reply::Done => self.record.worked(&text),
+            Reply::Value(_) => self.record.answered(&text),
+            Reply::Failed(_) | Reply::Interrupted | Reply::PipeClosed => {
+                self.transcript.strike_last();
+                self.record.failed(&moved, &self.scope);
+            }
+        }
+        reply
+    }
+
+    /// Evaluates an expression that leaves nothing behind but what it does to scenes and simulations.
+    pub fn peek(&mut self, text: &str) -> Reply {
+        let before = self.transcript.add(self.transcript.typed(text));
+        let (known, global) = (self.scope.len(), self.global.clone());
+        let outcome = self.evaluate(text, before);
+        self.transcript.forget_last();
+        self.scope.rewind(known);
+        self.global = global;
+        match outcome {
+            Ok((value, _)) if value.is_unit() => Reply::Done,
+            Ok((value, _)) => Reply::Value(value),
+            Err(failed) => failed,
+        }
+    }
+
+    /// The value of an input, and all functions that are known with it.
+    fn evaluate(&mut self, text: &str, before: usize) -> Result<(Dynamic, AST), Reply> {
+        self.context.interrupt_flag().store(false, Ordering::Relaxed);
+        let watchdog = self.context.meter().watch().map_err(|error| {
+            let told = format!("cannot start a thread that keeps the limits: {error}");
+            Reply::Failed(Diagnostic::general(told))
+        })?;
+        let ast =
+            self.compile(text, before).map_err(|error| Reply::Failed(self.explain(&error)))?;
+        let library = self.library.merge(&ast.clone_functions_only());
+        let known = self.scope.len();
+        let global = self.global.clone();
+        self.global.lib.clear();
+        self.global.lib.push(library.shared_lib().clone());
+
+        // A panic in a native body is our mistake: the session must survive it.
+        let outcome = panic::catch_unwind(AssertUnwindSafe(|| self.run(&ast)));
+        drop(watchdog);
+        self.context.progress().end();
+        self.context.forget_reporters();
+        self.context.flush();
+        let reply = match outcome {
+            _ if self.context.is_pipe_closed() => Reply::PipeClosed,
+            Ok(Ok(value)) => return Ok((value, library)),
+            Ok(Err(error)) if is_interrupt(&error) => Reply::Interrupted,
+            Ok(Err(error)) => Reply::Failed(self.explain(&error)),
+            Err(panic) => Reply::Failed(Diagnostic::bug(panic_message(&*panic))),
+        };
+        self.scope.rewind(known);
+        self.global = global;
+        Err(reply)
+    }
+
+    /// Parses an input at its lines of the session.
+    fn compile(&self, text: &str, before: usize) -> Result<AST, Box<EvalAltResult>> {
+        let padded = format!("{}{}", "\n".repeat(before), mark_assignments(text));
+        let ast = self.engine.compile_with_scope(&self.scope, padded)?;
+        match open_comment(text) {
+            Some(at) => {
+                let line = (at.line().unwrap_or(1) + before).try_into().unwrap_or(u16::MAX);
+                let column = at.position().unwrap_or(1).try_into().unwrap_or(u16::MAX);
+                Err(ScriptError::new("a comment that begins with /* is never closed")
+                    .hint("write */ where it ends")
+                    .into_engine(rhai::Position::new(line, column)))
+            }
+            None => Ok(ast),
+        }
+    }
+
+    fn run(&mut self, ast: &AST) -> Result<Dynamic, Box<EvalAltResult>> {
+        // The only way to keep imports and constants from one input to the next; deprecated in favour of nothing.
+        #[allow(deprecated)]
+        self.engine.eval_statements_raw(
+            &mut self.global,
+            &mut Caches::new(),
+            &mut self.scope,
+            ast.statements(),
+        )
+    }
+
+    /// Keeps the value of an input that worked, if it is to be shown.
+    fn answer(&mut self, value: Dynamic, text: &str) -> Reply {
+        if value.is_unit() || is_silenced(text) {
+            return Reply::Done;
+        }
+        // A constant of this name belongs to the user.
+        match (self.scope.is_constant(ANSWER), self.scope.get_mut(ANSWER)) {
+            (Some(false), Some(answer)) => *answer = value.clone(),
+            (None, _) => _ = self.scope.push_dynamic(ANSWER, value.clone()),
+            _ => (),
+        }
+        Reply::Value(value)
+    }
+
+    /// Lets functions see constants as `global::NAME`, whichever of the two was typed first.
+    fn publish_constants(&mut self) {
+        let constants = self.scope.iter_raw().filter(|(_, is_constant, _)| *is_constant);
+        let shared = self.global.constants.get_or_insert_with(Default::default);
+        for (name, _, value) in constants {
+            shared.borrow_mut().insert(name.into(), value.clone());
+        }
+    }
+
+    /// Variables that were declared again are out of reach: a long session must not keep them.
+    fn forget_shadowed(&mut self) {
+        let mut names = HashSet::new();
+        if self.scope.iter_raw().all(|(name, ..)| names.insert(name)) {
+            return;
+        }
+        // The last variables come first, and they are the ones that are seen.
+        let mut names = HashSet::new();
+        let visible = self.scope.iter_raw().filter(|(name, ..)| names.insert(*name));
+        let mut scope = Scope::new();
+        for (name, is_constant, value) in visible.collect::<Vec<_>>().into_iter().rev() {
+            match is_constant {
+                true => scope.push_constant_dynamic(name, value.clone()),
+                false => scope.push_dynamic(name, value.clone()),
+            };
+        }
+        self.scope = scope;
+    }
+
+    fn explain(&self, error: &EvalAltResult) -> Diagnostic {
+        let program = self.transcript.whole();
+        let explainer =
+            Explainer { program: &program, catalog: &self.catalog, engine: &self.engine };
+        self.transcript.relocate(explainer.explain(error))
+    }
+}
+
+/// Looking at a session from outside.
+impl Session {
+    /// The language that is spoken.
+    pub fn catalog(&self) -> &Catalog {
+        &self.catalog
+    }
+
+    /// What the calls of the session share.
+    pub fn context(&self) -> &Context {
+        &self.context
+    }
+
+    /// The engine, for showing values.
+    pub fn engine(&self) -> &Engine {
+        &self.engine
+    }
+
+    /// Variables and constants.
+    pub fn variables(&self) -> &Scope<'static> {
+        &self.scope
+    }
+
+    /// The functions that were typed, without closures.
+    pub fn functions(&self) -> impl Iterator<Item = rhai::ScriptFnMetadata<'_>> {
+        self.library.iter_functions().filter(|function| !function.name.starts_with("anon$"))
+    }
+
+    /// Imported modules by the names they were given, the last import first.
+    pub fn modules(&self) -> impl Iterator<Item = (&str, &rhai::Module)> {
+        self.global.iter_imports()
+    }
+
+    /// The line that will be typed next, from 1.
+    pub fn next_line(&self) -> usize {
+        self.transcript.next_line()
+    }
+
+    /// What worked so far.
+    pub fn record(&self) -> &Record {
+        &self.record
+    }
+}
+
+/// Whether an input ends in a semicolon, which says that its value is not to be shown.
+fn is_silenced(text: &str) -> bool {
+    matches!(tokens(text).last(), Some((rhai::Token::SemiColon, _)))
+}

@@ -1,0 +1,310 @@
+//! What a line at the prompt does: an input of the language, or a command. Replies go to where the session prints.
+
+use super::commands;
+use super::session::{Reply, Session};
+use crate::output::{Colours, Style};
+use crate::script::diagnose::Diagnostic;
+use crate::script::packages::SimulationHandle;
+use crate::script::present::present;
+use crate::script::program::Program;
+
+/// What came of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// It worked.
+    Good,
+    /// It was wrong; the user was told.
+    Failed,
+    /// It was stopped by Ctrl-C.
+    Interrupted,
+    /// Nobody reads what is printed any more.
+    PipeClosed,
+    /// The user wants to leave.
+    Quit,
+}
+
+/// Who sees the replies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Screen {
+    /// A person at a terminal.
+    Terminal(Style),
+    /// Another program, or a file.
+    Pipe,
+}
+
+/// Characters in a line where no terminal says how many.
+const WIDTH: usize = 100;
+
+/// A session with commands and watched expressions.
+pub struct Shell {
+    session: Session,
+    screen: Screen,
+    watched: Vec<String>,
+    /// How many of the files that were written the user knows of.
+    told_files: usize,
+}
+
+impl Shell {
+    /// A shell around a session.
+    pub fn new(session: Session, screen: Screen) -> Self {
+        Self { session, screen, watched: Vec::new(), told_files: 0 }
+    }
+
+    /// The session.
+    pub fn session(&self) -> &Session {
+        &self.session
+    }
+
+    /// Who sees the replies.
+    pub fn screen(&self) -> Screen {
+        self.screen
+    }
+
+    /// Sets the size of pictures to that of the terminal, which people change.
+    pub fn resize(&mut self, (width, height): (usize, usize)) {
+        if let Screen::Terminal(style) = self.screen {
+            self.screen = Screen::Terminal(style.sized(width, height));
+        }
+    }
+
+    /// Does what a complete input says.
+    pub fn submit(&mut self, input: &str) -> Outcome {
+        let text = input.trim();
+        if let Some(command) = text.strip_prefix(':') {
+            return self.command(command);
+        }
+        if let Some(name) = text.strip_prefix('?') {
+            return self.help(name.trim());
+        }
+        let before = self.latest().map(|latest| latest.time());
+        let reply = self.session.eval(input);
+        let outcome = self.tell(reply);
+        let has_moved = self.latest().map(|latest| latest.time()) != before;
+        match outcome == Outcome::Good && has_moved {
+            true => self.show_watched(),
+            false => outcome,
+        }
+    }
+
+    fn command(&mut self, text: &str) -> Outcome {
+        let text = text.trim();
+        let (name, operand) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
+        match commands::find(name) {
+            Ok(command) if command.operand == commands::Operand::Nothing && !operand.is_empty() => {
+                let told = format!("':{}' takes nothing, got '{}'", command.name, operand.trim());
+                self.refuse(&Diagnostic::general(told).with_hint(format!(
+                    "write :{}; :help {} says what it does",
+                    command.name, command.name
+                )))
+            }
+            Ok(command) => (command.body)(self, operand.trim()),
+            Err(refusal) => self.refuse(&refusal),
+        }
+    }
+
+    /// Evaluates a program as if it had been typed.
+    pub fn run_program(&mut self, program: Program) -> Outcome {
+        let reply = self.session.eval_program(program);
+        match reply {
+            // A file is not asked for its last value.
+            Reply::Value(_) => self.tell(Reply::Done),
+            reply => self.tell(reply),
+        }
+    }
+
+    /// Shows what came of an input.
+    fn tell(&mut self, reply: Reply) -> Outcome {
+        let outcome = match reply {
+            Reply::Done => Outcome::Good,
+            Reply::Value(value) => {
+                let shown = present(self.session.catalog(), &value, self.width());
+                self.print(&shown);
+                Outcome::Good
+            }
+            Reply::Failed(diagnostic) => self.refuse(&diagnostic),
+            Reply::Interrupted => {
+                self.note(&match self.latest() {
+                    Some(latest) => format!("interrupted: {}", latest.headline()),
+                    None => "interrupted".into(),
+                });
+                Outcome::Interrupted
+            }
+            Reply::PipeClosed => Outcome::PipeClosed,
+        };
+        self.tell_files();
+        outcome
+    }
+
+    fn tell_files(&mut self) {
+        let written = self.session.context().output().written();
+        for file in written.iter().skip(self.told_files) {
+            self.note(&format!("wrote {}", file.display()));
+        }
+        self.told_files = written.len();
+    }
+
+    /// Forgets everything but the screen.
+    pub fn reset(&mut self) {
+        self.session.reset();
+        self.watched.clear();
+    }
+
+    /// Prints a reply.
+    pub fn print(&self, text: &str) {
+        self.session.context().print(text);
+        self.session.context().flush();
+    }
+
+    /// Tells something beside the replies.
+    pub fn note(&self, text: &str) {
+        self.session.context().tell(text);
+    }
+
+    /// Tells what is wrong.
+    pub fn refuse(&self, diagnostic: &Diagnostic) -> Outcome {
+        self.session.context().tell(diagnostic.render(self.colours()).trim_end());
+        Outcome::Failed
+    }
+
+    /// Whether replies have colours.
+    pub fn colours(&self) -> Colours {
+        match self.screen {
+            Screen::Terminal(style) => style.colours,
+            Screen::Pipe => Colours::None,
+        }
+    }
+
+    /// Characters in a line.
+    pub fn width(&self) -> usize {
+        match self.screen {
+            Screen::Terminal(style) => style.width,
+            Screen::Pipe => WIDTH,
+        }
+    }
+}
+
+/// The last simulation, on which commands act.
+impl Shell {
+    /// The simulation that was started, loaded, forked or stepped last.
+    pub fn latest(&self) -> Option<SimulationHandle> {
+        self.session.context().latest_simulation()?.try_cast()
+    }
+
+    /// How an input names the last simulation: by a variable that holds it, if there is one.
+    fn name_of_latest(&self) -> Result<String, Diagnostic> {
+        let Some(latest) = self.latest() else {
+            return Err(Diagnostic::general("there is no simulation yet")
+                .with_hint("start one: let sim = scene.start(#{ dt: 0.1 })"));
+        };
+        let is_it = |value: &rhai::Dynamic| {
+            value.read_lock::<SimulationHandle>().is_some_and(|held| held.is_same(&latest))
+        };
+        let variables = self.session.variables();
+        let held = variables.iter_raw().find(|(name, _, value)| {
+            // A variable that is hidden by a later one of its name would name something else.
+            is_it(value) && variables.get(name).is_some_and(is_it)
+        });
+        Ok(held.map_or_else(|| "latest_simulation()".into(), |(name, ..)| name.to_owned()))
+    }
+
+    fn input_for_latest(&self, call: &str) -> Result<String, Diagnostic> {
+        self.name_of_latest().map(|name| format!("{name}.{call};"))
+    }
+
+    /// Calls a method of the last simulation as if it had been typed.
+    pub fn call_latest(&mut self, call: &str) -> Outcome {
+        match self.input_for_latest(call) {
+            Ok(input) => {
+                let reply = self.session.eval(&input);
+                self.tell(reply)
+            }
+            Err(refusal) => self.refuse(&refusal),
+        }
+    }
+
+    /// Calls a method of the last simulation; the record of the session does not know of it.
+    pub fn call_latest_quietly(&mut self, call: &str) -> Outcome {
+        match self.input_for_latest(call) {
+            Ok(input) => match self.session.peek(&input) {
+                Reply::Value(_) => Outcome::Good,
+                reply => self.tell(reply),
+            },
+            Err(refusal) => self.refuse(&refusal),
+        }
+    }
+
+    /// Shows what a method of the last simulation gives.
+    pub fn show_of_latest(&mut self, call: &str) -> Outcome {
+        match self.name_of_latest() {
+            Ok(name) => {
+                let reply = self.session.peek(&format!("{name}.{call}"));
+                self.tell(reply)
+            }
+            Err(refusal) => self.refuse(&refusal),
+        }
+    }
+
+    /// Writes into the record that a method of the last simulation was called.
+    pub fn note_call(&mut self, call: &str) {
+        if let Ok(input) = self.input_for_latest(call) {
+            self.session.note_worked(&input);
+        }
+    }
+
+    /// When the next step of the last simulation ends, if it is not at `end` already.
+    pub fn next_stop(&self, end: f64) -> Option<f64> {
+        let latest = self.latest()?;
+        let simulation = latest.simulation();
+        let is_there = simulation.has_reached(end) || simulation.has_ended();
+        (!is_there).then(|| simulation.next_stop(end))
+    }
+}
+
+/// Watched expressions.
+impl Shell {
+    /// Whether anything is watched.
+    pub fn is_watching(&self) -> bool {
+        !self.watched.is_empty()
+    }
+
+    /// Watches one more expression, and shows it.
+    pub fn watch(&mut self, expression: &str) -> Outcome {
+        let expression = expression.trim_end_matches(';').to_owned();
+        match self.session.peek(&expression) {
+            Reply::Value(_) | Reply::Done => {
+                if !self.watched.contains(&expression) {
+                    self.watched.push(expression);
+                }
+                self.show_watched()
+            }
+            failed => self.tell(failed),
+        }
+    }
+
+    /// Watches nothing any more.
+    pub fn watch_nothing(&mut self) {
+        self.watched.clear();
+    }
+
+    /// Shows the watched expressions in a line.
+    pub fn show_watched(&mut self) -> Outcome {
+        let mut parts = Vec::new();
+        if let Some(latest) = self.latest() {
+            parts.push(format!("t = {}", crate::output::significant(latest.time(), 10)));
+        }
+        for expression in self.watched.clone() {
+            match self.session.peek(&expression) {
+                Reply::Value(value) => {
+                    let shown = present(self.session.catalog(), &value, self.width());
+                    parts.push(format!("{expression} = {}", shown.lines().next().unwrap_or("")));
+                }
+                Reply::Done => parts.push(format!("{expression} = nothing")),
+                failed => return self.tell(failed),
+            }
+        }
+        if !self.watched.is_empty() {
+            self.print(&parts.join("   "));
+        }
+        Outcome::Good
+    }
+}

@@ -1,0 +1,161 @@
+//! Everything that was typed in a session, one after another, so that a place in it can be found again later: a function that
+//! was typed at line 3 and fails when it is called at line 20 is shown at line 3.
+
+use std::sync::Arc;
+
+use crate::script::diagnose::{Diagnostic, Location};
+use crate::script::program::Program;
+
+/// The name of what is typed at the prompt, in messages.
+pub const PROMPT: &str = "prompt";
+
+/// Most lines that the engine can count; a longer session counts from one again.
+const MOST_LINES: usize = 60_000;
+
+/// One input: what was typed at once, or a file that was read in.
+struct Piece {
+    program: Program,
+    /// How many lines stand before it.
+    before: usize,
+    is_valid: bool,
+}
+
+/// All inputs of a session. The engine sees each of them at its own lines of one long text.
+pub struct Transcript {
+    pieces: Vec<Piece>,
+    lines: usize,
+    folder: std::path::PathBuf,
+}
+
+impl Transcript {
+    /// Nothing yet; imports are found in `folder`.
+    pub fn new(folder: std::path::PathBuf) -> Self {
+        Self { pieces: Vec::new(), lines: 0, folder }
+    }
+
+    /// The line that will be typed next, from 1.
+    pub fn next_line(&self) -> usize {
+        self.lines + 1
+    }
+
+    /// Adds an input and gives the number of lines before it.
+    pub fn add(&mut self, program: Program) -> usize {
+        let lines = program.text.lines().count().max(1);
+        if self.lines + lines > MOST_LINES {
+            self.pieces.clear();
+            self.lines = 0;
+        }
+        let before = self.lines;
+        self.lines += lines;
+        self.pieces.push(Piece { program, before, is_valid: true });
+        before
+    }
+
+    /// A program typed at the prompt.
+    pub fn typed(&self, text: &str) -> Program {
+        Program { folder: self.folder.clone(), ..Program::named(PROMPT, text) }
+    }
+
+    /// Marks the last input as one that did not work: what it declares does not exist.
+    pub fn strike_last(&mut self) {
+        if let Some(last) = self.pieces.last_mut() {
+            last.is_valid = false;
+        }
+    }
+
+    /// Takes the last input away, as if it had never been typed.
+    pub fn forget_last(&mut self) {
+        if let Some(last) = self.pieces.pop() {
+            self.lines = last.before;
+        }
+    }
+
+    /// All inputs as one program, each at its lines; those that did not work are blank, but for the last one.
+    pub fn whole(&self) -> Program {
+        let mut text = String::new();
+        for (index, piece) in self.pieces.iter().enumerate() {
+            let is_shown = piece.is_valid || index + 1 == self.pieces.len();
+            let mut lines = 0;
+            for line in piece.program.text.lines() {
+                text.push_str(if is_shown { line } else { "" });
+                text.push('\n');
+                lines += 1;
+            }
+            if lines == 0 {
+                text.push('\n');
+            }
+        }
+        self.typed(&text)
+    }
+
+    /// The same diagnostic with places in the inputs that they are from: files that were read in count their own lines.
+    pub fn relocate(&self, mut diagnostic: Diagnostic) -> Diagnostic {
+        if let Some(at) = &mut diagnostic.location
+            && at.program.name == PROMPT
+            && let Some(piece) = self.piece_of(at.line)
+            && piece.program.name != PROMPT
+        {
+            *at = Location {
+                program: Arc::new(piece.program.clone()),
+                line: at.line - piece.before,
+                ..at.clone()
+            };
+        }
+        diagnostic
+    }
+
+    fn piece_of(&self, line: usize) -> Option<&Piece> {
+        self.pieces.iter().rev().find(|piece| piece.before < line)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inputs_stand_at_their_lines() {
+        let mut transcript = Transcript::new(".".into());
+        assert_eq!(transcript.add(transcript.typed("let a = 1;")), 0);
+        assert_eq!(transcript.add(transcript.typed("fn f() {\n  2\n}")), 1);
+        assert_eq!(transcript.next_line(), 5);
+        assert_eq!(&*transcript.whole().text, "let a = 1;\nfn f() {\n  2\n}\n");
+    }
+
+    #[test]
+    fn what_did_not_work_is_blank_later() {
+        let mut transcript = Transcript::new(".".into());
+        transcript.add(transcript.typed("let a = oops();"));
+        transcript.strike_last();
+        assert_eq!(&*transcript.whole().text, "let a = oops();\n", "it is shown while it is explained");
+        transcript.add(transcript.typed("a"));
+        assert_eq!(&*transcript.whole().text, "\na\n");
+    }
+
+    #[test]
+    fn places_in_files_are_counted_in_the_file() {
+        let mut transcript = Transcript::new(".".into());
+        transcript.add(transcript.typed("1"));
+        transcript.add(Program::named("beam.rhai", "let a = 1;\nlet b = ;"));
+        let at = |line| Location {
+            program: Arc::new(transcript.whole()),
+            line,
+            column: 9,
+            length: 1,
+        };
+        let found = |line| {
+            let diagnostic = Diagnostic { location: Some(at(line)), ..Diagnostic::general("") };
+            transcript.relocate(diagnostic).place()
+        };
+        assert_eq!(found(3).as_deref(), Some("beam.rhai:2:9"));
+        assert_eq!(found(1).as_deref(), Some("prompt:1:9"));
+    }
+
+    #[test]
+    fn a_very_long_session_counts_anew() {
+        let mut transcript = Transcript::new(".".into());
+        transcript.add(transcript.typed(&"\n".repeat(MOST_LINES - 1)));
+        assert_eq!(transcript.add(transcript.typed("1\n2")), 0);
+        assert_eq!(transcript.next_line(), 3);
+    }
+}

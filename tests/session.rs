@@ -1,0 +1,214 @@
+//! A session of the language: what one input leaves for the next.
+#![allow(clippy::unwrap_used)]
+
+use std::path::PathBuf;
+
+use withy::repl::session::{Reply, Session};
+use withy::script::catalog::Catalog;
+use withy::script::context::{Mode, Settings};
+use withy::script::program::Program;
+
+fn session() -> Session {
+    in_folder(".".into())
+}
+
+fn in_folder(folder: PathBuf) -> Session {
+    Session::new(Catalog::standard(), Settings::silent(Mode::Run), folder).unwrap()
+}
+
+/// The value of an input as text.
+fn value(session: &mut Session, input: &str) -> String {
+    match session.eval(input) {
+        Reply::Value(value) => value.to_string(),
+        other => panic!("{input}: {other:?}"),
+    }
+}
+
+fn done(session: &mut Session, input: &str) {
+    let reply = session.eval(input);
+    assert!(matches!(reply, Reply::Done), "{input}: {reply:?}");
+}
+
+/// The message of an input that fails, with its place and its hint.
+fn refusal(session: &mut Session, input: &str) -> String {
+    match session.eval(input) {
+        Reply::Failed(diagnostic) => diagnostic.to_string(),
+        other => panic!("{input}: {other:?}"),
+    }
+}
+
+#[test]
+fn variables_functions_and_closures_persist() {
+    let mut session = session();
+    done(&mut session, "let a = 2;");
+    done(&mut session, "fn twice(x) { 2 * x }");
+    done(&mut session, "let add = |x| x + a;");
+    assert_eq!(value(&mut session, "twice(a) + add.call(1)"), "7");
+    done(&mut session, "a = 10;");
+    assert_eq!(value(&mut session, "add.call(1)"), "11", "a closure shares what it has captured");
+    assert_eq!(value(&mut session, "ans + 1"), "12");
+}
+
+#[test]
+fn a_function_can_be_defined_again() {
+    let mut session = session();
+    done(&mut session, "fn f() { 1 }");
+    done(&mut session, "fn g() { f() }");
+    done(&mut session, "fn f() { 2 }");
+    assert_eq!(value(&mut session, "g()"), "2");
+}
+
+#[test]
+fn functions_see_constants_typed_before_and_after_them() {
+    let mut session = session();
+    done(&mut session, "const G = 9.81;");
+    done(&mut session, "fn weight(m) { m * global::G }");
+    assert_eq!(value(&mut session, "weight(2)"), "19.62");
+    done(&mut session, "fn area() { global::WIDTH ^ 2 }");
+    done(&mut session, "const WIDTH = 3;");
+    assert_eq!(value(&mut session, "area()"), "9");
+}
+
+#[test]
+fn imports_persist() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("parts.rhai"), "fn half(x) { x / 2 }").unwrap();
+    let mut session = in_folder(folder.path().into());
+    done(&mut session, "import \"parts\" as parts;");
+    assert_eq!(value(&mut session, "parts::half(3)"), "1.5");
+    done(&mut session, "fn quarter(x) { import \"parts\" as p; p::half(p::half(x)) }");
+    assert_eq!(value(&mut session, "quarter(2)"), "0.5");
+    assert_eq!(value(&mut session, "parts::half(5)"), "2.5");
+}
+
+#[test]
+fn a_semicolon_hides_a_value() {
+    let mut session = session();
+    done(&mut session, "1 + 1;");
+    assert!(refusal(&mut session, "ans").contains("there is no variable 'ans'"));
+    assert_eq!(value(&mut session, "1 + 1 // ;"), "2");
+}
+
+#[test]
+fn a_constant_named_like_the_answer_is_left_alone() {
+    let mut session = session();
+    done(&mut session, "const ans = 1;");
+    assert_eq!(value(&mut session, "2"), "2");
+    assert_eq!(value(&mut session, "ans"), "1");
+}
+
+#[test]
+fn after_an_error_everything_before_it_is_still_there() {
+    let mut session = session();
+    done(&mut session, "let a = 1;");
+    let told = refusal(&mut session, "let b = 2;\nfn g() { 1 }\nlet c = a + nonsense;");
+    assert!(told.contains("prompt:4:13"), "{told}");
+    assert!(told.contains("let c = a + nonsense"), "{told}");
+    assert_eq!(value(&mut session, "a"), "1");
+    for gone in ["b", "g()"] {
+        let told = refusal(&mut session, gone);
+        assert!(told.contains("there is no"), "{told}");
+        assert!(!told.contains("declared later"), "{told}");
+    }
+    assert_eq!(value(&mut session, "let b = 3; b"), "3");
+}
+
+#[test]
+fn an_error_in_a_function_typed_earlier_is_shown_there() {
+    let mut session = session();
+    done(&mut session, "let zero = 0;");
+    done(&mut session, "fn deep(x) {\n    x.wrong()\n}");
+    let told = refusal(&mut session, "deep(1)");
+    assert!(told.contains("prompt:3:7") && told.contains("x.wrong()"), "{told}");
+    assert!(told.contains("in 'deep', called at line 5"), "{told}");
+}
+
+#[test]
+fn an_error_in_a_file_is_shown_in_the_file() {
+    let mut session = session();
+    done(&mut session, "let a = 1;");
+    let reply = session.eval_program(Program::named("beam.rhai", "fn f() {\n  wrong()\n}"));
+    assert!(matches!(reply, Reply::Done), "{reply:?}");
+    let told = refusal(&mut session, "f()");
+    assert!(told.contains("beam.rhai:2:3"), "{told}");
+    let Reply::Failed(diagnostic) = session.eval_program(Program::named("b.rhai", "let x = 1;\nlet y = ;")) else {
+        panic!("must fail")
+    };
+    assert_eq!(diagnostic.place().unwrap(), "b.rhai:2:9");
+}
+
+#[test]
+fn a_comment_that_is_never_closed_is_shown_at_its_line() {
+    let mut session = session();
+    done(&mut session, "let a = 1;");
+    let told = refusal(&mut session, "a\n  /* lost");
+    assert!(told.contains("prompt:3:3"), "{told}");
+}
+
+#[test]
+fn division_by_assignment_works_at_every_line() {
+    let mut session = session();
+    done(&mut session, "let a = 1;");
+    done(&mut session, "a /= 4;");
+    assert_eq!(value(&mut session, "a"), "0.25");
+}
+
+#[test]
+fn peeking_leaves_nothing_behind() {
+    let mut session = session();
+    done(&mut session, "let a = 1;");
+    assert_eq!(value(&mut session, "a + 1"), "2");
+    let line = session.next_line();
+    let Reply::Value(shown) = session.peek("let a = 5; let b = 7; a + b") else { panic!() };
+    assert_eq!(shown.to_string(), "12");
+    assert_eq!(session.next_line(), line);
+    assert_eq!(value(&mut session, "ans"), "2");
+    assert_eq!(value(&mut session, "a"), "1");
+    assert!(refusal(&mut session, "b").contains("there is no variable 'b'"));
+    assert!(!session.record().script().contains("let b = 7"));
+}
+
+#[test]
+fn a_variable_declared_a_thousand_times_is_kept_once() {
+    let mut session = session();
+    for index in 0..1000 {
+        done(&mut session, &format!("let a = {index}; let b = a;"));
+    }
+    assert_eq!(session.variables().len(), 2);
+    assert_eq!(value(&mut session, "a + b"), "1998");
+}
+
+#[test]
+fn a_reset_forgets_everything() {
+    let mut session = session();
+    done(&mut session, "let a = 1; const B = 2;");
+    done(&mut session, "fn f() { 1 }");
+    session.reset();
+    assert_eq!(session.next_line(), 1);
+    for gone in ["a", "B", "f()", "global::B"] {
+        assert!(refusal(&mut session, gone).contains("there is no"), "{gone}");
+    }
+}
+
+const SPINNING: &str = "let scene = new_scene(\"example\");\n\
+    let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
+    let rod = scene.beam(#{ axis: line([0, 0], [2, 0]), basis: bspline(4), section: s, spin: 1 });\n\
+    let sim = scene.start(#{ dt: 0.1 });";
+
+#[test]
+fn the_record_is_a_script_that_comes_to_the_same_end() {
+    let mut first = session();
+    done(&mut first, SPINNING);
+    assert_eq!(value(&mut first, "3 * 2"), "6");
+    done(&mut first, "sim.step(ans);");
+    refusal(&mut first, "sim.step(2); sim.stepp();");
+    done(&mut first, "sim.step();");
+    let end = value(&mut first, "`${sim.steps} ${sim.t} ${sim.position(rod.end).x}`");
+    assert!(end.starts_with("9 0.9 "), "{end}");
+
+    let script = first.record().script();
+    let mut second = session();
+    let reply = second.eval_program(Program::named("saved.rhai", &script));
+    assert!(matches!(reply, Reply::Done | Reply::Value(_)), "{script}\n{reply:?}");
+    assert_eq!(value(&mut second, "`${sim.steps} ${sim.t} ${sim.position(rod.end).x}`"), end);
+}
