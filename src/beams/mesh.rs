@@ -24,6 +24,17 @@ pub struct Mesh {
     quadrature: Quadrature,
 }
 
+/// The numbers of quadrature points of a beam.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PointCounts {
+    /// For axial and shear strain `Γ`, each with a section force as an unknown that is condensed there.
+    pub force: usize,
+    /// For the bending strain `κ`.
+    pub moment: usize,
+    /// For the mass matrix, which is integrated once.
+    pub inertia: usize,
+}
+
 /// A span with the numbers of its quadrature points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct QuadratureSpan {
@@ -118,6 +129,16 @@ impl Mesh {
         }
     }
 
+    /// How many quadrature points all spans have together.
+    pub fn point_counts(&self) -> PointCounts {
+        let spans = self.quadrature_spans();
+        PointCounts {
+            force: spans.iter().map(|span| span.force_points).sum(),
+            moment: spans.iter().map(|span| span.moment_points).sum(),
+            inertia: spans.len() * self.points_of_inertia(),
+        }
+    }
+
     /// The spans with the numbers of their quadrature points for `Γ` and `κ`.
     pub(super) fn quadrature_spans(&self) -> Vec<QuadratureSpan> {
         let degree = self.basis.degree();
@@ -148,7 +169,11 @@ impl Mesh {
 
     /// The Gauss rule that integrates the inertia of a span exactly when it is straight.
     pub(super) fn inertia_rule(&self) -> Result<GaussRule, GeometryError> {
-        GaussRule::new(self.basis.degree() + 1)
+        GaussRule::new(self.points_of_inertia())
+    }
+
+    fn points_of_inertia(&self) -> usize {
+        self.basis.degree() + 1
     }
 }
 
@@ -169,6 +194,16 @@ mod tests {
         assert_eq!(force_points(&Mesh::lagrange(3, 1).unwrap()), [1, 1, 1]);
         assert_eq!(force_points(&Mesh::lagrange(2, 3).unwrap()), [3, 3]);
         assert_eq!(force_points(&Mesh::bspline(1, 3, 2).unwrap()), [3]);
+    }
+
+    #[test]
+    fn points_are_counted_over_all_spans() {
+        let counts = |mesh: Mesh| {
+            let PointCounts { force, moment, inertia } = mesh.point_counts();
+            [force, moment, inertia]
+        };
+        assert_eq!(counts(Mesh::bspline(6, 3, 2).unwrap()), [8, 12, 24]);
+        assert_eq!(counts(Mesh::lagrange(3, 1).unwrap()), [3, 3, 6]);
     }
 
     #[test]

@@ -18,7 +18,7 @@ mod station;
 pub use discrete::discretise;
 pub use dynamics::{BodyDynamics, Collocation, ForceSummary, Movement};
 pub use error::BeamError;
-pub use mesh::{Mesh, Quadrature};
+pub use mesh::{Mesh, PointCounts, Quadrature};
 pub use particle::Particle;
 pub use rotation::{Rotation, RotationIncrement};
 pub use section::{Section, Shape, Solid};

@@ -17,6 +17,9 @@ pub struct EnergyMomentum {
 }
 
 impl EnergyMomentum {
+    /// Where a step takes forces.
+    pub const STAGES: &[Stage] = &[Stage::Midpoint];
+
     /// The method with work space for a mechanism.
     pub fn new(mechanism: &dyn Mechanism, tolerance: Tolerance) -> Self {
         Self { solver: StepSolver::new(mechanism, tolerance) }
@@ -29,7 +32,7 @@ impl Integrator for EnergyMomentum {
         mechanism: &mut dyn Mechanism,
         interval: Interval,
     ) -> Result<NewtonReport, StepError> {
-        mechanism.begin_step(interval, &[Stage::Midpoint])?;
+        mechanism.begin_step(interval, Self::STAGES)?;
         self.solver.predict(mechanism, interval);
         let report = self.solver.solve(mechanism, interval, Stage::Midpoint, 1.0)?;
         self.solver.correct(mechanism, interval);

@@ -1,6 +1,6 @@
 //! The methods by name, with what each of them claims. Tests and help read this list.
 
-use super::{EnergyMomentum, Integrator, Mechanism, Trapezoidal};
+use super::{EnergyMomentum, Integrator, Mechanism, Stage, Trapezoidal};
 use crate::newton::Tolerance;
 
 /// A choice of method, before there is a mechanism to apply it to.
@@ -66,6 +66,14 @@ impl Method {
         match self {
             Self::EnergyMomentum => &ENERGY_MOMENTUM,
             Self::Trapezoidal => &TRAPEZOIDAL,
+        }
+    }
+
+    /// The stages at which a step takes forces, and so asks loads for their values.
+    pub fn stages(&self) -> &'static [Stage] {
+        match self {
+            Self::EnergyMomentum => EnergyMomentum::STAGES,
+            Self::Trapezoidal => Trapezoidal::STAGES,
         }
     }
 

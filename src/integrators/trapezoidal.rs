@@ -17,6 +17,9 @@ pub struct Trapezoidal {
 }
 
 impl Trapezoidal {
+    /// Where a step takes forces.
+    pub const STAGES: &[Stage] = &[Stage::Start, Stage::End];
+
     /// The method with work space for a mechanism.
     pub fn new(mechanism: &dyn Mechanism, tolerance: Tolerance) -> Self {
         Self { solver: StepSolver::new(mechanism, tolerance) }
@@ -29,7 +32,7 @@ impl Integrator for Trapezoidal {
         mechanism: &mut dyn Mechanism,
         interval: Interval,
     ) -> Result<NewtonReport, StepError> {
-        mechanism.begin_step(interval, &[Stage::Start, Stage::End])?;
+        mechanism.begin_step(interval, Self::STAGES)?;
         self.solver.predict(mechanism, interval);
         self.solver.carry(mechanism, Stage::Start, 0.5);
         let report = self.solver.solve(mechanism, interval, Stage::End, 0.5)?;

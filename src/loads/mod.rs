@@ -6,4 +6,4 @@ mod schedule;
 
 pub use error::LoadError;
 pub use load::{Frame, Load, LoadKind};
-pub use schedule::{Operation, Schedule, ScheduleFunction, Side};
+pub use schedule::{Operation, Schedule, ScheduleFunction, Side, VALUES_OF_A_MEAN};

@@ -75,6 +75,9 @@ impl std::fmt::Debug for Schedule {
     }
 }
 
+/// How often a [mean](Schedule::mean) asks for a value that is not constant.
+pub const VALUES_OF_A_MEAN: usize = GAUSS.len();
+
 /// Points and weights of the three-point Gauss rule on [-1, 1].
 const GAUSS: [(f64, f64); 3] =
     [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
@@ -200,6 +203,15 @@ impl Schedule {
             return Err(LoadError::ManyParts { parts: size, most: MOST_PARTS });
         }
         Ok(Self::Combined { operation, parts: Rc::new((a, b)), size })
+    }
+
+    /// How many functions from outside it is made of; [`value`](Self::value) calls each of them once.
+    pub fn functions(&self) -> usize {
+        match self {
+            Self::Function { .. } => 1,
+            Self::Combined { parts, .. } => parts.0.functions() + parts.1.functions(),
+            _ => 0,
+        }
     }
 
     fn size(&self) -> usize {

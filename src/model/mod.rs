@@ -5,6 +5,7 @@ mod assemble;
 mod body;
 mod connection;
 mod error;
+mod explain;
 mod forecast;
 mod impact;
 mod inertia;
@@ -21,6 +22,7 @@ mod sliding;
 mod tracker;
 
 pub use error::ModelError;
+pub use explain::{Part, Usage, told};
 pub use measures::{Energy, Measures};
 pub use mechanism::Model;
 pub use queries::ModelState;

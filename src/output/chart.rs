@@ -48,7 +48,7 @@ pub struct LineChart {
     floor: f64,
     y_range: Option<(f64, f64)>,
     size: (f64, f64),
-    series: Vec<Series>,
+    pub(super) series: Vec<Series>,
 }
 
 impl LineChart {
@@ -120,7 +120,7 @@ impl LineChart {
         points.filter(|(x, y)| x.is_finite() && y.is_finite())
     }
 
-    fn frame(&self) -> Frame {
+    pub(super) fn frame(&self) -> Frame {
         let marked = self.series.iter().any(|series| series.stroke == Some(Stroke::Marked));
         let axis = |scale, values: &mut dyn Iterator<Item = f64>, margin| match scale {
             Scale::Linear => Axis::linear(values, margin),

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! chart, motion → page → frame, legend, timebar → axis, curve, stroke → canvas → figure → svg, png → files
+//! chart → terminal → axis, curve
 //! ```
 //!
 //! Pictures look the same on every machine: text is drawn from an embedded font, and equal data gives equal bytes.
@@ -27,6 +28,7 @@ mod png;
 mod stroke;
 mod svg;
 mod table;
+mod terminal;
 mod timebar;
 
 #[cfg(test)]
@@ -46,3 +48,4 @@ pub use number::{format_number, scientific, significant};
 pub use page::{Page, Panel};
 pub use stroke::Stroke;
 pub use table::{Cell, Table};
+pub use terminal::{Colours, ConfigurationPicture, Glyphs, Mark, Style, sparkline};

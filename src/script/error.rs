@@ -2,7 +2,8 @@
 
 use rhai::{Dynamic, EvalAltResult, Position};
 
-use super::kind::Scripted;
+use super::details;
+use super::kind::{Details, Scripted};
 use super::limits::Stop;
 
 /// Marks errors of the engine that are our own mistakes.
@@ -96,5 +97,9 @@ impl Scripted for Failure {
 
     fn show(&self) -> String {
         self.message.clone()
+    }
+
+    fn details(&self) -> Details {
+        details::of_failure(self)
     }
 }

@@ -3,7 +3,7 @@
 use std::any::TypeId;
 use std::fmt;
 
-use rhai::Engine;
+use rhai::{Dynamic, Engine};
 
 use super::parameter::Parameter;
 
@@ -15,7 +15,15 @@ pub trait Scripted: Clone + 'static {
     const DOC: &'static str;
     /// How it is printed.
     fn show(&self) -> String;
+
+    /// What a person wants to know at a glance besides: labels and values, at most a dozen.
+    fn details(&self) -> Details {
+        Details::new()
+    }
 }
+
+/// Labels and values, set as aligned lines.
+pub type Details = Vec<(String, String)>;
 
 /// A [`Scripted`] type as a value, for rows.
 #[derive(Clone, Copy)]
@@ -24,12 +32,21 @@ pub struct Type {
     doc: &'static str,
     id: fn() -> TypeId,
     register: fn(&mut Engine),
+    show: fn(&Dynamic) -> Option<String>,
+    details: fn(&Dynamic) -> Option<Details>,
 }
 
 impl Type {
     /// The type `T`.
     pub const fn of<T: Scripted>() -> Self {
-        Self { name: T::NAME, doc: T::DOC, id: TypeId::of::<T>, register: register::<T> }
+        Self {
+            name: T::NAME,
+            doc: T::DOC,
+            id: TypeId::of::<T>,
+            register: register::<T>,
+            show: |value| value.read_lock::<T>().map(|held| held.show()),
+            details: |value| value.read_lock::<T>().map(|held| held.details()),
+        }
     }
 
     /// Its name in scripts.
@@ -45,6 +62,16 @@ impl Type {
     /// Its identity.
     pub fn id(&self) -> TypeId {
         (self.id)()
+    }
+
+    /// How a value is printed, if it is one of this type.
+    pub fn show(&self, value: &Dynamic) -> Option<String> {
+        (self.show)(value)
+    }
+
+    /// What there is to know about a value besides, if it is one of this type.
+    pub fn details(&self, value: &Dynamic) -> Option<Details> {
+        (self.details)(value)
     }
 
     /// Gives it a name and a printed form in the engine.

@@ -2,6 +2,7 @@
 
 mod columns;
 mod error;
+mod explain;
 mod history;
 mod landing;
 mod outline;

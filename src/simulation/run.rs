@@ -77,7 +77,7 @@ pub struct Simulation {
     settings: Settings,
     pub(super) model: Model,
     pub(super) integrator: Box<dyn Integrator>,
-    grid: TimeGrid,
+    pub(super) grid: TimeGrid,
     history: History,
     pub(super) trajectory: Trajectory,
     pub(super) counts: WorkCounts,

@@ -23,6 +23,11 @@ impl TimeGrid {
         Self { start, dt, cuts, passed: 0 }
     }
 
+    /// The times beside the grid at which steps end [time].
+    pub fn cuts(&self) -> &[f64] {
+        &self.cuts
+    }
+
     /// The distance of grid points [time].
     pub fn dt(&self) -> f64 {
         self.dt

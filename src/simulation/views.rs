@@ -30,35 +30,62 @@ impl Simulation {
         self.trajectory.times().iter().enumerate().map(|(index, &time)| (time, at(index))).collect()
     }
 
+    /// The present configuration, as it is drawn.
+    ///
+    /// # Errors
+    /// When an axis has a point without a tangent.
+    pub fn configuration(&self) -> Result<Configuration, ModelError> {
+        let bodies: Vec<&[Vec2]> = self.model.control_points().collect();
+        Ok(Outline::draw(self.outlines()?, self.time(), &bodies))
+    }
+
     /// The configuration nearest to a time, as it is drawn; none before there is one.
     ///
     /// # Errors
     /// When an axis has a point without a tangent.
     pub fn configuration_near(&self, time: f64) -> Result<Option<Configuration>, ModelError> {
         let Some(index) = self.trajectory.nearest(time) else { return Ok(None) };
-        let points: Vec<Vec2> = self
-            .trajectory
-            .configuration(index)
-            .chunks_exact(2)
-            .map(|xy| Vec2::new(xy[0], xy[1]))
-            .collect();
-        let mut rest = points.as_slice();
-        let bodies: Vec<&[Vec2]> = self
-            .model
-            .control_points()
-            .map(|body| {
-                let (own, others) = rest.split_at(body.len());
-                rest = others;
-                own
-            })
-            .collect();
-        let outlines = match self.outlines.get() {
-            Some(outlines) => outlines,
-            None => {
-                let outlines = Outline::of_scene(&self.scene, self.model.meshes())?;
-                self.outlines.get_or_init(|| outlines)
-            }
+        let bodies = self.control_points_at(index);
+        let bodies: Vec<&[Vec2]> = bodies.iter().map(Vec::as_slice).collect();
+        Ok(Some(Outline::draw(self.outlines()?, self.trajectory.times()[index], &bodies)))
+    }
+
+    /// Where stations are [length].
+    ///
+    /// # Errors
+    /// When one lies outside its beam.
+    pub fn stations(&self, stations: &[Station]) -> Result<Vec<Vec2>, ModelError> {
+        stations.iter().map(|at| Ok(self.model.position(&self.place(at)?))).collect()
+    }
+
+    /// Where stations were in the configuration nearest to a time [length].
+    ///
+    /// # Errors
+    /// When one lies outside its beam.
+    pub fn stations_near(&self, stations: &[Station], time: f64) -> Result<Vec<Vec2>, ModelError> {
+        let Some(index) = self.trajectory.nearest(time) else { return self.stations(stations) };
+        let bodies = self.control_points_at(index);
+        let at = |station| {
+            let place = self.place(station)?;
+            Ok(place.interpolate(&bodies[place.body]))
         };
-        Ok(Some(Outline::draw(outlines, self.trajectory.times()[index], &bodies)))
+        stations.iter().map(at).collect()
+    }
+
+    /// The control points of all bodies in a configuration of the trajectory.
+    fn control_points_at(&self, index: usize) -> Vec<Vec<Vec2>> {
+        let mut numbers = self.trajectory.configuration(index).chunks_exact(2);
+        let of_body = |body: &[Vec2]| {
+            numbers.by_ref().take(body.len()).map(|xy| Vec2::new(xy[0], xy[1])).collect()
+        };
+        self.model.control_points().map(of_body).collect()
+    }
+
+    fn outlines(&self) -> Result<&[Outline], ModelError> {
+        if let Some(outlines) = self.outlines.get() {
+            return Ok(outlines);
+        }
+        let outlines = Outline::of_scene(&self.scene, self.model.meshes())?;
+        Ok(self.outlines.get_or_init(|| outlines))
     }
 }

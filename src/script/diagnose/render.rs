@@ -8,15 +8,7 @@ use codespan_reporting::term::termcolor::Buffer;
 use codespan_reporting::term::{self, Config};
 
 use super::{Blame, Diagnostic, Location, Step};
-
-/// Whether the drawing has colours.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Colours {
-    /// Plain text, the same everywhere.
-    None,
-    /// For a terminal.
-    Ansi,
-}
+pub use crate::output::Colours;
 
 impl Diagnostic {
     /// The diagnostic as text that ends with a newline.

@@ -3,7 +3,8 @@
 use rhai::Dynamic;
 
 use crate::integrators::Method;
-use crate::script::kind::{Scripted, Type};
+use crate::script::details;
+use crate::script::kind::{Details, Scripted, Type};
 use crate::script::table::{Table, function};
 
 /// Integrators.
@@ -41,6 +42,10 @@ impl Scripted for Method {
     fn show(&self) -> String {
         let entry = self.entry();
         format!("{}: {}", entry.name, entry.summary)
+    }
+
+    fn details(&self) -> Details {
+        details::of_integrator(self)
     }
 }
 

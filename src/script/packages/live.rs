@@ -8,8 +8,9 @@ use rhai::{Dynamic, FnPtr};
 use super::scenes::SceneHandle;
 use crate::script::call::Call;
 use crate::script::context::{Context, Mode};
+use crate::script::details;
 use crate::script::error::ScriptError;
-use crate::script::kind::Scripted;
+use crate::script::kind::{Details, Scripted};
 use crate::script::limits::Stop;
 use crate::script::numbers::format_number;
 use crate::simulation::{Monitor, Simulation, SimulationError};
@@ -250,5 +251,9 @@ impl Scripted for SimulationHandle {
             simulation.unknowns(),
             ended.unwrap_or_default(),
         )
+    }
+
+    fn details(&self) -> Details {
+        details::of_simulation(&self.simulation())
     }
 }

@@ -2,6 +2,7 @@
 
 mod arrays;
 mod checking;
+mod explaining;
 pub mod geometry;
 mod histories;
 mod integrators;
@@ -41,6 +42,7 @@ pub const TABLES: &[&Table] = &[
     &simulations::TABLE,
     &sliding::TABLE,
     &histories::TABLE,
+    &explaining::TABLE,
     &pictures::TABLE,
 ];
 

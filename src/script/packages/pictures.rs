@@ -11,7 +11,7 @@ use super::scenes::StationHandle;
 use super::simulations::{SIMULATION, SPINNING};
 use super::windows::HistoryHandle;
 use crate::output::{
-    CsvTable, LineChart, MotionPicture, Page, Panel, PictureKind, Scale, Series, Snapshot,
+    CsvTable, LineChart, MotionPicture, Page, Panel, PictureKind, Scale, Snapshot,
 };
 use crate::script::call::Call;
 use crate::script::error::{Place, ScriptError};
@@ -19,8 +19,9 @@ use crate::script::kind::{Kind, Scripted};
 use crate::script::numbers::format_number;
 use crate::script::options::Options;
 use crate::script::parameter::{Parameter, array, boolean, either, number, options, text};
+use crate::script::sight::{drift_lines, line_chart};
 use crate::script::table::{Table, function};
-use crate::simulation::{History, Invariant};
+use crate::simulation::History;
 
 /// Pictures and files.
 pub const TABLE: Table = Table {
@@ -219,13 +220,10 @@ fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let chart = |of: &HistoryHandle| {
         let title = options.text("title");
         let title = title.map_or_else(|_| of.of.name().to_owned(), |title| title.to_string());
-        of.read(|history| {
-            let chart = LineChart::new(title).x_label("t").y_label(label(history, &names));
-            names.iter().fold(chart.y_scale(scale), |chart, name| {
-                let values = read(history, name).unwrap_or_default().into_iter().map(shown);
-                chart.series(Series::new(series_name(name), over_time(history, values)))
-            })
-        })
+        let values = |history: &History, name: &str| {
+            read(history, name).map(|values| values.into_iter().map(shown).collect())
+        };
+        of.read(|history| line_chart(title, history, &names, values).y_scale(scale))
     };
     write_charts(call, histories.iter().map(chart).collect())
 }
@@ -245,43 +243,8 @@ fn columns(call: &Call, histories: &[HistoryHandle]) -> Result<Vec<String>, Scri
     }
 }
 
-/// A column in the words of a legend; the name of a thing of the scene stays as it is.
-fn series_name(column: &str) -> String {
-    match column.rsplit_once('.') {
-        Some((thing, quantity)) => format!("{thing} {}", quantity.replace('_', " ")),
-        None => column.replace('_', " "),
-    }
-}
-
-/// The dimension that all columns share.
-fn label(history: &History, names: &[String]) -> &'static str {
-    let mut dimensions = names.iter().map(|name| history.dimension(name).unwrap_or_default());
-    let first = dimensions.next().unwrap_or_default();
-    if dimensions.all(|dimension| dimension == first) { first } else { "" }
-}
-
-fn over_time(history: &History, values: impl Iterator<Item = f64>) -> Vec<(f64, f64)> {
-    history.samples().iter().map(|row| row.measures.time).zip(values).collect()
-}
-
 fn plot_drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let chart = |of: &HistoryHandle| {
-        of.read(|history| {
-            let chart = LineChart::new(of.of.name())
-                .x_label("t")
-                .y_label("relative drift")
-                .y_scale(Scale::Logarithmic);
-            Invariant::ALL.iter().filter(|(_, of)| *of != Invariant::Gap).fold(
-                chart,
-                |chart, (name, of)| {
-                    // The first row is zero by definition.
-                    let points = over_time(history, history.drifts(*of).into_iter())
-                        .split_off(1.min(history.samples().len()));
-                    chart.series(Series::new(name.replace('_', " "), points))
-                },
-            )
-        })
-    };
+    let chart = |of: &HistoryHandle| of.read(|history| drift_lines(of.of.name(), history));
     write_charts(call, histories(call)?.iter().map(chart).collect())
 }
 
@@ -328,29 +291,4 @@ fn write_states(call: &mut Call) -> Result<Dynamic, ScriptError> {
         table.column(name, values)
     });
     write_csv(call, table)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::simulation::{ExtraColumn, Scales};
-
-    #[test]
-    fn an_axis_has_the_dimension_that_all_columns_share() {
-        let column = |name: &str, dimension| ExtraColumn { name: name.to_owned(), dimension };
-        let extra = vec![column("my_slider.force", "force"), column("my_slider.force_x", "force")];
-        let history = History::new(Scales::default(), extra);
-        let of = |names: &[&str]| {
-            label(&history, &names.iter().map(|&name| name.to_owned()).collect::<Vec<_>>())
-        };
-        assert_eq!(of(&["my_slider.force", "my_slider.force_x"]), "force");
-        assert_eq!(of(&["kinetic", "work"]), "energy");
-        assert_eq!(of(&["my_slider.force", "energy"]), "");
-    }
-
-    #[test]
-    fn legends_keep_the_names_of_things() {
-        assert_eq!(series_name("momentum_x"), "momentum x");
-        assert_eq!(series_name("my_slider.force_x"), "my_slider force x");
-    }
 }

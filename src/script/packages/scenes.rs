@@ -16,8 +16,9 @@ use crate::model::{
 };
 use crate::output::significant;
 use crate::script::call::Call;
+use crate::script::details;
 use crate::script::error::{Place, ScriptError};
-use crate::script::kind::{Scripted, Type};
+use crate::script::kind::{Details, Scripted, Type};
 use crate::script::parameter::{Parameter, Presence, either, number, object, options, point, text};
 use crate::script::table::{Table, function, method, property};
 
@@ -270,6 +271,10 @@ impl Scripted for SceneHandle {
         let parts: Vec<String> = always.into_iter().chain(some).chain(last).map(count).collect();
         format!("scene '{}' with {}", scene.name, parts.join(", "))
     }
+
+    fn details(&self) -> Details {
+        details::of_scene(&self.0.borrow())
+    }
 }
 
 impl Scripted for BeamHandle {
@@ -286,6 +291,10 @@ impl Scripted for BeamHandle {
             beam.mesh.describe()
         )
     }
+
+    fn details(&self) -> Details {
+        details::of_beam(&self.scene.0.borrow(), self.index)
+    }
 }
 
 impl Scripted for StationHandle {
@@ -294,6 +303,10 @@ impl Scripted for StationHandle {
 
     fn show(&self) -> String {
         self.scene.0.borrow().describe(&self.station)
+    }
+
+    fn details(&self) -> Details {
+        details::of_station(&self.scene.0.borrow(), &self.station)
     }
 }
 

@@ -7,8 +7,9 @@ use rhai::{Dynamic, FnPtr};
 use crate::loads::{Operation, Schedule, Side};
 use crate::script::arguments::Arguments;
 use crate::script::call::Call;
+use crate::script::details;
 use crate::script::error::ScriptError;
-use crate::script::kind::{Kind, Range, Scripted, Type};
+use crate::script::kind::{Details, Kind, Range, Scripted, Type};
 use crate::script::parameter::{Parameter, Presence, array, callback, number, numbers, object};
 use crate::script::table::{Table, function, method, operator};
 
@@ -137,6 +138,10 @@ impl Scripted for Schedule {
 
     fn show(&self) -> String {
         self.describe()
+    }
+
+    fn details(&self) -> Details {
+        details::of_schedule(self)
     }
 }
 

@@ -10,8 +10,9 @@ use crate::beams::{BeamError, Mesh, Quadrature, Section, Shape, Solid};
 use crate::geometry::{Basis, KnotVector};
 use crate::script::arguments::Arguments;
 use crate::script::call::Call;
+use crate::script::details;
 use crate::script::error::{Place, ScriptError};
-use crate::script::kind::{Kind, Range, Scripted, Type};
+use crate::script::kind::{Details, Kind, Range, Scripted, Type};
 use crate::script::numbers::format_number;
 use crate::script::options::Options;
 use crate::script::parameter::{Parameter, Presence, choice, either, number, options, whole};
@@ -148,6 +149,10 @@ impl Scripted for Section {
         .map(format_number);
         format!("section with EA {ea}, GA {ga}, EI {ei}, rho_A {mass}, rho_I {rotary}")
     }
+
+    fn details(&self) -> Details {
+        details::of_section(self)
+    }
 }
 
 impl Scripted for Mesh {
@@ -156,6 +161,10 @@ impl Scripted for Mesh {
 
     fn show(&self) -> String {
         self.describe()
+    }
+
+    fn details(&self) -> Details {
+        details::of_mesh(self)
     }
 }
 

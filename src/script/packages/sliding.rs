@@ -10,8 +10,9 @@ use crate::joints::{EndAction, Slider, SlidingRule, StartVelocities};
 use crate::model::{Model, ModelError, Scene, SliderError};
 use crate::output::significant;
 use crate::script::call::Call;
+use crate::script::details;
 use crate::script::error::{Place, ScriptError};
-use crate::script::kind::{Scripted, Type};
+use crate::script::kind::{Details, Scripted, Type};
 use crate::script::parameter::{Parameter, Presence, choice, number, object, options, text};
 use crate::script::table::{Row, Table, function, method, property};
 use crate::simulation::Arrival;
@@ -185,6 +186,10 @@ impl Scripted for SliderHandle {
             slider.rule.entry().name
         )
     }
+
+    fn details(&self) -> Details {
+        details::of_slider(&self.scene.scene().borrow(), self.index)
+    }
 }
 
 impl Scripted for SlidingRule {
@@ -194,6 +199,10 @@ impl Scripted for SlidingRule {
     fn show(&self) -> String {
         let entry = self.entry();
         format!("{}: {}", entry.name, entry.summary)
+    }
+
+    fn details(&self) -> Details {
+        details::of_rule(self)
     }
 }
 

@@ -5,8 +5,9 @@ use rhai::Dynamic;
 use crate::geometry::{Vec2, cross, unit};
 use crate::output::significant;
 use crate::script::call::Call;
+use crate::script::details;
 use crate::script::error::ScriptError;
-use crate::script::kind::{Scripted, Type};
+use crate::script::kind::{Details, Scripted, Type};
 use crate::script::parameter::{Parameter, number, object, point};
 use crate::script::table::{Table, function, operator, property};
 
@@ -106,6 +107,10 @@ impl Scripted for Vec2 {
 
     fn show(&self) -> String {
         format!("[{}, {}]", significant(self.x, 7), significant(self.y, 7))
+    }
+
+    fn details(&self) -> Details {
+        details::of_vector(self)
     }
 }
 

@@ -4,10 +4,11 @@ use rhai::Dynamic;
 
 use super::live::SimulationHandle;
 use crate::script::call::Call;
+use crate::script::details;
 use crate::script::error::{Place, ScriptError};
-use crate::script::kind::Scripted;
+use crate::script::kind::{Details, Scripted};
 use crate::script::numbers::format_number;
-use crate::script::suggest::nearest;
+use crate::script::sight::{column_hint, column_names};
 use crate::simulation::{History, Sample};
 
 /// A part of the history of a simulation; it grows with it.
@@ -42,8 +43,7 @@ impl HistoryHandle {
 
     /// The names of its columns in a line.
     pub fn column_names(&self) -> String {
-        let simulation = self.of.simulation();
-        simulation.history().columns().map(|(name, _)| name).collect::<Vec<_>>().join(", ")
+        column_names(self.of.simulation().history())
     }
 
     /// Refuses what is not the name of one of its columns; `argument` is where the script gives it.
@@ -59,12 +59,10 @@ impl HistoryHandle {
         if history.dimension(&name).is_some() {
             return Ok(name);
         }
-        let meant = nearest(&name, history.columns().map(|(name, _)| name));
-        let suggestion = meant.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
         let got = call.show(given);
         Err(call
             .error(format!("the history of '{}' has no column {got}", self.of.name()))
-            .hint(format!("{suggestion}columns: {}", self.column_names()))
+            .hint(column_hint(history, &name))
             .at(Place::Argument(argument)))
     }
 
@@ -92,5 +90,9 @@ impl Scripted for HistoryHandle {
             format_number(first),
             format_number(last)
         )
+    }
+
+    fn details(&self) -> Details {
+        self.read(details::of_history)
     }
 }

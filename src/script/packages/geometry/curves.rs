@@ -8,8 +8,9 @@ use super::knots::{KNOTS, shared as shared_knots};
 use super::{ORDER, TIMES, XI, blame, brief, brief_point, pair, plural, vector};
 use crate::geometry::{Curve, GeometryError, KnotVector, SplineCurve, Vec2};
 use crate::script::call::Call;
+use crate::script::details;
 use crate::script::error::ScriptError;
-use crate::script::kind::{Scripted, Type, with_article};
+use crate::script::kind::{Details, Scripted, Type, with_article};
 use crate::script::parameter::{Parameter, Presence, number, object, point, points};
 use crate::script::table::{Table, function, method, operator, property};
 
@@ -164,6 +165,10 @@ impl Scripted for Rc<Curve> {
             |[start, end]| format!(" from {} to {}", brief_point(start), brief_point(end)),
         );
         format!("{}{control}{ends}, length {}", kind(self), brief(self.length()))
+    }
+
+    fn details(&self) -> Details {
+        details::of_curve(self)
     }
 }
 

@@ -7,8 +7,9 @@ use rhai::{Dynamic, Map};
 use super::{ORDER, TIMES, XI, all_functions, blame, brief, count, numbers, pair, plural};
 use crate::geometry::{Basis, KnotVector, MAX_DEGREE, MAX_SPANS};
 use crate::script::call::Call;
+use crate::script::details;
 use crate::script::error::{Place, ScriptError};
-use crate::script::kind::{Kind, Range, Scripted, Type};
+use crate::script::kind::{Details, Kind, Range, Scripted, Type};
 use crate::script::options::Options;
 use crate::script::parameter::{self, Parameter, Presence, either, object, whole};
 use crate::script::table::{Table, function, method, operator, property};
@@ -137,6 +138,10 @@ impl Scripted for Rc<KnotVector> {
         };
         let listed = listed(self.knots());
         format!("knots of degree {}, {}{smooth}: [{listed}]", self.degree(), plural(spans, "span"))
+    }
+
+    fn details(&self) -> Details {
+        details::of_knots(self)
     }
 }
 

@@ -1,0 +1,187 @@
+//! A raster of dots, two across and four down in each character: square ones, as terminals have characters about twice as
+//! high as wide.
+
+use super::Glyphs;
+use super::sheet::Ink;
+use crate::output::canvas::{Area, Point};
+use crate::output::curve::pieces;
+
+/// Dots across and down a character.
+pub const ACROSS: usize = 2;
+/// Dots down a character.
+pub const DOWN: usize = 4;
+
+/// The bit of each dot in the number of its braille character: first column from above, then the second one.
+const BITS: [[u8; DOWN]; ACROSS] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
+
+/// How a curve is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trace {
+    /// Dot beside dot.
+    Solid,
+    /// Every third dot.
+    Dotted,
+}
+
+/// Dots in characters.
+#[derive(Clone, Debug)]
+pub struct Dots {
+    columns: usize,
+    rows: usize,
+    cells: Vec<(u8, Ink)>,
+}
+
+impl Dots {
+    /// A blank raster of so many characters.
+    pub fn new(columns: usize, rows: usize) -> Self {
+        Self { columns, rows, cells: vec![(0, Ink::Plain); columns * rows] }
+    }
+
+    /// The number of dots less one across and down: the coordinates of the last dot.
+    pub fn last(&self) -> Point {
+        let last = |dots: usize| dots.saturating_sub(1) as f64;
+        (last(ACROSS * self.columns), last(DOWN * self.rows))
+    }
+
+    /// Draws a curve through points given in dots from the upper left one. Points that are not finite leave a gap; what lies
+    /// beyond the raster is cut off.
+    pub fn curve(&mut self, points: impl IntoIterator<Item = Point>, trace: Trace, ink: Ink) {
+        if self.cells.is_empty() {
+            return;
+        }
+        let (right, bottom) = self.last();
+        let every = match trace {
+            Trace::Solid => 1,
+            Trace::Dotted => 3,
+        };
+        for piece in pieces(points, &Area { left: 0.0, top: 0.0, right, bottom }) {
+            let stops: Vec<(i64, i64)> =
+                piece.iter().map(|(x, y)| (x.round() as i64, y.round() as i64)).collect();
+            let ways = stops.windows(2).flat_map(|pair| way(pair[0], pair[1]));
+            for (x, y) in stops[..1].iter().copied().chain(ways).step_by(every) {
+                self.dot(x, y, ink);
+            }
+        }
+    }
+
+    fn dot(&mut self, x: i64, y: i64, ink: Ink) {
+        let (Ok(x), Ok(y)) = (usize::try_from(x), usize::try_from(y)) else { return };
+        if x < ACROSS * self.columns && y < DOWN * self.rows {
+            let (mask, own) = &mut self.cells[y / DOWN * self.columns + x / ACROSS];
+            *mask |= BITS[x % ACROSS][y % DOWN];
+            *own = ink;
+        }
+    }
+
+    /// The characters that have dots: column, row, dots and ink.
+    pub fn drawn(&self) -> impl Iterator<Item = (usize, usize, u8, Ink)> {
+        let of_cell = |(at, (mask, ink)): (usize, &(u8, Ink))| {
+            (*mask != 0).then(|| (at % self.columns, at / self.columns, *mask, *ink))
+        };
+        self.cells.iter().enumerate().filter_map(of_cell)
+    }
+}
+
+/// The dots after the first on the straight way between two of them (Bresenham 1965).
+fn way(from: (i64, i64), to: (i64, i64)) -> impl Iterator<Item = (i64, i64)> {
+    let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+    let steps = dx.abs().max(dy.abs());
+    // Rounded half away from the start, in whole numbers.
+    let part = move |whole: i64, step: i64| {
+        (2 * whole.abs() * step + steps) / (2 * steps).max(1) * whole.signum()
+    };
+    (1..=steps).map(move |step| (from.0 + part(dx, step), from.1 + part(dy, step)))
+}
+
+impl Glyphs {
+    /// The character that looks like these dots.
+    pub(super) fn of_dots(self, mask: u8) -> char {
+        match self {
+            Self::Braille => char::from_u32(0x2800 + u32::from(mask)).unwrap_or(' '),
+            Self::Ascii => ascii_of_dots(mask),
+        }
+    }
+}
+
+/// The sign of ASCII whose ink is about where the dots are.
+fn ascii_of_dots(mask: u8) -> char {
+    let rows = |column: usize| (0..DOWN).filter(move |&row| mask & BITS[column][row] != 0);
+    let (left, right) = (rows(0).count(), rows(1).count());
+    let sum = |column| rows(column).sum::<usize>();
+    let (Some(top), Some(bottom)) = (rows(0).chain(rows(1)).min(), rows(0).chain(rows(1)).max())
+    else {
+        return ' ';
+    };
+    if left + right > 6 {
+        return '#';
+    }
+    match bottom - top {
+        0 | 1 => match top + bottom {
+            0 | 1 => '\'',
+            2..=4 => '-',
+            5 => '.',
+            _ => '_',
+        },
+        _ if left == 0 || right == 0 => '|',
+        // Means of the rows, compared without dividing; rows count downwards.
+        _ => match (sum(0) * right).cmp(&(sum(1) * left)) {
+            std::cmp::Ordering::Less => '\\',
+            std::cmp::Ordering::Greater => '/',
+            std::cmp::Ordering::Equal => '|',
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drawn(dots: &Dots, glyphs: Glyphs) -> String {
+        let mut lines = vec![vec![' '; dots.columns]; dots.rows];
+        for (column, row, mask, _) in dots.drawn() {
+            lines[row][column] = glyphs.of_dots(mask);
+        }
+        lines.iter().map(|line| line.iter().collect::<String>()).collect::<Vec<_>>().join("\n")
+    }
+
+    fn curve(points: &[Point]) -> Dots {
+        let mut dots = Dots::new(4, 2);
+        dots.curve(points.iter().copied(), Trace::Solid, Ink::Plain);
+        dots
+    }
+
+    #[test]
+    fn lines_are_dots_and_signs() {
+        let down = curve(&[(0.0, 0.0), (7.0, 7.0)]);
+        assert_eq!(drawn(&down, Glyphs::Braille), "⠑⢄  \n  ⠑⢄");
+        let level = curve(&[(0.0, 0.0), (7.0, 0.0)]);
+        assert_eq!(drawn(&level, Glyphs::Ascii), "''''\n    ");
+        let steep = curve(&[(2.0, 7.0), (3.0, 0.0)]);
+        assert_eq!(drawn(&steep, Glyphs::Ascii), " |  \n |  ");
+        let up = curve(&[(0.0, 7.0), (3.0, 0.0)]);
+        assert_eq!(drawn(&up, Glyphs::Ascii), " /  \n/   ");
+    }
+
+    #[test]
+    fn a_line_is_the_same_both_ways_at_its_ends_and_has_no_gaps() {
+        for to in [(7, 3), (-7, 3), (2, -9), (0, 5), (5, 5), (0, 0)] {
+            let dots: Vec<_> = [(0, 0)].into_iter().chain(way((0, 0), to)).collect();
+            assert_eq!(dots.last(), Some(&to));
+            let is_near = |pair: &[(i64, i64)]| {
+                (pair[0].0 - pair[1].0).abs().max((pair[0].1 - pair[1].1).abs()) == 1
+            };
+            assert!(dots.windows(2).all(is_near), "{dots:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_a_gap_and_what_is_beyond_is_cut_off() {
+        let gap = curve(&[(0.0, 0.0), (f64::NAN, 0.0), (7.0, 0.0)]);
+        assert_eq!(drawn(&gap, Glyphs::Ascii), "'  '\n    ");
+        let beyond = curve(&[(-1e6, 0.0), (1e6, 0.0), (1e6, 1e6), (f64::INFINITY, 1.0)]);
+        assert_eq!(drawn(&beyond, Glyphs::Ascii), "''''\n    ");
+        let mut nothing = Dots::new(0, 3);
+        nothing.curve([(0.0, 0.0)], Trace::Solid, Ink::Plain);
+        assert_eq!(nothing.drawn().count(), 0);
+    }
+}

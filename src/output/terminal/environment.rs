@@ -1,0 +1,92 @@
+//! What the environment says about a terminal.
+
+use super::{Colours, Glyphs, Style};
+
+/// The size of a terminal that does not tell its own.
+const USUAL: (usize, usize) = (80, 24);
+
+/// Sizes that pictures can use; whatever says less or more is not believed.
+const WIDTHS: (usize, usize) = (20, 240);
+const HEIGHTS: (usize, usize) = (8, 60);
+
+/// Lines of the terminal that a picture leaves free, so that it and the prompt below it are seen together.
+const LEFT_FREE: usize = 3;
+
+impl Style {
+    /// The style for the terminal that these variables of the environment describe; `variable` gives the value of one.
+    ///
+    /// No colours where `NO_COLOR` is set and not empty, or `TERM` is `dumb` or not known. Braille where the character set of
+    /// `LC_ALL`, else `LC_CTYPE`, else `LANG` is UTF-8 and `TERM` is neither `dumb` nor `linux`, the console without such a
+    /// font. The size is that of `COLUMNS` and `LINES`, or 80 by 24; a picture is a few lines less high.
+    pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Self {
+        let given = |name: &str| variable(name).filter(|value| !value.is_empty());
+        let terminal = given("TERM").unwrap_or_default();
+        let characters = given("LC_ALL").or_else(|| given("LC_CTYPE")).or_else(|| given("LANG"));
+        let characters = characters.unwrap_or_default().to_lowercase();
+        let knows_utf8 = characters.contains("utf-8") || characters.contains("utf8");
+        let is_plain = given("NO_COLOR").is_some() || matches!(&*terminal, "" | "dumb");
+        let has_no_braille = !knows_utf8 || matches!(&*terminal, "dumb" | "linux");
+        let number = |name: &str| given(name)?.trim().parse::<usize>().ok().filter(|n| *n > 0);
+        let (columns, lines) =
+            (number("COLUMNS").unwrap_or(USUAL.0), number("LINES").unwrap_or(USUAL.1));
+        Self {
+            glyphs: if has_no_braille { Glyphs::Ascii } else { Glyphs::Braille },
+            colours: if is_plain { Colours::None } else { Colours::Ansi },
+            width: columns.clamp(WIDTHS.0, WIDTHS.1),
+            height: lines.saturating_sub(LEFT_FREE).clamp(HEIGHTS.0, HEIGHTS.1),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn style(variables: &[(&str, &str)]) -> Style {
+        let value = |name: &str| variables.iter().find(|(other, _)| *other == name);
+        Style::of_environment(|name| value(name).map(|(_, value)| (*value).to_owned()))
+    }
+
+    fn abilities(variables: &[(&str, &str)]) -> (Glyphs, Colours) {
+        let style = style(variables);
+        (style.glyphs, style.colours)
+    }
+
+    #[test]
+    fn a_terminal_gets_what_it_can_show() {
+        use {Colours::*, Glyphs::*};
+        let modern = ("TERM", "xterm-256color");
+        assert_eq!(abilities(&[modern, ("LANG", "en_GB.UTF-8")]), (Braille, Ansi));
+        assert_eq!(abilities(&[modern, ("LC_CTYPE", "C.utf8")]), (Braille, Ansi));
+        assert_eq!(abilities(&[("TERM", "linux"), ("LANG", "C.UTF-8")]), (Ascii, Ansi));
+        assert_eq!(abilities(&[("TERM", "dumb"), ("LANG", "C.UTF-8")]), (Ascii, None));
+        assert_eq!(abilities(&[modern]), (Ascii, Ansi));
+        assert_eq!(abilities(&[("LANG", "C.UTF-8")]), (Braille, None));
+    }
+
+    #[test]
+    fn the_first_of_the_locale_variables_decides_and_an_empty_one_does_not_count() {
+        let lang = ("LANG", "C.UTF-8");
+        assert_eq!(abilities(&[("LC_ALL", "C"), lang]).0, Glyphs::Ascii);
+        assert_eq!(abilities(&[("LC_ALL", ""), ("LC_CTYPE", ""), lang]).0, Glyphs::Braille);
+    }
+
+    #[test]
+    fn no_color_counts_when_it_is_not_empty() {
+        let modern = ("TERM", "xterm");
+        assert_eq!(abilities(&[modern, ("NO_COLOR", "1")]).1, Colours::None);
+        assert_eq!(abilities(&[modern, ("NO_COLOR", "")]).1, Colours::Ansi);
+    }
+
+    #[test]
+    fn sizes_are_believed_within_reason() {
+        let size = |columns, lines| {
+            let style = style(&[("COLUMNS", columns), ("LINES", lines)]);
+            (style.width, style.height)
+        };
+        assert_eq!(size("100", "40"), (100, 37));
+        assert_eq!(size("", "many"), (80, 21));
+        assert_eq!(size("0", "1"), (80, 8));
+        assert_eq!(size("99999", "99999"), (240, 60));
+    }
+}

@@ -1,0 +1,17 @@
+//! Charts and pictures as text for a terminal: braille dots or plain ASCII, with or without colours.
+//!
+//! ```text
+//! chart, picture, sparkline → dots → sheet → style
+//! ```
+
+mod chart;
+mod dots;
+mod environment;
+mod picture;
+mod sheet;
+mod sparkline;
+mod style;
+
+pub use picture::{ConfigurationPicture, Mark};
+pub use sparkline::sparkline;
+pub use style::{Colours, Glyphs, Style};

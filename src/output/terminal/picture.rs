@@ -1,0 +1,345 @@
+//! A configuration as text: beams as lines, particles, sliders and supports as signs, both axes equal.
+
+use super::Style;
+use super::dots::{ACROSS, DOWN, Dots, Trace};
+use super::sheet::{Ink, Sheet};
+use crate::output::axis::extent;
+use crate::output::canvas::Point;
+use crate::output::number::significant;
+
+/// A place that is marked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// A point mass that moves by itself.
+    Particle,
+    /// A place that slides along a beam.
+    Slider,
+    /// A support that holds a position.
+    Hinge,
+    /// A support that holds position and angle.
+    Clamp,
+}
+
+impl Mark {
+    const ALL: [Self; 4] = [Self::Particle, Self::Slider, Self::Hinge, Self::Clamp];
+
+    /// Its sign in braille pictures and in ASCII, and its name.
+    fn look(self) -> (char, char, &'static str) {
+        match self {
+            Self::Particle => ('●', 'O', "particle"),
+            Self::Slider => ('◆', 'X', "slider"),
+            Self::Hinge => ('▲', '^', "hinge"),
+            Self::Clamp => ('■', '#', "clamp"),
+        }
+    }
+}
+
+/// Less than this part of the coordinates, or less than this length, is no extent.
+const ROUNDING: (f64, f64) = (1e-10, 1e-290);
+/// Lines and columns of the smallest picture that has a frame.
+const LEAST: (usize, usize) = (12, 5);
+/// Blank dots between the drawing and its frame.
+const MARGIN: f64 = 2.0;
+
+/// What is drawn.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ConfigurationPicture {
+    title: String,
+    time: Option<f64>,
+    lines: Vec<Vec<Point>>,
+    ghost: Vec<Vec<Point>>,
+    marks: Vec<(Mark, Point)>,
+}
+
+/// The part of the plane that is seen.
+struct Window {
+    middle: Point,
+    /// The length of a dot.
+    dot: f64,
+    /// The coordinates of the last dot.
+    last: Point,
+}
+
+impl ConfigurationPicture {
+    /// A picture of nothing.
+    pub fn new(title: impl Into<String>) -> Self {
+        Self { title: title.into(), ..Self::default() }
+    }
+
+    /// Says when it was.
+    pub fn time(mut self, time: f64) -> Self {
+        self.time = Some(time);
+        self
+    }
+
+    /// Adds a beam.
+    pub fn line(mut self, points: Vec<Point>) -> Self {
+        self.lines.push(points);
+        self
+    }
+
+    /// Adds a beam as it was before: dotted, and dimmer where there are colours.
+    pub fn ghost(mut self, points: Vec<Point>) -> Self {
+        self.ghost.push(points);
+        self
+    }
+
+    /// Adds a mark.
+    pub fn mark(mut self, mark: Mark, at: Point) -> Self {
+        self.marks.push((mark, at));
+        self
+    }
+
+    /// The picture as text of at most the width and the height of `style`; less high where the drawing is flat.
+    pub fn text(&self, style: &Style) -> String {
+        let has_frame = style.width >= LEAST.0 && style.height >= LEAST.1;
+        let border = usize::from(has_frame);
+        let columns = style.width - 2 * border;
+        let Some((rows, window)) = self.window(columns, style.height - 2 * border) else {
+            return style.glyphs.fit("nothing to draw", style.width);
+        };
+        let style = style.sized(style.width, rows + 2 * border);
+        let mut sheet = Sheet::new(&style);
+        let mut dots = Dots::new(columns, rows);
+        let traces = [(&self.ghost, Trace::Dotted, true), (&self.lines, Trace::Solid, false)];
+        for (lines, trace, is_ghost) in traces {
+            for (index, line) in lines.iter().enumerate() {
+                let ink = if is_ghost { Ink::Faint } else { Ink::Series(index) };
+                dots.curve(line.iter().map(|&point| window.place(point)), trace, ink);
+            }
+        }
+        for (column, row, mask, ink) in dots.drawn() {
+            let glyph = match ink {
+                Ink::Faint => style.glyphs.choose(style.glyphs.of_dots(mask), '.'),
+                _ => style.glyphs.of_dots(mask),
+            };
+            sheet.put(border + column, border + row, glyph, ink);
+        }
+        for (mark, at) in &self.marks {
+            let (x, y) = window.place(*at);
+            if x.is_finite() && y.is_finite() {
+                let (braille, ascii, _) = mark.look();
+                let (column, row) = (x.round() as usize / ACROSS, y.round() as usize / DOWN);
+                let sign = style.glyphs.choose(braille, ascii);
+                sheet.put(border + column, border + row, sign, Ink::Plain);
+            }
+        }
+        if has_frame {
+            self.draw_frame(&mut sheet, &style, &window);
+        }
+        sheet.render()
+    }
+
+    /// The window for so many characters, and the lines that it needs of them; none when there is nothing to see.
+    fn window(&self, columns: usize, rows: usize) -> Option<(usize, Window)> {
+        let points = || {
+            let lines = self.lines.iter().chain(&self.ghost).flatten().copied();
+            let all = lines.chain(self.marks.iter().map(|(_, at)| *at));
+            all.filter(|(x, y)| x.is_finite() && y.is_finite())
+        };
+        if columns == 0 || rows == 0 {
+            return None;
+        }
+        let (left, right) = extent(points().map(|point| point.0))?;
+        let (low, high) = extent(points().map(|point| point.1))?;
+        let (wide, tall) = (right - left, high - low);
+        let room = |characters: usize, dots: usize| {
+            ((characters * dots) as f64 - 1.0 - 2.0 * MARGIN).max(1.0)
+        };
+        let dot = (wide / room(columns, ACROSS)).max(tall / room(rows, DOWN));
+        let size = [left, right, low, high].map(f64::abs).into_iter().fold(0.0, f64::max);
+        let is_point = wide.max(tall) <= (ROUNDING.0 * size).max(ROUNDING.1);
+        let dot = match is_point {
+            true if size > ROUNDING.1 / ROUNDING.0 => 0.1 * size / room(columns, ACROSS),
+            true => 1.0 / room(columns, ACROSS),
+            false => dot,
+        };
+        let needed = ((tall / dot + 2.0 * MARGIN + 1.0) / DOWN as f64).ceil() as usize;
+        let rows = needed.clamp(LEAST.1.min(rows + 2).saturating_sub(2).max(1), rows);
+        let last = Dots::new(columns, rows).last();
+        let middle = (0.5 * left + 0.5 * right, 0.5 * low + 0.5 * high);
+        Some((rows, Window { middle, dot, last }))
+    }
+
+    /// Title and time above, the edges of the window and the meaning of signs below.
+    fn draw_frame(&self, sheet: &mut Sheet, style: &Style, window: &Window) {
+        let glyphs = style.glyphs;
+        let (level, upright) = glyphs.choose(('─', '│'), ('-', '|'));
+        let corners = glyphs.choose(['┌', '┐', '└', '┘'], ['+'; 4]);
+        let (last_column, last_row) = (style.width - 1, style.height - 1);
+        for column in 0..style.width {
+            sheet.put(column, 0, level, Ink::Plain);
+            sheet.put(column, last_row, level, Ink::Plain);
+        }
+        for row in 0..style.height {
+            sheet.put(0, row, upright, Ink::Plain);
+            sheet.put(last_column, row, upright, Ink::Plain);
+        }
+        let places = [(0, 0), (last_column, 0), (0, last_row), (last_column, last_row)];
+        for ((column, row), corner) in places.into_iter().zip(corners) {
+            sheet.put(column, row, corner, Ink::Plain);
+        }
+        let time = self.time.map(|time| format!("t = {}", significant(time, 6)));
+        let [x, y] = window.edges().map(|ends| ends.map(|end| significant(end, 3)));
+        let edges = format!("x {} … {}  y {} … {}", x[0], x[1], y[0], y[1]);
+        self.write_into(sheet, style, 0, &self.title, &time.unwrap_or_default());
+        self.write_into(sheet, style, last_row, &edges, &self.signs(style));
+    }
+
+    /// Two texts in a line of the frame; the second one only if it leaves room for the first, or for half a line of it.
+    fn write_into(&self, sheet: &mut Sheet, style: &Style, row: usize, left: &str, right: &str) {
+        let room = style.width - 6;
+        let right = style.glyphs.typeset(right);
+        let beside = if right.is_empty() { 0 } else { right.chars().count() + 3 };
+        let wanted = style.glyphs.typeset(left).chars().count();
+        let is_room = beside + wanted.min(room / 2) <= room;
+        let left = style.glyphs.fit(left, if is_room { room - beside } else { room });
+        if !left.trim().is_empty() {
+            sheet.write(2, row, &format!(" {left} "), Ink::Plain);
+        }
+        if is_room && !right.is_empty() {
+            sheet.write(style.width - 1 - beside, row, &format!(" {right} "), Ink::Plain);
+        }
+    }
+
+    /// What the signs of the picture mean.
+    fn signs(&self, style: &Style) -> String {
+        let used = Mark::ALL.into_iter().filter(|mark| self.marks.iter().any(|(m, _)| m == mark));
+        let named = used.map(|mark| {
+            let (braille, ascii, name) = mark.look();
+            format!("{} {name}", style.glyphs.choose(braille, ascii))
+        });
+        named.collect::<Vec<_>>().join("  ")
+    }
+}
+
+impl Window {
+    /// Where a point is, in dots from the upper left one.
+    fn place(&self, (x, y): Point) -> Point {
+        let far = |value: f64, middle: f64| (value - middle) / self.dot;
+        (0.5 * self.last.0 + far(x, self.middle.0), 0.5 * self.last.1 - far(y, self.middle.1))
+    }
+
+    /// The ends in x and in y.
+    fn edges(&self) -> [[f64; 2]; 2] {
+        let ends = |middle: f64, dots: f64| {
+            [-1.0, 1.0].map(|side| {
+                let end = middle + side * 0.5 * dots * self.dot;
+                // Rounding about zero is no place.
+                if end.abs() < 1e-9 * dots * self.dot { 0.0 } else { end }
+            })
+        };
+        [ends(self.middle.0, self.last.0), ends(self.middle.1, self.last.1)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::terminal::{Colours, Glyphs};
+    use proptest::prelude::*;
+
+    const PLAIN: Style =
+        Style { glyphs: Glyphs::Braille, colours: Colours::None, width: 40, height: 12 };
+
+    fn picture() -> ConfigurationPicture {
+        ConfigurationPicture::new("rod")
+            .time(2.5)
+            .ghost(vec![(0.0, 0.0), (4.0, 0.0)])
+            .line(vec![(0.0, 0.0), (3.0, 2.0)])
+            .mark(Mark::Hinge, (0.0, 0.0))
+            .mark(Mark::Particle, (3.0, 2.0))
+    }
+
+    #[test]
+    fn a_picture_in_braille() {
+        let expected = [
+            "┌─ rod ────────────────────── t = 2.5 ─┐",
+            "│                          ⢀●          │",
+            "│                       ⢀⡠⠒⠁           │",
+            "│                    ⢀⡠⠒⠁              │",
+            "│                 ⢀⡠⠒⠁                 │",
+            "│              ⢀⡠⠒⠁                    │",
+            "│            ⡠⠔⠁                       │",
+            "│         ⡠⠔⠉                          │",
+            "│      ⡠⠔⠉                             │",
+            "│   ⡠⠔⠉                                │",
+            "│ ▲⠉⠂⠐ ⠂⠐ ⠂⠐ ⠂⠐ ⠂⠐ ⠂⠐ ⠂⠐ ⠂⠐ ⠂⠐ ⠂⠐ ⠂⠐ ⠂ │",
+            "└─ x -0.143 … 4.14  y -0.114 … 2.11 ───┘",
+        ];
+        assert_eq!(picture().text(&PLAIN).lines().collect::<Vec<_>>(), expected);
+    }
+
+    #[test]
+    fn a_picture_in_ascii() {
+        let style = Style { glyphs: Glyphs::Ascii, width: 44, ..PLAIN };
+        let expected = [
+            "+- rod -------------------------- t = 2.5 -+",
+            "|                            _O            |",
+            "|                         _.-'             |",
+            "|                      _.-'                |",
+            "|                   _.-'                   |",
+            "|                _.-'                      |",
+            "|              .-'                         |",
+            "|           .-'                            |",
+            "|        .-'                               |",
+            "|     .-'                                  |",
+            "|   ^'.. .. .. .. .. .. .. .. .. .. .. .   |",
+            "+- x -0.371 ... 4.37  y -0.114 ... 2.11 ---+",
+        ];
+        assert_eq!(picture().text(&style).lines().collect::<Vec<_>>(), expected);
+    }
+
+    #[test]
+    fn scales_are_equal() {
+        let circle = (0..=360).map(|angle| f64::from(angle).to_radians().sin_cos()).collect();
+        let picture = ConfigurationPicture::new("").line(circle);
+        let (rows, window) = picture.window(60, 15).unwrap();
+        let (right, top) = (window.place((1.0, 0.0)), window.place((0.0, 1.0)));
+        let (left, bottom) = (window.place((-1.0, 0.0)), window.place((0.0, -1.0)));
+        assert_eq!(rows, 15);
+        assert!((right.0 - left.0 - (bottom.1 - top.1)).abs() < 1e-9);
+        assert!(right.0 - left.0 > 50.0, "{left:?} {right:?}");
+    }
+
+    #[test]
+    fn a_flat_drawing_takes_few_lines() {
+        let flat = ConfigurationPicture::new("flat").line(vec![(0.0, 0.0), (10.0, 0.0)]);
+        assert_eq!(flat.text(&PLAIN).lines().count(), 5);
+        assert_eq!(ConfigurationPicture::new("none").text(&PLAIN), "nothing to draw");
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(200))]
+        #[test]
+        fn any_drawing_fits_any_size(
+            line in prop::collection::vec((number(), number()), 0..6),
+            ghost in prop::collection::vec((number(), number()), 0..4),
+            mark in (number(), number()),
+            title in ".{0,30}",
+            width in 0usize..90, height in 0usize..30,
+        ) {
+            for glyphs in [Glyphs::Braille, Glyphs::Ascii] {
+                let style = Style { glyphs, width, height, ..PLAIN };
+                let picture = ConfigurationPicture::new(title.clone()).time(mark.0)
+                    .line(line.clone()).ghost(ghost.clone()).mark(Mark::Slider, mark);
+                let text = picture.text(&style);
+                prop_assert!(text.lines().count() <= height.max(1));
+                prop_assert!(text.lines().all(|line| line.chars().count() <= width), "{text}");
+                prop_assert!(glyphs == Glyphs::Braille || text.is_ascii(), "{text}");
+            }
+        }
+    }
+
+    fn number() -> impl Strategy<Value = f64> {
+        prop_oneof![
+            Just(0.0),
+            Just(f64::NAN),
+            Just(1e308),
+            Just(-1e308),
+            Just(1e-300),
+            proptest::num::f64::ANY,
+            -10.0..10.0
+        ]
+    }
+}

@@ -1,0 +1,93 @@
+//! A sheet of characters, each with its ink, and how it becomes lines of text.
+
+use super::{Colours, Style};
+
+/// What a character is drawn with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Ink {
+    /// As the terminal writes.
+    #[default]
+    Plain,
+    /// Dimmer.
+    Faint,
+    /// The colour of a series, by its number.
+    Series(usize),
+}
+
+/// Colours of series that a dark and a light terminal both show: cyan, yellow, magenta, green, blue, red.
+const HUES: [u8; 6] = [36, 33, 35, 32, 34, 31];
+
+/// Characters in lines and columns; what is written beyond them is lost.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    style: Style,
+    cells: Vec<(char, Ink)>,
+}
+
+impl Sheet {
+    /// A blank sheet of the size of a style.
+    pub fn new(style: &Style) -> Self {
+        Self { style: *style, cells: vec![(' ', Ink::Plain); style.width * style.height] }
+    }
+
+    /// Puts a character at a place.
+    pub fn put(&mut self, column: usize, row: usize, letter: char, ink: Ink) {
+        if column < self.style.width && row < self.style.height {
+            self.cells[row * self.style.width + column] = (letter, ink);
+        }
+    }
+
+    /// Writes a text from a place to the right, typeset in the characters of the style.
+    pub fn write(&mut self, column: usize, row: usize, text: &str, ink: Ink) {
+        for (offset, letter) in self.style.glyphs.typeset(text).chars().enumerate() {
+            self.put(column + offset, row, letter, ink);
+        }
+    }
+
+    /// The lines, joined by line breaks, without blanks at their ends.
+    pub fn render(&self) -> String {
+        if self.style.width == 0 {
+            return String::new();
+        }
+        let rows = self.cells.chunks_exact(self.style.width);
+        rows.map(|row| line(row, self.style.colours)).collect::<Vec<_>>().join("\n")
+    }
+}
+
+fn line(row: &[(char, Ink)], colours: Colours) -> String {
+    let end = row.iter().rposition(|(letter, _)| *letter != ' ').map_or(0, |last| last + 1);
+    let mut line = String::new();
+    for run in row[..end].chunk_by(|(_, a), (_, b)| a == b) {
+        let text: String = run.iter().map(|(letter, _)| letter).collect();
+        match (colours, run[0].1) {
+            (Colours::None, _) | (_, Ink::Plain) => line.push_str(&text),
+            (Colours::Ansi, Ink::Faint) => line.push_str(&format!("\x1b[2m{text}\x1b[0m")),
+            (Colours::Ansi, Ink::Series(index)) => {
+                let hue = HUES[index % HUES.len()];
+                line.push_str(&format!("\x1b[{hue}m{text}\x1b[0m"));
+            }
+        }
+    }
+    line
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::terminal::Glyphs;
+
+    #[test]
+    fn inks_are_colours_only_where_there_are_some() {
+        let plain = Style { glyphs: Glyphs::Braille, colours: Colours::None, width: 6, height: 2 };
+        let written = |style: &Style| {
+            let mut sheet = Sheet::new(style);
+            sheet.write(1, 0, "ab", Ink::Series(0));
+            sheet.write(3, 0, "c and what is lost", Ink::Faint);
+            sheet.write(0, 5, "lost", Ink::Plain);
+            sheet.render()
+        };
+        assert_eq!(written(&plain), " abc a\n");
+        let coloured = Style { colours: Colours::Ansi, ..plain };
+        assert_eq!(written(&coloured), " \x1b[36mab\x1b[0m\x1b[2mc a\x1b[0m\n");
+    }
+}

@@ -1,0 +1,66 @@
+//! Details of integrators, sliding rules, schedules and errors.
+
+use super::{line, number, numbers};
+use crate::integrators::Method;
+use crate::joints::SlidingRule;
+use crate::loads::{Schedule, Side};
+use crate::script::error::{Failure, Place};
+use crate::script::kind::Details;
+
+/// Order, what is kept, and the source.
+pub fn of_integrator(method: &Method) -> Details {
+    let entry = method.entry();
+    let claims = entry.claims;
+    let kept = [
+        (claims.energy, "energy"),
+        (claims.momentum, "linear momentum"),
+        (claims.angular_momentum, "angular momentum"),
+    ];
+    vec![
+        line("order", claims.order.to_string()),
+        line("keeps", kept_of(kept)),
+        line("source", entry.source),
+    ]
+}
+
+/// What is kept, and the source.
+pub fn of_rule(rule: &SlidingRule) -> Details {
+    let entry = rule.entry();
+    let kept = [
+        (entry.claims.energy, "energy"),
+        (true, "linear momentum"),
+        (entry.claims.angular_momentum, "angular momentum"),
+        (entry.claims.gap, "the gap"),
+    ];
+    vec![line("keeps", kept_of(kept)), line("source", entry.source)]
+}
+
+fn kept_of<const N: usize>(claims: [(bool, &str); N]) -> String {
+    let kept: Vec<&str> =
+        claims.into_iter().filter(|(keeps, _)| *keeps).map(|(_, what)| what).collect();
+    kept.join(", ")
+}
+
+/// Values and jumps; functions of scripts are not called for this.
+pub fn of_schedule(schedule: &Schedule) -> Details {
+    let breaks = schedule.breaks();
+    let value = |time: f64| match schedule.functions() {
+        0 => schedule.value(time, Side::After).ok().map(number),
+        _ => None,
+    };
+    let at = |label: &str, time| value(time).map(|value| line(label, value));
+    let last = breaks.iter().copied().reduce(f64::max);
+    let bends = (!breaks.is_empty()).then(|| line("steps end at t =", numbers(&breaks)));
+    let lines = [at("at t = 0", 0.0), bends, last.and_then(|time| at("after the last", time))];
+    lines.into_iter().flatten().collect()
+}
+
+/// What to do about an error, and what it is about.
+pub fn of_failure(failure: &Failure) -> Details {
+    let place = match &failure.place {
+        Place::Call => None,
+        Place::Argument(number) => Some(line("about", format!("argument {}", number + 1))),
+        Place::Key(key) => Some(line("about", format!("option {key}"))),
+    };
+    place.into_iter().chain(failure.hint.as_ref().map(|hint| line("help", hint))).collect()
+}

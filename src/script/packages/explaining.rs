@@ -1,0 +1,64 @@
+//! Looking closely: what a scene uses, and what a value is.
+
+use rhai::Dynamic;
+
+use super::live::SimulationHandle;
+use super::scenes::{SCENE, SceneHandle};
+use super::simulations::{SIMULATION, SPINNING};
+use crate::model::{Part, Usage};
+use crate::output::Table as TextTable;
+use crate::script::catalog::Catalog;
+use crate::script::parameter::anything;
+use crate::script::present::present;
+use crate::script::table::{Table, function, method};
+
+/// Characters in a line of a description.
+const WIDTH: usize = 100;
+
+/// Looking closely.
+pub const TABLE: Table = Table {
+    name: "looking closely",
+    doc: "What a scene makes its simulation do, and what a value is.",
+    types: &[],
+    setup: SPINNING,
+    constants: &[],
+    rows: &[
+        function("describe", &[anything("value")], |call| {
+            let shown = present(&Catalog::standard(), &call.value("value")?, WIDTH);
+            Ok(if shown.is_empty() { "nothing".into() } else { shown.into() })
+        })
+        .returns("a text")
+        .summary("A value as the prompt shows it: with what a person wants to know at a glance, in a few aligned lines.")
+        .doc("Numbers have up to ten digits; long arrays and maps are elided.")
+        .example("print(describe(rod));\ncheck(describe(0.1 + 0.2) == \"0.3\");")
+        .see(&["explain"]),
+        method(SCENE, "explain", &[], |call| {
+            let parts = call.receiver::<SceneHandle>()?.scene().borrow().explain()?;
+            Ok(written(&parts))
+        })
+        .returns("a text")
+        .summary("What a simulation of the scene uses and what it therefore leaves out, as a table.")
+        .doc("A scene pays only for what it uses. The scene is built for this, as scene.start(…) would build it.")
+        .example("print(scene.explain());\ncheck(scene.explain().contains(\"plain band\"));")
+        .see(&["start", "describe"]),
+        method(SIMULATION, "explain", &[], |call| {
+            Ok(written(&call.receiver::<SimulationHandle>()?.simulation().explain()))
+        })
+        .returns("a text")
+        .summary("The same for a simulation, with its integrator and its steps.")
+        .example("print(sim.explain());\ncheck(sim.explain().contains(\"energy_momentum\"));")
+        .see(&["invariants"]),
+    ],
+};
+
+/// The parts as a table.
+fn written(parts: &[Part]) -> Dynamic {
+    let mut table = TextTable::new(&["part", "used", "how much, or what is left out"]);
+    for Part { name, usage } in parts {
+        table.row(match usage {
+            Usage::Used(how) => [name, "yes", how],
+            Usage::LeftOut(saved) => [name, "no", saved],
+        });
+    }
+    table.to_string().trim_end().into()
+}
