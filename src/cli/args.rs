@@ -2,17 +2,22 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::limits::LimitOptions;
 
 /// Planar dynamics of flexible beams, scripted.
+///
+/// Without a command it opens a prompt.
 #[derive(Parser)]
-#[command(version, after_help = EXIT_CODES)]
+#[command(version, args_conflicts_with_subcommands = true, after_help = EXIT_CODES)]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub command: Option<Command>,
+    /// How a session goes, where there is no command.
+    #[command(flatten)]
+    pub session: SessionOptions,
 }
 
 /// What withy can do.
@@ -24,6 +29,51 @@ pub enum Command {
     /// Parse a script and build its scenes without running, printing or writing anything.
     #[command(after_help = EXIT_CODES)]
     Check(CheckOptions),
+    /// Open a prompt: step, look, go back. Reads inputs from a pipe where there is no terminal.
+    #[command(after_help = EXIT_CODES)]
+    Repl(ReplOptions),
+}
+
+/// Options of `withy repl`.
+#[derive(Args)]
+pub struct ReplOptions {
+    /// A script that is evaluated first, as if it had been typed.
+    pub file: Option<PathBuf>,
+    /// How the session goes.
+    #[command(flatten)]
+    pub session: SessionOptions,
+}
+
+/// Options of a session, with a terminal or without.
+#[derive(Args)]
+pub struct SessionOptions {
+    /// Evaluate this input and leave; several are evaluated one after another.
+    #[arg(short = 'e', long = "evaluate", value_name = "INPUT")]
+    pub inputs: Vec<String>,
+    /// Folder for pictures and tables; made when the first one is written.
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+    /// Memory of each simulation for going back, in megabytes.
+    #[arg(long, value_name = "MB", default_value_t = 256)]
+    pub snapshots: u32,
+    /// Keys of the line editor; the variable WITHY_KEYS says it for all sessions.
+    #[arg(long, value_enum)]
+    pub keys: Option<KeyBindings>,
+    /// Draw with plain ASCII.
+    #[arg(long)]
+    pub ascii: bool,
+    /// What the session may use; time and steps are those of one input.
+    #[command(flatten)]
+    pub limits: LimitOptions,
+}
+
+/// Keys of the line editor.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum KeyBindings {
+    /// As in Emacs and most shells.
+    Emacs,
+    /// As in vi.
+    Vi,
 }
 
 /// Options of `withy run`.

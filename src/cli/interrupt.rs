@@ -1,17 +1,33 @@
-//! Ctrl-C: the first asks the run to stop after its current step, the second leaves at once.
+//! Ctrl-C: it asks the run to stop after its current step; when that does not help, the next one leaves at once.
 
 use std::process;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 
 use super::Exit;
 
+/// What is lost when Ctrl-C ends the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AtStake {
+    /// A run: the second Ctrl-C ends it.
+    Run,
+    /// A session with everything that was built in it: the third one in a row ends it.
+    Session,
+}
+
 /// A flag that Ctrl-C sets.
-pub fn flag() -> Arc<AtomicBool> {
+pub fn flag(at_stake: AtStake) -> Arc<AtomicBool> {
+    let patience = match at_stake {
+        AtStake::Run => 1,
+        AtStake::Session => 2,
+    };
     let flag = Arc::new(AtomicBool::new(false));
     let set = Arc::clone(&flag);
+    let ignored = AtomicU8::new(0);
     let installed = ctrlc::set_handler(move || {
-        if set.swap(true, Ordering::Relaxed) {
+        if !set.swap(true, Ordering::Relaxed) {
+            ignored.store(0, Ordering::Relaxed);
+        } else if ignored.fetch_add(1, Ordering::Relaxed) + 1 >= patience {
             process::exit(Exit::Interrupted as i32);
         }
     });

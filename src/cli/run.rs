@@ -1,18 +1,17 @@
 //! `withy run` and `withy check`.
 
 use std::io::{self, IsTerminal, stderr, stdout};
-use std::panic;
 use std::path::Path;
-use std::sync::{Arc, Mutex};
 
 use super::Exit;
 use super::args::{CheckOptions, RunOptions};
 use super::bar::{self, Wish};
-use super::interrupt;
+use super::interrupt::{self, AtStake};
 use crate::output::write_whole;
 use crate::script::catalog::Catalog;
 use crate::script::context::{Mode, Settings};
 use crate::script::diagnose::{Colours, Diagnostic};
+use crate::script::panics;
 use crate::script::program::Program;
 use crate::script::runner::{self, Ending, Outcome};
 
@@ -21,7 +20,7 @@ pub fn run(options: &RunOptions) -> Exit {
     let wish = if options.quiet { Wish::Hide } else { Wish::Show };
     let settings = Settings {
         out: options.out.clone(),
-        interrupt: interrupt::flag(),
+        interrupt: interrupt::flag(AtStake::Run),
         limits: options.limits.limits(),
         printed: Box::new(stdout()),
         told: Box::new(stderr()),
@@ -46,7 +45,7 @@ pub fn run(options: &RunOptions) -> Exit {
 /// Parses a script and builds its scenes.
 pub fn check(options: &CheckOptions) -> Exit {
     let settings = Settings {
-        interrupt: interrupt::flag(),
+        interrupt: interrupt::flag(AtStake::Run),
         limits: options.limits.limits(),
         ..Settings::silent(Mode::DryBuild)
     };
@@ -63,20 +62,8 @@ pub fn check(options: &CheckOptions) -> Exit {
 
 fn start(file: &Path, settings: Settings) -> Result<Outcome, Diagnostic> {
     let program = Program::load(file)?;
-    let panicked_at = Arc::new(Mutex::new(String::new()));
-    let noted = Arc::clone(&panicked_at);
-    // Panics are shown as diagnostics; the default hook would print them a second time, in Rust's words.
-    panic::set_hook(Box::new(move |panic| {
-        if let (Some(place), Ok(mut noted)) = (panic.location(), noted.lock()) {
-            *noted = format!(" ({place})");
-        }
-    }));
-    let mut outcome = runner::run(&program, &Catalog::standard(), settings);
-    drop(panic::take_hook());
-    if let (Ending::Failed(diagnostic), Ok(place)) = (&mut outcome.ending, panicked_at.lock()) {
-        diagnostic.message.push_str(&place);
-    }
-    Ok(outcome)
+    panics::silence();
+    Ok(runner::run(&program, &Catalog::standard(), settings))
 }
 
 fn exit_for(outcome: &Outcome) -> Exit {

@@ -15,8 +15,8 @@ use crate::script::diagnose::{Diagnostic, Explainer, is_interrupt};
 use crate::script::engine;
 use crate::script::error::ScriptError;
 use crate::script::lexing::{open_comment, tokens};
+use crate::script::panics;
 use crate::script::program::Program;
-use crate::script::runner::panic_message;
 use crate::script::syntax::mark_assignments;
 
 /// The name of the value of the last expression.
@@ -155,7 +155,7 @@ impl Session {
             Ok(Ok(value)) => return Ok((value, library)),
             Ok(Err(error)) if is_interrupt(&error) => Reply::Interrupted,
             Ok(Err(error)) => Reply::Failed(self.explain(&error)),
-            Err(panic) => Reply::Failed(Diagnostic::bug(panic_message(&*panic))),
+            Err(panic) => Reply::Failed(Diagnostic::bug(panics::message(&*panic))),
         };
         self.scope.rewind(known);
         self.global = global;

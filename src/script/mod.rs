@@ -23,6 +23,7 @@ pub mod numbers;
 pub mod operators;
 pub mod options;
 pub mod packages;
+pub mod panics;
 pub mod parameter;
 pub mod present;
 pub mod program;

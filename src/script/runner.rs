@@ -13,6 +13,7 @@ use super::diagnose::{Diagnostic, Explainer, is_interrupt};
 use super::engine;
 use super::error::ScriptError;
 use super::lexing::open_comment;
+use super::panics;
 use super::program::Program;
 use super::syntax::mark_assignments;
 
@@ -62,7 +63,7 @@ pub fn on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, Dia
         let running = thread.spawn_scoped(scope, work).map_err(|error| {
             Diagnostic::general(format!("cannot start a thread for the script: {error}"))
         })?;
-        running.join().map_err(|panic| Diagnostic::bug(panic_message(&*panic)))
+        running.join().map_err(|panic| Diagnostic::bug(panics::message(&*panic)))
     })
 }
 
@@ -83,7 +84,7 @@ fn run_here(program: &Program, catalog: &Catalog, settings: Settings) -> Outcome
     let context = Context::new(settings);
     // A panic in a native body is our mistake: what the script did so far must still be reported.
     let ending = panic::catch_unwind(AssertUnwindSafe(|| evaluate(program, catalog, &context)))
-        .unwrap_or_else(|panic| Ending::Failed(Diagnostic::bug(panic_message(&*panic))));
+        .unwrap_or_else(|panic| Ending::Failed(Diagnostic::bug(panics::message(&*panic))));
     context.progress().end();
     if !matches!(ending, Ending::Finished) {
         context.save_remains();
@@ -117,11 +118,4 @@ fn evaluate(program: &Program, catalog: &Catalog, context: &Context) -> Ending {
             Ending::Failed(Explainer { program, catalog, engine: &engine }.explain(&error))
         }
     }
-}
-
-/// What a panic said.
-pub fn panic_message(panic: &(dyn std::any::Any + Send)) -> String {
-    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
-    text.or_else(|| panic.downcast_ref::<String>().cloned())
-        .unwrap_or_else(|| "a panic without a message".into())
 }
