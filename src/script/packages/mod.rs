@@ -2,6 +2,7 @@
 
 mod arrays;
 mod checking;
+mod events;
 pub mod geometry;
 mod histories;
 mod integrators;
@@ -10,12 +11,14 @@ mod loads;
 mod math;
 mod pictures;
 mod report;
+mod saving;
 mod scenes;
 mod schedules;
 mod sections;
 mod simulations;
 mod sliding;
 mod text;
+mod time_travel;
 mod vectors;
 mod windows;
 
@@ -37,6 +40,8 @@ pub const TABLES: &[&Table] = &[
     &scenes::TABLE,
     &loads::TABLE,
     &simulations::TABLE,
+    &time_travel::TABLE,
+    &saving::TABLE,
     &sliding::TABLE,
     &histories::TABLE,
     &pictures::TABLE,
