@@ -69,6 +69,21 @@ fn assert_bounded(label: &str, scene: Scene, method: Method, most: usize) {
 }
 
 #[test]
+fn a_full_store_of_snapshots_takes_no_allocations() {
+    let mesh = withy::beams::Mesh::bspline(14, 3, 2).unwrap();
+    let scene = scenes::spaghetti(&mesh, 1e4);
+    let settings = settings(Method::EnergyMomentum, 0.001);
+    let mut simulation = Simulation::start(scene, settings).unwrap();
+    simulation.keep_snapshots(60_000);
+    run(&mut simulation, 0.1).unwrap();
+    let kept = simulation.snapshots_kept();
+    assert!(kept.0 > 5 && kept.0 < 50, "{kept:?}");
+    // Room for the rows of the history, the times and the configurations of the trajectory.
+    assert!(allocations_of(|| run(&mut simulation, 0.2).unwrap()) <= 3);
+    assert_eq!(simulation.snapshots_kept(), kept);
+}
+
+#[test]
 fn fifteen_times_the_steps_take_no_more_allocations() {
     for entry in INTEGRATORS {
         for (name, mesh) in meshes(4) {

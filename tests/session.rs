@@ -131,7 +131,9 @@ fn an_error_in_a_file_is_shown_in_the_file() {
     assert!(matches!(reply, Reply::Done), "{reply:?}");
     let told = refusal(&mut session, "f()");
     assert!(told.contains("beam.rhai:2:3"), "{told}");
-    let Reply::Failed(diagnostic) = session.eval_program(Program::named("b.rhai", "let x = 1;\nlet y = ;")) else {
+    let Reply::Failed(diagnostic) =
+        session.eval_program(Program::named("b.rhai", "let x = 1;\nlet y = ;"))
+    else {
         panic!("must fail")
     };
     assert_eq!(diagnostic.place().unwrap(), "b.rhai:2:9");

@@ -247,13 +247,14 @@ impl<const N: usize> ForcePoint<N> {
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.gradient.x, self.gradient.y, self.rotation.cos, self.rotation.sin]);
-        state.extend([self.last_force.x, self.last_force.y]);
+        // At the start the strain is zero; that of the configuration there is only rounded to it.
+        state.extend([self.last_force.x, self.last_force.y, self.strain.x, self.strain.y]);
     }
 
-    pub(super) fn restore(&mut self, [x, y, cos, sin, axial, shear]: [f64; 6]) {
+    pub(super) fn restore(&mut self, [x, y, cos, sin, axial, shear, stretch, slide]: [f64; 8]) {
         (self.gradient, self.rotation) = (Vec2::new(x, y), Rotation { cos, sin });
         self.last_force = Vec2::new(axial, shear);
-        self.strain = strain_of(self.rotation, self.gradient);
+        self.strain = Vec2::new(stretch, slide);
     }
 }
 

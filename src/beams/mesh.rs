@@ -1,10 +1,12 @@
 //! The mesh of a beam: a basis, and where strains are sampled.
 
+use serde::{Deserialize, Serialize};
+
 use super::BeamError;
 use crate::geometry::{Basis, GaussRule, GeometryError, KnotVector, LagrangeBasis, Span};
 
 /// Where axial and shear strain are sampled.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Quadrature {
     /// In a run of spans of full continuity: one point in each span, a few more in its first and last one; that neither
     /// locks nor leaves zero-energy modes. A span on its own (every span of a Lagrange or C¹ cubic mesh) has `degree`
@@ -18,7 +20,8 @@ pub enum Quadrature {
 }
 
 /// A basis with its quadrature.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "(Basis, Quadrature)")]
 pub struct Mesh {
     basis: Basis,
     quadrature: Quadrature,
@@ -41,6 +44,15 @@ pub(super) struct QuadratureSpan {
     pub(super) span: Span,
     pub(super) force_points: usize,
     pub(super) moment_points: usize,
+}
+
+/// From basis and quadrature, as stored.
+impl TryFrom<(Basis, Quadrature)> for Mesh {
+    type Error = BeamError;
+
+    fn try_from((basis, quadrature): (Basis, Quadrature)) -> Result<Self, BeamError> {
+        Self::new(basis).with_quadrature(quadrature)
+    }
 }
 
 impl Mesh {

@@ -1,11 +1,13 @@
 //! Stiffness and inertia of a cross section.
 
+use serde::{Deserialize, Serialize};
+
 use std::f64::consts::PI;
 
 use super::BeamError;
 
 /// A linear elastic, homogeneous cross section.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Section {
     /// Axial stiffness `EA` [force].
     pub axial_stiffness: f64,

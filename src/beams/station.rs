@@ -1,10 +1,12 @@
 //! Places of a body.
 
+use serde::{Deserialize, Serialize};
+
 use super::Mesh;
 use crate::geometry::{Curve, GeometryError, MAX_DEGREE, Vec2, corresponding};
 
 /// Which body of a scene.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum BodyIndex {
     /// A beam, by its index among the beams.
     Beam(usize),
@@ -13,7 +15,7 @@ pub enum BodyIndex {
 }
 
 /// A place on a body of a scene.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Station {
     /// The body.
     pub body: BodyIndex,

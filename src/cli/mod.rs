@@ -1,14 +1,15 @@
-//! The command line: definitions, running, and the progress bar. What it does is done by `script`.
+//! The command line: definitions, running, sessions, and the progress bar. What it does is done by `script` and `repl`.
 
 mod args;
 mod bar;
 mod interrupt;
 mod limits;
 mod run;
+mod session;
 
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser};
+use clap::Parser;
 
 use args::{Arguments, Command};
 
@@ -37,16 +38,8 @@ pub fn main() -> ExitCode {
     let exit = match arguments.command {
         Some(Command::Run(options)) => run::run(&options),
         Some(Command::Check(options)) => run::check(&options),
-        None => help(),
+        Some(Command::Repl(options)) => session::open(&options),
+        None => session::start(arguments.session),
     };
     exit.into()
-}
-
-fn help() -> Exit {
-    match Arguments::command().print_long_help() {
-        Ok(()) => Exit::Good,
-        // Nobody reads it.
-        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Exit::Good,
-        Err(_) => Exit::Wrong,
-    }
 }

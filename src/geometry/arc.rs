@@ -1,5 +1,7 @@
 //! Circular arcs.
 
+use serde::{Deserialize, Serialize};
+
 use super::error::{finite, finite_point};
 use super::knots::check_inside;
 use super::{GeometryError, Vec2, perpendicular, unit};
@@ -10,12 +12,22 @@ const ROUNDING: f64 = 1e-12;
 
 /// An arc of a circle of radius `r` about `c`, `x(ξ) = c + r (cos φ, sin φ)` with
 /// `φ = (1 - ξ) φ_from + ξ φ_to` on `[0, 1]`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "(Vec2, f64, f64, f64)")]
 pub struct CircularArc {
     center: Vec2,
     radius: f64,
     from_angle: f64,
     to_angle: f64,
+}
+
+/// From centre, radius and both angles, as stored.
+impl TryFrom<(Vec2, f64, f64, f64)> for CircularArc {
+    type Error = GeometryError;
+
+    fn try_from((center, radius, from, to): (Vec2, f64, f64, f64)) -> Result<Self, GeometryError> {
+        Self::new(center, radius, from, to)
+    }
 }
 
 impl CircularArc {

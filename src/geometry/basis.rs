@@ -1,5 +1,7 @@
 //! Bases of functions on an interval, of either kind that beams are made of.
 
+use serde::{Deserialize, Serialize};
+
 use super::bspline;
 use super::knots::check_inside;
 use super::{BasisValues, GeometryError, KnotVector, LagrangeBasis, Span};
@@ -8,7 +10,7 @@ use super::{BasisValues, GeometryError, KnotVector, LagrangeBasis, Span};
 const SAME_BREAK: f64 = 1e-10;
 
 /// Functions `N_i(ξ)` that sum to one, each non-zero on a few spans only.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Basis {
     /// The B-splines of a knot vector.
     BSpline(KnotVector),

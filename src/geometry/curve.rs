@@ -1,5 +1,7 @@
 //! Planar curves, as a beam's axis is drawn.
 
+use serde::{Deserialize, Serialize};
+
 use super::knots::check_inside;
 use super::{CircularArc, GeometryError, KnotVector, Line, SplineCurve, Vec2, cross, local_cubic};
 
@@ -7,7 +9,7 @@ use super::{CircularArc, GeometryError, KnotVector, Line, SplineCurve, Vec2, cro
 const STANDSTILL: f64 = 1e-12;
 
 /// A curve `x(ξ)` of the plane. Points are lengths, the parameter ξ is dimensionless.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Curve {
     /// A straight line.
     Line(Line),

@@ -1,5 +1,7 @@
 //! Open knot vectors: where the polynomial pieces of a spline meet, and how smoothly.
 
+use serde::{Deserialize, Serialize};
+
 use super::GeometryError;
 use super::error::finite;
 
@@ -15,7 +17,8 @@ const SHORTEST_SPAN: f64 = 1e-12;
 /// An open knot vector of some degree `p`: knots `ξ_0 ≤ … ≤ ξ_m` on an interval `[a, b]`, the end
 /// knots repeated exactly `p + 1` times, interior knots at most `p` times (so splines are at least
 /// continuous). Knots are dimensionless. The NURBS Book, section 2.2.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "(usize, Vec<f64>)")]
 pub struct KnotVector {
     degree: usize,
     knots: Vec<f64>,
@@ -30,6 +33,15 @@ pub struct Span {
     pub start: f64,
     /// Where it ends.
     pub end: f64,
+}
+
+/// From degree and knots, as stored.
+impl TryFrom<(usize, Vec<f64>)> for KnotVector {
+    type Error = GeometryError;
+
+    fn try_from((degree, knots): (usize, Vec<f64>)) -> Result<Self, GeometryError> {
+        Self::new(degree, knots)
+    }
 }
 
 impl KnotVector {

@@ -1,5 +1,7 @@
 //! Lagrange polynomials on elements: the bases of the classical finite elements.
 
+use serde::{Deserialize, Serialize};
+
 use super::error::finite;
 use super::knots::{check_degree, check_inside, check_span_lengths, check_spans};
 use super::values::{BasisValues, Row};
@@ -10,10 +12,20 @@ const LARGEST_DEGREE: usize = 3;
 
 /// Continuous piecewise Lagrange polynomials: `degree + 1` equispaced nodes in each element, the end
 /// ones shared with the neighbours, so nodes and functions number `elements · degree + 1`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "(usize, Vec<f64>)")]
 pub struct LagrangeBasis {
     degree: usize,
     breaks: Vec<f64>,
+}
+
+/// From degree and breaks, as stored.
+impl TryFrom<(usize, Vec<f64>)> for LagrangeBasis {
+    type Error = GeometryError;
+
+    fn try_from((degree, breaks): (usize, Vec<f64>)) -> Result<Self, GeometryError> {
+        Self::new(degree, breaks)
+    }
 }
 
 impl LagrangeBasis {

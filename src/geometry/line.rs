@@ -1,14 +1,26 @@
 //! Straight lines.
 
+use serde::{Deserialize, Serialize};
+
 use super::error::{finite, finite_point};
 use super::knots::check_inside;
 use super::{GeometryError, Vec2};
 
 /// The segment from one point to another, `x(ξ) = (1 - ξ) from + ξ to` on `[0, 1]`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "(Vec2, Vec2)")]
 pub struct Line {
     from: Vec2,
     to: Vec2,
+}
+
+/// From its ends, as stored.
+impl TryFrom<(Vec2, Vec2)> for Line {
+    type Error = GeometryError;
+
+    fn try_from((from, to): (Vec2, Vec2)) -> Result<Self, GeometryError> {
+        Self::new(from, to)
+    }
 }
 
 impl Line {

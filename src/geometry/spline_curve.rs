@@ -1,5 +1,7 @@
 //! Curves made of B-splines.
 
+use serde::{Deserialize, Serialize};
+
 use super::arc_length::{integrate, invert};
 use super::error::{finite, finite_point};
 use super::{BasisValues, GeometryError, KnotVector, Span, Vec2, bspline};
@@ -8,14 +10,27 @@ use super::{BasisValues, GeometryError, KnotVector, Span, Vec2, bspline};
 const LENGTH_ACCURACY: f64 = 1e-14;
 
 /// The curve `x(ξ) = Σ_i N_i(ξ) P_i` (The NURBS Book, section 3.2), with its arc length at the knots.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "(KnotVector, Vec<Vec2>)")]
 pub struct SplineCurve {
     knots: KnotVector,
     control_points: Vec<Vec2>,
+    #[serde(skip)]
     spans: Vec<Span>,
     /// Arc length up to the start of each span, and to the end of the last.
+    #[serde(skip)]
     lengths: Vec<f64>,
+    #[serde(skip)]
     tolerance: f64,
+}
+
+/// From knots and control points, as stored.
+impl TryFrom<(KnotVector, Vec<Vec2>)> for SplineCurve {
+    type Error = GeometryError;
+
+    fn try_from((knots, points): (KnotVector, Vec<Vec2>)) -> Result<Self, GeometryError> {
+        Self::new(knots, points)
+    }
 }
 
 impl SplineCurve {

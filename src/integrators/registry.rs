@@ -1,10 +1,12 @@
 //! The methods by name, with what each of them claims. Tests and help read this list.
 
+use serde::{Deserialize, Serialize};
+
 use super::{EnergyMomentum, Integrator, Mechanism, Stage, Trapezoidal};
 use crate::newton::Tolerance;
 
 /// A choice of method, before there is a mechanism to apply it to.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub enum Method {
     /// [`EnergyMomentum`].
     #[default]

@@ -3,6 +3,8 @@
 //! Both partners then have the same increments at every step, whatever the method: the joint has no gap, does no
 //! work, and passes on force and moment unchanged.
 
+use serde::{Deserialize, Serialize};
+
 use crate::beams::Station;
 
 /// A component of the movement of a section.
@@ -22,7 +24,7 @@ impl Component {
 }
 
 /// Which components a joint ties.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum JointKind {
     /// Positions; sections turn freely against each other.
     Hinge,
@@ -31,7 +33,7 @@ pub enum JointKind {
 }
 
 /// What a station is tied to.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Partner {
     /// The ground, at the place of the station as drawn.
     Ground,
@@ -40,7 +42,7 @@ pub enum Partner {
 }
 
 /// A joint of a scene.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Joint {
     /// For messages.
     pub name: String,

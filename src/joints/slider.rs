@@ -1,10 +1,12 @@
 //! Sliding joints as a scene describes them.
 
+use serde::{Deserialize, Serialize};
+
 use super::SlidingRule;
 use crate::beams::Station;
 
 /// A point that stays on the axis of a beam and slides along it without friction.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Slider {
     /// For messages and the columns of the history.
     pub name: String,
@@ -23,7 +25,7 @@ pub struct Slider {
 }
 
 /// What happens when a slider reaches an end of its master.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum EndAction {
     /// The run ends there.
     #[default]
@@ -35,7 +37,7 @@ pub enum EndAction {
 }
 
 /// What happens to start velocities across the master, at which a slider would leave it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum StartVelocities {
     /// They are an error.
     #[default]

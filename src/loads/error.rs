@@ -43,6 +43,9 @@ pub enum LoadError {
         /// The time before it.
         before: f64,
     },
+    /// Stored terms of which some are missing or left over.
+    #[error("a stored schedule has terms missing or left over")]
+    StoredTerms,
     /// A function that failed.
     #[error("{0}")]
     Function(String),

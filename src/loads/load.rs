@@ -1,11 +1,13 @@
 //! What acts on a beam, and where.
 
+use serde::{Deserialize, Serialize};
+
 use super::Schedule;
 use crate::beams::Station;
 use crate::geometry::Vec2;
 
 /// What the direction of a load is tied to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Frame {
     /// To space: the load keeps its direction.
     #[default]
@@ -15,7 +17,7 @@ pub enum Frame {
 }
 
 /// The kinds of load.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum LoadKind {
     /// A force at a station [force].
     Force {
@@ -45,7 +47,7 @@ pub enum LoadKind {
 }
 
 /// A load of a scene.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Load {
     /// For messages.
     pub name: String,

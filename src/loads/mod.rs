@@ -3,6 +3,7 @@
 mod error;
 mod load;
 mod schedule;
+mod stored_schedule;
 
 pub use error::LoadError;
 pub use load::{Frame, Load, LoadKind};

@@ -1,9 +1,12 @@
 //! A factor over time.
 
+use serde::{Deserialize, Serialize};
+
 use std::f64::consts::PI;
 use std::rc::Rc;
 
 use super::LoadError;
+use super::stored_schedule::StoredTerm;
 
 /// A function of time from outside, such as a closure of a script.
 pub type ScheduleFunction = Rc<dyn Fn(f64) -> Result<f64, String>>;
@@ -18,7 +21,8 @@ pub enum Side {
 }
 
 /// A factor [-] by which a load is multiplied, as a function of time.
-#[derive(Clone)]
+#[derive(Clone, Deserialize)]
+#[serde(try_from = "Vec<StoredTerm>")]
 pub enum Schedule {
     /// Always the same.
     Constant(f64),
@@ -58,7 +62,7 @@ pub enum Schedule {
 }
 
 /// How schedules are combined.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Operation {
     /// `a + b`
     Sum,
@@ -67,7 +71,7 @@ pub enum Operation {
 }
 
 /// Most parts of a combined schedule.
-const MOST_PARTS: usize = 1000;
+pub(super) const MOST_PARTS: usize = 1000;
 
 impl std::fmt::Debug for Schedule {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {

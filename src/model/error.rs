@@ -120,6 +120,24 @@ pub enum ModelError {
         /// What it may be.
         allowed: &'static str,
     },
+    /// A stored part of a scene that is about something that is not there.
+    #[error("{object} is on {kind} number {index}, but the scene has only {count}")]
+    Missing {
+        /// What is about it.
+        object: &'static str,
+        /// The kind of what is missing.
+        kind: &'static str,
+        /// Its index.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A stored state that is none of the model.
+    #[error("the state does not fit the scene: {reason}")]
+    State {
+        /// What does not fit.
+        reason: &'static str,
+    },
     /// A beam that cannot be put on its mesh.
     #[error("beam '{beam}': {source}")]
     Beam {

@@ -1,9 +1,11 @@
 //! Energy and momenta of a model.
 
+use serde::{Deserialize, Serialize};
+
 use crate::geometry::Vec2;
 
 /// The energy of a model, in parts [energy].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energy {
     /// `½ ∫ ρA |ẋ|² + ρI θ̇² dX`, and that of point masses.
     pub kinetic: f64,
@@ -21,7 +23,7 @@ impl Energy {
 }
 
 /// What is measured of a model at the end of a step.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Measures {
     /// Time.
     pub time: f64,

@@ -19,6 +19,7 @@ mod scene;
 mod slider_error;
 mod sliders;
 mod sliding;
+mod stored;
 mod tracker;
 
 pub use error::ModelError;

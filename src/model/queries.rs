@@ -1,5 +1,7 @@
 //! Looking at a model: places, angles, and its state as numbers.
 
+use serde::{Deserialize, Serialize};
+
 use super::{Model, Scene};
 use crate::beams::{Mesh, Place, Station};
 use crate::geometry::Vec2;
@@ -57,16 +59,23 @@ impl Model {
 
     /// Everything that the motion from here on depends on, and the sums so far.
     pub fn state(&self) -> ModelState {
+        let mut state = ModelState::default();
+        self.write_state(&mut state);
+        state.0.shrink_to_fit();
+        state
+    }
+
+    /// Writes the [`state`](Self::state) into one that may hold another; where that is one of this model, nothing is allocated.
+    pub fn write_state(&self, ModelState(state): &mut ModelState) {
+        state.clear();
         let sums = &self.exchanged;
-        let mut state =
-            vec![self.time, sums.work, sums.impulse.x, sums.impulse.y, sums.angular_impulse];
-        state.extend([sums.gross_impulse, sums.gross_angular_impulse]);
+        state.extend([self.time, sums.work, sums.impulse.x, sums.impulse.y]);
+        state.extend([sums.angular_impulse, sums.gross_impulse, sums.gross_angular_impulse]);
         state.extend(&self.rates);
-        self.forecast.save(&mut state);
-        self.bodies.iter().for_each(|body| body.dynamics.save(&mut state));
-        self.all_trackers().for_each(|tracker| tracker.save(&mut state));
-        self.sliders.iter().for_each(|slider| slider.save(&mut state));
-        ModelState(state)
+        self.forecast.save(state);
+        self.bodies.iter().for_each(|body| body.dynamics.save(state));
+        self.all_trackers().for_each(|tracker| tracker.save(state));
+        self.sliders.iter().for_each(|slider| slider.save(state));
     }
 
     /// Takes back a [`state`](Self::state) of this model, bit for bit.
@@ -92,5 +101,21 @@ impl Model {
 }
 
 /// The state of a [`Model`], to be taken back by the same one.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ModelState(Vec<f64>);
+
+impl ModelState {
+    /// An empty one, with room for as many numbers.
+    pub fn blank(&self) -> Self {
+        Self(Vec::with_capacity(self.0.len()))
+    }
+
+    pub(super) fn numbers(&self) -> &[f64] {
+        &self.0
+    }
+
+    /// The memory that its numbers take [bytes].
+    pub fn bytes(&self) -> usize {
+        self.0.capacity() * size_of::<f64>()
+    }
+}

@@ -1,13 +1,16 @@
 //! The editable description of what is simulated. Nothing is assembled here.
 
+use serde::{Deserialize, Serialize};
+
 use super::ModelError;
+use super::stored::StoredScene;
 use crate::beams::{BodyIndex, Mesh, Place, Section, Station};
 use crate::geometry::{Curve, Vec2};
 use crate::joints::{Joint, JointKind, Partner, Slider};
 use crate::loads::{Load, LoadKind, Schedule};
 
 /// How a beam moves when the scene starts: a rigid motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StartMotion {
     /// The velocity of the point `about` [length/time].
     pub velocity: Vec2,
@@ -24,7 +27,7 @@ impl Default for StartMotion {
 }
 
 /// A beam of a scene.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct BeamDefinition {
     /// Its name in messages and reports.
     pub name: String,
@@ -39,7 +42,7 @@ pub struct BeamDefinition {
 }
 
 /// A point that moves by itself; its mass is one of the masses of the scene.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ParticleDefinition {
     /// Its name in messages and reports.
     pub name: String,
@@ -48,7 +51,7 @@ pub struct ParticleDefinition {
 }
 
 /// A mass at a station.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PointMass {
     /// Where.
     pub station: Station,
@@ -59,7 +62,7 @@ pub struct PointMass {
 }
 
 /// A velocity at the start of the node at a station alone.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StationVelocity {
     /// Where.
     pub station: Station,
@@ -70,7 +73,8 @@ pub struct StationVelocity {
 }
 
 /// Beams, particles, joints, masses and loads.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(try_from = "StoredScene")]
 pub struct Scene {
     /// For messages and reports.
     pub name: String,
@@ -158,7 +162,7 @@ impl Scene {
         beams.chain(particles).chain(sliders)
     }
 
-    fn check_name(&self, new: &'static str, name: &str) -> Result<(), ModelError> {
+    pub(super) fn check_name(&self, new: &'static str, name: &str) -> Result<(), ModelError> {
         let name = || name.to_owned();
         if name().trim().is_empty() || name().chars().any(char::is_control) {
             return Err(ModelError::Unnamed { kind: new, name: name() });

@@ -1,5 +1,7 @@
 //! Sliders from description to model: checks, contacts, and what a simulation may ask of them and do to them.
 
+use serde::{Deserialize, Serialize};
+
 use super::assemble::Assembly;
 use super::connection::Connection;
 use super::error::ModelError;
@@ -17,7 +19,7 @@ use crate::joints::{CONTACT_UNKNOWNS, EndAction, Slider};
 const CLOSED: f64 = 1e-9;
 
 /// The end of a master at which a slider may arrive.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TrackLimit {
     /// The slider.
     pub slider: usize,

@@ -1,5 +1,7 @@
 //! Sliders of the model: where they are, and what they add to the equations of a step.
 
+use serde::{Deserialize, Serialize};
+
 use super::body::Body;
 use super::connection::Connection;
 use crate::geometry::{Passage, Vec2, larger};
@@ -14,7 +16,7 @@ use crate::linalg::Border;
 pub(super) const LANDED: f64 = 4e-15;
 
 /// An end of the master.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TrackEnd {
     /// Where its parameter starts.
     Start,

@@ -1,5 +1,7 @@
 //! Newton's method with a full tangent at every iteration.
 
+use serde::{Deserialize, Serialize};
+
 use super::{Equations, Imbalance, NewtonError};
 use crate::linalg::{BorderShape, BorderedLu, BorderedMatrix};
 
@@ -7,7 +9,7 @@ use crate::linalg::{BorderShape, BorderedLu, BorderedMatrix};
 const NEAR: f64 = 1e-9;
 
 /// When a solution is good enough, and when to give up.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Tolerance {
     /// Largest relative force imbalance at which iteration ends.
     pub force: f64,

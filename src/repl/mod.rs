@@ -1,5 +1,7 @@
 //! The session at a prompt: what is typed is evaluated, remembered, and can be gone back from.
 
+pub mod commands;
 pub mod record;
 pub mod session;
+pub mod shell;
 pub mod transcript;

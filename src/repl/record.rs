@@ -10,6 +10,9 @@ use crate::script::numbers::format_number;
 use crate::script::packages::SimulationHandle;
 use crate::script::program::Program;
 
+/// The first line of every saved session.
+pub const HEADER: &str = "//! A session of withy: what worked of it.";
+
 /// Something that a script must do to come to the same end.
 #[derive(Clone, Debug, PartialEq)]
 enum Entry {
@@ -62,7 +65,7 @@ impl Record {
     pub fn script(&self) -> String {
         let asked = self.entries.iter().map(|entry| mentions_answer(entry.text()));
         let asked: Vec<bool> = asked.collect();
-        let mut text = String::from("//! A session of withy: what worked of it.\n\n");
+        let mut text = format!("{HEADER}\n\n");
         for (index, entry) in self.entries.iter().enumerate() {
             // A value is asked for until the next one takes its place.
             let later = || self.entries[index + 1..].iter().zip(&asked[index + 1..]);
@@ -134,7 +137,9 @@ pub fn whereabouts(scope: &Scope) -> Vec<Whereabouts> {
 }
 
 fn mentions_answer(text: &str) -> bool {
-    tokens(text).iter().any(|(token, _)| matches!(token, Token::Identifier(name) if name.as_str() == ANSWER))
+    tokens(text)
+        .iter()
+        .any(|(token, _)| matches!(token, Token::Identifier(name) if name.as_str() == ANSWER))
 }
 
 /// The statements with a semicolon at their end, which comments may follow.
@@ -143,7 +148,10 @@ fn terminated(statements: &str) -> String {
     let is_closed = match tokens.last() {
         None | Some((Token::SemiColon, _)) => true,
         Some((Token::RightBrace, _)) => {
-            matches!(tokens[0].0, Token::Fn | Token::If | Token::For | Token::While | Token::Loop | Token::Private)
+            matches!(
+                tokens[0].0,
+                Token::Fn | Token::If | Token::For | Token::While | Token::Loop | Token::Private
+            )
         }
         Some(_) => false,
     };
@@ -167,8 +175,12 @@ fn answering(statements: &str) -> String {
         }
         is_start = matches!(token, Token::SemiColon);
         match token {
-            Token::LeftBrace | Token::MapStart | Token::LeftParen | Token::LeftBracket => depth += 1,
-            Token::RightBrace | Token::RightParen | Token::RightBracket => depth = depth.saturating_sub(1),
+            Token::LeftBrace | Token::MapStart | Token::LeftParen | Token::LeftBracket => {
+                depth += 1
+            }
+            Token::RightBrace | Token::RightParen | Token::RightBracket => {
+                depth = depth.saturating_sub(1)
+            }
             _ => (),
         }
     }
@@ -193,7 +205,8 @@ fn definitions(text: &str) -> Vec<Definition> {
     let starts = (0..tokens.len()).filter(|index| matches!(tokens[*index].0, Token::Fn));
     let definition = |start: usize| {
         let Some((Token::Identifier(name), _)) = tokens.get(start + 1) else { return None };
-        let body = (start..tokens.len()).find(|index| matches!(tokens[*index].0, Token::LeftBrace))?;
+        let body =
+            (start..tokens.len()).find(|index| matches!(tokens[*index].0, Token::LeftBrace))?;
         let identifiers = tokens[start + 2..body].iter();
         let parameters =
             identifiers.filter(|(token, _)| matches!(token, Token::Identifier(_))).count();

@@ -81,6 +81,7 @@ impl Session {
         self.library = AST::empty();
         self.transcript = Transcript::new(self.folder.clone());
         self.record = Record::default();
+        self.context.forget_simulations();
     }
 
     /// Evaluates what was typed.
@@ -127,6 +128,11 @@ impl Session {
             Ok((value, _)) => Reply::Value(value),
             Err(failed) => failed,
         }
+    }
+
+    /// Writes into the record that an input worked which was evaluated in another way.
+    pub fn note_worked(&mut self, text: &str) {
+        self.record.worked(text);
     }
 
     /// The value of an input, and all functions that are known with it.

@@ -4,6 +4,7 @@ use super::commands;
 use super::session::{Reply, Session};
 use crate::output::{Colours, Style};
 use crate::script::diagnose::Diagnostic;
+use crate::script::kind::Scripted;
 use crate::script::packages::SimulationHandle;
 use crate::script::present::present;
 use crate::script::program::Program;
@@ -74,7 +75,7 @@ impl Shell {
             return self.command(command);
         }
         if let Some(name) = text.strip_prefix('?') {
-            return self.help(name.trim());
+            return (commands::HELP.body)(self, name.trim());
         }
         let before = self.latest().map(|latest| latest.time());
         let reply = self.session.eval(input);
@@ -124,7 +125,7 @@ impl Shell {
             Reply::Failed(diagnostic) => self.refuse(&diagnostic),
             Reply::Interrupted => {
                 self.note(&match self.latest() {
-                    Some(latest) => format!("interrupted: {}", latest.headline()),
+                    Some(latest) => format!("interrupted: {}", latest.show()),
                     None => "interrupted".into(),
                 });
                 Outcome::Interrupted
@@ -193,8 +194,7 @@ impl Shell {
     /// How an input names the last simulation: by a variable that holds it, if there is one.
     fn name_of_latest(&self) -> Result<String, Diagnostic> {
         let Some(latest) = self.latest() else {
-            return Err(Diagnostic::general("there is no simulation yet")
-                .with_hint("start one: let sim = scene.start(#{ dt: 0.1 })"));
+            return Err(no_simulation());
         };
         let is_it = |value: &rhai::Dynamic| {
             value.read_lock::<SimulationHandle>().is_some_and(|held| held.is_same(&latest))
@@ -307,4 +307,10 @@ impl Shell {
         }
         Outcome::Good
     }
+}
+
+/// What a command says that needs a simulation when there is none.
+pub fn no_simulation() -> Diagnostic {
+    Diagnostic::general("there is no simulation yet")
+        .with_hint("start one: let sim = scene.start(#{ dt: 0.1 })")
 }

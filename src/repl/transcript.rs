@@ -127,7 +127,11 @@ mod tests {
         let mut transcript = Transcript::new(".".into());
         transcript.add(transcript.typed("let a = oops();"));
         transcript.strike_last();
-        assert_eq!(&*transcript.whole().text, "let a = oops();\n", "it is shown while it is explained");
+        assert_eq!(
+            &*transcript.whole().text,
+            "let a = oops();\n",
+            "it is shown while it is explained"
+        );
         transcript.add(transcript.typed("a"));
         assert_eq!(&*transcript.whole().text, "\na\n");
     }
@@ -137,12 +141,8 @@ mod tests {
         let mut transcript = Transcript::new(".".into());
         transcript.add(transcript.typed("1"));
         transcript.add(Program::named("beam.rhai", "let a = 1;\nlet b = ;"));
-        let at = |line| Location {
-            program: Arc::new(transcript.whole()),
-            line,
-            column: 9,
-            length: 1,
-        };
+        let at =
+            |line| Location { program: Arc::new(transcript.whole()), line, column: 9, length: 1 };
         let found = |line| {
             let diagnostic = Diagnostic { location: Some(at(line)), ..Diagnostic::general("") };
             transcript.relocate(diagnostic).place()

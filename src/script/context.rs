@@ -8,7 +8,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use rhai::EvalAltResult;
+use rhai::{Dynamic, EvalAltResult};
 
 use super::checks::Checks;
 use super::error::ScriptError;
@@ -31,6 +31,10 @@ pub struct Settings {
     pub mode: Mode,
     /// Where files of the script go; made when the first one is written.
     pub out: PathBuf,
+    /// Where the script is, beside which it may read files.
+    pub folder: PathBuf,
+    /// The memory that each simulation may take for states to go back to, unless the script says otherwise [bytes].
+    pub snapshots: usize,
     /// Set from outside (Ctrl-C) to stop as soon as possible.
     pub interrupt: Arc<AtomicBool>,
     /// What the run may use.
@@ -49,6 +53,8 @@ impl Settings {
         Self {
             mode,
             out: PathBuf::from("out"),
+            folder: PathBuf::from("."),
+            snapshots: 0,
             interrupt: Arc::default(),
             limits: Limits::default(),
             printed: Box::new(io::sink()),
@@ -83,6 +89,8 @@ struct Shared {
     checks: RefCell<Checks>,
     reporters: RefCell<Vec<Box<dyn Reporter>>>,
     callback_error: RefCell<Option<Box<EvalAltResult>>>,
+    snapshots: usize,
+    latest_simulation: RefCell<Option<Dynamic>>,
 }
 
 impl Context {
@@ -96,10 +104,12 @@ impl Context {
             told: RefCell::new(settings.told),
             pipe_closed: Cell::new(false),
             progress: settings.progress,
-            output: OutputFolder::new(settings.out, settings.mode),
+            output: OutputFolder::new(settings.out, settings.folder, settings.mode),
             checks: RefCell::default(),
             reporters: RefCell::default(),
             callback_error: RefCell::default(),
+            snapshots: settings.snapshots,
+            latest_simulation: RefCell::default(),
         }))
     }
 
@@ -196,6 +206,27 @@ impl Context {
     /// The error that was kept last, if there is one.
     pub fn take_callback_error(&self) -> Option<Box<EvalAltResult>> {
         self.0.callback_error.take()
+    }
+
+    /// The memory that a simulation may take for states to go back to, unless the script says otherwise [bytes].
+    pub fn snapshots(&self) -> usize {
+        self.0.snapshots
+    }
+
+    /// Remembers the simulation that something was done with last.
+    pub fn note_simulation(&self, simulation: Dynamic) {
+        self.0.latest_simulation.replace(Some(simulation));
+    }
+
+    /// The simulation that was started, loaded, forked, stepped or taken back last.
+    pub fn latest_simulation(&self) -> Option<Dynamic> {
+        self.0.latest_simulation.borrow().clone()
+    }
+
+    /// Forgets which simulation was the last, and lets go of those that the report would tell of.
+    pub fn forget_simulations(&self) {
+        self.0.latest_simulation.take();
+        self.forget_reporters();
     }
 
     /// Adds a simulation to the report.

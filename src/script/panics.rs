@@ -22,5 +22,5 @@ pub fn message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
     let text = text.unwrap_or_else(|| "a panic without a message".into());
-    text + &PLACE.take()
+    format!("{text}{}", PLACE.take())
 }

@@ -4,7 +4,7 @@ use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
 use std::thread;
 
-use rhai::{AST, Engine, EvalAltResult};
+use rhai::{AST, Engine, EvalAltResult, Token};
 
 use super::catalog::Catalog;
 use super::checks::Checks;
@@ -12,7 +12,7 @@ use super::context::{Context, Settings};
 use super::diagnose::{Diagnostic, Explainer, is_interrupt};
 use super::engine;
 use super::error::ScriptError;
-use super::lexing::open_comment;
+use super::lexing::{open_comment, tokens};
 use super::panics;
 use super::program::Program;
 use super::syntax::mark_assignments;
@@ -80,7 +80,22 @@ pub fn compile(engine: &mut Engine, program: &Program) -> Result<AST, Box<EvalAl
     }
 }
 
+/// What a simulation may keep to go back to, in a script that goes back [bytes].
+pub const SNAPSHOTS: usize = 256_000_000;
+
+/// Whether a script may go back in time: a scene pays only for what it uses. What an imported file does is not known.
+fn may_go_back(program: &Program) -> bool {
+    tokens(&program.text).iter().any(|(token, _)| match token {
+        Token::Identifier(name) => matches!(name.as_str(), "back" | "rewind"),
+        Token::Import => true,
+        _ => false,
+    })
+}
+
 fn run_here(program: &Program, catalog: &Catalog, settings: Settings) -> Outcome {
+    let needed = if may_go_back(program) { SNAPSHOTS } else { 0 };
+    let snapshots = settings.snapshots.max(needed);
+    let settings = Settings { snapshots, folder: program.folder.clone(), ..settings };
     let context = Context::new(settings);
     // A panic in a native body is our mistake: what the script did so far must still be reported.
     let ending = panic::catch_unwind(AssertUnwindSafe(|| evaluate(program, catalog, &context)))

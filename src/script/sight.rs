@@ -103,6 +103,34 @@ pub fn configuration_picture(
     Ok(marks.fold(picture, |picture, (mark, at)| picture.mark(mark, (at.x, at.y))).text(style))
 }
 
+/// What a picture of the configuration would show, in lines: where there is no terminal.
+///
+/// # Errors
+/// When an axis has a point without a tangent.
+pub fn configuration_summary(
+    simulation: &Simulation,
+    time: Option<f64>,
+) -> Result<String, ScriptError> {
+    let shown = match time {
+        Some(time) => simulation.configuration_near(time)?,
+        None => Some(simulation.configuration()?),
+    };
+    let Some(shown) = shown else { return Ok("nothing is recorded".into()) };
+    let place = |at: Option<&Vec2>| {
+        let number = |value: f64| significant(value, DIGITS);
+        at.map_or_else(String::new, |at| format!("({}, {})", number(at.x), number(at.y)))
+    };
+    let scene = simulation.scene();
+    let beams = scene.beams.iter().zip(&shown.lines).map(|(beam, line)| {
+        format!("{}: from {} to {}", beam.name, place(line.first()), place(line.last()))
+    });
+    let particles = scene.particles.iter().zip(&shown.particles);
+    let particles =
+        particles.map(|(particle, at)| format!("{}: at {}", particle.name, place(Some(at))));
+    let lines: Vec<String> = beams.chain(particles).collect();
+    Ok(format!("t = {}\n{}", significant(shown.time, DIGITS), lines.join("\n")))
+}
+
 /// The marks of supports and sliders, and the stations where they are.
 fn marked(simulation: &Simulation) -> (Vec<Mark>, Vec<Station>) {
     let scene = simulation.scene();

@@ -77,6 +77,52 @@ pub enum SimulationError {
         /// How often it came there.
         most: usize,
     },
+    /// A way back that is longer than the way that was gone.
+    #[error(
+        "cannot go back {steps} steps: only {taken} were taken; sim.rewind(0) leads to the start"
+    )]
+    FewerSteps {
+        /// Steps to go back.
+        steps: usize,
+        /// Steps taken.
+        taken: usize,
+    },
+    /// A way back to a time that is not behind.
+    #[error(
+        "cannot go back to t = {time}: the simulation has been from t = 0 to {now}; give a time between, or use sim.run_to(t) to go on"
+    )]
+    NotBehind {
+        /// Where it should go.
+        time: f64,
+        /// Where it is.
+        now: f64,
+    },
+    /// No state is kept.
+    #[error(
+        "there is no way back: no states are kept{}; start with scene.start(#{{ …, snapshots: 64 }}), in megabytes, or call sim.keep_snapshots(64) before the steps",
+        if *limit > 0.0 { format!(", one alone takes more than the limit of {limit} MB") } else { String::new() }
+    )]
+    NoSnapshots {
+        /// The memory that they may take [10⁶ bytes].
+        limit: f64,
+    },
+    /// The state there was forgotten, or never kept.
+    #[error(
+        "cannot go back to t = {time}: with a limit of {limit} MB for snapshots only the last {steps} steps are kept, back to t = {oldest}, and the state at t = {first}; sim.rewind({first}) leads there, and for more start with scene.start(#{{ …, snapshots: {} }})",
+        (4.0 * limit).ceil().max(64.0)
+    )]
+    Forgotten {
+        /// Where it should go.
+        time: f64,
+        /// How many steps one can go back.
+        steps: usize,
+        /// Where these lead.
+        oldest: f64,
+        /// When the first state was kept.
+        first: f64,
+        /// The memory that snapshots may take [10⁶ bytes].
+        limit: f64,
+    },
     /// The monitor asked to stop.
     #[error("interrupted at t = {time}; the history up to there is kept")]
     Interrupted {

@@ -1,11 +1,13 @@
 //! What a run was like, step by step.
 
+use serde::{Deserialize, Serialize};
+
 use super::columns::{self, Column, ExtraColumn};
 use crate::geometry::{Vec2, larger};
 use crate::model::Measures;
 
 /// A row of the history: what was measured at the end of a step, and what the step took.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Sample {
     /// Energy, momenta and what was exchanged.
     pub measures: Measures,
@@ -105,6 +107,24 @@ impl History {
         self.extra.extend(extra);
         let expected = self.samples.len() * self.extra_columns.len();
         assert_eq!(self.extra.len(), expected, "a row has one value for each extra column");
+    }
+
+    /// Forgets all but the first rows.
+    pub fn truncate(&mut self, rows: usize) {
+        self.samples.truncate(rows);
+        self.extra.truncate(rows * self.extra_columns.len());
+    }
+
+    /// The values of the extra columns, row after row.
+    pub(super) fn extra_values(&self) -> &[f64] {
+        &self.extra
+    }
+
+    /// The same columns with other rows; none when these do not have a value for each extra column.
+    pub(super) fn with_rows(&self, samples: Vec<Sample>, extra: Vec<f64>) -> Option<Self> {
+        let fits = samples.len().checked_mul(self.extra_columns.len()) == Some(extra.len());
+        let extra_columns = self.extra_columns.clone();
+        fits.then_some(Self { samples, extra_columns, extra, scales: self.scales })
     }
 
     /// The rows, without their extra columns.

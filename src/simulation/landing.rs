@@ -1,5 +1,7 @@
 //! Steps that end exactly where a slider reaches the end of its master, and what happens there.
 
+use serde::{Deserialize, Serialize};
+
 use super::{Simulation, SimulationError};
 use crate::integrators::{Interval, Overshoot, StepError};
 use crate::joints::EndAction;
@@ -20,7 +22,7 @@ const PROBES: i32 = 12;
 pub(super) const MOST_ARRIVALS: usize = 10_000;
 
 /// What happened to a slider at the end of its master.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ArrivalKind {
     /// The run ended.
     Stopped,
@@ -33,7 +35,7 @@ pub enum ArrivalKind {
 }
 
 /// A slider reached the end of its master.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Arrival {
     /// When.
     pub time: f64,

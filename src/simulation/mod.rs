@@ -1,5 +1,7 @@
 //! Running a scene and remembering what happened.
 
+mod archive;
+mod back;
 mod columns;
 mod error;
 mod explain;
@@ -7,10 +9,13 @@ mod history;
 mod landing;
 mod outline;
 mod run;
+mod snapshots;
+mod stepping;
 mod time_grid;
 mod trajectory;
 mod views;
 
+pub use archive::ArchiveError;
 pub use columns::{Column, ExtraColumn};
 pub use error::SimulationError;
 pub use history::{History, Invariant, Sample, Scales};

@@ -3,23 +3,24 @@
 use std::cell::OnceCell;
 use std::time::{Duration, Instant};
 
+use serde::{Deserialize, Serialize};
+
 use super::columns::{extra_columns, extra_values};
-use super::landing::{Arrival, MOST_ARRIVALS};
+use super::landing::Arrival;
+use super::snapshots::Snapshots;
+use super::stepping::Halving;
 use super::{History, Outline, Sample, Scales, SimulationError, TimeGrid, Trajectory};
 
 use crate::geometry::Vec2;
-use crate::integrators::{Integrator, Interval, Mechanism, Method, StepError};
-use crate::model::{Model, Scene, TrackLimit};
-use crate::newton::{NewtonReport, Tolerance};
+use crate::integrators::{Integrator, Interval, Mechanism, Method};
+use crate::model::{Model, Scene};
+use crate::newton::Tolerance;
 
 /// Most steps that a pretended run has.
 const MOST_PRETENDED: usize = 10_000;
 
-/// A step is divided by at most two to this power.
-const MOST_HALVINGS: u32 = 12;
-
 /// How a scene is simulated.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
     /// The integrator.
     pub method: Method,
@@ -30,7 +31,7 @@ pub struct Settings {
 }
 
 /// The work of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct WorkCounts {
     /// Steps that succeeded.
     pub steps: usize,
@@ -64,24 +65,20 @@ impl Monitor for Unwatched {
     }
 }
 
-/// How much of an interval was covered.
-#[derive(PartialEq, Eq)]
-enum Covered {
-    All,
-    UntilAnArrival,
-}
-
 /// A scene in motion.
 pub struct Simulation {
     pub(super) scene: Scene,
-    settings: Settings,
+    pub(super) settings: Settings,
     pub(super) model: Model,
     pub(super) integrator: Box<dyn Integrator>,
     pub(super) grid: TimeGrid,
-    history: History,
+    pub(super) history: History,
     pub(super) trajectory: Trajectory,
     pub(super) counts: WorkCounts,
     pub(super) arrivals: Vec<Arrival>,
+    /// A step of the grid that is covered in part.
+    pub(super) under_way: Option<Halving>,
+    pub(super) snapshots: Snapshots,
     /// Made when the first picture asks for them.
     pub(super) outlines: OnceCell<Vec<Outline>>,
 }
@@ -116,6 +113,8 @@ impl Simulation {
             trajectory,
             counts: WorkCounts::default(),
             arrivals: Vec::new(),
+            under_way: None,
+            snapshots: Snapshots::default(),
             outlines: OnceCell::new(),
         })
     }
@@ -165,6 +164,16 @@ impl Simulation {
         self.model.half_bandwidth()
     }
 
+    /// When the next step ends, if it goes no further than `limit` [time].
+    pub fn next_stop(&self, limit: f64) -> f64 {
+        self.grid.next(self.time(), limit)
+    }
+
+    /// Whether a time has come, but for rounding.
+    pub fn has_reached(&self, time: f64) -> bool {
+        self.time() >= time - 1e-9 * self.grid.dt()
+    }
+
     /// Makes a step end at a time to come.
     pub fn cut_at(&mut self, time: f64) {
         self.grid.cut_at(time);
@@ -191,7 +200,7 @@ impl Simulation {
         let steps = ((end - now) / self.grid.dt()).min(1e6) as usize + 8;
         self.history.reserve(steps);
         self.trajectory.reserve(steps);
-        while self.time() < end - 1e-9 * self.grid.dt() && !self.has_ended() {
+        while !self.has_reached(end) && !self.has_ended() {
             self.step_at_most_to(end, monitor)?;
         }
         Ok(())
@@ -206,7 +215,7 @@ impl Simulation {
             return Err(SimulationError::End {
                 now,
                 end,
-                advice: "give a later time, or start the scene anew",
+                advice: "give a later time, or go back with sim.rewind(t)",
             });
         }
         Ok(())
@@ -221,7 +230,7 @@ impl Simulation {
     pub fn pretend_to(&mut self, end: f64) -> Result<(), SimulationError> {
         self.check_end(end)?;
         let mut rows = 0;
-        while self.time() < end - 1e-9 * self.grid.dt() {
+        while !self.has_reached(end) {
             rows += 1;
             let next = if rows < MOST_PRETENDED { self.grid.next(self.time(), end) } else { end };
             let dt = next - self.time();
@@ -232,6 +241,7 @@ impl Simulation {
             let sample = Sample { measures, dt, ..Sample::default() };
             self.history.push(sample, extra_values(&self.scene, &self.model));
             self.trajectory.push(next, coordinates(&self.model));
+            self.remember();
         }
         if rows > 0 {
             self.pretend_arrivals();
@@ -246,123 +256,21 @@ impl Simulation {
     ) -> Result<(), SimulationError> {
         let begun = Instant::now();
         let end = self.grid.next(self.time(), limit);
-        let stepped = self.cover_with_arrivals(end, monitor);
+        let begun_before = self.under_way.filter(|halving| halving.end() == end);
+        let way = Interval::between(self.time(), end);
+        let halving = begun_before.unwrap_or_else(|| Halving::new(way));
+        let stepped = self.cover_with_arrivals(halving, monitor);
+        // What was interrupted goes on where it was, with steps of the same size.
+        if !matches!(stepped, Err(SimulationError::Interrupted { .. })) {
+            self.under_way = None;
+        }
         self.grid.reach(self.time());
         self.counts.wall += begun.elapsed();
         stepped
     }
-
-    /// Goes on to a time, cutting the way where sliders arrive at ends of their masters.
-    fn cover_with_arrivals(
-        &mut self,
-        end: f64,
-        monitor: &mut dyn Monitor,
-    ) -> Result<(), SimulationError> {
-        for _ in 0..MOST_ARRIVALS {
-            let covered = self.cover(Interval::between(self.time(), end), monitor)?;
-            let is_there = self.time() >= end - 1e-9 * self.grid.dt();
-            if covered == Covered::All || is_there || self.has_ended() {
-                return Ok(());
-            }
-        }
-        let arrival = self.arrivals.last().map_or_else(
-            || format!("a slider is about to arrive after t = {}", self.time()),
-            |last| self.describe(last),
-        );
-        Err(SimulationError::Rattles { arrival, most: MOST_ARRIVALS })
-    }
-
-    /// Covers an interval by one step or, where that fails, by halves of it, growing again after success.
-    fn cover(
-        &mut self,
-        whole: Interval,
-        monitor: &mut dyn Monitor,
-    ) -> Result<Covered, SimulationError> {
-        const PARTS: u64 = 1 << MOST_HALVINGS;
-        let time = |part: u64| match part {
-            PARTS => whole.end,
-            part => whole.start + whole.duration() * (part as f64 / PARTS as f64),
-        };
-        let (mut covered, mut halvings, mut retries) = (0, 0, 0);
-        while covered < PARTS {
-            let width = PARTS >> halvings;
-            let interval = Interval::between(time(covered), time(covered + width));
-            let mut stepped = self.integrator.step(&mut self.model, interval);
-            if let Err(StepError::Overshoot { overshoot, iterations, .. }) = stepped {
-                self.count_try(iterations);
-                match self.land(interval, overshoot) {
-                    Ok(landing) => {
-                        if let Some((interval, report)) = landing.step {
-                            self.record(interval, report, retries);
-                        }
-                        self.arrive(&landing)?;
-                        return self.ask(monitor).map(|()| Covered::UntilAnArrival);
-                    }
-                    Err(source) => stepped = Err(source),
-                }
-            }
-            match stepped {
-                Ok(report) => {
-                    self.record(interval, report, retries);
-                    covered += width;
-                    retries = 0;
-                    if halvings > 0 && covered.is_multiple_of(2 * width) {
-                        halvings -= 1;
-                    }
-                }
-                Err(source) if !source.may_be_cured_by_a_smaller_step() => {
-                    return Err(SimulationError::Load { source });
-                }
-                Err(source) => {
-                    self.counts.retries += 1;
-                    self.counts.factorisations += source.factorisations();
-                    retries += 1;
-                    if halvings == MOST_HALVINGS {
-                        return Err(self.no_step(whole.duration(), 1 << halvings, source));
-                    }
-                    halvings += 1;
-                }
-            }
-            self.ask(monitor)?;
-        }
-        Ok(Covered::All)
-    }
-
-    /// Asks whether the run goes on.
-    fn ask(&self, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
-        let time = self.time();
-        if monitor.goes_on(time) { Ok(()) } else { Err(SimulationError::Interrupted { time }) }
-    }
-
-    /// The error of steps that failed in every size.
-    fn no_step(&self, dt: f64, divisions: u64, source: StepError) -> SimulationError {
-        let time = self.time();
-        if let StepError::Overshoot { overshoot, .. } = &source {
-            let limit = TrackLimit::of(overshoot.limit);
-            let slider = self.scene.sliders[limit.slider].name.clone();
-            return SimulationError::Landing { slider, end: limit.end.name(), time, dt, divisions };
-        }
-        SimulationError::Step { time, dt, divisions, source }
-    }
-
-    fn record(&mut self, interval: Interval, report: NewtonReport, retries: usize) {
-        self.counts.steps += 1;
-        self.counts.newton_iterations += report.iterations;
-        self.counts.newton_max = self.counts.newton_max.max(report.iterations);
-        self.counts.factorisations += report.iterations;
-        let measures = self.model.measure();
-        let sample = Sample {
-            measures,
-            dt: interval.duration(),
-            newton_iterations: report.iterations,
-            retries,
-        };
-        self.history.push(sample, extra_values(&self.scene, &self.model));
-        self.trajectory.push(interval.end, coordinates(&self.model));
-    }
 }
 
-fn coordinates(model: &Model) -> impl Iterator<Item = f64> + '_ {
+pub(super) fn coordinates(model: &Model) -> impl Iterator<Item = f64> + '_ {
     model.control_points().flatten().flat_map(|point| [point.x, point.y])
 }
 

@@ -23,7 +23,7 @@ impl TimeGrid {
         Self { start, dt, cuts, passed: 0 }
     }
 
-    /// The times beside the grid at which steps end [time].
+    /// The times beside the grid at which steps end, in increasing order [time].
     pub fn cuts(&self) -> &[f64] {
         &self.cuts
     }
@@ -64,6 +64,24 @@ impl TimeGrid {
         })
     }
 
+    /// The number of grid points passed.
+    pub fn passed(&self) -> u64 {
+        self.passed
+    }
+
+    /// Goes back to where so many grid points were passed; cuts stay.
+    pub fn go_back(&mut self, passed: u64) {
+        self.passed = passed;
+    }
+
+    /// The same grid, begun anew with these cuts, as it is at a time.
+    pub fn lay(&mut self, cuts: &[f64], now: f64) {
+        *self = Self::new(self.start, self.dt, cuts.to_vec());
+        // Near enough to get there soon, and never too far.
+        self.passed = (((now - self.start) / self.dt) as u64).saturating_sub(2);
+        self.reach(now);
+    }
+
     /// Remembers that a time has been reached, so that the next search begins there.
     pub fn reach(&mut self, now: f64) {
         let same = SAME * self.dt;
@@ -93,6 +111,19 @@ mod tests {
         assert_eq!(times(0.05, vec![], 25.0).len(), 500);
         assert_eq!(times(0.1, vec![2.5], 7.5)[24], 2.5);
         assert_eq!(times(0.1, vec![], 1.0)[5], 0.6);
+    }
+
+    #[test]
+    fn going_back_leads_to_the_same_points_and_keeps_cuts() {
+        let mut grid = TimeGrid::new(0.0, 1.0, vec![]);
+        grid.reach(3.0);
+        grid.cut_at(2.5);
+        grid.go_back(1);
+        assert_eq!((grid.next(1.0, 9.0), grid.next(2.0, 9.0)), (2.0, 2.5));
+        assert_eq!(grid.cuts(), [2.5]);
+        let mut again = TimeGrid::new(0.0, 1.0, vec![]);
+        again.lay(&[f64::NAN, 2.5, -1.0], 1e6);
+        assert_eq!((again.cuts(), again.passed()), (grid.cuts(), 1_000_000));
     }
 
     #[test]

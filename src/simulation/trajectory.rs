@@ -51,6 +51,42 @@ impl Trajectory {
         self.every *= 2;
     }
 
+    /// Goes back to where so many configurations had been offered. What was thinned out since stays forgotten; going on from
+    /// here ends with the same configurations as going on without going back.
+    pub fn go_back(&mut self, offered: usize) {
+        self.offered = offered;
+        let kept = offered.div_ceil(self.every);
+        self.times.truncate(kept);
+        self.numbers.truncate(kept * self.stride);
+    }
+
+    /// How many configurations were offered for each that is kept.
+    pub(super) fn every(&self) -> usize {
+        self.every
+    }
+
+    /// All numbers of all configurations.
+    pub(super) fn numbers(&self) -> &[f64] {
+        &self.numbers
+    }
+
+    /// The same bodies with other configurations, of so many that were offered; none when these do not fit each other.
+    pub(super) fn with_configurations(
+        &self,
+        offered: usize,
+        every: usize,
+        times: Vec<f64>,
+        numbers: Vec<f64>,
+    ) -> Option<Self> {
+        let fits = every.is_power_of_two()
+            && every <= offered
+            && times.len() == offered.div_ceil(every)
+            && times.len().checked_mul(self.stride) == Some(numbers.len())
+            && times.is_sorted()
+            && times.iter().chain(&numbers).all(|number| number.is_finite());
+        fits.then_some(Self { stride: self.stride, times, numbers, every, offered })
+    }
+
     /// The times of the configurations.
     pub fn times(&self) -> &[f64] {
         &self.times
@@ -85,5 +121,22 @@ mod tests {
         assert!(times.windows(2).all(|pair| pair[1] - pair[0] == times[1] - times[0]), "{times:?}");
         let nearest = trajectory.nearest(17.0).unwrap();
         assert_eq!(trajectory.configuration(nearest)[0], times[nearest]);
+    }
+
+    #[test]
+    fn going_back_behind_a_thinning_and_on_again_changes_nothing() {
+        let offer = |trajectory: &mut Trajectory, from: i32| {
+            for index in from..21 {
+                trajectory.push(f64::from(index), std::iter::repeat_n(f64::from(index), 1 << 22));
+            }
+        };
+        let mut trajectory = Trajectory::new(1 << 22);
+        offer(&mut trajectory, 0);
+        let straight = trajectory.times().to_vec();
+        trajectory.go_back(6);
+        assert!(trajectory.times().iter().all(|time| *time < 6.0));
+        assert_eq!(trajectory.numbers().len(), trajectory.times().len() << 22);
+        offer(&mut trajectory, 6);
+        assert_eq!(trajectory.times(), straight);
     }
 }

@@ -1,9 +1,11 @@
 //! The rules by name, with what each of them claims. Tests and help read this list.
 
+use serde::{Deserialize, Serialize};
+
 use super::{Conserving, Exact, Relaxed, SlidingLaw};
 
 /// A choice of how a step keeps a slider on its master.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum SlidingRule {
     /// [`Relaxed`].
     Relaxed,

@@ -3,26 +3,43 @@
 use std::time::{Duration, Instant};
 
 use crate::output::{Cell, Table};
-use crate::repl::shell::{Outcome, Shell};
+use crate::repl::shell::{Outcome, Screen, Shell, no_simulation};
 use crate::script::diagnose::Diagnostic;
+use crate::script::error::ScriptError;
+use crate::script::present::present;
+use crate::script::sight;
+use crate::simulation::Simulation;
 
-/// `:help [name]`
-pub fn help(shell: &mut Shell, operand: &str) -> Outcome {
-    shell.help(operand)
-}
+/// Characters of a value in the list of variables.
+const VALUE_WIDTH: usize = 70;
 
 /// `:vars`
 pub fn variables(shell: &mut Shell, _: &str) -> Outcome {
-    let variables = shell.variables();
-    if variables.is_empty() {
-        shell.print("there are no variables yet");
-        return Outcome::Good;
-    }
+    let session = shell.session();
     let mut table = Table::new(&["name", "type", "value"]);
-    for variable in variables {
-        table.row([variable.name, variable.of, variable.value].map(Cell::Text));
+    let mut is_empty = true;
+    let mut row = |name: &str, of: &str, value: String| {
+        table.row([name.to_owned(), of.to_owned(), value].map(Cell::Text));
+        is_empty = false;
+    };
+    let variables: Vec<_> = session.variables().iter_raw().collect();
+    for (name, is_constant, value) in variables.into_iter().rev() {
+        let of = session.engine().map_type_name(value.type_name());
+        let of = if is_constant { format!("constant {of}") } else { of.to_owned() };
+        let shown = present(session.catalog(), value, VALUE_WIDTH);
+        row(name, &of, shown.lines().next().unwrap_or_default().to_owned());
     }
-    shell.print(table.to_string().trim_end());
+    for function in session.functions() {
+        row(function.name, "function", format!("{}({})", function.name, function.params.join(", ")));
+    }
+    for (name, module) in session.modules() {
+        let functions = module.gen_fn_signatures_with_mapper(|name| name.into());
+        row(name, "import", functions.collect::<Vec<_>>().join(", "));
+    }
+    match is_empty {
+        true => shell.print("there are no variables yet"),
+        false => shell.print(table.to_string().trim_end()),
+    }
     Outcome::Good
 }
 
@@ -38,24 +55,58 @@ pub fn explain(shell: &mut Shell, _: &str) -> Outcome {
 
 /// `:plot [columns]`
 pub fn plot(shell: &mut Shell, operand: &str) -> Outcome {
-    let separators = |letter: char| letter.is_whitespace() || letter == ',';
-    let named = operand.split(separators).filter(|name| !name.is_empty());
+    let is_between = |letter: char| letter.is_whitespace() || letter == ',';
+    let named = operand.split(is_between).filter(|name| !name.is_empty());
     let mut columns: Vec<String> = named.map(|name| name.trim_matches('"').to_owned()).collect();
     if columns.is_empty() {
         columns = ["kinetic", "strain", "energy"].map(str::to_owned).to_vec();
     }
-    shell.plot(&columns)
+    draw(shell, |simulation, screen| match screen {
+        Screen::Terminal(style) => sight::history_chart(simulation.history(), &columns, &style),
+        Screen::Pipe => {
+            let line = |column: &String| sight::column_summary(simulation.history(), column);
+            Ok(columns.iter().map(line).collect::<Result<Vec<_>, _>>()?.join("\n"))
+        }
+    })
 }
 
 /// `:show [time]`
 pub fn show(shell: &mut Shell, operand: &str) -> Outcome {
-    match (operand, operand.parse::<f64>()) {
-        ("", _) => shell.draw(None),
-        (_, Ok(time)) => shell.draw(Some(time)),
+    let time = match (operand, operand.parse::<f64>()) {
+        ("", _) => None,
+        (_, Ok(time)) => Some(time),
         _ => {
             let told = Diagnostic::general(format!("'{operand}' is not a time"));
-            shell.refuse(&told.with_hint("write :show, or :show T with a time that has passed"))
+            return shell
+                .refuse(&told.with_hint("write :show, or :show T with a time that has passed"));
         }
+    };
+    draw(shell, |simulation, screen| match screen {
+        Screen::Terminal(style) => sight::configuration_picture(simulation, time, &style),
+        Screen::Pipe => sight::configuration_summary(simulation, time),
+    })
+}
+
+/// Shows what is made of the last simulation for the screen.
+fn draw(
+    shell: &mut Shell,
+    picture: impl FnOnce(&Simulation, Screen) -> Result<String, ScriptError>,
+) -> Outcome {
+    let latest = match shell.latest() {
+        Some(latest) => latest,
+        None => return shell.refuse(&no_simulation()),
+    };
+    let drawn = picture(&latest.simulation(), shell.screen());
+    match drawn {
+        Ok(text) => {
+            shell.print(text.trim_end());
+            Outcome::Good
+        }
+        Err(ScriptError::Failure(failure)) => {
+            let hint = failure.hint.clone();
+            shell.refuse(&Diagnostic { hint, ..Diagnostic::general(failure.message) })
+        }
+        Err(other) => shell.refuse(&Diagnostic::bug(format!("{other:?}"))),
     }
 }
 

@@ -1,5 +1,6 @@
 //! The commands of the prompt: one table, from which come dispatch, `:help` and completion.
 
+mod help;
 mod looking;
 mod session;
 mod stepping;
@@ -39,15 +40,18 @@ pub struct Command {
     pub body: fn(&mut Shell, &str) -> Outcome,
 }
 
+/// What `?` stands for.
+pub const HELP: Command = Command {
+    name: "help",
+    operand: Operand::Name,
+    summary: "explains a function, a type, a topic or a command; ?name does the same",
+    doc: "Without a name it lists what there is.",
+    body: help::help,
+};
+
 /// All commands, in the order of the help.
 pub const COMMANDS: &[Command] = &[
-    Command {
-        name: "help",
-        operand: Operand::Name,
-        summary: "explains a function, a type, a topic or a command; ?name does the same",
-        doc: "Without a name it lists what there is.",
-        body: looking::help,
-    },
+    HELP,
     Command {
         name: "vars",
         operand: Operand::Nothing,

@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use rhai::{Dynamic, FnPtr};
 
+use super::events::Events;
 use super::scenes::SceneHandle;
 use crate::script::call::Call;
 use crate::script::context::{Context, Mode};
@@ -23,14 +24,14 @@ struct Live {
     name: String,
     scene: SceneHandle,
     simulation: RefCell<Simulation>,
-    events: RefCell<Vec<(f64, FnPtr)>>,
+    events: RefCell<Events>,
     /// While an event is called, no other may be set for the same time.
     is_firing: Cell<bool>,
     /// Whether the user knows that the run ended earlier than the script wanted.
     is_ending_told: Cell<bool>,
 }
 
-/// How far a script goes on.
+/// How far a script goes on, or back.
 pub enum Goal {
     /// So many steps.
     Steps(usize),
@@ -72,7 +73,31 @@ impl SimulationHandle {
         };
         let handle = Self(Rc::new(live));
         context.add_reporter(Box::new(handle.clone()));
+        handle.is_latest(context);
         handle
+    }
+
+    /// A copy that goes its own way from here, with the same functions for times to come.
+    pub fn fork(&self, name: String, context: &Context) -> Result<Self, ScriptError> {
+        let simulation = self.simulation().fork()?;
+        let fork = Self::new(simulation, self.0.scene.clone(), name, context);
+        fork.0.events.replace(self.0.events.borrow().clone());
+        fork.0.is_ending_told.set(self.0.is_ending_told.get());
+        Ok(fork)
+    }
+
+    fn is_latest(&self, context: &Context) {
+        context.note_simulation(Dynamic::from(self.clone()));
+    }
+
+    /// Changes the memory for states to go back to [bytes].
+    pub fn keep_snapshots(&self, limit: usize) {
+        self.0.simulation.borrow_mut().keep_snapshots(limit);
+    }
+
+    /// How many functions wait for a time.
+    pub fn events_waiting(&self) -> usize {
+        self.0.events.borrow().waiting()
     }
 
     /// The simulation itself.
@@ -83,6 +108,11 @@ impl SimulationHandle {
     /// The scene that was started.
     pub fn scene(&self) -> &SceneHandle {
         &self.0.scene
+    }
+
+    /// Whether both are the same simulation.
+    pub fn is_same(&self, other: &Self) -> bool {
+        Rc::ptr_eq(&self.0, &other.0)
     }
 
     /// Its name.
@@ -108,10 +138,29 @@ impl SimulationHandle {
             .hint("give a later time, before the simulation gets there"));
         }
         self.0.simulation.borrow_mut().cut_at(time);
-        let mut events = self.0.events.borrow_mut();
-        let place = events.partition_point(|(other, _)| *other <= time);
-        events.insert(place, (time, function));
+        self.0.events.borrow_mut().insert(time, function);
         Ok(())
+    }
+
+    /// Goes back to a state that was; a dry build goes as near as it can.
+    pub fn go_back(&self, call: &Call, goal: &Goal) -> Result<(), ScriptError> {
+        let mut simulation = self.0.simulation.borrow_mut();
+        match (call.context().mode(), goal) {
+            (Mode::Run, Goal::Steps(steps)) => simulation.back(*steps)?,
+            (Mode::Run, Goal::Time(time)) => simulation.rewind(*time)?,
+            (Mode::DryBuild, Goal::Steps(steps)) => simulation.pretend_back(*steps),
+            (Mode::DryBuild, Goal::Time(time)) => simulation.pretend_rewind(*time),
+        }
+        drop(simulation);
+        self.0.events.borrow_mut().go_back(self.time() + self.slack());
+        self.0.is_ending_told.set(false);
+        self.is_latest(call.context());
+        Ok(())
+    }
+
+    /// By how much a time may be missed and still be reached.
+    fn slack(&self) -> f64 {
+        1e-9 * self.simulation().settings().dt
     }
 
     /// Goes on, calling the functions of the events on its way.
@@ -123,6 +172,7 @@ impl SimulationHandle {
             Goal::Steps(steps) => now + *steps as f64 * dt,
             Goal::Time(time) => *time,
         };
+        self.is_latest(context);
         context.progress().begin(&self.0.name, now, end);
         let outcome = match (context.mode(), goal) {
             (Mode::DryBuild, _) => self.pretend(call, end),
@@ -167,7 +217,7 @@ impl SimulationHandle {
 
     fn run_to(&self, call: &Call, end: f64) -> Result<(), ScriptError> {
         loop {
-            let next = self.0.events.borrow().first().map_or(f64::INFINITY, |(time, _)| *time);
+            let next = self.0.events.borrow().next_time().unwrap_or(f64::INFINITY);
             let stop = if next < end { next } else { end };
             let slack = 1e-9 * self.simulation().settings().dt;
             let context = call.context();
@@ -199,14 +249,10 @@ impl SimulationHandle {
     }
 
     fn fire_due(&self, call: &Call) -> Result<(), ScriptError> {
-        let slack = 1e-9 * self.simulation().settings().dt;
+        let slack = self.slack();
         loop {
-            let due = {
-                let mut events = self.0.events.borrow_mut();
-                let is_due = events.first().is_some_and(|(time, _)| *time <= self.time() + slack);
-                is_due.then(|| events.remove(0))
-            };
-            let Some((_, function)) = due else { return Ok(()) };
+            let due = self.0.events.borrow_mut().take_due(self.time() + slack);
+            let Some(function) = due else { return Ok(()) };
             // What an event gives back has no meaning.
             self.0.is_firing.set(true);
             let called = call.invoke(&function, [Dynamic::from(self.clone())]);

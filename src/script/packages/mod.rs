@@ -2,6 +2,7 @@
 
 mod arrays;
 mod checking;
+mod events;
 mod explaining;
 pub mod geometry;
 mod histories;
@@ -11,12 +12,14 @@ mod loads;
 mod math;
 mod pictures;
 mod report;
+mod saving;
 mod scenes;
 mod schedules;
 mod sections;
 mod simulations;
 mod sliding;
 mod text;
+mod time_travel;
 mod vectors;
 mod windows;
 
@@ -40,6 +43,8 @@ pub const TABLES: &[&Table] = &[
     &scenes::TABLE,
     &loads::TABLE,
     &simulations::TABLE,
+    &time_travel::TABLE,
+    &saving::TABLE,
     &sliding::TABLE,
     &histories::TABLE,
     &explaining::TABLE,

@@ -173,19 +173,20 @@ pub struct SceneHandle(Rc<RefCell<Scene>>);
 /// A beam of a scene.
 #[derive(Clone)]
 pub struct BeamHandle {
-    scene: SceneHandle,
-    index: usize,
+    pub(super) scene: SceneHandle,
+    pub(super) index: usize,
 }
 
 /// A station of a beam of a scene.
 #[derive(Clone)]
 pub struct StationHandle {
-    scene: SceneHandle,
-    station: Station,
+    pub(super) scene: SceneHandle,
+    pub(super) station: Station,
 }
 
 impl SceneHandle {
-    fn new(scene: Scene) -> Self {
+    /// A handle on a scene of its own.
+    pub fn new(scene: Scene) -> Self {
         Self(Rc::new(RefCell::new(scene)))
     }
 

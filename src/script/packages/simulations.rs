@@ -5,6 +5,7 @@ use rhai::{Dynamic, INT};
 use super::integrators::INTEGRATOR;
 use super::live::{Goal, SimulationHandle};
 use super::scenes::{SCENE, STATION, SceneHandle, StationHandle};
+use super::time_travel::bytes;
 use super::windows::HistoryHandle;
 use crate::beams::Place;
 use crate::integrators::Method;
@@ -33,7 +34,7 @@ pub const TABLE: Table = Table {
             .summary("Builds the scene and puts it at its start, t = 0.")
             .doc("Changes of the scene after that do not reach the simulation; start it again for another one.")
             .example("let again = scene.start(#{ integrator: trapezoidal(), dt: 0.05 });\nprint(again);")
-            .see(&["energy_momentum", "trapezoidal", "step", "run_to"]),
+            .see(&["energy_momentum", "trapezoidal", "step", "run_to", "back"]),
         method(SIMULATION, "step", &[whole("count").non_negative().or(Presence::Whole(1))], |call| {
             call.receiver::<SimulationHandle>()?.go_on(call, &Goal::Steps(call.count("count")?))?;
             Ok(Dynamic::UNIT)
@@ -150,6 +151,11 @@ const START: &[Parameter] = &[
     number("dt").positive().unit("time").doc("the step size"),
     object("integrator", INTEGRATOR).doc("energy_momentum() unless given").optional(),
     text("name").doc("the name in the report; that of the scene unless given").optional(),
+    number("snapshots")
+        .non_negative()
+        .unit("MB")
+        .doc("memory for states to go back to; 256 where the script says back, rewind or import, else 0")
+        .optional(),
 ];
 
 /// How well the invariants were kept.
@@ -216,7 +222,9 @@ fn start(call: &mut Call) -> Result<Dynamic, ScriptError> {
         tolerance: Tolerance::default(),
     };
     let name = options.text("name").map_or_else(|_| scene.name.clone(), |name| name.to_string());
-    let simulation = Simulation::start(scene, settings)?;
+    let mut simulation = Simulation::start(scene, settings)?;
+    let limit = options.number_if_given("snapshots").map(bytes);
+    simulation.keep_snapshots(limit.unwrap_or_else(|| call.context().snapshots()));
     Ok(Dynamic::from(SimulationHandle::new(simulation, handle, name, call.context())))
 }
 

@@ -148,9 +148,9 @@ const SLIDER_KEYS: &[Parameter] = &[
 
 /// A slider of a scene.
 #[derive(Clone)]
-struct SliderHandle {
-    scene: SceneHandle,
-    index: usize,
+pub(super) struct SliderHandle {
+    pub(super) scene: SceneHandle,
+    pub(super) index: usize,
 }
 
 impl SliderHandle {

@@ -1,0 +1,64 @@
+//! Functions of a script that wait for a time of a simulation.
+
+use rhai::FnPtr;
+
+/// Functions in the order of their times, and which of them were called.
+#[derive(Clone, Default)]
+pub struct Events {
+    functions: Vec<(f64, FnPtr)>,
+    called: usize,
+}
+
+impl Events {
+    /// Adds a function; of several for one time, the first that was added is called first.
+    pub fn insert(&mut self, time: f64, function: FnPtr) {
+        let place = self.functions.partition_point(|(other, _)| *other <= time);
+        self.functions.insert(place.max(self.called), (time, function));
+    }
+
+    /// When the next function is to be called.
+    pub fn next_time(&self) -> Option<f64> {
+        self.functions.get(self.called).map(|(time, _)| *time)
+    }
+
+    /// The next function whose time has come, which counts as called.
+    pub fn take_due(&mut self, now: f64) -> Option<FnPtr> {
+        let (_, due) = self.functions.get(self.called).filter(|(time, _)| *time <= now)?;
+        self.called += 1;
+        Some(due.clone())
+    }
+
+    /// Time has gone back: functions for later times will be called again.
+    pub fn go_back(&mut self, now: f64) {
+        let passed = self.functions.partition_point(|(time, _)| *time <= now);
+        self.called = self.called.min(passed);
+    }
+
+    /// How many functions are still to be called.
+    pub fn waiting(&self) -> usize {
+        self.functions.len() - self.called
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(events: &mut Events, now: f64) -> Vec<String> {
+        std::iter::from_fn(|| events.take_due(now)).map(|due| due.fn_name().to_owned()).collect()
+    }
+
+    #[test]
+    fn what_lies_ahead_again_is_called_again() {
+        let mut events = Events::default();
+        for (time, name) in [(2.0, "second"), (1.0, "first"), (2.0, "third")] {
+            events.insert(time, FnPtr::new(name).unwrap());
+        }
+        assert_eq!(names(&mut events, 2.5), ["first", "second", "third"]);
+        assert_eq!((events.next_time(), events.waiting()), (None, 0));
+        events.go_back(1.0);
+        assert_eq!((events.next_time(), events.waiting()), (Some(2.0), 2));
+        assert_eq!(names(&mut events, 1.5), Vec::<String>::new());
+        assert_eq!(names(&mut events, 2.0), ["second", "third"]);
+    }
+}

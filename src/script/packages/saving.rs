@@ -1,0 +1,134 @@
+//! Simulations in files, the latest one, and things of a scene by their names.
+
+use rhai::Dynamic;
+
+use super::live::SimulationHandle;
+use super::scenes::{BeamHandle, SCENE, SceneHandle, StationHandle};
+use super::simulations::{SIMULATION, SPINNING};
+use super::sliding::SliderHandle;
+use crate::beams::Station;
+use crate::script::call::Call;
+use crate::script::error::{Place, ScriptError};
+use crate::script::parameter::{Parameter, text};
+use crate::script::suggest::nearest;
+use crate::script::table::{Table, function, method, property};
+use crate::simulation::Simulation;
+
+/// Saving and loading.
+pub const TABLE: Table = Table {
+    name: "saving",
+    doc: "A simulation can be saved and loaded, also by another script, and goes on bit for bit. What a loaded scene holds is found by name.",
+    types: &[],
+    setup: SPINNING,
+    constants: &[],
+    rows: &[
+        method(SIMULATION, "save", &[text("file")], save)
+            .summary("Writes the simulation into a file of the output folder, whole or not at all.")
+            .doc(
+                "The file holds the scene, the state, the history and the configurations, with versions and a checksum; not the \
+                 states to go back to, nor the functions set with sim.at. A schedule that is a function cannot be saved.",
+            )
+            .example("sim.run_to(1);\nsim.save(\"spinning.withy\");\nlet again = load_simulation(\"spinning.withy\");\ncheck(again.t == 1 && again.energy == sim.energy);")
+            .see(&["load_simulation", "fork"]),
+        function("load_simulation", &[text("file")], load)
+            .returns("a simulation")
+            .summary("A simulation from a file that sim.save wrote, in the output folder or beside the script.")
+            .doc("A file that is cut off, damaged, of a later withy or something else is refused with the reason.")
+            .example("sim.run_to(1);\nsim.save(\"half.withy\");\nlet on = load_simulation(\"half.withy\");\non.run_to(2);\nprint(on.position(on.scene.beam_named(\"rod\").end));")
+            .see(&["save", "scene", "beam_named"]),
+        function("latest_simulation", &[], |call| {
+            call.context().latest_simulation().ok_or_else(|| {
+                call.error("there is no simulation yet").hint("start one: let sim = scene.start(#{ dt: 0.01 });")
+            })
+        })
+        .returns("a simulation")
+        .summary("The simulation that was started, loaded, forked, stepped or taken back last.")
+        .example("check(latest_simulation().name == sim.name);")
+        .see(&["start", "load_simulation"]),
+        property(SIMULATION, "scene", |call| Ok(Dynamic::from(call.receiver::<SimulationHandle>()?.scene().clone())))
+            .returns("a scene")
+            .summary("The scene that was started; for a loaded simulation, the scene that was saved with it.")
+            .example("check(sim.scene.name == \"example\");")
+            .see(&["beam_named", "particle_named", "slider_named"]),
+        method(SCENE, "beam_named", &[NAME], |call| {
+            let scene = call.receiver::<SceneHandle>()?;
+            let index = find(call, "beam", |held| held.beams.iter().map(|beam| &beam.name).collect())?;
+            Ok(Dynamic::from(BeamHandle { scene, index }))
+        })
+        .returns("a beam")
+        .summary("The beam of that name.")
+        .example("check(scene.beam_named(\"rod\").length == 2);")
+        .see(&["beam", "scene"]),
+        method(SCENE, "particle_named", &[NAME], |call| {
+            let scene = call.receiver::<SceneHandle>()?;
+            let index = find(call, "particle", |held| held.particles.iter().map(|particle| &particle.name).collect())?;
+            Ok(Dynamic::from(StationHandle { scene, station: Station::on_particle(index) }))
+        })
+        .returns("a station")
+        .summary("The particle of that name.")
+        .example("scene.particle([0, 3], 0.5, #{ name: \"stone\" });\nprint(scene.particle_named(\"stone\"));")
+        .see(&["particle", "scene"]),
+        method(SCENE, "slider_named", &[NAME], |call| {
+            let scene = call.receiver::<SceneHandle>()?;
+            let index = find(call, "slider", |held| held.sliders.iter().map(|slider| &slider.name).collect())?;
+            Ok(Dynamic::from(SliderHandle { scene, index }))
+        })
+        .returns("a slider")
+        .summary("The slider of that name.")
+        .example("scene.slider(scene.particle([1, 0], 1), rod, #{ name: \"ring\" });\nprint(scene.slider_named(\"ring\"));")
+        .see(&["slider", "scene"]),
+    ],
+};
+
+const NAME: Parameter = text("name");
+
+fn save(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let handle = call.receiver::<SimulationHandle>()?;
+    let file = handle.simulation().to_bytes(handle.name());
+    let file = file.map_err(|error| call.error(format!("'{}': {error}", handle.name())))?;
+    call.context().output().write_to_read(&call.text("file")?, file)?;
+    let waiting = handle.events_waiting();
+    if waiting > 0 {
+        call.context().tell(&format!(
+            "note: simulation '{}' was saved without the functions that wait for a time ({waiting}); set them again with sim.at after load_simulation",
+            handle.name()
+        ));
+    }
+    Ok(Dynamic::UNIT)
+}
+
+fn load(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let name = call.text("file")?;
+    let file = call.context().output().read(&name)?;
+    let loaded = Simulation::from_bytes(&file);
+    let (name, mut simulation) = loaded.map_err(|error| {
+        call.error(format!("cannot load \"{name}\": {error}")).at(Place::Argument(0))
+    })?;
+    simulation.keep_snapshots(call.context().snapshots());
+    let scene = SceneHandle::new(simulation.scene().clone());
+    Ok(Dynamic::from(SimulationHandle::new(simulation, scene, name, call.context())))
+}
+
+/// The index of the thing of the called scene that has the name given.
+fn find(
+    call: &Call,
+    kind: &str,
+    names: fn(&crate::model::Scene) -> Vec<&String>,
+) -> Result<usize, ScriptError> {
+    let name = call.text("name")?;
+    let handle = call.receiver::<SceneHandle>()?;
+    let scene = handle.scene().borrow();
+    let names = names(&scene);
+    names.iter().position(|other| **other == name.as_str()).ok_or_else(|| {
+        let meant = nearest(&name, names.iter().map(|name| name.as_str()));
+        let suggestion = meant.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
+        let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
+        let known = match quoted.as_slice() {
+            [] => format!("it has no {kind}s"),
+            quoted => format!("its {kind}s: {}", quoted.join(", ")),
+        };
+        call.error(format!("the scene '{}' has no {kind} \"{name}\"", scene.name))
+            .hint(format!("{suggestion}{known}"))
+            .at(Place::Argument(0))
+    })
+}

@@ -1,0 +1,136 @@
+//! What is around the content of a file: a mark, versions, lengths and a checksum.
+//!
+//! ```text
+//! mark       8 bytes    89 "withy" 0D 0A; the first byte is no text, the last two show what turns line ends round
+//! format     u16        little-endian, as all numbers
+//! program    u8, text   length and version of the program that wrote it, for people
+//! length     u64        of the content
+//! content
+//! checksum   u32        CRC-32 of all before it
+//! ```
+
+use super::ArchiveError;
+
+const MARK: [u8; 8] = *b"\x89withy\r\n";
+
+/// Of this program. A change of anything that is stored makes it one more.
+const FORMAT: u16 = 1;
+
+const PROGRAM: &str = env!("CARGO_PKG_VERSION");
+
+/// The length of a checksum.
+const CHECKSUM: usize = 4;
+
+/// Reads from front to back.
+struct Reader<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Reader<'a> {
+    fn take(&mut self, count: usize) -> Result<&'a [u8], ArchiveError> {
+        let taken = self.bytes[self.at..].get(..count).ok_or(ArchiveError::Truncated {
+            found: self.bytes.len(),
+            needed: (self.at as u64).saturating_add(count as u64),
+        })?;
+        self.at += count;
+        Ok(taken)
+    }
+
+    fn array<const N: usize>(&mut self) -> Result<[u8; N], ArchiveError> {
+        let mut array = [0; N];
+        array.copy_from_slice(self.take(N)?);
+        Ok(array)
+    }
+}
+
+/// Puts content into a file.
+pub(super) fn wrap(content: &[u8]) -> Vec<u8> {
+    let program = &PROGRAM.as_bytes()[..PROGRAM.len().min(usize::from(u8::MAX))];
+    let mut file = MARK.to_vec();
+    file.extend(FORMAT.to_le_bytes());
+    file.push(program.len() as u8);
+    file.extend(program);
+    file.extend((content.len() as u64).to_le_bytes());
+    file.extend(content);
+    file.extend(crc32fast::hash(&file).to_le_bytes());
+    file
+}
+
+/// The content of a file.
+pub(super) fn unwrap(file: &[u8]) -> Result<&[u8], ArchiveError> {
+    if file.is_empty() || !file.starts_with(&MARK[..file.len().min(MARK.len())]) {
+        return Err(ArchiveError::Foreign);
+    }
+    let mut reader = Reader { bytes: file, at: 0 };
+    reader.take(MARK.len())?;
+    let format = u16::from_le_bytes(reader.array()?);
+    let [length] = reader.array()?;
+    let program = String::from_utf8_lossy(reader.take(usize::from(length))?).into_owned();
+    if format > FORMAT {
+        return Err(ArchiveError::Newer { program, format, own_program: PROGRAM, own: FORMAT });
+    }
+    let length = u64::from_le_bytes(reader.array()?);
+    let whole = length.saturating_add((reader.at + CHECKSUM) as u64);
+    let found = file.len();
+    match whole.cmp(&(found as u64)) {
+        std::cmp::Ordering::Greater => Err(ArchiveError::Truncated { found, needed: whole }),
+        std::cmp::Ordering::Less => Err(ArchiveError::Longer { more: found as u64 - whole }),
+        std::cmp::Ordering::Equal => {
+            let content = reader.take(found - reader.at - CHECKSUM)?;
+            let right = crc32fast::hash(&file[..reader.at]);
+            match u32::from_le_bytes(reader.array()?) {
+                found if found != right => Err(ArchiveError::Damaged { found, right }),
+                _ => Ok(content),
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_wrapped_is_unwrapped() {
+        for content in [&b""[..], b"a", &[7; 1000]] {
+            assert_eq!(unwrap(&wrap(content)), Ok(content));
+        }
+    }
+
+    #[test]
+    fn each_fault_has_its_reason() {
+        let file = wrap(b"content");
+        for length in 1..file.len() {
+            let error = unwrap(&file[..length]);
+            assert!(matches!(error, Err(ArchiveError::Truncated { .. })), "{length}: {error:?}");
+        }
+        for foreign in [&b""[..], b"PK", b"\x89withy\n", b"t [time],energy [energy]\n0,1\n"] {
+            assert_eq!(unwrap(foreign), Err(ArchiveError::Foreign));
+        }
+        let longer = [&file[..], b"more"].concat();
+        assert_eq!(unwrap(&longer), Err(ArchiveError::Longer { more: 4 }));
+        let mut newer = file.clone();
+        newer[8] = 2;
+        let message = unwrap(&newer).unwrap_err().to_string();
+        assert!(message.contains(&format!("written by withy {PROGRAM} in format 2")), "{message}");
+    }
+
+    #[test]
+    fn every_flipped_bit_is_seen() {
+        let file = wrap(b"content");
+        for bit in 0..8 * file.len() {
+            let mut flipped = file.clone();
+            flipped[bit / 8] ^= 1 << (bit % 8);
+            assert!(unwrap(&flipped).is_err(), "bit {bit}");
+        }
+    }
+
+    #[test]
+    fn a_length_beyond_all_memory_is_only_a_number() {
+        let mut file = wrap(b"");
+        let at = file.len() - CHECKSUM - 8;
+        file[at..at + 8].fill(0xff);
+        assert!(matches!(unwrap(&file), Err(ArchiveError::Truncated { .. })));
+    }
+}

@@ -1,0 +1,70 @@
+//! Why a simulation cannot be stored, or a file is none.
+
+use crate::simulation::SimulationError;
+
+/// A simulation that cannot be stored, or bytes that are not a whole and sound one.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ArchiveError {
+    /// A load with a function of a script.
+    #[error(
+        "the {load} has a function as its schedule, and functions cannot be stored; use hold_for, ramp, pulse, smooth_pulse, sine or table, or sums and products of them"
+    )]
+    Function {
+        /// The load.
+        load: String,
+    },
+    /// Something else.
+    #[error("this is no simulation: it does not begin as files of sim.save(…) do")]
+    Foreign,
+    /// A part is missing.
+    #[error(
+        "the file ends too early: it has {found} bytes, but {needed} are needed; it was cut off"
+    )]
+    Truncated {
+        /// Its length [bytes].
+        found: usize,
+        /// The length that its header asks for, as far as that is known [bytes].
+        needed: u64,
+    },
+    /// Written by a later program.
+    #[error(
+        "it was written by withy {program} in format {format}, but this is withy {own_program}, which reads format {own}; use a newer withy"
+    )]
+    Newer {
+        /// What wrote it.
+        program: String,
+        /// The format of the file.
+        format: u16,
+        /// This program.
+        own_program: &'static str,
+        /// The format that it reads.
+        own: u16,
+    },
+    /// Its checksum is wrong.
+    #[error(
+        "the file is damaged: its checksum is {found:08x}, but its bytes have {right:08x}; use another copy"
+    )]
+    Damaged {
+        /// In the file.
+        found: u32,
+        /// Of its bytes.
+        right: u32,
+    },
+    /// More than there should be.
+    #[error("the file is damaged: {more} bytes follow behind its end; use another copy")]
+    Longer {
+        /// How many.
+        more: u64,
+    },
+    /// A sound file with a content that makes no sense.
+    #[error(
+        "its content is not that of a simulation: {reason}; it was not written by sim.save(…), or by a withy with a mistake"
+    )]
+    Content {
+        /// What is wrong.
+        reason: String,
+    },
+    /// A scene that cannot be built.
+    #[error("its scene cannot be built: {0}")]
+    Scene(#[from] SimulationError),
+}

@@ -1,0 +1,176 @@
+//! States that a simulation can go back to, as many as a limit of memory has room for.
+
+use std::collections::VecDeque;
+
+use super::WorkCounts;
+use super::stepping::Halving;
+use crate::model::ModelState;
+
+/// What a simulation needs to be where it was, bit for bit.
+#[derive(Debug, Clone)]
+pub(super) struct Snapshot {
+    pub(super) state: ModelState,
+    /// The rows that its history had; it tells snapshots apart.
+    pub(super) rows: usize,
+    pub(super) arrivals: usize,
+    pub(super) counts: WorkCounts,
+    /// Grid points passed.
+    pub(super) passed: u64,
+    /// The step of the grid that was covered in part.
+    pub(super) under_way: Option<Halving>,
+}
+
+impl Snapshot {
+    fn bytes(&self) -> usize {
+        size_of::<Self>() + self.state.bytes()
+    }
+}
+
+/// The first state, and the last ones.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Snapshots {
+    /// [bytes]
+    limit: usize,
+    first: Option<Snapshot>,
+    /// In the order of time, one for each row of the history.
+    recent: VecDeque<Snapshot>,
+    /// Most recent ones that there is room for.
+    most: usize,
+}
+
+impl Snapshots {
+    /// Changes the limit [bytes]; `present` is the first state when none was kept before.
+    pub(super) fn set_limit(&mut self, limit: usize, present: impl FnOnce() -> Snapshot) {
+        let kept = std::mem::take(self);
+        let first = if limit == 0 { None } else { Some(kept.first.unwrap_or_else(present)) };
+        self.limit = limit;
+        let Some(first) = first.filter(|first| first.bytes() <= limit) else { return };
+        let most = limit / first.bytes() - 1;
+        let mut recent = kept.recent;
+        recent.drain(..recent.len().saturating_sub(most));
+        recent.shrink_to(most);
+        *self = Self { limit, first: Some(first), recent, most };
+    }
+
+    /// [bytes]
+    pub(super) fn limit(&self) -> usize {
+        self.limit
+    }
+
+    /// The memory taken now [bytes].
+    pub(super) fn bytes(&self) -> usize {
+        let states: usize = self.all().map(|snapshot| snapshot.state.bytes()).sum();
+        states
+            + size_of::<Snapshot>() * (usize::from(self.first.is_some()) + self.recent.capacity())
+    }
+
+    pub(super) fn first(&self) -> Option<&Snapshot> {
+        self.first.as_ref()
+    }
+
+    fn all(&self) -> impl Iterator<Item = &Snapshot> {
+        self.first.iter().chain(&self.recent)
+    }
+
+    /// The number of states kept.
+    pub(super) fn count(&self) -> usize {
+        self.all().count()
+    }
+
+    /// The fewest rows from which on all states are kept.
+    pub(super) fn unbroken_from(&self) -> Option<usize> {
+        let first = self.first.as_ref()?.rows;
+        let oldest = self.recent.front().map_or(first, |oldest| oldest.rows);
+        Some(if oldest == first + 1 { first } else { oldest })
+    }
+
+    /// The state in which the history had so many rows.
+    pub(super) fn find(&self, rows: usize) -> Option<&Snapshot> {
+        if let Some(first) = self.first.as_ref().filter(|first| first.rows == rows) {
+            return Some(first);
+        }
+        let at = self.recent.binary_search_by_key(&rows, |snapshot| snapshot.rows).ok()?;
+        self.recent.get(at)
+    }
+
+    /// Forgets the states with more rows.
+    pub(super) fn truncate(&mut self, rows: usize) {
+        self.recent.truncate(self.recent.partition_point(|snapshot| snapshot.rows <= rows));
+    }
+
+    /// A state to write the next one into: that of the oldest snapshot when the store is full. None when none is to be kept.
+    pub(super) fn blank(&mut self) -> Option<ModelState> {
+        let first = self.first.as_ref().filter(|_| self.most > 0)?;
+        let is_full = self.recent.len() >= self.most;
+        let oldest = if is_full { self.recent.pop_front() } else { None };
+        Some(oldest.map_or_else(|| first.state.blank(), |oldest| oldest.state))
+    }
+
+    /// Keeps a snapshot whose state was written into a [`blank`](Self::blank).
+    pub(super) fn push(&mut self, snapshot: Snapshot) {
+        let count = self.recent.len();
+        if count == self.recent.capacity() {
+            // As a vector grows, but never beyond the limit.
+            self.recent.reserve_exact(count.max(4).min(self.most.saturating_sub(count)));
+        }
+        self.recent.push_back(snapshot);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn snapshot(rows: usize) -> Snapshot {
+        Snapshot {
+            state: ModelState::default(),
+            rows,
+            arrivals: 0,
+            counts: WorkCounts::default(),
+            passed: 0,
+            under_way: None,
+        }
+    }
+
+    fn filled(limit: usize, last: usize) -> Snapshots {
+        let mut snapshots = Snapshots::default();
+        snapshots.set_limit(limit, || snapshot(1));
+        for rows in 2..=last {
+            if let Some(state) = snapshots.blank() {
+                snapshots.push(Snapshot { state, ..snapshot(rows) });
+            }
+        }
+        snapshots
+    }
+
+    #[test]
+    fn the_first_and_the_last_are_kept() {
+        let snapshots = filled(10 * size_of::<Snapshot>(), 100);
+        assert_eq!((snapshots.count(), snapshots.unbroken_from()), (10, Some(92)));
+        assert!(snapshots.bytes() <= snapshots.limit());
+        let kept = |rows| snapshots.find(rows).is_some();
+        assert!(kept(1) && !kept(2) && !kept(91) && kept(92) && kept(100) && !kept(101));
+    }
+
+    #[test]
+    fn a_smaller_limit_forgets_the_oldest_and_none_forgets_all() {
+        let mut snapshots = filled(10 * size_of::<Snapshot>(), 9);
+        assert_eq!(snapshots.unbroken_from(), Some(1));
+        snapshots.set_limit(4 * size_of::<Snapshot>(), || snapshot(9));
+        assert_eq!((snapshots.count(), snapshots.unbroken_from()), (4, Some(7)));
+        assert!(snapshots.bytes() <= snapshots.limit());
+        for limit in [size_of::<Snapshot>() - 1, 0] {
+            snapshots.set_limit(limit, || snapshot(9));
+            assert_eq!((snapshots.count(), snapshots.blank()), (0, None));
+        }
+    }
+
+    #[test]
+    fn what_lies_ahead_is_forgotten_on_the_way_back() {
+        let mut snapshots = filled(10 * size_of::<Snapshot>(), 9);
+        snapshots.truncate(5);
+        assert!(snapshots.find(5).is_some() && snapshots.find(6).is_none());
+        snapshots.truncate(1);
+        assert_eq!((snapshots.count(), snapshots.unbroken_from()), (1, Some(1)));
+    }
+}
