@@ -89,7 +89,10 @@ fn a_load_with_a_function_is_named_and_refused() {
     scene.add_load(LoadKind::Moment { station, moment: 1.0 }, function);
     let simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.1)).unwrap();
     let told = simulation.to_bytes("towed").unwrap_err().to_string();
-    assert!(told.contains("moment at the end of beam 'beam1'") && told.contains("smooth_pulse"), "{told}");
+    assert!(
+        told.contains("moment at the end of beam 'beam1'") && told.contains("smooth_pulse"),
+        "{told}"
+    );
 }
 
 #[test]
@@ -131,7 +134,8 @@ fn flipped_bytes_are_seen_by_the_checksum_and_without_it_never_lead_to_a_panic()
         for _ in 0..=choose(3) {
             // Most of a file are numbers of the state and the history; the scene stands first.
             let at = if case % 3 == 0 { choose(file.len()) } else { 20 + choose(1500) };
-            flipped[at] = if case % 2 == 0 { choose(256) as u8 } else { flipped[at] ^ (1 << choose(8)) };
+            flipped[at] =
+                if case % 2 == 0 { choose(256) as u8 } else { flipped[at] ^ (1 << choose(8)) };
         }
         if flipped != file {
             assert!(Simulation::from_bytes(&flipped).is_err());

@@ -56,7 +56,13 @@ fn straight(scene: &Scene, settings: Settings, steps: usize) -> (HashMap<usize, 
 }
 
 /// Steps, goes back, rewinds and forks at random, and at last goes on to the end of a straight run.
-fn assert_walk_is_straight(label: &str, scene: &Scene, settings: Settings, steps: usize, seed: u64) {
+fn assert_walk_is_straight(
+    label: &str,
+    scene: &Scene,
+    settings: Settings,
+    steps: usize,
+    seed: u64,
+) {
     let (seen, end) = straight(scene, settings, steps);
     let last = *seen.keys().max().unwrap();
     let mut random = Random(seed);
@@ -110,7 +116,13 @@ fn walks_through_every_scene_are_straight() {
         for scene in scenes::all(&mesh) {
             let entry = INTEGRATORS[number % INTEGRATORS.len()];
             let label = format!("{}, {}, {name}", entry.name, scene.name);
-            assert_walk_is_straight(&label, &scene, settings(entry.method, 0.05), 12, number as u64);
+            assert_walk_is_straight(
+                &label,
+                &scene,
+                settings(entry.method, 0.05),
+                12,
+                number as u64,
+            );
         }
     }
 }
@@ -156,7 +168,8 @@ fn walks_over_halved_steps_are_straight() {
 #[test]
 fn walks_under_a_function_of_time_are_straight() {
     let mut scene = scenes::towed(&Mesh::bspline(3, 3, 2).unwrap());
-    let schedule = Schedule::Function { function: Rc::new(|t| Ok((3.0 * t).cos())), breaks: vec![0.17] };
+    let schedule =
+        Schedule::Function { function: Rc::new(|t| Ok((3.0 * t).cos())), breaks: vec![0.17] };
     let station = scenes::end_of(&mut scene, 0);
     scene.add_load(LoadKind::Moment { station, moment: 2.0 }, schedule);
     assert_walk_is_straight("function", &scene, settings(Method::EnergyMomentum, 0.05), 12, 7);
@@ -231,9 +244,14 @@ fn a_limit_bounds_the_memory_and_forgets_the_oldest_but_the_start() {
     assert!(kept > 10 && bytes > 80_000, "{kept} snapshots in {bytes} bytes");
     let end = fingerprint(&simulation);
     let refusal = simulation.back(kept).unwrap_err();
-    assert!(matches!(refusal, SimulationError::Forgotten { steps, .. } if steps == kept - 2), "{refusal:?}");
+    assert!(
+        matches!(refusal, SimulationError::Forgotten { steps, .. } if steps == kept - 2),
+        "{refusal:?}"
+    );
     let told = refusal.to_string();
-    for part in ["limit of 0.1 MB", &format!("last {} steps", kept - 2), "sim.rewind(0)", "snapshots: 64"] {
+    for part in
+        ["limit of 0.1 MB", &format!("last {} steps", kept - 2), "sim.rewind(0)", "snapshots: 64"]
+    {
         assert!(told.contains(part), "{told}");
     }
     assert_eq!(fingerprint(&simulation), end, "a refusal changes nothing");

@@ -89,7 +89,8 @@ mod tests {
     #[test]
     fn a_schedule_comes_back_as_it_was() {
         let product = |a, b| Schedule::combined(Operation::Product, a, b).unwrap();
-        let parts = product(Schedule::hold_for(2.0).unwrap(), Schedule::sine(1.0, 2.0, 0.3).unwrap());
+        let parts =
+            product(Schedule::hold_for(2.0).unwrap(), Schedule::sine(1.0, 2.0, 0.3).unwrap());
         let pulse = Schedule::smooth_pulse(1.5).unwrap();
         let schedule = Schedule::combined(Operation::Sum, parts, pulse).unwrap();
         let mut terms = Vec::new();

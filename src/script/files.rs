@@ -25,13 +25,7 @@ pub struct OutputFolder {
 
 impl OutputFolder {
     pub(super) fn new(folder: PathBuf, beside: PathBuf, mode: Mode) -> Self {
-        Self {
-            folder,
-            beside,
-            mode,
-            written: RefCell::default(),
-            pretended: RefCell::default(),
-        }
+        Self { folder, beside, mode, written: RefCell::default(), pretended: RefCell::default() }
     }
 
     /// Writes the file `name` of the output folder and gives its path. A dry build only checks the name.
@@ -69,7 +63,9 @@ impl OutputFolder {
             }
         }
         let (out, beside) = (self.folder.display(), self.beside.display());
-        let told = format!("there is no file \"{name}\" in the output folder '{out}' or beside the script in '{beside}'");
+        let told = format!(
+            "there is no file \"{name}\" in the output folder '{out}' or beside the script in '{beside}'"
+        );
         Err(ScriptError::new(told).hint(match self.mode {
             Mode::Run => "check the name; --out chooses the output folder",
             Mode::DryBuild => "run the script that writes it first; a check writes nothing",

@@ -78,7 +78,9 @@ pub enum SimulationError {
         most: usize,
     },
     /// A way back that is longer than the way that was gone.
-    #[error("cannot go back {steps} steps: only {taken} were taken; sim.rewind(0) leads to the start")]
+    #[error(
+        "cannot go back {steps} steps: only {taken} were taken; sim.rewind(0) leads to the start"
+    )]
     FewerSteps {
         /// Steps to go back.
         steps: usize,

@@ -60,7 +60,8 @@ impl Snapshots {
     /// The memory taken now [bytes].
     pub(super) fn bytes(&self) -> usize {
         let states: usize = self.all().map(|snapshot| snapshot.state.bytes()).sum();
-        states + size_of::<Snapshot>() * (usize::from(self.first.is_some()) + self.recent.capacity())
+        states
+            + size_of::<Snapshot>() * (usize::from(self.first.is_some()) + self.recent.capacity())
     }
 
     pub(super) fn first(&self) -> Option<&Snapshot> {

@@ -17,7 +17,9 @@ pub enum ArchiveError {
     #[error("this is no simulation: it does not begin as files of sim.save(…) do")]
     Foreign,
     /// A part is missing.
-    #[error("the file ends too early: it has {found} bytes, but {needed} are needed; it was cut off")]
+    #[error(
+        "the file ends too early: it has {found} bytes, but {needed} are needed; it was cut off"
+    )]
     Truncated {
         /// Its length [bytes].
         found: usize,
@@ -39,7 +41,9 @@ pub enum ArchiveError {
         own: u16,
     },
     /// Its checksum is wrong.
-    #[error("the file is damaged: its checksum is {found:08x}, but its bytes have {right:08x}; use another copy")]
+    #[error(
+        "the file is damaged: its checksum is {found:08x}, but its bytes have {right:08x}; use another copy"
+    )]
     Damaged {
         /// In the file.
         found: u32,
@@ -53,7 +57,9 @@ pub enum ArchiveError {
         more: u64,
     },
     /// A sound file with a content that makes no sense.
-    #[error("its content is not that of a simulation: {reason}; it was not written by sim.save(…), or by a withy with a mistake")]
+    #[error(
+        "its content is not that of a simulation: {reason}; it was not written by sim.save(…), or by a withy with a mistake"
+    )]
     Content {
         /// What is wrong.
         reason: String,
