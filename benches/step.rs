@@ -12,6 +12,7 @@ use withy::linalg::BandedMatrix;
 use withy::loads::{Frame, LoadKind, Schedule};
 use withy::model::{BeamDefinition, Model, ParticleDefinition, Scene, StartMotion};
 use withy::newton::Tolerance;
+use withy::simulation::{Settings, Simulation, Unwatched};
 
 /// Every figure is measured for about this long.
 const PATIENCE: Duration = Duration::from_millis(300);
@@ -92,6 +93,17 @@ fn sliding_cost(spans: usize, beads: usize) -> (usize, (f64, f64), f64) {
         timed(|| iterations += integrator.step(&mut model, interval).unwrap().iterations)
     });
     (model.unknowns(), cost, iterations as f64 / steps as f64)
+}
+
+/// A step of a simulation, its rows recorded, with a limit for snapshots [bytes]; and the bytes of a snapshot.
+fn recorded_cost(spans: usize, limit: usize) -> ((f64, f64), usize) {
+    let (method, tolerance) = (Method::EnergyMomentum, Tolerance::default());
+    let settings = Settings { method, dt: DT, tolerance };
+    let mut simulation = Simulation::start(flying_scene(spans), settings).unwrap();
+    simulation.keep_snapshots(limit);
+    let cost = measure(|| timed(|| simulation.step(&mut Unwatched).unwrap()));
+    let (kept, bytes) = simulation.snapshots_kept();
+    (cost, bytes / kept.max(1))
 }
 
 /// Repeats an action whose timed part it reports itself; the shortest and the median, in nanoseconds.
@@ -193,6 +205,19 @@ fn main() {
             per_unknown(checking),
             per_unknown(step)
         );
+    }
+    println!(
+        "\nmicroseconds per step of a simulation, least / median, without and with snapshots\n"
+    );
+    println!("{:>6} {:>17} {:>17} {:>17} {:>10}", "spans", "none", "filling", "full", "bytes");
+    for spans in [14, 100, 1000] {
+        let per_step =
+            |(least, median): (f64, f64)| format!("{:.2} / {:.2}", least / 1e3, median / 1e3);
+        let (none, _) = recorded_cost(spans, 0);
+        let (filling, bytes) = recorded_cost(spans, 1 << 30);
+        let (full, _) = recorded_cost(spans, 20 * bytes);
+        let [none, filling, full] = [none, filling, full].map(per_step);
+        println!("{spans:>6} {none:>17} {filling:>17} {full:>17} {bytes:>10}");
     }
     println!(
         "\nnanoseconds per unknown and step, least / median, with particles that slide along the beam\n"

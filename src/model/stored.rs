@@ -12,6 +12,9 @@ use crate::geometry::Vec2;
 use crate::joints::{CONTACT_UNKNOWNS, Joint, Partner, Slider};
 use crate::loads::{Load, LoadKind};
 
+/// Most sliders of a stored scene: the matrix of a step grows with their square, and a small file must not make it huge.
+const MOST_SLIDERS: usize = 2000;
+
 /// A [`Scene`] as it is stored, not yet checked.
 #[derive(Deserialize)]
 pub(super) struct StoredScene {
@@ -62,6 +65,14 @@ impl TryFrom<StoredScene> for Scene {
         for mass in stored.masses {
             scene.check_station("a mass", &mass.station)?;
             scene.add_mass(mass)?;
+        }
+        if stored.sliders.len() > MOST_SLIDERS {
+            return Err(ModelError::Value {
+                object: format!("scene '{}'", scene.name),
+                name: "number of sliders",
+                value: stored.sliders.len() as f64,
+                allowed: "at most 2000 in a file",
+            });
         }
         for slider in stored.sliders {
             scene.check_station("a slider", &slider.slave)?;
