@@ -4,6 +4,7 @@ use super::applied::Action;
 use super::mechanism::Model;
 use super::{ModelError, Scene};
 use crate::beams::PointCounts;
+use crate::geometry::Vec2;
 use crate::integrators::{INTEGRATORS, Mechanism, Method, Stage};
 use crate::joints::{Component, Joint, Partner, SLIDING_RULES, StartVelocities};
 use crate::loads::{Load, Schedule, VALUES_OF_A_MEAN};
@@ -61,14 +62,16 @@ impl Model {
         parts.extend([self.explain_joints(scene), self.explain_supports(scene)]);
         parts.extend([self.explain_sliders(scene), self.explain_gravity(scene)]);
         parts.extend(self.explain_loads(scene, methods));
-        parts.extend([self.explain_angles(), self.explain_start(scene)]);
+        parts.extend([self.explain_angles(), explain_start(scene)]);
         parts
     }
 
     fn explain_matrix(&self) -> Part {
-        let (movements, width) = (self.unknowns, self.constraint_shape().width);
-        let border = if width > 0 { format!(", and {width} of contacts") } else { String::new() };
-        let how = format!("{movements} movements{border}; half-bandwidth {}", self.half_bandwidth);
+        let how = format!("{} movements, half-bandwidth {}", self.unknowns, self.half_bandwidth);
+        let how = match self.constraint_shape().width {
+            0 => how,
+            width => format!("{how}; {width} of contacts, in the border"),
+        };
         Part::used("unknowns", how)
     }
 
@@ -83,7 +86,7 @@ impl Model {
             let mesh = self.meshes[index].describe();
             let points = self.bodies[index].dynamics.control_points().len();
             let how = format!(
-                "{mesh}, {points} control points; quadrature points: Γ {force}, κ {moment}, mass {inertia} (once)"
+                "{mesh}, {points} control points; points for Γ {force}, κ {moment}, mass {inertia}"
             );
             Part::used(format!("beam '{}'", beam.name), how)
         };
@@ -91,14 +94,14 @@ impl Model {
             count if count > MOST => {
                 let (force, moment) = (sum(|of| of.force), sum(|of| of.moment));
                 let how = format!(
-                    "{count}; quadrature points: Γ {force}, κ {moment}, mass {} (once)",
+                    "{count}; points for Γ {force}, κ {moment}, mass {}",
                     sum(|of| of.inertia)
                 );
                 vec![Part::used("beams", how)]
             }
             _ => scene.beams.iter().enumerate().map(beam).collect(),
         };
-        let inertia = "of all sections: rotations are unknowns with an inertia of their own";
+        let inertia = "rho_I of every section: rotations have an inertia of their own";
         parts.push(Part::used("rotary inertia", inertia));
         parts
     }
@@ -199,26 +202,26 @@ impl Model {
         match self.all_trackers().count() {
             0 => Part::left_out("followed angles", "no section is followed"),
             count => {
-                let how = "ends of beams, stations, and where loads turn; a few operations a step";
+                let how = "ends of beams, stations, and where loads turn";
                 Part::used("followed angles", format!("{}: {how}", plural(count, "section")))
             }
         }
     }
+}
 
-    fn explain_start(&self, scene: &Scene) -> Part {
-        let projected =
-            |slider: &&crate::joints::Slider| slider.velocities == StartVelocities::Project;
-        let moving = self.rates.iter().any(|rate| *rate != 0.0);
-        match scene.sliders.iter().filter(projected).count() {
-            0 if !moving => Part::left_out("start velocities", "everything is at rest"),
-            0 if scene.sliders.is_empty() => Part::used("start velocities", "as given"),
-            0 => Part::used("start velocities", "as given; checked to fit the sliders"),
-            _ => Part::used(
-                "start velocities",
-                "made to fit the sliders, by solving once with the mass matrix",
-            ),
-        }
-    }
+fn explain_start(scene: &Scene) -> Part {
+    let is_zero = |velocity: Vec2, spin: f64| velocity == Vec2::zeros() && spin == 0.0;
+    let beams_rest = scene.beams.iter().all(|beam| is_zero(beam.motion.velocity, beam.motion.spin));
+    let nodes_rest = scene.velocities.iter().all(|at| is_zero(at.velocity, at.spin.unwrap_or(0.0)));
+    let is_projected =
+        scene.sliders.iter().any(|slider| slider.velocities == StartVelocities::Project);
+    let how = match (beams_rest && nodes_rest, is_projected) {
+        (_, true) => "made to fit the sliders, by solving once with the mass matrix",
+        (true, false) => return Part::left_out("start velocities", "everything starts at rest"),
+        (false, false) if scene.sliders.is_empty() => "as given",
+        (false, false) => "as given; checked to fit the sliders",
+    };
+    Part::used("start velocities", how)
 }
 
 fn explain_particles(scene: &Scene) -> Part {

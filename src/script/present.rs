@@ -21,6 +21,8 @@ const MOST_KEYS: usize = 12;
 const DEEPEST: usize = 4;
 /// Most letters of a text within something else.
 const LONGEST_TEXT: usize = 40;
+/// Details have at least so many characters in a line, however long their labels are.
+const LEAST_ROOM: usize = 20;
 /// Most lines of a text.
 const MOST_LINES: usize = 200;
 
@@ -94,12 +96,13 @@ impl Presenter<'_> {
 
     fn with_details(&self, shown: &str, details: &Details) -> String {
         let widest = details.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
+        let room = self.width.saturating_sub(widest + 4).max(LEAST_ROOM);
         let mut text = shown.to_owned();
         for (label, value) in details {
-            let mut line = Line::new(self.width);
-            line.write(&format!("  {label:<widest$}  {value}"));
-            text.push('\n');
-            text.push_str(&self.cut(line).0);
+            for (number, part) in wrapped(value, room).into_iter().enumerate() {
+                let label = if number == 0 { label } else { "" };
+                text.push_str(&format!("\n  {label:<widest$}  {part}"));
+            }
         }
         text
     }
@@ -224,6 +227,30 @@ impl Presenter<'_> {
         lines.push("}".to_owned());
         lines.join("\n")
     }
+}
+
+/// A text in lines of at most `room` characters, broken between words where there are some.
+fn wrapped(text: &str, room: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    let mut used = 0;
+    for word in text.split(' ').flat_map(|word| pieces(word, room)) {
+        let length = word.chars().count();
+        if used > 0 && used + 1 + length > room {
+            lines.push(word);
+            used = length;
+        } else if let Some(line) = lines.last_mut() {
+            let gap = if used > 0 { " " } else { "" };
+            line.push_str(&format!("{gap}{word}"));
+            used += gap.len() + length;
+        }
+    }
+    lines
+}
+
+/// A word in pieces of at most `room` characters.
+fn pieces(word: &str, room: usize) -> Vec<String> {
+    let letters: Vec<char> = word.chars().collect();
+    letters.chunks(room).map(|piece| piece.iter().collect()).collect()
 }
 
 /// The items that are shown, none where some are left out.
