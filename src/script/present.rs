@@ -52,6 +52,14 @@ impl Line {
     fn is_full(&self) -> bool {
         self.room == 0
     }
+
+    /// What was written in at most `width` characters, and whether that is all of it.
+    fn cut(self, width: usize) -> (String, bool) {
+        if self.text.chars().count() <= width {
+            return (self.text, true);
+        }
+        (self.text.chars().take(width - 1).chain(['…']).collect(), false)
+    }
 }
 
 /// Shows a value of a language on lines of `width` characters: numbers with up to ten digits, long arrays and maps elided, what
@@ -120,15 +128,7 @@ impl Presenter<'_> {
     fn inline(&self, value: &Dynamic, width: usize) -> (String, bool) {
         let mut line = Line::new(width);
         self.write(&mut line, value, 0);
-        self.cut(line)
-    }
-
-    fn cut(&self, line: Line) -> (String, bool) {
-        let width = self.width;
-        if line.text.chars().count() <= width {
-            return (line.text, true);
-        }
-        (line.text.chars().take(width - 1).chain(['…']).collect(), false)
+        line.cut(width)
     }
 
     fn write(&self, line: &mut Line, value: &Dynamic, depth: usize) {
@@ -199,11 +199,8 @@ impl Presenter<'_> {
                 Some(item) => self.write(&mut line, item, 1),
                 None => line.write("…"),
             }
-            line.write(match number == last {
-                false => ",",
-                true => "]",
-            });
-            self.cut(line).0
+            let end = if number == last { "]" } else { "," };
+            format!("{}{end}", line.cut(self.width - 1).0)
         };
         let rows: Vec<String> = items.into_iter().enumerate().map(row).collect();
         let count =
@@ -218,8 +215,7 @@ impl Presenter<'_> {
             let mut line = Line::new(self.width);
             line.write(&format!("  {}: ", written_key(key)));
             self.write(&mut line, value, 1);
-            line.write(",");
-            lines.push(self.cut(line).0);
+            lines.push(format!("{},", line.cut(self.width - 1).0));
         }
         if map.len() > MOST_KEYS {
             lines.push(format!("  … ({} keys)", map.len()));

@@ -7,7 +7,7 @@ use crate::beams::Station;
 use crate::geometry::Vec2;
 use crate::joints::{JointKind, Partner};
 use crate::output::{ConfigurationPicture, LineChart, Mark, Scale, Series, Style, significant};
-use crate::simulation::{History, Invariant, Simulation};
+use crate::simulation::{Configuration, History, Invariant, Simulation};
 
 /// Digits of the numbers in a summary.
 const DIGITS: usize = 6;
@@ -78,10 +78,7 @@ pub fn configuration_picture(
     time: Option<f64>,
     style: &Style,
 ) -> Result<String, ScriptError> {
-    let shown = match time {
-        Some(time) => simulation.configuration_near(time)?,
-        None => Some(simulation.configuration()?),
-    };
+    let shown = shown_at(simulation, time)?;
     let plain = |points: &[Vec2]| points.iter().map(|point| (point.x, point.y)).collect::<Vec<_>>();
     let mut picture = ConfigurationPicture::new(&simulation.scene().name);
     let Some(shown) = shown else { return Ok(picture.text(style)) };
@@ -101,6 +98,39 @@ pub fn configuration_picture(
     };
     let marks = marks.into_iter().zip(places);
     Ok(marks.fold(picture, |picture, (mark, at)| picture.mark(mark, (at.x, at.y))).text(style))
+}
+
+/// What a picture of the configuration would show, in a line: where there is no terminal.
+///
+/// # Errors
+/// When an axis has a point without a tangent.
+pub fn configuration_summary(
+    simulation: &Simulation,
+    time: Option<f64>,
+) -> Result<String, ScriptError> {
+    let name = &simulation.scene().name;
+    let Some(shown) = shown_at(simulation, time)? else {
+        return Ok(format!("{name}: nothing to draw"));
+    };
+    let points = || shown.lines.iter().flatten().chain(&shown.particles);
+    let ends = |of: fn(&Vec2) -> f64| {
+        let end = |choose: fn(f64, f64) -> f64| points().map(of).reduce(choose).unwrap_or(f64::NAN);
+        let [least, most] = [end(f64::min), end(f64::max)].map(|end| significant(end, DIGITS));
+        format!("{least} … {most}")
+    };
+    let time = significant(shown.time, DIGITS);
+    Ok(format!("{name}: x {}, y {} at t = {time}", ends(|at| at.x), ends(|at| at.y)))
+}
+
+/// The present configuration, or the one recorded nearest to a time.
+fn shown_at(
+    simulation: &Simulation,
+    time: Option<f64>,
+) -> Result<Option<Configuration>, ScriptError> {
+    Ok(match time {
+        Some(time) => simulation.configuration_near(time)?,
+        None => Some(simulation.configuration()?),
+    })
 }
 
 /// The marks of supports and sliders, and the stations where they are.
@@ -275,6 +305,13 @@ mod tests {
         let middle = configuration_picture(&simulation, Some(0.72), &STYLE).unwrap();
         assert!(middle.contains("t = 0.7 "), "{middle}");
         assert_eq!(now, configuration_picture(&simulation, None, &STYLE).unwrap());
+    }
+
+    #[test]
+    fn a_configuration_has_a_summary() {
+        let start = configuration_summary(&turning(), Some(0.0)).unwrap();
+        assert_eq!(start, "turning: x 0 … 2, y 0 … 0 at t = 0");
+        assert!(configuration_summary(&turning(), None).unwrap().ends_with("at t = 1.5"));
     }
 
     #[test]
