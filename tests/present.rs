@@ -69,6 +69,8 @@ fn everything_else_looks_like_what_it_is() {
         ("|x| x", "function"),
         ("Fn(\"swing\")", "function swing"),
         ("[]", "[]"),
+        ("let x = 0.1 + 0.2; let f = || x; x", "0.3"),
+        ("let x = \"captured\"; let f = || x; [x, f]", "[\"captured\", function]"),
         ("#{}", "#{}"),
         ("[1, 0.1 + 0.2, \"x\", vec(1, 2), ()]", "[1, 0.3, \"x\", (1, 2), ()]"),
         ("[0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1]", "[0, 0.1, 0.2, …, 1] (11)"),
@@ -109,6 +111,8 @@ fn values_that_hold_themselves_come_to_an_end() {
     let mut map = Dynamic::from(rhai::Map::new()).into_shared();
     let itself = map.clone();
     map.write_lock::<rhai::Map>().unwrap().insert("me".into(), itself);
+    assert_eq!(shown(&Dynamic::from(1_i64).into_shared()), "1");
+    assert_eq!(shown(&Dynamic::UNIT.into_shared()), "");
     assert_eq!(shown(&map), "#{me: #{me: #{me: #{me: #{…}}}}}");
     // Eight references to one array in each of twenty levels: nobody may walk them all.
     let mut wide = Dynamic::from(vec![Dynamic::from(1_i64)]);

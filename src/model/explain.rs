@@ -36,6 +36,12 @@ impl Part {
         Self { name: name.into(), usage: Usage::Used(how.into()) }
     }
 
+    /// The steps of so much time, cut where they end earlier.
+    pub fn steps(dt: f64, cuts: &[f64]) -> Self {
+        let cut = in_words(cuts).map(|times| format!("cut ahead at t = {times}"));
+        Self::used("steps", format!("dt = {dt}, {}", cut.unwrap_or("no cuts ahead".to_owned())))
+    }
+
     /// A part that is left out.
     pub fn left_out(name: impl Into<String>, saved: impl Into<String>) -> Self {
         Self { name: name.into(), usage: Usage::LeftOut(saved.into()) }
@@ -180,7 +186,7 @@ impl Model {
             };
             let schedule = load.schedule.describe();
             let calls = calls(&load.schedule, methods);
-            let cuts = told(cuts(&[&load.schedule])).map(|at| format!("; steps end at t = {at}"));
+            let cuts = in_words(&cuts(&load.schedule)).map(|at| format!("; steps end at t = {at}"));
             Part::used(
                 &load.name,
                 format!("{action}, {schedule}{calls}{}", cuts.unwrap_or_default()),
@@ -243,18 +249,18 @@ fn explain_masses(scene: &Scene) -> Part {
     }
 }
 
-/// The times after the start at which steps end because of these schedules, in their order.
-pub fn cuts(schedules: &[&Schedule]) -> Vec<f64> {
-    let mut times: Vec<f64> = schedules.iter().flat_map(|schedule| schedule.breaks()).collect();
+/// The times after the start at which steps end because of a schedule, in their order.
+fn cuts(schedule: &Schedule) -> Vec<f64> {
+    let mut times = schedule.breaks();
     times.retain(|time| *time > 0.0);
     times.sort_by(f64::total_cmp);
     times.dedup();
     times
 }
 
-/// A few times in words.
-pub fn told(times: Vec<f64>) -> Option<String> {
-    match times.as_slice() {
+/// The first few of some times, none where there are none.
+fn in_words(times: &[f64]) -> Option<String> {
+    match times {
         [] => None,
         [first, .., last] if times.len() > MOST => {
             Some(format!("{first}, …, {last} ({} times)", times.len()))

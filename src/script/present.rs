@@ -5,7 +5,7 @@ use std::ops::{Range, RangeInclusive};
 use rhai::{Array, Dynamic, FnPtr, INT, Map};
 
 use super::catalog::Catalog;
-use super::kind::Details;
+use super::kind::{Details, Type};
 use crate::geometry::Vec2;
 use crate::output::significant;
 
@@ -70,15 +70,15 @@ pub fn present(catalog: &Catalog, value: &Dynamic, width: usize) -> String {
 
 impl Presenter<'_> {
     fn show(&self, value: &Dynamic) -> String {
-        if value.is_unit() {
+        if value.read_lock::<()>().is_some() {
             return String::new();
         }
         if let Some(text) = value.read_lock::<rhai::ImmutableString>().filter(|t| t.contains('\n'))
         {
             return self.lines_of(&text);
         }
-        if let Some((shown, details)) = self.native(value) {
-            return self.with_details(&shown, &details);
+        if let Some((of, shown)) = self.native(value) {
+            return self.with_details(&shown, &of.details(value).unwrap_or_default());
         }
         let (line, is_whole) = self.inline(value, self.width);
         if is_whole {
@@ -115,13 +115,13 @@ impl Presenter<'_> {
         text
     }
 
-    /// How one of our own is printed, and what else there is to know.
-    fn native(&self, value: &Dynamic) -> Option<(String, Details)> {
+    /// The type of one of our own, and how it is printed.
+    fn native(&self, value: &Dynamic) -> Option<(Type, String)> {
         let mut types = self.catalog.tables().flat_map(|table| table.types);
-        let (shown, details) = types.find_map(|of| Some((of.show(value)?, of.details(value)?)))?;
+        let (of, shown) = types.find_map(|of| Some((*of, of.show(value)?)))?;
         // Brackets are for arrays here.
         let vector = value.read_lock::<Vec2>().map(|vector| written(&vector));
-        Some((vector.unwrap_or(shown), details))
+        Some((of, vector.unwrap_or(shown)))
     }
 
     /// The value in one line, and whether that is all of it.
@@ -139,19 +139,13 @@ impl Presenter<'_> {
             self.write_array(line, &array, depth);
         } else if let Some(map) = value.read_lock::<Map>() {
             self.write_map(line, &map, depth);
-        } else if let Some((shown, _)) = self.native(value) {
+        } else if let Some((of, shown)) = self.native(value) {
             // What shows as a table has no place in a line.
-            let name = || self.name(value);
-            line.write(if shown.contains('\n') { name() } else { &shown });
+            line.write(if shown.contains('\n') { of.name() } else { &shown });
         } else {
             let longest = if depth == 0 { self.width } else { LONGEST_TEXT };
             line.write(&plain(value, longest));
         }
-    }
-
-    fn name(&self, value: &Dynamic) -> &'static str {
-        let mut types = self.catalog.tables().flat_map(|table| table.types);
-        types.find(|of| of.show(value).is_some()).map_or("value", |of| of.name())
     }
 
     fn write_array(&self, line: &mut Line, array: &Array, depth: usize) {
@@ -276,6 +270,8 @@ fn written_key(key: &str) -> String {
 
 /// A value that is neither a collection nor one of our own.
 fn plain(value: &Dynamic, longest: usize) -> String {
+    // What a closure has captured is behind a lock.
+    let value = value.flatten_clone();
     if let Ok(x) = value.as_float() {
         return significant(x, DIGITS);
     }
