@@ -97,7 +97,7 @@ fn a_free_beam_leaves_everything_else_out() {
     assert!(model.rates().iter().all(|rate| *rate == 0.0));
     assert_eq!(
         used(&parts, "unknowns"),
-        format!("21 movements; half-bandwidth {}", model.half_bandwidth())
+        format!("21 movements, half-bandwidth {}", model.half_bandwidth())
     );
     assert_eq!(model.unknowns(), 21);
     let beam = used(&parts, "beam 'rod'");
@@ -110,7 +110,7 @@ fn a_slider_has_a_border_and_a_support_has_reactions() {
     let (parts, mut model) = (scene.explain().unwrap(), Model::assemble(&scene).unwrap());
     assert_eq!(model.constraint_shape().width, 5);
     assert!(used(&parts, "sliders").contains("1 conserving: a border of 5 columns"));
-    assert!(used(&parts, "unknowns").contains("20 movements, and 5 of contacts"));
+    assert!(used(&parts, "unknowns").contains("5 of contacts, in the border"));
     assert_eq!(model.unknowns(), 20);
     assert!(used(&parts, "supports").contains("1 clamp: 3 movements held"));
     // The rotation of the particle is held too, but by no support.
@@ -161,6 +161,7 @@ fn functions_of_scripts_are_called_as_often_as_is_said() {
         assert!(used(&parts, "steps").contains("cut ahead at t = 0.25"), "{parts:?}");
         simulation.run_to(0.3, &mut Unwatched).unwrap();
         assert_eq!(simulation.counts().steps, 4);
+        assert!(is_left_out(&simulation.explain(), "start velocities"), "though it moves now");
         assert!(used(&simulation.explain(), "steps").contains("no cuts ahead"));
     }
 }
@@ -175,7 +176,7 @@ fn many_beams_and_loads_are_told_of_together() {
         scene.add_load(LoadKind::Line { beam, force, frame }, Schedule::Constant(1.0));
     }
     let parts = scene.explain().unwrap();
-    assert!(used(&parts, "beams").starts_with("20; quadrature points: Γ 120, κ 160"));
+    assert!(used(&parts, "beams").starts_with("20; points for Γ 120, κ 160"));
     assert!(used(&parts, "loads").starts_with("14 more"));
     assert!(parts.len() < 25, "{parts:#?}");
 }

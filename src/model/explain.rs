@@ -4,6 +4,7 @@ use super::applied::Action;
 use super::mechanism::Model;
 use super::{ModelError, Scene};
 use crate::beams::PointCounts;
+use crate::geometry::Vec2;
 use crate::integrators::{INTEGRATORS, Mechanism, Method, Stage};
 use crate::joints::{Component, Joint, Partner, SLIDING_RULES, StartVelocities};
 use crate::loads::{Load, Schedule, VALUES_OF_A_MEAN};
@@ -35,6 +36,12 @@ impl Part {
         Self { name: name.into(), usage: Usage::Used(how.into()) }
     }
 
+    /// The steps of so much time, cut where they end earlier.
+    pub fn steps(dt: f64, cuts: &[f64]) -> Self {
+        let cut = in_words(cuts).map(|times| format!("cut ahead at t = {times}"));
+        Self::used("steps", format!("dt = {dt}, {}", cut.unwrap_or("no cuts ahead".to_owned())))
+    }
+
     /// A part that is left out.
     pub fn left_out(name: impl Into<String>, saved: impl Into<String>) -> Self {
         Self { name: name.into(), usage: Usage::LeftOut(saved.into()) }
@@ -61,14 +68,16 @@ impl Model {
         parts.extend([self.explain_joints(scene), self.explain_supports(scene)]);
         parts.extend([self.explain_sliders(scene), self.explain_gravity(scene)]);
         parts.extend(self.explain_loads(scene, methods));
-        parts.extend([self.explain_angles(), self.explain_start(scene)]);
+        parts.extend([self.explain_angles(), explain_start(scene)]);
         parts
     }
 
     fn explain_matrix(&self) -> Part {
-        let (movements, width) = (self.unknowns, self.constraint_shape().width);
-        let border = if width > 0 { format!(", and {width} of contacts") } else { String::new() };
-        let how = format!("{movements} movements{border}; half-bandwidth {}", self.half_bandwidth);
+        let how = format!("{} movements, half-bandwidth {}", self.unknowns, self.half_bandwidth);
+        let how = match self.constraint_shape().width {
+            0 => how,
+            width => format!("{how}; {width} of contacts, in the border"),
+        };
         Part::used("unknowns", how)
     }
 
@@ -83,7 +92,7 @@ impl Model {
             let mesh = self.meshes[index].describe();
             let points = self.bodies[index].dynamics.control_points().len();
             let how = format!(
-                "{mesh}, {points} control points; quadrature points: Γ {force}, κ {moment}, mass {inertia} (once)"
+                "{mesh}, {points} control points; points for Γ {force}, κ {moment}, mass {inertia}"
             );
             Part::used(format!("beam '{}'", beam.name), how)
         };
@@ -91,14 +100,14 @@ impl Model {
             count if count > MOST => {
                 let (force, moment) = (sum(|of| of.force), sum(|of| of.moment));
                 let how = format!(
-                    "{count}; quadrature points: Γ {force}, κ {moment}, mass {} (once)",
+                    "{count}; points for Γ {force}, κ {moment}, mass {}",
                     sum(|of| of.inertia)
                 );
                 vec![Part::used("beams", how)]
             }
             _ => scene.beams.iter().enumerate().map(beam).collect(),
         };
-        let inertia = "of all sections: rotations are unknowns with an inertia of their own";
+        let inertia = "rho_I of every section: rotations have an inertia of their own";
         parts.push(Part::used("rotary inertia", inertia));
         parts
     }
@@ -177,7 +186,7 @@ impl Model {
             };
             let schedule = load.schedule.describe();
             let calls = calls(&load.schedule, methods);
-            let cuts = told(cuts(&[&load.schedule])).map(|at| format!("; steps end at t = {at}"));
+            let cuts = in_words(&cuts(&load.schedule)).map(|at| format!("; steps end at t = {at}"));
             Part::used(
                 &load.name,
                 format!("{action}, {schedule}{calls}{}", cuts.unwrap_or_default()),
@@ -199,26 +208,26 @@ impl Model {
         match self.all_trackers().count() {
             0 => Part::left_out("followed angles", "no section is followed"),
             count => {
-                let how = "ends of beams, stations, and where loads turn; a few operations a step";
+                let how = "ends of beams, stations, and where loads turn";
                 Part::used("followed angles", format!("{}: {how}", plural(count, "section")))
             }
         }
     }
+}
 
-    fn explain_start(&self, scene: &Scene) -> Part {
-        let projected =
-            |slider: &&crate::joints::Slider| slider.velocities == StartVelocities::Project;
-        let moving = self.rates.iter().any(|rate| *rate != 0.0);
-        match scene.sliders.iter().filter(projected).count() {
-            0 if !moving => Part::left_out("start velocities", "everything is at rest"),
-            0 if scene.sliders.is_empty() => Part::used("start velocities", "as given"),
-            0 => Part::used("start velocities", "as given; checked to fit the sliders"),
-            _ => Part::used(
-                "start velocities",
-                "made to fit the sliders, by solving once with the mass matrix",
-            ),
-        }
-    }
+fn explain_start(scene: &Scene) -> Part {
+    let is_zero = |velocity: Vec2, spin: f64| velocity == Vec2::zeros() && spin == 0.0;
+    let beams_rest = scene.beams.iter().all(|beam| is_zero(beam.motion.velocity, beam.motion.spin));
+    let nodes_rest = scene.velocities.iter().all(|at| is_zero(at.velocity, at.spin.unwrap_or(0.0)));
+    let is_projected =
+        scene.sliders.iter().any(|slider| slider.velocities == StartVelocities::Project);
+    let how = match (beams_rest && nodes_rest, is_projected) {
+        (_, true) => "made to fit the sliders, by solving once with the mass matrix",
+        (true, false) => return Part::left_out("start velocities", "everything starts at rest"),
+        (false, false) if scene.sliders.is_empty() => "as given",
+        (false, false) => "as given; checked to fit the sliders",
+    };
+    Part::used("start velocities", how)
 }
 
 fn explain_particles(scene: &Scene) -> Part {
@@ -240,18 +249,18 @@ fn explain_masses(scene: &Scene) -> Part {
     }
 }
 
-/// The times after the start at which steps end because of these schedules, in their order.
-pub fn cuts(schedules: &[&Schedule]) -> Vec<f64> {
-    let mut times: Vec<f64> = schedules.iter().flat_map(|schedule| schedule.breaks()).collect();
+/// The times after the start at which steps end because of a schedule, in their order.
+fn cuts(schedule: &Schedule) -> Vec<f64> {
+    let mut times = schedule.breaks();
     times.retain(|time| *time > 0.0);
     times.sort_by(f64::total_cmp);
     times.dedup();
     times
 }
 
-/// A few times in words.
-pub fn told(times: Vec<f64>) -> Option<String> {
-    match times.as_slice() {
+/// The first few of some times, none where there are none.
+fn in_words(times: &[f64]) -> Option<String> {
+    match times {
         [] => None,
         [first, .., last] if times.len() > MOST => {
             Some(format!("{first}, …, {last} ({} times)", times.len()))

@@ -23,7 +23,7 @@ mod stored;
 mod tracker;
 
 pub use error::ModelError;
-pub use explain::{Part, Usage, told};
+pub use explain::{Part, Usage};
 pub use measures::{Energy, Measures};
 pub use mechanism::Model;
 pub use queries::ModelState;

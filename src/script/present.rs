@@ -5,7 +5,7 @@ use std::ops::{Range, RangeInclusive};
 use rhai::{Array, Dynamic, FnPtr, INT, Map};
 
 use super::catalog::Catalog;
-use super::kind::Details;
+use super::kind::{Details, Type};
 use crate::geometry::Vec2;
 use crate::output::significant;
 
@@ -21,6 +21,8 @@ const MOST_KEYS: usize = 12;
 const DEEPEST: usize = 4;
 /// Most letters of a text within something else.
 const LONGEST_TEXT: usize = 40;
+/// Details have at least so many characters in a line, however long their labels are.
+const LEAST_ROOM: usize = 20;
 /// Most lines of a text.
 const MOST_LINES: usize = 200;
 
@@ -50,6 +52,14 @@ impl Line {
     fn is_full(&self) -> bool {
         self.room == 0
     }
+
+    /// What was written in at most `width` characters, and whether that is all of it.
+    fn cut(self, width: usize) -> (String, bool) {
+        if self.text.chars().count() <= width {
+            return (self.text, true);
+        }
+        (self.text.chars().take(width - 1).chain(['…']).collect(), false)
+    }
 }
 
 /// Shows a value of a language on lines of `width` characters: numbers with up to ten digits, long arrays and maps elided, what
@@ -60,15 +70,15 @@ pub fn present(catalog: &Catalog, value: &Dynamic, width: usize) -> String {
 
 impl Presenter<'_> {
     fn show(&self, value: &Dynamic) -> String {
-        if value.is_unit() {
+        if value.read_lock::<()>().is_some() {
             return String::new();
         }
         if let Some(text) = value.read_lock::<rhai::ImmutableString>().filter(|t| t.contains('\n'))
         {
             return self.lines_of(&text);
         }
-        if let Some((shown, details)) = self.native(value) {
-            return self.with_details(&shown, &details);
+        if let Some((of, shown)) = self.native(value) {
+            return self.with_details(&shown, &of.details(value).unwrap_or_default());
         }
         let (line, is_whole) = self.inline(value, self.width);
         if is_whole {
@@ -94,38 +104,31 @@ impl Presenter<'_> {
 
     fn with_details(&self, shown: &str, details: &Details) -> String {
         let widest = details.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
+        let room = self.width.saturating_sub(widest + 4).max(LEAST_ROOM);
         let mut text = shown.to_owned();
         for (label, value) in details {
-            let mut line = Line::new(self.width);
-            line.write(&format!("  {label:<widest$}  {value}"));
-            text.push('\n');
-            text.push_str(&self.cut(line).0);
+            for (number, part) in wrapped(value, room).into_iter().enumerate() {
+                let label = if number == 0 { label } else { "" };
+                text.push_str(&format!("\n  {label:<widest$}  {part}"));
+            }
         }
         text
     }
 
-    /// How one of our own is printed, and what else there is to know.
-    fn native(&self, value: &Dynamic) -> Option<(String, Details)> {
+    /// The type of one of our own, and how it is printed.
+    fn native(&self, value: &Dynamic) -> Option<(Type, String)> {
         let mut types = self.catalog.tables().flat_map(|table| table.types);
-        let (shown, details) = types.find_map(|of| Some((of.show(value)?, of.details(value)?)))?;
+        let (of, shown) = types.find_map(|of| Some((*of, of.show(value)?)))?;
         // Brackets are for arrays here.
         let vector = value.read_lock::<Vec2>().map(|vector| written(&vector));
-        Some((vector.unwrap_or(shown), details))
+        Some((of, vector.unwrap_or(shown)))
     }
 
     /// The value in one line, and whether that is all of it.
     fn inline(&self, value: &Dynamic, width: usize) -> (String, bool) {
         let mut line = Line::new(width);
         self.write(&mut line, value, 0);
-        self.cut(line)
-    }
-
-    fn cut(&self, line: Line) -> (String, bool) {
-        let width = self.width;
-        if line.text.chars().count() <= width {
-            return (line.text, true);
-        }
-        (line.text.chars().take(width - 1).chain(['…']).collect(), false)
+        line.cut(width)
     }
 
     fn write(&self, line: &mut Line, value: &Dynamic, depth: usize) {
@@ -136,19 +139,13 @@ impl Presenter<'_> {
             self.write_array(line, &array, depth);
         } else if let Some(map) = value.read_lock::<Map>() {
             self.write_map(line, &map, depth);
-        } else if let Some((shown, _)) = self.native(value) {
+        } else if let Some((of, shown)) = self.native(value) {
             // What shows as a table has no place in a line.
-            let name = || self.name(value);
-            line.write(if shown.contains('\n') { name() } else { &shown });
+            line.write(if shown.contains('\n') { of.name() } else { &shown });
         } else {
             let longest = if depth == 0 { self.width } else { LONGEST_TEXT };
             line.write(&plain(value, longest));
         }
-    }
-
-    fn name(&self, value: &Dynamic) -> &'static str {
-        let mut types = self.catalog.tables().flat_map(|table| table.types);
-        types.find(|of| of.show(value).is_some()).map_or("value", |of| of.name())
     }
 
     fn write_array(&self, line: &mut Line, array: &Array, depth: usize) {
@@ -196,11 +193,8 @@ impl Presenter<'_> {
                 Some(item) => self.write(&mut line, item, 1),
                 None => line.write("…"),
             }
-            line.write(match number == last {
-                false => ",",
-                true => "]",
-            });
-            self.cut(line).0
+            let end = if number == last { "]" } else { "," };
+            format!("{}{end}", line.cut(self.width - 1).0)
         };
         let rows: Vec<String> = items.into_iter().enumerate().map(row).collect();
         let count =
@@ -215,8 +209,7 @@ impl Presenter<'_> {
             let mut line = Line::new(self.width);
             line.write(&format!("  {}: ", written_key(key)));
             self.write(&mut line, value, 1);
-            line.write(",");
-            lines.push(self.cut(line).0);
+            lines.push(format!("{},", line.cut(self.width - 1).0));
         }
         if map.len() > MOST_KEYS {
             lines.push(format!("  … ({} keys)", map.len()));
@@ -224,6 +217,30 @@ impl Presenter<'_> {
         lines.push("}".to_owned());
         lines.join("\n")
     }
+}
+
+/// A text in lines of at most `room` characters, broken between words where there are some.
+fn wrapped(text: &str, room: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    let mut used = 0;
+    for word in text.split(' ').flat_map(|word| pieces(word, room)) {
+        let length = word.chars().count();
+        if used > 0 && used + 1 + length > room {
+            lines.push(word);
+            used = length;
+        } else if let Some(line) = lines.last_mut() {
+            let gap = if used > 0 { " " } else { "" };
+            line.push_str(&format!("{gap}{word}"));
+            used += gap.len() + length;
+        }
+    }
+    lines
+}
+
+/// A word in pieces of at most `room` characters.
+fn pieces(word: &str, room: usize) -> Vec<String> {
+    let letters: Vec<char> = word.chars().collect();
+    letters.chunks(room).map(|piece| piece.iter().collect()).collect()
 }
 
 /// The items that are shown, none where some are left out.
@@ -253,6 +270,8 @@ fn written_key(key: &str) -> String {
 
 /// A value that is neither a collection nor one of our own.
 fn plain(value: &Dynamic, longest: usize) -> String {
+    // What a closure has captured is behind a lock.
+    let value = value.flatten_clone();
     if let Ok(x) = value.as_float() {
         return significant(x, DIGITS);
     }

@@ -7,7 +7,7 @@ use crate::beams::Station;
 use crate::geometry::Vec2;
 use crate::joints::{JointKind, Partner};
 use crate::output::{ConfigurationPicture, LineChart, Mark, Scale, Series, Style, significant};
-use crate::simulation::{History, Invariant, Simulation};
+use crate::simulation::{Configuration, History, Invariant, Simulation};
 
 /// Digits of the numbers in a summary.
 const DIGITS: usize = 6;
@@ -78,10 +78,7 @@ pub fn configuration_picture(
     time: Option<f64>,
     style: &Style,
 ) -> Result<String, ScriptError> {
-    let shown = match time {
-        Some(time) => simulation.configuration_near(time)?,
-        None => Some(simulation.configuration()?),
-    };
+    let shown = shown_at(simulation, time)?;
     let plain = |points: &[Vec2]| points.iter().map(|point| (point.x, point.y)).collect::<Vec<_>>();
     let mut picture = ConfigurationPicture::new(&simulation.scene().name);
     let Some(shown) = shown else { return Ok(picture.text(style)) };
@@ -111,11 +108,7 @@ pub fn configuration_summary(
     simulation: &Simulation,
     time: Option<f64>,
 ) -> Result<String, ScriptError> {
-    let shown = match time {
-        Some(time) => simulation.configuration_near(time)?,
-        None => Some(simulation.configuration()?),
-    };
-    let Some(shown) = shown else { return Ok("nothing is recorded".into()) };
+    let Some(shown) = shown_at(simulation, time)? else { return Ok("nothing is recorded".into()) };
     let place = |at: Option<&Vec2>| {
         let number = |value: f64| significant(value, DIGITS);
         at.map_or_else(String::new, |at| format!("({}, {})", number(at.x), number(at.y)))
@@ -129,6 +122,17 @@ pub fn configuration_summary(
         particles.map(|(particle, at)| format!("{}: at {}", particle.name, place(Some(at))));
     let lines: Vec<String> = beams.chain(particles).collect();
     Ok(format!("t = {}\n{}", significant(shown.time, DIGITS), lines.join("\n")))
+}
+
+/// The present configuration, or the one recorded nearest to a time.
+fn shown_at(
+    simulation: &Simulation,
+    time: Option<f64>,
+) -> Result<Option<Configuration>, ScriptError> {
+    Ok(match time {
+        Some(time) => simulation.configuration_near(time)?,
+        None => Some(simulation.configuration()?),
+    })
 }
 
 /// The marks of supports and sliders, and the stations where they are.
@@ -303,6 +307,13 @@ mod tests {
         let middle = configuration_picture(&simulation, Some(0.72), &STYLE).unwrap();
         assert!(middle.contains("t = 0.7 "), "{middle}");
         assert_eq!(now, configuration_picture(&simulation, None, &STYLE).unwrap());
+    }
+
+    #[test]
+    fn a_configuration_has_a_summary() {
+        let start = configuration_summary(&turning(), Some(0.0)).unwrap();
+        assert_eq!(start, "turning: x 0 … 2, y 0 … 0 at t = 0");
+        assert!(configuration_summary(&turning(), None).unwrap().ends_with("at t = 1.5"));
     }
 
     #[test]

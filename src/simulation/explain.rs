@@ -1,7 +1,7 @@
 //! What a simulation uses, and what it therefore leaves out.
 
 use super::Simulation;
-use crate::model::{Part, told};
+use crate::model::Part;
 
 impl Simulation {
     /// What this simulation uses and what it leaves out: of its scene, then how it takes steps.
@@ -21,11 +21,7 @@ impl Simulation {
         parts.push(Part::used("integrator", how));
         let now = self.time();
         let ahead: Vec<f64> = self.grid.cuts().iter().copied().filter(|cut| *cut > now).collect();
-        let cut = told(ahead).map_or_else(
-            || "no cuts ahead".to_owned(),
-            |times| format!("cut ahead at t = {times}"),
-        );
-        parts.push(Part::used("steps", format!("dt = {}, {cut}", self.settings().dt)));
+        parts.push(Part::steps(self.settings().dt, &ahead));
         parts
     }
 }

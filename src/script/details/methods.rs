@@ -43,14 +43,17 @@ fn kept_of<const N: usize>(claims: [(bool, &str); N]) -> String {
 
 /// Values and jumps; functions of scripts are not called for this.
 pub fn of_schedule(schedule: &Schedule) -> Details {
-    let breaks = schedule.breaks();
+    let mut breaks = schedule.breaks();
+    breaks.sort_by(f64::total_cmp);
+    breaks.dedup();
     let value = |time: f64| match schedule.functions() {
         0 => schedule.value(time, Side::After).ok().map(number),
         _ => None,
     };
     let at = |label: &str, time| value(time).map(|value| line(label, value));
-    let last = breaks.iter().copied().reduce(f64::max);
-    let bends = (!breaks.is_empty()).then(|| line("steps end at t =", numbers(&breaks)));
+    let last = breaks.last().copied();
+    let bends =
+        (!breaks.is_empty()).then(|| line("steps end at", format!("t = {}", numbers(&breaks))));
     let lines = [at("at t = 0", 0.0), bends, last.and_then(|time| at("after the last", time))];
     lines.into_iter().flatten().collect()
 }

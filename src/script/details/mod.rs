@@ -16,6 +16,9 @@ use crate::output::significant;
 /// Digits of a number among the details.
 const DIGITS: usize = 6;
 
+/// A component that is less than this part of a vector is rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// Most things of a kind that are listed by name.
 const LISTED: usize = 4;
 
@@ -28,9 +31,10 @@ fn number(x: f64) -> String {
     significant(x, DIGITS)
 }
 
-/// A point or vector with a few digits.
+/// A point or vector with a few digits; a component that is rounding beside the other one is 0.
 fn pair(of: Vec2) -> String {
-    format!("({}, {})", number(of.x), number(of.y))
+    let [x, y] = [of.x, of.y].map(|x| if x.abs() < ROUNDING * of.norm() { 0.0 } else { x });
+    format!("({}, {})", number(x), number(y))
 }
 
 /// Things in a line, the last of many left out and counted.

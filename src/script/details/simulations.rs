@@ -14,9 +14,9 @@ pub fn of_simulation(simulation: &Simulation) -> Details {
     let row = simulation.history().samples().last().map(|row| row.measures).unwrap_or_default();
     let mean = counts.newton_iterations as f64 / counts.steps.max(1) as f64;
     let iterations = format!("{} a step, at most {}", significant(mean, 3), counts.newton_max);
-    let energy = format!(
-        "{} (kinetic {}, strain {}, potential {})",
-        number(row.energy.total()),
+    let energy = format!("{}, work of loads {}", number(row.energy.total()), number(row.work));
+    let parts = format!(
+        "kinetic {}, strain {}, potential {}",
         number(row.energy.kinetic),
         number(row.energy.strain),
         number(row.energy.potential)
@@ -37,7 +37,7 @@ pub fn of_simulation(simulation: &Simulation) -> Details {
         line("steps", format!("{}{retries}", counts.steps)),
         line("Newton iterations", iterations),
         line("energy", energy),
-        line("work of loads", number(row.work)),
+        line("its parts", parts),
         line(
             "momentum",
             format!("{}, angular {}", pair(row.momentum), number(row.angular_momentum)),
