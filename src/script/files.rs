@@ -1,6 +1,8 @@
-//! Files that a script writes: inside the output folder only, each whole or not at all.
+//! Files of a script. It reads below its own folder and the output folder, and writes below the output folder, each
+//! file whole or not at all. Symbolic links do not lead out.
 
 use std::cell::RefCell;
+use std::io;
 use std::path::{Component, Path, PathBuf};
 
 use super::context::Mode;
@@ -38,15 +40,31 @@ impl OutputFolder {
         self.written.borrow().clone()
     }
 
+    /// The folder itself, which need not exist yet.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
     fn path_of(&self, name: &str) -> Result<PathBuf, ScriptError> {
-        let inside = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
-        if name.is_empty() || !inside {
+        let path = self.folder.join(name);
+        if !is_plain(name) || !self.stays_inside(&path) {
             return Err(ScriptError::new(format!(
                 "\"{name}\" is not the name of a file in the output folder"
             ))
             .hint("give a plain name such as \"motion.svg\"; --out chooses the folder"));
         }
-        Ok(self.folder.join(name))
+        Ok(path)
+    }
+
+    /// Whether the folder of `path`, as far as it exists, really lies in this one. A link in the place of the file
+    /// itself does no harm: it is replaced, not followed.
+    fn stays_inside(&self, path: &Path) -> bool {
+        let above = path.ancestors().skip(1).take_while(|folder| folder.starts_with(&self.folder));
+        match above.map(Path::canonicalize).find(|real| !is_missing(real)) {
+            Some(Ok(real)) => self.folder.canonicalize().is_ok_and(|own| real.starts_with(own)),
+            Some(Err(_)) => true,
+            None => true,
+        }
     }
 
     fn refused(&self, error: OutputError) -> ScriptError {
@@ -58,10 +76,103 @@ impl OutputFolder {
     }
 }
 
+/// Whether a folder or file does not exist; a link that leads nowhere is no folder.
+fn is_missing(real: &io::Result<PathBuf>) -> bool {
+    real.as_ref().is_err_and(|error| error.kind() == io::ErrorKind::NotFound)
+}
+
+/// Whether `name` goes down only: no root, no `..`.
+fn is_plain(name: &str) -> bool {
+    let mut parts = Path::new(name).components();
+    !name.is_empty() && parts.all(|part| matches!(part, Component::Normal(_)))
+}
+
+/// The folders that a script may read from, each with a word for it.
+pub struct InputFolders(Vec<(&'static str, PathBuf)>);
+
+impl InputFolders {
+    /// Folders in the order in which a file is looked for.
+    pub fn new(folders: impl IntoIterator<Item = (&'static str, PathBuf)>) -> Self {
+        Self(folders.into_iter().collect())
+    }
+
+    /// The real path of the file `name`, from the first folder that has it.
+    ///
+    /// # Errors
+    /// When no folder has it, or a link or the name itself leads out of the folders.
+    pub fn find(&self, name: &str) -> Result<PathBuf, ScriptError> {
+        let words: Vec<_> = self.0.iter().map(|(word, _)| format!("the {word}")).collect();
+        let allowed = words.join(" and ");
+        if !is_plain(name) {
+            return Err(ScriptError::new(format!("\"{name}\" leads out of {allowed}"))
+                .hint("give a name without .. and without a / at its beginning"));
+        }
+        for (_, folder) in &self.0 {
+            let (Ok(real), Ok(own)) = (folder.join(name).canonicalize(), folder.canonicalize())
+            else {
+                continue;
+            };
+            return match real.starts_with(own) {
+                true => Ok(real),
+                false => Err(ScriptError::new(format!("\"{name}\" is a link out of {allowed}"))
+                    .hint("put the file itself there")),
+            };
+        }
+        Err(ScriptError::new(format!("there is no file \"{name}\" in {allowed}"))
+            .hint("names are relative to these folders"))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use std::fs;
+
+    #[cfg(unix)]
+    #[test]
+    fn links_do_not_lead_out() {
+        use std::os::unix::fs::symlink;
+        let home = tempfile::tempdir().expect("a temporary folder");
+        let (own, other) = (home.path().join("own"), home.path().join("other"));
+        fs::create_dir_all(&own).expect("a folder");
+        fs::create_dir_all(&other).expect("a folder");
+        fs::write(other.join("secret.txt"), "secret").expect("a file");
+        symlink(&other, own.join("way")).expect("a link");
+        symlink(other.join("secret.txt"), own.join("file.txt")).expect("a link");
+        symlink(other.join("new.txt"), own.join("nowhere.txt")).expect("a link");
+
+        let inputs = InputFolders::new([("script's own folder", own.clone())]);
+        for name in ["way/secret.txt", "file.txt"] {
+            assert!(inputs.find(name).is_err(), "{name}");
+        }
+        let output = OutputFolder::new(own.clone(), Mode::Run);
+        assert!(output.write("way/a.txt", b"x").is_err());
+        assert!(output.write("way/deep/a.txt", b"x").is_err());
+        output.write("nowhere.txt", b"x").expect("the link is replaced");
+        assert!(!other.join("new.txt").exists() && !other.join("a.txt").exists());
+    }
+
+    #[test]
+    fn files_are_found_in_the_first_folder_that_has_them() {
+        let home = tempfile::tempdir().expect("a temporary folder");
+        let (own, out) = (home.path().join("own"), home.path().join("out"));
+        fs::create_dir_all(own.join("below")).expect("a folder");
+        fs::create_dir_all(&out).expect("a folder");
+        for file in [own.join("below/a"), out.join("b"), home.path().join("c")] {
+            fs::write(file, "").expect("a file");
+        }
+        let inputs =
+            InputFolders::new([("script's own folder", own.clone()), ("output folder", out)]);
+        let real = own.canonicalize().expect("the folder");
+        assert_eq!(inputs.find("below/a").expect("a file"), real.join("below/a"));
+        assert!(inputs.find("b").is_ok());
+        for name in ["c", "../c", "below/../../c", "/etc/passwd", "", "below/./../../c"] {
+            let Err(ScriptError::Failure(failure)) = inputs.find(name) else {
+                panic!("{name} must be refused")
+            };
+            assert!(failure.message.contains("script's own folder"), "{}", failure.message);
+        }
+    }
 
     #[test]
     fn only_names_inside_the_folder_are_written() {

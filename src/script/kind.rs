@@ -3,7 +3,7 @@
 use std::any::TypeId;
 use std::fmt;
 
-use rhai::Engine;
+use rhai::{Dynamic, Engine};
 
 use super::parameter::Parameter;
 
@@ -15,6 +15,10 @@ pub trait Scripted: Clone + 'static {
     const DOC: &'static str;
     /// How it is printed.
     fn show(&self) -> String;
+    /// Why it cannot be used now, if so: a native call that calls a script function back may be at work on it.
+    fn is_busy(&self) -> Option<String> {
+        None
+    }
 }
 
 /// A [`Scripted`] type as a value, for rows.
@@ -24,12 +28,19 @@ pub struct Type {
     doc: &'static str,
     id: fn() -> TypeId,
     register: fn(&mut Engine),
+    busy: fn(&Dynamic) -> Option<String>,
 }
 
 impl Type {
     /// The type `T`.
     pub const fn of<T: Scripted>() -> Self {
-        Self { name: T::NAME, doc: T::DOC, id: TypeId::of::<T>, register: register::<T> }
+        Self {
+            name: T::NAME,
+            doc: T::DOC,
+            id: TypeId::of::<T>,
+            register: register::<T>,
+            busy: |value| value.read_lock::<T>().and_then(|value| value.is_busy()),
+        }
     }
 
     /// Its name in scripts.
@@ -45,6 +56,11 @@ impl Type {
     /// Its identity.
     pub fn id(&self) -> TypeId {
         (self.id)()
+    }
+
+    /// Why a value cannot be used now, if it is of this type and busy.
+    pub fn busy(&self, value: &Dynamic) -> Option<String> {
+        (self.busy)(value)
     }
 
     /// Gives it a name and a printed form in the engine.

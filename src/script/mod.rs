@@ -28,6 +28,8 @@ pub mod progress;
 pub mod reference;
 pub mod register;
 pub mod runner;
+pub mod sorting;
+pub mod sources;
 pub mod stored;
 pub mod suggest;
 pub mod syntax;
