@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
+use std::rc::Rc;
 use std::sync::atomic::Ordering;
 
 use rhai::{AST, Caches, Dynamic, Engine, EvalAltResult, GlobalRuntimeState, Scope};
@@ -41,7 +42,8 @@ pub enum Reply {
 pub struct Session {
     catalog: Catalog,
     context: Context,
-    engine: Engine,
+    /// Shared with the functions that scenes and simulations store.
+    engine: Rc<Engine>,
     folder: PathBuf,
     scope: Scope<'static>,
     global: GlobalRuntimeState,
@@ -61,6 +63,8 @@ impl Session {
         let mut engine = engine::build(&catalog, &context).map_err(Diagnostic::bug)?;
         engine::import_from(&mut engine, &folder);
         let global = engine.new_global_runtime_state();
+        let engine = Rc::new(engine);
+        context.lend(&engine);
         Ok(Self {
             catalog,
             context,

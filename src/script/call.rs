@@ -129,8 +129,8 @@ impl<'c, 'r> Call<'c, 'r> {
         }
     }
 
-    /// Keeps a script function for calls from native loops; `role` names it in messages.
-    pub fn store(&self, function: FnPtr, role: &str) -> Result<StoredFunction, ScriptError> {
+    /// Keeps a script function for later calls; `role` names it in messages.
+    pub fn store(&self, function: FnPtr, role: &str) -> StoredFunction {
         StoredFunction::new(function, self.native, self.context, role.to_owned())
     }
 

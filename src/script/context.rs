@@ -4,15 +4,16 @@ use std::cell::{Cell, RefCell};
 use std::collections::HashSet;
 use std::io::{self, Write};
 use std::path::PathBuf;
-use std::rc::Rc;
+use std::rc::{Rc, Weak};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use rhai::{Dynamic, EvalAltResult};
+use rhai::{Dynamic, Engine, EvalAltResult};
 
 use super::checks::Checks;
 use super::error::ScriptError;
 use super::files::OutputFolder;
+use super::kind::Type;
 use super::limits::{Limits, Meter, Stop};
 use super::progress::{NoProgress, Progress};
 
@@ -91,6 +92,11 @@ struct Shared {
     callback_error: RefCell<Option<Box<EvalAltResult>>>,
     snapshots: usize,
     latest_simulation: RefCell<Option<Dynamic>>,
+    /// Weak, for the engine has this context in all its functions.
+    engine: RefCell<Weak<Engine>>,
+    level: Cell<usize>,
+    is_calling_back: Cell<bool>,
+    types: RefCell<Vec<Type>>,
 }
 
 impl Context {
@@ -110,6 +116,10 @@ impl Context {
             callback_error: RefCell::default(),
             snapshots: settings.snapshots,
             latest_simulation: RefCell::default(),
+            engine: RefCell::default(),
+            level: Cell::new(0),
+            is_calling_back: Cell::new(false),
+            types: RefCell::default(),
         }))
     }
 
@@ -227,6 +237,49 @@ impl Context {
     pub fn forget_simulations(&self) {
         self.0.latest_simulation.take();
         self.forget_reporters();
+    }
+
+    /// Lets functions that the script has stored be called by its own engine, as long as that is kept by the caller.
+    pub fn lend(&self, engine: &Rc<Engine>) {
+        self.0.engine.replace(Rc::downgrade(engine));
+    }
+
+    /// The engine of the script while it runs.
+    pub fn engine(&self) -> Option<Rc<Engine>> {
+        self.0.engine.borrow().upgrade()
+    }
+
+    /// Notes how deep in calls of script functions the running native call is.
+    pub fn enter(&self, level: usize) {
+        self.0.level.set(level);
+    }
+
+    /// How deep in calls of script functions the running native call is.
+    pub fn level(&self) -> usize {
+        self.0.level.get()
+    }
+
+    /// Calls a stored function while a native call is at work.
+    pub fn call_back<T>(&self, call: impl FnOnce() -> T) -> T {
+        let was_calling_back = self.0.is_calling_back.replace(true);
+        let result = call();
+        self.0.is_calling_back.set(was_calling_back);
+        result
+    }
+
+    /// Whether a stored function is running, and with it the native call that called it.
+    pub fn is_calling_back(&self) -> bool {
+        self.0.is_calling_back.get()
+    }
+
+    /// Notes a native type whose values may be busy.
+    pub(super) fn know(&self, of: Type) {
+        self.0.types.borrow_mut().push(of);
+    }
+
+    /// Why a value cannot be used now, if so.
+    pub(super) fn busy(&self, value: &Dynamic) -> Option<String> {
+        self.0.types.borrow().iter().find_map(|of| of.busy(value))
     }
 
     /// Adds a simulation to the report.

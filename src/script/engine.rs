@@ -7,11 +7,12 @@ use rhai::{Dynamic, Engine, EvalAltResult, FnPtr, INT, ImmutableString, Map, Pos
 use super::catalog::Catalog;
 use super::context::Context;
 use super::error::ScriptError;
-use super::imports::AcyclicResolver;
+use super::imports::FolderResolver;
 use super::limits::DEEPEST;
 use super::numbers::format_number;
 use super::register::register;
-use super::{operators, syntax};
+use super::sources::Sources;
+use super::{operators, sorting, syntax};
 
 /// Nesting of one expression at the top level, and inside a function where it adds up with calls.
 const EXPRESSION_DEPTH: usize = 256;
@@ -29,8 +30,11 @@ pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     name_types(&mut engine);
     syntax::install(&mut engine)?;
     operators::install(&mut engine);
+    sorting::install(&mut engine);
     print_numbers(&mut engine);
     refuse_exit(&mut engine);
+    refuse_sleep(&mut engine);
+    Sources::install(&mut engine);
     for table in catalog.tables() {
         register(&mut engine, table, context);
     }
@@ -38,9 +42,9 @@ pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     Ok(engine)
 }
 
-/// Lets `import "name"` find files beside the script.
+/// Lets `import "name"` find files in the script's folder.
 pub fn import_from(engine: &mut Engine, folder: &std::path::Path) {
-    engine.set_module_resolver(AcyclicResolver::new(folder));
+    engine.set_module_resolver(FolderResolver::new(folder));
 }
 
 fn limit(engine: &mut Engine, context: &Context) {
@@ -91,6 +95,17 @@ fn refuse_exit(engine: &mut Engine) {
     engine.register_fn("exit", move |_: Dynamic| -> Result<(), Box<EvalAltResult>> {
         Err(refusal().into_engine(Position::NONE))
     });
+}
+
+/// A sleeping script could neither be interrupted nor end at its limit of time.
+fn refuse_sleep(engine: &mut Engine) {
+    let refuse = || -> Result<(), Box<EvalAltResult>> {
+        let refusal = ScriptError::new("a script cannot wait with sleep()");
+        let refusal = refusal.hint("what is simulated has its own time: sim.run_to(t)");
+        Err(refusal.into_engine(Position::NONE))
+    };
+    engine.register_fn("sleep", move |_: INT| refuse());
+    engine.register_fn("sleep", move |_: f64| refuse());
 }
 
 fn connect(engine: &mut Engine, context: &Context) {

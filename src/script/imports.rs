@@ -1,42 +1,116 @@
-//! Imports of files beside the script. A file that imports itself, in however many steps, is an error, not an abort.
+//! Imports of files from the script's own folder, each read once. A file that imports itself, in however many steps, is
+//! an error, not an abort.
 
 use std::cell::RefCell;
-use std::path::Path;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
 
-use rhai::module_resolvers::FileModuleResolver;
-use rhai::{Engine, EvalAltResult, ModuleResolver, Position, Shared};
+use rhai::{
+    Engine, EvalAltResult, GlobalRuntimeState, Module, ModuleResolver, Position, Scope, Shared,
+};
 
 use super::error::ScriptError;
+use super::files::InputFolders;
+use super::program::Program;
+use super::runner::parse;
 
-/// Finds modules as Rhai's own resolver does, and remembers which are being read.
-pub struct AcyclicResolver {
-    files: FileModuleResolver,
-    being_read: RefCell<Vec<String>>,
+/// Files that import files that import files: so many at most.
+const LONGEST_CHAIN: usize = 50;
+
+/// Finds modules in a folder, and remembers which were read and which are being read.
+pub struct FolderResolver {
+    folder: PathBuf,
+    inputs: InputFolders,
+    being_read: RefCell<Vec<PathBuf>>,
+    read: RefCell<HashMap<PathBuf, Shared<Module>>>,
 }
 
-impl AcyclicResolver {
-    /// Files in a folder.
+impl FolderResolver {
+    /// Files in a folder and below.
     pub fn new(folder: &Path) -> Self {
-        Self { files: FileModuleResolver::new_with_path(folder), being_read: RefCell::default() }
+        Self {
+            folder: folder.to_owned(),
+            inputs: InputFolders::new([("script's own folder", folder.to_owned())]),
+            being_read: RefCell::default(),
+            read: RefCell::default(),
+        }
+    }
+
+    /// The file of a module: its name as it is shown, and its real path.
+    fn find(&self, name: &str) -> Result<(PathBuf, PathBuf), ScriptError> {
+        let file = if name.ends_with(".rhai") { name.to_owned() } else { format!("{name}.rhai") };
+        let real = self.inputs.find(&file).map_err(|error| {
+            error.hint("import looks for NAME.rhai in the script's own folder and below")
+        })?;
+        let shown =
+            if self.folder == Path::new(".") { file.into() } else { self.folder.join(file) };
+        Ok((shown, real))
+    }
+
+    fn refuse_chain(&self, name: &str, file: &PathBuf) -> Result<(), ScriptError> {
+        let being_read = self.being_read.borrow();
+        if being_read.contains(file) {
+            return Err(ScriptError::new(format!("'{name}' imports itself"))
+                .hint("put what both files need into a third one"));
+        }
+        if being_read.len() >= LONGEST_CHAIN {
+            let told = format!("more than {LONGEST_CHAIN} files import each other in a chain");
+            return Err(ScriptError::new(told).hint("import them beside each other"));
+        }
+        Ok(())
+    }
+
+    fn load(
+        &self,
+        engine: &Engine,
+        global: &mut GlobalRuntimeState,
+        file: &Path,
+        position: Position,
+    ) -> Result<Shared<Module>, Box<EvalAltResult>> {
+        let program = Program::load(file).map_err(|refused| {
+            let refusal = ScriptError::new(refused.message);
+            refusal.into_engine(position)
+        })?;
+        let module = parse(engine, &program)
+            .and_then(|ast| Module::eval_ast_as_new_raw(engine, &mut Scope::new(), global, &ast))
+            .map_err(|error| {
+                Box::new(EvalAltResult::ErrorInModule(program.name.clone(), error, position))
+            })?;
+        Ok(module.into())
     }
 }
 
-impl ModuleResolver for AcyclicResolver {
+impl ModuleResolver for FolderResolver {
     fn resolve(
         &self,
         engine: &Engine,
-        source: Option<&str>,
+        _source: Option<&str>,
         path: &str,
         position: Position,
-    ) -> Result<Shared<rhai::Module>, Box<EvalAltResult>> {
-        if self.being_read.borrow().iter().any(|other| other == path) {
-            let refusal = ScriptError::new(format!("'{path}' imports itself"));
-            let refusal = refusal.hint("put what both files need into a third one");
-            return Err(refusal.into_engine(position));
+    ) -> Result<Shared<Module>, Box<EvalAltResult>> {
+        let mut global = engine.new_global_runtime_state();
+        self.resolve_raw(engine, &mut global, &mut Scope::new(), path, position)
+    }
+
+    fn resolve_raw(
+        &self,
+        engine: &Engine,
+        global: &mut GlobalRuntimeState,
+        _scope: &mut Scope,
+        path: &str,
+        position: Position,
+    ) -> Result<Shared<Module>, Box<EvalAltResult>> {
+        let refused = |error: ScriptError| error.into_engine(position);
+        let (shown, file) = self.find(path).map_err(refused)?;
+        self.refuse_chain(path, &file).map_err(refused)?;
+        if let Some(module) = self.read.borrow().get(&file) {
+            return Ok(Shared::clone(module));
         }
-        self.being_read.borrow_mut().push(path.to_owned());
-        let module = self.files.resolve(engine, source, path, position);
+        self.being_read.borrow_mut().push(file.clone());
+        let module = self.load(engine, global, &shown, position);
         self.being_read.borrow_mut().pop();
-        module
+        let module = module?;
+        self.read.borrow_mut().insert(file, Shared::clone(&module));
+        Ok(module)
     }
 }

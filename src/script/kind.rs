@@ -20,6 +20,11 @@ pub trait Scripted: Clone + 'static {
     fn details(&self) -> Details {
         Details::new()
     }
+
+    /// Why it cannot be used now, if so: a native call that calls a script function back may be at work on it.
+    fn is_busy(&self) -> Option<String> {
+        None
+    }
 }
 
 /// Labels and values, set as aligned lines.
@@ -34,6 +39,7 @@ pub struct Type {
     register: fn(&mut Engine),
     show: fn(&Dynamic) -> Option<String>,
     details: fn(&Dynamic) -> Option<Details>,
+    busy: fn(&Dynamic) -> Option<String>,
 }
 
 impl Type {
@@ -46,6 +52,7 @@ impl Type {
             register: register::<T>,
             show: |value| value.read_lock::<T>().map(|held| held.show()),
             details: |value| value.read_lock::<T>().map(|held| held.details()),
+            busy: |value| value.read_lock::<T>().and_then(|value| value.is_busy()),
         }
     }
 
@@ -72,6 +79,11 @@ impl Type {
     /// What there is to know about a value besides, if it is one of this type.
     pub fn details(&self, value: &Dynamic) -> Option<Details> {
         (self.details)(value)
+    }
+
+    /// Why a value cannot be used now, if it is of this type and busy.
+    pub fn busy(&self, value: &Dynamic) -> Option<String> {
+        (self.busy)(value)
     }
 
     /// Gives it a name and a printed form in the engine.

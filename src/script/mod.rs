@@ -32,6 +32,8 @@ pub mod reference;
 pub mod register;
 pub mod runner;
 pub mod sight;
+pub mod sorting;
+pub mod sources;
 pub mod stored;
 pub mod suggest;
 pub mod syntax;

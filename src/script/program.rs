@@ -58,13 +58,11 @@ impl Program {
         if source.is_empty() || source == self.name {
             return self.clone();
         }
-        let candidates = [PathBuf::from(source), PathBuf::from(format!("{source}.rhai"))];
-        let text = candidates.iter().find_map(|path| std::fs::read_to_string(path).ok());
-        Self {
+        Self::load(Path::new(source)).unwrap_or_else(|_| Self {
             name: source.into(),
-            text: text.unwrap_or_default().into(),
+            text: "".into(),
             folder: self.folder.clone(),
-        }
+        })
     }
 
     /// The byte offset of a line and column, both from 1 and columns in characters.

@@ -20,6 +20,7 @@ use crate::geometry::Vec2;
 pub fn register(engine: &mut Engine, table: &'static Table, context: &Context) {
     for of in table.types {
         of.register(engine);
+        context.know(*of);
     }
     let mut constants = Module::new();
     for constant in table.constants {
@@ -147,6 +148,10 @@ fn perform(
     values: &mut [&mut Dynamic],
 ) -> Result<Dynamic, ScriptError> {
     let Binding { row, parameters, body, context } = binding;
+    context.enter(native.global_runtime_state().level);
+    if context.is_calling_back() {
+        refuse_busy(row, context, values)?;
+    }
     let (receiver, given) = match (row.receiver(), values) {
         (Some(_), [receiver, given @ ..]) => (Some(&mut **receiver), given),
         (_, given) => (None, given),
@@ -164,6 +169,20 @@ fn perform(
         })
         .collect::<Result<_, _>>()?;
     body(&mut Call::new(row, context, native, receiver, Arguments::new(parameters, accepted)))
+}
+
+/// Refuses values that the native call which has called back is at work on; arrays are looked into.
+fn refuse_busy(row: &Row, context: &Context, values: &[&mut Dynamic]) -> Result<(), ScriptError> {
+    let is_ours = |value: &Dynamic| !(value.is_float() || value.is_int() || value.is_string());
+    for value in values.iter().map(|value| &**value).filter(|value| is_ours(value)) {
+        let elements = value.read_lock::<Array>();
+        let elements = elements.iter().flat_map(|array| array.iter());
+        if let Some(reason) = elements.chain([value]).find_map(|value| context.busy(value)) {
+            let refusal = ScriptError::new(format!("{}: {reason}", row.name));
+            return Err(refusal.hint("a load is a function of its argument, the time"));
+        }
+    }
+    Ok(())
 }
 
 /// The engine's result type, named once for the modules that talk to it directly.

@@ -2,6 +2,8 @@
 
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
+use std::rc::Rc;
+use std::sync::Mutex;
 use std::thread;
 
 use rhai::{AST, Engine, EvalAltResult, Token};
@@ -13,12 +15,25 @@ use super::diagnose::{Diagnostic, Explainer, is_interrupt};
 use super::engine;
 use super::error::ScriptError;
 use super::lexing::{open_comment, tokens};
+use super::limits::{DEFAULT_MEGABYTES, Limits, MEGABYTE};
 use super::panics;
 use super::program::Program;
+use super::sources::Sources;
 use super::syntax::mark_assignments;
 
 /// Address space for the stack of a script; memory is used only as deep as the script really goes.
 pub const STACK_BYTES: usize = 256 << 20;
+
+/// Address space for closures that hold closures that hold closures …: they are let go one within the other. A link of
+/// such a chain takes less stack than twice its memory, so the memory allowed bounds the stack that it may need.
+fn stack_for(limits: &Limits) -> usize {
+    let memory = limits.memory.unwrap_or(DEFAULT_MEGABYTES * MEGABYTE);
+    let memory = usize::try_from(memory).unwrap_or(LARGEST_STACK).min(LARGEST_STACK);
+    STACK_BYTES + 2 * memory
+}
+
+/// Most address space for such values.
+const LARGEST_STACK: usize = 16 << 30;
 
 /// How a run ended.
 #[derive(Debug)]
@@ -48,7 +63,8 @@ pub struct Outcome {
 
 /// Runs `program` in the language of `catalog`.
 pub fn run(program: &Program, catalog: &Catalog, settings: Settings) -> Outcome {
-    on_large_stack(|| run_here(program, catalog, settings)).unwrap_or_else(|diagnostic| Outcome {
+    let stack = stack_for(&settings.limits);
+    on_stack(stack, || run_here(program, catalog, settings)).unwrap_or_else(|diagnostic| Outcome {
         ending: Ending::Failed(diagnostic),
         checks: Checks::default(),
         simulations: Vec::new(),
@@ -58,20 +74,41 @@ pub fn run(program: &Program, catalog: &Catalog, settings: Settings) -> Outcome 
 
 /// Does `work` on a thread with a stack of [`STACK_BYTES`].
 pub fn on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, Diagnostic> {
+    on_stack(STACK_BYTES, work)
+}
+
+/// Does `work` on a thread with a stack of so many bytes, or fewer where the system has no address space for them.
+fn on_stack<T: Send>(mut bytes: usize, work: impl FnOnce() -> T + Send) -> Result<T, Diagnostic> {
+    let work = Mutex::new(Some(work));
+    let take = || work.lock().ok().and_then(|mut work| work.take());
     thread::scope(|scope| {
-        let thread = thread::Builder::new().name("script".into()).stack_size(STACK_BYTES);
-        let running = thread.spawn_scoped(scope, work).map_err(|error| {
-            Diagnostic::general(format!("cannot start a thread for the script: {error}"))
-        })?;
-        running.join().map_err(|panic| Diagnostic::bug(panics::message(&*panic)))
+        let running = loop {
+            let thread = thread::Builder::new().name("script".into()).stack_size(bytes);
+            match thread.spawn_scoped(scope, || take().map(|work| work())) {
+                Ok(running) => break running,
+                Err(_) if bytes > STACK_BYTES => bytes = (bytes / 2).max(STACK_BYTES),
+                Err(error) => {
+                    let told = format!("cannot start a thread for the script: {error}");
+                    return Err(Diagnostic::general(told));
+                }
+            }
+        };
+        let done = running.join().map_err(|panic| Diagnostic::bug(panics::message(&*panic)))?;
+        done.ok_or_else(|| Diagnostic::bug("the work of a thread was done twice"))
     })
 }
 
 /// Parses `program`; imports are looked for beside it.
 pub fn compile(engine: &mut Engine, program: &Program) -> Result<AST, Box<EvalAltResult>> {
     engine::import_from(engine, &program.folder);
+    parse(engine, program)
+}
+
+/// Parses `program`, which may be an imported one.
+pub(super) fn parse(engine: &Engine, program: &Program) -> Result<AST, Box<EvalAltResult>> {
     let mut ast = engine.compile(mark_assignments(&program.text))?;
     ast.set_source(program.name.as_str());
+    Sources::of(engine).note(&ast, &program.name);
     match open_comment(&program.text) {
         Some(position) => Err(ScriptError::new("a comment that begins with /* is never closed")
             .hint("write */ where it ends")
@@ -125,7 +162,10 @@ fn evaluate(program: &Program, catalog: &Catalog, context: &Context) -> Ending {
             return Ending::Failed(Diagnostic::general(told));
         }
     };
-    let outcome = compile(&mut engine, program).and_then(|ast| engine.run_ast(&ast));
+    let compiled = compile(&mut engine, program);
+    let engine = Rc::new(engine);
+    context.lend(&engine);
+    let outcome = compiled.and_then(|ast| engine.run_ast(&ast));
     match outcome {
         Ok(()) => Ending::Finished,
         Err(error) if is_interrupt(&error) => Ending::Interrupted,

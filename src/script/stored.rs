@@ -1,20 +1,18 @@
-//! Script functions that are kept and called later, when no call of the script is at hand.
+//! Script functions that are kept and called later: by native loops, or by another call than the one they were given to.
 
-use rhai::{AST, Dynamic, Engine, EvalAltResult, FnPtr, NativeCallContext};
+use rhai::{Dynamic, EvalAltResult, FnPtr, GlobalRuntimeState, NativeCallContext, Position};
 
-use super::catalog::Catalog;
 use super::context::Context;
-use super::engine;
-use super::error::ScriptError;
+use super::error::BUG;
 use super::numbers::{as_number, describe};
 
-/// A script function with the functions of its script and an engine to run it.
+/// A script function with what surrounded it: the functions, imports and constants of its file.
 ///
-/// In Rhai 1.27 a function pointer is a name and captured values only: the library it was made in must be kept too.
+/// In Rhai 1.27 a function pointer is a name and captured values only. The engine is that of the run: it is not owned,
+/// for it owns, by way of the scenes of its script, this.
 pub struct StoredFunction {
     function: FnPtr,
-    library: AST,
-    engine: Engine,
+    surroundings: GlobalRuntimeState,
     context: Context,
     role: String,
 }
@@ -26,12 +24,29 @@ impl StoredFunction {
         native: &NativeCallContext,
         context: &Context,
         role: String,
-    ) -> Result<Self, ScriptError> {
-        let library = native.global_runtime_state().lib.last();
-        let library =
-            library.map_or_else(AST::empty, |module| AST::new_from_module(module.clone()));
-        let engine = engine::build(&Catalog::standard(), context).map_err(ScriptError::bug)?;
-        Ok(Self { function, library, engine, context: context.clone(), role })
+    ) -> Self {
+        let surroundings = native.global_runtime_state().clone();
+        Self { function, surroundings, context: context.clone(), role }
+    }
+
+    /// Calls it. Levels of calls are counted from the native call that is running, whose position its errors get.
+    ///
+    /// # Errors
+    /// Those of the script; also when the run was stopped.
+    pub fn call(&self, arguments: impl AsMut<[Dynamic]>) -> Result<Dynamic, Box<EvalAltResult>> {
+        self.context.proceed().map_err(|error| error.into_engine(Position::NONE))?;
+        let Some(engine) = self.context.engine() else {
+            let told = format!("{} is called after the end of its run", self.role);
+            return Err(EvalAltResult::ErrorSystem(told, BUG.into()).into());
+        };
+        let level = self.context.level();
+        let mut surroundings = self.surroundings.clone();
+        surroundings.level = level + 1;
+        let native =
+            (&*engine, self.function.fn_name(), None, &surroundings, Position::NONE).into();
+        let called = self.context.call_back(|| self.function.call_raw(&native, None, arguments));
+        self.context.enter(level);
+        called
     }
 
     /// Calls it with a number for a finite number.
@@ -39,14 +54,14 @@ impl StoredFunction {
     /// # Errors
     /// In words; an error of the script itself is also handed to the context, which keeps its place and trace.
     pub fn number_of(&self, argument: f64) -> Result<f64, String> {
-        let value = self.function.call::<Dynamic>(&self.engine, &self.library, (argument,));
-        let value = value.map_err(|error: Box<EvalAltResult>| {
+        let value = self.call([Dynamic::from(argument)]).map_err(|error| {
             let words = error.to_string();
             self.context.keep_callback_error(error);
             words
         })?;
         as_number(&value).ok_or_else(|| {
-            format!("{} must give a number, got {}", self.role, describe(&self.engine, &value))
+            let got = self.context.engine().map(|engine| describe(&engine, &value));
+            format!("{} must give a number, got {}", self.role, got.unwrap_or_default())
         })
     }
 }

@@ -30,7 +30,11 @@ pub fn variables(shell: &mut Shell, _: &str) -> Outcome {
         row(name, &of, shown.lines().next().unwrap_or_default().to_owned());
     }
     for function in session.functions() {
-        row(function.name, "function", format!("{}({})", function.name, function.params.join(", ")));
+        row(
+            function.name,
+            "function",
+            format!("{}({})", function.name, function.params.join(", ")),
+        );
     }
     for (name, module) in session.modules() {
         let functions = module.gen_fn_signatures_with_mapper(|name| name.into());
@@ -133,7 +137,13 @@ fn in_words(time: Duration) -> String {
         s if s < 1.0 => (s * 1e3, "ms"),
         s => (s, "s"),
     };
-    let digits = if value < 10.0 { 2 } else if value < 100.0 { 1 } else { 0 };
+    let digits = if value < 10.0 {
+        2
+    } else if value < 100.0 {
+        1
+    } else {
+        0
+    };
     format!("{value:.digits$} {unit}")
 }
 

@@ -54,10 +54,23 @@ pub struct Location {
 /// One call on the way to an error.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Step {
-    /// The script function called; empty for a closure.
-    pub function: String,
+    /// What was called.
+    pub callee: Callee,
     /// The line of the call, if it is known.
     pub line: Option<usize>,
+    /// The file of the call, if it is not the one that was run.
+    pub file: Option<String>,
+}
+
+/// What a call on the way to an error has called.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Callee {
+    /// A function by its name.
+    Function(String),
+    /// A function without a name.
+    Closure,
+    /// A file that was imported.
+    File(String),
 }
 
 impl Diagnostic {

@@ -7,7 +7,7 @@ use codespan_reporting::files::SimpleFile;
 use codespan_reporting::term::termcolor::Buffer;
 use codespan_reporting::term::{self, Config};
 
-use super::{Blame, Diagnostic, Location, Step};
+use super::{Blame, Callee, Diagnostic, Location, Step};
 pub use crate::output::Colours;
 
 impl Diagnostic {
@@ -54,13 +54,24 @@ fn shown_steps(trace: &[Step]) -> Vec<String> {
 
 impl std::fmt::Display for Step {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self.function.as_str() {
-            "" => f.write_str("in a closure")?,
-            name => write!(f, "in '{name}'")?,
-        }
-        match self.line {
-            Some(line) => write!(f, ", called at line {line}"),
-            None => Ok(()),
+        let reached = match &self.callee {
+            Callee::Closure => {
+                f.write_str("in a closure")?;
+                "called"
+            }
+            Callee::Function(name) => {
+                write!(f, "in '{name}'")?;
+                "called"
+            }
+            Callee::File(name) => {
+                write!(f, "in the file {name}")?;
+                "imported"
+            }
+        };
+        match (self.line, &self.file) {
+            (Some(line), Some(file)) => write!(f, ", {reached} at {file}:{line}"),
+            (Some(line), None) => write!(f, ", {reached} at line {line}"),
+            (None, _) => Ok(()),
         }
     }
 }

@@ -4,12 +4,13 @@ use rhai::{Dynamic, Engine, EvalAltResult, ParseErrorType, Position};
 
 use super::calls::Unknown;
 use super::outline::Outline;
-use super::{Diagnostic, Step, locate, parsing};
+use super::{Callee, Diagnostic, Step, locate, parsing};
 use crate::script::catalog::Catalog;
 use crate::script::error::{BUG, Failure};
 use crate::script::kind::with_article;
 use crate::script::limits::Stop;
 use crate::script::program::Program;
+use crate::script::sources::Sources;
 use crate::script::suggest::nearest;
 use crate::script::table::{Form, Row};
 
@@ -21,6 +22,17 @@ pub struct Explainer<'a> {
     pub catalog: &'a Catalog,
     /// The engine that ran it.
     pub engine: &'a Engine,
+}
+
+/// An error without the calls around it.
+struct Unwrapped<'e> {
+    inner: &'e EvalAltResult,
+    /// The file it stands in.
+    program: Program,
+    /// The calls that led there, innermost first.
+    trace: Vec<Step>,
+    /// Where the innermost of them was called.
+    called_at: Option<(Program, Position)>,
 }
 
 /// What is wrong, what to do, and where.
@@ -44,25 +56,7 @@ fn stopped_by(token: &Dynamic) -> Stop {
 impl Explainer<'_> {
     /// The diagnostic for `error`.
     pub fn explain(&self, error: &EvalAltResult) -> Diagnostic {
-        let mut trace = Vec::new();
-        let mut program = self.program.clone();
-        let mut inner = error;
-        loop {
-            inner = match inner {
-                EvalAltResult::ErrorInFunctionCall(name, source, cause, at) => {
-                    let function =
-                        if name.starts_with("anon$") { String::new() } else { name.clone() };
-                    trace.insert(0, Step { function, line: at.line() });
-                    program = self.program.of_source(source);
-                    cause
-                }
-                EvalAltResult::ErrorInModule(path, cause, _) => {
-                    program = self.program.of_source(path);
-                    cause
-                }
-                _ => break,
-            };
-        }
+        let Unwrapped { inner, program, trace, called_at } = self.unwrap(error);
         if let EvalAltResult::ErrorSystem(message, mark) = inner
             && mark.to_string() == BUG
         {
@@ -70,8 +64,42 @@ impl Explainer<'_> {
         }
         let outline = Outline::of(&program.text);
         let (message, hint) = self.words(inner, &program, &outline, &trace);
-        let location = self.location(inner, &program);
+        let location = self.location(inner, &program).or_else(|| {
+            let (caller, at) = called_at.as_ref()?;
+            locate::word_at(caller, *at)
+        });
         Diagnostic { hint, location, trace, ..Diagnostic::general(message) }
+    }
+
+    /// Takes an error out of the calls around it.
+    fn unwrap<'e>(&self, error: &'e EvalAltResult) -> Unwrapped<'e> {
+        let sources = Sources::of(self.engine);
+        let mut trace = Vec::new();
+        let mut program = self.program.clone();
+        let mut inner = error;
+        let mut called_at = None;
+        loop {
+            let (callee, file, cause, at) = match inner {
+                EvalAltResult::ErrorInFunctionCall(name, source, cause, at) => {
+                    let callee = match name.starts_with("anon$") {
+                        true => Callee::Closure,
+                        false => Callee::Function(name.clone()),
+                    };
+                    (callee, sources.find(name, source), cause, at)
+                }
+                EvalAltResult::ErrorInModule(path, cause, at) => {
+                    (Callee::File(path.clone()), Some(path.clone()), cause, at)
+                }
+                _ => return Unwrapped { inner, program, trace, called_at },
+            };
+            let caller = (program.name != self.program.name).then(|| program.name.clone());
+            trace.insert(0, Step { callee, line: at.line(), file: caller });
+            called_at = Some((program.clone(), *at));
+            if let Some(file) = file {
+                program = self.program.of_source(&file);
+            }
+            inner = cause;
+        }
     }
 
     fn location(&self, error: &EvalAltResult, program: &Program) -> Option<super::Location> {
@@ -141,10 +169,6 @@ impl Explainer<'_> {
             Error::ErrorDataTooLarge(what, _) => {
                 (too_large(what), Some("is something added for ever in a loop?".into()))
             }
-            Error::ErrorModuleNotFound(name, _) => {
-                let hint = "import looks for NAME.rhai beside the script";
-                (format!("there is no module '{name}' to import"), Some(hint.into()))
-            }
             Error::ErrorDataRace(..) => (
                 "a closure uses the very object whose method it is given to".into(),
                 Some("take the object from the argument of the closure: sim.at(t, |sim| print(sim.t))".into()),
@@ -159,6 +183,10 @@ impl Explainer<'_> {
 
     fn variable(&self, name: &str, outline: &Outline, trace: &[Step]) -> Words {
         let message = format!("there is no variable '{name}' here");
+        if let Some((_, own)) = name.rsplit_once("::").filter(|_| !name.starts_with("global::")) {
+            let hint = format!("the file shows what it exports: export const {own} = …");
+            return (message, Some(hint));
+        }
         if let Some((_, line)) = outline.top_level.iter().find(|(known, _)| known == name) {
             let hint = match trace.is_empty() {
                 true => format!("'{name}' is declared later, at line {line}"),

@@ -1,17 +1,21 @@
 //! Functions of a script that wait for a time of a simulation.
 
-use rhai::FnPtr;
-
 /// Functions in the order of their times, and which of them were called.
-#[derive(Clone, Default)]
-pub struct Events {
-    functions: Vec<(f64, FnPtr)>,
+#[derive(Clone)]
+pub struct Events<F> {
+    functions: Vec<(f64, F)>,
     called: usize,
 }
 
-impl Events {
+impl<F> Default for Events<F> {
+    fn default() -> Self {
+        Self { functions: Vec::new(), called: 0 }
+    }
+}
+
+impl<F: Clone> Events<F> {
     /// Adds a function; of several for one time, the first that was added is called first.
-    pub fn insert(&mut self, time: f64, function: FnPtr) {
+    pub fn insert(&mut self, time: f64, function: F) {
         let place = self.functions.partition_point(|(other, _)| *other <= time);
         self.functions.insert(place.max(self.called), (time, function));
     }
@@ -22,7 +26,7 @@ impl Events {
     }
 
     /// The next function whose time has come, which counts as called.
-    pub fn take_due(&mut self, now: f64) -> Option<FnPtr> {
+    pub fn take_due(&mut self, now: f64) -> Option<F> {
         let (_, due) = self.functions.get(self.called).filter(|(time, _)| *time <= now)?;
         self.called += 1;
         Some(due.clone())
@@ -44,21 +48,21 @@ impl Events {
 mod tests {
     use super::*;
 
-    fn names(events: &mut Events, now: f64) -> Vec<String> {
-        std::iter::from_fn(|| events.take_due(now)).map(|due| due.fn_name().to_owned()).collect()
+    fn names(events: &mut Events<&'static str>, now: f64) -> Vec<&'static str> {
+        std::iter::from_fn(|| events.take_due(now)).collect()
     }
 
     #[test]
     fn what_lies_ahead_again_is_called_again() {
         let mut events = Events::default();
         for (time, name) in [(2.0, "second"), (1.0, "first"), (2.0, "third")] {
-            events.insert(time, FnPtr::new(name).unwrap());
+            events.insert(time, name);
         }
         assert_eq!(names(&mut events, 2.5), ["first", "second", "third"]);
         assert_eq!((events.next_time(), events.waiting()), (None, 0));
         events.go_back(1.0);
         assert_eq!((events.next_time(), events.waiting()), (Some(2.0), 2));
-        assert_eq!(names(&mut events, 1.5), Vec::<String>::new());
+        assert_eq!(names(&mut events, 1.5), Vec::<&str>::new());
         assert_eq!(names(&mut events, 2.0), ["second", "third"]);
     }
 }

@@ -3,7 +3,7 @@
 use std::cell::{Cell, Ref, RefCell};
 use std::rc::Rc;
 
-use rhai::{Dynamic, FnPtr};
+use rhai::Dynamic;
 
 use super::events::Events;
 use super::scenes::SceneHandle;
@@ -14,6 +14,7 @@ use crate::script::error::ScriptError;
 use crate::script::kind::{Details, Scripted};
 use crate::script::limits::Stop;
 use crate::script::numbers::format_number;
+use crate::script::stored::StoredFunction;
 use crate::simulation::{Monitor, Simulation, SimulationError};
 
 /// A running simulation; clones are the same one.
@@ -24,7 +25,7 @@ struct Live {
     name: String,
     scene: SceneHandle,
     simulation: RefCell<Simulation>,
-    events: RefCell<Events>,
+    events: RefCell<Events<Rc<StoredFunction>>>,
     /// While an event is called, no other may be set for the same time.
     is_firing: Cell<bool>,
     /// Whether the user knows that the run ended earlier than the script wanted.
@@ -126,7 +127,7 @@ impl SimulationHandle {
     }
 
     /// Calls a script function when a time is reached.
-    pub fn at(&self, time: f64, function: FnPtr) -> Result<(), ScriptError> {
+    pub fn at(&self, time: f64, function: StoredFunction) -> Result<(), ScriptError> {
         let now = self.time();
         let is_late = if self.0.is_firing.get() { time <= now } else { time < now };
         if is_late {
@@ -138,7 +139,7 @@ impl SimulationHandle {
             .hint("give a later time, before the simulation gets there"));
         }
         self.0.simulation.borrow_mut().cut_at(time);
-        self.0.events.borrow_mut().insert(time, function);
+        self.0.events.borrow_mut().insert(time, Rc::new(function));
         Ok(())
     }
 
@@ -198,7 +199,7 @@ impl SimulationHandle {
             let mut watch = Watch { context, end: f64::NEG_INFINITY };
             let stepped = self.0.simulation.borrow_mut().step(&mut watch);
             stepped.map_err(|error| explain(error, call.context()))?;
-            self.fire_due(call)?;
+            self.fire_due()?;
         }
         Ok(())
     }
@@ -227,7 +228,7 @@ impl SimulationHandle {
             let mut watch = Watch { context, end: stop - slack };
             let ran = self.0.simulation.borrow_mut().run_to(stop, &mut watch);
             ran.map_err(|error| explain(error, call.context()))?;
-            self.fire_due(call)?;
+            self.fire_due()?;
             if self.has_ended() && self.time() < end {
                 let when = format!("before t = {}", format_number(end));
                 self.tell_ending(call.context(), &when);
@@ -245,19 +246,19 @@ impl SimulationHandle {
         call.proceed()?;
         let pretended = self.0.simulation.borrow_mut().pretend_to(end);
         pretended.map_err(|error| explain(error, call.context()))?;
-        self.fire_due(call)
+        self.fire_due()
     }
 
-    fn fire_due(&self, call: &Call) -> Result<(), ScriptError> {
+    fn fire_due(&self) -> Result<(), ScriptError> {
         let slack = self.slack();
         loop {
             let due = self.0.events.borrow_mut().take_due(self.time() + slack);
             let Some(function) = due else { return Ok(()) };
             // What an event gives back has no meaning.
             self.0.is_firing.set(true);
-            let called = call.invoke(&function, [Dynamic::from(self.clone())]);
+            let called = function.call([Dynamic::from(self.clone())]);
             self.0.is_firing.set(false);
-            let _ = called?;
+            let _ = called.map_err(ScriptError::Engine)?;
         }
     }
 }
@@ -283,8 +284,15 @@ impl Scripted for SimulationHandle {
     const NAME: &'static str = "simulation";
     const DOC: &'static str = "A scene in motion.";
 
+    fn is_busy(&self) -> Option<String> {
+        let is_stepping = self.0.simulation.try_borrow().is_err();
+        is_stepping.then(|| format!("simulation '{}' is in the middle of a step", self.0.name))
+    }
+
     fn show(&self) -> String {
-        let simulation = self.simulation();
+        let Ok(simulation) = self.0.simulation.try_borrow() else {
+            return format!("simulation '{}' in the middle of a step", self.0.name);
+        };
         let (counts, settings) = (simulation.counts(), simulation.settings());
         let ended = simulation.ending().map(|ending| format!("; ended: {ending}"));
         format!(

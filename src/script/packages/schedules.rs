@@ -178,7 +178,7 @@ fn closure(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn stored(call: &Call, function: FnPtr, breaks: Vec<f64>) -> Result<Schedule, ScriptError> {
     call.expect_arguments(&function, 1, "|t| …, a function of time")?;
-    let stored = call.store(function, "the function of a schedule")?;
+    let stored = call.store(function, "the function of a schedule");
     Ok(Schedule::Function { function: Rc::new(move |t| stored.number_of(t)), breaks })
 }
 

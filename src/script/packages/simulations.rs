@@ -52,6 +52,7 @@ pub const TABLE: Table = Table {
         method(SIMULATION, "at", &[number("t").unit("time"), callback("function")], |call| {
             let function = call.callback("function")?;
             call.expect_arguments(&function, 1, "|sim| …, a function of the simulation")?;
+            let function = call.store(function, "an event");
             call.receiver::<SimulationHandle>()?.at(call.number("t")?, function)?;
             Ok(Dynamic::UNIT)
         })

@@ -76,7 +76,14 @@ impl Scripted for HistoryHandle {
     const NAME: &'static str = "history";
     const DOC: &'static str = "What a simulation was like, step by step.";
 
+    fn is_busy(&self) -> Option<String> {
+        self.of.is_busy()
+    }
+
     fn show(&self) -> String {
+        if let Some(reason) = self.is_busy() {
+            return format!("history: {reason}");
+        }
         let (rows, first, last) = self.read(|history| {
             let time = |row: Option<&Sample>| row.map_or(f64::NAN, |row| row.measures.time);
             (
