@@ -2,6 +2,7 @@
 
 mod args;
 mod bar;
+mod docs;
 mod interrupt;
 mod run;
 
@@ -36,6 +37,7 @@ pub fn main() -> ExitCode {
     let exit = match arguments.command {
         Some(Command::Run(options)) => run::run(&options),
         Some(Command::Check(options)) => run::check(&options),
+        Some(Command::Docs(options)) => docs::docs(&options),
         None => help(),
     };
     exit.into()

@@ -6,14 +6,19 @@
 
 pub mod accept;
 pub mod arguments;
+pub mod built_in;
+pub mod builtins;
 pub mod call;
 pub mod catalog;
 pub mod checks;
 pub mod context;
+pub mod definitions;
 pub mod diagnose;
 pub mod engine;
 pub mod error;
 pub mod files;
+pub mod foundation;
+pub mod help;
 pub mod imports;
 pub mod kind;
 pub mod lexing;
@@ -31,3 +36,4 @@ pub mod stored;
 pub mod suggest;
 pub mod syntax;
 pub mod table;
+pub mod topics;

@@ -3,6 +3,7 @@
 mod arrays;
 mod checking;
 pub mod geometry;
+mod help;
 mod histories;
 mod integrators;
 mod live;
@@ -40,6 +41,7 @@ pub const TABLES: &[&Table] = &[
     &sliding::TABLE,
     &histories::TABLE,
     &pictures::TABLE,
+    &help::TABLE,
 ];
 
 #[cfg(test)]
