@@ -29,6 +29,8 @@ pub enum Command {
     /// Parse a script and build its scenes without running, printing or writing anything.
     #[command(after_help = EXIT_CODES)]
     Check(CheckOptions),
+    /// Show help on a name, the whole reference, or write definition files for editors.
+    Docs(DocsOptions),
     /// Open a prompt: step, look, go back. Reads inputs from a pipe where there is no terminal.
     #[command(after_help = EXIT_CODES)]
     Repl(ReplOptions),
@@ -103,6 +105,20 @@ pub struct CheckOptions {
     /// What the script may use.
     #[command(flatten)]
     pub limits: LimitOptions,
+}
+
+/// Options of `withy docs`.
+#[derive(Args)]
+pub struct DocsOptions {
+    /// A function, type, option, constant or part of the language, such as section or simulation.run_to; without it, an overview.
+    #[arg(conflicts_with_all = ["markdown", "definitions"])]
+    pub name: Option<String>,
+    /// Print the whole reference as Markdown.
+    #[arg(long, conflicts_with = "definitions")]
+    pub markdown: bool,
+    /// Write definition files (.d.rhai) for the Rhai language server into this folder.
+    #[arg(long, value_name = "DIR")]
+    pub definitions: Option<PathBuf>,
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 all is well, 1 a check in the script failed, 2 the script or an argument is wrong, \

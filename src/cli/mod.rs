@@ -2,6 +2,7 @@
 
 mod args;
 mod bar;
+mod docs;
 mod interrupt;
 mod limits;
 mod run;
@@ -39,6 +40,7 @@ pub fn main() -> ExitCode {
         Some(Command::Run(options)) => run::run(&options),
         Some(Command::Check(options)) => run::check(&options),
         Some(Command::Repl(options)) => session::open(&options),
+        Some(Command::Docs(options)) => docs::docs(&options),
         None => session::start(arguments.session),
     };
     exit.into()

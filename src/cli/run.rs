@@ -79,7 +79,8 @@ fn exit_for(outcome: &Outcome) -> Exit {
     }
 }
 
-fn refuse(diagnostic: &Diagnostic) -> Exit {
+/// Shows an error.
+pub(super) fn refuse(diagnostic: &Diagnostic) -> Exit {
     let wants_colours =
         stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
     tell(&diagnostic.render(if wants_colours { Colours::Ansi } else { Colours::None }));

@@ -149,6 +149,11 @@ impl<'c, 'r> Call<'c, 'r> {
         describe(self.native.engine(), value)
     }
 
+    /// The name of the type of `value`.
+    pub fn type_of(&self, value: &Dynamic) -> String {
+        self.native.engine().map_type_name(value.type_name()).to_owned()
+    }
+
     /// `value` as the script would print it.
     pub fn show(&self, value: &Dynamic) -> String {
         let mut value = value.clone();

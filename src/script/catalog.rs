@@ -1,5 +1,7 @@
 //! All tables of a language together: what is known under which name, for messages, help and completion.
 
+use super::built_in::{BuiltIn, BuiltInTable};
+use super::builtins;
 use super::kind::Type;
 use super::packages;
 use super::table::{Form, Row, Table};
@@ -8,12 +10,13 @@ use super::table::{Form, Row, Table};
 #[derive(Clone)]
 pub struct Catalog {
     tables: Vec<&'static Table>,
+    built_ins: &'static [&'static BuiltInTable],
 }
 
 impl Catalog {
     /// The language of withy.
     pub fn standard() -> Self {
-        Self { tables: packages::TABLES.to_vec() }
+        Self { tables: packages::TABLES.to_vec(), built_ins: builtins::TABLES }
     }
 
     /// The same with one more table.
@@ -58,5 +61,23 @@ impl Catalog {
     /// Names with a fixed value.
     pub fn constants(&self) -> impl Iterator<Item = &str> {
         self.tables().flat_map(|table| table.constants).map(|constant| constant.name)
+    }
+
+    /// What it takes over from Rhai, in the order of the reference.
+    pub fn built_in_tables(&self) -> impl Iterator<Item = &'static BuiltInTable> {
+        self.built_ins.iter().copied()
+    }
+
+    /// The functions of Rhai.
+    pub fn built_ins(&self) -> impl Iterator<Item = &'static BuiltIn> {
+        self.built_in_tables().flat_map(|table| table.rows)
+    }
+
+    /// The functions of Rhai with this name.
+    pub fn built_ins_named<'a>(
+        &self,
+        name: &'a str,
+    ) -> impl Iterator<Item = &'static BuiltIn> + use<'a, '_> {
+        self.built_ins().filter(move |built_in| built_in.name() == name)
     }
 }

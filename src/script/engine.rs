@@ -2,17 +2,16 @@
 
 use std::ops::{Range, RangeInclusive};
 
-use rhai::{Dynamic, Engine, EvalAltResult, FnPtr, INT, ImmutableString, Map, Position};
+use rhai::{Dynamic, Engine, FnPtr, INT, ImmutableString, Map};
 
 use super::catalog::Catalog;
 use super::context::Context;
-use super::error::ScriptError;
 use super::imports::FolderResolver;
 use super::limits::DEEPEST;
 use super::numbers::format_number;
 use super::register::register;
 use super::sources::Sources;
-use super::{operators, sorting, syntax};
+use super::{foundation, operators, sorting, syntax};
 
 /// Nesting of one expression at the top level, and inside a function where it adds up with calls.
 const EXPRESSION_DEPTH: usize = 256;
@@ -25,15 +24,13 @@ const LARGEST_MAP: usize = 1_000_000;
 ///
 /// An error means that a token hook of Rhai no longer works as this crate needs it.
 pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
-    let mut engine = Engine::new();
+    let mut engine = foundation::engine();
     limit(&mut engine, context);
     name_types(&mut engine);
     syntax::install(&mut engine)?;
     operators::install(&mut engine);
     sorting::install(&mut engine);
     print_numbers(&mut engine);
-    refuse_exit(&mut engine);
-    refuse_sleep(&mut engine);
     Sources::install(&mut engine);
     for table in catalog.tables() {
         register(&mut engine, table, context);
@@ -54,9 +51,7 @@ fn limit(engine: &mut Engine, context: &Context) {
         .set_max_string_size(LONGEST_TEXT)
         .set_max_array_size(LARGEST_ARRAY)
         .set_max_map_size(LARGEST_MAP)
-        .set_fail_on_invalid_map_property(true)
-        // Text made into code has no lines to point at, and nothing here needs it.
-        .disable_symbol("eval");
+        .set_fail_on_invalid_map_property(true);
 }
 
 /// Names of the built-in types in messages and in `type_of`.
@@ -81,31 +76,6 @@ fn print_numbers(engine: &mut Engine) {
     }
     engine.register_fn("+", |text: ImmutableString, x: f64| format!("{text}{}", format_number(x)));
     engine.register_fn("+", |x: f64, text: ImmutableString| format!("{}{text}", format_number(x)));
-}
-
-/// Rhai's `exit` would end a script as if all were well, its later checks unjudged.
-fn refuse_exit(engine: &mut Engine) {
-    let refusal = || {
-        let refusal = ScriptError::new("a script cannot leave with exit()");
-        refusal.hint("throw \"reason\" ends it with an error; check(…) decides the exit code")
-    };
-    engine.register_fn("exit", move || -> Result<(), Box<EvalAltResult>> {
-        Err(refusal().into_engine(Position::NONE))
-    });
-    engine.register_fn("exit", move |_: Dynamic| -> Result<(), Box<EvalAltResult>> {
-        Err(refusal().into_engine(Position::NONE))
-    });
-}
-
-/// A sleeping script could neither be interrupted nor end at its limit of time.
-fn refuse_sleep(engine: &mut Engine) {
-    let refuse = || -> Result<(), Box<EvalAltResult>> {
-        let refusal = ScriptError::new("a script cannot wait with sleep()");
-        let refusal = refusal.hint("what is simulated has its own time: sim.run_to(t)");
-        Err(refusal.into_engine(Position::NONE))
-    };
-    engine.register_fn("sleep", move |_: INT| refuse());
-    engine.register_fn("sleep", move |_: f64| refuse());
 }
 
 fn connect(engine: &mut Engine, context: &Context) {

@@ -6,15 +6,20 @@
 
 pub mod accept;
 pub mod arguments;
+pub mod built_in;
+pub mod builtins;
 pub mod call;
 pub mod catalog;
 pub mod checks;
 pub mod context;
+pub mod definitions;
 mod details;
 pub mod diagnose;
 pub mod engine;
 pub mod error;
 pub mod files;
+pub mod foundation;
+pub mod help;
 pub mod imports;
 pub mod kind;
 pub mod lexing;
@@ -38,3 +43,4 @@ pub mod stored;
 pub mod suggest;
 pub mod syntax;
 pub mod table;
+pub mod topics;

@@ -1,8 +1,10 @@
 //! `:help` and `?`: what a name means.
 
-use super::{COMMANDS, find};
-use crate::output::{Cell, Table};
+use super::{COMMANDS, Command, find};
+use crate::output::{Cell, Colours, Table};
 use crate::repl::shell::{Outcome, Shell};
+use crate::script::diagnose::Diagnostic;
+use crate::script::help::{self, Page};
 
 /// `:help [name]`
 pub fn help(shell: &mut Shell, operand: &str) -> Outcome {
@@ -12,14 +14,39 @@ pub fn help(shell: &mut Shell, operand: &str) -> Outcome {
     }
     if let Some(command) = name.strip_prefix(':') {
         return match find(command) {
-            Ok(command) => {
-                let text = format!("{}\n  {}. {}", command.usage(), command.summary, command.doc);
-                shell.print(text.trim_end());
-                Outcome::Good
-            }
+            Ok(command) => explain(shell, command),
             Err(refusal) => shell.refuse(&refusal),
         };
     }
+    let named = COMMANDS.iter().find(|command| command.name == name);
+    match (help::page(shell.session().catalog(), name), named) {
+        (Ok(page), command) => {
+            show(shell, &page);
+            if let Some(command) = command {
+                shell.print("");
+                return explain(shell, command);
+            }
+            Outcome::Good
+        }
+        (Err(_), Some(command)) => explain(shell, command),
+        (Err(unknown), None) => {
+            let told = Diagnostic::general(unknown.to_string());
+            shell.refuse(&match unknown.meant.is_none() && unknown.mentions.is_empty() {
+                true => told.with_hint(":help lists what there is"),
+                false => told.with_hint(unknown.hint()),
+            })
+        }
+    }
+}
+
+fn explain(shell: &Shell, command: &Command) -> Outcome {
+    let mut page = Page::default();
+    page.heading(command.usage());
+    page.paragraph(&format!("At the prompt, it {}.", command.summary));
+    if !command.doc.is_empty() {
+        page.paragraph(command.doc);
+    }
+    show(shell, &page);
     Outcome::Good
 }
 
@@ -28,6 +55,18 @@ fn overview(shell: &mut Shell) -> Outcome {
     for command in COMMANDS {
         table.row([command.usage(), command.summary.to_owned()].map(Cell::Text));
     }
-    shell.print(table.to_string().trim_end());
+    shell.print(&format!("{}\n", table.to_string().trim_end()));
+    match help::page(shell.session().catalog(), "") {
+        Ok(page) => show(shell, &page),
+        Err(unknown) => return shell.refuse(&Diagnostic::bug(unknown)),
+    }
     Outcome::Good
+}
+
+fn show(shell: &Shell, page: &Page) {
+    let text = match shell.colours() {
+        Colours::Ansi => page.ansi(shell.width()),
+        Colours::None => page.plain(shell.width()),
+    };
+    shell.print(text.trim_end());
 }

@@ -1,9 +1,10 @@
 //! Calls and properties that do not exist: what does, how it is written, and which name was meant.
 
-use rhai::{Engine, Position};
+use rhai::Position;
 
 use super::outline::Outline;
 use super::translate::type_word;
+use crate::script::built_in::BuiltIn;
 use crate::script::catalog::Catalog;
 use crate::script::kind::with_article;
 use crate::script::operators;
@@ -14,7 +15,6 @@ use crate::script::table::{Form, Row};
 /// What is known, to be held against what was asked for.
 pub struct Unknown<'a> {
     pub catalog: &'a Catalog,
-    pub engine: &'a Engine,
     pub program: &'a Program,
     pub outline: &'a Outline,
 }
@@ -49,7 +49,22 @@ impl Unknown<'_> {
         if let Some((_, count)) = self.outline.functions.iter().find(|(known, _)| known == name) {
             return (format!("{name} takes {}, got {}", arguments(*count), types.len()), None);
         }
+        if let Some(words) = self.wrong_built_in(name, &types) {
+            return words;
+        }
         self.unknown_name(name, &types, &rows, self.is_dotted(at))
+    }
+
+    /// A function of Rhai that these values could be meant for, called with the wrong ones.
+    fn wrong_built_in(&self, name: &str, types: &[&str]) -> Option<Words> {
+        let meant: Vec<_> = self
+            .catalog
+            .built_ins_named(name)
+            .filter(|known| known.is_function() || types.first().is_some_and(|of| known.is_of(of)))
+            .collect();
+        let got = types.iter().map(|name| with_article(name)).collect::<Vec<_>>().join(", ");
+        let message = format!("{name} cannot be called with ({got})");
+        (!meant.is_empty()).then(|| (message, Some(format!("write {}", forms(&meant)))))
     }
 
     fn unknown_name(&self, name: &str, types: &[&str], rows: &[&Row], dotted: bool) -> Words {
@@ -65,9 +80,11 @@ impl Unknown<'_> {
                 Some(format!("'{name}' belongs to {}: {}", with_article(owner), row.signature())),
             );
         }
-        if self.built_in().any(|known| known == name) {
-            let got = types.iter().map(|name| with_article(name)).collect::<Vec<_>>().join(", ");
-            return (format!("{name} cannot be called with ({got})"), None);
+        let built_ins: Vec<_> = self.catalog.built_ins_named(name).collect();
+        if let Some(owner) = built_ins.iter().find_map(|known| known.written().next()?.receiver) {
+            let told =
+                format!("'{name}' belongs to {}: {}", with_article(owner), forms(&built_ins));
+            return (message, Some(told));
         }
         if self.outline.variables.iter().any(|known| known == name) {
             return (
@@ -79,7 +96,11 @@ impl Unknown<'_> {
         let mut known: Vec<String> = members.iter().map(|row| row.name.to_owned()).collect();
         known.extend(self.catalog.function_names().map(str::to_owned));
         known.extend(self.outline.functions.iter().map(|(name, _)| name.clone()));
-        known.extend(self.built_in());
+        let fits = |known: &&BuiltIn| match receiver {
+            Some(of) => known.is_of(of) || known.is_function(),
+            None => true,
+        };
+        known.extend(self.catalog.built_ins().filter(fits).map(|known| known.name().to_owned()));
         let hint = nearest(name, known.iter().map(String::as_str))
             .map(|near| self.did_you_mean(near, receiver));
         (message, hint.or_else(|| list(&members)))
@@ -98,7 +119,13 @@ impl Unknown<'_> {
         };
         match row {
             Some(row) => format!("did you mean '{near}'? {}", row.signature()),
-            None => format!("did you mean '{near}'?"),
+            None => {
+                let of_receiver = self.catalog.built_ins_named(near).filter(|known| {
+                    receiver.is_none_or(|of| known.is_of(of) || known.is_function())
+                });
+                let written = forms(&of_receiver.collect::<Vec<_>>());
+                format!("did you mean '{near}'? {written}").trim_end().to_owned()
+            }
         }
     }
 
@@ -122,8 +149,17 @@ impl Unknown<'_> {
                 Some(format!("'{name}' is called with parentheses: {}", row.signature())),
             );
         }
-        let near = nearest(name, members.iter().map(|row| row.name));
+        if let Some(built_in) = self.catalog.built_ins_named(name).find(|known| known.is_of(of)) {
+            return (message, Some(format!("write {}", forms(&[built_in]))));
+        }
+        let near =
+            nearest(name, members.iter().map(|row| row.name).chain(self.built_in_members(of)));
         (message, near.map(|near| self.did_you_mean(near, Some(&of))).or_else(|| list(&members)))
+    }
+
+    /// Names of what Rhai has for values of a type.
+    fn built_in_members(&self, of: &str) -> impl Iterator<Item = &'static str> {
+        self.catalog.built_ins().filter(move |known| known.is_of(of)).map(BuiltIn::name)
     }
 
     fn operator(&self, symbol: &str, types: &[&str]) -> Words {
@@ -147,15 +183,12 @@ impl Unknown<'_> {
         let (Some(line), Some(column)) = (at.line(), at.position()) else { return false };
         self.program.text[..self.program.offset(line, column)].trim_end().ends_with('.')
     }
+}
 
-    /// Names of Rhai's own functions.
-    fn built_in(&self) -> impl Iterator<Item = String> {
-        let signatures = self.engine.gen_fn_signatures(true);
-        signatures.into_iter().filter_map(|signature| {
-            let name = signature.split('(').next()?.trim().to_owned();
-            name.chars().all(|c| c.is_alphanumeric() || c == '_').then_some(name)
-        })
-    }
+/// All ways to write functions of Rhai.
+fn forms(built_ins: &[&BuiltIn]) -> String {
+    let forms: Vec<&str> = built_ins.iter().flat_map(|known| known.forms).copied().collect();
+    forms.join(" or ")
 }
 
 fn wrong_count(row: &Row, got: usize) -> Words {

@@ -128,7 +128,7 @@ impl Explainer<'_> {
         trace: &[Step],
     ) -> Words {
         use EvalAltResult as Error;
-        let unknown = Unknown { catalog: self.catalog, engine: self.engine, program, outline };
+        let unknown = Unknown { catalog: self.catalog, program, outline };
         match error {
             Error::ErrorParsing(kind, at) => parsing::explain(kind, &word_of(program, *at)),
             Error::ErrorFunctionNotFound(signature, at) => unknown.function(signature, *at),

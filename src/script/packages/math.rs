@@ -61,6 +61,24 @@ pub const TABLE: Table = Table {
             "The hyperbolic tangent.",
             "check(tanh(0) == 0);",
         ),
+        of_x(
+            "asinh",
+            |call| map(call, f64::asinh),
+            "The number with this hyperbolic sine.",
+            "check(asinh(0) == 0);",
+        ),
+        of_x(
+            "acosh",
+            |call| map(call, f64::acosh),
+            "The number of zero or more with this hyperbolic cosine.",
+            "check(acosh(1) == 0);",
+        ),
+        of_x(
+            "atanh",
+            |call| map(call, f64::atanh),
+            "The number with this hyperbolic tangent.",
+            "check(atanh(0) == 0);",
+        ),
         of_x("exp", |call| map(call, f64::exp), "The exponential.", "check(exp(0) == 1);"),
         of_x("ln", |call| map(call, f64::ln), "The natural logarithm.", "check(ln(E) == 1);"),
         of_x(
@@ -75,6 +93,13 @@ pub const TABLE: Table = Table {
             "The logarithm to base 2.",
             "check(log2(8) == 3);",
         ),
+        function("log", &[ANY_X, number("base")], |call| {
+            Ok(x(call)?.log(call.number("base")?).into())
+        })
+        .returns("a number")
+        .summary("The logarithm to a base of your choice, which must be given.")
+        .example("check_close(log(81, 3), 4, 1e-15);")
+        .see(&["ln", "log10", "log2"]),
         of_x("sqrt", |call| map(call, f64::sqrt), "The square root.", "check(sqrt(16) == 4);")
             .see(&["hypot"]),
         of_x(
@@ -94,38 +119,59 @@ pub const TABLE: Table = Table {
             |call| round(call, f64::floor),
             "The whole number at or below x.",
             "check(floor(2.7) == 2);",
-        ),
+        )
+        .returns(WHOLE),
         of_x(
             "ceiling",
             |call| round(call, f64::ceil),
             "The whole number at or above x.",
             "check(ceiling(2.1) == 3);",
-        ),
+        )
+        .returns(WHOLE),
+        of_x(
+            "int",
+            |call| round(call, f64::trunc),
+            "The whole number next to x towards zero.",
+            "check(int(2.7) == 2 && int(-2.7) == -2);",
+        )
+        .returns(WHOLE)
+        .see(&["floor", "fraction"]),
+        of_x(
+            "fraction",
+            |call| map(call, f64::fract),
+            "What is left of x without int(x).",
+            "check(fraction(2.75) == 0.75);",
+        )
+        .see(&["int"]),
         of_x(
             "round",
             |call| round(call, f64::round),
             "The nearest whole number.",
             "check(round(2.6) == 3);",
         )
+        .returns(WHOLE)
         .see(&["round_to"]),
         of_x(
             "is_nan",
             |call| Ok(x(call)?.is_nan().into()),
             "Whether x is undefined.",
             "check(is_nan(0 / 0));",
-        ),
+        )
+        .returns("true or false"),
         of_x(
             "is_finite",
             |call| Ok(x(call)?.is_finite().into()),
             "Whether x is neither infinite nor undefined.",
             "check(!is_finite(1 / 0));",
-        ),
+        )
+        .returns("true or false"),
         of_x(
             "is_infinite",
             |call| Ok(x(call)?.is_infinite().into()),
             "Whether x is infinite.",
             "check(is_infinite(1 / 0));",
-        ),
+        )
+        .returns("true or false"),
         function("abs", &[numeric("x")], absolute)
             .returns("a number, whole if x is")
             .summary("The magnitude of a number.")
@@ -160,6 +206,7 @@ pub const TABLE: Table = Table {
     ],
 };
 
+const WHOLE: &str = "a whole number, or x itself if it is too large for one";
 const ANY_X: Parameter = number("x").any_number();
 const ANY_Y: Parameter = number("y").any_number();
 

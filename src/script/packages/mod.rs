@@ -5,6 +5,7 @@ mod checking;
 mod events;
 mod explaining;
 pub mod geometry;
+mod help;
 mod histories;
 mod integrators;
 mod live;
@@ -49,6 +50,7 @@ pub const TABLES: &[&Table] = &[
     &histories::TABLE,
     &explaining::TABLE,
     &pictures::TABLE,
+    &help::TABLE,
 ];
 
 #[cfg(test)]

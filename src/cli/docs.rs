@@ -1,0 +1,73 @@
+//! `withy docs`: help pages, the reference, and definition files for editors.
+
+use std::io::{self, IsTerminal, Write, stdout};
+use std::path::Path;
+
+use super::Exit;
+use super::args::DocsOptions;
+use super::run::refuse;
+use crate::output::write_whole;
+use crate::script::catalog::Catalog;
+use crate::script::definitions::definitions;
+use crate::script::diagnose::Diagnostic;
+use crate::script::help::{self, WIDTH};
+use crate::script::reference::reference;
+
+/// Shows or writes what was asked for.
+pub fn docs(options: &DocsOptions) -> Exit {
+    let catalog = Catalog::standard();
+    let text = match &options.definitions {
+        Some(folder) => write_definitions(&catalog, folder),
+        None if options.markdown => Ok(reference(&catalog)),
+        None => page(&catalog, options.name.as_deref().unwrap_or_default()),
+    };
+    match text {
+        Ok(text) => show(&text),
+        Err(diagnostic) => refuse(&diagnostic),
+    }
+}
+
+fn page(catalog: &Catalog, name: &str) -> Result<String, Diagnostic> {
+    let page = help::page(catalog, name).map_err(|unknown| {
+        Diagnostic::general(unknown.to_string()).with_hint(match unknown.meant {
+            None if unknown.mentions.is_empty() => "withy docs lists what there is".to_owned(),
+            _ => unknown.hint(),
+        })
+    })?;
+    let wants_colours =
+        stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
+    Ok(if wants_colours { page.ansi(width()) } else { page.plain(width()) })
+}
+
+/// Columns of the terminal, where the shell tells.
+fn width() -> usize {
+    let columns = std::env::var("COLUMNS").ok().and_then(|text| text.parse().ok());
+    columns.filter(|columns| *columns > 0).unwrap_or(WIDTH)
+}
+
+/// Writes each file whole or not at all, and says which.
+fn write_definitions(catalog: &Catalog, folder: &Path) -> Result<String, Diagnostic> {
+    let refused = |path: &Path, why: &dyn std::fmt::Display| {
+        Diagnostic::general(format!("cannot write '{}': {why}", path.display()))
+            .with_hint("--definitions takes a folder, which is made if it is not there")
+    };
+    std::fs::create_dir_all(folder).map_err(|error| refused(folder, &error))?;
+    let mut told = String::new();
+    for file in definitions(catalog) {
+        let path = folder.join(&file.name);
+        write_whole(&path, file.text.as_bytes()).map_err(|error| refused(&path, &error))?;
+        told += &format!("wrote {}\n", path.display());
+    }
+    Ok(told)
+}
+
+/// A reader that goes away has read enough.
+fn show(text: &str) -> Exit {
+    let mut out = stdout();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            refuse(&Diagnostic::general(format!("cannot write to the output: {error}")))
+        }
+        _ => Exit::Good,
+    }
+}

@@ -1,0 +1,180 @@
+//! A function of Rhai's own that the language keeps: documented as rows are, registered by the engine.
+
+/// Functions of Rhai about one kind of value.
+pub struct BuiltInTable {
+    /// The kind of value in the plural, a heading in the reference.
+    pub name: &'static str,
+    /// A sentence or two.
+    pub doc: &'static str,
+    /// The functions.
+    pub rows: &'static [BuiltIn],
+}
+
+/// One function of Rhai, with all ways to write it.
+pub struct BuiltIn {
+    /// How it is written: `array.push(value)`, `parse_int(text, [radix])`, `text.len`. All have the same name.
+    pub forms: &'static [&'static str],
+    /// What it gives back, in words; empty for nothing.
+    pub returns: &'static str,
+    /// One line.
+    pub summary: &'static str,
+    /// More, where a line is not enough.
+    pub doc: &'static str,
+    /// A script that runs and shows it at work.
+    pub example: &'static str,
+    /// Related names.
+    pub see: &'static [&'static str],
+}
+
+/// One way to write a function, taken apart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Written {
+    /// The kind of value before the dot, or nothing.
+    pub receiver: Option<&'static str>,
+    /// Its name.
+    pub name: &'static str,
+    /// Names of the arguments that must be given; of a property there are none.
+    pub required: Vec<&'static str>,
+    /// Names of the arguments that may be given after them.
+    pub optional: Vec<&'static str>,
+    /// What stands after the name.
+    pub ending: Ending,
+}
+
+/// What stands after the name of a function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// Nothing: it is read as a property.
+    Property,
+    /// Its arguments.
+    Arguments,
+    /// Its arguments, the last of them as often as wanted.
+    Repeated,
+}
+
+/// A function of Rhai; what it gives back follows with [`BuiltIn::returns`].
+pub const fn built_in(
+    forms: &'static [&'static str],
+    summary: &'static str,
+    example: &'static str,
+) -> BuiltIn {
+    BuiltIn { forms, returns: "", summary, doc: "", example, see: &[] }
+}
+
+impl BuiltIn {
+    /// Says what it gives back.
+    pub const fn returns(mut self, returns: &'static str) -> Self {
+        self.returns = returns;
+        self
+    }
+
+    /// A longer explanation.
+    pub const fn doc(mut self, doc: &'static str) -> Self {
+        self.doc = doc;
+        self
+    }
+
+    /// Related names.
+    pub const fn see(mut self, see: &'static [&'static str]) -> Self {
+        self.see = see;
+        self
+    }
+
+    /// Its name in scripts.
+    pub fn name(&self) -> &'static str {
+        self.forms.first().map_or("", |form| written(form).name)
+    }
+
+    /// All ways to write it, taken apart.
+    pub fn written(&self) -> impl Iterator<Item = Written> {
+        self.forms.iter().map(|form| written(form))
+    }
+
+    /// Whether it is a method or a property of values of this type.
+    pub fn is_of(&self, type_name: &str) -> bool {
+        self.written().any(|form| form.receiver.is_some_and(|kind| kind_includes(kind, type_name)))
+    }
+
+    /// Whether it is called as a function, without a value before a dot.
+    pub fn is_function(&self) -> bool {
+        self.written().any(|form| form.receiver.is_none())
+    }
+}
+
+impl Written {
+    /// Whether a call with this many values fits, the receiver counted as one.
+    pub fn takes(&self, count: usize) -> bool {
+        let receiver = usize::from(self.receiver.is_some());
+        let least = self.required.len() + receiver;
+        let most = least + self.optional.len();
+        match self.ending {
+            Ending::Property => count == 1,
+            Ending::Arguments => (least..=most).contains(&count),
+            Ending::Repeated => count >= least,
+        }
+    }
+}
+
+/// Whether a value of the type is meant by the word that stands before a dot.
+fn kind_includes(kind: &str, type_name: &str) -> bool {
+    match kind {
+        "value" => true,
+        "number" => matches!(type_name, "number" | "whole number"),
+        other => other == type_name,
+    }
+}
+
+fn written(form: &'static str) -> Written {
+    let (called, inside) = match form.split_once('(') {
+        Some((called, rest)) => (called, Some(rest.trim_end_matches(')'))),
+        None => (form, None),
+    };
+    let (receiver, name) = match called.split_once('.') {
+        Some((receiver, name)) => (Some(receiver), name),
+        None => (None, called),
+    };
+    let arguments = inside.unwrap_or_default().split(", ").filter(|name| !name.is_empty());
+    let (repeated, single): (Vec<_>, Vec<_>) = arguments.partition(|name| name.ends_with('…'));
+    let (optional, required): (Vec<_>, Vec<_>) =
+        single.into_iter().partition(|name| name.starts_with('['));
+    Written {
+        receiver,
+        name,
+        required,
+        optional: optional.into_iter().map(|name| name.trim_matches(['[', ']'])).collect(),
+        ending: match (inside, repeated.is_empty()) {
+            (None, _) => Ending::Property,
+            (Some(_), true) => Ending::Arguments,
+            (Some(_), false) => Ending::Repeated,
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn forms_are_taken_apart() {
+        let form = written("array.extract(start, [count])");
+        assert_eq!((form.receiver, form.name), (Some("array"), "extract"));
+        assert_eq!(
+            (form.required.as_slice(), form.optional.as_slice()),
+            (&["start"][..], &["count"][..])
+        );
+        assert!(form.takes(2) && form.takes(3) && !form.takes(1) && !form.takes(4));
+        let property = written("text.len");
+        assert_eq!((property.name, property.ending), ("len", Ending::Property));
+        let call = written("function.call(values…)");
+        assert_eq!((call.ending, call.required.len()), (Ending::Repeated, 0));
+        assert!(call.takes(1) && call.takes(5));
+    }
+
+    #[test]
+    fn a_word_before_a_dot_may_mean_several_types() {
+        let sign = built_in(&["number.sign()"], "", "");
+        assert!(sign.is_of("whole number") && sign.is_of("number") && !sign.is_of("text"));
+        assert!(built_in(&["value.to_string()"], "", "").is_of("beam"));
+        assert!(built_in(&["timestamp()"], "", "").is_function());
+    }
+}

@@ -1,0 +1,27 @@
+//! What the language keeps of Rhai's own functions, one file for each kind of value.
+
+mod arrays;
+mod conversions;
+mod functions;
+mod maps;
+mod ranges;
+mod searches;
+mod texts;
+mod values;
+
+use super::built_in::BuiltInTable;
+
+/// All of them, in the order of the reference.
+pub const TABLES: &[&BuiltInTable] = &[
+    &texts::TABLE,
+    &arrays::TABLE,
+    &searches::TABLE,
+    &maps::TABLE,
+    &ranges::TABLE,
+    &functions::TABLE,
+    &conversions::TABLE,
+    &values::TABLE,
+];
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,36 @@
+//! Help within the language.
+
+use rhai::Dynamic;
+
+use crate::script::call::Call;
+use crate::script::catalog::Catalog;
+use crate::script::error::{Place, ScriptError};
+use crate::script::help::{WIDTH, page};
+use crate::script::parameter::anything;
+use crate::script::table::{Table, function};
+
+/// Help on everything else.
+pub const TABLE: Table = Table {
+    name: "help",
+    doc: "What there is, and how it is written. The same is in docs/language.md, and shown by withy docs NAME.",
+    types: &[],
+    setup: "",
+    constants: &[],
+    rows: &[function("help", &[anything("name").doc("a name in quotes, or a value, whose type is then explained").optional()], help)
+        .summary("Prints what a name means, with an example to copy; without a name, what there is.")
+        .doc("The name may be that of a function, a method (sim.run_to or simulation.run_to), a type, an option, a constant, a \
+              heading of this reference, or a word of the language such as for.")
+        .example("help(\"section\");\nhelp(\"simulation.run_to\");\nhelp(vec(1, 2));\nhelp();")],
+};
+
+fn help(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let name = match call.value("name") {
+        Err(_) => String::new(),
+        Ok(value) if value.is_string() => value.to_string(),
+        Ok(value) => call.type_of(&value),
+    };
+    let page = page(&Catalog::standard(), &name)
+        .map_err(|unknown| call.error(&unknown).hint(unknown.hint()).at(Place::Argument(0)))?;
+    call.context().print(page.plain(WIDTH).trim_end());
+    Ok(Dynamic::UNIT)
+}

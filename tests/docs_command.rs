@@ -1,0 +1,108 @@
+//! `withy docs` through the real binary.
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::process::{Command, Output};
+
+fn docs(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_withy"))
+        .arg("docs")
+        .args(arguments)
+        .env_remove("COLUMNS")
+        .output()
+        .expect("withy starts")
+}
+
+fn shown(output: &Output) -> String {
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout.clone()).expect("the output is UTF-8")
+}
+
+#[test]
+fn without_a_name_there_is_an_overview() {
+    let overview = shown(&docs(&[]));
+    for heading in ["The language\n", "  loads: ", "  arrays: ", "  closures: "] {
+        assert!(overview.contains(heading), "{heading}\n{overview}");
+    }
+    assert!(overview.lines().all(|line| line.chars().count() <= 80), "{overview}");
+}
+
+#[test]
+fn a_name_shows_its_page_without_colours_in_a_pipe() {
+    let page = shown(&docs(&["simulation.run_to"]));
+    assert!(page.starts_with("simulation.run_to(t)\nSteps until a time"), "{page}");
+    assert!(page.contains("\nExample\n    "), "{page}");
+    assert!(!page.contains('\u{1b}'), "{page}");
+}
+
+#[test]
+fn the_example_of_a_page_runs_as_it_stands() {
+    let page = shown(&docs(&["slider_position"]));
+    let script: Vec<_> = page.lines().filter_map(|line| line.strip_prefix("    ")).collect();
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("copied.rhai");
+    fs::write(&file, script.join("\n")).expect("the script is written");
+    let run = Command::new(env!("CARGO_BIN_EXE_withy"))
+        .args(["run", "--quiet"])
+        .arg(&file)
+        .current_dir(folder.path())
+        .output()
+        .expect("withy starts");
+    assert!(run.status.success(), "{}\n{}", page, String::from_utf8_lossy(&run.stderr));
+}
+
+#[test]
+fn columns_are_those_of_the_terminal() {
+    let output = Command::new(env!("CARGO_BIN_EXE_withy"))
+        .args(["docs", "section"])
+        .env("COLUMNS", "50")
+        .output()
+        .expect("withy starts");
+    let page = shown(&output);
+    assert!(page.lines().all(|line| line.chars().count() <= 50), "{page}");
+}
+
+#[test]
+fn unknown_names_are_refused_with_a_suggestion() {
+    let output = docs(&["slidr"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("error: there is no help on 'slidr'"), "{said}");
+    assert!(said.contains("did you mean 'slider'?"), "{said}");
+}
+
+#[test]
+fn markdown_is_the_reference_of_the_documents() {
+    assert_eq!(
+        shown(&docs(&["--markdown"])),
+        fs::read_to_string("docs/language.md").expect("docs/language.md")
+    );
+}
+
+#[test]
+fn definitions_are_written_for_every_table() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let target = folder.path().join("editor/definitions");
+    let told = shown(&docs(&["--definitions", target.to_str().expect("a path in UTF-8")]));
+    let files: Vec<_> = fs::read_dir(&target).expect("the folder").map(Result::unwrap).collect();
+    assert_eq!(told.lines().count(), files.len());
+    let scenes = fs::read_to_string(target.join("scenes.d.rhai")).expect("scenes.d.rhai");
+    assert!(scenes.contains("\nfn beam(scene: scene, options: map) -> beam;\n"), "{scenes}");
+    assert!(files.iter().all(|file| file.file_name().to_string_lossy().ends_with(".d.rhai")));
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_is_named() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("taken");
+    fs::write(&file, "").expect("a file");
+    let output = docs(&["--definitions", file.to_str().expect("a path in UTF-8")]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("cannot write") && said.contains("taken"), "{said}");
+}
+
+#[test]
+fn a_name_and_another_form_exclude_each_other() {
+    assert_eq!(docs(&["sin", "--markdown"]).status.code(), Some(2));
+}
