@@ -285,7 +285,7 @@ fn ways_back_that_are_none_are_refused_with_a_reason() {
     }
     simulation.keep_snapshots(PLENTY);
     run(&mut simulation, 2.0).unwrap();
-    assert!(told(simulation.back(15)).contains("the last 10 steps are kept, back to t = 1"));
+    assert!(told(simulation.back(15)).contains("states are kept from t = 1 on"));
     simulation.back(10).unwrap();
     simulation.back(0).unwrap();
     simulation.rewind(1.0).unwrap();

@@ -13,7 +13,8 @@ fn session() -> Session {
 }
 
 fn in_folder(folder: PathBuf) -> Session {
-    Session::new(Catalog::standard(), Settings::silent(Mode::Run), folder).unwrap()
+    let settings = Settings { folder, ..Settings::silent(Mode::Run) };
+    Session::new(Catalog::standard(), settings).unwrap()
 }
 
 /// The value of an input as text.

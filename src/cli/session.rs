@@ -1,15 +1,99 @@
 //! `withy`, `withy repl` and `withy -e`: a session with a terminal, with a pipe, or with inputs of the command line.
 
+use std::io::{IsTerminal, stderr, stdin, stdout};
+use std::path::{Path, PathBuf};
+
 use super::Exit;
 use super::args::{ReplOptions, SessionOptions};
+use super::bar::{self, Wish};
+use super::interrupt::{self, AtStake};
+use super::run::refuse;
+use crate::output::{Glyphs, Style};
+use crate::repl::batch;
+use crate::repl::session::Session;
+use crate::repl::shell::{Outcome, Screen, Shell};
+use crate::script::catalog::Catalog;
+use crate::script::context::{Mode, Settings};
+use crate::script::diagnose::Diagnostic;
+use crate::script::limits::MEGABYTE;
+use crate::script::panics;
+use crate::script::program::Program;
+use crate::script::runner::on_large_stack;
 
 /// Opens a session in which a file may have been evaluated first.
 pub fn open(options: &ReplOptions) -> Exit {
-    let _ = options;
-    Exit::Good
+    panics::silence();
+    match on_large_stack(|| hold(options)) {
+        Ok(Ok(exit)) => exit,
+        Ok(Err(diagnostic)) | Err(diagnostic) => refuse(&diagnostic),
+    }
 }
 
 /// A session without a file.
 pub fn start(options: SessionOptions) -> Exit {
     open(&ReplOptions { file: None, session: options })
+}
+
+/// A session from its beginning to its end.
+fn hold(options: &ReplOptions) -> Result<Exit, Diagnostic> {
+    let ReplOptions { file, session: options } = options;
+    let is_conversation =
+        options.inputs.is_empty() && stdin().is_terminal() && stdout().is_terminal();
+    let settings =
+        Settings { folder: folder_of(file), ..settings(options, is_conversation) };
+    let session = Session::new(Catalog::standard(), settings)?;
+    let screen = if is_conversation { Screen::Terminal(style(options)) } else { Screen::Pipe };
+    let mut shell = Shell::new(session, screen);
+    let mut outcome = match file {
+        Some(file) => shell.run_program(Program::load(file)?),
+        None => Outcome::Good,
+    };
+    for input in &options.inputs {
+        if outcome == Outcome::Good {
+            outcome = batch::run(&mut shell, input.as_bytes());
+        }
+    }
+    if options.inputs.is_empty() && outcome == Outcome::Good {
+        outcome = batch::run(&mut shell, stdin().lock());
+    }
+    Ok(exit_for(&shell, outcome))
+}
+
+fn exit_for(shell: &Shell, outcome: Outcome) -> Exit {
+    let has_failed = shell.session().context().with_checks(|checks| !checks.failed().is_empty());
+    match outcome {
+        Outcome::Failed => Exit::Wrong,
+        Outcome::Interrupted => Exit::Interrupted,
+        Outcome::PipeClosed => Exit::Good,
+        Outcome::Good | Outcome::Quit if has_failed => Exit::CheckFailed,
+        Outcome::Good | Outcome::Quit => Exit::Good,
+    }
+}
+
+fn settings(options: &SessionOptions, is_conversation: bool) -> Settings {
+    Settings {
+        out: options.out.clone(),
+        interrupt: interrupt::flag(AtStake::Session),
+        limits: options.limits.limits(),
+        snapshots: (u64::from(options.snapshots) * MEGABYTE) as usize,
+        printed: Box::new(stdout()),
+        told: Box::new(stderr()),
+        progress: bar::progress(if is_conversation { Wish::Show } else { Wish::Hide }),
+        ..Settings::silent(Mode::Run)
+    }
+}
+
+/// A session may read where its file is, or where it was started.
+fn folder_of(file: &Option<PathBuf>) -> PathBuf {
+    let parent = file.as_deref().and_then(Path::parent);
+    parent.filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new(".")).into()
+}
+
+/// What the terminal can show.
+fn style(options: &SessionOptions) -> Style {
+    let style = Style::of_environment(|name| std::env::var(name).ok());
+    match options.ascii {
+        true => Style { glyphs: Glyphs::Ascii, ..style },
+        false => style,
+    }
 }

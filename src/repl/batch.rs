@@ -2,7 +2,7 @@
 
 use std::io::BufRead;
 
-use super::editor::{Completeness, completeness};
+use super::editor::completeness::{Completeness, completeness};
 use super::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
 

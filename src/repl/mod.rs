@@ -1,6 +1,8 @@
 //! The session at a prompt: what is typed is evaluated, remembered, and can be gone back from.
 
+pub mod batch;
 pub mod commands;
+pub mod editor;
 pub mod record;
 pub mod session;
 pub mod shell;

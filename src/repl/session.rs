@@ -54,11 +54,12 @@ pub struct Session {
 }
 
 impl Session {
-    /// A session in which nothing has happened; `folder` is where it may read.
+    /// A session in which nothing has happened.
     ///
     /// # Errors
     /// Only by a mistake of this program.
-    pub fn new(catalog: Catalog, settings: Settings, folder: PathBuf) -> Result<Self, Diagnostic> {
+    pub fn new(catalog: Catalog, settings: Settings) -> Result<Self, Diagnostic> {
+        let folder = settings.folder.clone();
         let context = Context::new(settings);
         let mut engine = engine::build(&catalog, &context).map_err(Diagnostic::bug)?;
         engine::import_from(&mut engine, &folder);

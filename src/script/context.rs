@@ -311,6 +311,7 @@ impl Context {
 
     /// What all simulations of the run say about themselves; they are let go.
     pub fn report(&self) -> Vec<serde_json::Value> {
+        self.0.latest_simulation.take();
         self.0.reporters.take().into_iter().map(|reporter| reporter.report()).collect()
     }
 }

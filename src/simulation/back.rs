@@ -66,7 +66,7 @@ impl Simulation {
 
     fn pretend_back_to(&mut self, rows: usize) {
         let Some(first) = self.snapshots.first().map(|first| first.rows) else { return };
-        if self.go_back_to(rows).is_err() {
+        if self.go_back_to(rows.max(first)).is_err() {
             // The first is always kept.
             let _: Result<(), SimulationError> = self.go_back_to(first);
         }
@@ -90,12 +90,16 @@ impl Simulation {
 
     /// The error of a state that is not kept.
     fn forgotten(&self, rows: usize) -> SimulationError {
+        let now = self.history.samples().len();
         let time = |rows: usize| self.history.samples()[rows - 1].measures.time;
-        let kept = self.snapshots.first().zip(self.snapshots.unbroken_from());
+        let kept = self.snapshots.first().zip(self.snapshots.unbroken_from(now));
         match kept {
+            Some((first, _)) if rows < first.rows => {
+                SimulationError::BeforeFirst { time: time(rows), first: time(first.rows) }
+            }
             Some((first, from)) => SimulationError::Forgotten {
                 time: time(rows),
-                steps: self.history.samples().len() - from,
+                steps: now - from,
                 oldest: time(from),
                 first: time(first.rows),
                 limit: self.snapshots.limit() as f64 / 1e6,

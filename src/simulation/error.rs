@@ -106,7 +106,17 @@ pub enum SimulationError {
         /// The memory that they may take [10⁶ bytes].
         limit: f64,
     },
-    /// The state there was forgotten, or never kept.
+    /// States were not kept yet.
+    #[error(
+        "cannot go back to t = {time}: states are kept from t = {first} on; earlier ones are not in a file of sim.save(…), and are not kept before sim.keep_snapshots(…)"
+    )]
+    BeforeFirst {
+        /// Where it should go.
+        time: f64,
+        /// When the first state was kept.
+        first: f64,
+    },
+    /// The state there was forgotten for want of memory.
     #[error(
         "cannot go back to t = {time}: with a limit of {limit} MB for snapshots only the last {steps} steps are kept, back to t = {oldest}, and the state at t = {first}; sim.rewind({first}) leads there, and for more start with scene.start(#{{ …, snapshots: {} }})",
         (4.0 * limit).ceil().max(64.0)

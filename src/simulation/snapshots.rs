@@ -77,10 +77,10 @@ impl Snapshots {
         self.all().count()
     }
 
-    /// The fewest rows from which on all states are kept.
-    pub(super) fn unbroken_from(&self) -> Option<usize> {
+    /// The fewest rows from which on all states are kept, when there are so many now.
+    pub(super) fn unbroken_from(&self, now: usize) -> Option<usize> {
         let first = self.first.as_ref()?.rows;
-        let oldest = self.recent.front().map_or(first, |oldest| oldest.rows);
+        let oldest = self.recent.front().map_or(now, |oldest| oldest.rows);
         Some(if oldest == first + 1 { first } else { oldest })
     }
 
@@ -146,7 +146,7 @@ mod tests {
     #[test]
     fn the_first_and_the_last_are_kept() {
         let snapshots = filled(10 * size_of::<Snapshot>(), 100);
-        assert_eq!((snapshots.count(), snapshots.unbroken_from()), (10, Some(92)));
+        assert_eq!((snapshots.count(), snapshots.unbroken_from(100)), (10, Some(92)));
         assert!(snapshots.bytes() <= snapshots.limit());
         let kept = |rows| snapshots.find(rows).is_some();
         assert!(kept(1) && !kept(2) && !kept(91) && kept(92) && kept(100) && !kept(101));
@@ -155,9 +155,9 @@ mod tests {
     #[test]
     fn a_smaller_limit_forgets_the_oldest_and_none_forgets_all() {
         let mut snapshots = filled(10 * size_of::<Snapshot>(), 9);
-        assert_eq!(snapshots.unbroken_from(), Some(1));
+        assert_eq!(snapshots.unbroken_from(9), Some(1));
         snapshots.set_limit(4 * size_of::<Snapshot>(), || snapshot(9));
-        assert_eq!((snapshots.count(), snapshots.unbroken_from()), (4, Some(7)));
+        assert_eq!((snapshots.count(), snapshots.unbroken_from(9)), (4, Some(7)));
         assert!(snapshots.bytes() <= snapshots.limit());
         for limit in [size_of::<Snapshot>() - 1, 0] {
             snapshots.set_limit(limit, || snapshot(9));
@@ -166,11 +166,17 @@ mod tests {
     }
 
     #[test]
+    fn where_there_is_room_for_the_first_alone_no_step_is_kept() {
+        let snapshots = filled(size_of::<Snapshot>(), 9);
+        assert_eq!((snapshots.count(), snapshots.unbroken_from(9)), (1, Some(9)));
+    }
+
+    #[test]
     fn what_lies_ahead_is_forgotten_on_the_way_back() {
         let mut snapshots = filled(10 * size_of::<Snapshot>(), 9);
         snapshots.truncate(5);
         assert!(snapshots.find(5).is_some() && snapshots.find(6).is_none());
         snapshots.truncate(1);
-        assert_eq!((snapshots.count(), snapshots.unbroken_from()), (1, Some(1)));
+        assert_eq!((snapshots.count(), snapshots.unbroken_from(1)), (1, Some(1)));
     }
 }
