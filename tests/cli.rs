@@ -89,12 +89,12 @@ fn files_that_cannot_be_read_are_named() {
 }
 
 #[test]
-fn without_arguments_the_help_is_shown() {
-    let output = withy().output().expect("withy starts");
+fn the_help_names_the_commands_and_the_exit_codes() {
+    let output = withy().arg("--help").output().expect("withy starts");
     assert_eq!(code(&output), 0);
     let help = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(
-        help.contains("run") && help.contains("check") && help.contains("Exit codes"),
+        ["run", "check", "repl", "docs", "Exit codes"].iter().all(|word| help.contains(word)),
         "{help}"
     );
 }

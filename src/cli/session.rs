@@ -39,8 +39,7 @@ fn hold(options: &ReplOptions) -> Result<Exit, Diagnostic> {
     let ReplOptions { file, session: options } = options;
     let is_conversation =
         options.inputs.is_empty() && stdin().is_terminal() && stdout().is_terminal();
-    let settings =
-        Settings { folder: folder_of(file), ..settings(options, is_conversation) };
+    let settings = Settings { folder: folder_of(file), ..settings(options, is_conversation) };
     let session = Session::new(Catalog::standard(), settings)?;
     let screen = if is_conversation { Screen::Terminal(style(options)) } else { Screen::Pipe };
     let mut shell = Shell::new(session, screen);

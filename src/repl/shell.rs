@@ -1,8 +1,8 @@
 //! What a line at the prompt does: an input of the language, or a command. Replies go to where the session prints.
 
 use super::commands;
-use super::session::{Reply, Session};
-use crate::output::{Colours, Style};
+use super::session::{ANSWER, Reply, Session};
+use crate::output::{Colours, Style, significant};
 use crate::script::diagnose::Diagnostic;
 use crate::script::kind::Scripted;
 use crate::script::packages::SimulationHandle;
@@ -201,10 +201,20 @@ impl Shell {
         };
         let variables = self.session.variables();
         let held = variables.iter_raw().find(|(name, _, value)| {
-            // A variable that is hidden by a later one of its name would name something else.
-            is_it(value) && variables.get(name).is_some_and(is_it)
+            // The last answer will soon be another one.
+            *name != ANSWER && is_it(value)
         });
         Ok(held.map_or_else(|| "latest_simulation()".into(), |(name, ..)| name.to_owned()))
+    }
+
+    /// Says where the last simulation is.
+    pub fn tell_place(&self) {
+        if let Some(latest) = self.latest() {
+            let steps = latest.simulation().counts().steps;
+            let plural = if steps == 1 { "" } else { "s" };
+            let time = significant(latest.time(), 10);
+            self.print(&format!("t = {time} after {steps} step{plural}"));
+        }
     }
 
     fn input_for_latest(&self, call: &str) -> Result<String, Diagnostic> {
@@ -290,7 +300,7 @@ impl Shell {
     pub fn show_watched(&mut self) -> Outcome {
         let mut parts = Vec::new();
         if let Some(latest) = self.latest() {
-            parts.push(format!("t = {}", crate::output::significant(latest.time(), 10)));
+            parts.push(format!("t = {}", significant(latest.time(), 10)));
         }
         for expression in self.watched.clone() {
             match self.session.peek(&expression) {

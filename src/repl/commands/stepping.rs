@@ -11,7 +11,7 @@ pub fn step(shell: &mut Shell, operand: &str) -> Outcome {
         Err(refusal) => return shell.refuse(&refusal),
     };
     if !shell.is_watching() {
-        return shell.call_latest(&format!("step({count})"));
+        return move_latest(shell, &format!("step({count})"));
     }
     let mut taken = 0;
     let mut outcome = Outcome::Good;
@@ -33,7 +33,7 @@ pub fn run(shell: &mut Shell, operand: &str) -> Outcome {
         return shell.refuse(&not_a_number(operand, "a time").with_hint(hint));
     };
     if !shell.is_watching() {
-        return shell.call_latest(&format!("run_to({})", format_number(end)));
+        return move_latest(shell, &format!("run_to({})", format_number(end)));
     }
     let mut outcome = Outcome::Good;
     let mut is_under_way = false;
@@ -57,7 +57,7 @@ pub fn run(shell: &mut Shell, operand: &str) -> Outcome {
 /// `:back [count]`
 pub fn back(shell: &mut Shell, operand: &str) -> Outcome {
     match whole(operand, "back") {
-        Ok(count) => shell.call_latest(&format!("back({count})")),
+        Ok(count) => move_latest(shell, &format!("back({count})")),
         Err(refusal) => shell.refuse(&refusal),
     }
 }
@@ -69,6 +69,18 @@ pub fn watch(shell: &mut Shell, operand: &str) -> Outcome {
         return Outcome::Good;
     }
     shell.watch(operand)
+}
+
+/// Calls a method that moves the last simulation, and says where it is then.
+fn move_latest(shell: &mut Shell, call: &str) -> Outcome {
+    let outcome = shell.call_latest(call);
+    if outcome == Outcome::Good {
+        match shell.is_watching() {
+            true => return shell.show_watched(),
+            false => shell.tell_place(),
+        }
+    }
+    outcome
 }
 
 fn whole(operand: &str, command: &str) -> Result<u64, Diagnostic> {
