@@ -14,7 +14,7 @@ const HEAD: &str = "# The language
 *Made from the tables in `src/script`; `WITHY_UPDATE=1 cargo test --test documents` makes it again.*
 
 withy speaks [Rhai](https://rhai.rs/book) with numbers as in science. The same pages are shown by `withy docs NAME`, and by \
-`help(\"NAME\")` in a script. Every example runs as it stands.
+`help(\"NAME\")` in a script. Every example runs, after the lines that its section begins with.
 ";
 
 const ABOUT_ROWS: &str = "How to read an entry: after `→` stands what it gives back. Optional arguments stand in brackets. \

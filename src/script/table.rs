@@ -1,7 +1,7 @@
 //! The declarative table of a domain: one row for each name that scripts can use.
 //!
 //! From the same rows come the registration in the engine, the checks of arguments, the error messages and
-//! their suggestions, and later help, completion and the language reference. A domain is added by writing
+//! their suggestions, help, definition files and the language reference. A domain is added by writing
 //! `pub const TABLE: Table` in a new file of [`packages`](super::packages) and naming it in the list there.
 
 use rhai::Dynamic;

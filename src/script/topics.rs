@@ -67,7 +67,7 @@ pub const TOPICS: &[Topic] = &[
             "operator",
         ],
         summary: "What stands between two values, from what binds tightest to what binds loosest.",
-        doc: "Powers `^` and `**`; then `*` `/` and `%` (remainder); then `+` and `-`; then the comparisons `<`, `>`, `<=` and `>=`; then `==` and `!=`; then `&&` (and), whose second half is not asked when the first is false; then `||` (or). `!` means not. `x += 1` stands for `x = x + 1`, and so on for `-=`, `*=`, `/=`, `^=` and `**=`. `+` joins texts, arrays and maps as well. `a in b` asks whether b contains a, `a !in b` the contrary. `a ?? b` is b when a is nothing; `a?.b` is nothing when a is. `<<`, `>>`, `&` and `|` work on the bits of whole numbers.",
+        doc: "Powers `^` and `**`; then `*`, `/` and `%` (remainder); then `+` and `-`; then the comparisons `<`, `>`, `<=` and `>=`; then `==` and `!=`; then `&&` (and), whose second half is not asked when the first is false; then `||` (or). `!` means not. `x += 1` stands for `x = x + 1`, and so on for `-=`, `*=`, `/=`, `^=` and `**=`. `+` joins texts, arrays and maps as well. `a in b` asks whether b contains a, `a !in b` the contrary. `a ?? b` is b when a is nothing; `a?.b` is nothing when a is. `<<`, `>>`, `&` and `|` work on the bits of whole numbers.",
         example: "check(2 + 3 * 2^2 == 14 && 7 % 4 == 3);\nlet x = 1;\nx += 2;\ncheck(x == 3 && !(x > 3 || x == 0));\n\
                   check(\"beam\" + 1 == \"beam1\" && [1] + [2] == [1, 2]);\ncheck(2 in [1, 2] && \"dt\" !in #{ t: 0 });\ncheck((() ?? 5) == 5);",
         see: &["numbers", "contains"],
@@ -187,7 +187,7 @@ pub const TOPICS: &[Topic] = &[
         summary: "Words that cannot be names of variables or functions.",
         doc: "In use: true, false, let, const, if, else, switch, do, while, until, loop, for, in, continue, break, return, throw, try, \
               catch, fn, private, import, export, as, this, Fn, call, curry, is_def_fn, is_def_var, is_shared, type_of, print, \
-              debug. Kept for later: var, static, goto, exit, match, case, new, use, with, is, module, package, super, public, \
+              debug. Kept for later: var, static, goto, match, case, new, use, with, is, module, package, super, public, \
               protected, thread, spawn, go, await, async, sync, yield, default, void, null, nil. eval is not there. As keys of a map \
               such words stand in quotes: `#{ \"case\": 1 }`.",
         example: "let m = #{ \"case\": 1 };\ncheck(m[\"case\"] == 1);",

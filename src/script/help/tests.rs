@@ -104,8 +104,9 @@ fn every_name_has_a_page_that_fits() {
         assert!(!find(&catalog, name).is_empty(), "{name}");
         for width in [WIDTH, 60] {
             for line in page(&catalog, name).unwrap().plain(width).lines() {
-                let is_remark = line.contains("//");
-                assert!(line.chars().count() <= width || is_remark, "{name}: {line}");
+                // A text within a script cannot be broken.
+                let is_code = width < WIDTH && line.starts_with("    ");
+                assert!(line.chars().count() <= width || is_code, "{name}: {line}");
             }
         }
     }
