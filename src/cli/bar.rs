@@ -2,7 +2,7 @@
 
 use std::cell::{Cell, RefCell};
 use std::io::{IsTerminal, stderr};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -26,40 +26,55 @@ pub fn progress(wish: Wish) -> Box<dyn Progress + Send> {
     }
 }
 
-/// A bar over the time of one simulation at a time.
+/// A bar over the time of one simulation at a time. What is over soon never makes one.
 #[derive(Default)]
 struct Bar {
-    shown: RefCell<Option<ProgressBar>>,
+    begun: Cell<Option<Instant>>,
+    name: RefCell<String>,
     from: Cell<f64>,
     to: Cell<f64>,
+    shown: RefCell<Option<ProgressBar>>,
 }
 
 /// Parts that a bar is divided into: finer than any terminal is wide.
 const PARTS: u64 = 1000;
+/// Nobody needs to be told that something will be ready this soon.
+const SOON: Duration = Duration::from_millis(300);
+
+impl Bar {
+    fn make(&self) -> ProgressBar {
+        let bar = ProgressBar::new(PARTS);
+        // A template that does not parse would show the default bar: less pretty, as useful.
+        let style = ProgressStyle::with_template("{prefix} {wide_bar} {msg} {eta}");
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        bar.set_prefix(self.name.borrow().clone());
+        bar.enable_steady_tick(Duration::from_millis(200));
+        bar
+    }
+}
 
 impl Progress for Bar {
     fn begin(&self, name: &str, from: f64, to: f64) {
         self.end();
         self.from.set(from);
         self.to.set(to);
-        let bar = ProgressBar::new(PARTS);
-        // A template that does not parse would show the default bar: less pretty, as useful.
-        let style = ProgressStyle::with_template("{prefix} {wide_bar} {msg} {eta}");
-        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-        bar.set_prefix(name.to_owned());
-        bar.enable_steady_tick(Duration::from_millis(200));
-        *self.shown.borrow_mut() = Some(bar);
+        name.clone_into(&mut self.name.borrow_mut());
+        self.begun.set(Some(Instant::now()));
     }
 
     fn reach(&self, t: f64) {
-        if let Some(bar) = &*self.shown.borrow() {
-            let share = (t - self.from.get()) / (self.to.get() - self.from.get());
-            bar.set_position((share.clamp(0.0, 1.0) * PARTS as f64) as u64);
-            bar.set_message(format!("t = {}", format_number((t * 1e6).round() / 1e6)));
+        let mut shown = self.shown.borrow_mut();
+        if shown.is_none() && self.begun.get().is_none_or(|begun| begun.elapsed() < SOON) {
+            return;
         }
+        let bar = shown.get_or_insert_with(|| self.make());
+        let share = (t - self.from.get()) / (self.to.get() - self.from.get());
+        bar.set_position((share.clamp(0.0, 1.0) * PARTS as f64) as u64);
+        bar.set_message(format!("t = {}", format_number((t * 1e6).round() / 1e6)));
     }
 
     fn end(&self) {
+        self.begun.set(None);
         if let Some(bar) = self.shown.borrow_mut().take() {
             bar.finish_and_clear();
         }
@@ -70,5 +85,24 @@ impl Progress for Bar {
             Some(bar) => bar.suspend(write),
             None => write(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_over_soon_has_no_bar_and_what_takes_longer_has_one() {
+        let bar = Bar::default();
+        bar.begin("rod", 0.0, 1.0);
+        bar.reach(0.5);
+        assert!(bar.shown.borrow().is_none());
+        std::thread::sleep(SOON);
+        bar.reach(0.6);
+        assert!(bar.shown.borrow().is_some());
+        bar.end();
+        bar.reach(0.7);
+        assert!(bar.shown.borrow().is_none());
     }
 }

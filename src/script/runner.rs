@@ -104,8 +104,8 @@ pub fn compile(engine: &mut Engine, program: &Program) -> Result<AST, Box<EvalAl
     parse(engine, program)
 }
 
-/// Parses `program`, which may be an imported one.
-pub(super) fn parse(engine: &Engine, program: &Program) -> Result<AST, Box<EvalAltResult>> {
+/// Parses `program` with an engine that knows where imports are.
+pub fn parse(engine: &Engine, program: &Program) -> Result<AST, Box<EvalAltResult>> {
     let mut ast = engine.compile(mark_assignments(&program.text))?;
     ast.set_source(program.name.as_str());
     Sources::of(engine).note(&ast, &program.name);

@@ -71,7 +71,11 @@ pub const TABLE: Table = Table {
             .doc("It is called two or three times a step, never inside the iteration. A jump that is not declared costs accuracy.")
             .example("let load = schedule(|t| exp(-t) * sin(3 * t));\ncheck(load.at(0) == 0);"),
         method(SCHEDULE, "at", &[number("t").unit("time")], |call| {
-            Ok(call.receiver::<Schedule>()?.value(call.number("t")?, Side::After)?.into())
+            let value = call.receiver::<Schedule>()?.value(call.number("t")?, Side::After);
+            // An error of a script function keeps its own place.
+            value.map(Dynamic::from).map_err(|error| {
+                call.context().take_callback_error().map_or_else(|| error.into(), ScriptError::Engine)
+            })
         })
         .returns("a number")
         .summary("The factor at a time, just after it where it jumps.")

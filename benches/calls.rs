@@ -1,0 +1,138 @@
+//! What the language costs: a step asked for by a script, a closure as a load, the engine's start.
+#![allow(clippy::unwrap_used)]
+
+use std::io::Write;
+use std::process::{Command, Stdio};
+use std::rc::Rc;
+use std::sync::{Arc, Mutex};
+use std::time::Instant;
+
+use withy::script::catalog::Catalog;
+use withy::script::context::{Context, Mode, Settings};
+use withy::script::engine;
+use withy::script::program::Program;
+use withy::script::runner::{Ending, compile, on_large_stack, run};
+
+/// Every figure is the least of so many repeats, taken in turns with what it is compared to.
+const REPEATS: usize = 15;
+/// Steps of a repeat.
+const STEPS: usize = 1000;
+/// Starts of which the median is told.
+const STARTS: usize = 20;
+
+/// A particle that flies: its step costs next to nothing, so that the call is seen.
+const PARTICLE: &str = "let scene = new_scene(\"a\");
+    scene.particle([0, 0], 1, #{ velocity: [1, 0] });\n";
+
+/// The flying spaghetti card with a schedule in the place of SCHEDULE.
+const SPAGHETTI: &str = "let scene = new_scene(\"spaghetti\");
+    let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });
+    let rod = scene.beam(#{ name: \"rod\", axis: line([6, 0], [0, 8]), basis: bspline(14), section: s });
+    scene.force(rod.start, [8, 0], SCHEDULE);
+    scene.moment(rod.start, -80, SCHEDULE);\n";
+
+#[derive(Clone, Default)]
+struct Printed(Arc<Mutex<Vec<u8>>>);
+
+impl Write for Printed {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.lock().unwrap().extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+/// The seconds that a script takes, by its own clock, for what stands between `scene` and the end.
+fn seconds(scene: &str, work: &str) -> f64 {
+    let text = format!(
+        "{scene} let sim = scene.start(#{{ dt: 0.05 }});
+         let begun = timestamp(); {work} print(begun.elapsed);"
+    );
+    let printed = Printed::default();
+    let settings = Settings { printed: Box::new(printed.clone()), ..Settings::silent(Mode::Run) };
+    let outcome = run(&Program::named("bench", &text), &Catalog::standard(), settings);
+    if let Ending::Failed(diagnostic) = outcome.ending {
+        panic!("{diagnostic}");
+    }
+    let printed = printed.0.lock().unwrap();
+    String::from_utf8_lossy(&printed).trim().parse().unwrap()
+}
+
+/// The least times of two ways, in microseconds a step.
+fn compare(first: (&str, &str), second: (&str, &str)) -> [f64; 2] {
+    let mut least = [f64::INFINITY; 2];
+    for _ in 0..REPEATS {
+        for (least, (scene, work)) in least.iter_mut().zip([first, second]) {
+            *least = least.min(seconds(scene, work) * 1e6 / STEPS as f64);
+        }
+    }
+    least
+}
+
+fn median(mut action: impl FnMut()) -> [f64; 2] {
+    let mut times: Vec<f64> = (0..STARTS)
+        .map(|_| {
+            let begun = Instant::now();
+            action();
+            begun.elapsed().as_secs_f64() * 1e3
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    [times[0], times[STARTS / 2]]
+}
+
+fn main() {
+    let native = format!("sim.step({STEPS});");
+    let looped = format!("for i in 0..{STEPS} {{ sim.step(); }}");
+    let spaghetti = |schedule: &str| SPAGHETTI.replace("SCHEDULE", schedule);
+    let held = spaghetti("hold_for(2.5)");
+
+    println!("microseconds a step, least of {REPEATS} repeats of {STEPS} steps\n");
+    println!("{:<44} {:>9} {:>9} {:>9}", "", "native", "script", "more");
+    let show = |name: &str, [native, script]: [f64; 2]| {
+        println!("{name:<44} {native:>9.2} {script:>9.2} {:>9.2}", script - native);
+    };
+    show(
+        "a particle, each step called by the script",
+        compare((PARTICLE, &native), (PARTICLE, &looped)),
+    );
+    show("14 spans, each step called by the script", compare((&held, &native), (&held, &looped)));
+    for (name, schedule, closure) in [
+        ("14 spans, |t| 1", "1", "|t| 1"),
+        ("14 spans, |t| sin(2 * t)", "sine(1, 2, 0)", "|t| sin(2 * t)"),
+        (
+            "14 spans, |t| if t < 2.5 { 1 } else { 0 }",
+            "hold_for(2.5)",
+            "schedule(|t| if t < 2.5 { 1 } else { 0 }, [2.5])",
+        ),
+    ] {
+        let [native, script] =
+            compare((&spaghetti(schedule), &native), (&spaghetti(closure), &native));
+        show(name, [native, script]);
+        println!("{:>44} {:>28.1} %", "", 100.0 * (script - native) / native);
+    }
+
+    println!("\nmilliseconds, least and median of {STARTS}\n");
+    let [least, middle] = on_large_stack(|| {
+        median(|| {
+            let context = Context::new(Settings::silent(Mode::Run));
+            let mut engine = engine::build(&Catalog::standard(), &context).unwrap();
+            let ast = compile(&mut engine, &Program::named("empty", "")).unwrap();
+            Rc::new(engine).run_ast(&ast).unwrap();
+        })
+    })
+    .unwrap();
+    println!("{:<44} {least:>9.2} {middle:>9.2}", "engine built, empty script run");
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("empty.rhai");
+    std::fs::write(&file, "").unwrap();
+    let [least, middle] = median(|| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
+        let status = command.arg("run").arg(&file).stderr(Stdio::null()).status().unwrap();
+        assert!(status.success());
+    });
+    println!("{:<44} {least:>9.2} {middle:>9.2}", "withy run of an empty script");
+}

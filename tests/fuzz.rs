@@ -1,0 +1,181 @@
+//! 100 000 inputs through parser and bindings: no panic, no mistake of ours, no hang, every error can be shown.
+//!
+//! A failure names its seed. `WITHY_SEED=n` runs that one alone and shows the input; `WITHY_SEEDS=n` runs the first n.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::rc::Rc;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use common::corpus::Corpus;
+use rhai::Engine;
+use withy::script::catalog::Catalog;
+use withy::script::context::{Context, Mode, Settings};
+use withy::script::diagnose::{Blame, Explainer};
+use withy::script::engine;
+use withy::script::limits::{Limits, MEGABYTE, Stop};
+use withy::script::program::Program;
+use withy::script::runner::{on_large_stack, parse};
+
+const SEEDS: u64 = 100_000;
+/// An engine serves so many inputs.
+const BATCH: u64 = 200;
+const WORKERS: usize = 2;
+const TIME: Duration = Duration::from_millis(200);
+/// Longer than this is a hang: the limit of time, and patience with a loaded machine.
+const HANG: Duration = Duration::from_secs(30);
+const LIMITS: Limits =
+    Limits { time: Some(TIME), steps: Some(12), memory: Some(3000 * MEGABYTE), depth: 60 };
+
+/// What a worker is at, for the one who watches for hangs.
+type Present = Mutex<Option<(u64, Instant)>>;
+
+#[derive(Default)]
+struct Report {
+    failures: Vec<String>,
+    longest: (Duration, u64),
+    parsed: u64,
+    stopped: u64,
+}
+
+#[test]
+fn no_input_breaks_the_language() {
+    let corpus = Corpus::load();
+    if let Some(seed) = number_in("WITHY_SEED") {
+        println!("{}\n", corpus.input(seed));
+    }
+    let seeds = match number_in("WITHY_SEED") {
+        Some(seed) => seed..seed + 1,
+        None => 0..number_in("WITHY_SEEDS").unwrap_or(SEEDS),
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let (next, end) = (AtomicU64::new(seeds.start), seeds.end);
+    let report = Mutex::new(Report::default());
+    let present: Vec<Present> = (0..WORKERS).map(|_| Mutex::default()).collect();
+    let begun = Instant::now();
+    thread::scope(|scope| {
+        let (corpus, report, next, folder) = (&corpus, &report, &next, folder.path());
+        let workers: Vec<_> = present
+            .iter()
+            .map(|present| {
+                let work = move || loop {
+                    let from = next.fetch_add(BATCH, Ordering::Relaxed);
+                    if from >= end {
+                        return;
+                    }
+                    run_batch(corpus, from..(from + BATCH).min(end), folder, present, report);
+                };
+                scope.spawn(move || on_large_stack(work).unwrap())
+            })
+            .collect();
+        while workers.iter().any(|worker| !worker.is_finished()) {
+            thread::sleep(Duration::from_millis(200));
+            for (seed, since) in present.iter().filter_map(|present| *present.lock().unwrap()) {
+                if since.elapsed() > HANG {
+                    eprintln!("seed {seed} hangs:\n{}", corpus.input(seed));
+                    // A thread that hangs cannot be joined.
+                    std::process::exit(101);
+                }
+            }
+        }
+    });
+    let report = report.into_inner().unwrap();
+    println!(
+        "{} inputs in {:.0} s, {} parsed, {} stopped by a limit, the longest {:?} (seed {})",
+        end - seeds.start,
+        begun.elapsed().as_secs_f64(),
+        report.parsed,
+        report.stopped,
+        report.longest.0,
+        report.longest.1
+    );
+    let shown = &report.failures[..report.failures.len().min(10)];
+    assert!(
+        report.failures.is_empty(),
+        "{} inputs failed\n\n{}",
+        report.failures.len(),
+        shown.join("\n\n")
+    );
+}
+
+fn number_in(variable: &str) -> Option<u64> {
+    std::env::var(variable).ok()?.parse().ok()
+}
+
+fn run_batch(
+    corpus: &Corpus,
+    seeds: std::ops::Range<u64>,
+    folder: &std::path::Path,
+    present: &Present,
+    report: &Mutex<Report>,
+) {
+    let catalog = Catalog::standard();
+    let settings =
+        Settings { out: folder.join("out"), limits: LIMITS, ..Settings::silent(Mode::Run) };
+    let context = Context::new(settings);
+    let mut engine = engine::build(&catalog, &context).unwrap();
+    engine::import_from(&mut engine, folder);
+    let engine = Rc::new(engine);
+    context.lend(&engine);
+    for seed in seeds {
+        let text = corpus.input(seed);
+        let program = Program { folder: folder.to_owned(), ..Program::named("input", &text) };
+        *present.lock().unwrap() = Some((seed, Instant::now()));
+        let begun = Instant::now();
+        let judged =
+            catch_unwind(AssertUnwindSafe(|| judge(&program, &catalog, &engine, &context)));
+        let lasted = begun.elapsed();
+        *present.lock().unwrap() = None;
+        let mut report = report.lock().unwrap();
+        if lasted > report.longest.0 {
+            report.longest = (lasted, seed);
+        }
+        match judged {
+            Ok(Ok(ran)) => {
+                report.parsed += u64::from(ran != Ran::NotAtAll);
+                report.stopped += u64::from(ran == Ran::UntilALimit);
+            }
+            Ok(Err(reason)) => report.failures.push(format!("seed {seed}: {reason}\n{text}")),
+            Err(_) => report.failures.push(format!("seed {seed}: a panic\n{text}")),
+        }
+    }
+}
+
+#[derive(PartialEq, Eq)]
+enum Ran {
+    NotAtAll,
+    UntilALimit,
+    ToAnEnd,
+}
+
+fn judge(
+    program: &Program,
+    catalog: &Catalog,
+    engine: &Engine,
+    context: &Context,
+) -> Result<Ran, String> {
+    let watchdog = context.meter().watch().map_err(|error| error.to_string())?;
+    let compiled = parse(engine, program);
+    let is_parsed = compiled.is_ok();
+    let ran = compiled.and_then(|ast| engine.run_ast(&ast));
+    let stop = context.stopped_by();
+    context.report();
+    drop(watchdog);
+    if let Err(error) = ran {
+        let diagnostic = Explainer { program, catalog, engine }.explain(&error);
+        let shown = diagnostic.to_string();
+        if diagnostic.blame != Blame::User || !shown.starts_with("error: ") {
+            return Err(shown);
+        }
+    }
+    Ok(match (is_parsed, stop) {
+        (_, Some(Stop::Time(_) | Stop::Memory(_) | Stop::Steps(_))) => Ran::UntilALimit,
+        (true, _) => Ran::ToAnEnd,
+        (false, _) => Ran::NotAtAll,
+    })
+}

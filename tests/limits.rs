@@ -1,0 +1,281 @@
+//! What a script may use and where it may reach: limits with their flags, files, and errors across files.
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::process::{Command, Output};
+use std::time::{Duration, Instant};
+
+use tempfile::TempDir;
+
+/// A scene that can be started.
+const SCENE: &str = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });
+let scene = new_scene(\"a\");
+let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [10, 0]), basis: bspline(4), section: s, spin: 1 });
+";
+
+/// A folder with scripts, of which `main.rhai` is run.
+struct Home(TempDir);
+
+impl Home {
+    fn with(files: &[(&str, &str)]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, text) in files {
+            let path = folder.path().join(name);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, text).unwrap();
+        }
+        Self(folder)
+    }
+
+    fn withy(&self, arguments: &[&str]) -> Output {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
+        command.args(arguments).current_dir(self.0.path()).output().unwrap()
+    }
+
+    fn run(&self, options: &[&str]) -> Output {
+        self.withy(&[&["run", "main.rhai", "--quiet"], options].concat())
+    }
+}
+
+fn run(text: &str, options: &[&str]) -> Output {
+    Home::with(&[("main.rhai", text)]).run(options)
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// Refuses anything but exit code 2 with all of these words.
+#[track_caller]
+fn expect(output: &Output, words: &[&str]) {
+    let said = said(output);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    for word in words {
+        assert!(said.contains(word), "{word} is missing in\n{said}");
+    }
+}
+
+#[test]
+fn time_ends_an_endless_loop_that_catches_everything() {
+    let begun = Instant::now();
+    let output = run("\nloop { try { loop { } } catch { print(1); } }", &["--max-time", "0.3"]);
+    expect(&output, &["takes longer than 0.3 s", "main.rhai:2:", "--max-time SECONDS"]);
+    assert!(output.stdout.is_empty());
+    assert!(begun.elapsed() < Duration::from_secs(20));
+}
+
+#[test]
+fn memory_that_grows_for_ever_is_an_error() {
+    let script = "let all = []; loop { let x = []; x.pad(500000, 1); all.push(x); }";
+    expect(&run(script, &["--max-memory", "60"]), &["more than 60 MB", "--max-memory MB"]);
+}
+
+#[test]
+fn steps_are_counted_over_all_simulations() {
+    let script = format!(
+        "{SCENE}let one = scene.start(#{{ dt: 0.1 }}); let two = scene.start(#{{ dt: 0.1 }});
+         one.run_to(1); two.step(5); print(\"fine\"); two.run_to(10);"
+    );
+    let home = Home::with(&[("main.rhai", &script)]);
+    let output = home.run(&["--max-steps", "15"]);
+    expect(&output, &["need more than 15 steps", "main.rhai:5:", "--max-steps N"]);
+    assert_eq!(output.stdout, b"fine\n");
+    let kept = fs::read_to_string(home.0.path().join("out/a-stopped.csv")).unwrap();
+    // A comment, the names, the start, ten steps.
+    assert_eq!(kept.lines().count(), 13);
+    let output = home.run(&["--max-steps", "1000"]);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+}
+
+#[test]
+fn recursion_of_every_kind_is_an_error_and_not_a_crash() {
+    let through = [
+        "fn f(n) { 1 + f(n + 1) } f(0);",
+        "fn f(n) { [1].map(|x| f(n + x)) } f(0);",
+        "fn f(n) { [1].filter(|x| f(n + x)) } f(0);",
+        "fn f(n) { let a = [2, 1]; a.sort(|x, y| f(n) + x); } f(0);",
+        "fn f(g) { g.call(g) } f(|g| f(g));",
+        "let h = []; let s = schedule(|t| { let g = h[0]; g.at(t) }); h.push(s); s.at(1);",
+        "fn g(sim) { sim.at(sim.t + 0.01, |s| g(s)); sim.step(); }
+         let sim = scene.start(#{ dt: 0.1 }); sim.at(0.5, |s| g(s)); sim.run_to(1);",
+        "let h = [scene]; scene.force(rod.end, [1, 0], |t| { let scene = h[0]; scene.start(#{ dt: 0.1 }).step(); 1 });
+         scene.start(#{ dt: 0.1 }).step();",
+    ];
+    for script in through {
+        let output = run(&format!("{SCENE}{script}"), &["--max-depth", "1000"]);
+        expect(&output, &["too deeply", "--max-depth N"]);
+    }
+}
+
+#[test]
+fn a_deeper_recursion_can_be_allowed() {
+    let script = "fn f(n) { if n == 0 { 0 } else { 1 + f(n - 1) } } print(f(700));";
+    expect(&run(script, &[]), &["too deeply"]);
+    assert_eq!(run(script, &["--max-depth", "900"]).stdout, b"700\n");
+    expect(&run(script, &["--max-depth", "100000"]), &["--max-depth"]);
+}
+
+#[test]
+fn a_long_chain_of_closures_is_let_go_without_a_crash() {
+    let script = "let a = |x| x; for i in 0..1000000 { let b = a; a = |x| { b.call(x) }; } a = 1; print(\"gone\");";
+    let output = run(script, &[]);
+    assert_eq!(output.stdout, b"gone\n", "{}", said(&output));
+}
+
+#[test]
+fn a_script_cannot_sleep() {
+    for script in ["sleep(100);", "sleep(0.5);"] {
+        expect(&run(script, &[]), &["cannot wait with sleep()"]);
+    }
+}
+
+#[test]
+fn sorting_hands_on_what_goes_wrong_in_its_function() {
+    expect(&run("[2, 1].sort(|x, y|\n x - lost);", &[]), &["no variable 'lost'", "main.rhai:2:"]);
+    expect(&run("[2, 1].sort(|x, y| \"x\");", &[]), &["must give a number or true or false"]);
+    let script =
+        "let a = [0.1, 0.3, 0.2]; a.sort(|x, y| y - x); print(a); print(a.order(|x, y| x < y));";
+    assert_eq!(run(script, &[]).stdout, b"[0.3, 0.2, 0.1]\n[0.1, 0.2, 0.3]\n");
+}
+
+#[test]
+fn a_load_cannot_use_the_simulation_that_it_is_called_by() {
+    let script = format!(
+        "{SCENE}let held = [];
+         scene.force(rod.end, [0, 1], |t| {{ if held.len() > 0 {{ print(held[0]); held[0].step(); }} 1 }});
+         let sim = scene.start(#{{ dt: 0.1 }}); held.push(sim); sim.run_to(1);"
+    );
+    let output = run(&script, &[]);
+    expect(
+        &output,
+        &["step: simulation 'a' is in the middle of a step", "function of its argument"],
+    );
+}
+
+/// What is imported in the tests below.
+const LIBRARY: &str = "import \"below/deep\" as deep;
+const K = 3;
+fn bad(x) {
+    x + global::K + lost
+}
+fn native(x) {
+    linspace(0, 1, -5)
+}
+fn mapped(list) {
+    list.map(|x| bad(x))
+}
+fn push(scene, station) {
+    scene.force(station, [1, 0], |t| deep::twice(t) * global::K)
+}
+fn push_bad(scene, station) {
+    scene.force(station, [1, 0], |t| bad(t))
+}
+fn watch_bad(sim) {
+    sim.at(0.3, |s| bad(s.t));
+}
+";
+
+fn library(main: &str) -> Home {
+    let main = format!("{SCENE}import \"library\" as library;\n{main}");
+    let deep = "const TWO = 2;\nfn twice(t) { let u = t; u ^= 1; global::TWO * u }";
+    Home::with(&[("main.rhai", &main), ("library.rhai", LIBRARY), ("below/deep.rhai", deep)])
+}
+
+#[test]
+fn loads_and_events_of_an_imported_file_see_its_imports_and_constants() {
+    let main = "const A = 2.5; library::push(scene, rod.end);
+scene.force(rod.end, [0, 1], |t| global::A * library::deep::twice(t));
+let sim = scene.start(#{ dt: 0.1 }); sim.at(0.3, |s| print(library::deep::twice(s.t))); sim.run_to(1);";
+    let output = library(main).run(&[]);
+    assert_eq!(output.stdout, b"0.6\n", "{}", said(&output));
+}
+
+#[test]
+fn errors_in_imported_files_show_their_file_and_the_way_there() {
+    let bad = ["no variable 'lost'", "library.rhai:4:21", "x + global::K + lost"];
+    let cases: &[(&str, &[&str])] = &[
+        (
+            "fn f(x) { library::bad(x) }\nf(3);",
+            &["in 'bad', called at line 5", "in 'f', called at line 6"],
+        ),
+        (
+            "library::mapped([1]);",
+            &["in 'bad', called at library.rhai:10", "in 'mapped', called at line 5"],
+        ),
+        (
+            "[1].map(|x|\nlibrary::bad(x));",
+            &["in 'bad', called at line 6", "in a closure, called at line 5"],
+        ),
+        (
+            "library::push_bad(scene, rod.end);\nlet sim = scene.start(#{ dt: 0.1 });\nsim.run_to(1);",
+            &["in 'bad', called at library.rhai:16", "in a closure, called at line 7"],
+        ),
+        (
+            "let sim = scene.start(#{ dt: 0.1 });\nlibrary::watch_bad(sim);\nsim.run_to(1);",
+            &["in 'bad', called at library.rhai:19", "in a closure, called at line 7"],
+        ),
+        (
+            "fn g(x) { library::bad(x) }\nlet sim = scene.start(#{ dt: 0.1 });\nsim.at(0.5, |s| g(s.t)); sim.run_to(1);",
+            &[
+                "in 'bad', called at line 5",
+                "in 'g', called at line 7",
+                "in a closure, called at line 7",
+            ],
+        ),
+    ];
+    for (main, steps) in cases {
+        expect(&library(main).run(&[]), &[&bad, *steps].concat());
+    }
+    // The way through a load is not gone when nothing is stepped.
+    for (main, steps) in [&cases[0], &cases[1], &cases[4]] {
+        expect(&library(main).withy(&["check", "main.rhai"]), &[&bad, *steps].concat());
+    }
+    let native = library("library::native(1);").run(&[]);
+    expect(&native, &["'count' must be", "library.rhai:7:20", "in 'native', called at line 5"]);
+}
+
+#[test]
+fn an_imported_file_that_does_not_parse_is_shown() {
+    let files = [
+        ("main.rhai", "\nimport \"broken\" as b;"),
+        ("broken.rhai", "fn ok() { 1 }\nfn no( { 2 }\n"),
+    ];
+    let home = Home::with(&files);
+    for command in ["run", "check"] {
+        let output = home.withy(&[command, "main.rhai"]);
+        expect(
+            &output,
+            &["broken.rhai:2:8", "fn no( { 2 }", "in the file broken.rhai, imported at line 2"],
+        );
+    }
+}
+
+#[test]
+fn imports_stay_in_the_folder_of_the_script() {
+    let home = Home::with(&[("inner/main.rhai", ""), ("outside.rhai", "fn f() { 1 }")]);
+    let inner = home.0.path().join("inner");
+    #[cfg(unix)]
+    std::os::unix::fs::symlink(home.0.path().join("outside.rhai"), inner.join("way.rhai")).unwrap();
+    let absolute = home.0.path().join("outside").display().to_string();
+    for name in ["../outside", "x/../../outside", &absolute, "way", "missing"] {
+        fs::write(inner.join("main.rhai"), format!("import \"{name}\" as o;")).unwrap();
+        let output = home.withy(&["run", "inner/main.rhai"]);
+        expect(&output, &["script's own folder", "main.rhai:1:8", "NAME.rhai"]);
+    }
+}
+
+#[test]
+fn files_that_import_each_other_for_ever_are_an_error() {
+    let files = [
+        ("main.rhai", "import \"a\" as a;"),
+        ("a.rhai", "import \"b\" as b;"),
+        ("b.rhai", "import \"a\" as a;"),
+    ];
+    expect(&Home::with(&files).run(&[]), &["'a' imports itself", "b.rhai:1:8"]);
+    let home = Home::with(&[("main.rhai", "import \"m0\" as m;")]);
+    for i in 0..80 {
+        let text = format!("import \"m{}\" as m;", i + 1);
+        fs::write(home.0.path().join(format!("m{i}.rhai")), text).unwrap();
+    }
+    expect(&home.run(&[]), &["files import each other in a chain"]);
+}
