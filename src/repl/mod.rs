@@ -6,4 +6,5 @@ pub mod editor;
 pub mod record;
 pub mod session;
 pub mod shell;
+mod surroundings;
 pub mod transcript;

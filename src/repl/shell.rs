@@ -1,6 +1,7 @@
 //! What a line at the prompt does: an input of the language, or a command. Replies go to where the session prints.
 
 use super::commands;
+use super::editor::surroundings::Operand;
 use super::session::{ANSWER, Reply, Session};
 use crate::output::{Colours, Style, significant};
 use crate::script::diagnose::Diagnostic;
@@ -71,8 +72,8 @@ impl Shell {
     /// Does what a complete input says.
     pub fn submit(&mut self, input: &str) -> Outcome {
         let text = input.trim();
-        if let Some(command) = text.strip_prefix(':') {
-            return self.command(command);
+        if text.starts_with(':') {
+            return self.command(text);
         }
         if let Some(name) = text.strip_prefix('?') {
             return (commands::HELP.body)(self, name.trim());
@@ -88,17 +89,15 @@ impl Shell {
     }
 
     fn command(&mut self, text: &str) -> Outcome {
-        let text = text.trim();
         let (name, operand) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
+        let operand = operand.trim();
         match commands::find(name) {
-            Ok(command) if command.operand == commands::Operand::Nothing && !operand.is_empty() => {
-                let told = format!("':{}' takes nothing, got '{}'", command.name, operand.trim());
-                self.refuse(&Diagnostic::general(told).with_hint(format!(
-                    "write :{}; :help {} says what it does",
-                    command.name, command.name
-                )))
+            Ok(command) if command.operand == Operand::Nothing && !operand.is_empty() => {
+                let told = format!("'{}' takes nothing, got '{operand}'", command.name);
+                let hint = format!("write {0}; :help {0} says what it does", command.name);
+                self.refuse(&Diagnostic::general(told).with_hint(hint))
             }
-            Ok(command) => (command.body)(self, operand.trim()),
+            Ok(command) => (command.body)(self, operand),
             Err(refusal) => self.refuse(&refusal),
         }
     }

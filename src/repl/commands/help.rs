@@ -12,13 +12,13 @@ pub fn help(shell: &mut Shell, operand: &str) -> Outcome {
     if name.is_empty() {
         return overview(shell);
     }
-    if let Some(command) = name.strip_prefix(':') {
-        return match find(command) {
+    if name.starts_with(':') {
+        return match find(name) {
             Ok(command) => explain(shell, command),
             Err(refusal) => shell.refuse(&refusal),
         };
     }
-    let named = COMMANDS.iter().find(|command| command.name == name);
+    let named = COMMANDS.iter().find(|command| command.name[1..] == *name);
     match (help::page(shell.session().catalog(), name), named) {
         (Ok(page), command) => {
             show(shell, &page);

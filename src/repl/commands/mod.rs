@@ -5,33 +5,19 @@ mod looking;
 mod session;
 mod stepping;
 
+use super::editor::surroundings::Operand;
 use super::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::suggest::nearest;
 
-/// What follows the name of a command.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Operand {
-    /// Nothing.
-    Nothing,
-    /// A number that may be left out; the word says what it is.
-    Number(&'static str),
-    /// The name of something that help knows, or nothing.
-    Name,
-    /// Names of columns of the history.
-    Columns,
-    /// An expression of the language.
-    Expression,
-    /// The path of a file.
-    File,
-}
-
 /// A command of the prompt.
 pub struct Command {
-    /// Its name, without the colon.
+    /// Its name, with the colon.
     pub name: &'static str,
     /// What follows it.
     pub operand: Operand,
+    /// How that is written in the help; empty for nothing.
+    pub placeholder: &'static str,
     /// One line on what it does.
     pub summary: &'static str,
     /// More, where a line is not enough.
@@ -42,8 +28,9 @@ pub struct Command {
 
 /// What `?` stands for.
 pub const HELP: Command = Command {
-    name: "help",
+    name: ":help",
     operand: Operand::Name,
+    placeholder: "[NAME]",
     summary: "explains a function, a type, a topic or a command; ?name does the same",
     doc: "Without a name it lists what there is.",
     body: help::help,
@@ -53,100 +40,114 @@ pub const HELP: Command = Command {
 pub const COMMANDS: &[Command] = &[
     HELP,
     Command {
-        name: "vars",
+        name: ":vars",
         operand: Operand::Nothing,
+        placeholder: "",
         summary: "lists variables, functions and imports",
         doc: "",
         body: looking::variables,
     },
     Command {
-        name: "step",
-        operand: Operand::Number("count"),
+        name: ":step",
+        operand: Operand::Number,
+        placeholder: "[COUNT]",
         summary: "takes a step of the last simulation, or so many",
         doc: "The last simulation is the one that was started, loaded, forked or stepped last.",
         body: stepping::step,
     },
     Command {
-        name: "run",
-        operand: Operand::Number("time"),
+        name: ":run",
+        operand: Operand::Number,
+        placeholder: "TIME",
         summary: "runs the last simulation to a time; Ctrl-C stops it after the step that it is in",
         doc: "",
         body: stepping::run,
     },
     Command {
-        name: "back",
-        operand: Operand::Number("count"),
+        name: ":back",
+        operand: Operand::Number,
+        placeholder: "[COUNT]",
         summary: "goes back a step of the last simulation, or so many, to the very state that was",
         doc: "Snapshots reach back as far as their memory allows: `withy repl --snapshots MB`.",
         body: stepping::back,
     },
     Command {
-        name: "invariants",
+        name: ":invariants",
         operand: Operand::Nothing,
+        placeholder: "",
         summary: "shows how well energy, momenta and gaps were kept",
         doc: "",
         body: looking::invariants,
     },
     Command {
-        name: "plot",
-        operand: Operand::Columns,
+        name: ":plot",
+        operand: Operand::Column,
+        placeholder: "[COLUMN …]",
         summary: "draws columns of the history over time; the energies unless columns are named",
         doc: "For example `:plot kinetic strain`. Pictures for files are drawn by plot_history.",
         body: looking::plot,
     },
     Command {
-        name: "show",
-        operand: Operand::Number("time"),
+        name: ":show",
+        operand: Operand::Number,
+        placeholder: "[TIME]",
         summary: "draws the beams as they are now, or as they were at a time",
         doc: "Pictures for files are drawn by plot_motion.",
         body: looking::show,
     },
     Command {
-        name: "watch",
+        name: ":watch",
         operand: Operand::Expression,
+        placeholder: "[EXPRESSION]",
         summary: "shows an expression after every step from now on; without one, watches no more",
         doc: "Several expressions can be watched. After inputs that are no commands they are shown once, if a simulation has moved.",
         body: stepping::watch,
     },
     Command {
-        name: "time",
+        name: ":time",
         operand: Operand::Expression,
+        placeholder: "INPUT",
         summary: "evaluates an input and says how long it took",
         doc: "",
         body: looking::time,
     },
     Command {
-        name: "explain",
+        name: ":explain",
         operand: Operand::Nothing,
+        placeholder: "",
         summary: "says what the last simulation uses, and what it therefore leaves out",
         doc: "",
         body: looking::explain,
     },
     Command {
-        name: "save",
+        name: ":save",
         operand: Operand::File,
+        placeholder: "FILE",
         summary: "writes the inputs that worked to a script that can be run",
         doc: "Of a function that was defined again, only the last definition is written. A file that was not written by :save is \
               not overwritten.",
         body: session::save,
     },
     Command {
-        name: "load",
+        name: ":load",
         operand: Operand::File,
+        placeholder: "FILE",
         summary: "evaluates a script as if it had been typed",
         doc: "",
         body: session::load,
     },
     Command {
-        name: "reset",
+        name: ":reset",
         operand: Operand::Nothing,
+        placeholder: "",
         summary: "forgets all variables, functions, imports and simulations",
         doc: "",
         body: session::reset,
     },
     Command {
-        name: "quit",
+        name: ":quit",
         operand: Operand::Nothing,
+        placeholder: "",
         summary: "leaves; so does Ctrl-D",
         doc: "",
         body: session::quit,
@@ -156,18 +157,11 @@ pub const COMMANDS: &[Command] = &[
 impl Command {
     /// How it is written: `:run TIME`.
     pub fn usage(&self) -> String {
-        match self.operand {
-            Operand::Nothing => format!(":{}", self.name),
-            Operand::Number(what) => format!(":{} [{}]", self.name, what.to_uppercase()),
-            Operand::Name => format!(":{} [NAME]", self.name),
-            Operand::Columns => format!(":{} [COLUMN …]", self.name),
-            Operand::Expression => format!(":{} EXPRESSION", self.name),
-            Operand::File => format!(":{} FILE", self.name),
-        }
+        format!("{} {}", self.name, self.placeholder).trim_end().to_owned()
     }
 }
 
-/// The command that is meant by a name or by the beginning of one.
+/// The command that is meant by a name or by the beginning of one, with its colon.
 ///
 /// # Errors
 /// When no command begins like this, or several do.
@@ -175,7 +169,7 @@ pub fn find(name: &str) -> Result<&'static Command, Diagnostic> {
     if let Some(exact) = COMMANDS.iter().find(|command| command.name == name) {
         return Ok(exact);
     }
-    let begins = |command: &&Command| !name.is_empty() && command.name.starts_with(name);
+    let begins = |command: &&Command| name.len() > 1 && command.name.starts_with(name);
     let candidates: Vec<&Command> = COMMANDS.iter().filter(begins).collect();
     match candidates.as_slice() {
         [one] => Ok(one),
@@ -183,13 +177,13 @@ pub fn find(name: &str) -> Result<&'static Command, Diagnostic> {
             let near = nearest(name, COMMANDS.iter().map(|command| command.name));
             let hint = near.map_or_else(
                 || ":help lists the commands".to_owned(),
-                |near| format!("did you mean :{near}?"),
+                |near| format!("did you mean {near}?"),
             );
-            Err(Diagnostic::general(format!("there is no command ':{name}'")).with_hint(hint))
+            Err(Diagnostic::general(format!("there is no command '{name}'")).with_hint(hint))
         }
         several => {
-            let names: Vec<String> = several.iter().map(|one| format!(":{}", one.name)).collect();
-            Err(Diagnostic::general(format!("':{name}' can be {}", names.join(" or ")))
+            let names: Vec<&str> = several.iter().map(|one| one.name).collect();
+            Err(Diagnostic::general(format!("'{name}' can be {}", names.join(" or ")))
                 .with_hint("write more of it"))
         }
     }
@@ -202,13 +196,13 @@ mod tests {
     #[test]
     fn beginnings_of_names_will_do_where_they_are_clear() {
         let name = |text| find(text).map(|command| command.name).ok();
-        assert_eq!(name("inv"), Some("invariants"));
-        assert_eq!(name("step"), Some("step"));
-        assert_eq!(name("s"), None);
-        let told = find("setp").err().map(|error| error.to_string()).unwrap_or_default();
+        assert_eq!(name(":inv"), Some(":invariants"));
+        assert_eq!(name(":step"), Some(":step"));
+        assert_eq!(name(":s"), None);
+        let told = find(":setp").err().map(|error| error.to_string()).unwrap_or_default();
         assert!(told.contains("did you mean :step?"), "{told}");
-        let told = find("sa").map(|command| command.name);
-        assert_eq!(told.ok(), Some("save"));
+        let told = find(":sa").map(|command| command.name);
+        assert_eq!(told.ok(), Some(":save"));
     }
 
     #[test]

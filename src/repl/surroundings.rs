@@ -1,0 +1,59 @@
+//! What the editor may complete in a session.
+
+use rhai::{Dynamic, Map};
+
+use super::commands::COMMANDS;
+use super::editor::surroundings::{CommandWord, Function, Module, Surroundings, Variable};
+use super::shell::Shell;
+
+impl Shell {
+    /// The names that an input can use now.
+    pub fn surroundings(&self) -> Surroundings {
+        let session = self.session();
+        let variable = |(name, _, value): (&str, bool, &Dynamic)| Variable {
+            name: name.to_owned(),
+            of: session.engine().map_type_name(value.type_name()).to_owned(),
+            keys: keys_of(value),
+        };
+        let function = |function: rhai::ScriptFnMetadata| Function {
+            name: function.name.to_owned(),
+            parameters: function.params.iter().map(|name| (*name).to_owned()).collect(),
+        };
+        let definition = |function: &rhai::Shared<rhai::ScriptFuncDef>| Function {
+            name: function.name.to_string(),
+            parameters: function.params.iter().map(ToString::to_string).collect(),
+        };
+        let module = |(alias, module): (&str, &rhai::Module)| Module {
+            alias: alias.to_owned(),
+            functions: module.iter_script_fn_info().map(|(.., function)| definition(function)).collect(),
+        };
+        Surroundings {
+            catalog: session.catalog().clone(),
+            variables: session.variables().iter_raw().map(variable).collect(),
+            functions: session.functions().map(function).collect(),
+            modules: session.modules().map(module).collect(),
+            commands: COMMANDS
+                .iter()
+                .map(|command| CommandWord {
+                    name: command.name,
+                    summary: command.summary,
+                    operand: command.operand,
+                })
+                .collect(),
+            columns: self.columns(),
+            folder: ".".into(),
+        }
+    }
+
+    fn columns(&self) -> Vec<String> {
+        self.latest().map_or_else(Vec::new, |latest| {
+            let simulation = latest.simulation();
+            simulation.history().columns().map(|(name, _)| name.to_owned()).collect()
+        })
+    }
+}
+
+fn keys_of(value: &Dynamic) -> Vec<String> {
+    let map = value.read_lock::<Map>();
+    map.map_or_else(Vec::new, |map| map.keys().map(ToString::to_string).collect())
+}
