@@ -175,7 +175,7 @@ fn words(spans: &[Span]) -> Vec<Vec<Span>> {
     words
 }
 
-/// A line of a script in pieces of at most `width`: broken after a comma, a semicolon or a brace that is followed by
+/// A line of a script in pieces of at most `width`: broken after a comma, semicolon, brace, && or || that is followed by
 /// a blank outside of texts, where a new line means nothing. A line with a comment is left as it is.
 pub(super) fn broken(line: &str, width: usize) -> Vec<String> {
     let mut pieces = Vec::new();
@@ -202,7 +202,7 @@ fn last_break(line: &str, width: usize) -> Option<usize> {
         match (quote, letter) {
             (None, '"' | '`') => quote = Some(letter),
             (Some(open), _) if open == letter && previous != '\\' => quote = None,
-            (None, ' ') if ",;{".contains(previous) && !line[..at].trim().is_empty() => {
+            (None, ' ') if ",;{&|".contains(previous) && !line[..at].trim().is_empty() => {
                 found = Some(at);
             }
             _ => (),

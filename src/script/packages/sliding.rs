@@ -116,7 +116,7 @@ pub const TABLE: Table = Table {
                 "slider is its name; end is \"start\" or \"end\"; what is \"stopped\", \"bounced\", \"rested\" (it stays against the \
                  end until it is drawn away) or \"released\". A slider may strike a ringing end many times in one arrival.",
             )
-            .example("sim.run_to(5);\nfor event in sim.events {\n    print(`${event.slider} ${event.what} at the ${event.end}, t = ${event.t}`);\n}")
+            .example("sim.run_to(5);\nfor event in sim.events {\n    print(`${event.slider} ${event.what} at ${event.end}, t = ${event.t}`);\n}")
             .see(&["ended", "slider"]),
     ],
 };
