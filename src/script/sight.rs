@@ -312,8 +312,8 @@ mod tests {
     #[test]
     fn a_configuration_has_a_summary() {
         let start = configuration_summary(&turning(), Some(0.0)).unwrap();
-        assert_eq!(start, "turning: x 0 … 2, y 0 … 0 at t = 0");
-        assert!(configuration_summary(&turning(), None).unwrap().ends_with("at t = 1.5"));
+        assert_eq!(start, "t = 0\nrod: from (0, 0) to (2, 0)");
+        assert!(configuration_summary(&turning(), None).unwrap().starts_with("t = 1.5\nrod: from"));
     }
 
     #[test]
