@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::limits::LimitOptions;
+use crate::repl::editor::Keys;
 
 /// Planar dynamics of flexible beams, scripted.
 ///
@@ -76,6 +77,15 @@ pub enum KeyBindings {
     Emacs,
     /// As in vi.
     Vi,
+}
+
+impl From<KeyBindings> for Keys {
+    fn from(keys: KeyBindings) -> Self {
+        match keys {
+            KeyBindings::Emacs => Self::Emacs,
+            KeyBindings::Vi => Self::Vi,
+        }
+    }
 }
 
 /// Options of `withy run`.

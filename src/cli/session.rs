@@ -1,6 +1,6 @@
 //! `withy`, `withy repl` and `withy -e`: a session with a terminal, with a pipe, or with inputs of the command line.
 
-use std::io::{IsTerminal, stderr, stdin, stdout};
+use std::io::{self, IsTerminal, stderr, stdin, stdout};
 use std::path::{Path, PathBuf};
 
 use super::Exit;
@@ -9,7 +9,8 @@ use super::bar::{self, Wish};
 use super::interrupt::{self, AtStake};
 use super::run::refuse;
 use crate::output::{Glyphs, Style};
-use crate::repl::batch;
+use crate::repl::editor::{self, Editor};
+use crate::repl::{batch, prompt};
 use crate::repl::session::Session;
 use crate::repl::shell::{Outcome, Screen, Shell};
 use crate::script::catalog::Catalog;
@@ -47,6 +48,9 @@ fn hold(options: &ReplOptions) -> Result<Exit, Diagnostic> {
         Some(file) => shell.run_program(Program::load(file)?),
         None => Outcome::Good,
     };
+    if is_conversation {
+        return converse(&mut shell, options).map(|()| Exit::Good);
+    }
     for input in &options.inputs {
         if outcome == Outcome::Good {
             outcome = batch::run(&mut shell, input.as_bytes());
@@ -56,6 +60,25 @@ fn hold(options: &ReplOptions) -> Result<Exit, Diagnostic> {
         outcome = batch::run(&mut shell, stdin().lock());
     }
     Ok(exit_for(&shell, outcome))
+}
+
+/// Lets a person type.
+fn converse(shell: &mut Shell, options: &SessionOptions) -> Result<(), Diagnostic> {
+    let no_terminal = |error: io::Error| {
+        Diagnostic::general(format!("cannot read from the terminal: {error}"))
+            .with_hint("inputs can also be piped in: withy repl < FILE")
+    };
+    let mut editing = editor::Options::from_environment();
+    if let Some(keys) = options.keys {
+        editing.keys = keys.into();
+    }
+    let mut editor = Editor::new(editing).map_err(no_terminal)?;
+    shell.print(concat!(
+        "withy ",
+        env!("CARGO_PKG_VERSION"),
+        ": step, look, go back. :help for help, Tab completes, Ctrl-D leaves."
+    ));
+    prompt::run(shell, &mut editor).map_err(no_terminal)
 }
 
 fn exit_for(shell: &Shell, outcome: Outcome) -> Exit {

@@ -25,7 +25,10 @@ impl Shell {
         };
         let module = |(alias, module): (&str, &rhai::Module)| Module {
             alias: alias.to_owned(),
-            functions: module.iter_script_fn_info().map(|(.., function)| definition(function)).collect(),
+            functions: module
+                .iter_script_fn_info()
+                .map(|(.., function)| definition(function))
+                .collect(),
         };
         Surroundings {
             catalog: session.catalog().clone(),

@@ -1,0 +1,30 @@
+//! The loop of a person at a terminal: read an input, do what it says, until the person leaves.
+
+use std::io;
+
+use super::editor::{Editor, Typed};
+use super::shell::{Outcome, Shell};
+
+/// Lets a person type until he leaves. `look` is asked before each input what the terminal can show now.
+///
+/// # Errors
+/// When the terminal fails.
+pub fn run(shell: &mut Shell, editor: &mut Editor) -> io::Result<()> {
+    loop {
+        if let Some(size) = editor.size() {
+            shell.resize(size);
+        }
+        if let Some(note) = editor.take_note() {
+            shell.note(&note);
+        }
+        let prompt = format!("withy:{}> ", shell.session().next_line());
+        match editor.read(&prompt, shell.surroundings())? {
+            Typed::Line(input) => match shell.submit(&input) {
+                Outcome::Quit | Outcome::PipeClosed => return Ok(()),
+                Outcome::Good | Outcome::Failed | Outcome::Interrupted => (),
+            },
+            Typed::Interrupted => (),
+            Typed::End => return Ok(()),
+        }
+    }
+}

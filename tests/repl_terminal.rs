@@ -1,0 +1,133 @@
+//! A person at a terminal: the real binary in a pseudo-terminal.
+#![allow(clippy::unwrap_used)]
+#![cfg(unix)]
+
+use std::path::Path;
+use std::process::Command;
+use std::thread::sleep;
+use std::time::Duration;
+
+use rexpect::session::{PtySession, spawn_command};
+
+/// Loaded machines stall.
+const PATIENCE: u64 = 60_000;
+
+/// `withy` in a folder, as a person would start it; what it says of itself at the start is read.
+fn start(folder: &Path, arguments: &[&str]) -> PtySession {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
+    command.current_dir(folder).args(arguments);
+    command.env("TERM", "xterm").env("LANG", "C.UTF-8").env_remove("LC_ALL").env_remove("LC_CTYPE");
+    command.env("NO_COLOR", "1").env("WITHY_HISTORY", folder.join("history")).env_remove("WITHY_KEYS");
+    let mut session = spawn_command(command, Some(PATIENCE)).unwrap();
+    session.exp_string(":help").unwrap();
+    session.exp_string("withy:1> ").unwrap();
+    session
+}
+
+/// Types an input and waits for the reply, which must not be a part of the input.
+fn ask(session: &mut PtySession, input: &str, reply: &str) {
+    assert!(!input.contains(reply), "the echo of the input would do");
+    session.send_line(input).unwrap();
+    session.exp_string(reply).unwrap_or_else(|error| panic!("{input}: {error}"));
+}
+
+/// Types an input that has no reply, and sees that the next prompt appears.
+fn tell(session: &mut PtySession, input: &str, next_line: usize) {
+    ask(session, input, &format!("withy:{next_line}> "));
+}
+
+#[test]
+fn a_person_throws_a_beam_and_goes_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut session = start(folder.path(), &[]);
+    let s = &mut session;
+    tell(s, "let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });", 2);
+    tell(s, "let scene = new_scene(\"flying spaghetti\");", 3);
+    s.send_line("let rod = scene.beam(#{").unwrap();
+    s.send_line("axis: line([0, 8], [6, 0]), basis: bspline(7),").unwrap();
+    tell(s, "section: slender });", 6);
+    tell(s, "scene.force(rod.end, [8, 0], hold_for(2.5));", 7);
+    tell(s, "scene.moment(rod.end, -80, hold_for(2.5));", 8);
+    tell(s, "let sim = scene.start(#{ integrator: energy_momentum(), dt: 0.1 });", 9);
+
+    // Completion finds the only member of a beam that begins like this.
+    s.send("rod.e\t\n").unwrap();
+    s.exp_string("the end of beam 'beam1'").unwrap();
+
+    ask(s, ":step 10", "t = 1 after 10 steps");
+    ask(s, ":invariants", "energy E - W");
+    ask(s, ":back 5", "t = 0.5 after 5 steps");
+
+    // An error, and going on.
+    ask(s, "rod.ende", "did you mean 'end'?");
+    ask(s, "6 * 7", "42");
+
+    // A run that would take for ever is stopped, and the session lives.
+    s.send_line(":run 1e7").unwrap();
+    sleep(Duration::from_millis(500));
+    s.send_control('c').unwrap();
+    s.exp_string("interrupted: simulation 'flying spaghetti' at t = ").unwrap();
+    ask(s, "sim.t > 0.5 && sim.t < 1e7", "true");
+    ask(s, ":back 3", " steps");
+
+    // Ctrl-C at the prompt throws away what is typed.
+    s.send("let nonsense = (((").unwrap();
+    s.exp_string("(((").unwrap();
+    s.send_control('c').unwrap();
+    s.exp_string("> ").unwrap();
+    ask(s, "1 / 16", "0.0625");
+
+    ask(s, ":save thrown.rhai", "saved to");
+    s.send_line("`end ${sim.t} ${sim.energy}\u{60}").unwrap();
+    let (_, end) = s.exp_regex(r#""end [^$"]*""#).unwrap();
+    s.send_control('d').unwrap();
+    s.exp_eof().unwrap();
+
+    let asked = ["-e", ":load thrown.rhai", "-e", "`end ${sim.t} ${sim.energy}`"];
+    let output =
+        Command::new(env!("CARGO_BIN_EXE_withy")).current_dir(folder.path()).args(asked).output().unwrap();
+    let again = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(again.lines().last(), Some(end.trim()), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+fn history_lives_from_session_to_session() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut first = start(folder.path(), &[]);
+    ask(&mut first, "111 + 222", "333");
+    first.send_line(":quit").unwrap();
+    first.exp_eof().unwrap();
+
+    let mut second = start(folder.path(), &[]);
+    // Up twice: `:quit`, then the sum.
+    second.send("\u{1b}[A\u{1b}[A\n").unwrap();
+    second.exp_string("333").unwrap();
+    // Ctrl-R searches.
+    second.send("\u{12}111\n").unwrap();
+    second.exp_string("333").unwrap();
+    second.send_control('d').unwrap();
+    second.exp_eof().unwrap();
+}
+
+#[test]
+fn a_script_may_come_first_and_pictures_are_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = "let scene = new_scene(\"spin\");\n\
+        let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
+        let rod = scene.beam(#{ axis: line([0, 0], [2, 0]), basis: bspline(4), section: s, spin: 1 });\n\
+        let sim = scene.start(#{ dt: 0.1 });\n";
+    std::fs::write(folder.path().join("spin.rhai"), script).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
+    command.current_dir(folder.path()).args(["repl", "spin.rhai", "--keys", "vi"]);
+    command.env("TERM", "xterm").env("LANG", "C.UTF-8").env("NO_COLOR", "1").env("WITHY_HISTORY", "");
+    let mut session = spawn_command(command, Some(PATIENCE)).unwrap();
+    session.exp_string("withy:5> ").unwrap();
+    ask(&mut session, ":step 5", "after 5 steps");
+    // Braille dots.
+    session.send_line(":plot kinetic").unwrap();
+    session.exp_regex("[\u{2801}-\u{28ff}]").unwrap();
+    session.send_line(":show").unwrap();
+    session.exp_regex("[\u{2801}-\u{28ff}]").unwrap();
+    session.send_line(":quit").unwrap();
+    session.exp_eof().unwrap();
+}
