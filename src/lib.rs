@@ -3,7 +3,7 @@
 //! Layers, each using only those to its right:
 //!
 //! ```text
-//! main → cli → script → output → simulation → model ┬→ joints, loads → beams → geometry
+//! main → cli → repl → script → output → simulation → model ┬→ joints, loads → beams → geometry
 //!                                                   └→ integrators → newton → linalg
 //! ```
 
@@ -19,5 +19,6 @@ pub mod loads;
 pub mod model;
 pub mod newton;
 pub mod output;
+pub mod repl;
 pub mod script;
 pub mod simulation;

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Every layer with those it may use (design: main → cli → script → output → simulation → model → …).
+/// Every layer with those it may use (design: main → cli → repl → script → output → simulation → model → …).
 const LAYERS: &[(&str, &[&str])] = &[
     ("geometry", &[]),
     ("linalg", &[]),
@@ -48,8 +48,25 @@ const LAYERS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "repl",
+        &[
+            "script",
+            "output",
+            "simulation",
+            "model",
+            "joints",
+            "loads",
+            "beams",
+            "geometry",
+            "integrators",
+            "newton",
+            "linalg",
+        ],
+    ),
+    (
         "cli",
         &[
+            "repl",
             "script",
             "output",
             "simulation",

@@ -1,0 +1,359 @@
+//! Whether an input can be run, or goes on in the next line.
+
+use super::scanner::{Bracket, Kind, Token, scan};
+
+/// Whether an input is complete.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Completeness {
+    /// It can be run, if only to say what is wrong with it.
+    Complete,
+    /// It goes on; the next line is indented by so many levels.
+    Open(usize),
+}
+
+use Completeness::{Complete, Open};
+
+/// Empty lines at the end that submit an input however open it is.
+const EMPTY_LINES: usize = 2;
+
+/// Whether `text`, typed at a prompt, is complete: commands and what ends in two empty lines always are.
+pub fn completeness(text: &str) -> Completeness {
+    let tail = &text[text.trim_end().len()..];
+    let is_forced = tail.matches('\n').count() >= EMPTY_LINES;
+    match is_forced || is_command(text) {
+        true => Complete,
+        false => completeness_of_script(text),
+    }
+}
+
+/// Whether `text` is a command of the prompt, `:step`, or a question, `?slider`.
+pub fn is_command(text: &str) -> bool {
+    text.trim_start().starts_with([':', '?'])
+}
+
+/// Whether `text`, read from a file or a pipe, is complete: empty lines mean nothing there.
+///
+/// What no further line can mend is complete, so that its error is shown: a wrong closing bracket, a text in quotes that
+/// does not end in its line.
+pub fn completeness_of_script(text: &str) -> Completeness {
+    let tokens = scan(text);
+    let mut reader = Reader::default();
+    for token in &tokens {
+        if let Outcome::Final(complete) = reader.read(token, text) {
+            return complete;
+        }
+    }
+    reader.conclude()
+}
+
+/// Operators after which an expression must go on.
+const GO_ON: &[&str] = &[
+    "+", "-", "*", "/", "%", "**", "^", "=", "+=", "-=", "*=", "/=", "%=", "**=", "^=", "&=", "|=",
+    "<<=", ">>=", "==", "!=", "<", ">", "<=", ">=", "&&", "||", "&", "|", "<<", ">>", "??", "!",
+    ",", ".", "?.", "..", "..=", ":", "::", "=>",
+];
+
+/// Keywords after which something must follow that is no block.
+const INTRODUCE: &[&str] = &["let", "const", "in", "import", "as", "private", "export"];
+
+/// Keywords whose block must follow, at once or after a condition.
+const HEADS: &[&str] =
+    &["fn", "if", "else", "while", "until", "for", "loop", "switch", "do", "try", "catch"];
+
+enum Outcome {
+    GoOn,
+    Final(Completeness),
+}
+
+/// One level of brackets.
+#[derive(Default)]
+struct Level<'t> {
+    bracket: Option<Bracket>,
+    line: usize,
+    /// The keyword whose block this level is.
+    owner: Option<&'t str>,
+    /// The keyword that waits for its block.
+    waiting: Option<&'t str>,
+    /// The keyword whose block was closed just now.
+    closed: Option<&'t str>,
+    /// Whether this is between the bars of a function such as `|x, y| x + y`.
+    is_between_bars: bool,
+}
+
+#[derive(Default)]
+struct Reader<'t> {
+    outer: Vec<Level<'t>>,
+    level: Level<'t>,
+    line: usize,
+    /// Whether what was read last must be followed by something.
+    goes_on: bool,
+    /// Whether it was a value, so that a bar after it is an operator.
+    is_value: bool,
+    /// Whether it is a text or a comment, in which spaces are not for us to add.
+    is_literal: bool,
+}
+
+impl<'t> Reader<'t> {
+    fn read(&mut self, token: &Token, text: &'t str) -> Outcome {
+        let written = token.of(text);
+        if token.is_significant() {
+            (self.goes_on, self.is_literal) = (false, false);
+        }
+        let just_closed = match token.is_significant() {
+            true => self.level.closed.take(),
+            false => None,
+        };
+        match token.kind {
+            Kind::OpenText => return self.read_open_text(written),
+            Kind::OpenPiece | Kind::OpenComment => self.is_literal = true,
+            Kind::Close(Bracket::Interpolation) => {
+                self.close();
+                self.is_literal = true;
+            }
+            Kind::Open(bracket) => self.open(bracket),
+            Kind::Close(bracket) => {
+                if !self.level.bracket.is_some_and(|open| open.is_closed_by(bracket)) {
+                    return Outcome::Final(Complete);
+                }
+                self.close();
+            }
+            Kind::Word => self.read_word(written, just_closed),
+            Kind::Symbol => {
+                if written == "|" {
+                    self.level.is_between_bars = !self.level.is_between_bars && !self.is_value;
+                }
+                self.goes_on = GO_ON.contains(&written);
+                if matches!(written, ";" | "=>") {
+                    self.level.waiting = None;
+                }
+            }
+            Kind::Space | Kind::Comment | Kind::Text | Kind::Piece | Kind::Number => (),
+        }
+        if token.is_significant() {
+            self.is_value = !matches!(token.kind, Kind::Symbol | Kind::Open(_)) && !self.goes_on;
+        }
+        self.line += written.matches('\n').count();
+        Outcome::GoOn
+    }
+
+    /// A text in quotes goes on in the next line only after a backslash.
+    fn read_open_text(&mut self, written: &str) -> Outcome {
+        let backslashes = written.len() - written.trim_end_matches('\\').len();
+        Outcome::Final(if backslashes % 2 == 1 { Open(0) } else { Complete })
+    }
+
+    fn read_word(&mut self, word: &'t str, just_closed: Option<&str>) {
+        let ends_do = just_closed == Some("do") && matches!(word, "while" | "until");
+        if HEADS.contains(&word) && !ends_do {
+            self.level.waiting = Some(word);
+        }
+        self.goes_on = ends_do || INTRODUCE.contains(&word);
+    }
+
+    fn open(&mut self, bracket: Bracket) {
+        let owner = match bracket {
+            Bracket::Curly => self.level.waiting.take(),
+            _ => None,
+        };
+        let level = Level { bracket: Some(bracket), line: self.line, owner, ..Level::default() };
+        self.outer.push(std::mem::replace(&mut self.level, level));
+    }
+
+    fn close(&mut self) {
+        let outer = self.outer.pop().unwrap_or_default();
+        let inner = std::mem::replace(&mut self.level, outer);
+        self.level.closed = inner.owner;
+    }
+
+    fn conclude(&self) -> Completeness {
+        if self.is_literal {
+            return Open(0);
+        }
+        let lacks_partner = matches!(self.level.closed, Some("do" | "try"));
+        let waits = self.goes_on
+            || lacks_partner
+            || self.level.is_between_bars
+            || self.level.waiting.is_some();
+        if self.level.bracket.is_none() {
+            // What follows `fn f()` or `try { }` stands below it; the rest of an expression does not.
+            return if waits { Open(usize::from(self.goes_on)) } else { Complete };
+        }
+        // Brackets that were opened in the same line indent together.
+        let levels = self.outer.iter().skip(1).chain(std::iter::once(&self.level));
+        let mut lines: Vec<usize> = levels.map(|level| level.line).collect();
+        lines.dedup();
+        Open(lines.len())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::script::catalog::Catalog;
+    use crate::script::context::{Context, Mode, Settings};
+    use crate::script::engine;
+    use crate::script::syntax::mark_assignments;
+
+    #[test]
+    fn brackets_texts_and_comments_keep_an_input_open() {
+        for open in [
+            "f(",
+            "[1, 2",
+            "let m = #{ a: 1,",
+            "fn f() {",
+            "`abc",
+            "`a ${",
+            "`a ${b}",
+            "`a ${b} c",
+            "/* a /* b */",
+            "let t = \"a \\",
+            "#\"a\"",
+            "f(g(1)",
+            "`${ `",
+            "x?[1",
+        ] {
+            assert_ne!(completeness(open), Complete, "{open}");
+        }
+        for complete in [
+            "",
+            "  ",
+            "f(1)",
+            "\"(\"",
+            "'('",
+            "`(`",
+            "`${a}`",
+            "// (",
+            "/* ( */",
+            "1 // +",
+            "#\"(\"#",
+            "let t = \"a \\\\",
+        ] {
+            assert_eq!(completeness(complete), Complete, "{complete}");
+        }
+    }
+
+    #[test]
+    fn an_operator_at_the_end_keeps_an_input_open() {
+        for open in [
+            "1 +",
+            "let x =",
+            "a,",
+            "rod.",
+            "|x|",
+            "||",
+            "|x, y",
+            "0..",
+            "!",
+            "1 + // why",
+            "a ??",
+            "f(1) -\n",
+        ] {
+            assert_ne!(completeness(open), Complete, "{open}");
+        }
+        assert_eq!(completeness("x = 1;"), Complete);
+        assert_eq!(completeness("return"), Complete);
+    }
+
+    #[test]
+    fn keywords_wait_for_their_blocks() {
+        for open in [
+            "if a",
+            "if a { } else",
+            "else if b",
+            "fn f(x)",
+            "while x < 3",
+            "for i in",
+            "for i in 0..3",
+            "let",
+            "do { x } ",
+            "do { x } while",
+            "try { f() }",
+            "loop",
+            "switch x",
+            "let y = if a",
+        ] {
+            assert_ne!(completeness(open), Complete, "{open}");
+        }
+        for complete in [
+            "if a { 1 }",
+            "if a { 1 } else { 2 }",
+            "fn f(x) { x }",
+            "do { x } while x < 3",
+            "do { } until f(x)",
+            "try { f() } catch { }",
+            "try { f() } catch (e) { g(e) }",
+            "switch x { 1 if y => 2, _ => 3 }",
+            "let x",
+            "let f = |x| if x { 1 } else { 2 };",
+            "import \"a\" as b",
+        ] {
+            assert_eq!(completeness(complete), Complete, "{complete}");
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_mended_is_complete() {
+        for wrong in ["f(]", "}", "(}", "f(\"abc", "f(\"abc\n", "`${ ) "] {
+            assert_eq!(completeness(wrong), Complete, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn commands_and_two_empty_lines_are_complete() {
+        assert_eq!(completeness(":plot ("), Complete);
+        assert_eq!(completeness("  ?line("), Complete);
+        assert_eq!(completeness("f(\n\n"), Complete);
+        assert_eq!(completeness("f(\n    \n  "), Complete);
+        assert_ne!(completeness("f(\n"), Complete);
+        assert_ne!(completeness_of_script("f(\n\n\n"), Complete);
+    }
+
+    #[test]
+    fn the_next_line_is_indented_by_what_is_open() {
+        for (text, levels) in [
+            ("fn f() {", 1),
+            ("fn f() {\n    if a {", 2),
+            ("scene.beam(#{", 1),
+            ("f(\n    #{", 2),
+            ("let x =", 1),
+            ("`a {", 0),
+            ("{ /* b", 0),
+            ("fn f()", 0),
+        ] {
+            assert_eq!(completeness(text), Open(levels), "{text}");
+        }
+    }
+
+    /// The chunks in which the prompt would run a script that is typed line by line.
+    fn chunks(script: &str) -> Vec<String> {
+        let mut chunks = vec![String::new()];
+        for line in script.lines() {
+            let Some(chunk) = chunks.last_mut() else { continue };
+            chunk.push_str(line);
+            match completeness_of_script(chunk) {
+                Complete => chunks.push(String::new()),
+                Open(_) => chunk.push('\n'),
+            }
+        }
+        chunks
+    }
+
+    #[test]
+    fn the_scripts_of_the_repository_can_be_typed() {
+        let context = Context::new(Settings::silent(Mode::DryBuild));
+        let engine = engine::build(&Catalog::standard(), &context).expect("an engine");
+        let scripts = concat!(env!("CARGO_MANIFEST_DIR"), "/scripts");
+        let mut count = 0;
+        for file in std::fs::read_dir(scripts).expect("a folder").flatten() {
+            let script = std::fs::read_to_string(file.path()).expect("a script");
+            let chunks = chunks(&script);
+            assert_eq!(chunks.last().map(String::as_str), Some(""), "{file:?} ends open");
+            for chunk in chunks {
+                let compiled = engine.compile(mark_assignments(&chunk));
+                compiled.unwrap_or_else(|error| panic!("{file:?}: {error} in\n{chunk}"));
+                count += 1;
+            }
+        }
+        assert!(count > 100, "{count} chunks");
+    }
+}

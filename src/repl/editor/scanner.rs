@@ -1,0 +1,348 @@
+//! Tokens of an input that need not be correct, nor finished: every character belongs to exactly one token.
+//!
+//! The engine's own lexer stops at the first error and leaves out comments and spaces; an input is wrong most of the time
+//! while it is typed, and what is drawn must be all of it.
+
+/// A piece of an input, `start..end` in bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Token {
+    /// What it is.
+    pub kind: Kind,
+    /// Where it begins.
+    pub start: usize,
+    /// Where it ends.
+    pub end: usize,
+}
+
+/// What a token is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Spaces and line ends.
+    Space,
+    /// A comment; a block comment that ends.
+    Comment,
+    /// A block comment that does not end.
+    OpenComment,
+    /// A text in quotes or marks, or a letter in apostrophes.
+    Text,
+    /// A text in quotes that does not end in its line.
+    OpenText,
+    /// A text in backticks, or what of it stands before, between or after interpolations; not all of them need be there.
+    Piece,
+    /// A text in backticks, or a text in marks, that does not end.
+    OpenPiece,
+    /// A name or a keyword.
+    Word,
+    /// A number.
+    Number,
+    /// An opening bracket.
+    Open(Bracket),
+    /// A closing bracket.
+    Close(Bracket),
+    /// An operator or a sign.
+    Symbol,
+}
+
+/// What a bracket opens or closes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bracket {
+    /// `(`
+    Round,
+    /// `[`, `?[`
+    Square,
+    /// `{`
+    Curly,
+    /// `#{`
+    Map,
+    /// `${` in a text
+    Interpolation,
+}
+
+impl Bracket {
+    /// Whether `closer` closes it; the brace does so for maps too.
+    pub fn is_closed_by(self, closer: Self) -> bool {
+        match self {
+            Self::Map => closer == Self::Curly,
+            _ => self == closer,
+        }
+    }
+}
+
+impl Token {
+    /// What is written there.
+    pub fn of<'t>(&self, text: &'t str) -> &'t str {
+        text.get(self.start..self.end).unwrap_or_default()
+    }
+
+    /// Whether it means something: neither spaces nor a comment.
+    pub fn is_significant(&self) -> bool {
+        !matches!(self.kind, Kind::Space | Kind::Comment | Kind::OpenComment)
+    }
+}
+
+/// Signs of more than one character, longer ones first.
+const SIGNS: &[&str] = &[
+    "..=", "...", "**=", "<<=", ">>=", "::", "?.", "??", "..", "=>", "==", "!=", "<=", ">=", "&&",
+    "||", "+=", "-=", "*=", "/=", "%=", "^=", "&=", "|=", "**", "<<", ">>",
+];
+
+/// The tokens of `text`.
+pub fn scan(text: &str) -> Vec<Token> {
+    let mut scanner = Scanner { text, at: 0, open: Vec::new(), is_within_text: false };
+    let mut tokens = Vec::new();
+    while scanner.at < text.len() {
+        let start = scanner.at;
+        let kind = scanner.next();
+        tokens.push(Token { kind, start, end: scanner.at });
+    }
+    tokens
+}
+
+struct Scanner<'t> {
+    text: &'t str,
+    at: usize,
+    open: Vec<Bracket>,
+    /// Whether a text in backticks goes on here.
+    is_within_text: bool,
+}
+
+impl Scanner<'_> {
+    fn rest(&self) -> &str {
+        &self.text[self.at..]
+    }
+
+    fn skip(&mut self, belongs: impl Fn(char) -> bool) {
+        let rest = self.rest();
+        self.at += rest.find(|letter| !belongs(letter)).unwrap_or(rest.len());
+    }
+
+    /// Reads one token, of one character at least.
+    fn next(&mut self) -> Kind {
+        let rest = self.rest();
+        let first = rest.chars().next().unwrap_or(' ');
+        match first {
+            _ if self.is_within_text => self.piece(0),
+            _ if first.is_whitespace() => {
+                self.skip(char::is_whitespace);
+                Kind::Space
+            }
+            _ if rest.starts_with("//") => {
+                self.skip(|letter| letter != '\n');
+                Kind::Comment
+            }
+            _ if rest.starts_with("/*") => self.block_comment(),
+            '"' | '\'' => self.quoted(first),
+            '`' => self.piece(1),
+            '#' if rest.trim_start_matches('#').starts_with('"') => self.marked(),
+            '#' if rest.starts_with("#{") => self.opened(Bracket::Map),
+            '?' if rest.starts_with("?[") => self.opened(Bracket::Square),
+            '(' => self.opened(Bracket::Round),
+            '[' => self.opened(Bracket::Square),
+            '{' => self.opened(Bracket::Curly),
+            ')' => self.closed(Bracket::Round),
+            ']' => self.closed(Bracket::Square),
+            '}' => self.closed(Bracket::Curly),
+            '0'..='9' => self.number(),
+            _ if is_name(first) => {
+                self.skip(is_name);
+                Kind::Word
+            }
+            _ => {
+                let sign = SIGNS.iter().find(|sign| rest.starts_with(**sign));
+                self.at += sign.map_or(first.len_utf8(), |sign| sign.len());
+                Kind::Symbol
+            }
+        }
+    }
+
+    fn opened(&mut self, bracket: Bracket) -> Kind {
+        let is_wide = matches!(self.rest().as_bytes(), [b'#' | b'?' | b'$', ..]);
+        self.at += if is_wide { 2 } else { 1 };
+        self.open.push(bracket);
+        Kind::Open(bracket)
+    }
+
+    /// A closing bracket; after that of an interpolation the text goes on.
+    fn closed(&mut self, bracket: Bracket) -> Kind {
+        self.at += 1;
+        let opened = self.open.last().copied();
+        if bracket == Bracket::Curly && opened == Some(Bracket::Interpolation) {
+            self.open.pop();
+            self.is_within_text = true;
+            return Kind::Close(Bracket::Interpolation);
+        }
+        if opened.is_some_and(|open| open.is_closed_by(bracket)) {
+            self.open.pop();
+        }
+        Kind::Close(bracket)
+    }
+
+    /// A text in backticks, whose first `known` bytes are read, up to its end or its next interpolation.
+    fn piece(&mut self, known: usize) -> Kind {
+        let rest = &self.rest()[known..];
+        let (end, interpolation) = (rest.find('`'), rest.find("${"));
+        self.is_within_text = false;
+        match (end, interpolation) {
+            (_, Some(0)) if known == 0 => self.opened(Bracket::Interpolation),
+            (Some(end), interpolation) if interpolation.is_none_or(|other| end < other) => {
+                self.at += known + end + 1;
+                Kind::Piece
+            }
+            (_, Some(interpolation)) => {
+                self.at += known + interpolation;
+                self.is_within_text = true;
+                Kind::Piece
+            }
+            _ => {
+                self.at = self.text.len();
+                Kind::OpenPiece
+            }
+        }
+    }
+
+    /// A text in quotes: it ends in its line, unless that ends in a backslash.
+    fn quoted(&mut self, quote: char) -> Kind {
+        let mut is_escaped = false;
+        for (at, letter) in self.rest().char_indices().skip(1) {
+            match letter {
+                _ if is_escaped => is_escaped = false,
+                '\\' => is_escaped = true,
+                '\n' => {
+                    self.at += at;
+                    return Kind::OpenText;
+                }
+                _ if letter == quote => {
+                    self.at += at + 1;
+                    return Kind::Text;
+                }
+                _ => (),
+            }
+        }
+        self.at = self.text.len();
+        Kind::OpenText
+    }
+
+    /// A text in marks, `#"…"#`, of any number of marks.
+    fn marked(&mut self) -> Kind {
+        let rest = self.rest();
+        let marks = rest.len() - rest.trim_start_matches('#').len();
+        let closing = format!("\"{}", "#".repeat(marks));
+        match rest[marks + 1..].find(&closing) {
+            Some(end) => {
+                self.at += marks + 1 + end + closing.len();
+                Kind::Text
+            }
+            None => {
+                self.at = self.text.len();
+                Kind::OpenPiece
+            }
+        }
+    }
+
+    fn block_comment(&mut self) -> Kind {
+        let mut depth = 0_usize;
+        let bytes = self.text.as_bytes();
+        while self.at < bytes.len() {
+            match &bytes[self.at..] {
+                [b'/', b'*', ..] => {
+                    depth += 1;
+                    self.at += 2;
+                }
+                [b'*', b'/', ..] => {
+                    depth -= 1;
+                    self.at += 2;
+                    if depth == 0 {
+                        return Kind::Comment;
+                    }
+                }
+                _ => self.at += 1,
+            }
+        }
+        Kind::OpenComment
+    }
+
+    /// A number; the dots of `0..3` and `1.abs()` do not belong to it.
+    fn number(&mut self) -> Kind {
+        let is_decimal = !self.rest().starts_with("0x");
+        self.skip(is_name);
+        if is_decimal && let Some(fraction) = self.rest().strip_prefix('.') {
+            match fraction.chars().next() {
+                Some('.') => return Kind::Number,
+                Some(letter) if is_name(letter) && !letter.is_ascii_digit() => return Kind::Number,
+                _ => self.at += 1,
+            }
+            self.skip(is_name);
+        }
+        let is_exponent = is_decimal && self.text[..self.at].ends_with(['e', 'E']);
+        if is_exponent && matches!(self.rest().as_bytes(), [b'+' | b'-', b'0'..=b'9', ..]) {
+            self.at += 1;
+            self.skip(is_name);
+        }
+        Kind::Number
+    }
+}
+
+/// Whether a letter may stand in a name.
+pub fn is_name(letter: char) -> bool {
+    letter.is_alphanumeric() || letter == '_'
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn written(text: &str) -> Vec<&str> {
+        let significant = scan(text).into_iter().filter(Token::is_significant);
+        significant.map(|token| token.of(text)).collect()
+    }
+
+    #[test]
+    fn numbers_end_before_ranges_and_methods() {
+        assert_eq!(
+            written("0..3 1.5e-3+2. 1.abs() 0xe+1"),
+            ["0", "..", "3", "1.5e-3", "+", "2.", "1", ".", "abs", "(", ")", "0xe", "+", "1"]
+        );
+    }
+
+    #[test]
+    fn texts_hide_what_they_contain() {
+        assert_eq!(written(r#"f("a\"(", '{') // ("#), ["f", "(", r#""a\"(""#, ",", "'{'", ")"]);
+        assert_eq!(written("##\"a\"# \"## b"), ["##\"a\"# \"##", "b"]);
+        assert_eq!(written("/* ( /* */ ( */ c"), ["c"]);
+    }
+
+    #[test]
+    fn a_text_goes_on_after_an_interpolation() {
+        let text = "`x ${ #{b: `}`}.b }${d} y` + e";
+        let pieces = written(text);
+        assert_eq!(
+            pieces,
+            [
+                "`x ", "${", "#{", "b", ":", "`}`", "}", ".", "b", "}", "${", "d", "}", " y`", "+",
+                "e"
+            ]
+        );
+    }
+
+    #[test]
+    fn what_is_not_finished_says_so() {
+        let last = |text: &str| scan(text).last().map(|token| token.kind);
+        assert_eq!(last("\"abc"), Some(Kind::OpenText));
+        assert_eq!(last("`abc"), Some(Kind::OpenPiece));
+        assert_eq!(last("`"), Some(Kind::OpenPiece));
+        assert_eq!(last("`${a} b"), Some(Kind::OpenPiece));
+        assert_eq!(last("/* /* */"), Some(Kind::OpenComment));
+        assert_eq!(last("`${a}"), Some(Kind::Close(Bracket::Interpolation)));
+    }
+
+    proptest! {
+        #[test]
+        fn every_character_belongs_to_one_token(text in "[ -~\n\"`'{}()#$/*äξ\\\\.]{0,60}") {
+            let tokens = scan(&text);
+            let together: String = tokens.iter().map(|token| token.of(&text)).collect();
+            prop_assert_eq!(together, text);
+            prop_assert!(tokens.iter().all(|token| token.start < token.end));
+        }
+    }
+}
