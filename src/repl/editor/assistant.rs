@@ -14,6 +14,7 @@ use super::completeness::{Completeness, completeness};
 use super::completion::complete;
 use super::highlight::{Vocabulary, highlight};
 use super::hints::{self, Hint};
+use super::line_editor::Colours;
 
 /// Lists as short as this have a line for each candidate, with what it is.
 const SHORT_LIST: usize = 12;
@@ -23,6 +24,7 @@ pub struct Assistant {
     vocabulary: Vocabulary,
     columns: usize,
     prompt_width: usize,
+    colours: Colours,
     from_history: HistoryHinter,
     /// Whether the line is drawn for the last time, as it stays above its result.
     is_final: Cell<bool>,
@@ -30,9 +32,21 @@ pub struct Assistant {
 
 impl Assistant {
     /// For a terminal of so many columns, and a prompt of so many.
-    pub fn new(vocabulary: Vocabulary, columns: usize, prompt_width: usize) -> Self {
+    pub fn new(
+        vocabulary: Vocabulary,
+        columns: usize,
+        prompt_width: usize,
+        colours: Colours,
+    ) -> Self {
         let from_history = HistoryHinter::new();
-        Self { vocabulary, columns, prompt_width, from_history, is_final: Cell::new(false) }
+        Self {
+            vocabulary,
+            columns,
+            prompt_width,
+            colours,
+            from_history,
+            is_final: Cell::new(false),
+        }
     }
 
     /// The hint without what would not fit beside the line.
@@ -121,11 +135,21 @@ impl Hinter for Assistant {
 
     fn hint(&self, line: &str, position: usize, context: &Context<'_>) -> Option<Hint> {
         let known = hints::hint(line, position, self.vocabulary.surroundings());
-        match known.and_then(|hint| self.fit(line, hint)) {
-            Some(hint) => Some(hint),
-            None => Hint::rest(&self.from_history.hint(line, position, context)?),
-        }
+        let hint = known.and_then(|hint| self.fit(line, hint));
+        let remembered = || self.from_history.hint(line, position, context).map(remembered);
+        // Without colours what is offered would look like what is typed.
+        hint.or_else(remembered)
+            .filter(|hint| self.colours == Colours::On || hint.insertable.is_none())
     }
+}
+
+/// The rest of an entry of the history; of several lines the first one is shown, so that the terminal stays calm.
+fn remembered(rest: String) -> Hint {
+    let shown = match rest.split_once('\n') {
+        Some((first, _)) => format!("{first} …"),
+        None => rest.clone(),
+    };
+    Hint { shown, insertable: Some(rest) }
 }
 
 impl Highlighter for Assistant {
@@ -163,7 +187,7 @@ mod tests {
     use super::*;
 
     fn assistant(columns: usize) -> Assistant {
-        Assistant::new(Vocabulary::of(surroundings()), columns, 2)
+        Assistant::new(Vocabulary::of(surroundings()), columns, 2, Colours::On)
     }
 
     #[test]
@@ -177,6 +201,23 @@ mod tests {
         );
         let (_, many) = complete("", 0, &surroundings());
         assert!(list(many, 80).iter().all(|candidate| !candidate.display.contains("  ")));
+    }
+
+    #[test]
+    fn without_colours_only_notes_are_shown() {
+        let history = rustyline::history::DefaultHistory::new();
+        let context = Context::new(&history);
+        let plain = Assistant::new(Vocabulary::of(surroundings()), 80, 2, Colours::Off);
+        assert!(plain.hint("rod.e", 5, &context).is_none());
+        assert!(plain.hint("line(", 5, &context).is_some());
+        assert!(assistant(80).hint("rod.e", 5, &context).is_some());
+    }
+
+    #[test]
+    fn of_an_entry_of_several_lines_the_first_is_shown() {
+        let hint = remembered("(x) {\n    x\n}".into());
+        assert_eq!(hint.shown, "(x) { …");
+        assert_eq!(hint.insertable.as_deref(), Some("(x) {\n    x\n}"));
     }
 
     #[test]

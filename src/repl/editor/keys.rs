@@ -1,4 +1,4 @@
-//! Keys that behave in a way of their own: Enter, closing brackets, and the arrows up and down.
+//! Keys that behave in a way of their own: Enter, Backspace, and the arrows up and down.
 
 use std::collections::HashSet;
 use std::sync::{Arc, Mutex};
@@ -9,7 +9,7 @@ use rustyline::{
     InputMode, KeyCode, KeyEvent, Modifiers, Movement, RepeatCount,
 };
 
-use super::completeness::{Completeness, completeness, is_command};
+use super::completeness::{Completeness, completeness};
 use super::completion::INDENTATION;
 
 /// The entries of the history, as the arrows need to know them.
@@ -23,13 +23,11 @@ pub fn bind<H: Helper, I: History>(editor: &mut Editor<H, I>, entries: &Entries)
         KeyEvent(KeyCode::Enter, Modifiers::ALT),
         EventHandler::Simple(Cmd::Newline),
     );
-    for bracket in [')', ']', '}'] {
-        let key = KeyEvent(KeyCode::Char(bracket), Modifiers::NONE);
-        editor.bind_sequence(key, conditional(Rule::Close(bracket)));
-    }
-    for (key, backward) in [(KeyCode::Up, Direction::Backward), (KeyCode::Down, Direction::Forward)]
+    editor.bind_sequence(KeyEvent(KeyCode::Backspace, Modifiers::NONE), conditional(Rule::Back));
+    for (key, direction) in
+        [(KeyCode::Up, Direction::Backward), (KeyCode::Down, Direction::Forward)]
     {
-        let rule = Rule::Search(backward, Arc::clone(entries));
+        let rule = Rule::Search(direction, Arc::clone(entries));
         editor.bind_sequence(KeyEvent(key, Modifiers::NONE), conditional(rule));
     }
 }
@@ -43,8 +41,8 @@ enum Direction {
 enum Rule {
     /// The next line of an open input is indented.
     Enter,
-    /// A closing bracket at the beginning of a line steps back by one level.
-    Close(char),
+    /// Backspace takes back a level of indentation.
+    Back,
     /// Goes through the entries that begin as the line does up to the cursor.
     Search(Direction, Entries),
 }
@@ -57,12 +55,7 @@ impl ConditionalEventHandler for Rule {
         let (line, at) = (context.line(), context.pos());
         match self {
             Self::Enter => next_line(line, at).map(|text| Cmd::Insert(1, text)),
-            Self::Close(bracket) => is_indented(line, at).then(|| {
-                Cmd::Replace(
-                    Movement::BackwardChar(INDENTATION.len() as RepeatCount),
-                    Some(bracket.to_string()),
-                )
-            }),
+            Self::Back => is_indentation(line, at).then_some(Cmd::Dedent(Movement::WholeLine)),
             Self::Search(direction, entries) => {
                 let is_entry = entries.lock().is_ok_and(|entries| entries.contains(line));
                 searches(line, at, is_entry).then_some(match direction {
@@ -84,14 +77,12 @@ fn next_line(line: &str, at: usize) -> Option<String> {
     }
 }
 
-/// Whether nothing but indentation stands before the cursor in its line, at the end of the input.
-fn is_indented(line: &str, at: usize) -> bool {
+/// Whether a level of indentation and nothing else stands before the cursor, at the end of the input.
+fn is_indentation(line: &str, at: usize) -> bool {
     let here = line.rfind('\n').map(|end| &line[end + 1..]);
+    let is_blank = |here: &str| !here.is_empty() && here.bytes().all(|byte| byte == b' ');
     at == line.len()
-        && !is_command(line)
-        && here.is_some_and(|here| {
-            here.len() >= INDENTATION.len() && here.bytes().all(|byte| byte == b' ')
-        })
+        && here.is_some_and(|here| is_blank(here) && here.len() % INDENTATION.len() == 0)
 }
 
 /// Whether an arrow searches: in a line with something typed before the cursor. In an entry that was fetched, as one sees by
@@ -115,11 +106,12 @@ mod tests {
     }
 
     #[test]
-    fn closing_brackets_step_back() {
-        assert!(is_indented("fn f() {\n    ", 13));
-        assert!(!is_indented("fn f() {\n  ", 11));
-        assert!(!is_indented("fn f() {\n    a", 14));
-        assert!(!is_indented("    ", 4));
+    fn indentation_is_taken_back_by_whole_levels() {
+        assert!(is_indentation("fn f() {\n    ", 13));
+        assert!(is_indentation("fn f() {\n        ", 17));
+        for line in ["fn f() {\n", "fn f() {\n  ", "fn f() {\n    a", "    "] {
+            assert!(!is_indentation(line, line.len()), "{line}");
+        }
     }
 
     #[test]

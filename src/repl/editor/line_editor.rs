@@ -93,6 +93,7 @@ const USUAL_COLUMNS: usize = 80;
 pub struct Editor {
     lines: rustyline::Editor<Assistant, FileHistory>,
     history: Option<PathBuf>,
+    colours: Colours,
     entries: Entries,
     note: Option<String>,
 }
@@ -105,7 +106,8 @@ impl Editor {
     pub fn new(options: Options) -> io::Result<Self> {
         let lines = rustyline::Editor::with_config(configuration(&options)?).map_err(into_io)?;
         let entries = Entries::default();
-        let mut editor = Self { lines, history: options.history, entries, note: None };
+        let mut editor =
+            Self { lines, history: options.history, colours: options.colours, entries, note: None };
         keys::bind(&mut editor.lines, &editor.entries);
         editor.recall();
         Ok(editor)
@@ -118,8 +120,12 @@ impl Editor {
     pub fn read(&mut self, prompt: &str, surroundings: Surroundings) -> io::Result<Typed> {
         let columns =
             self.lines.dimensions().map_or(USUAL_COLUMNS, |(columns, _)| usize::from(columns));
-        let assistant =
-            Assistant::new(Vocabulary::of(surroundings), columns, prompt.chars().count());
+        let assistant = Assistant::new(
+            Vocabulary::of(surroundings),
+            columns,
+            prompt.chars().count(),
+            self.colours,
+        );
         self.lines.set_helper(Some(assistant));
         match self.lines.readline(prompt) {
             Ok(line) => {
@@ -202,5 +208,62 @@ fn into_io(error: ReadlineError) -> io::Error {
     match error {
         ReadlineError::Io(error) => error,
         other => io::Error::other(other),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn editor(history: PathBuf) -> Editor {
+        let options = Options { keys: Keys::Emacs, colours: Colours::Off, history: Some(history) };
+        Editor::new(options).expect("an editor")
+    }
+
+    #[test]
+    fn entries_survive_the_session_and_stay_whole() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("state").join("history");
+        let mut first = editor(file.clone());
+        for line in [
+            "let a = 1;",
+            "fn f() {\n    \"\\\\n\"\n}",
+            "   ",
+            " secret",
+            "fn f() {\n    \"\\\\n\"\n}",
+        ] {
+            first.remember(line);
+        }
+        let mut second = editor(file.clone());
+        second.remember("f()");
+        let third = editor(file);
+        let entries: Vec<_> = third.lines.history().iter().map(String::as_str).collect();
+        assert_eq!(entries, ["let a = 1;", "fn f() {\n    \"\\\\n\"\n}", "f()"]);
+        assert!(third.entries.lock().is_ok_and(|entries| entries.contains("f()")));
+    }
+
+    #[test]
+    fn a_history_that_cannot_be_used_is_noted_once_and_left_alone() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("picture");
+        fs::write(&file, b"\xff\xfe\n").expect("a file");
+        let mut unreadable = editor(file.clone());
+        assert!(unreadable.take_note().is_some_and(|note| note.contains("cannot read")));
+        unreadable.remember("let a = 1;");
+        assert_eq!(unreadable.take_note(), None);
+        assert_eq!(fs::read(&file).expect("the file"), b"\xff\xfe\n");
+
+        let mut unwritable = editor(file.join("history"));
+        unwritable.remember("let a = 1;");
+        assert!(unwritable.take_note().is_some_and(|note| note.contains("cannot write")));
+        unwritable.remember("let b = 1;");
+        assert_eq!(unwritable.take_note(), None);
+    }
+
+    #[test]
+    fn keys_have_names() {
+        assert_eq!(Keys::named("VI"), Some(Keys::Vi));
+        assert_eq!(Keys::named("emacs"), Some(Keys::Emacs));
+        assert_eq!(Keys::named("joe"), None);
     }
 }
