@@ -1,7 +1,27 @@
 //! Typing at the prompt: whether an input is complete, completion, hints, colours and history.
 //!
-//! All that knows the language is pure and works on the tokens of [`scanner`]; the terminal is left to rustyline.
+//! All that knows the language is pure and works on the tokens of [`scanner`]; the terminal is left to rustyline, which
+//! [`line_editor`] sets up.
 
+mod assistant;
+pub mod candidates;
+mod commands;
 pub mod completeness;
+pub mod completion;
+mod expected;
+pub mod highlight;
+pub mod hints;
+pub mod history;
+mod input;
+mod keys;
+pub mod line_editor;
+mod members;
+mod paths;
+#[cfg(test)]
+mod samples;
 pub mod scanner;
 pub mod surroundings;
+mod types;
+mod words;
+
+pub use line_editor::{Colours, Editor, Keys, Options, Typed};

@@ -133,7 +133,7 @@ impl Scanner<'_> {
             _ if rest.starts_with("/*") => self.block_comment(),
             '"' | '\'' => self.quoted(first),
             '`' => self.piece(1),
-            '#' if rest.trim_start_matches('#').starts_with('"') => self.marked(),
+            '#' if begins_marked(rest) => self.marked(),
             '#' if rest.starts_with("#{") => self.opened(Bracket::Map),
             '?' if rest.starts_with("?[") => self.opened(Bracket::Square),
             '(' => self.opened(Bracket::Round),
@@ -280,6 +280,13 @@ impl Scanner<'_> {
         }
         Kind::Number
     }
+}
+
+/// Most marks before a text in marks; without a limit a row of marks would take long.
+const MOST_MARKS: usize = 16;
+
+fn begins_marked(rest: &str) -> bool {
+    rest.bytes().take(MOST_MARKS + 1).find(|byte| *byte != b'#') == Some(b'"')
 }
 
 /// Whether a letter may stand in a name.

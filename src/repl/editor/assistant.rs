@@ -1,0 +1,230 @@
+//! What rustyline asks while a line is typed, passed on to the parts that know.
+
+use std::borrow::Cow;
+use std::cell::Cell;
+
+use rustyline::completion::{self, Completer};
+use rustyline::highlight::{CmdKind, Highlighter};
+use rustyline::hint::{self, Hinter, HistoryHinter};
+use rustyline::validate::{ValidationContext, ValidationResult, Validator};
+use rustyline::{Context, Helper, Result};
+
+use super::candidates::Candidate;
+use super::completeness::{Completeness, completeness};
+use super::completion::complete;
+use super::highlight::{Vocabulary, highlight};
+use super::hints::{self, Hint};
+use super::line_editor::Colours;
+
+/// Lists as short as this have a line for each candidate, with what it is.
+const SHORT_LIST: usize = 12;
+
+/// Answers for one prompt.
+pub struct Assistant {
+    vocabulary: Vocabulary,
+    columns: usize,
+    prompt_width: usize,
+    colours: Colours,
+    from_history: HistoryHinter,
+    /// Whether the line is drawn for the last time, as it stays above its result.
+    is_final: Cell<bool>,
+}
+
+impl Assistant {
+    /// For a terminal of so many columns, and a prompt of so many.
+    pub fn new(
+        vocabulary: Vocabulary,
+        columns: usize,
+        prompt_width: usize,
+        colours: Colours,
+    ) -> Self {
+        let from_history = HistoryHinter::new();
+        Self {
+            vocabulary,
+            columns,
+            prompt_width,
+            colours,
+            from_history,
+            is_final: Cell::new(false),
+        }
+    }
+
+    /// The hint without what would not fit beside the line.
+    fn fit(&self, line: &str, hint: Hint) -> Option<Hint> {
+        if hint.insertable.is_some() {
+            return Some(hint);
+        }
+        let last = line.rsplit('\n').next().unwrap_or_default().chars().count();
+        let prompt = if line.contains('\n') { 0 } else { self.prompt_width };
+        let room = self.columns.checked_sub(last + prompt + 1).filter(|room| *room >= 10)?;
+        Some(Hint { shown: cut(&hint.shown, room), insertable: None })
+    }
+}
+
+impl Helper for Assistant {}
+
+/// A candidate as rustyline lists it.
+pub struct Listed {
+    display: String,
+    replacement: String,
+}
+
+impl completion::Candidate for Listed {
+    fn display(&self) -> &str {
+        &self.display
+    }
+
+    fn replacement(&self) -> &str {
+        &self.replacement
+    }
+}
+
+impl Completer for Assistant {
+    type Candidate = Listed;
+
+    fn complete(
+        &self,
+        line: &str,
+        position: usize,
+        _: &Context<'_>,
+    ) -> Result<(usize, Vec<Listed>)> {
+        let (start, candidates) = complete(line, position, self.vocabulary.surroundings());
+        Ok((start, list(candidates, self.columns)))
+    }
+}
+
+/// Candidates for a terminal of so many columns.
+fn list(candidates: Vec<Candidate>, columns: usize) -> Vec<Listed> {
+    let widest =
+        candidates.iter().map(|candidate| candidate.display.chars().count()).max().unwrap_or(0);
+    let is_described = candidates.len() <= SHORT_LIST
+        && candidates.iter().any(|candidate| !candidate.summary.is_empty());
+    let listed = candidates.into_iter().map(|candidate| {
+        let display = match is_described {
+            true => format!("{:<widest$}  {}", candidate.display, candidate.summary),
+            false => candidate.display,
+        };
+        Listed {
+            display: cut(display.trim_end(), columns.saturating_sub(2)),
+            replacement: candidate.replacement,
+        }
+    });
+    listed.collect()
+}
+
+/// The first letters of a text that is too long, and an ellipsis.
+fn cut(text: &str, width: usize) -> String {
+    if text.chars().count() <= width {
+        return text.to_owned();
+    }
+    text.chars().take(width.saturating_sub(1)).chain(std::iter::once('…')).collect()
+}
+
+impl hint::Hint for Hint {
+    fn display(&self) -> &str {
+        &self.shown
+    }
+
+    fn completion(&self) -> Option<&str> {
+        self.insertable.as_deref()
+    }
+}
+
+impl Hinter for Assistant {
+    type Hint = Hint;
+
+    fn hint(&self, line: &str, position: usize, context: &Context<'_>) -> Option<Hint> {
+        let known = hints::hint(line, position, self.vocabulary.surroundings());
+        let hint = known.and_then(|hint| self.fit(line, hint));
+        let remembered = || self.from_history.hint(line, position, context).map(remembered);
+        // Without colours what is offered would look like what is typed.
+        hint.or_else(remembered)
+            .filter(|hint| self.colours == Colours::On || hint.insertable.is_none())
+    }
+}
+
+/// The rest of an entry of the history; of several lines the first one is shown, so that the terminal stays calm.
+fn remembered(rest: String) -> Hint {
+    let shown = match rest.split_once('\n') {
+        Some((first, _)) => format!("{first} …"),
+        None => rest.clone(),
+    };
+    Hint { shown, insertable: Some(rest) }
+}
+
+impl Highlighter for Assistant {
+    fn highlight<'l>(&self, line: &'l str, position: usize) -> Cow<'l, str> {
+        let cursor = (!self.is_final.get()).then_some(position);
+        Cow::Owned(highlight(line, cursor, &self.vocabulary))
+    }
+
+    fn highlight_prompt<'b, 's: 'b, 'p: 'b>(&'s self, prompt: &'p str, _: bool) -> Cow<'b, str> {
+        Cow::Owned(format!("\x1b[1m{prompt}\x1b[0m"))
+    }
+
+    fn highlight_hint<'h>(&self, hint: &'h str) -> Cow<'h, str> {
+        Cow::Owned(format!("\x1b[2m{hint}\x1b[0m"))
+    }
+
+    fn highlight_char(&self, _: &str, _: usize, kind: CmdKind) -> bool {
+        self.is_final.set(kind == CmdKind::ForcedRefresh);
+        true
+    }
+}
+
+impl Validator for Assistant {
+    fn validate(&self, context: &mut ValidationContext) -> Result<ValidationResult> {
+        Ok(match completeness(context.input()) {
+            Completeness::Complete => ValidationResult::Valid(None),
+            Completeness::Open(_) => ValidationResult::Incomplete,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::surroundings;
+    use super::*;
+
+    fn assistant(columns: usize) -> Assistant {
+        Assistant::new(Vocabulary::of(surroundings()), columns, 2, Colours::On)
+    }
+
+    #[test]
+    fn short_lists_say_what_the_candidates_are() {
+        let (_, candidates) = complete(":s", 2, &surroundings());
+        let listed = list(candidates, 30);
+        let shown: Vec<_> = listed.iter().map(|candidate| candidate.display.as_str()).collect();
+        assert_eq!(
+            shown,
+            [":save  Writes the session a…", ":show  Draws the beam.", ":step  Takes steps."]
+        );
+        let (_, many) = complete("", 0, &surroundings());
+        assert!(list(many, 80).iter().all(|candidate| !candidate.display.contains("  ")));
+    }
+
+    #[test]
+    fn without_colours_only_notes_are_shown() {
+        let history = rustyline::history::DefaultHistory::new();
+        let context = Context::new(&history);
+        let plain = Assistant::new(Vocabulary::of(surroundings()), 80, 2, Colours::Off);
+        assert!(plain.hint("rod.e", 5, &context).is_none());
+        assert!(plain.hint("line(", 5, &context).is_some());
+        assert!(assistant(80).hint("rod.e", 5, &context).is_some());
+    }
+
+    #[test]
+    fn of_an_entry_of_several_lines_the_first_is_shown() {
+        let hint = remembered("(x) {\n    x\n}".into());
+        assert_eq!(hint.shown, "(x) { …");
+        assert_eq!(hint.insertable.as_deref(), Some("(x) {\n    x\n}"));
+    }
+
+    #[test]
+    fn notes_are_cut_to_the_room_beside_the_line() {
+        let note = || hints::hint("line(", 5, &surroundings()).expect("a hint");
+        let shown = assistant(40).fit("line(", note()).expect("room").shown;
+        assert!(shown.chars().count() == 32 && shown.ends_with('…'), "{shown}");
+        assert_eq!(assistant(12).fit("line(", note()), None);
+    }
+}

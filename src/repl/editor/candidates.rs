@@ -1,0 +1,120 @@
+//! Candidates of a completion, and which of them fit what is typed.
+
+use crate::script::parameter::Parameter;
+use crate::script::table::{Form, Row};
+
+/// Something that can be completed.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Candidate {
+    /// How it is listed.
+    pub display: String,
+    /// What is put in the place of what is typed.
+    pub replacement: String,
+    /// One line on what it is; may be empty.
+    pub summary: String,
+}
+
+impl Candidate {
+    /// A word that is listed as it is written.
+    pub fn word(word: &str, summary: &str) -> Self {
+        Self { display: word.to_owned(), replacement: word.to_owned(), summary: summary.to_owned() }
+    }
+
+    /// A function with its arguments in parentheses, `(from, to)`: the opening one is written too, and both if there
+    /// are no arguments.
+    pub fn call(name: &str, arguments: &str, summary: &str) -> Self {
+        let brackets = if arguments == "()" { "()" } else { "(" };
+        Self {
+            display: format!("{name}{arguments}"),
+            replacement: format!("{name}{brackets}"),
+            summary: summary.to_owned(),
+        }
+    }
+
+    /// A row, in the way in which it is written after a dot, or without one.
+    pub fn row(row: &'static Row, before_dot: usize) -> Self {
+        match row.form {
+            Form::Property(_) | Form::Operator => Self::word(row.name, row.summary),
+            Form::Function | Form::Method(_) => {
+                let rest = row.parameters.get(before_dot..).unwrap_or_default();
+                Self::call(row.name, &arguments(rest), row.summary)
+            }
+        }
+    }
+
+    /// A key of an option map.
+    pub fn key(key: &Parameter) -> Self {
+        let summary = match key.doc {
+            "" => key.expectation(),
+            doc => format!("{}; {doc}", key.expectation()),
+        };
+        Self { display: key.name.to_owned(), replacement: format!("{}: ", key.name), summary }
+    }
+
+    /// The name of a candidate: what must agree with what is typed.
+    fn name(&self) -> &str {
+        self.replacement.trim_end_matches(['(', ')', ':', ' '])
+    }
+}
+
+/// Arguments in parentheses, optional ones in brackets.
+pub fn arguments(parameters: &[Parameter]) -> String {
+    let names = parameters.iter().map(|parameter| match parameter.is_required() {
+        true => parameter.name.to_owned(),
+        false => format!("[{}]", parameter.name),
+    });
+    format!("({})", names.collect::<Vec<_>>().join(", "))
+}
+
+/// The candidates that fit `typed`, sorted and each once: those that begin so; if there are none, those that do when capital
+/// letters count as small ones, or that have the letters typed in that order.
+pub fn fitting(typed: &str, candidates: impl IntoIterator<Item = Candidate>) -> Vec<Candidate> {
+    let mut all: Vec<Candidate> = candidates.into_iter().collect();
+    all.sort_by_key(|candidate| (candidate.name().to_lowercase(), candidate.clone()));
+    all.dedup_by(|later, earlier| later.replacement == earlier.replacement);
+    let is_prefix = |candidate: &Candidate| candidate.name().starts_with(typed);
+    match all.iter().any(is_prefix) {
+        true => all.retain(is_prefix),
+        false => all.retain(|candidate| has_in_order(candidate.name(), typed)),
+    }
+    all
+}
+
+/// Whether the letters of `typed` stand in `name` in their order, the first one in front.
+fn has_in_order(name: &str, typed: &str) -> bool {
+    let mut letters = name.chars().flat_map(char::to_lowercase);
+    let mut wanted = typed.chars().flat_map(char::to_lowercase);
+    match wanted.next() {
+        Some(first) => {
+            letters.next() == Some(first)
+                && wanted.all(|letter| letters.any(|other| other == letter))
+        }
+        None => true,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(typed: &str) -> Vec<String> {
+        let words = ["plot_motion", "plot_history", "polar", "EI", "plot_history"];
+        let candidates = words.map(|word| Candidate::word(word, ""));
+        fitting(typed, candidates).into_iter().map(|candidate| candidate.replacement).collect()
+    }
+
+    #[test]
+    fn prefixes_come_before_looser_matches() {
+        assert_eq!(names("plot"), ["plot_history", "plot_motion"]);
+        assert_eq!(names("ph"), ["plot_history"]);
+        assert_eq!(names("ei"), ["EI"]);
+        assert_eq!(names("motion"), Vec::<String>::new());
+        assert_eq!(names(""), ["EI", "plot_history", "plot_motion", "polar"]);
+    }
+
+    #[test]
+    fn calls_are_written_with_their_bracket() {
+        assert_eq!(Candidate::call("step", "([count])", "").replacement, "step(");
+        assert_eq!(Candidate::call("energy_momentum", "()", "").replacement, "energy_momentum()");
+    }
+}

@@ -1,0 +1,67 @@
+//! Completion of commands, `:step 10`, and of questions, `?slider`.
+
+use super::candidates::{Candidate, fitting};
+use super::completion::complete;
+use super::paths::{Files, complete_path};
+use super::surroundings::{CommandWord, Operand, Surroundings};
+
+/// What may stand at the end of `text`, which is a command or a question up to the cursor.
+pub fn complete_command(text: &str, surroundings: &Surroundings) -> (usize, Vec<Candidate>) {
+    let begin = text.len() - text.trim_start().len();
+    let command = &text[begin..];
+    if let Some(asked) = command.strip_prefix('?') {
+        let asked = asked.trim_start();
+        return (text.len() - asked.len(), fitting(asked, topics(surroundings)));
+    }
+    let Some(end) = command.find(char::is_whitespace) else {
+        let commands = surroundings.commands.iter();
+        return (
+            begin,
+            fitting(command, commands.map(|word| Candidate::word(word.name, word.summary))),
+        );
+    };
+    let operand = command[end..].trim_start();
+    let start = text.len() - operand.len();
+    match command_named(&command[..end], surroundings).map(|word| word.operand) {
+        Some(Operand::Name) => (start, fitting(operand, topics(surroundings))),
+        Some(Operand::File) => {
+            let (offset, found) = complete_path(operand, &surroundings.folder, Files::Any);
+            (start + offset, found)
+        }
+        Some(Operand::Column) => {
+            let last = operand.rfind([' ', ',']).map_or(0, |gap| gap + 1);
+            let columns = surroundings.columns.iter().map(|column| Candidate::word(column, ""));
+            (start + last, fitting(&operand[last..], columns))
+        }
+        Some(Operand::Expression) => {
+            let (offset, found) = complete(operand, operand.len(), surroundings);
+            (start + offset, found)
+        }
+        Some(Operand::Nothing | Operand::Number) | None => (text.len(), Vec::new()),
+    }
+}
+
+/// The command with this name, or the only one that begins so.
+pub fn command_named<'s>(name: &str, surroundings: &'s Surroundings) -> Option<&'s CommandWord> {
+    let mut beginning = surroundings.commands.iter().filter(|word| word.name.starts_with(name));
+    let exact = surroundings.commands.iter().find(|word| word.name == name);
+    exact.or_else(|| beginning.next().filter(|_| beginning.next().is_none()))
+}
+
+/// What help can be asked for: names of the language, of session functions and of commands.
+fn topics(surroundings: &Surroundings) -> Vec<Candidate> {
+    let catalog = &surroundings.catalog;
+    let is_name = |name: &str| name.starts_with(|letter: char| letter.is_alphabetic());
+    let rows = catalog.rows().filter(|row| is_name(row.name));
+    let constants = catalog.tables().flat_map(|table| table.constants);
+    rows.map(|row| Candidate::word(row.name, row.summary))
+        .chain(constants.map(|constant| Candidate::word(constant.name, constant.summary)))
+        .chain(
+            surroundings
+                .functions
+                .iter()
+                .map(|function| Candidate::word(&function.name, "a function of this session")),
+        )
+        .chain(surroundings.commands.iter().map(|word| Candidate::word(word.name, word.summary)))
+        .collect()
+}

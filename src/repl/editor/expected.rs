@@ -1,0 +1,147 @@
+//! What a call expects at the cursor: the parameters that the value being written may stand for.
+
+use super::input::{Callee, Input, Level};
+use super::scanner::Bracket;
+use super::surroundings::Surroundings;
+use super::types::Types;
+use crate::script::kind::Kind;
+use crate::script::parameter::Parameter;
+use crate::script::table::{Form, Row};
+
+/// The parameters of what stands in brackets.
+pub struct Expected<'a, 't> {
+    types: Types<'a, 't>,
+    levels: Vec<Level<'t>>,
+}
+
+/// A row that is called, and how many of its parameters stand before the dot.
+#[derive(Clone, Copy)]
+pub struct Called {
+    /// The row.
+    pub row: &'static Row,
+    /// One for a function that is written as a method.
+    pub before_dot: usize,
+}
+
+impl<'a, 't> Expected<'a, 't> {
+    /// Looks at what stands before the cursor.
+    pub fn new(input: &'a Input<'t>, surroundings: &'a Surroundings) -> Self {
+        Self { types: Types { input, surroundings }, levels: input.levels() }
+    }
+
+    /// The innermost open bracket.
+    pub fn innermost(&self) -> Option<&Level<'t>> {
+        self.levels.last()
+    }
+
+    /// What the value that is being written may be.
+    pub fn here(&self) -> Vec<&'static Parameter> {
+        self.levels.len().checked_sub(1).map_or_else(Vec::new, |depth| self.at(depth))
+    }
+
+    /// The keys of the option map whose bracket is the innermost one; none of any other map.
+    pub fn keys(&self) -> Vec<&'static Parameter> {
+        match self.levels.len().checked_sub(2) {
+            Some(outer) if self.levels[outer + 1].bracket == Bracket::Map => keys(&self.at(outer)),
+            _ => Vec::new(),
+        }
+    }
+
+    /// The innermost call whose arguments are being written, with what is between it and the cursor left aside.
+    pub fn call(&self) -> Option<(Level<'t>, Callee<'t>)> {
+        let transparent = |level: &&Level| {
+            matches!(level.bracket, Bracket::Round | Bracket::Square | Bracket::Map)
+        };
+        let levels = self.levels.iter().rev().take_while(transparent);
+        levels.filter_map(|level| Some((*level, self.types.input.callee(level.opener)?))).next()
+    }
+
+    /// The rows that a call may mean.
+    pub fn rows(&self, callee: &Callee) -> Vec<Called> {
+        if callee.module.is_some() {
+            return Vec::new();
+        }
+        let receiver = callee.receiver.map(|end| self.types.of(end));
+        let rows = self.types.surroundings.catalog.named(callee.name);
+        let fitting = rows.filter_map(|row| match (row.form, &receiver) {
+            (Form::Function, None) => Some(Called { row, before_dot: 0 }),
+            (Form::Function, Some(_)) => Some(Called { row, before_dot: 1 }),
+            (Form::Method(_), Some(None)) => Some(Called { row, before_dot: 0 }),
+            (Form::Method(of), Some(Some(known))) => {
+                (of.name() == known).then_some(Called { row, before_dot: 0 })
+            }
+            _ => None,
+        });
+        fitting.collect()
+    }
+
+    fn at(&self, depth: usize) -> Vec<&'static Parameter> {
+        let level = &self.levels[depth];
+        let outer = || depth.checked_sub(1).map_or_else(Vec::new, |outer| self.at(outer));
+        match (level.bracket, level.key) {
+            (Bracket::Round, _) => {
+                let callee = self.types.input.callee(level.opener);
+                let rows = callee.map(|callee| self.rows(&callee)).unwrap_or_default();
+                let parameter =
+                    |called: Called| called.row.parameters.get(level.commas + called.before_dot);
+                rows.into_iter().filter_map(parameter).collect()
+            }
+            (Bracket::Map, Some(name)) => {
+                keys(&outer()).into_iter().filter(|key| key.name == name).collect()
+            }
+            (Bracket::Square, _) => outer(),
+            _ => Vec::new(),
+        }
+    }
+}
+
+fn keys(parameters: &[&'static Parameter]) -> Vec<&'static Parameter> {
+    let options = |kind: &'static Kind| match kind {
+        Kind::Options(keys) => *keys,
+        _ => &[],
+    };
+    parameters.iter().flat_map(|parameter| kinds(&parameter.kind)).flat_map(options).collect()
+}
+
+/// The kinds of which a value may be one.
+pub fn kinds(kind: &'static Kind) -> &'static [Kind] {
+    match kind {
+        Kind::Either(kinds) => kinds,
+        kind => std::slice::from_ref(kind),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::surroundings;
+    use super::*;
+
+    fn names(text: &str, read: fn(&Expected) -> Vec<&'static Parameter>) -> Vec<&'static str> {
+        let (input, surroundings) = (Input::before(text, text.len()), surroundings());
+        read(&Expected::new(&input, &surroundings))
+            .into_iter()
+            .map(|parameter| parameter.name)
+            .collect()
+    }
+
+    #[test]
+    fn the_parameter_at_the_cursor_is_found() {
+        assert_eq!(names("line([0, 0], ", |at| at.here()), ["to"]);
+        assert_eq!(names("sim.run_to(", |at| at.here()), ["t"]);
+        assert_eq!(names("plot_history(sim, [\"t\", ", |at| at.here()), ["columns"]);
+        assert_eq!(names("sim.plot_history([", |at| at.here()), ["columns"]);
+        assert_eq!(
+            names("scene.beam(#{ axis: line([0, 0], [1, 1]), basis: ", |at| at.here()),
+            ["basis"]
+        );
+        assert!(names("swing(", |at| at.here()).is_empty());
+        assert!(names("line([0, 0], [1, 1])", |at| at.here()).is_empty());
+    }
+
+    #[test]
+    fn the_keys_of_an_option_map_are_those_of_its_call() {
+        assert_eq!(names("scene.start(#{", |at| at.keys()), ["dt", "integrator", "name"]);
+        assert!(names("let m = #{", |at| at.keys()).is_empty());
+        assert!(names("scene.start(", |at| at.keys()).is_empty());
+    }
+}

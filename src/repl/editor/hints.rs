@@ -1,0 +1,206 @@
+//! Hints: what is shown behind the cursor while a line is typed.
+
+use super::candidates::arguments;
+use super::commands::command_named;
+use super::completeness::is_command;
+use super::completion::complete;
+use super::expected::{Called, Expected};
+use super::input::{Callee, Input, Level};
+use super::scanner::{Bracket, Kind};
+use super::surroundings::{Function, Surroundings};
+use crate::script::numbers::format_number;
+use crate::script::parameter::{Parameter, Presence};
+
+/// What is shown behind the cursor.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Hint {
+    /// What is shown.
+    pub shown: String,
+    /// What of it can be taken over into the line.
+    pub insertable: Option<String>,
+}
+
+impl Hint {
+    /// Something to know.
+    fn note(text: String) -> Option<Self> {
+        (!text.is_empty()).then(|| Self { shown: format!("  {text}"), insertable: None })
+    }
+
+    /// What comes next.
+    pub fn rest(text: &str) -> Option<Self> {
+        (!text.is_empty())
+            .then(|| Self { shown: text.to_owned(), insertable: Some(text.to_owned()) })
+    }
+}
+
+/// What can be said with the cursor at the end of `line`: the rest of the only name that fits, the signature of the call
+/// whose arguments are being written, the keys of its options.
+pub fn hint(line: &str, position: usize, surroundings: &Surroundings) -> Option<Hint> {
+    if position != line.len() || line.trim().is_empty() {
+        return None;
+    }
+    if is_command(line) {
+        let name = line.trim();
+        let command = command_named(name, surroundings).filter(|command| command.name == name)?;
+        return Hint::note(command.summary.to_owned());
+    }
+    let input = Input::before(line, position);
+    if matches!(input.last.map(|token| token.kind), Some(Kind::Comment | Kind::OpenComment)) {
+        return None;
+    }
+    let expected = Expected::new(&input, surroundings);
+    let is_key = expected
+        .innermost()
+        .is_some_and(|level| level.bracket == Bracket::Map && level.key.is_none());
+    let is_member = input.count_before_name().checked_sub(1).is_some_and(|dot| input.is_dot(dot));
+    let only = (is_member || is_key).then(|| only_candidate(line, surroundings)).flatten();
+    only.or_else(|| call_hint(&expected, is_key, line, surroundings))
+}
+
+/// The rest of the only name that fits.
+fn only_candidate(line: &str, surroundings: &Surroundings) -> Option<Hint> {
+    let (start, candidates) = complete(line, line.len(), surroundings);
+    match candidates.as_slice() {
+        [only] => Hint::rest(only.replacement.strip_prefix(&line[start..])?),
+        _ => None,
+    }
+}
+
+fn call_hint(
+    expected: &Expected,
+    is_key: bool,
+    line: &str,
+    surroundings: &Surroundings,
+) -> Option<Hint> {
+    if is_key && !expected.keys().is_empty() {
+        let (_, free) = complete(line, line.len(), surroundings);
+        let names: Vec<_> = free.into_iter().map(|key| key.display).collect();
+        return Hint::note(names.join(", "));
+    }
+    let (level, callee) = expected.call()?;
+    if expected.innermost().is_some_and(|innermost| innermost.bracket == Bracket::Map) {
+        return Hint::note(describe(expected.here().first()?));
+    }
+    let rows = expected.rows(&callee);
+    let is_long_enough =
+        |called: &&Called| level.commas + called.before_dot < called.row.parameters.len();
+    match rows.iter().find(is_long_enough).or(rows.first()) {
+        Some(called) => Hint::note(signature(called, &level)),
+        None => Hint::note(script_signature(script_function(&callee, surroundings)?, &level)),
+    }
+}
+
+/// A signature with the current parameter in angle quotes, and what it may be.
+fn signature(called: &Called, level: &Level) -> String {
+    let parameters = called.row.parameters.get(called.before_dot..).unwrap_or_default();
+    let mut names: Vec<String> = parameters
+        .iter()
+        .map(|parameter| match parameter.is_required() {
+            true => parameter.name.to_owned(),
+            false => format!("[{}]", parameter.name),
+        })
+        .collect();
+    match parameters.get(level.commas) {
+        Some(current) => {
+            names[level.commas] = format!("‹{}›", names[level.commas]);
+            format!("{}({})  {}", called.row.name, names.join(", "), describe(current))
+        }
+        None => format!("{}{}", called.row.name, arguments(parameters)),
+    }
+}
+
+/// What a parameter may be: `t: a number [time]; 0 unless given; doc`.
+fn describe(parameter: &Parameter) -> String {
+    let default = match parameter.presence {
+        Presence::Required | Presence::Optional => None,
+        Presence::Number(x) => Some(format_number(x)),
+        Presence::Whole(n) => Some(n.to_string()),
+        Presence::Text(text) => Some(format!("\"{text}\"")),
+        Presence::Boolean(truth) => Some(truth.to_string()),
+    };
+    let mut text = format!("{}: {}", parameter.name, parameter.expectation());
+    if let Some(default) = default {
+        text.push_str(&format!("; {default} unless given"));
+    }
+    if !parameter.doc.is_empty() {
+        text.push_str(&format!("; {}", parameter.doc));
+    }
+    text
+}
+
+fn script_function<'s>(callee: &Callee, surroundings: &'s Surroundings) -> Option<&'s Function> {
+    let named = |function: &&Function| function.name == callee.name;
+    match callee.module {
+        None => surroundings.functions.iter().find(named),
+        Some(alias) => {
+            let modules = surroundings.modules.iter().filter(|module| module.alias == alias);
+            modules.flat_map(|module| &module.functions).find(named)
+        }
+    }
+}
+
+fn script_signature(function: &Function, level: &Level) -> String {
+    let marked =
+        function.parameters.iter().enumerate().map(|(index, name)| match index == level.commas {
+            true => format!("‹{name}›"),
+            false => name.clone(),
+        });
+    format!("{}({})", function.name, marked.collect::<Vec<_>>().join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::surroundings;
+    use super::*;
+
+    fn shown(line: &str) -> String {
+        hint(line, line.len(), &surroundings())
+            .map(|hint| hint.shown.trim().to_owned())
+            .unwrap_or_default()
+    }
+
+    #[test]
+    fn a_call_shows_its_signature_with_the_current_parameter() {
+        assert!(
+            shown("line(").starts_with("line(‹from›, to)  from: a point [x, y]"),
+            "{}",
+            shown("line(")
+        );
+        assert!(shown("line([0, 0], ").starts_with("line(from, ‹to›)  to: a point [x, y]"));
+        assert!(shown("line([0, ").starts_with("line(‹from›, to)"));
+        assert_eq!(
+            shown("sim.step("),
+            "step(‹[count]›)  count: a whole number of zero or more; 1 unless given"
+        );
+        assert_eq!(shown("sim.step(1, 2, "), "step([count])");
+        assert!(shown("sim.plot_motion(").starts_with("plot_motion(‹file›, [options])"));
+        assert_eq!(shown("swing(1, "), "swing(angle, ‹speed›)");
+        assert_eq!(shown("shapes::arch("), "arch(‹rise›)");
+        assert!(shown("print(\"a\"); sim.run_to(2 * (1 + ").starts_with("run_to(‹t›)"));
+        assert_eq!(shown("sim.run_to(1)"), "");
+        assert_eq!(shown("unknown("), "");
+    }
+
+    #[test]
+    fn option_maps_show_their_keys_and_what_they_may_be() {
+        assert_eq!(shown("scene.start(#{ "), "dt, integrator, name");
+        assert_eq!(shown("scene.start(#{ dt: "), "dt: a positive number [time]; the step size");
+        assert_eq!(shown("scene.start(#{ dt: 0.1, in"), "tegrator:");
+    }
+
+    #[test]
+    fn the_only_member_that_fits_is_completed() {
+        let hint = hint("rod.e", 5, &surroundings()).expect("a hint");
+        assert_eq!((hint.shown.as_str(), hint.insertable.as_deref()), ("nd", Some("nd")));
+        assert_eq!(shown("rod.st"), "art");
+        assert_eq!(shown("sim."), "");
+        assert_eq!(shown(":step"), "Takes steps.");
+    }
+
+    #[test]
+    fn inside_a_line_and_in_comments_there_are_no_hints() {
+        assert_eq!(hint("line(", 3, &surroundings()), None);
+        assert_eq!(shown("line( // x"), "");
+        assert_eq!(shown("ro"), "");
+    }
+}

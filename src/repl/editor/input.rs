@@ -1,0 +1,189 @@
+//! An input up to the cursor: its tokens, which brackets are open there, and whose they are.
+
+use super::scanner::{Bracket, Kind, Token, scan};
+
+/// Open brackets that are looked at: what stands further outside does not matter at the cursor.
+const MOST_LEVELS: usize = 64;
+
+/// What stands before the cursor.
+pub struct Input<'t> {
+    /// The text up to the cursor.
+    pub text: &'t str,
+    /// Its tokens, spaces and comments left out.
+    pub tokens: Vec<Token>,
+    /// What ends at the cursor, also a space or a comment.
+    pub last: Option<Token>,
+    /// For each token the bracket that it opens or closes with.
+    partners: Vec<Option<usize>>,
+    /// Brackets that are open at the cursor, as numbers of tokens, the innermost last.
+    open: Vec<usize>,
+}
+
+/// A bracket that is open at the cursor.
+#[derive(Clone, Copy, Debug)]
+pub struct Level<'t> {
+    /// What kind of bracket.
+    pub bracket: Bracket,
+    /// The number of its token.
+    pub opener: usize,
+    /// How many commas stand in it so far.
+    pub commas: usize,
+    /// In a map the key whose value is being written.
+    pub key: Option<&'t str>,
+}
+
+/// What is called.
+#[derive(Clone, Copy, Debug)]
+pub struct Callee<'t> {
+    /// Its name.
+    pub name: &'t str,
+    /// The last token of the value on which it is called.
+    pub receiver: Option<usize>,
+    /// The module that it belongs to.
+    pub module: Option<&'t str>,
+}
+
+impl<'t> Input<'t> {
+    /// The part of `text` before `position`.
+    pub fn before(text: &'t str, position: usize) -> Self {
+        let text = text.get(..position).unwrap_or(text);
+        let all = scan(text);
+        let last = all.last().copied();
+        let tokens: Vec<Token> = all.into_iter().filter(Token::is_significant).collect();
+        let (partners, open) = pair(&tokens);
+        Self { text, tokens, last, partners, open }
+    }
+
+    /// What is written at a token.
+    pub fn written(&self, index: usize) -> &'t str {
+        self.tokens.get(index).map_or("", |token| token.of(self.text))
+    }
+
+    /// What a token is.
+    pub fn kind(&self, index: usize) -> Option<Kind> {
+        self.tokens.get(index).map(|token| token.kind)
+    }
+
+    /// The other bracket of a pair.
+    pub fn partner(&self, index: usize) -> Option<usize> {
+        self.partners.get(index).copied().flatten()
+    }
+
+    /// Whether a dot stands there.
+    pub fn is_dot(&self, index: usize) -> bool {
+        matches!(self.written(index), "." | "?.")
+    }
+
+    /// The name that is being written at the cursor, and where it begins; empty between names.
+    pub fn name(&self) -> (usize, &'t str) {
+        match self.last {
+            Some(token) if token.kind == Kind::Word => (token.start, token.of(self.text)),
+            _ => (self.text.len(), ""),
+        }
+    }
+
+    /// How many tokens stand before the name at the cursor.
+    pub fn count_before_name(&self) -> usize {
+        self.tokens.len() - usize::from(!self.name().1.is_empty())
+    }
+
+    /// The brackets that are open at the cursor, the innermost last; of very many the innermost.
+    pub fn levels(&self) -> Vec<Level<'t>> {
+        let first = self.open.len().saturating_sub(MOST_LEVELS);
+        self.open[first..].iter().map(|opener| self.level(*opener)).collect()
+    }
+
+    fn level(&self, opener: usize) -> Level<'t> {
+        let bracket = match self.kind(opener) {
+            Some(Kind::Open(bracket)) => bracket,
+            _ => Bracket::Curly,
+        };
+        let mut level = Level { bracket, opener, commas: 0, key: None };
+        let mut index = opener + 1;
+        while index < self.tokens.len() {
+            match self.written(index) {
+                "," => (level.commas, level.key) = (level.commas + 1, None),
+                ":" if bracket == Bracket::Map => {
+                    level.key = Some(unquoted(self.written(index - 1)))
+                }
+                _ => (),
+            }
+            // Brackets inside are passed over, unless they are open too.
+            let opens = matches!(self.kind(index), Some(Kind::Open(_)));
+            index = match self.partner(index) {
+                Some(closer) if opens => closer + 1,
+                None if opens => break,
+                _ => index + 1,
+            };
+        }
+        level
+    }
+
+    /// What is called by the bracket at token `opener`, if it opens the arguments of a call.
+    pub fn callee(&self, opener: usize) -> Option<Callee<'t>> {
+        let at = opener.checked_sub(1)?;
+        let is_call = self.kind(opener) == Some(Kind::Open(Bracket::Round))
+            && self.kind(at) == Some(Kind::Word)
+            && !super::words::is_keyword(self.written(at));
+        if !is_call {
+            return None;
+        }
+        let name = self.written(at);
+        let before = at.checked_sub(2);
+        let receiver = before.filter(|_| self.is_dot(at - 1));
+        let module = before.filter(|_| self.written(at - 1) == "::").map(|at| self.written(at));
+        Some(Callee { name, receiver, module })
+    }
+}
+
+/// A key without its quotes.
+fn unquoted(key: &str) -> &str {
+    key.trim_matches('"')
+}
+
+/// The partners of brackets, and the brackets that stay open.
+pub fn pair(tokens: &[Token]) -> (Vec<Option<usize>>, Vec<usize>) {
+    let mut partners = vec![None; tokens.len()];
+    let mut open: Vec<(usize, Bracket)> = Vec::new();
+    for (index, token) in tokens.iter().enumerate() {
+        match token.kind {
+            Kind::Open(bracket) => open.push((index, bracket)),
+            Kind::Close(bracket) => {
+                if open.last().is_some_and(|(_, opened)| opened.is_closed_by(bracket))
+                    && let Some((opener, _)) = open.pop()
+                {
+                    (partners[index], partners[opener]) = (Some(opener), Some(index));
+                }
+            }
+            _ => (),
+        }
+    }
+    (partners, open.into_iter().map(|(index, _)| index).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn open_brackets_know_their_calls_arguments_and_keys() {
+        let text = "f(g(1, 2), [3], scene.beam(#{ a: h(1), \"b\": [1, ";
+        let input = Input::before(text, text.len());
+        let levels = input.levels();
+        let seen: Vec<_> =
+            levels.iter().map(|level| (level.bracket, level.commas, level.key)).collect();
+        assert_eq!(
+            seen,
+            [
+                (Bracket::Round, 2, None),
+                (Bracket::Round, 0, None),
+                (Bracket::Map, 1, Some("b")),
+                (Bracket::Square, 1, None),
+            ]
+        );
+        assert_eq!(input.callee(levels[0].opener).map(|callee| callee.name), Some("f"));
+        let beam = input.callee(levels[1].opener).expect("a call");
+        assert_eq!((beam.name, beam.receiver.map(|at| input.written(at))), ("beam", Some("scene")));
+        assert!(input.callee(levels[2].opener).is_none());
+    }
+}

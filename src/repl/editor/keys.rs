@@ -1,0 +1,125 @@
+//! Keys that behave in a way of their own: Enter, Backspace, and the arrows up and down.
+
+use std::collections::HashSet;
+use std::sync::{Arc, Mutex};
+
+use rustyline::history::History;
+use rustyline::{
+    Cmd, ConditionalEventHandler, EditMode, Editor, Event, EventContext, EventHandler, Helper,
+    InputMode, KeyCode, KeyEvent, Modifiers, Movement, RepeatCount,
+};
+
+use super::completeness::{Completeness, completeness};
+use super::completion::INDENTATION;
+
+/// The entries of the history, as the arrows need to know them.
+pub type Entries = Arc<Mutex<HashSet<String>>>;
+
+/// Binds the keys.
+pub fn bind<H: Helper, I: History>(editor: &mut Editor<H, I>, entries: &Entries) {
+    let conditional = |rule: Rule| EventHandler::Conditional(Box::new(rule));
+    editor.bind_sequence(KeyEvent(KeyCode::Enter, Modifiers::NONE), conditional(Rule::Enter));
+    editor.bind_sequence(
+        KeyEvent(KeyCode::Enter, Modifiers::ALT),
+        EventHandler::Simple(Cmd::Newline),
+    );
+    editor.bind_sequence(KeyEvent(KeyCode::Backspace, Modifiers::NONE), conditional(Rule::Back));
+    for (key, direction) in
+        [(KeyCode::Up, Direction::Backward), (KeyCode::Down, Direction::Forward)]
+    {
+        let rule = Rule::Search(direction, Arc::clone(entries));
+        editor.bind_sequence(KeyEvent(key, Modifiers::NONE), conditional(rule));
+    }
+}
+
+#[derive(Clone, Copy)]
+enum Direction {
+    Backward,
+    Forward,
+}
+
+enum Rule {
+    /// The next line of an open input is indented.
+    Enter,
+    /// Backspace takes back a level of indentation.
+    Back,
+    /// Goes through the entries that begin as the line does up to the cursor.
+    Search(Direction, Entries),
+}
+
+impl ConditionalEventHandler for Rule {
+    fn handle(&self, _: &Event, _: RepeatCount, _: bool, context: &EventContext) -> Option<Cmd> {
+        if context.mode() == EditMode::Vi && context.input_mode() == InputMode::Command {
+            return None;
+        }
+        let (line, at) = (context.line(), context.pos());
+        match self {
+            Self::Enter => next_line(line, at).map(|text| Cmd::Insert(1, text)),
+            Self::Back => is_indentation(line, at).then_some(Cmd::Dedent(Movement::WholeLine)),
+            Self::Search(direction, entries) => {
+                let is_entry = entries.lock().is_ok_and(|entries| entries.contains(line));
+                searches(line, at, is_entry).then_some(match direction {
+                    Direction::Backward => Cmd::HistorySearchBackward,
+                    Direction::Forward => Cmd::HistorySearchForward,
+                })
+            }
+        }
+    }
+}
+
+/// What Enter puts at the end of an open input.
+fn next_line(line: &str, at: usize) -> Option<String> {
+    match completeness(line) {
+        Completeness::Open(levels) if at == line.len() => {
+            Some(format!("\n{}", INDENTATION.repeat(levels)))
+        }
+        _ => None,
+    }
+}
+
+/// Whether a level of indentation and nothing else stands before the cursor, at the end of the input.
+fn is_indentation(line: &str, at: usize) -> bool {
+    let here = line.rfind('\n').map(|end| &line[end + 1..]);
+    let is_blank = |here: &str| !here.is_empty() && here.bytes().all(|byte| byte == b' ');
+    at == line.len()
+        && here.is_some_and(|here| is_blank(here) && here.len() % INDENTATION.len() == 0)
+}
+
+/// Whether an arrow searches: in a line with something typed before the cursor. In an entry that was fetched, as one sees by
+/// the cursor at its end, it goes on to the next one; in an input of several lines it moves.
+fn searches(line: &str, at: usize, is_entry: bool) -> bool {
+    let is_fetched = is_entry && at == line.len();
+    at > 0 && !line.contains('\n') && !is_fetched
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_open_input_goes_on_indented() {
+        assert_eq!(next_line("fn f() {", 8).as_deref(), Some("\n    "));
+        assert_eq!(next_line("`a", 2).as_deref(), Some("\n"));
+        assert_eq!(next_line("fn f() {", 3), None);
+        assert_eq!(next_line("f()", 3), None);
+        assert_eq!(next_line("fn f() {\n    \n    ", 18), None, "two empty lines submit");
+    }
+
+    #[test]
+    fn indentation_is_taken_back_by_whole_levels() {
+        assert!(is_indentation("fn f() {\n    ", 13));
+        assert!(is_indentation("fn f() {\n        ", 17));
+        for line in ["fn f() {\n", "fn f() {\n  ", "fn f() {\n    a", "    "] {
+            assert!(!is_indentation(line, line.len()), "{line}");
+        }
+    }
+
+    #[test]
+    fn arrows_search_for_what_is_typed() {
+        assert!(searches("let", 3, false));
+        assert!(searches("let a = 1", 3, true), "the search goes on");
+        assert!(!searches("let a = 1", 9, true));
+        assert!(!searches("", 0, false));
+        assert!(!searches("f(\n1", 4, false));
+    }
+}

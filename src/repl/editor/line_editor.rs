@@ -1,0 +1,269 @@
+//! The editor of the prompt: rustyline with our keys, helpers and history.
+
+use std::env;
+use std::fs;
+use std::io::{self, IsTerminal};
+use std::path::{Path, PathBuf};
+
+use rustyline::config::BellStyle;
+use rustyline::error::ReadlineError;
+use rustyline::history::FileHistory;
+use rustyline::{ColorMode, CompletionType, Config, EditMode};
+
+use super::assistant::Assistant;
+use super::highlight::Vocabulary;
+use super::history;
+use super::keys::{self, Entries};
+use super::surroundings::Surroundings;
+
+/// Which keys edit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Keys {
+    /// Those of Emacs, as in most shells.
+    #[default]
+    Emacs,
+    /// Those of vi, beginning in insert mode.
+    Vi,
+}
+
+impl Keys {
+    /// The variable of the environment that chooses the keys.
+    pub const VARIABLE: &str = "WITHY_KEYS";
+
+    /// The keys called `name`.
+    pub fn named(name: &str) -> Option<Self> {
+        match name.to_ascii_lowercase().as_str() {
+            "emacs" => Some(Self::Emacs),
+            "vi" | "vim" => Some(Self::Vi),
+            _ => None,
+        }
+    }
+}
+
+/// Whether lines are drawn in colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Colours {
+    /// They are.
+    On,
+    /// They are not.
+    Off,
+}
+
+/// How an editor behaves.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// Which keys edit.
+    pub keys: Keys,
+    /// Whether lines are drawn in colours.
+    pub colours: Colours,
+    /// The file that keeps the lines of earlier sessions, if any.
+    pub history: Option<PathBuf>,
+}
+
+impl Options {
+    /// What the environment asks for: `WITHY_KEYS`, `WITHY_HISTORY`, `NO_COLOR`, `TERM=dumb`.
+    pub fn from_environment() -> Self {
+        let keys = env::var(Keys::VARIABLE).ok().and_then(|name| Keys::named(&name));
+        let is_plain = env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty())
+            || env::var_os("TERM").is_some_and(|name| name == "dumb")
+            || !io::stdout().is_terminal();
+        Self {
+            keys: keys.unwrap_or_default(),
+            colours: if is_plain { Colours::Off } else { Colours::On },
+            history: history::file(env::var_os(history::VARIABLE)),
+        }
+    }
+}
+
+/// What came of a prompt.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Typed {
+    /// A complete input, of one line or more.
+    Line(String),
+    /// Ctrl-C: what was typed is thrown away.
+    Interrupted,
+    /// Ctrl-D on an empty line, or the end of what is piped in.
+    End,
+}
+
+/// Columns of a terminal that does not tell.
+const USUAL_COLUMNS: usize = 80;
+
+/// Reads inputs, and remembers them across sessions.
+pub struct Editor {
+    lines: rustyline::Editor<Assistant, FileHistory>,
+    history: Option<PathBuf>,
+    colours: Colours,
+    entries: Entries,
+    note: Option<String>,
+}
+
+impl Editor {
+    /// An editor on this terminal. A history that cannot be read is noted and left alone.
+    ///
+    /// # Errors
+    /// If the terminal cannot be used.
+    pub fn new(options: Options) -> io::Result<Self> {
+        let lines = rustyline::Editor::with_config(configuration(&options)?).map_err(into_io)?;
+        let entries = Entries::default();
+        let mut editor =
+            Self { lines, history: options.history, colours: options.colours, entries, note: None };
+        keys::bind(&mut editor.lines, &editor.entries);
+        editor.recall();
+        Ok(editor)
+    }
+
+    /// Lets the user type an input, of several lines if it is open, and adds it to the history.
+    ///
+    /// # Errors
+    /// If the terminal fails.
+    pub fn read(&mut self, prompt: &str, surroundings: Surroundings) -> io::Result<Typed> {
+        let columns =
+            self.lines.dimensions().map_or(USUAL_COLUMNS, |(columns, _)| usize::from(columns));
+        let assistant = Assistant::new(
+            Vocabulary::of(surroundings),
+            columns,
+            prompt.chars().count(),
+            self.colours,
+        );
+        self.lines.set_helper(Some(assistant));
+        match self.lines.readline(prompt) {
+            Ok(line) => {
+                self.remember(&line);
+                Ok(Typed::Line(line))
+            }
+            Err(ReadlineError::Interrupted) => Ok(Typed::Interrupted),
+            Err(ReadlineError::Eof) => Ok(Typed::End),
+            Err(error) => Err(into_io(error)),
+        }
+    }
+
+    /// What went wrong with the history, once.
+    pub fn take_note(&mut self) -> Option<String> {
+        self.note.take()
+    }
+
+    fn recall(&mut self) {
+        let Some(file) = self.history.clone().filter(|file| file.exists()) else { return };
+        match self.lines.load_history(&file) {
+            Ok(()) => {
+                if let Ok(mut entries) = self.entries.lock() {
+                    entries.extend(self.lines.history().iter().cloned());
+                }
+            }
+            Err(error) => self.give_up("read", &file, &error),
+        }
+    }
+
+    /// Adds an entry to the history and, at once, to its file: a session that is killed loses nothing.
+    fn remember(&mut self, line: &str) {
+        if !history::is_kept(line) || !self.lines.add_history_entry(line).unwrap_or(false) {
+            return;
+        }
+        if let Ok(mut entries) = self.entries.lock() {
+            entries.insert(line.to_owned());
+        }
+        let Some(file) = self.history.clone() else { return };
+        let folder = file.parent().map_or(Ok(()), fs::create_dir_all).map_err(ReadlineError::from);
+        if let Err(error) = folder.and_then(|()| self.lines.append_history(&file)) {
+            self.give_up("write", &file, &error);
+        }
+    }
+
+    fn give_up(&mut self, what: &str, file: &Path, error: &ReadlineError) {
+        self.history = None;
+        self.note = Some(format!(
+            "note: cannot {what} the history '{}': {error}; this session keeps none (WITHY_HISTORY=FILE names another one)",
+            file.display()
+        ));
+    }
+}
+
+fn configuration(options: &Options) -> io::Result<Config> {
+    let builder = Config::builder()
+        .max_history_size(history::MOST_ENTRIES)
+        .and_then(|builder| builder.history_ignore_dups(true))
+        .map_err(into_io)?;
+    let configuration = builder
+        .edit_mode(match options.keys {
+            Keys::Emacs => EditMode::Emacs,
+            Keys::Vi => EditMode::Vi,
+        })
+        .color_mode(match options.colours {
+            Colours::On => ColorMode::Enabled,
+            Colours::Off => ColorMode::Disabled,
+        })
+        .completion_type(CompletionType::List)
+        .completion_show_all_if_ambiguous(true)
+        .bell_style(BellStyle::None)
+        .history_ignore_space(true)
+        .auto_add_history(false)
+        .bracketed_paste(true)
+        .indent_size(super::completion::INDENTATION.len() as u8)
+        .tab_stop(super::completion::INDENTATION.len() as u8);
+    Ok(configuration.build())
+}
+
+fn into_io(error: ReadlineError) -> io::Error {
+    match error {
+        ReadlineError::Io(error) => error,
+        other => io::Error::other(other),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn editor(history: PathBuf) -> Editor {
+        let options = Options { keys: Keys::Emacs, colours: Colours::Off, history: Some(history) };
+        Editor::new(options).expect("an editor")
+    }
+
+    #[test]
+    fn entries_survive_the_session_and_stay_whole() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("state").join("history");
+        let mut first = editor(file.clone());
+        for line in [
+            "let a = 1;",
+            "fn f() {\n    \"\\\\n\"\n}",
+            "   ",
+            " secret",
+            "fn f() {\n    \"\\\\n\"\n}",
+        ] {
+            first.remember(line);
+        }
+        let mut second = editor(file.clone());
+        second.remember("f()");
+        let third = editor(file);
+        let entries: Vec<_> = third.lines.history().iter().map(String::as_str).collect();
+        assert_eq!(entries, ["let a = 1;", "fn f() {\n    \"\\\\n\"\n}", "f()"]);
+        assert!(third.entries.lock().is_ok_and(|entries| entries.contains("f()")));
+    }
+
+    #[test]
+    fn a_history_that_cannot_be_used_is_noted_once_and_left_alone() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("picture");
+        fs::write(&file, b"\xff\xfe\n").expect("a file");
+        let mut unreadable = editor(file.clone());
+        assert!(unreadable.take_note().is_some_and(|note| note.contains("cannot read")));
+        unreadable.remember("let a = 1;");
+        assert_eq!(unreadable.take_note(), None);
+        assert_eq!(fs::read(&file).expect("the file"), b"\xff\xfe\n");
+
+        let mut unwritable = editor(file.join("history"));
+        unwritable.remember("let a = 1;");
+        assert!(unwritable.take_note().is_some_and(|note| note.contains("cannot write")));
+        unwritable.remember("let b = 1;");
+        assert_eq!(unwritable.take_note(), None);
+    }
+
+    #[test]
+    fn keys_have_names() {
+        assert_eq!(Keys::named("VI"), Some(Keys::Vi));
+        assert_eq!(Keys::named("emacs"), Some(Keys::Emacs));
+        assert_eq!(Keys::named("joe"), None);
+    }
+}

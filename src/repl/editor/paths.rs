@@ -1,0 +1,61 @@
+//! Names of files and folders.
+
+use std::fs;
+use std::path::Path;
+
+use super::candidates::{Candidate, fitting};
+
+/// Which files are meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Files {
+    /// All.
+    Any,
+    /// Scripts, named without their ending.
+    Modules,
+}
+
+/// The files and folders that begin as `typed` does, seen from `folder`, and where in `typed` the last part of the
+/// path begins. Hidden ones only if a dot is typed.
+pub fn complete_path(typed: &str, folder: &Path, files: Files) -> (usize, Vec<Candidate>) {
+    let start = typed.rfind('/').map_or(0, |slash| slash + 1);
+    let (parent, name) = typed.split_at(start);
+    let entries = fs::read_dir(folder.join(parent)).into_iter().flatten().flatten();
+    let candidates = entries.filter_map(|entry| {
+        let known = entry.file_name().into_string().ok()?;
+        if known.starts_with('.') && !name.starts_with('.') {
+            return None;
+        }
+        match (entry.path().is_dir(), files) {
+            (true, _) => Some(Candidate::word(&format!("{known}/"), "")),
+            (false, Files::Any) => Some(Candidate::word(&known, "")),
+            (false, Files::Modules) => Some(Candidate::word(known.strip_suffix(".rhai")?, "")),
+        }
+    });
+    (start, fitting(name, candidates))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_and_folders_are_completed_part_by_part() {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::create_dir(folder.path().join("parts")).expect("a folder");
+        for name in ["rods.rhai", "rods.csv", ".hidden", "parts/arch.rhai"] {
+            fs::write(folder.path().join(name), "").expect("a file");
+        }
+        let names = |typed, files| {
+            let (start, found) = complete_path(typed, folder.path(), files);
+            (start, found.into_iter().map(|candidate| candidate.replacement).collect::<Vec<_>>())
+        };
+        assert_eq!(
+            names("", Files::Any),
+            (0, vec!["parts/".into(), "rods.csv".into(), "rods.rhai".into()])
+        );
+        assert_eq!(names("ro", Files::Modules), (0, vec!["rods".into()]));
+        assert_eq!(names("parts/a", Files::Modules), (6, vec!["arch".into()]));
+        assert_eq!(names("nowhere/", Files::Any), (8, vec![]));
+        assert_eq!(names(".h", Files::Any).1, [".hidden"]);
+    }
+}
