@@ -125,7 +125,7 @@ fn a_long_chain_of_closures_is_let_go_without_a_crash() {
 #[test]
 fn a_script_cannot_sleep() {
     for script in ["sleep(100);", "sleep(0.5);"] {
-        expect(&run(script, &[]), &["cannot wait with sleep()"]);
+        expect(&run(script, &[]), &["a script cannot sleep"]);
     }
 }
 

@@ -17,7 +17,10 @@ fn start(folder: &Path, arguments: &[&str]) -> PtySession {
     let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
     command.current_dir(folder).args(arguments);
     command.env("TERM", "xterm").env("LANG", "C.UTF-8").env_remove("LC_ALL").env_remove("LC_CTYPE");
-    command.env("NO_COLOR", "1").env("WITHY_HISTORY", folder.join("history")).env_remove("WITHY_KEYS");
+    command
+        .env("NO_COLOR", "1")
+        .env("WITHY_HISTORY", folder.join("history"))
+        .env_remove("WITHY_KEYS");
     let mut session = spawn_command(command, Some(PATIENCE)).unwrap();
     session.exp_string(":help").unwrap();
     session.exp_string("withy:1> ").unwrap();
@@ -84,10 +87,18 @@ fn a_person_throws_a_beam_and_goes_back() {
     s.exp_eof().unwrap();
 
     let asked = ["-e", ":load thrown.rhai", "-e", "`end ${sim.t} ${sim.energy}`"];
-    let output =
-        Command::new(env!("CARGO_BIN_EXE_withy")).current_dir(folder.path()).args(asked).output().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_withy"))
+        .current_dir(folder.path())
+        .args(asked)
+        .output()
+        .unwrap();
     let again = String::from_utf8(output.stdout).unwrap();
-    assert_eq!(again.lines().last(), Some(end.trim()), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(
+        again.lines().last(),
+        Some(end.trim()),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
 }
 
 #[test]
@@ -119,7 +130,11 @@ fn a_script_may_come_first_and_pictures_are_drawn() {
     std::fs::write(folder.path().join("spin.rhai"), script).unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
     command.current_dir(folder.path()).args(["repl", "spin.rhai", "--keys", "vi"]);
-    command.env("TERM", "xterm").env("LANG", "C.UTF-8").env("NO_COLOR", "1").env("WITHY_HISTORY", "");
+    command
+        .env("TERM", "xterm")
+        .env("LANG", "C.UTF-8")
+        .env("NO_COLOR", "1")
+        .env("WITHY_HISTORY", "");
     let mut session = spawn_command(command, Some(PATIENCE)).unwrap();
     session.exp_string("withy:5> ").unwrap();
     ask(&mut session, ":step 5", "after 5 steps");

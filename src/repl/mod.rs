@@ -1,3 +1,12 @@
-//! The session at the prompt. [`editor`] is how its lines are typed.
+//! The session: what is typed is evaluated, remembered, and can be gone back from. [`session`] and [`shell`] know no terminal;
+//! [`editor`] is how lines are typed at one.
 
+pub mod batch;
+pub mod commands;
 pub mod editor;
+pub mod prompt;
+pub mod record;
+pub mod session;
+pub mod shell;
+mod surroundings;
+pub mod transcript;

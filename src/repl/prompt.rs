@@ -5,14 +5,14 @@ use std::io;
 use super::editor::{Editor, Typed};
 use super::shell::{Outcome, Shell};
 
-/// Lets a person type until he leaves. `look` is asked before each input what the terminal can show now.
+/// Lets a person type until he leaves.
 ///
 /// # Errors
 /// When the terminal fails.
 pub fn run(shell: &mut Shell, editor: &mut Editor) -> io::Result<()> {
     loop {
-        if let Some(size) = editor.size() {
-            shell.resize(size);
+        if let Some((columns, lines)) = editor.size() {
+            shell.resize(columns, lines);
         }
         if let Some(note) = editor.take_note() {
             shell.note(&note);

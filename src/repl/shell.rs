@@ -62,10 +62,10 @@ impl Shell {
         self.screen
     }
 
-    /// Sets the size of pictures to that of the terminal, which people change.
-    pub fn resize(&mut self, (width, height): (usize, usize)) {
+    /// Takes the terminal as it is now: people change its size.
+    pub fn resize(&mut self, columns: usize, lines: usize) {
         if let Screen::Terminal(style) = self.screen {
-            self.screen = Screen::Terminal(style.sized(width, height));
+            self.screen = Screen::Terminal(style.on_terminal(columns, lines));
         }
     }
 

@@ -29,12 +29,20 @@ impl Style {
         let number = |name: &str| given(name)?.trim().parse::<usize>().ok().filter(|n| *n > 0);
         let (columns, lines) =
             (number("COLUMNS").unwrap_or(USUAL.0), number("LINES").unwrap_or(USUAL.1));
-        Self {
+        let style = Self {
             glyphs: if has_no_braille { Glyphs::Ascii } else { Glyphs::Braille },
             colours: if is_plain { Colours::None } else { Colours::Ansi },
-            width: columns.clamp(WIDTHS.0, WIDTHS.1),
-            height: lines.saturating_sub(LEFT_FREE).clamp(HEIGHTS.0, HEIGHTS.1),
-        }
+            width: USUAL.0,
+            height: USUAL.1,
+        };
+        style.on_terminal(columns, lines)
+    }
+
+    /// The same for a terminal of so many columns and lines.
+    #[must_use]
+    pub fn on_terminal(self, columns: usize, lines: usize) -> Self {
+        let height = lines.saturating_sub(LEFT_FREE).clamp(HEIGHTS.0, HEIGHTS.1);
+        self.sized(columns.clamp(WIDTHS.0, WIDTHS.1), height)
     }
 }
 

@@ -138,6 +138,12 @@ impl Editor {
         }
     }
 
+    /// Columns and lines of the terminal, if it tells.
+    pub fn size(&mut self) -> Option<(usize, usize)> {
+        let (columns, lines) = self.lines.dimensions()?;
+        Some((usize::from(columns), usize::from(lines)))
+    }
+
     /// What went wrong with the history, once.
     pub fn take_note(&mut self) -> Option<String> {
         self.note.take()
