@@ -12,6 +12,9 @@ use rexpect::session::{PtySession, spawn_command};
 /// Loaded machines stall.
 const PATIENCE: u64 = 60_000;
 
+/// The first two bytes of any braille dot: the terminal is read byte by byte.
+const BRAILLE: &str = "\u{e2}[\u{a0}-\u{a3}]";
+
 /// `withy` in a folder, as a person would start it; what it says of itself at the start is read.
 fn start(folder: &Path, arguments: &[&str]) -> PtySession {
     let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
@@ -75,6 +78,7 @@ fn a_person_throws_a_beam_and_goes_back() {
 
     // Ctrl-C at the prompt throws away what is typed.
     s.send("let nonsense = (((").unwrap();
+    s.flush().unwrap();
     s.exp_string("(((").unwrap();
     s.send_control('c').unwrap();
     s.exp_string("> ").unwrap();
@@ -138,11 +142,10 @@ fn a_script_may_come_first_and_pictures_are_drawn() {
     let mut session = spawn_command(command, Some(PATIENCE)).unwrap();
     session.exp_string("withy:5> ").unwrap();
     ask(&mut session, ":step 5", "after 5 steps");
-    // Braille dots.
-    session.send_line(":plot kinetic").unwrap();
-    session.exp_regex("[\u{2801}-\u{28ff}]").unwrap();
-    session.send_line(":show").unwrap();
-    session.exp_regex("[\u{2801}-\u{28ff}]").unwrap();
+    for command in [":plot kinetic", ":show"] {
+        session.send_line(command).unwrap();
+        session.exp_regex(BRAILLE).unwrap();
+    }
     session.send_line(":quit").unwrap();
     session.exp_eof().unwrap();
 }
