@@ -150,6 +150,8 @@ fn script_signature(function: &Function, level: &Level) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::time::{Duration, Instant};
+
     use super::super::samples::surroundings;
     use super::*;
 
@@ -202,5 +204,20 @@ mod tests {
         assert_eq!(hint("line(", 3, &surroundings()), None);
         assert_eq!(shown("line( // x"), "");
         assert_eq!(shown("ro"), "");
+    }
+
+    #[test]
+    fn hints_for_long_inputs_come_fast() {
+        let surroundings = surroundings();
+        for part in ["(", "f(", "#{ a: ", "a.", "let a = a; ", "[", "sim.history.", "line(1, "] {
+            let text = part.repeat(10_000 / part.len());
+            let hinting = |_| {
+                let start = Instant::now();
+                let _ = hint(&text, text.len(), &surroundings);
+                start.elapsed()
+            };
+            let fastest = (0..10).map(hinting).min().unwrap_or_default();
+            assert!(fastest < Duration::from_millis(20), "{part}: {fastest:?}");
+        }
     }
 }
