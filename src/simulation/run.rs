@@ -217,8 +217,12 @@ impl Simulation {
     /// For checking scripts; of very many steps only the first and the last are pretended.
     ///
     /// # Errors
-    /// When the time has passed or is not finite.
-    pub fn pretend_to(&mut self, end: f64) -> Result<(), SimulationError> {
+    /// When the time has passed or is not finite, or the monitor stops the run.
+    pub fn pretend_to(
+        &mut self,
+        end: f64,
+        monitor: &mut dyn Monitor,
+    ) -> Result<(), SimulationError> {
         self.check_end(end)?;
         let mut rows = 0;
         while self.time() < end - 1e-9 * self.grid.dt() {
@@ -232,6 +236,7 @@ impl Simulation {
             let sample = Sample { measures, dt, ..Sample::default() };
             self.history.push(sample, extra_values(&self.scene, &self.model));
             self.trajectory.push(next, coordinates(&self.model));
+            self.ask(monitor)?;
         }
         if rows > 0 {
             self.pretend_arrivals();
