@@ -24,12 +24,12 @@ const STARTS: usize = 20;
 const PARTICLE: &str = "let scene = new_scene(\"a\");
     scene.particle([0, 0], 1, #{ velocity: [1, 0] });\n";
 
-/// The flying spaghetti card with a schedule in the place of SCHEDULE.
+/// The flying spaghetti card with a schedule for its force in the place of SCHEDULE.
 const SPAGHETTI: &str = "let scene = new_scene(\"spaghetti\");
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });
     let rod = scene.beam(#{ name: \"rod\", axis: line([6, 0], [0, 8]), basis: bspline(14), section: s });
     scene.force(rod.start, [8, 0], SCHEDULE);
-    scene.moment(rod.start, -80, SCHEDULE);\n";
+    scene.moment(rod.start, -80, hold_for(2.5));\n";
 
 #[derive(Clone, Default)]
 struct Printed(Arc<Mutex<Vec<u8>>>);

@@ -2,7 +2,7 @@
 
 use std::io::BufRead;
 
-use super::editor::completeness::{Completeness, completeness};
+use super::editor::completeness::{Completeness, completeness_of_script, is_command};
 use super::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
 
@@ -20,7 +20,7 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> Outcome {
                 return shell.refuse(&told.with_hint("give UTF-8 text"));
             }
         }
-        if completeness(&input) == Completeness::Complete {
+        if is_command(&input) || completeness_of_script(&input) == Completeness::Complete {
             match shell.submit(&std::mem::take(&mut input)) {
                 Outcome::Good => (),
                 other => return other,

@@ -40,10 +40,15 @@ impl StoredFunction {
             return Err(EvalAltResult::ErrorSystem(told, BUG.into()).into());
         };
         let level = self.context.level();
-        let mut surroundings = self.surroundings.clone();
-        surroundings.level = level + 1;
-        let native =
-            (&*engine, self.function.fn_name(), None, &surroundings, Position::NONE).into();
+        let mut raised = None;
+        let surroundings = if level > self.surroundings.level {
+            let raised = raised.insert(self.surroundings.clone());
+            raised.level = level;
+            &*raised
+        } else {
+            &self.surroundings
+        };
+        let native = (&*engine, self.function.fn_name(), None, surroundings, Position::NONE).into();
         let called = self.context.call_back(|| self.function.call_raw(&native, None, arguments));
         self.context.enter(level);
         called

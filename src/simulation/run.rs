@@ -226,8 +226,12 @@ impl Simulation {
     /// For checking scripts; of very many steps only the first and the last are pretended.
     ///
     /// # Errors
-    /// When the time has passed or is not finite.
-    pub fn pretend_to(&mut self, end: f64) -> Result<(), SimulationError> {
+    /// When the time has passed or is not finite, or the monitor stops the run.
+    pub fn pretend_to(
+        &mut self,
+        end: f64,
+        monitor: &mut dyn Monitor,
+    ) -> Result<(), SimulationError> {
         self.check_end(end)?;
         let mut rows = 0;
         while !self.has_reached(end) {
@@ -242,6 +246,7 @@ impl Simulation {
             self.history.push(sample, extra_values(&self.scene, &self.model));
             self.trajectory.push(next, coordinates(&self.model));
             self.remember();
+            self.ask(monitor)?;
         }
         if rows > 0 {
             self.pretend_arrivals();

@@ -181,7 +181,7 @@ impl Simulation {
     }
 
     /// Asks whether the run goes on.
-    fn ask(&self, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
+    pub(super) fn ask(&self, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
         let time = self.time();
         if monitor.goes_on(time) { Ok(()) } else { Err(SimulationError::Interrupted { time }) }
     }

@@ -14,7 +14,7 @@ use super::completeness::{Completeness, completeness};
 use super::completion::complete;
 use super::highlight::{Vocabulary, highlight};
 use super::hints::{self, Hint};
-use super::line_editor::Colours;
+use crate::output::Colours;
 
 /// Lists as short as this have a line for each candidate, with what it is.
 const SHORT_LIST: usize = 12;
@@ -139,7 +139,7 @@ impl Hinter for Assistant {
         let remembered = || self.from_history.hint(line, position, context).map(remembered);
         // Without colours what is offered would look like what is typed.
         hint.or_else(remembered)
-            .filter(|hint| self.colours == Colours::On || hint.insertable.is_none())
+            .filter(|hint| self.colours == Colours::Ansi || hint.insertable.is_none())
     }
 }
 
@@ -187,7 +187,7 @@ mod tests {
     use super::*;
 
     fn assistant(columns: usize) -> Assistant {
-        Assistant::new(Vocabulary::of(surroundings()), columns, 2, Colours::On)
+        Assistant::new(Vocabulary::of(surroundings()), columns, 2, Colours::Ansi)
     }
 
     #[test]
@@ -207,7 +207,7 @@ mod tests {
     fn without_colours_only_notes_are_shown() {
         let history = rustyline::history::DefaultHistory::new();
         let context = Context::new(&history);
-        let plain = Assistant::new(Vocabulary::of(surroundings()), 80, 2, Colours::Off);
+        let plain = Assistant::new(Vocabulary::of(surroundings()), 80, 2, Colours::None);
         assert!(plain.hint("rod.e", 5, &context).is_none());
         assert!(plain.hint("line(", 5, &context).is_some());
         assert!(assistant(80).hint("rod.e", 5, &context).is_some());

@@ -15,6 +15,7 @@ use super::highlight::Vocabulary;
 use super::history;
 use super::keys::{self, Entries};
 use super::surroundings::Surroundings;
+use crate::output::Colours;
 
 /// Which keys edit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -40,15 +41,6 @@ impl Keys {
     }
 }
 
-/// Whether lines are drawn in colours.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Colours {
-    /// They are.
-    On,
-    /// They are not.
-    Off,
-}
-
 /// How an editor behaves.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Options {
@@ -69,7 +61,7 @@ impl Options {
             || !io::stdout().is_terminal();
         Self {
             keys: keys.unwrap_or_default(),
-            colours: if is_plain { Colours::Off } else { Colours::On },
+            colours: if is_plain { Colours::None } else { Colours::Ansi },
             history: history::file(env::var_os(history::VARIABLE)),
         }
     }
@@ -196,8 +188,8 @@ fn configuration(options: &Options) -> io::Result<Config> {
             Keys::Vi => EditMode::Vi,
         })
         .color_mode(match options.colours {
-            Colours::On => ColorMode::Enabled,
-            Colours::Off => ColorMode::Disabled,
+            Colours::Ansi => ColorMode::Enabled,
+            Colours::None => ColorMode::Disabled,
         })
         .completion_type(CompletionType::List)
         .completion_show_all_if_ambiguous(true)
@@ -222,7 +214,7 @@ mod tests {
     use super::*;
 
     fn editor(history: PathBuf) -> Editor {
-        let options = Options { keys: Keys::Emacs, colours: Colours::Off, history: Some(history) };
+        let options = Options { keys: Keys::Emacs, colours: Colours::None, history: Some(history) };
         Editor::new(options).expect("an editor")
     }
 

@@ -24,4 +24,4 @@ pub mod surroundings;
 mod types;
 mod words;
 
-pub use line_editor::{Colours, Editor, Keys, Options, Typed};
+pub use line_editor::{Editor, Keys, Options, Typed};

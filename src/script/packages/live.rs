@@ -56,6 +56,15 @@ impl Monitor for Watch<'_> {
     }
 }
 
+/// Stops a pretended run like a real one; its steps cost nothing and do not count.
+struct Pretence<'a>(&'a Context);
+
+impl Monitor for Pretence<'_> {
+    fn goes_on(&mut self, _time: f64) -> bool {
+        !self.0.is_stopped()
+    }
+}
+
 impl SimulationHandle {
     /// A handle on a simulation at its start; it will be in the report of the run.
     pub fn new(
@@ -244,7 +253,8 @@ impl SimulationHandle {
     /// What a dry build does instead of running: time passes, and events are called.
     fn pretend(&self, call: &Call, end: f64) -> Result<(), ScriptError> {
         call.proceed()?;
-        let pretended = self.0.simulation.borrow_mut().pretend_to(end);
+        let mut watch = Pretence(call.context());
+        let pretended = self.0.simulation.borrow_mut().pretend_to(end, &mut watch);
         pretended.map_err(|error| explain(error, call.context()))?;
         self.fire_due()
     }
