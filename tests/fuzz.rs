@@ -1,19 +1,28 @@
-//! 100 000 inputs through parser and bindings: no panic, no mistake of ours, no hang, every error can be shown.
+//! 100 000 inputs through parser, bindings, editor and prompt: no panic, no mistake of ours, no hang, every error can be shown.
 //!
 //! A failure names its seed. `WITHY_SEED=n` runs that one alone and shows the input; `WITHY_SEEDS=n` runs the first n.
 #![allow(clippy::unwrap_used)]
 
 mod common;
 
+use std::io::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::rc::Rc;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use common::corpus::Corpus;
 use rhai::Engine;
+use withy::repl::editor::completeness::completeness;
+use withy::repl::editor::completion::complete;
+use withy::repl::editor::highlight::{Vocabulary, highlight};
+use withy::repl::editor::hints::hint;
+use withy::repl::editor::surroundings::Surroundings;
+use withy::repl::session::Session;
+use withy::repl::shell::{Screen, Shell};
 use withy::script::catalog::Catalog;
 use withy::script::context::{Context, Mode, Settings};
 use withy::script::diagnose::{Blame, Explainer};
@@ -122,13 +131,16 @@ fn run_batch(
     engine::import_from(&mut engine, folder);
     let engine = Rc::new(engine);
     context.lend(&engine);
+    let mut prompt = Prompt::new(&catalog, folder);
     for seed in seeds {
         let text = corpus.input(seed);
         let program = Program { folder: folder.to_owned(), ..Program::named("input", &text) };
         *present.lock().unwrap() = Some((seed, Instant::now()));
         let begun = Instant::now();
-        let judged =
-            catch_unwind(AssertUnwindSafe(|| judge(&program, &catalog, &engine, &context)));
+        let judged = catch_unwind(AssertUnwindSafe(|| {
+            prompt.judge(seed, &text)?;
+            judge(&program, &catalog, &engine, &context)
+        }));
         let lasted = begun.elapsed();
         *present.lock().unwrap() = None;
         let mut report = report.lock().unwrap();
@@ -143,6 +155,78 @@ fn run_batch(
             Ok(Err(reason)) => report.failures.push(format!("seed {seed}: {reason}\n{text}")),
             Err(_) => report.failures.push(format!("seed {seed}: a panic\n{text}")),
         }
+    }
+}
+
+/// What was told to the user of a session.
+#[derive(Clone, Default)]
+struct Told(Arc<Mutex<Vec<u8>>>);
+
+impl Write for Told {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.lock().unwrap().extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+/// A session that every fourth input goes through too, and an editor that all of them are typed into.
+struct Prompt {
+    shell: Shell,
+    told: Told,
+    /// Of the session as it was before it was last reset.
+    vocabulary: Vocabulary,
+}
+
+/// What is written before some of the inputs; `:save` and `:load` would leave the folder.
+const COMMANDS: [&str; 10] =
+    [":watch ", ":time ", ":plot ", ":show ", ":help ", "?", ":step ", ":run ", ":back ", ":"];
+
+impl Prompt {
+    fn new(catalog: &Catalog, folder: &Path) -> Self {
+        let told = Told::default();
+        let settings = Settings {
+            out: folder.join("out"),
+            folder: folder.to_owned(),
+            limits: LIMITS,
+            snapshots: MEGABYTE as usize,
+            told: Box::new(told.clone()),
+            ..Settings::silent(Mode::Run)
+        };
+        let session = Session::new(catalog.clone(), settings).unwrap();
+        let vocabulary = Vocabulary::of(Surroundings::of_language(catalog.clone()));
+        Self { shell: Shell::new(session, Screen::Pipe), told, vocabulary }
+    }
+
+    fn judge(&mut self, seed: u64, text: &str) -> Result<(), String> {
+        let _ = completeness(text);
+        if seed.is_multiple_of(4) {
+            let input = match seed % 16 {
+                0 => format!("{}{text}", COMMANDS[(seed / 16) as usize % COMMANDS.len()]),
+                _ => text.to_owned(),
+            };
+            if !input.trim_start().starts_with([':', '?']) || seed % 16 == 0 {
+                self.shell.submit(&input);
+            }
+            let told = std::mem::take(&mut *self.told.0.lock().unwrap());
+            let told = String::from_utf8_lossy(&told).into_owned();
+            if told.contains("a bug in withy") {
+                return Err(format!("at the prompt: {told}"));
+            }
+            if seed.is_multiple_of(64) {
+                self.vocabulary = Vocabulary::of(self.shell.surroundings());
+                self.shell.reset();
+            }
+        }
+        let middle = text.floor_char_boundary(text.len() / 2);
+        let surroundings = self.vocabulary.surroundings();
+        let _ = highlight(text, Some(middle), &self.vocabulary);
+        let _ = hint(&text[..middle], middle, surroundings);
+        let _ = complete(text, middle, surroundings);
+        Ok(())
     }
 }
 

@@ -145,6 +145,7 @@ fn a_script_may_come_first_and_pictures_are_drawn() {
     for command in [":plot kinetic", ":show"] {
         session.send_line(command).unwrap();
         session.exp_regex(BRAILLE).unwrap();
+        session.exp_string("withy:6> ").unwrap();
     }
     session.send_line(":quit").unwrap();
     session.exp_eof().unwrap();

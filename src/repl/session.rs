@@ -9,7 +9,7 @@ use std::sync::atomic::Ordering;
 use rhai::{AST, Caches, Dynamic, Engine, EvalAltResult, GlobalRuntimeState, Scope};
 
 use super::record::{Record, whereabouts};
-use super::transcript::Transcript;
+use super::transcript::{PROMPT, Transcript};
 use crate::script::catalog::Catalog;
 use crate::script::context::{Context, Settings};
 use crate::script::diagnose::{Diagnostic, Explainer, is_interrupt};
@@ -18,6 +18,7 @@ use crate::script::error::ScriptError;
 use crate::script::lexing::{open_comment, tokens};
 use crate::script::panics;
 use crate::script::program::Program;
+use crate::script::sources::Sources;
 use crate::script::syntax::mark_assignments;
 
 /// The name of the value of the last expression.
@@ -177,6 +178,7 @@ impl Session {
     fn compile(&self, text: &str, before: usize) -> Result<AST, Box<EvalAltResult>> {
         let padded = format!("{}{}", "\n".repeat(before), mark_assignments(text));
         let ast = self.engine.compile_with_scope(&self.scope, padded)?;
+        Sources::of(&self.engine).note(&ast, PROMPT);
         match open_comment(text) {
             Some(at) => {
                 let line = (at.line().unwrap_or(1) + before).try_into().unwrap_or(u16::MAX);
