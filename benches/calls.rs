@@ -1,7 +1,7 @@
-//! What the language costs: a step asked for by a script, a closure as a load, the engine's start.
+//! What the language costs: a step asked for by a script, a closure as a load, the engine's start, the prompt.
 #![allow(clippy::unwrap_used)]
 
-use std::io::Write;
+use std::io::{Read, Write};
 use std::process::{Command, Stdio};
 use std::rc::Rc;
 use std::sync::{Arc, Mutex};
@@ -135,4 +135,23 @@ fn main() {
         assert!(status.success());
     });
     println!("{:<44} {least:>9.2} {middle:>9.2}", "withy run of an empty script");
+    #[cfg(unix)]
+    {
+        let [least, middle] = median(|| wait_for_prompt(folder.path()));
+        println!("{:<44} {least:>9.2} {middle:>9.2}", "withy at a terminal, until its prompt");
+    }
+}
+
+/// Starts withy at a pseudo-terminal, and reads until it is ready for an input.
+#[cfg(unix)]
+fn wait_for_prompt(folder: &std::path::Path) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
+    command.current_dir(folder).env("TERM", "xterm").env("WITHY_HISTORY", folder.join("history"));
+    let process = rexpect::process::PtyProcess::new(command).unwrap();
+    let mut terminal = process.get_file_handle().unwrap();
+    let (mut seen, mut bytes) = (Vec::new(), [0; 4096]);
+    while !String::from_utf8_lossy(&seen).contains("withy:1> ") {
+        let count = terminal.read(&mut bytes).unwrap();
+        seen.extend_from_slice(&bytes[..count]);
+    }
 }

@@ -142,7 +142,8 @@ impl InputFolders {
     /// # Errors
     /// When no folder has it, or a link or the name itself leads out of the folders.
     pub fn find(&self, name: &str) -> Result<PathBuf, ScriptError> {
-        let words: Vec<_> = self.0.iter().map(|(word, _)| format!("the {word}")).collect();
+        let words: Vec<_> =
+            self.0.iter().map(|(word, path)| format!("the {word} '{}'", path.display())).collect();
         let allowed = words.join(" and ");
         if !is_plain(name) {
             return Err(ScriptError::new(format!("\"{name}\" leads out of {allowed}"))
@@ -160,7 +161,7 @@ impl InputFolders {
             };
         }
         Err(ScriptError::new(format!("there is no file \"{name}\" in {allowed}"))
-            .hint("names are relative to these folders"))
+            .hint("check the name, which is relative to these folders"))
     }
 }
 
