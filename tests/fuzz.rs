@@ -208,7 +208,7 @@ impl Prompt {
                 0 => format!("{}{text}", COMMANDS[(seed / 16) as usize % COMMANDS.len()]),
                 _ => text.to_owned(),
             };
-            if !input.trim_start().starts_with([':', '?']) || seed % 16 == 0 {
+            if !input.trim_start().starts_with([':', '?']) || seed.is_multiple_of(16) {
                 self.shell.submit(&input);
             }
             let told = std::mem::take(&mut *self.told.0.lock().unwrap());
