@@ -5,7 +5,7 @@ use std::io::{Read, Write};
 use std::process::{Command, Stdio};
 use std::rc::Rc;
 use std::sync::{Arc, Mutex};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use withy::script::catalog::Catalog;
 use withy::script::context::{Context, Mode, Settings};
@@ -72,14 +72,16 @@ fn compare(first: (&str, &str), second: (&str, &str)) -> [f64; 2] {
     least
 }
 
-fn median(mut action: impl FnMut()) -> [f64; 2] {
-    let mut times: Vec<f64> = (0..STARTS)
-        .map(|_| {
-            let begun = Instant::now();
-            action();
-            begun.elapsed().as_secs_f64() * 1e3
-        })
-        .collect();
+/// How long an action takes.
+fn timed(action: impl FnOnce()) -> Duration {
+    let begun = Instant::now();
+    action();
+    begun.elapsed()
+}
+
+/// The least and the median of several times, in milliseconds.
+fn median(mut time: impl FnMut() -> Duration) -> [f64; 2] {
+    let mut times: Vec<f64> = (0..STARTS).map(|_| time().as_secs_f64() * 1e3).collect();
     times.sort_by(f64::total_cmp);
     [times[0], times[STARTS / 2]]
 }
@@ -118,10 +120,12 @@ fn main() {
     println!("\nmilliseconds, least and median of {STARTS}\n");
     let [least, middle] = on_large_stack(|| {
         median(|| {
-            let context = Context::new(Settings::silent(Mode::Run));
-            let mut engine = engine::build(&Catalog::standard(), &context).unwrap();
-            let ast = compile(&mut engine, &Program::named("empty", "")).unwrap();
-            Rc::new(engine).run_ast(&ast).unwrap();
+            timed(|| {
+                let context = Context::new(Settings::silent(Mode::Run));
+                let mut engine = engine::build(&Catalog::standard(), &context).unwrap();
+                let ast = compile(&mut engine, &Program::named("empty", "")).unwrap();
+                Rc::new(engine).run_ast(&ast).unwrap();
+            })
         })
     })
     .unwrap();
@@ -130,23 +134,26 @@ fn main() {
     let file = folder.path().join("empty.rhai");
     std::fs::write(&file, "").unwrap();
     let [least, middle] = median(|| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
-        let status = command.arg("run").arg(&file).stderr(Stdio::null()).status().unwrap();
-        assert!(status.success());
+        timed(|| {
+            let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
+            let status = command.arg("run").arg(&file).stderr(Stdio::null()).status().unwrap();
+            assert!(status.success());
+        })
     });
     println!("{:<44} {least:>9.2} {middle:>9.2}", "withy run of an empty script");
     #[cfg(unix)]
     {
-        let [least, middle] = median(|| wait_for_prompt(folder.path()));
+        let [least, middle] = median(|| time_to_prompt(folder.path()));
         println!("{:<44} {least:>9.2} {middle:>9.2}", "withy at a terminal, until its prompt");
     }
 }
 
-/// Starts withy at a pseudo-terminal, and reads until it is ready for an input.
+/// From the start of withy at a pseudo-terminal until it is ready for an input; its end is not counted.
 #[cfg(unix)]
-fn wait_for_prompt(folder: &std::path::Path) {
+fn time_to_prompt(folder: &std::path::Path) -> Duration {
     let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
     command.current_dir(folder).env("TERM", "xterm").env("WITHY_HISTORY", folder.join("history"));
+    let begun = Instant::now();
     let process = rexpect::process::PtyProcess::new(command).unwrap();
     let mut terminal = process.get_file_handle().unwrap();
     let (mut seen, mut bytes) = (Vec::new(), [0; 4096]);
@@ -154,4 +161,5 @@ fn wait_for_prompt(folder: &std::path::Path) {
         let count = terminal.read(&mut bytes).unwrap();
         seen.extend_from_slice(&bytes[..count]);
     }
+    begun.elapsed()
 }
