@@ -68,6 +68,8 @@ fn functions_see_constants_typed_before_and_after_them() {
     done(&mut session, "fn area() { global::WIDTH ^ 2 }");
     done(&mut session, "const WIDTH = 3;");
     assert_eq!(value(&mut session, "area()"), "9");
+    done(&mut session, "const WIDTH = 4; const WIDTH = 5;");
+    assert_eq!(value(&mut session, "area()"), "25", "the last one holds");
 }
 
 #[test]

@@ -90,6 +90,12 @@ impl Session {
         self.context.forget_simulations();
     }
 
+    /// Forgets a Ctrl-C that came while nothing was evaluated. What comes after this stops all that is evaluated until it is
+    /// called again.
+    pub fn forget_interrupt(&mut self) {
+        self.context.interrupt_flag().store(false, Ordering::Relaxed);
+    }
+
     /// Evaluates what was typed.
     pub fn eval(&mut self, text: &str) -> Reply {
         let program = self.transcript.typed(text);
@@ -100,12 +106,12 @@ impl Session {
     pub fn eval_program(&mut self, program: Program) -> Reply {
         let text = program.text.clone();
         let before = self.transcript.add(program);
-        let moved = whereabouts(&self.scope);
+        let (moved, known) = (whereabouts(&self.scope), self.scope.len());
         let reply = self.evaluate(&text, before).map_or_else(
             |failed| failed,
             |(value, library)| {
                 self.library = library;
-                self.publish_constants();
+                self.publish_constants(known);
                 self.forget_shadowed();
                 self.answer(value, &text)
             },
@@ -143,7 +149,6 @@ impl Session {
 
     /// The value of an input, and all functions that are known with it.
     fn evaluate(&mut self, text: &str, before: usize) -> Result<(Dynamic, AST), Reply> {
-        self.context.interrupt_flag().store(false, Ordering::Relaxed);
         let watchdog = self.context.meter().watch().map_err(|error| {
             let told = format!("cannot start a thread that keeps the limits: {error}");
             Reply::Failed(Diagnostic::general(told))
@@ -216,11 +221,14 @@ impl Session {
         Reply::Value(value)
     }
 
-    /// Lets functions see constants as `global::NAME`, whichever of the two was typed first.
-    fn publish_constants(&mut self) {
-        let constants = self.scope.iter_raw().filter(|(_, is_constant, _)| *is_constant);
+    /// Lets functions see the constants that came to the first `known` variables as `global::NAME`, whichever of the two was
+    /// typed first.
+    fn publish_constants(&mut self, known: usize) {
         let shared = self.global.constants.get_or_insert_with(Default::default);
-        for (name, _, value) in constants {
+        let new = self.scope.iter_raw().take(self.scope.len().saturating_sub(known));
+        // The last variables come first.
+        let new: Vec<_> = new.filter(|(_, is_constant, _)| *is_constant).collect();
+        for (name, _, value) in new.into_iter().rev() {
             shared.borrow_mut().insert(name.into(), value.clone());
         }
     }

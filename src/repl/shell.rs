@@ -71,6 +71,7 @@ impl Shell {
 
     /// Does what a complete input says.
     pub fn submit(&mut self, input: &str) -> Outcome {
+        self.session.forget_interrupt();
         let text = input.trim();
         if text.starts_with(':') {
             return self.command(text);
