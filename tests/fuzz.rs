@@ -5,16 +5,16 @@
 
 mod common;
 
-use std::io::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::rc::Rc;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use common::corpus::Corpus;
+use common::notepad::Notepad;
 use rhai::Engine;
 use withy::repl::editor::completeness::completeness;
 use withy::repl::editor::completion::complete;
@@ -158,25 +158,10 @@ fn run_batch(
     }
 }
 
-/// What was told to the user of a session.
-#[derive(Clone, Default)]
-struct Told(Arc<Mutex<Vec<u8>>>);
-
-impl Write for Told {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.lock().unwrap().extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
-
 /// A session that every fourth input goes through too, and an editor that all of them are typed into.
 struct Prompt {
     shell: Shell,
-    told: Told,
+    told: Notepad,
     /// Of the session as it was before it was last reset.
     vocabulary: Vocabulary,
 }
@@ -187,7 +172,7 @@ const COMMANDS: [&str; 10] =
 
 impl Prompt {
     fn new(catalog: &Catalog, folder: &Path) -> Self {
-        let told = Told::default();
+        let told = Notepad::default();
         let settings = Settings {
             out: folder.join("out"),
             folder: folder.to_owned(),
@@ -211,8 +196,7 @@ impl Prompt {
             if !input.trim_start().starts_with([':', '?']) || seed.is_multiple_of(16) {
                 self.shell.submit(&input);
             }
-            let told = std::mem::take(&mut *self.told.0.lock().unwrap());
-            let told = String::from_utf8_lossy(&told).into_owned();
+            let told = self.told.take();
             if told.contains("a bug in withy") {
                 return Err(format!("at the prompt: {told}"));
             }

@@ -1,41 +1,22 @@
 //! Scripts that save simulations, load them in another run, and are checked without being run.
 #![allow(clippy::unwrap_used)]
 
-use std::io::Write;
-use std::path::Path;
-use std::sync::{Arc, Mutex};
+mod common;
 
+use std::path::Path;
+
+use common::notepad::Notepad;
 use withy::script::catalog::Catalog;
 use withy::script::context::{Mode, Settings};
 use withy::script::program::Program;
 use withy::script::runner::{Ending, Outcome, run};
 
-#[derive(Clone, Default)]
-struct Told(Arc<Mutex<Vec<u8>>>);
-
-impl Told {
-    fn text(&self) -> String {
-        String::from_utf8(self.0.lock().unwrap().clone()).unwrap()
-    }
-}
-
-impl Write for Told {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.lock().unwrap().extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
-
 fn run_in(out: &Path, mode: Mode, script: &str) -> (Outcome, String) {
-    let told = Told::default();
+    let told = Notepad::default();
     let settings =
         Settings { out: out.to_owned(), told: Box::new(told.clone()), ..Settings::silent(mode) };
     let outcome = run(&Program::named("script", script), &Catalog::standard(), settings);
-    (outcome, told.text())
+    (outcome, told.take())
 }
 
 #[track_caller]

@@ -4,10 +4,11 @@
 //! the offending line stand `// error: COLUMN text` and then, if wanted, `// hint: text`; both texts may be a part.
 //! `// prints: text` expects the next printed line to be exactly that.
 
-use std::fs;
-use std::io::Write;
-use std::sync::{Arc, Mutex};
+mod common;
 
+use std::fs;
+
+use common::notepad::Notepad;
 use withy::script::catalog::Catalog;
 use withy::script::context::{Mode, Settings};
 use withy::script::program::Program;
@@ -24,20 +25,6 @@ struct Expectation {
 struct Section {
     name: String,
     text: String,
-}
-
-#[derive(Clone, Default)]
-struct Printed(Arc<Mutex<Vec<u8>>>);
-
-impl Write for Printed {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.lock().expect("no other thread panicked").extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
 }
 
 #[test]
@@ -101,11 +88,10 @@ fn expectation(text: &str) -> Expectation {
 
 fn judge(section: &Section) -> Result<(), String> {
     let expected = expectation(&section.text);
-    let printed = Printed::default();
+    let printed = Notepad::default();
     let settings = Settings { printed: Box::new(printed.clone()), ..Settings::silent(Mode::Run) };
     let outcome = run(&Program::named("suite", &section.text), &Catalog::standard(), settings);
-    let bytes = printed.0.lock().expect("no other thread panicked").clone();
-    let lines: Vec<_> = String::from_utf8_lossy(&bytes).lines().map(str::to_owned).collect();
+    let lines: Vec<_> = printed.take().lines().map(str::to_owned).collect();
     judge_ending(&expected, &outcome)?;
     if !expected.printed.is_empty() && lines != expected.printed {
         return Err(format!("printed {lines:#?}, expected {:#?}", expected.printed));

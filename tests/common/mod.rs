@@ -3,6 +3,7 @@
 
 pub mod corpus;
 pub mod fixed_way;
+pub mod notepad;
 pub mod probe;
 pub mod rails;
 pub mod reference;
