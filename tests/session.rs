@@ -127,6 +127,19 @@ fn an_error_in_a_function_typed_earlier_is_shown_there() {
 }
 
 #[test]
+fn a_function_of_a_module_may_have_the_name_of_one_that_was_typed() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("parts.rhai"), "\nfn f(x) { x.lost }").unwrap();
+    let mut session = in_folder(folder.path().into());
+    done(&mut session, "import \"parts\" as parts;");
+    done(&mut session, "fn f(x) { x.oops }");
+    let told = refusal(&mut session, "f(#{ a: 1 })");
+    assert!(told.contains("prompt:2:13"), "{told}");
+    let told = refusal(&mut session, "parts::f(#{ a: 1 })");
+    assert!(told.contains("parts.rhai:2:13"), "{told}");
+}
+
+#[test]
 fn an_error_in_a_file_is_shown_in_the_file() {
     let mut session = session();
     done(&mut session, "let a = 1;");

@@ -155,9 +155,12 @@ impl Session {
         })?;
         let ast =
             self.compile(text, before).map_err(|error| Reply::Failed(self.explain(&error)))?;
-        let library = self.library.merge(&ast.clone_functions_only());
+        let mut library = self.library.merge(&ast.clone_functions_only());
+        // Errors in functions are told from those in functions of the same name in files.
+        library.set_source(PROMPT);
         let known = self.scope.len();
         let global = self.global.clone();
+        self.global.source = Some(PROMPT.into());
         self.global.lib.clear();
         self.global.lib.push(library.shared_lib().clone());
 
