@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use withy::script::catalog::Catalog;
 use withy::script::context::{Context, Mode, Settings};
 use withy::script::engine;
+use withy::script::limits::Limits;
 use withy::script::program::Program;
 use withy::script::runner::{Ending, compile, on_large_stack, run};
 
@@ -118,7 +119,7 @@ fn main() {
     }
 
     println!("\nmilliseconds, least and median of {STARTS}\n");
-    let [least, middle] = on_large_stack(|| {
+    let [least, middle] = on_large_stack(&Limits::default(), || {
         median(|| {
             timed(|| {
                 let context = Context::new(Settings::silent(Mode::Run));

@@ -79,7 +79,7 @@ fn no_input_breaks_the_language() {
                     }
                     run_batch(corpus, from..(from + BATCH).min(end), folder, present, report);
                 };
-                scope.spawn(move || on_large_stack(work).unwrap())
+                scope.spawn(move || on_large_stack(&LIMITS, work).unwrap())
             })
             .collect();
         while workers.iter().any(|worker| !worker.is_finished()) {

@@ -67,6 +67,13 @@ fn an_error_ends_the_session_with_2() {
 }
 
 #[test]
+fn lines_that_go_on_belong_to_those_before() {
+    let input = "let x = [3, 1]\n  .map(|x| 2 * x);\nif x[0] > 9 {\n  1\n}\nelse {\n  2\n}\n/// Documented.\nfn f() { 5 }\nf()\n";
+    let (code, replies, complaints) = piped(input);
+    assert_eq!((code, &*replies, &*complaints), (0, "2\n5\n", ""));
+}
+
+#[test]
 fn an_input_that_never_ends_is_an_error() {
     let (code, _, complaints) = piped("let a = [1,\n2");
     assert_eq!(code, 2);
@@ -140,12 +147,22 @@ fn commands_say_what_is_wrong() {
         (":load nowhere.rhai", "there is no such file"),
         ("?slidr", "slider"),
         (":watch nonsense", "there is no variable 'nonsense'"),
+        ("5 % 0", "remainder by zero"),
+        ("let f = |x| x; f.call()", "another number of arguments"),
     ] {
         let (code, _, complaints) = piped(&format!("{input}\n"));
         assert!(code == 2 && complaints.contains(expected), "{input}: {complaints}");
     }
     let (code, _, complaints) = piped(&format!("{SPINNING}:plot enrgy\n"));
     assert!(code == 2 && complaints.contains("did you mean \"energy\"?"), "{complaints}");
+    for (input, expected) in [
+        (":watch sim.step()", "moves a simulation"),
+        (":watch sim.t\n:run nan", "finite"),
+        (":show 7", "no configuration at this time"),
+    ] {
+        let (code, _, complaints) = piped(&format!("{SPINNING}{input}\n"));
+        assert!(code == 2 && complaints.contains(expected), "{input}: {complaints}");
+    }
     let (code, _, complaints) = piped(&format!("{SPINNING}:back 3\n"));
     assert!(code == 2 && complaints.contains("back"), "{complaints}");
 }
@@ -172,11 +189,13 @@ fn somebody_elses_file_is_not_overwritten() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("mine.rhai"), "print(1);").unwrap();
     let (code, _, complaints) = piped_in(folder.path(), &["repl"], "1\n:save mine.rhai\n");
-    assert!(code == 2 && complaints.contains("was not written by :save"), "{complaints}");
+    assert!(code == 2 && complaints.contains("was not written by this session"), "{complaints}");
     let (code, replies, _) =
         piped_in(folder.path(), &["repl"], "1\n:save a.rhai\n2\n:save a.rhai\n");
     assert_eq!((code, &*replies), (0, "1\nsaved to a.rhai\n2\nsaved to a.rhai\n"));
     assert_eq!(std::fs::read_to_string(folder.path().join("mine.rhai")).unwrap(), "print(1);");
+    let (code, _, _) = piped_in(folder.path(), &["repl"], "1\n:save a.rhai\n");
+    assert_eq!(code, 2, "another session's file");
 }
 
 #[test]

@@ -51,7 +51,7 @@ pub struct ReplOptions {
 #[derive(Args)]
 pub struct SessionOptions {
     /// Evaluate this input and leave; several are evaluated one after another.
-    #[arg(short = 'e', long = "evaluate", value_name = "INPUT")]
+    #[arg(short = 'e', long = "evaluate", value_name = "INPUT", allow_hyphen_values = true)]
     pub inputs: Vec<String>,
     /// Folder for pictures and tables; made when the first one is written.
     #[arg(long, value_name = "DIR", default_value = "out")]

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::Exit;
 use super::args::DocsOptions;
 use super::run::refuse;
-use crate::output::write_whole;
+use crate::output::{Colours, Style, write_whole};
 use crate::script::catalog::Catalog;
 use crate::script::definitions::definitions;
 use crate::script::diagnose::Diagnostic;
@@ -34,8 +34,8 @@ fn page(catalog: &Catalog, name: &str) -> Result<String, Diagnostic> {
             _ => unknown.hint(),
         })
     })?;
-    let wants_colours =
-        stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
+    let style = Style::of_environment(|name| std::env::var(name).ok());
+    let wants_colours = stdout().is_terminal() && style.colours == Colours::Ansi;
     Ok(if wants_colours { page.ansi(width()) } else { page.plain(width()) })
 }
 

@@ -2,7 +2,8 @@
 
 use std::process;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 use super::Exit;
 
@@ -11,23 +12,23 @@ use super::Exit;
 pub enum AtStake {
     /// A run: the second Ctrl-C ends it.
     Run,
-    /// A session with everything that was built in it: the third one in a row ends it.
+    /// A session with everything that was built in it: one ends it that comes a while after the first was not heard.
     Session,
 }
 
 /// A flag that Ctrl-C sets.
 pub fn flag(at_stake: AtStake) -> Arc<AtomicBool> {
     let patience = match at_stake {
-        AtStake::Run => 1,
-        AtStake::Session => 2,
+        AtStake::Run => Duration::ZERO,
+        AtStake::Session => Duration::from_secs(2),
     };
     let flag = Arc::new(AtomicBool::new(false));
     let set = Arc::clone(&flag);
-    let ignored = AtomicU8::new(0);
+    let mut asked = Instant::now();
     let installed = ctrlc::set_handler(move || {
         if !set.swap(true, Ordering::Relaxed) {
-            ignored.store(0, Ordering::Relaxed);
-        } else if ignored.fetch_add(1, Ordering::Relaxed) + 1 >= patience {
+            asked = Instant::now();
+        } else if asked.elapsed() >= patience {
             process::exit(Exit::Interrupted as i32);
         }
     });

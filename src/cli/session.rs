@@ -24,7 +24,7 @@ use crate::script::runner::on_large_stack;
 /// Opens a session in which a file may have been evaluated first.
 pub fn open(options: &ReplOptions) -> Exit {
     panics::silence();
-    match on_large_stack(|| hold(options)) {
+    match on_large_stack(&options.session.limits.limits(), || hold(options)) {
         Ok(Ok(exit)) => exit,
         Ok(Err(diagnostic)) | Err(diagnostic) => refuse(&diagnostic),
     }
@@ -68,7 +68,7 @@ fn converse(shell: &mut Shell, options: &SessionOptions) -> Result<(), Diagnosti
         Diagnostic::general(format!("cannot read from the terminal: {error}"))
             .with_hint("inputs can also be piped in: withy repl < FILE")
     };
-    let mut editing = editor::Options::from_environment();
+    let mut editing = editor::Options::from_environment(shell.colours());
     if let Some(keys) = options.keys {
         editing.keys = keys.into();
     }

@@ -48,4 +48,4 @@ pub use number::{format_number, scientific, significant};
 pub use page::{Page, Panel};
 pub use stroke::Stroke;
 pub use table::{Cell, Table};
-pub use terminal::{Colours, ConfigurationPicture, Glyphs, Mark, Style, sparkline};
+pub use terminal::{Colours, ConfigurationPicture, Glyphs, Mark, Style};

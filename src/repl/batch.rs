@@ -6,13 +6,27 @@ use super::editor::completeness::{Completeness, completeness_of_script, is_comma
 use super::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
 
+/// Whether a line belongs to the one before, complete as that may be.
+fn continues(line: &str) -> bool {
+    let line = line.trim_start();
+    let is_word = |word: &str| {
+        line.strip_prefix(word)
+            .is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
+    };
+    (line.starts_with('.') && !line.starts_with(".."))
+        || line.starts_with("?.")
+        || is_word("else")
+        || is_word("catch")
+}
+
 /// Reads inputs from `lines` until they end, one fails, or the user leaves.
 pub fn run(shell: &mut Shell, lines: impl BufRead) -> Outcome {
     let mut input = String::new();
-    for line in lines.lines() {
+    let mut lines = lines.lines().peekable();
+    while let Some(line) = lines.next() {
         match line {
             Ok(line) => {
-                input.push_str(&line);
+                input.push_str(line.trim_start_matches('\u{feff}'));
                 input.push('\n');
             }
             Err(error) => {
@@ -20,7 +34,13 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> Outcome {
                 return shell.refuse(&told.with_hint("give UTF-8 text"));
             }
         }
-        if is_command(&input) || completeness_of_script(&input) == Completeness::Complete {
+        // Only what is complete looks ahead: a program that talks through the pipe ends what it asks with a semicolon or an
+        // empty line.
+        let is_complete = is_command(&input)
+            || completeness_of_script(&input) == Completeness::Complete
+                && (input.trim_end().ends_with(';')
+                    || !matches!(lines.peek(), Some(Ok(next)) if continues(next)));
+        if is_complete {
             match shell.submit(&std::mem::take(&mut input)) {
                 Outcome::Good => (),
                 other => return other,

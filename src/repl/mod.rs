@@ -8,5 +8,6 @@ pub mod prompt;
 pub mod record;
 pub mod session;
 pub mod shell;
+mod statements;
 mod surroundings;
 pub mod transcript;

@@ -1,45 +1,50 @@
 //! What worked in a session, as a script that does it again.
 
 use std::fmt::Write;
+use std::ops::Range;
 
-use rhai::{Scope, Token};
+use rhai::{Engine, Scope, Token};
 
 use super::session::ANSWER;
+use super::statements;
 use crate::script::lexing::tokens;
 use crate::script::numbers::format_number;
 use crate::script::packages::SimulationHandle;
 use crate::script::program::Program;
 
 /// The first line of every saved session.
-pub const HEADER: &str = "//! A session of withy: what worked of it.";
+const HEADER: &str = "//! A session of withy: what worked of it.";
 
 /// Something that a script must do to come to the same end.
 #[derive(Clone, Debug, PartialEq)]
 enum Entry {
-    /// An input that worked.
+    /// Statements that worked.
     Statements(String),
-    /// An input that is an expression, whose value was kept as `ans`.
+    /// Statements of which the last is an expression, whose value was kept as `ans`.
     Expression(String),
-    /// How far an input that did not come to its end had moved a simulation.
+    /// Statements that leave their input by `return`, which would end a script.
+    Returning(String),
+    /// How far a statement that did not come to its end had moved a simulation.
     Moved(String),
 }
 
-/// Where a simulation that a variable holds is.
-#[derive(Clone, Debug, PartialEq)]
+/// A simulation that an input can name, and where it was.
+#[derive(Clone)]
 pub struct Whereabouts {
-    variable: String,
+    name: String,
+    handle: SimulationHandle,
     time: f64,
     steps: usize,
 }
 
-/// The inputs that worked, in their order.
+/// What worked, in its order.
 #[derive(Clone, Debug, Default)]
 pub struct Record {
     entries: Vec<Entry>,
 }
 
 impl Record {
-    /// Adds an input without a value.
+    /// Adds statements without a value.
     pub fn worked(&mut self, text: &str) {
         self.entries.push(Entry::Statements(text.trim().to_owned()));
     }
@@ -49,23 +54,31 @@ impl Record {
         self.entries.push(Entry::Expression(text.trim().to_owned()));
     }
 
-    /// Adds what an input that failed has done to the simulations of variables, given where they were before.
-    pub fn failed(&mut self, before: &[Whereabouts], scope: &Scope) {
-        let after = whereabouts(scope);
-        for now in after {
-            let was = before.iter().find(|was| was.variable == now.variable);
-            let Some(was) = was.filter(|was| was.steps != now.steps) else { continue };
-            let method = if now.time > was.time { "run_to" } else { "rewind" };
-            let line = format!("{}.{method}({});", now.variable, format_number(now.time));
-            self.entries.push(Entry::Moved(line));
-        }
+    /// Adds an input that returns.
+    pub fn returned(&mut self, text: &str) {
+        self.entries.push(Entry::Returning(text.trim().to_owned()));
     }
 
-    /// The script.
-    pub fn script(&self) -> String {
-        let asked = self.entries.iter().map(|entry| mentions_answer(entry.text()));
-        let asked: Vec<bool> = asked.collect();
-        let mut text = format!("{HEADER}\n\n");
+    /// Adds what a statement that failed has done to simulations, given where they were before; gives whether there is anything.
+    pub fn moved(&mut self, before: &[Whereabouts]) -> bool {
+        let known = self.entries.len();
+        for was in before {
+            let (time, steps) = (was.handle.time(), was.handle.simulation().counts().steps);
+            if steps != was.steps {
+                let method = if time > was.time { "run_to" } else { "rewind" };
+                let line = format!("{}.{method}({});", was.name, format_number(time));
+                self.entries.push(Entry::Moved(line));
+            }
+        }
+        self.entries.len() > known
+    }
+
+    /// The script; `engine` knows the syntax, and must not optimise statements away.
+    pub fn script(&self, engine: &Engine) -> String {
+        let texts = || self.entries.iter().map(Entry::text);
+        let asked: Vec<bool> = texts().map(mentions_answer).collect();
+        let defined: Vec<Vec<Definition>> = texts().map(definitions).collect();
+        let mut script = format!("{HEADER}\n\n");
         for (index, entry) in self.entries.iter().enumerate() {
             // A value is asked for until the next one takes its place.
             let later = || self.entries[index + 1..].iter().zip(&asked[index + 1..]);
@@ -76,15 +89,21 @@ impl Record {
             };
             let line = match entry {
                 Entry::Statements(statements) => terminated(statements),
-                Entry::Expression(expression) if is_asked() => answering(expression),
-                Entry::Expression(expression) => terminated(expression),
-                Entry::Moved(line) => format!("// An input was stopped here.\n{line}"),
+                Entry::Expression(statements) if is_asked() => answering(engine, statements),
+                Entry::Expression(statements) => terminated(statements),
+                Entry::Returning(statements) => {
+                    let lines = statements.lines().map(|line| format!("\n// {line}"));
+                    format!("// Not done again, because it returns:{}", lines.collect::<String>())
+                }
+                Entry::Moved(line) => format!("// A statement was stopped here.\n{line}"),
             };
-            let line = self.without_redefined(index, line);
+            let replaced = |definition: &Definition| {
+                defined[index + 1..].iter().flatten().any(|later| later.name == definition.name)
+            };
             // Writing to a text cannot fail.
-            let _ = writeln!(text, "{line}");
+            let _ = writeln!(script, "{}", without(line, replaced));
         }
-        text
+        script
     }
 
     /// Names of functions that were defined more than once: in a script only one of each can stand.
@@ -92,69 +111,58 @@ impl Record {
         let mut seen = Vec::new();
         let mut twice = Vec::new();
         for definition in self.entries.iter().flat_map(|entry| definitions(entry.text())) {
-            if seen.contains(&definition.signature) && !twice.contains(&definition.signature.0) {
-                twice.push(definition.signature.0.clone());
+            let shown = definition.name.0.clone();
+            if seen.contains(&definition.name) && !twice.contains(&shown) {
+                twice.push(shown);
             }
-            seen.push(definition.signature);
+            seen.push(definition.name);
         }
         twice
     }
 
-    /// A line of the script without the functions that a later input defines again.
-    fn without_redefined(&self, index: usize, line: String) -> String {
-        let later: Vec<(String, usize)> = self.entries[index + 1..]
-            .iter()
-            .flat_map(|entry| definitions(entry.text()))
-            .map(|definition| definition.signature)
-            .collect();
-        let replaced = definitions(&line).into_iter().rev();
-        let mut line = line;
-        for definition in replaced.filter(|definition| later.contains(&definition.signature)) {
-            let name = &definition.signature.0;
-            let note = format!("/* {name} is defined anew below */");
-            line.replace_range(definition.bytes, &note);
-        }
-        line
+    /// Whether an input returned, and so is not done again.
+    pub fn has_returned(&self) -> bool {
+        self.entries.iter().any(|entry| matches!(entry, Entry::Returning(_)))
     }
 }
 
 impl Entry {
     fn text(&self) -> &str {
         match self {
-            Self::Statements(text) | Self::Expression(text) | Self::Moved(text) => text,
+            Self::Statements(text) | Self::Expression(text) => text,
+            // What is not done again defines nothing and asks for nothing.
+            Self::Returning(_) => "",
+            Self::Moved(line) => line,
         }
     }
 }
 
-/// Where the simulations are that variables hold.
-pub fn whereabouts(scope: &Scope) -> Vec<Whereabouts> {
-    let held = scope.iter_raw().filter_map(|(name, _, value)| {
-        let handle = value.read_lock::<SimulationHandle>()?;
-        let steps = handle.simulation().counts().steps;
-        Some(Whereabouts { variable: name.to_owned(), time: handle.time(), steps })
-    });
-    held.collect()
+/// The simulations that variables hold, and the last one, each once.
+pub fn whereabouts(scope: &Scope, latest: Option<SimulationHandle>) -> Vec<Whereabouts> {
+    let mut found: Vec<Whereabouts> = Vec::new();
+    let held =
+        scope.iter_raw().filter(|(name, ..)| *name != ANSWER).filter_map(|(name, _, value)| {
+            Some((name.to_owned(), value.read_lock::<SimulationHandle>()?.clone()))
+        });
+    let latest = latest.map(|handle| ("latest_simulation()".to_owned(), handle));
+    for (name, handle) in held.chain(latest) {
+        if !found.iter().any(|other| other.handle.is_same(&handle)) {
+            let (time, steps) = (handle.time(), handle.simulation().counts().steps);
+            found.push(Whereabouts { name, handle, time, steps });
+        }
+    }
+    found
 }
 
 fn mentions_answer(text: &str) -> bool {
-    tokens(text)
-        .iter()
-        .any(|(token, _)| matches!(token, Token::Identifier(name) if name.as_str() == ANSWER))
+    let is_answer =
+        |token: &Token| matches!(token, Token::Identifier(name) if name.as_str() == ANSWER);
+    tokens(text).iter().any(|(token, _)| is_answer(token))
 }
 
 /// The statements with a semicolon at their end, which comments may follow.
 fn terminated(statements: &str) -> String {
-    let tokens = tokens(statements);
-    let is_closed = match tokens.last() {
-        None | Some((Token::SemiColon, _)) => true,
-        Some((Token::RightBrace, _)) => {
-            matches!(
-                tokens[0].0,
-                Token::Fn | Token::If | Token::For | Token::While | Token::Loop | Token::Private
-            )
-        }
-        Some(_) => false,
-    };
+    let is_closed = matches!(tokens(statements).last(), None | Some((Token::SemiColon, _)));
     match (is_closed, statements.lines().last().is_some_and(|last| last.contains("//"))) {
         (true, _) => statements.to_owned(),
         (false, true) => format!("{statements}\n;"),
@@ -163,36 +171,25 @@ fn terminated(statements: &str) -> String {
 }
 
 /// The statements, the last of them an expression whose value becomes a variable.
-fn answering(statements: &str) -> String {
-    let program = Program::named("", statements);
-    let mut depth = 0_usize;
-    let mut last = 0;
-    let mut is_start = true;
-    for (token, position) in tokens(statements) {
-        let at = program.offset(position.line().unwrap_or(1), position.position().unwrap_or(1));
-        if is_start && depth == 0 {
-            last = at;
-        }
-        is_start = matches!(token, Token::SemiColon);
-        match token {
-            Token::LeftBrace | Token::MapStart | Token::LeftParen | Token::LeftBracket => {
-                depth += 1
-            }
-            Token::RightBrace | Token::RightParen | Token::RightBracket => {
-                depth = depth.saturating_sub(1)
-            }
-            _ => (),
-        }
-    }
-    let (before, expression) = statements.split_at(last);
-    terminated(&format!("{before}let {ANSWER} = {expression}"))
+fn answering(engine: &Engine, text: &str) -> String {
+    let last = statements::count(engine, text).and_then(|all| all.checked_sub(1));
+    let cut = last.and_then(|first| statements::boundary(engine, text, first)).unwrap_or(0);
+    let (before, expression) = text.split_at(cut);
+    let space = &expression[..expression.len() - expression.trim_start().len()];
+    terminated(&format!("{before}{space}let {ANSWER} = {}", expression.trim_start()))
+}
+
+/// The functions that a text defines, as they are written there.
+pub fn functions_of(text: &str) -> impl Iterator<Item = &str> {
+    definitions(text).into_iter().map(|definition| &text[definition.bytes])
 }
 
 /// A function definition in a text.
 struct Definition {
-    /// Name and number of parameters.
-    signature: (String, usize),
-    bytes: std::ops::Range<usize>,
+    /// With its number of parameters, and the type in front of a method's name.
+    name: (String, usize),
+    /// From `private`, or the comments that document it, to its closing brace.
+    bytes: Range<usize>,
 }
 
 fn definitions(text: &str) -> Vec<Definition> {
@@ -202,35 +199,76 @@ fn definitions(text: &str) -> Vec<Definition> {
         let position = tokens[index].1;
         program.offset(position.line().unwrap_or(1), position.position().unwrap_or(1))
     };
-    let starts = (0..tokens.len()).filter(|index| matches!(tokens[*index].0, Token::Fn));
+    let is = |index: usize, wanted: fn(&Token) -> bool| {
+        tokens.get(index).is_some_and(|(token, _)| wanted(token))
+    };
     let definition = |start: usize| {
-        let Some((Token::Identifier(name), _)) = tokens.get(start + 1) else { return None };
+        // Empty parentheses are one token.
+        let opens = |token: &Token| matches!(token, Token::LeftParen | Token::Unit);
+        let opening = (start..tokens.len()).find(|at| is(*at, opens))?;
         let body =
-            (start..tokens.len()).find(|index| matches!(tokens[*index].0, Token::LeftBrace))?;
-        let identifiers = tokens[start + 2..body].iter();
-        let parameters =
-            identifiers.filter(|(token, _)| matches!(token, Token::Identifier(_))).count();
+            (opening..tokens.len()).find(|at| is(*at, |token| *token == Token::LeftBrace))?;
+        let words = |range: Range<usize>| {
+            tokens[range].iter().filter_map(|(token, _)| match token {
+                Token::Identifier(name) => Some(name.to_string()),
+                Token::StringConstant(name) => Some(name.to_string()),
+                _ => None,
+            })
+        };
+        let name = words(start + 1..opening).collect::<Vec<_>>().join(".");
         let mut depth = 0_usize;
         let end = (body..tokens.len()).find(|index| {
             match tokens[*index].0 {
                 Token::LeftBrace | Token::MapStart => depth += 1,
-                Token::RightBrace => depth -= 1,
+                Token::RightBrace => depth = depth.saturating_sub(1),
                 _ => (),
             }
             depth == 0
         })?;
-        let bytes = offset(start)..offset(end) + 1;
-        Some(Definition { signature: (name.to_string(), parameters), bytes })
+        let first = match start.checked_sub(1) {
+            Some(before) if is(before, |token| *token == Token::Private) => before,
+            _ => start,
+        };
+        let bytes = documented_from(text, offset(first))..offset(end) + 1;
+        Some(Definition { name: (name, words(opening..body).count()), bytes })
     };
+    let starts = (0..tokens.len()).filter(|index| is(*index, |token| *token == Token::Fn));
     starts.filter_map(definition).collect()
+}
+
+/// Where the lines of documentation begin that end at `end`.
+fn documented_from(text: &str, end: usize) -> usize {
+    let mut from = end;
+    while let Some(line) =
+        text[..from].trim_end().lines().last().filter(|line| line.trim_start().starts_with("///"))
+    {
+        from = text[..from].trim_end().len() - line.trim_start().len();
+    }
+    from
+}
+
+/// A text without some of its functions.
+fn without(text: String, is_replaced: impl Fn(&Definition) -> bool) -> String {
+    let mut text = text;
+    for definition in definitions(&text).into_iter().rev().filter(is_replaced) {
+        let note = format!("/* {} is defined anew below */", definition.name.0);
+        text.replace_range(definition.bytes, &note);
+    }
+    text
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::script::catalog::Catalog;
+    use crate::script::context::{Context, Mode, Settings};
+    use crate::script::engine::build;
 
     fn script(record: &Record) -> String {
-        record.script().lines().skip(2).collect::<Vec<_>>().join("\n")
+        let context = Context::new(Settings::silent(Mode::Run));
+        let mut engine = build(&Catalog::standard(), &context).expect("an engine");
+        engine.set_optimization_level(rhai::OptimizationLevel::None);
+        record.script(&engine).lines().skip(2).collect::<Vec<_>>().join("\n")
     }
 
     #[test]
@@ -243,7 +281,7 @@ mod tests {
         record.answered("#{ a: 1 }");
         assert_eq!(
             script(&record),
-            "let a = 1;\nlet b = 2;\na + b // three\n;\nfn f(x) { x }\n#{ a: 1 };"
+            "let a = 1;\nlet b = 2;\na + b // three\n;\nfn f(x) { x };\n#{ a: 1 };"
         );
     }
 
@@ -251,12 +289,12 @@ mod tests {
     fn a_value_gets_its_name_where_it_is_asked_for_later() {
         let mut record = Record::default();
         record.answered("1 + 1");
-        record.answered("let c = 3; f(c, #{ a: 1; })");
+        record.answered("let c = 3; f(c, #{ a: 1 })");
         record.worked("let b = ans;");
         record.answered("7");
         assert_eq!(
             script(&record),
-            "1 + 1;\nlet c = 3; let ans = f(c, #{ a: 1; });\nlet b = ans;\n7;"
+            "1 + 1;\nlet c = 3; let ans = f(c, #{ a: 1 });\nlet b = ans;\n7;"
         );
     }
 
@@ -269,7 +307,40 @@ mod tests {
         assert_eq!(record.redefined(), ["f"]);
         assert_eq!(
             script(&record),
-            "/* f is defined anew below */ let a = 1;\nfn f(x, y) { 0 }\nfn f(z) { 3 }"
+            "/* f is defined anew below */ let a = 1;\nfn f(x, y) { 0 };\nfn f(z) { 3 };"
         );
+    }
+
+    #[test]
+    fn methods_of_types_documentation_and_private_functions_are_told_apart() {
+        let mut record = Record::default();
+        record.worked("fn number.twice() { this * 2 } fn number.thrice() { this * 3 }");
+        record.worked("/// Ten.\n/// Really.\nprivate fn ten() { 10 }");
+        record.worked("fn ten() { 11 }");
+        assert_eq!(record.redefined(), ["ten"]);
+        let expected = "fn number.twice() { this * 2 } fn number.thrice() { this * 3 };\n\
+            /* ten is defined anew below */;\nfn ten() { 11 };";
+        assert_eq!(script(&record), expected);
+    }
+
+    #[test]
+    fn answers_stand_behind_functions_and_blocks() {
+        let mut record = Record::default();
+        record.answered("fn q() { 3 } q()");
+        record.answered("let i = 0; while i < ans { i += 1 } i");
+        record.answered("ans + 1");
+        let expected = "fn q() { 3 } let ans = q();\n\
+            let i = 0; while i < ans { i += 1 } let ans = i;\nans + 1;";
+        assert_eq!(script(&record), expected);
+    }
+
+    #[test]
+    fn an_input_that_returns_is_left_out() {
+        let mut record = Record::default();
+        record.returned("if true {\n  return 5; }");
+        record.worked("let a = 1;");
+        let expected =
+            "// Not done again, because it returns:\n// if true {\n//   return 5; }\nlet a = 1;";
+        assert_eq!(script(&record), expected);
     }
 }

@@ -1,14 +1,18 @@
 //! A session of the language without a terminal: inputs are evaluated one after another and see what the earlier ones left.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 use std::panic::{self, AssertUnwindSafe};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::atomic::Ordering;
 
-use rhai::{AST, Caches, Dynamic, Engine, EvalAltResult, GlobalRuntimeState, Scope};
+use rhai::{
+    AST, Caches, Dynamic, Engine, EvalAltResult, GlobalRuntimeState, ImmutableString,
+    OptimizationLevel, Scope, Stmt,
+};
 
-use super::record::{Record, whereabouts};
+use super::record::{Record, Whereabouts, functions_of, whereabouts};
+use super::statements;
 use super::transcript::{PROMPT, Transcript};
 use crate::script::catalog::Catalog;
 use crate::script::context::{Context, Settings};
@@ -16,6 +20,7 @@ use crate::script::diagnose::{Diagnostic, Explainer, is_interrupt};
 use crate::script::engine;
 use crate::script::error::ScriptError;
 use crate::script::lexing::{open_comment, tokens};
+use crate::script::limits::Watchdog;
 use crate::script::panics;
 use crate::script::program::Program;
 use crate::script::sources::Sources;
@@ -31,12 +36,22 @@ pub enum Reply {
     Done,
     /// It is an expression with this value.
     Value(Dynamic),
-    /// It is wrong. Names that it declared are gone; what it did to scenes and simulations stays.
+    /// A statement of it is wrong. Those before it have worked; of itself only what it did to scenes and simulations stays, and
+    /// to variables that closures share.
     Failed(Diagnostic),
-    /// It was stopped by Ctrl-C.
+    /// A statement of it was stopped by Ctrl-C; else as after a failure.
     Interrupted,
     /// Nobody reads what is printed any more.
     PipeClosed,
+}
+
+/// What a statement that fails is taken back to.
+#[derive(Clone)]
+struct Checkpoint {
+    scope: Scope<'static>,
+    global: GlobalRuntimeState,
+    constants: BTreeMap<ImmutableString, Dynamic>,
+    whereabouts: Vec<Whereabouts>,
 }
 
 /// Variables, functions, constants and imports, and the engine that knows the language.
@@ -64,6 +79,8 @@ impl Session {
         let context = Context::new(settings);
         let mut engine = engine::build(&catalog, &context).map_err(Diagnostic::bug)?;
         engine::import_from(&mut engine, &folder);
+        // Statements are counted, and none may be optimised away.
+        engine.set_optimization_level(OptimizationLevel::None);
         let global = engine.new_global_runtime_state();
         let engine = Rc::new(engine);
         context.lend(&engine);
@@ -106,38 +123,66 @@ impl Session {
     pub fn eval_program(&mut self, program: Program) -> Reply {
         let text = program.text.clone();
         let before = self.transcript.add(program);
-        let (moved, known) = (whereabouts(&self.scope), self.scope.len());
-        let reply = self.evaluate(&text, before).map_or_else(
-            |failed| failed,
-            |(value, library)| {
-                self.library = library;
-                self.publish_constants(known);
-                self.forget_shadowed();
-                self.answer(value, &text)
-            },
-        );
-        match &reply {
-            Reply::Done => self.record.worked(&text),
-            Reply::Value(_) => self.record.answered(&text),
-            Reply::Failed(_) | Reply::Interrupted | Reply::PipeClosed => {
+        let library = self.library.clone();
+        let (ast, _watchdog) = match self.begin(&text, before) {
+            Ok(begun) => begun,
+            Err(reply) => {
                 self.transcript.strike_last();
-                self.record.failed(&moved, &self.scope);
+                return reply;
             }
+        };
+        let returns = statements::returns(&ast);
+        // An input that may return is one piece; of others, what worked before an error stays.
+        let pieces = if returns { ast.statements().len().max(1) } else { 1 };
+        let mut value = Dynamic::UNIT;
+        for (number, piece) in ast.statements().chunks(pieces).enumerate() {
+            let checkpoint = self.checkpoint();
+            match self.run(piece) {
+                Ok(result) => value = result,
+                Err(reply) => {
+                    self.restore(checkpoint.clone());
+                    self.keep_part(&text, number, library);
+                    self.record.moved(&checkpoint.whereabouts);
+                    return reply;
+                }
+            }
+            self.publish_constants(checkpoint.scope.len());
+        }
+        self.forget_shadowed();
+        let reply = self.answer(value, &text);
+        match &reply {
+            _ if returns => self.record.returned(&text),
+            Reply::Value(_) => self.record.answered(&text),
+            _ => self.record.worked(&text),
         }
         reply
+    }
+
+    /// Of an input that failed, keeps the statements that worked, and its functions if there are any.
+    fn keep_part(&mut self, text: &str, worked: usize, library: AST) {
+        let cut = statements::boundary(&self.engine, text, worked).filter(|_| worked > 0);
+        let Some((before, after)) = cut.map(|cut| text.split_at(cut)) else {
+            self.library = library;
+            return self.transcript.strike_last();
+        };
+        self.forget_shadowed();
+        let functions: String =
+            functions_of(after).map(|function| format!("\n{function}")).collect();
+        self.record.worked(&format!("{before}{functions}"));
     }
 
     /// Evaluates an expression that leaves nothing behind but what it does to scenes and simulations.
     pub fn peek(&mut self, text: &str) -> Reply {
         let before = self.transcript.add(self.transcript.typed(text));
-        let (known, global) = (self.scope.len(), self.global.clone());
-        let outcome = self.evaluate(text, before);
+        let (checkpoint, library) = (self.checkpoint(), self.library.clone());
+        let outcome =
+            self.begin(text, before).and_then(|(ast, _watchdog)| self.run(ast.statements()));
+        self.restore(checkpoint);
+        self.library = library;
         self.transcript.forget_last();
-        self.scope.rewind(known);
-        self.global = global;
         match outcome {
-            Ok((value, _)) if value.is_unit() => Reply::Done,
-            Ok((value, _)) => Reply::Value(value),
+            Ok(value) if value.is_unit() => Reply::Done,
+            Ok(value) => Reply::Value(value),
             Err(failed) => failed,
         }
     }
@@ -147,39 +192,76 @@ impl Session {
         self.record.worked(text);
     }
 
-    /// The value of an input, and all functions that are known with it.
-    fn evaluate(&mut self, text: &str, before: usize) -> Result<(Dynamic, AST), Reply> {
+    /// Writes into the record how far simulations have moved by what is not written there itself; gives whether any has.
+    pub fn note_moved(&mut self, before: &[Whereabouts]) -> bool {
+        self.record.moved(before)
+    }
+
+    /// Where the simulations are that an input can name.
+    pub fn whereabouts(&self) -> Vec<Whereabouts> {
+        let latest = self.context.latest_simulation();
+        whereabouts(&self.scope, latest.and_then(|latest| latest.try_cast()))
+    }
+
+    fn checkpoint(&self) -> Checkpoint {
+        let constants = self.global.constants.as_ref();
+        Checkpoint {
+            scope: self.scope.clone(),
+            global: self.global.clone(),
+            constants: constants.map(|constants| constants.borrow().clone()).unwrap_or_default(),
+            whereabouts: self.whereabouts(),
+        }
+    }
+
+    fn restore(&mut self, checkpoint: Checkpoint) {
+        self.scope = checkpoint.scope;
+        self.global = checkpoint.global;
+        // Shared with functions that scenes and simulations have stored.
+        if let Some(constants) = &self.global.constants {
+            *constants.borrow_mut() = checkpoint.constants;
+        }
+    }
+
+    /// Parses an input, makes its functions known, and begins to keep the limits.
+    fn begin(&mut self, text: &str, before: usize) -> Result<(AST, Watchdog), Reply> {
         let watchdog = self.context.meter().watch().map_err(|error| {
             let told = format!("cannot start a thread that keeps the limits: {error}");
             Reply::Failed(Diagnostic::general(told))
         })?;
         let ast =
             self.compile(text, before).map_err(|error| Reply::Failed(self.explain(&error)))?;
-        let mut library = self.library.merge(&ast.clone_functions_only());
+        self.library = self.library.merge(&ast.clone_functions_only());
         // Errors in functions are told from those in functions of the same name in files.
-        library.set_source(PROMPT);
-        let known = self.scope.len();
-        let global = self.global.clone();
+        self.library.set_source(PROMPT);
         self.global.source = Some(PROMPT.into());
         self.global.lib.clear();
-        self.global.lib.push(library.shared_lib().clone());
+        self.global.lib.push(self.library.shared_lib().clone());
+        Ok((ast, watchdog))
+    }
 
+    /// Runs statements.
+    fn run(&mut self, statements: &[Stmt]) -> Result<Dynamic, Reply> {
         // A panic in a native body is our mistake: the session must survive it.
-        let outcome = panic::catch_unwind(AssertUnwindSafe(|| self.run(&ast)));
-        drop(watchdog);
+        let outcome = panic::catch_unwind(AssertUnwindSafe(|| {
+            // The only way to keep imports and constants from one input to the next; deprecated in favour of nothing.
+            #[allow(deprecated)]
+            self.engine.eval_statements_raw(
+                &mut self.global,
+                &mut Caches::new(),
+                &mut self.scope,
+                statements,
+            )
+        }));
         self.context.progress().end();
         self.context.forget_reporters();
         self.context.flush();
-        let reply = match outcome {
-            _ if self.context.is_pipe_closed() => Reply::PipeClosed,
-            Ok(Ok(value)) => return Ok((value, library)),
-            Ok(Err(error)) if is_interrupt(&error) => Reply::Interrupted,
-            Ok(Err(error)) => Reply::Failed(self.explain(&error)),
-            Err(panic) => Reply::Failed(Diagnostic::bug(panics::message(&*panic))),
-        };
-        self.scope.rewind(known);
-        self.global = global;
-        Err(reply)
+        match outcome {
+            _ if self.context.is_pipe_closed() => Err(Reply::PipeClosed),
+            Ok(Ok(value)) => Ok(value),
+            Ok(Err(error)) if is_interrupt(&error) => Err(Reply::Interrupted),
+            Ok(Err(error)) => Err(Reply::Failed(self.explain(&error))),
+            Err(panic) => Err(Reply::Failed(Diagnostic::bug(panics::message(&*panic)))),
+        }
     }
 
     /// Parses an input at its lines of the session.
@@ -197,17 +279,6 @@ impl Session {
             }
             None => Ok(ast),
         }
-    }
-
-    fn run(&mut self, ast: &AST) -> Result<Dynamic, Box<EvalAltResult>> {
-        // The only way to keep imports and constants from one input to the next; deprecated in favour of nothing.
-        #[allow(deprecated)]
-        self.engine.eval_statements_raw(
-            &mut self.global,
-            &mut Caches::new(),
-            &mut self.scope,
-            ast.statements(),
-        )
     }
 
     /// Keeps the value of an input that worked, if it is to be shown.
@@ -304,9 +375,37 @@ impl Session {
     pub fn record(&self) -> &Record {
         &self.record
     }
+
+    /// What worked so far as a script.
+    ///
+    /// # Errors
+    /// When it cannot be one, with the reason.
+    pub fn script(&self) -> Result<String, Diagnostic> {
+        let script = self.record.script(&self.engine);
+        let program = Program::named("the saved session", &script);
+        match self.engine.compile(mark_assignments(&script)) {
+            Ok(_) => Ok(script),
+            Err(error) => {
+                let (catalog, engine) = (&self.catalog, &*self.engine);
+                Err(Explainer { program: &program, catalog, engine }.explain(&error.into()))
+            }
+        }
+    }
+
+    /// Where imports and inputs are looked for.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
 }
 
 /// Whether an input ends in a semicolon, which says that its value is not to be shown.
 fn is_silenced(text: &str) -> bool {
     matches!(tokens(text).last(), Some((rhai::Token::SemiColon, _)))
+}
+
+/// Simulations hold functions that hold the context, which holds the last simulation.
+impl Drop for Session {
+    fn drop(&mut self) {
+        self.context.forget_simulations();
+    }
 }

@@ -1,5 +1,9 @@
 //! What a line at the prompt does: an input of the language, or a command. Replies go to where the session prints.
 
+use std::collections::HashMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
 use super::commands;
 use super::editor::surroundings::Operand;
 use super::session::{ANSWER, Reply, Session};
@@ -44,12 +48,14 @@ pub struct Shell {
     watched: Vec<String>,
     /// How many of the files that were written the user knows of.
     told_files: usize,
+    /// What was saved under which name.
+    saved: HashMap<PathBuf, String>,
 }
 
 impl Shell {
     /// A shell around a session.
     pub fn new(session: Session, screen: Screen) -> Self {
-        Self { session, screen, watched: Vec::new(), told_files: 0 }
+        Self { session, screen, watched: Vec::new(), told_files: 0, saved: HashMap::new() }
     }
 
     /// The session.
@@ -150,6 +156,17 @@ impl Shell {
         self.watched.clear();
     }
 
+    /// Whether a file may be written: it is new, or still as this shell has written it.
+    pub fn may_write(&self, path: &Path) -> bool {
+        let ours = || self.saved.get(path).map(String::as_bytes);
+        !path.exists() || fs::read(path).is_ok_and(|bytes| Some(&*bytes) == ours())
+    }
+
+    /// Remembers what was written to a file.
+    pub fn note_saved(&mut self, path: &Path, script: String) {
+        self.saved.insert(path.to_owned(), script);
+    }
+
     /// Prints a reply.
     pub fn print(&self, text: &str) {
         self.session.context().print(text);
@@ -213,7 +230,9 @@ impl Shell {
             let steps = latest.simulation().counts().steps;
             let plural = if steps == 1 { "" } else { "s" };
             let time = significant(latest.time(), 10);
-            self.print(&format!("t = {time} after {steps} step{plural}"));
+            let ended = latest.simulation().ending().map(|ending| format!("; ended: {ending}"));
+            let ended = ended.unwrap_or_default();
+            self.print(&format!("t = {time} after {steps} step{plural}{ended}"));
         }
     }
 
@@ -232,14 +251,27 @@ impl Shell {
         }
     }
 
-    /// Calls a method of the last simulation; the record of the session does not know of it.
-    pub fn call_latest_quietly(&mut self, call: &str) -> Outcome {
-        match self.input_for_latest(call) {
-            Ok(input) => match self.session.peek(&input) {
-                Reply::Value(_) => Outcome::Good,
-                reply => self.tell(reply),
-            },
-            Err(refusal) => self.refuse(&refusal),
+    /// Calls a method of the last simulation as a part of a command, and shows the watched expressions. The record of the session
+    /// gets the call, or how far it came.
+    pub fn call_latest_watched(&mut self, call: &str) -> Outcome {
+        let input = match self.input_for_latest(call) {
+            Ok(input) => input,
+            Err(refusal) => return self.refuse(&refusal),
+        };
+        let before = self.session.whereabouts();
+        let outcome = match self.session.peek(&input) {
+            Reply::Value(_) => Outcome::Good,
+            reply => self.tell(reply),
+        };
+        match outcome {
+            Outcome::Good => {
+                self.session.note_worked(&input);
+                self.show_watched()
+            }
+            failed => {
+                self.session.note_moved(&before);
+                failed
+            }
         }
     }
 
@@ -251,13 +283,6 @@ impl Shell {
                 self.tell(reply)
             }
             Err(refusal) => self.refuse(&refusal),
-        }
-    }
-
-    /// Writes into the record that a method of the last simulation was called.
-    pub fn note_call(&mut self, call: &str) {
-        if let Ok(input) = self.input_for_latest(call) {
-            self.session.note_worked(&input);
         }
     }
 
@@ -280,15 +305,10 @@ impl Shell {
     /// Watches one more expression, and shows it.
     pub fn watch(&mut self, expression: &str) -> Outcome {
         let expression = expression.trim_end_matches(';').to_owned();
-        match self.session.peek(&expression) {
-            Reply::Value(_) | Reply::Done => {
-                if !self.watched.contains(&expression) {
-                    self.watched.push(expression);
-                }
-                self.show_watched()
-            }
-            failed => self.tell(failed),
+        if !self.watched.contains(&expression) {
+            self.watched.push(expression);
         }
+        self.show_watched()
     }
 
     /// Watches nothing any more.
@@ -303,14 +323,29 @@ impl Shell {
             parts.push(format!("t = {}", significant(latest.time(), 10)));
         }
         for expression in self.watched.clone() {
-            match self.session.peek(&expression) {
+            let before = self.session.whereabouts();
+            let reply = self.session.peek(&expression);
+            let has_moved = self.session.note_moved(&before);
+            let told = match reply {
+                Reply::Value(_) | Reply::Done if has_moved => {
+                    let told = format!("the watched expression '{expression}' moves a simulation");
+                    Diagnostic::general(told)
+                        .with_hint("it is watched no more; watch what only looks")
+                }
                 Reply::Value(value) => {
                     let shown = present(self.session.catalog(), &value, self.width());
                     parts.push(format!("{expression} = {}", shown.lines().next().unwrap_or("")));
+                    continue;
                 }
-                Reply::Done => parts.push(format!("{expression} = nothing")),
-                failed => return self.tell(failed),
-            }
+                Reply::Done => {
+                    parts.push(format!("{expression} = nothing"));
+                    continue;
+                }
+                Reply::Failed(diagnostic) => diagnostic,
+                other => return self.tell(other),
+            };
+            self.watched.retain(|other| *other != expression);
+            return self.refuse(&told);
         }
         if !self.watched.is_empty() {
             self.print(&parts.join("   "));

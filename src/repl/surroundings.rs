@@ -44,7 +44,7 @@ impl Shell {
                 })
                 .collect(),
             columns: self.columns(),
-            folder: ".".into(),
+            folder: session.folder().to_owned(),
         }
     }
 

@@ -90,10 +90,18 @@ impl Transcript {
 
     /// The same diagnostic with places in the inputs that they are from: files that were read in count their own lines.
     pub fn relocate(&self, mut diagnostic: Diagnostic) -> Diagnostic {
+        for step in &mut diagnostic.trace {
+            if step.file.is_none()
+                && let Some(line) = &mut step.line
+                && let Some(piece) = self.file_of(*line)
+            {
+                *line -= piece.before;
+                step.file = Some(piece.program.name.clone());
+            }
+        }
         if let Some(at) = &mut diagnostic.location
             && at.program.name == PROMPT
-            && let Some(piece) = self.piece_of(at.line)
-            && piece.program.name != PROMPT
+            && let Some(piece) = self.file_of(at.line)
         {
             *at = Location {
                 program: Arc::new(piece.program.clone()),
@@ -104,8 +112,10 @@ impl Transcript {
         diagnostic
     }
 
-    fn piece_of(&self, line: usize) -> Option<&Piece> {
-        self.pieces.iter().rev().find(|piece| piece.before < line)
+    /// The file that a line is from, if it was not typed.
+    fn file_of(&self, line: usize) -> Option<&Piece> {
+        let piece = self.pieces.iter().rev().find(|piece| piece.before < line)?;
+        (piece.program.name != PROMPT).then_some(piece)
     }
 }
 

@@ -103,7 +103,7 @@ impl OutputFolder {
         let above = path.ancestors().skip(1).take_while(|folder| folder.starts_with(&self.folder));
         match above.map(Path::canonicalize).find(|real| !is_missing(real)) {
             Some(Ok(real)) => self.folder.canonicalize().is_ok_and(|own| real.starts_with(own)),
-            Some(Err(_)) => true,
+            Some(Err(_)) => false,
             None => true,
         }
     }

@@ -1,9 +1,11 @@
-//! Imports of files from the script's own folder, each read once. A file that imports itself, in however many steps, is
+//! Imports of files from the script's own folder, each read once as long as it does not change. A file that imports itself, in however many steps, is
 //! an error, not an abort.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 use rhai::{
     Engine, EvalAltResult, GlobalRuntimeState, Module, ModuleResolver, Position, Scope, Shared,
@@ -22,7 +24,8 @@ pub struct FolderResolver {
     folder: PathBuf,
     inputs: InputFolders,
     being_read: RefCell<Vec<PathBuf>>,
-    read: RefCell<HashMap<PathBuf, Shared<Module>>>,
+    /// With the time of their last change: a session may see a file in several states.
+    read: RefCell<HashMap<PathBuf, (Option<SystemTime>, Shared<Module>)>>,
 }
 
 impl FolderResolver {
@@ -103,14 +106,15 @@ impl ModuleResolver for FolderResolver {
         let refused = |error: ScriptError| error.into_engine(position);
         let (shown, file) = self.find(path).map_err(refused)?;
         self.refuse_chain(path, &file).map_err(refused)?;
-        if let Some(module) = self.read.borrow().get(&file) {
+        let changed = fs::metadata(&file).and_then(|about| about.modified()).ok();
+        if let Some((_, module)) = self.read.borrow().get(&file).filter(|(at, _)| *at == changed) {
             return Ok(Shared::clone(module));
         }
         self.being_read.borrow_mut().push(file.clone());
         let module = self.load(engine, global, &shown, position);
         self.being_read.borrow_mut().pop();
         let module = module?;
-        self.read.borrow_mut().insert(file, Shared::clone(&module));
+        self.read.borrow_mut().insert(file, (changed, Shared::clone(&module)));
         Ok(module)
     }
 }

@@ -63,8 +63,9 @@ pub struct Outcome {
 
 /// Runs `program` in the language of `catalog`.
 pub fn run(program: &Program, catalog: &Catalog, settings: Settings) -> Outcome {
-    let stack = stack_for(&settings.limits);
-    on_stack(stack, || run_here(program, catalog, settings)).unwrap_or_else(|diagnostic| Outcome {
+    let limits = settings.limits;
+    let run = || run_here(program, catalog, settings);
+    on_large_stack(&limits, run).unwrap_or_else(|diagnostic| Outcome {
         ending: Ending::Failed(diagnostic),
         checks: Checks::default(),
         simulations: Vec::new(),
@@ -72,9 +73,12 @@ pub fn run(program: &Program, catalog: &Catalog, settings: Settings) -> Outcome 
     })
 }
 
-/// Does `work` on a thread with a stack of [`STACK_BYTES`].
-pub fn on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, Diagnostic> {
-    on_stack(STACK_BYTES, work)
+/// Does `work` on a thread with a stack that a script within these limits cannot exhaust.
+pub fn on_large_stack<T: Send>(
+    limits: &Limits,
+    work: impl FnOnce() -> T + Send,
+) -> Result<T, Diagnostic> {
+    on_stack(stack_for(limits), work)
 }
 
 /// Does `work` on a thread with a stack of so many bytes, or fewer where the system has no address space for them.

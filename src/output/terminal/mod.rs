@@ -1,7 +1,7 @@
 //! Charts and pictures as text for a terminal: braille dots or plain ASCII, with or without colours.
 //!
 //! ```text
-//! chart, picture, sparkline → dots → sheet → style
+//! chart, picture → dots → sheet → style
 //! ```
 
 mod chart;
@@ -9,9 +9,7 @@ mod dots;
 mod environment;
 mod picture;
 mod sheet;
-mod sparkline;
 mod style;
 
 pub use picture::{ConfigurationPicture, Mark};
-pub use sparkline::sparkline;
 pub use style::{Colours, Glyphs, Style};

@@ -1,16 +1,26 @@
 //! `:help` and `?`: what a name means.
 
 use super::{COMMANDS, Command, find};
-use crate::output::{Cell, Colours, Table};
+use crate::output::Colours;
+use crate::repl::session::ANSWER;
 use crate::repl::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
-use crate::script::help::{self, Page};
+use crate::script::help::{self, Page, Span};
+use crate::script::kind::with_article;
 
 /// `:help [name]`
 pub fn help(shell: &mut Shell, operand: &str) -> Outcome {
-    let name = operand.trim_end_matches("()").trim();
-    if name.is_empty() {
-        return overview(shell);
+    let name = operand.trim_matches('"').trim_end_matches("()").trim();
+    match name {
+        "" => return overview(shell),
+        ANSWER => {
+            let mut page = Page::default();
+            page.heading(ANSWER);
+            page.paragraph("At the prompt, the value of the last input that had one.");
+            show(shell, &page);
+            return Outcome::Good;
+        }
+        _ => (),
     }
     if name.starts_with(':') {
         return match find(name) {
@@ -29,6 +39,13 @@ pub fn help(shell: &mut Shell, operand: &str) -> Outcome {
             Outcome::Good
         }
         (Err(_), Some(command)) => explain(shell, command),
+        (Err(_), None) if shell.session().variables().contains(name) => {
+            let of = shell.session().variables().get(name).map(rhai::Dynamic::type_name);
+            let of = of.map(|of| shell.session().engine().map_type_name(of).to_owned());
+            let of = of.unwrap_or_default();
+            shell.print(&format!("{name} is a variable: {}", with_article(&of)));
+            help(shell, &of)
+        }
         (Err(unknown), None) => {
             let told = Diagnostic::general(unknown.to_string());
             shell.refuse(&match unknown.meant.is_none() && unknown.mentions.is_empty() {
@@ -51,11 +68,14 @@ fn explain(shell: &Shell, command: &Command) -> Outcome {
 }
 
 fn overview(shell: &mut Shell) -> Outcome {
-    let mut table = Table::new(&["command", "what it does"]);
+    let mut page = Page::default();
+    page.heading("Commands of the prompt");
     for command in COMMANDS {
-        table.row([command.usage(), command.summary.to_owned()].map(Cell::Text));
+        let summary = Span::plain(format!(": {}", command.summary));
+        page.words(2, vec![Span::name(command.usage()), summary]);
     }
-    shell.print(&format!("{}\n", table.to_string().trim_end()));
+    show(shell, &page);
+    shell.print("");
     match help::page(shell.session().catalog(), "") {
         Ok(page) => show(shell, &page),
         Err(unknown) => return shell.refuse(&Diagnostic::bug(unknown)),

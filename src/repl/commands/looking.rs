@@ -6,6 +6,7 @@ use crate::output::{Cell, Table};
 use crate::repl::shell::{Outcome, Screen, Shell, no_simulation};
 use crate::script::diagnose::Diagnostic;
 use crate::script::error::ScriptError;
+use crate::script::numbers::format_number;
 use crate::script::present::present;
 use crate::script::sight;
 use crate::simulation::Simulation;
@@ -66,6 +67,9 @@ pub fn plot(shell: &mut Shell, operand: &str) -> Outcome {
         columns = ["kinetic", "strain", "energy"].map(str::to_owned).to_vec();
     }
     draw(shell, |simulation, screen| match screen {
+        Screen::Terminal(style) if columns == ["drift"] => {
+            Ok(sight::drift_chart(simulation.history(), &style))
+        }
         Screen::Terminal(style) => sight::history_chart(simulation.history(), &columns, &style),
         Screen::Pipe => {
             let line = |column: &String| sight::column_summary(simulation.history(), column);
@@ -86,6 +90,11 @@ pub fn show(shell: &mut Shell, operand: &str) -> Outcome {
         }
     };
     draw(shell, |simulation, screen| match screen {
+        _ if time.is_some_and(|time| !(0.0..=simulation.time()).contains(&time)) => {
+            let now = format_number(simulation.time());
+            Err(ScriptError::new("there is no configuration at this time")
+                .hint(format!("the simulation has run from t = 0 to {now}")))
+        }
         Screen::Terminal(style) => sight::configuration_picture(simulation, time, &style),
         Screen::Pipe => sight::configuration_summary(simulation, time),
     })

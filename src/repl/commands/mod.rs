@@ -84,7 +84,7 @@ pub const COMMANDS: &[Command] = &[
         operand: Operand::Column,
         placeholder: "[COLUMN …]",
         summary: "draws columns of the history over time; the energies unless columns are named",
-        doc: "For example `:plot kinetic strain`. Pictures for files are drawn by plot_history.",
+        doc: "For example `:plot kinetic strain`; at a terminal `:plot drift` shows how well the invariants are kept. Pictures for files are drawn by plot_history.",
         body: looking::plot,
     },
     Command {
@@ -124,8 +124,8 @@ pub const COMMANDS: &[Command] = &[
         operand: Operand::File,
         placeholder: "FILE",
         summary: "writes the inputs that worked to a script that can be run",
-        doc: "Of a function that was defined again, only the last definition is written. A file that was not written by :save is \
-              not overwritten.",
+        doc: "Of a function that was defined again, only the last definition is written. A file that this session has not \
+              written, or that was changed since, is not overwritten.",
         body: session::save,
     },
     Command {

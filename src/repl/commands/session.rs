@@ -1,40 +1,51 @@
 //! Commands that keep, fetch, forget and leave a session.
 
-use std::fs;
 use std::path::Path;
 
 use crate::output::write_whole;
-use crate::repl::record::HEADER;
 use crate::repl::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::program::Program;
 
 /// `:save file`
 pub fn save(shell: &mut Shell, operand: &str) -> Outcome {
+    let operand = operand.trim_matches('"');
     if operand.is_empty() {
         let told = Diagnostic::general("the name of a file is missing");
         return shell.refuse(&told.with_hint("write :save FILE.rhai"));
     }
     let path = Path::new(operand);
-    // Somebody's own script must not be lost by a slip.
-    if fs::read_to_string(path).is_ok_and(|text| !text.starts_with(HEADER)) || path.is_dir() {
-        let told = format!("'{operand}' is there already, and was not written by :save");
+    // A file of somebody's, or with changes of his, must not be lost by a slip.
+    if !shell.may_write(path) {
+        let told = format!("'{operand}' is there already, and was not written by this session");
         return shell.refuse(&Diagnostic::general(told).with_hint("choose another name"));
     }
+    let script = match shell.session().script() {
+        Ok(script) => script,
+        Err(why) => {
+            shell.note("the session cannot be saved, because it would not be a correct script:");
+            return shell.refuse(&why);
+        }
+    };
     let record = shell.session().record();
-    let (script, redefined) = (record.script(), record.redefined());
+    let (redefined, has_returned) = (record.redefined(), record.has_returned());
     if let Err(error) = write_whole(path, script.as_bytes()) {
         return shell.refuse(&Diagnostic::general(format!("cannot save the session: {error}")));
     }
     for name in redefined {
         shell.note(&format!("'{name}' was defined more than once: in the script its last definition holds everywhere"));
     }
+    if has_returned {
+        shell.note("inputs that return are only comments in the script");
+    }
+    shell.note_saved(path, script);
     shell.print(&format!("saved to {operand}"));
     Outcome::Good
 }
 
 /// `:load file`
 pub fn load(shell: &mut Shell, operand: &str) -> Outcome {
+    let operand = operand.trim_matches('"');
     if operand.is_empty() {
         let told = Diagnostic::general("the name of a file is missing");
         return shell.refuse(&told.with_hint("write :load FILE.rhai"));

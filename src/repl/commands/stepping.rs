@@ -13,16 +13,13 @@ pub fn step(shell: &mut Shell, operand: &str) -> Outcome {
     if !shell.is_watching() {
         return move_latest(shell, &format!("step({count})"));
     }
-    let mut taken = 0;
     let mut outcome = Outcome::Good;
-    while taken < count && outcome == Outcome::Good {
-        outcome = shell.call_latest_quietly("step()");
-        if outcome == Outcome::Good {
-            taken += 1;
-            outcome = shell.show_watched();
+    for _ in 0..count {
+        outcome = shell.call_latest_watched("step()");
+        if outcome != Outcome::Good {
+            break;
         }
     }
-    shell.note_call(&format!("step({taken})"));
     outcome
 }
 
@@ -32,24 +29,13 @@ pub fn run(shell: &mut Shell, operand: &str) -> Outcome {
         let hint = "write :run T, with the time to run to";
         return shell.refuse(&not_a_number(operand, "a time").with_hint(hint));
     };
-    if !shell.is_watching() {
+    // Where there is nothing to run, the language says why.
+    if !shell.is_watching() || !end.is_finite() || shell.next_stop(end).is_none() {
         return move_latest(shell, &format!("run_to({})", format_number(end)));
     }
     let mut outcome = Outcome::Good;
-    let mut is_under_way = false;
     while let (Outcome::Good, Some(next)) = (outcome, shell.next_stop(end)) {
-        is_under_way = true;
-        outcome = shell.call_latest_quietly(&format!("run_to({})", format_number(next)));
-        if outcome == Outcome::Good {
-            outcome = shell.show_watched();
-        }
-    }
-    if !is_under_way {
-        // It says what is wrong with this time.
-        return shell.call_latest(&format!("run_to({})", format_number(end)));
-    }
-    if let Some(now) = shell.latest().map(|latest| latest.time()) {
-        shell.note_call(&format!("run_to({})", format_number(now)));
+        outcome = shell.call_latest_watched(&format!("run_to({})", format_number(next)));
     }
     outcome
 }

@@ -37,6 +37,12 @@ pub fn is_command(text: &str) -> bool {
 /// does not end in its line.
 pub fn completeness_of_script(text: &str) -> Completeness {
     let tokens = scan(text);
+    // A comment that documents stands before its function.
+    let last = tokens.iter().rev().find(|token| token.kind != Kind::Space);
+    let last = last.filter(|token| token.kind == Kind::Comment).map(|token| token.of(text));
+    if last.is_some_and(|comment| comment.starts_with("///") && !comment.starts_with("////")) {
+        return Open(0);
+    }
     let mut reader = Reader::default();
     for token in &tokens {
         if let Outcome::Final(complete) = reader.read(token, text) {

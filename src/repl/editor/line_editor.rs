@@ -2,7 +2,7 @@
 
 use std::env;
 use std::fs;
-use std::io::{self, IsTerminal};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use rustyline::config::BellStyle;
@@ -53,17 +53,11 @@ pub struct Options {
 }
 
 impl Options {
-    /// What the environment asks for: `WITHY_KEYS`, `WITHY_HISTORY`, `NO_COLOR`, `TERM=dumb`.
-    pub fn from_environment() -> Self {
+    /// What the environment asks for by `WITHY_KEYS` and `WITHY_HISTORY`.
+    pub fn from_environment(colours: Colours) -> Self {
         let keys = env::var(Keys::VARIABLE).ok().and_then(|name| Keys::named(&name));
-        let is_plain = env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty())
-            || env::var_os("TERM").is_some_and(|name| name == "dumb")
-            || !io::stdout().is_terminal();
-        Self {
-            keys: keys.unwrap_or_default(),
-            colours: if is_plain { Colours::None } else { Colours::Ansi },
-            history: history::file(env::var_os(history::VARIABLE)),
-        }
+        let history = history::file(env::var_os(history::VARIABLE));
+        Self { keys: keys.unwrap_or_default(), colours, history }
     }
 }
 

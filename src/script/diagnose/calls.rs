@@ -31,6 +31,13 @@ impl Unknown<'_> {
             .filter(|t| !t.is_empty())
             .map(type_word)
             .collect();
+        if name.starts_with("anon$") {
+            let got = types.len();
+            let told = format!(
+                "the function takes another number of arguments than the {got} it is given"
+            );
+            return (told, Some("write |x| …, with a name for each argument".into()));
+        }
         if !name.starts_with(|c: char| c.is_alphabetic() || c == '_')
             || operators::written(name) != name
         {

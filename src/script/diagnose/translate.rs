@@ -159,9 +159,7 @@ impl Explainer<'_> {
                     Some("declare it with let instead of const".into()),
                 )
             }
-            Error::ErrorArithmetic(what, _) => {
-                (arithmetic(what), Some("write one of the numbers with a point: 2.0".into()))
-            }
+            Error::ErrorArithmetic(what, _) => arithmetic(what),
             Error::ErrorStackOverflow(_) => (
                 "functions call each other too deeply".into(),
                 Some("does a function call itself for ever? --max-depth N allows more".into()),
@@ -265,10 +263,14 @@ fn too_large(what: &str) -> String {
     }
 }
 
-fn arithmetic(what: &str) -> String {
-    match what.contains("overflow") {
-        true => "the whole number is too large for 64 bits".into(),
-        false => what.to_lowercase(),
+fn arithmetic(what: &str) -> Words {
+    match what.to_lowercase() {
+        what if what.contains("by zero") => ("a remainder by zero has no value".into(), None),
+        what if what.contains("overflow") => (
+            "the whole number is too large for 64 bits".into(),
+            Some("write one of the numbers with a point: 2.0".into()),
+        ),
+        what => (what, None),
     }
 }
 

@@ -70,6 +70,9 @@ pub(super) fn unwrap(file: &[u8]) -> Result<&[u8], ArchiveError> {
     if format > FORMAT {
         return Err(ArchiveError::Newer { program, format, own_program: PROGRAM, own: FORMAT });
     }
+    if format < FORMAT {
+        return Err(ArchiveError::Older { program, format, own: FORMAT });
+    }
     let length = u64::from_le_bytes(reader.array()?);
     let whole = length.saturating_add((reader.at + CHECKSUM) as u64);
     let found = file.len();

@@ -40,6 +40,18 @@ pub enum ArchiveError {
         /// The format that it reads.
         own: u16,
     },
+    /// It is of a format that is not read any more.
+    #[error(
+        "it was written by withy {program} in format {format}, but only format {own} is read; load it with that withy"
+    )]
+    Older {
+        /// What wrote it.
+        program: String,
+        /// The format of the file.
+        format: u16,
+        /// The format that this program reads.
+        own: u16,
+    },
     /// Its checksum is wrong.
     #[error(
         "the file is damaged: its checksum is {found:08x}, but its bytes have {right:08x}; use another copy"

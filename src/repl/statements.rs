@@ -1,0 +1,80 @@
+//! Where the statements of an input begin and end: the engine's syntax tree does not say, but it can be asked again.
+
+use rhai::{AST, ASTFlags, ASTNode, Engine, Stmt, Token};
+
+use crate::script::lexing::tokens;
+use crate::script::program::Program;
+use crate::script::syntax::mark_assignments;
+
+/// How many statements a text has, functions apart; none if it is not correct.
+pub fn count(engine: &Engine, text: &str) -> Option<usize> {
+    engine.compile(mark_assignments(text)).ok().map(|ast| ast.statements().len())
+}
+
+/// The last place where a text can be cut so that `first` of its statements stand before the cut and the others after it.
+pub fn boundary(engine: &Engine, text: &str, first: usize) -> Option<usize> {
+    let all = count(engine, text)?;
+    let is_right = |cut: &usize| {
+        let (before, after) = text.split_at(*cut);
+        count(engine, before) == Some(first) && count(engine, after) == all.checked_sub(first)
+    };
+    let program = Program::named("", text);
+    let ends = tokens(text).into_iter().filter_map(|(token, position)| {
+        let at = program.offset(position.line()?, position.position()?);
+        matches!(token, Token::SemiColon | Token::RightBrace).then_some(at + 1)
+    });
+    let cuts: Vec<usize> = std::iter::once(0).chain(ends).collect();
+    cuts.into_iter().rev().find(is_right)
+}
+
+/// Whether an input can end early by a `return` that is in no function.
+pub fn returns(ast: &AST) -> bool {
+    let mut found = false;
+    for statement in ast.statements() {
+        statement.walk(&mut Vec::new(), &mut |path| {
+            if let Some(ASTNode::Stmt(Stmt::Return(_, flags, _))) = path.last() {
+                // A throw is a return that breaks.
+                found |= !flags.intersects(ASTFlags::BREAK);
+            }
+            true
+        });
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::script::catalog::Catalog;
+    use crate::script::context::{Context, Mode, Settings};
+    use crate::script::engine::build;
+
+    fn engine() -> Engine {
+        let context = Context::new(Settings::silent(Mode::Run));
+        let mut engine = build(&Catalog::standard(), &context).expect("an engine");
+        engine.set_optimization_level(rhai::OptimizationLevel::None);
+        engine
+    }
+
+    #[test]
+    fn texts_are_cut_between_statements() {
+        let engine = engine();
+        let cut = |text: &'static str, first| {
+            boundary(&engine, text, first).map(|cut| text.split_at(cut))
+        };
+        assert_eq!(cut("a(); (1 + 2) * 3", 1), Some(("a();", " (1 + 2) * 3")));
+        assert_eq!(cut("fn f(x) { x; } f(2)", 0), Some(("fn f(x) { x; }", " f(2)")));
+        assert_eq!(cut("if a { 1 } else { 2 } b", 1), Some(("if a { 1 } else { 2 }", " b")));
+        assert_eq!(cut("let i = { 1 } - 2; i", 1), Some(("let i = { 1 } - 2;", " i")));
+        assert_eq!(cut("{ let a = [1]; a?[0]; 3 }", 0), Some(("", "{ let a = [1]; a?[0]; 3 }")));
+        assert_eq!(cut("1 +", 0), None);
+    }
+
+    #[test]
+    fn only_returns_outside_functions_count() {
+        let engine = engine();
+        let is_found = |text| returns(&engine.compile(text).expect("a script"));
+        assert!(is_found("return 5;") && is_found("if true { return; }"));
+        assert!(!is_found("fn f() { return 5; } let g = |x| { return x; }; throw 1;"));
+    }
+}
