@@ -79,7 +79,7 @@ fn beaded_beam(spans: usize, beads: usize) -> Model {
 /// A whole step with so many sliders.
 fn sliding_cost(spans: usize, beads: usize) -> (usize, (f64, f64), f64) {
     let mut model = beaded_beam(spans, beads);
-    let mut integrator = Method::EnergyMomentum.build(&model, Tolerance::default());
+    let mut integrator = Method::EnergyMomentum.build(&mut model, Tolerance::default());
     let (mut steps, mut iterations) = (0, 0);
     let start = model.state();
     let cost = measure(|| {
@@ -126,7 +126,7 @@ fn timed(action: impl FnOnce()) -> Duration {
 /// Assembly, factorisation, solution, the residual after it, and a whole step; with its mean Newton iterations.
 fn costs(spans: usize) -> (usize, [(f64, f64); 5], f64) {
     let mut model = flying_beam(spans);
-    let mut integrator = Method::EnergyMomentum.build(&model, Tolerance::default());
+    let mut integrator = Method::EnergyMomentum.build(&mut model, Tolerance::default());
     let (mut steps, mut iterations) = (0, 0);
     let step = measure(|| {
         let interval = Interval::between(steps as f64 * DT, (steps + 1) as f64 * DT);

@@ -32,7 +32,7 @@ fn names_of_the_session_and_the_language_are_offered() {
     assert_eq!(offered("1 + swi"), ["1 + swing(", "1 + switch"]);
     assert_eq!(offered("plot_h"), ["plot_history("]);
     assert_eq!(offered("plot_h¦(sim)"), ["plot_history(sim)"]);
-    assert_eq!(offered("ene"), ["energy_momentum()"]);
+    assert_eq!(offered("ene"), ["energy_decaying(", "energy_momentum()"]);
     assert_eq!(offered("TA"), ["TAU"]);
     assert_eq!(offered("wh"), ["while"]);
     assert_eq!(offered("sha"), ["shapes::"]);
@@ -65,7 +65,7 @@ fn keys_of_options_are_offered_once() {
         ["scene.start(#{ integrator: trapezoidal() })"]
     );
     assert_eq!(offered("scene.start(#{ in¦, integrator: trapezoidal() })"), Vec::<String>::new());
-    assert_eq!(names("scene.start(#{ dt: 0.1, name: \"a\", "), ["integrator: "]);
+    assert_eq!(names("scene.start(#{ dt: 0.1, name: \"a\", "), ["integrator: ", "snapshots: "]);
     assert_eq!(names("let m = #{ "), Vec::<String>::new());
     assert_eq!(
         names("scene.beam(#{ axis: line([0, 0], [1, 1]), basis: lagrange(#{ elem"),
