@@ -14,7 +14,7 @@ use crate::newton::{NewtonReport, Tolerance};
 /// ```
 ///
 /// Rotation increments are those of the angle. Accelerations `a` are a state of their own; where there are none yet, at the
-/// start and after an impact, a step of the trapezoidal rule finds them as `(v1 - v0)/Δt`. With `ρ∞ = 1` all steps are such.
+/// start, after an impact and where a load jumps, a step of the trapezoidal rule finds them as `(v1 - v0)/Δt`. With `ρ∞ = 1` all steps are such.
 /// Second order.
 ///
 /// J. Chung & G. M. Hulbert, J. Appl. Mech. 60 (1993) 371–375.

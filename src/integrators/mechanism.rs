@@ -129,7 +129,7 @@ pub trait Mechanism {
     /// From here on accelerations are a part of the state, unknown until they are set.
     fn keep_accelerations(&mut self);
 
-    /// The accelerations that belong to the rates at the start of the step, if they are known [length/time², 1/time²].
+    /// The accelerations just after the start of the step that has begun, if they are known [length/time², 1/time²].
     fn accelerations(&self) -> Option<&[f64]>;
 
     /// Sets the accelerations, where they are kept.

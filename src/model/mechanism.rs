@@ -210,7 +210,9 @@ impl Mechanism for Model {
             })?;
         }
         self.bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
-        self.step = StepScales { interval, ..StepScales::default() };
+        let jumps = self.accelerations.known().is_some()
+            && self.loads.iter().any(|load| load.schedule.may_jump_at(interval.start));
+        self.step = StepScales { interval, jumps, ..StepScales::default() };
         let (mut scratch, rates) =
             (std::mem::take(&mut self.scratch), std::mem::take(&mut self.rates));
         scratch.fill(0.0);
@@ -370,7 +372,8 @@ impl Mechanism for Model {
     }
 
     fn accelerations(&self) -> Option<&[f64]> {
-        self.accelerations.known()
+        // Those from before a jump are not those after it.
+        self.accelerations.known().filter(|_| !self.step.jumps)
     }
 
     fn set_accelerations(&mut self, accelerations: &[f64]) {
