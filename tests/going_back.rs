@@ -159,12 +159,14 @@ fn fast_spinner() -> Scene {
 
 #[test]
 fn walks_over_halved_steps_are_straight() {
-    let (scene, settings) = (fast_spinner(), settings(Method::EnergyMomentum, 0.4));
-    let mut probe = start(&scene, settings);
-    run(&mut probe, 2.0).unwrap();
-    assert!(probe.counts().retries > 3 && probe.counts().steps > 8, "{:?}", probe.counts());
-    for seed in 0..20 {
-        assert_walk_is_straight("fast spinner", &scene, settings, 5, seed);
+    for method in INTEGRATORS.iter().map(|entry| entry.method) {
+        let (scene, settings) = (fast_spinner(), settings(method, 0.4));
+        let mut probe = start(&scene, settings);
+        run(&mut probe, 2.0).unwrap();
+        assert!(probe.counts().retries > 3 && probe.counts().steps > 8, "{:?}", probe.counts());
+        for seed in 0..20 {
+            assert_walk_is_straight("fast spinner", &scene, settings, 5, seed);
+        }
     }
 }
 
