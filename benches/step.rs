@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Curve, Vec2};
-use withy::integrators::{Interval, Mechanism, Method, Stage};
+use withy::integrators::{INTEGRATORS, Interval, Mechanism, Method, Stage};
 use withy::joints::{EndAction, Slider, SlidingRule, StartVelocities};
 use withy::linalg::BandedMatrix;
 use withy::loads::{Frame, LoadKind, Schedule};
@@ -79,7 +79,7 @@ fn beaded_beam(spans: usize, beads: usize) -> Model {
 /// A whole step with so many sliders.
 fn sliding_cost(spans: usize, beads: usize) -> (usize, (f64, f64), f64) {
     let mut model = beaded_beam(spans, beads);
-    let mut integrator = Method::EnergyMomentum.build(&model, Tolerance::default());
+    let mut integrator = Method::EnergyMomentum.build(&mut model, Tolerance::default());
     let (mut steps, mut iterations) = (0, 0);
     let start = model.state();
     let cost = measure(|| {
@@ -123,10 +123,28 @@ fn timed(action: impl FnOnce()) -> Duration {
     begun.elapsed()
 }
 
+/// A step of the flying spaghetti, the same seventy-five again and again; with its mean Newton iterations.
+fn method_cost(method: Method) -> ((f64, f64), f64) {
+    let mut model = flying_beam(14);
+    let mut integrator = method.build(&mut model, Tolerance::default());
+    let (mut steps, mut iterations) = (0, 0);
+    let start = model.state();
+    let cost = measure(|| {
+        let step = steps % 75;
+        if step == 0 {
+            model.restore(&start);
+        }
+        let interval = Interval::between(step as f64 * DT, (step + 1) as f64 * DT);
+        steps += 1;
+        timed(|| iterations += integrator.step(&mut model, interval).unwrap().iterations)
+    });
+    (cost, iterations as f64 / steps as f64)
+}
+
 /// Assembly, factorisation, solution, the residual after it, and a whole step; with its mean Newton iterations.
 fn costs(spans: usize) -> (usize, [(f64, f64); 5], f64) {
     let mut model = flying_beam(spans);
-    let mut integrator = Method::EnergyMomentum.build(&model, Tolerance::default());
+    let mut integrator = Method::EnergyMomentum.build(&mut model, Tolerance::default());
     let (mut steps, mut iterations) = (0, 0);
     let step = measure(|| {
         let interval = Interval::between(steps as f64 * DT, (steps + 1) as f64 * DT);
@@ -205,6 +223,13 @@ fn main() {
             per_unknown(checking),
             per_unknown(step)
         );
+    }
+    println!("\nmicroseconds per step of the flying spaghetti with 14 spans, least / median\n");
+    println!("{:>18} {:>15} {:>11}", "integrator", "step", "iterations");
+    for entry in INTEGRATORS {
+        let ((least, median), iterations) = method_cost(entry.method);
+        let step = format!("{:.1} / {:.1}", least / 1e3, median / 1e3);
+        println!("{:>18} {step:>15} {iterations:>11.2}", entry.name);
     }
     println!(
         "\nmicroseconds per step of a simulation, least / median, without and with snapshots\n"

@@ -11,7 +11,7 @@ use withy::integrators::{Mechanism, Solution, Stage};
 use withy::loads::{Frame, LoadKind};
 use withy::model::{Model, Scene};
 
-const STAGES: [Stage; 2] = [Stage::Midpoint, Stage::End];
+const STAGES: [Stage; 3] = [Stage::Midpoint, Stage::DampedMidpoint(0.6), Stage::End];
 
 /// Every scene on every mesh, each at a random state of its own with random increments to go on by.
 fn for_all(mut check: impl FnMut(&str, &Scene, &mut Model, &[f64])) {
@@ -88,13 +88,63 @@ fn corrected_section_forces_miss_the_strain_by_the_square_of_the_correction() {
     });
 }
 
+/// The work of the forces of a stage, and those forces.
+fn work(model: &mut Model, stage: Stage, increments: &[f64]) -> (f64, Vec<f64>) {
+    settle(model, stage, increments);
+    let mut forces = vec![0.0; model.degrees_of_freedom()];
+    model.add_forces(stage, increments, 1.0, &mut forces);
+    let work = forces.iter().zip(increments).map(|(force, u)| force * u).sum();
+    (work, forces)
+}
+
+#[test]
+fn damped_forces_do_more_work_by_half_of_chi_times_the_square_of_the_change_of_strain() {
+    for_all(|name, _, model, increments| {
+        let mut of = |stage| work(model, stage, increments).0;
+        let damped = Stage::DampedMidpoint;
+        // With the strain of the end alone and with that of the start alone: the difference is ∫ ΔΓ·C ΔΓ + EI Δκ².
+        let square = of(damped(1.0)) - of(damped(-1.0));
+        assert!(square > 0.0, "{name}");
+        for chi in [0.0, 0.1, 0.7, 3.0] {
+            let more = of(damped(chi)) - of(Stage::Midpoint);
+            let error = (more - 0.5 * chi * square).abs() / square;
+            assert!(error < 1e-12, "{name}, chi = {chi}: {error:.1e}");
+        }
+    });
+}
+
+#[test]
+fn a_damped_stretch_of_a_rod_loses_the_energy_of_the_formula() {
+    let (axial, length, chi) = (1e4, 10.0, 0.3);
+    let mesh = withy::beams::Mesh::lagrange(3, 1).unwrap();
+    let scene = scenes::free_beam(&mesh, scenes::spaghetti_section(axial, 100.0));
+    let mut model = Model::assemble(&scene).unwrap();
+    let ends: Vec<Vec2> = model.control_points().flatten().copied().collect();
+    let (first, last) = (ends[0], ends[ends.len() - 1]);
+    assert!(((last - first).norm() - length).abs() < 1e-12);
+    let stretch = |model: &mut Model, strain: f64| -> Vec<f64> {
+        let moved = |unknown: &probe::Unknown| match unknown {
+            probe::Unknown::X(at) => strain * (at - first).x,
+            probe::Unknown::Y(at) => strain * (at - first).y,
+            probe::Unknown::Rotation => 0.0,
+        };
+        probe::unknowns(model).iter().map(moved).collect()
+    };
+    let once = stretch(&mut model, 0.02);
+    advance(&mut model, Stage::Midpoint, &once);
+    // From a strain of 0.02 by another 0.03, in lengths of the rod as it is now.
+    let again = stretch(&mut model, 0.03 / 1.02);
+    model.begin_step(STEP, &Stage::ALL).unwrap();
+    let (damped, _) = work(&mut model, Stage::DampedMidpoint(chi), &again);
+    let change = 0.5 * axial * length * (0.05_f64.powi(2) - 0.02_f64.powi(2));
+    let lost = 0.5 * chi * axial * length * 0.03_f64.powi(2);
+    assert!((damped - change - lost).abs() < 1e-10 * change, "{damped} {change} {lost}");
+}
+
 #[test]
 fn midpoint_forces_do_exactly_the_work_by_which_the_energy_changes() {
     for_all(|name, _, model, increments| {
-        settle(model, Stage::Midpoint, increments);
-        let mut forces = vec![0.0; model.degrees_of_freedom()];
-        model.add_forces(Stage::Midpoint, increments, 1.0, &mut forces);
-        let work: f64 = forces.iter().zip(increments).map(|(force, u)| force * u).sum();
+        let (work, forces) = work(model, Stage::Midpoint, increments);
         let before = model.measure();
         let rates = model.rates().to_vec();
         let solution = Solution { increments, constraints: &[], rates: &rates, residual: &forces };

@@ -132,11 +132,14 @@ fn walks_with_sliders_that_bounce_rest_leave_or_end_the_run_are_straight() {
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
     let rule = SlidingRule::Conserving;
     let mut arrivals = 0;
-    for ends in [EndAction::Bounce, EndAction::Release, EndAction::Stop] {
+    let actions = [EndAction::Bounce, EndAction::Release, EndAction::Stop];
+    for (ends, entry) in
+        actions.into_iter().flat_map(|ends| INTEGRATORS.iter().map(move |entry| (ends, entry)))
+    {
         for (number, mut scene) in sliding_scenes::all(&mesh, rule).into_iter().enumerate() {
             scene.sliders.iter_mut().for_each(|slider| slider.ends = ends);
-            let label = format!("{}, {ends:?}", scene.name);
-            let settings = settings(Method::EnergyMomentum, 0.02);
+            let label = format!("{}, {}, {ends:?}", entry.name, scene.name);
+            let settings = settings(entry.method, 0.02);
             let mut probe = start(&scene, settings);
             run(&mut probe, 0.6).unwrap();
             arrivals += probe.arrivals().len();
@@ -156,12 +159,14 @@ fn fast_spinner() -> Scene {
 
 #[test]
 fn walks_over_halved_steps_are_straight() {
-    let (scene, settings) = (fast_spinner(), settings(Method::EnergyMomentum, 0.4));
-    let mut probe = start(&scene, settings);
-    run(&mut probe, 2.0).unwrap();
-    assert!(probe.counts().retries > 3 && probe.counts().steps > 8, "{:?}", probe.counts());
-    for seed in 0..20 {
-        assert_walk_is_straight("fast spinner", &scene, settings, 5, seed);
+    for method in INTEGRATORS.iter().map(|entry| entry.method) {
+        let (scene, settings) = (fast_spinner(), settings(method, 0.4));
+        let mut probe = start(&scene, settings);
+        run(&mut probe, 2.0).unwrap();
+        assert!(probe.counts().retries > 3 && probe.counts().steps > 8, "{:?}", probe.counts());
+        for seed in 0..20 {
+            assert_walk_is_straight("fast spinner", &scene, settings, 5, seed);
+        }
     }
 }
 

@@ -40,7 +40,7 @@ fn where_the_relaxed_rule_stops_its_step_has_no_solution() {
             let [ab, cm] = meshes.map(|mesh| points(mesh, 3));
             let scene = free_sliding_mass([&ab, &cm], 1e2, support, SlidingRule::Relaxed);
             let mut model = Model::assemble(&scene).unwrap();
-            let mut integrator = Method::EnergyMomentum.build(&model, Tolerance::default());
+            let mut integrator = Method::EnergyMomentum.build(&mut model, Tolerance::default());
             let (mut step, mut before) = (0, model.state());
             let error = loop {
                 let state = model.state();

@@ -18,6 +18,9 @@ spaghetti, C2, dt = 0.2   unknowns  51 band 11 steps  39 iterations 117 most 3 f
 spaghetti, C1             unknowns  48 band 11 steps  75 iterations 225 most 3 factorised 225 retries 0
 spaghetti, linear         unknowns  33 band  5 steps  75 iterations 225 most 3 factorised 225 retries 0
 spaghetti, trapezoidal    unknowns  48 band 11 steps  75 iterations 226 most 4 factorised 226 retries 0
+spaghetti, decaying       unknowns  51 band 11 steps  75 iterations 225 most 3 factorised 225 retries 0
+spaghetti, order 4        unknowns  51 band 11 steps  75 iterations 864 most 14 factorised 864 retries 0
+spaghetti, alpha          unknowns  51 band 11 steps  75 iterations 225 most 3 factorised 225 retries 0
 curved pendulum           unknowns  49 band 11 steps 150 iterations 421 most 3 factorised 421 retries 0
 blown cantilever          unknowns  48 band 11 steps 150 iterations 332 most 3 factorised 332 retries 0
 four-bar linkage          unknowns 145 band 11 steps 150 iterations 495 most 4 factorised 495 retries 0
@@ -32,6 +35,9 @@ sliding mass, Lagrange    unknowns  65 band 11 steps  34 iterations 108 most 4 f
 sliding mass, C2, hinged  unknowns  39 band 11 steps  53 iterations 162 most 4 factorised 184 retries 0 tries 7
 sliding mass, C2, exact   unknowns  41 band 11 steps  34 iterations 104 most 4 factorised 119 retries 0 tries 5
 sliding mass, trapezoidal unknowns  41 band 11 steps  29 iterations  89 most 4 factorised  89 retries 0 tries 0
+sliding mass, decaying    unknowns  41 band 11 steps  35 iterations 104 most 3 factorised 119 retries 0 tries 7
+sliding mass, order 4     unknowns  41 band 11 steps  35 iterations 495 most 15 factorised 546 retries 0 tries 8
+sliding mass, alpha       unknowns  41 band 11 steps  29 iterations  87 most 4 factorised  87 retries 0 tries 0
 pushed mass               unknowns 105 band 11 steps 100 iterations 275 most 3 factorised 275 retries 0 tries 0
 abacus                    unknowns  72 band 11 steps  50 iterations 100 most 2 factorised 100 retries 0 tries 0
 eyelet                    unknowns  56 band 11 steps  70 iterations 140 most 2 factorised 140 retries 0 tries 0
@@ -39,7 +45,7 @@ pinned cross              unknowns 112 band 11 steps  70 iterations 198 most 3 f
 ";
 
 fn benchmarks() -> Vec<(&'static str, Scene, Method, f64)> {
-    use Method::{EnergyMomentum, Trapezoidal};
+    use Method::{EnergyDecaying, EnergyMomentum, FourthOrder, GeneralizedAlpha, Trapezoidal};
     let smooth = Mesh::bspline(14, 3, 2).unwrap();
     let paper = Mesh::bspline(7, 3, 1).unwrap();
     let linear = Mesh::lagrange(10, 1).unwrap();
@@ -50,6 +56,14 @@ fn benchmarks() -> Vec<(&'static str, Scene, Method, f64)> {
         ("spaghetti, C1", scenes::spaghetti(&paper, 1e4), EnergyMomentum, 0.1),
         ("spaghetti, linear", scenes::spaghetti(&linear, 1e4), EnergyMomentum, 0.1),
         ("spaghetti, trapezoidal", scenes::spaghetti(&paper, 1e4), Trapezoidal, 0.1),
+        ("spaghetti, decaying", scenes::spaghetti(&smooth, 1e4), EnergyDecaying { chi: 0.1 }, 0.1),
+        ("spaghetti, order 4", scenes::spaghetti(&smooth, 1e4), FourthOrder, 0.1),
+        (
+            "spaghetti, alpha",
+            scenes::spaghetti(&smooth, 1e4),
+            GeneralizedAlpha { rho_infinity: 0.8 },
+            0.1,
+        ),
         ("curved pendulum", scenes::curved_pendulum(&smooth), EnergyMomentum, 0.05),
         ("blown cantilever", scenes::blown_cantilever(&smooth), EnergyMomentum, 0.05),
         ("four-bar linkage", scenes::four_bar_linkage(&smooth), EnergyMomentum, 0.05),
@@ -60,7 +74,7 @@ fn benchmarks() -> Vec<(&'static str, Scene, Method, f64)> {
 
 /// Scenes with sliders, and the times at which they end.
 fn sliding_benchmarks() -> Vec<(&'static str, Scene, Method, f64, f64)> {
-    use Method::{EnergyMomentum, Trapezoidal};
+    use Method::{EnergyDecaying, EnergyMomentum, FourthOrder, GeneralizedAlpha, Trapezoidal};
     use SlidingRule::{Conserving, Exact};
     use Support::{Free, Hinged};
     let bspline = |spans, continuity| Mesh::bspline(spans, 3, continuity).unwrap();
@@ -78,6 +92,21 @@ fn sliding_benchmarks() -> Vec<(&'static str, Scene, Method, f64, f64)> {
         ("sliding mass, C2, hinged", mass(&c2, Hinged, Conserving), EnergyMomentum, dt, 1.0),
         ("sliding mass, C2, exact", mass(&c2, Free, Exact), EnergyMomentum, dt, 1.0),
         ("sliding mass, trapezoidal", mass(&c2, Free, Conserving), Trapezoidal, dt, 0.3),
+        (
+            "sliding mass, decaying",
+            mass(&c2, Free, Conserving),
+            EnergyDecaying { chi: 0.1 },
+            dt,
+            1.0,
+        ),
+        ("sliding mass, order 4", mass(&c2, Free, Conserving), FourthOrder, dt, 1.0),
+        (
+            "sliding mass, alpha",
+            mass(&c2, Free, Conserving),
+            GeneralizedAlpha { rho_infinity: 0.8 },
+            dt,
+            0.3,
+        ),
         ("pushed mass", pushed, EnergyMomentum, 0.005, 0.5),
         ("abacus", sliding_scenes::abacus(&smooth, Conserving), EnergyMomentum, 0.01, 0.5),
         ("eyelet", sliding_scenes::eyelet(&smooth, Conserving), EnergyMomentum, 0.01, 0.7),

@@ -7,14 +7,31 @@ use crate::newton::{Equations, Imbalance, Newton, NewtonReport, Tolerance};
 /// The largest increment `Δω`, mean rate times step: beyond it a turn cannot be told from one the other way round.
 const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
 
-/// `R(d, z) = 2/Δt² M d + weight · F(stage, u) + carried + G(u, z)`, `u = Δt v0 + d`.
+/// What a method puts into the balance of a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rule {
+    /// `ι`: the inertia is that of the acceleration `ι d/Δt²`, but for what is carried.
+    pub(super) inertia: f64,
+    /// Where forces are taken that depend on the increments.
+    pub(super) stage: Stage,
+    /// How much they count.
+    pub(super) weight: f64,
+}
+
+impl Rule {
+    /// With `(v0 + v1)/2 = Δq/Δt` and the acceleration `(v1 - v0)/Δt`.
+    pub(super) fn mean(stage: Stage, weight: f64) -> Self {
+        Self { inertia: 2.0, stage, weight }
+    }
+}
+
+/// `R(d, z) = ι/Δt² M d + weight · F(stage, u) + carried + G(u, z)`, `u = Δt v0 + d`.
 ///
 /// `z` are the unknowns of constraints and `G` their forces, for the whole step. The unknown of the movements is the deviation `d` from coasting, not the increment `u`: `v1 = v0 + 2/Δt d` then rounds like the change
 /// of the velocity, so that momenta do not creep over many steps.
 struct StepBalance<'a> {
     mechanism: &'a mut dyn Mechanism,
-    stage: Stage,
-    weight: f64,
+    rule: Rule,
     duration: f64,
     carried: &'a [f64],
     coasting: &'a [f64],
@@ -33,7 +50,12 @@ impl StepBalance<'_> {
             *u = coasting + d;
         }
         residual.iter_mut().zip(self.carried).for_each(|(r, carried)| *r += carried);
-        self.mechanism.add_inertia(2.0 / self.duration.powi(2), deviation, residual);
+        self.mechanism.add_inertia(self.inertia(), deviation, residual);
+    }
+
+    /// `ι/Δt²`
+    fn inertia(&self) -> f64 {
+        self.rule.inertia / self.duration.powi(2)
     }
 }
 
@@ -41,16 +63,17 @@ impl Equations for StepBalance<'_> {
     fn linearise(&mut self, unknowns: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix) {
         let (deviation, constraints) = self.split(unknowns);
         self.begin(deviation, residual);
-        let Self { mechanism, stage, weight, increments, .. } = self;
+        let inertia = self.inertia();
+        let Self { mechanism, rule, increments, .. } = self;
         let band = tangent.band_mut();
-        mechanism.add_inertia_tangent(2.0 / self.duration.powi(2), band);
-        mechanism.add_linearised_forces(*stage, increments, *weight, residual, band);
+        mechanism.add_inertia_tangent(inertia, band);
+        mechanism.add_linearised_forces(rule.stage, increments, rule.weight, residual, band);
         let border = tangent.border_mut();
         mechanism.add_linearised_constraints(increments, constraints, residual, border);
     }
 
     fn condense(&mut self, residual: &mut [f64]) {
-        self.mechanism.add_mismatch_forces(self.weight, residual);
+        self.mechanism.add_mismatch_forces(self.rule.weight, residual);
     }
 
     fn correct(&mut self, correction: &[f64]) {
@@ -60,7 +83,8 @@ impl Equations for StepBalance<'_> {
     fn imbalance(&mut self, unknowns: &[f64], residual: &mut [f64]) -> Imbalance {
         let (deviation, constraints) = self.split(unknowns);
         self.begin(deviation, residual);
-        let strain = self.mechanism.add_forces(self.stage, self.increments, self.weight, residual);
+        let Rule { stage, weight, .. } = self.rule;
+        let strain = self.mechanism.add_forces(stage, self.increments, weight, residual);
         self.mechanism.add_constraints(self.increments, constraints, residual);
         Imbalance {
             force: self.mechanism.relative_imbalance(residual),
@@ -120,18 +144,26 @@ impl StepSolver {
         mechanism.add_forces(stage, &self.increments, share, &mut self.carried);
     }
 
-    /// Solves for the increments with the forces of `stage`.
+    /// Adds the inertia of accelerations times a factor.
+    pub(super) fn carry_inertia(
+        &mut self,
+        mechanism: &mut dyn Mechanism,
+        factor: f64,
+        accelerations: &[f64],
+    ) {
+        mechanism.add_inertia(factor, accelerations, &mut self.carried);
+    }
+
+    /// Solves for the increments.
     pub(super) fn solve(
         &mut self,
         mechanism: &mut dyn Mechanism,
         interval: Interval,
-        stage: Stage,
-        weight: f64,
+        rule: Rule,
     ) -> Result<NewtonReport, StepError> {
         let mut balance = StepBalance {
             mechanism,
-            stage,
-            weight,
+            rule,
             duration: interval.duration(),
             carried: &self.carried,
             coasting: &self.coasting,
@@ -141,7 +173,7 @@ impl StepSolver {
         let report = self
             .newton
             .solve(&mut balance, &mut self.unknowns, &mut self.residual)
-            .map_err(|source| StepError::Newton { interval, source })?;
+            .map_err(|source| StepError::Newton { interval, source, before: 0 })?;
         let rotation = balance.mechanism.largest_rotation();
         let is_resolved = rotation < LARGEST_INCREMENT;
         if !is_resolved {
@@ -159,9 +191,20 @@ impl StepSolver {
     /// Accepts the increments, with the rates `v1 = 2 u/Δt - v0`.
     pub(super) fn correct(&mut self, mechanism: &mut dyn Mechanism, interval: Interval) {
         let twice_inverse = 2.0 / interval.duration();
+        self.accept(mechanism, |_, v0, d| v0 + twice_inverse * d);
+    }
+
+    /// Accepts the increments, with the rates at the end that a method makes of the number of an unknown, its rate at the
+    /// start and its deviation from coasting.
+    pub(super) fn accept(
+        &mut self,
+        mechanism: &mut dyn Mechanism,
+        mut rate: impl FnMut(usize, f64, f64) -> f64,
+    ) {
         let (deviation, constraints) = self.unknowns.split_at(self.coasting.len());
-        for ((v1, d), v0) in self.rates.iter_mut().zip(deviation).zip(mechanism.rates()) {
-            *v1 = v0 + twice_inverse * d;
+        let known = mechanism.rates().iter().zip(deviation).enumerate();
+        for (v1, (at, (v0, d))) in self.rates.iter_mut().zip(known) {
+            *v1 = rate(at, *v0, *d);
         }
         let Self { increments, rates, residual, .. } = self;
         mechanism.advance(&Solution { increments, constraints, rates, residual });

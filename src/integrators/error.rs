@@ -13,6 +13,8 @@ pub enum StepError {
         interval: Interval,
         /// The solver's reason, with its residual history.
         source: NewtonError,
+        /// Newton iterations that parts of the step took before.
+        before: usize,
     },
     /// The mean rate of a section times the step reaches π: such a turn is not resolved.
     #[error(
@@ -56,9 +58,23 @@ impl StepError {
     /// Matrices that were factorised, or could not be.
     pub fn factorisations(&self) -> usize {
         match self {
-            Self::Newton { source, .. } => source.factorisations(),
+            Self::Newton { source, before, .. } => source.factorisations() + before,
             Self::Rotation { iterations, .. } | Self::Overshoot { iterations, .. } => *iterations,
             Self::Load { .. } => 0,
+        }
+    }
+
+    /// The error of a part of a step as one of the whole, of which earlier parts took so many Newton iterations.
+    pub(super) fn of_whole(self, interval: Interval, before: usize) -> Self {
+        match self {
+            Self::Newton { source, .. } => Self::Newton { interval, source, before },
+            Self::Rotation { rotation, iterations, .. } => {
+                Self::Rotation { interval, rotation, iterations: iterations + before }
+            }
+            Self::Overshoot { overshoot, iterations, .. } => {
+                Self::Overshoot { interval, overshoot, iterations: iterations + before }
+            }
+            Self::Load { load, reason, .. } => Self::Load { interval, load, reason },
         }
     }
 

@@ -4,7 +4,7 @@ use super::{Interval, StepError};
 use crate::linalg::{BandedMatrix, Border, BorderShape};
 
 /// Where in a step forces are taken. Increments are counted from the start of the step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
     /// At the start of the step, loads as they are just after it.
     Start,
@@ -13,12 +13,17 @@ pub enum Stage {
     /// The internal forces then do exactly the work by which the strain energy changes
     /// (Stander & Stein 1996; Simo, Tarnow & Doblaré 1995).
     Midpoint,
+    /// As at the [midpoint](Self::Midpoint), loads too, but with section forces of a later strain: half of its change times
+    /// this number `χ` is added to its mean.
+    ///
+    /// The internal forces then do more work than that by `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
+    DampedMidpoint(f64),
     /// At the end of the step, loads as they are just before it.
     End,
 }
 
 impl Stage {
-    /// All of them, in the order of time.
+    /// Those at which loads have values of their own, in the order of time.
     pub const ALL: [Self; 3] = [Self::Start, Self::Midpoint, Self::End];
 }
 
@@ -114,6 +119,21 @@ pub trait Mechanism {
 
     /// Accepts a step: new configuration and rates, work and impulse of loads and supports.
     fn advance(&mut self, solution: &Solution<'_>);
+
+    /// Writes the state at the start of a step over what a buffer holds.
+    fn write_checkpoint(&self, buffer: &mut Vec<f64>);
+
+    /// Goes back to a state that was written, bit for bit.
+    fn return_to_checkpoint(&mut self, buffer: &[f64]);
+
+    /// From here on accelerations are a part of the state, unknown until they are set.
+    fn keep_accelerations(&mut self);
+
+    /// The accelerations just after the start of the step that has begun, if they are known [length/time², 1/time²].
+    fn accelerations(&self) -> Option<&[f64]>;
+
+    /// Sets the accelerations, where they are kept.
+    fn set_accelerations(&mut self, accelerations: &[f64]);
 }
 
 /// What a step has found.

@@ -1,18 +1,26 @@
 //! Time steps over an abstract mechanism: predict, solve, correct. No integrator mentions a beam.
 
 mod balance;
+mod energy_decaying;
 mod energy_momentum;
 mod error;
+mod fourth_order;
+mod generalized_alpha;
 mod interval;
 mod mechanism;
 mod registry;
 mod trapezoidal;
 
+pub use energy_decaying::EnergyDecaying;
 pub use energy_momentum::EnergyMomentum;
 pub use error::StepError;
-pub use interval::Interval;
+pub use fourth_order::FourthOrder;
+pub use generalized_alpha::GeneralizedAlpha;
+pub use interval::{Ending, Interval};
 pub use mechanism::{Mechanism, Overshoot, Solution, Stage};
-pub use registry::{Claims, INTEGRATORS, IntegratorEntry, Method};
+pub use registry::{
+    Claims, EnergyClaim, INTEGRATORS, IntegratorEntry, Method, MethodError, MethodParameter,
+};
 pub use trapezoidal::Trapezoidal;
 
 use crate::newton::NewtonReport;

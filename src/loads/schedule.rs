@@ -281,6 +281,16 @@ impl Schedule {
         }
     }
 
+    /// Whether it may have different values just before and just after a time.
+    pub fn may_jump_at(&self, time: f64) -> bool {
+        match self {
+            Self::Constant(_) | Self::Sine { .. } | Self::SmoothPulse { .. } => false,
+            Self::Table(rows) => rows.windows(2).any(|pair| pair[0].0 == time && pair[1].0 == time),
+            Self::Function { breaks, .. } => breaks.contains(&time),
+            Self::Combined { parts, .. } => parts.0.may_jump_at(time) || parts.1.may_jump_at(time),
+        }
+    }
+
     /// In the words of the language.
     pub fn describe(&self) -> String {
         match self {
@@ -347,6 +357,18 @@ mod tests {
             pulse.mean(0.02 * f64::from(i), 0.02 * f64::from(i + 1)).unwrap()
         });
         assert!((mean.sum::<f64>() / 100.0 - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn jumps_are_known_from_bends() {
+        let hold = Schedule::hold_for(2.0).unwrap();
+        assert!(hold.may_jump_at(2.0) && !hold.may_jump_at(1.0));
+        let ramp = Schedule::ramp(1.0, 2.0).unwrap();
+        assert!(!ramp.may_jump_at(1.0) && !ramp.may_jump_at(2.0));
+        let sum = Schedule::combined(Operation::Sum, ramp, hold).unwrap();
+        assert!(sum.may_jump_at(2.0) && !sum.may_jump_at(1.0));
+        let function = Schedule::Function { function: Rc::new(Ok), breaks: vec![0.5] };
+        assert!(function.may_jump_at(0.5) && !function.may_jump_at(0.6));
     }
 
     #[test]

@@ -156,7 +156,7 @@ impl StageFactors {
     fn at(&self, stage: Stage) -> f64 {
         match stage {
             Stage::Start => self.start,
-            Stage::Midpoint => self.mean,
+            Stage::Midpoint | Stage::DampedMidpoint(_) => self.mean,
             Stage::End => self.end,
         }
     }
@@ -164,12 +164,13 @@ impl StageFactors {
 
 /// Where forces of a stage are taken. At the ends of a step increments of the angle itself are interpolated.
 pub(super) fn collocation(stage: Stage) -> Collocation {
-    let (tau, rotations) = match stage {
-        Stage::Start => (0.0, RotationIncrement::Angle),
-        Stage::Midpoint => (0.5, RotationIncrement::TangentScaled),
-        Stage::End => (1.0, RotationIncrement::Angle),
+    let (tau, sigma, rotations) = match stage {
+        Stage::Start => (0.0, 0.0, RotationIncrement::Angle),
+        Stage::Midpoint => (0.5, 0.5, RotationIncrement::TangentScaled),
+        Stage::DampedMidpoint(chi) => (0.5, 0.5 + 0.5 * chi, RotationIncrement::TangentScaled),
+        Stage::End => (1.0, 1.0, RotationIncrement::Angle),
     };
-    Collocation { configuration: tau, stress: tau, rotations }
+    Collocation { configuration: tau, stress: sigma, rotations }
 }
 
 impl AppliedLoad {
@@ -196,7 +197,7 @@ impl AppliedLoad {
                 Stage::Start => {
                     self.factors.start = self.schedule.value(interval.start, Side::After)?
                 }
-                Stage::Midpoint => {
+                Stage::Midpoint | Stage::DampedMidpoint(_) => {
                     self.factors.mean = self.schedule.mean(interval.start, interval.end)?
                 }
                 Stage::End => self.factors.end = self.schedule.value(interval.end, Side::Before)?,

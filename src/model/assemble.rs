@@ -1,5 +1,6 @@
 //! From a scene to a model: meshes with breaks where joints are, numbers, masses, loads and start velocities.
 
+use super::accelerations::Accelerations;
 use super::applied::{Action, AppliedLoad, Exchange, Follower, Pattern};
 use super::body::Body;
 use super::forecast::Forecast;
@@ -81,6 +82,7 @@ impl Model {
             joined,
             sliders,
             aim: None,
+            accelerations: Accelerations::default(),
             scratch: vec![0.0; unknowns + border + supports.len()],
             supports,
             unknowns,

@@ -286,7 +286,7 @@ fn calls(schedule: &Schedule, methods: &[Method]) -> String {
 fn values_at(stage: &Stage) -> usize {
     match stage {
         Stage::Start | Stage::End => 1,
-        Stage::Midpoint => VALUES_OF_A_MEAN,
+        Stage::Midpoint | Stage::DampedMidpoint(_) => VALUES_OF_A_MEAN,
     }
 }
 

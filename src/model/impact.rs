@@ -118,6 +118,7 @@ impl Model {
         self.add_inertia_of_all(1.0, &change, &mut residual);
         self.rates.iter_mut().zip(&change).for_each(|(rate, change)| *rate += change);
         self.forecast.jump(&change);
+        self.accelerations.forget();
         let reactions = self.reactions(&residual, 1.0);
         self.exchanged += reactions;
         Ok(())

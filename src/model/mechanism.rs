@@ -1,5 +1,6 @@
 //! The model as integrators see it.
 
+use super::accelerations::Accelerations;
 use super::applied::{AppliedLoad, Exchange, Pattern, collocation};
 use super::body::Body;
 use super::forecast::Forecast;
@@ -11,7 +12,7 @@ use super::sliding::{LANDED, Sliding};
 use super::tracker::Tracker;
 use crate::beams::{ForceSummary, Mesh, Place};
 use crate::geometry::{Vec2, cross, larger};
-use crate::integrators::{Interval, Mechanism, Overshoot, Solution, Stage, StepError};
+use crate::integrators::{Ending, Interval, Mechanism, Overshoot, Solution, Stage, StepError};
 use crate::joints::{CONTACT_UNKNOWNS, Component};
 use crate::linalg::{BandedMatrix, Border, BorderShape};
 
@@ -44,6 +45,7 @@ pub struct Model {
     /// Which unknowns are rotations.
     pub(super) is_rotation: Vec<bool>,
     pub(super) rates: Vec<f64>,
+    pub(super) accelerations: Accelerations,
     pub(super) forecast: Forecast,
     pub(super) total_mass: f64,
     pub(super) time: f64,
@@ -145,6 +147,11 @@ impl Model {
             sum += Exchange { work: 0.0, ..gravity.exchange(&self.bodies, 1.0, duration) };
         }
         sum += self.reactions(residual, duration);
+        if duration < 0.0 {
+            // A part of a step that goes back takes away what the others give twice.
+            (sum.gross_impulse, sum.gross_angular_impulse) =
+                (-sum.gross_impulse, -sum.gross_angular_impulse);
+        }
         sum
     }
 
@@ -203,7 +210,9 @@ impl Mechanism for Model {
             })?;
         }
         self.bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
-        self.step = StepScales { interval, ..StepScales::default() };
+        let jumps = self.accelerations.known().is_some()
+            && self.loads.iter().any(|load| load.schedule.may_jump_at(interval.start));
+        self.step = StepScales { interval, jumps, ..StepScales::default() };
         let (mut scratch, rates) =
             (std::mem::take(&mut self.scratch), std::mem::take(&mut self.rates));
         scratch.fill(0.0);
@@ -307,11 +316,13 @@ impl Mechanism for Model {
 
     fn check_constraints(&self, unknowns: &[f64]) -> Result<(), Overshoot> {
         let mut furthest: Option<Overshoot> = None;
+        let ending = self.step.interval.ending();
+        let aim = self.aim.filter(|_| ending == Ending::OfStep);
         let limits = (0..self.sliders.len()).flat_map(TrackLimit::both);
         for limit in limits.filter(|limit| self.sliders[limit.slider].is_sliding()) {
             let distance = self.sliders[limit.slider].beyond(unknowns, limit.end);
             let overshoot = Overshoot { limit: limit.number(), distance };
-            if self.aim == Some(limit) && distance.abs() > LANDED {
+            if aim == Some(limit) && distance.abs() > LANDED {
                 return Err(overshoot);
             }
             if distance > LANDED && furthest.is_none_or(|other| distance > other.distance) {
@@ -340,9 +351,32 @@ impl Mechanism for Model {
             tracker.advance(bodies[tracker.place.body].moved(), rotations);
         }
         self.bodies.iter_mut().for_each(|body| body.advance(rotations));
-        self.sliders.iter_mut().for_each(|slider| slider.advance(&self.bodies, constraints));
+        let ending = self.step.interval.ending();
+        self.sliders.iter_mut().for_each(|slider| {
+            slider.advance(&self.bodies, constraints, ending);
+        });
         self.forecast.learn(&self.rates, increments, self.step.interval.duration());
         self.rates.copy_from_slice(rates);
         self.time = self.step.interval.end;
+    }
+    fn write_checkpoint(&self, buffer: &mut Vec<f64>) {
+        self.write_numbers(buffer);
+    }
+
+    fn return_to_checkpoint(&mut self, buffer: &[f64]) {
+        self.restore_numbers(buffer);
+    }
+
+    fn keep_accelerations(&mut self) {
+        self.accelerations.keep(self.unknowns);
+    }
+
+    fn accelerations(&self) -> Option<&[f64]> {
+        // Those from before a jump are not those after it.
+        self.accelerations.known().filter(|_| !self.step.jumps)
+    }
+
+    fn set_accelerations(&mut self, accelerations: &[f64]) {
+        self.accelerations.set(accelerations);
     }
 }

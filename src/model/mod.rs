@@ -1,5 +1,6 @@
 //! From a scene, as the user describes it, to a mechanism that integrators can advance.
 
+mod accelerations;
 mod applied;
 mod assemble;
 mod body;

@@ -67,6 +67,10 @@ impl Model {
 
     /// Writes the [`state`](Self::state) into one that may hold another; where that is one of this model, nothing is allocated.
     pub fn write_state(&self, ModelState(state): &mut ModelState) {
+        self.write_numbers(state);
+    }
+
+    pub(super) fn write_numbers(&self, state: &mut Vec<f64>) {
         state.clear();
         let sums = &self.exchanged;
         state.extend([self.time, sums.work, sums.impulse.x, sums.impulse.y]);
@@ -75,6 +79,7 @@ impl Model {
         self.forecast.save(state);
         self.bodies.iter().for_each(|body| body.dynamics.save(state));
         self.all_trackers().for_each(|tracker| tracker.save(state));
+        self.accelerations.save(state);
         self.sliders.iter().for_each(|slider| slider.save(state));
     }
 
@@ -83,6 +88,10 @@ impl Model {
     /// # Panics
     /// When the state is that of another model.
     pub fn restore(&mut self, ModelState(state): &ModelState) {
+        self.restore_numbers(state);
+    }
+
+    pub(super) fn restore_numbers(&mut self, state: &[f64]) {
         let mut values = state.iter().copied();
         let next = &mut || values.next().expect("the state is one of this model");
         self.time = next();
@@ -95,6 +104,7 @@ impl Model {
         self.forecast.restore(next);
         self.bodies.iter_mut().for_each(|body| body.dynamics.restore(next));
         self.all_trackers_mut().for_each(|tracker| tracker.restore([next(), next(), next()]));
+        self.accelerations.restore(next);
         self.sliders.iter_mut().for_each(|slider| slider.restore(next));
         assert!(values.next().is_none(), "the state is one of this model");
     }

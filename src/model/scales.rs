@@ -14,6 +14,8 @@ pub(super) struct StepScales {
     /// The largest force of a contact [force].
     pub(super) contact: f64,
     pub(super) rotations: RotationIncrement,
+    /// Whether loads may jump where the step begins, as far as accelerations are kept.
+    pub(super) jumps: bool,
 }
 
 impl Default for StepScales {
@@ -25,6 +27,7 @@ impl Default for StepScales {
             summary: ForceSummary::default(),
             contact: 0.0,
             rotations: RotationIncrement::TangentScaled,
+            jumps: false,
         }
     }
 }

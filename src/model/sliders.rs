@@ -223,11 +223,13 @@ impl Model {
     /// Lets a slider leave its master.
     pub fn release(&mut self, slider: usize) {
         self.sliders[slider].release();
+        self.accelerations.forget();
     }
 
     /// Lets a slider rest against the stop at a limit, until the stop would have to pull.
     pub fn hold(&mut self, limit: TrackLimit) {
         self.sliders[limit.slider].state = SliderState::Held(limit.end);
+        self.accelerations.forget();
     }
 }
 

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::body::Body;
 use super::connection::Connection;
 use crate::geometry::{Passage, Vec2, larger};
-use crate::integrators::Interval;
+use crate::integrators::{Ending, Interval};
 use crate::joints::{
     CONTACT_UNKNOWNS, Contact, ContactUnknowns, EndAction, Held, Released, Slider, SlidingLaw,
     SlidingRule, Unit,
@@ -333,12 +333,12 @@ impl Sliding {
 
     /// Accepts a step; the bodies are at its end already.
     ///
-    /// A stop that had to pull in this step lets go.
-    pub(super) fn advance(&mut self, bodies: &[Body], unknowns: &[f64]) {
+    /// A stop that had to pull lets go, but not within a step.
+    pub(super) fn advance(&mut self, bodies: &[Body], unknowns: &[f64], ending: Ending) {
         self.unknowns = self.read(unknowns);
         self.parameter += self.unknowns.way;
         self.here.go(self.parameter, self.parameter);
-        if let SliderState::Held(end) = self.state {
+        if let (SliderState::Held(end), Ending::OfStep) = (self.state, ending) {
             let outward = self.unknowns.force.dot(&self.tangent(bodies)) * end.outward();
             if outward < 0.0 {
                 self.state = SliderState::Sliding;

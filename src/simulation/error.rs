@@ -1,6 +1,6 @@
 //! Why a run could not start or go on.
 
-use crate::integrators::StepError;
+use crate::integrators::{MethodError, StepError};
 use crate::model::ModelError;
 
 /// A run that could not start or go on; its history up to the last good step is kept.
@@ -9,6 +9,9 @@ pub enum SimulationError {
     /// The scene cannot be built.
     #[error(transparent)]
     Model(#[from] ModelError),
+    /// A method that does not exist with its parameter.
+    #[error(transparent)]
+    Method(#[from] MethodError),
     /// A step size that is not positive.
     #[error("the step size dt is {dt}, but must be a positive finite number [time]")]
     StepSize {

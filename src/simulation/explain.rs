@@ -9,15 +9,11 @@ impl Simulation {
         let method = self.settings().method;
         let mut parts = self.model().explain(self.scene(), &[method]);
         let entry = method.entry();
-        let claims = entry.claims;
-        let kept = [
-            (claims.energy, "energy"),
-            (claims.momentum, "momentum"),
-            (claims.angular_momentum, "angular momentum"),
-        ];
-        let kept: Vec<&str> =
-            kept.into_iter().filter(|(keeps, _)| *keeps).map(|(_, it)| it).collect();
-        let how = format!("{}, order {}; keeps {}", entry.name, claims.order, kept.join(", "));
+        let kept = match entry.claims.kept().collect::<Vec<_>>().join(", ") {
+            none if none.is_empty() => "nothing exactly".to_owned(),
+            kept => kept,
+        };
+        let how = format!("{}, order {}; keeps {}", entry.name, entry.claims.order, kept);
         parts.push(Part::used("integrator", how));
         let now = self.time();
         let ahead: Vec<f64> = self.grid.cuts().iter().copied().filter(|cut| *cut > now).collect();

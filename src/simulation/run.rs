@@ -87,13 +87,14 @@ impl Simulation {
     /// Builds a scene and puts it at its start, t = 0.
     ///
     /// # Errors
-    /// When the step size is not positive or the scene cannot be built.
+    /// When the step size is not positive, the parameter of the method out of its range, or the scene cannot be built.
     pub fn start(scene: Scene, settings: Settings) -> Result<Self, SimulationError> {
         if !(settings.dt.is_finite() && settings.dt > 0.0) {
             return Err(SimulationError::StepSize { dt: settings.dt });
         }
+        settings.method.check()?;
         let mut model = Model::assemble(&scene)?;
-        let integrator = settings.method.build(&model, settings.tolerance);
+        let integrator = settings.method.build(&mut model, settings.tolerance);
         let cuts = scene.loads.iter().flat_map(|load| load.schedule.breaks()).collect();
         let longest = scene.beams.iter().map(|beam| beam.axis.length()).fold(0.0, f64::max);
         let mut history = History::new(scales(&scene, &model, longest), extra_columns(&scene));

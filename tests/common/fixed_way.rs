@@ -184,4 +184,23 @@ impl Mechanism for FixedWay<'_> {
             .for_each(|(mean, (end, start))| *mean = inverse * (end + start));
         self.contact.copy_from_slice(solution.constraints);
     }
+    fn write_checkpoint(&self, buffer: &mut Vec<f64>) {
+        self.model.write_checkpoint(buffer);
+    }
+
+    fn return_to_checkpoint(&mut self, buffer: &[f64]) {
+        self.model.return_to_checkpoint(buffer);
+    }
+
+    fn keep_accelerations(&mut self) {
+        self.model.keep_accelerations();
+    }
+
+    fn accelerations(&self) -> Option<&[f64]> {
+        self.model.accelerations()
+    }
+
+    fn set_accelerations(&mut self, accelerations: &[f64]) {
+        self.model.set_accelerations(accelerations);
+    }
 }

@@ -17,7 +17,7 @@ use withy::geometry::Vec2;
 use withy::integrators::Method;
 use withy::model::Scene;
 use withy::newton::Tolerance;
-use withy::simulation::{Settings, Simulation, SimulationError, Unwatched};
+use withy::simulation::{History, Settings, Simulation, SimulationError, Unwatched};
 
 pub fn at(x: f64, y: f64) -> Vec2 {
     Vec2::new(x, y)
@@ -36,6 +36,25 @@ pub fn simulate(scene: Scene, method: Method, dt: f64, end: f64) -> Simulation {
 
 pub fn run(simulation: &mut Simulation, end: f64) -> Result<(), SimulationError> {
     simulation.run_to(end, &mut Unwatched)
+}
+
+/// `E - W` after each step.
+pub fn energies(history: &History) -> Vec<f64> {
+    let rows = history.samples().iter();
+    rows.map(|row| row.measures.energy.total() - row.measures.work).collect()
+}
+
+/// Beyond rounding, in no step.
+pub fn assert_energy_never_grows(label: &str, history: &History) {
+    let sizes = history.samples().iter().map(|row| {
+        let (energy, work) = (row.measures.energy, row.measures.work);
+        energy.kinetic + energy.strain + energy.potential.abs() + work.abs()
+    });
+    let largest = sizes.fold(f64::MIN_POSITIVE, f64::max);
+    for pair in energies(history).windows(2) {
+        let growth = (pair[1] - pair[0]) / largest;
+        assert!(growth < 1e-13, "{label}: the energy grows by {growth:.1e} in a step");
+    }
 }
 
 /// Where the first beam starts and ends.

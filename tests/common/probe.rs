@@ -53,7 +53,10 @@ pub fn unknowns(model: &mut Model) -> Vec<Unknown> {
 
 /// Increments of a rotation about a point and a shift, as a stage understands them.
 pub fn rigid(model: &mut Model, stage: Stage, angle: f64, about: Vec2, shift: Vec2) -> Vec<f64> {
-    let omega = if stage == Stage::Midpoint { 2.0 * (0.5 * angle).tan() } else { angle };
+    let omega = match stage {
+        Stage::Midpoint | Stage::DampedMidpoint(_) => 2.0 * (0.5 * angle).tan(),
+        Stage::Start | Stage::End => angle,
+    };
     let moved = |point: Vec2| {
         let arm = point - about;
         arm * (angle.cos() - 1.0) + perpendicular(arm) * angle.sin() + shift

@@ -1,26 +1,28 @@
 //! Details of integrators, sliding rules, schedules and errors.
 
 use super::{line, number, numbers};
-use crate::integrators::Method;
+use crate::integrators::{EnergyClaim, Method};
 use crate::joints::SlidingRule;
 use crate::loads::{Schedule, Side};
 use crate::script::error::{Failure, Place};
 use crate::script::kind::Details;
 
-/// Order, what is kept, and the source.
+/// Order, what is kept, the parameter, and the source.
 pub fn of_integrator(method: &Method) -> Details {
     let entry = method.entry();
     let claims = entry.claims;
-    let kept = [
-        (claims.energy, "energy"),
-        (claims.momentum, "linear momentum"),
-        (claims.angular_momentum, "angular momentum"),
-    ];
-    vec![
-        line("order", claims.order.to_string()),
-        line("keeps", kept_of(kept)),
-        line("source", entry.source),
-    ]
+    let order = line("order", claims.order.to_string());
+    let kept = claims.kept().collect::<Vec<_>>().join(", ");
+    let keeps = Some(kept).filter(|kept| !kept.is_empty());
+    let damps = (claims.energy == EnergyClaim::Decays).then(|| line("energy", "never grows"));
+    let parameter = entry.parameter.zip(method.parameter()).map(|(of, value)| {
+        line(of.name, format!("{} ({}): {}", number(value), of.range(), of.meaning))
+    });
+    let optional = [keeps.map(|kept| line("keeps", kept)), damps, parameter];
+    std::iter::once(order)
+        .chain(optional.into_iter().flatten())
+        .chain(std::iter::once(line("source", entry.source)))
+        .collect()
 }
 
 /// What is kept, and the source.

@@ -5,6 +5,7 @@ use rhai::Dynamic;
 use crate::integrators::Method;
 use crate::script::details;
 use crate::script::kind::{Details, Scripted, Type};
+use crate::script::parameter::{Parameter, Presence, number, options};
 use crate::script::table::{Table, function};
 
 /// Integrators.
@@ -12,7 +13,8 @@ pub const TABLE: Table = Table {
     name: "integrators",
     doc: "Ways to take a step. A scene is started with one: scene.start(#{ integrator: energy_momentum(), dt: 0.1 }).",
     types: &[INTEGRATOR],
-    setup: "",
+    setup: "let scene = new_scene(\"example\");\n\
+            scene.particle([0, 0], 1, #{ velocity: [1, 0] });",
     constants: &[],
     rows: &[
         function("energy_momentum", &[], |_| Ok(Dynamic::from(Method::EnergyMomentum)))
@@ -20,7 +22,7 @@ pub const TABLE: Table = Table {
             .summary("Keeps energy and both momenta to rounding, at any step size; the default.")
             .doc("Second order. Stander & Stein, Eng. Comput. 13 (1996) 60-85.")
             .example("print(energy_momentum());")
-            .see(&["trapezoidal", "start"]),
+            .see(&["fourth_order", "energy_decaying", "trapezoidal", "start"]),
         function("trapezoidal", &[], |_| Ok(Dynamic::from(Method::Trapezoidal)))
             .returns("an integrator")
             .summary(
@@ -28,9 +30,49 @@ pub const TABLE: Table = Table {
             )
             .doc("Second order. Newmark, J. Eng. Mech. Div. ASCE 85 (1959) 67-94.")
             .example("print(trapezoidal());")
+            .see(&["energy_momentum", "generalized_alpha"]),
+        function("energy_decaying", &[options("options", CHI).optional()], |call| {
+            let chi = call.options_or_defaults("options")?.number("chi")?;
+            Ok(Dynamic::from(Method::EnergyDecaying { chi }))
+        })
+        .returns("an integrator")
+        .summary("Keeps both momenta to rounding and damps vibration: the energy never grows, at any step size.")
+        .doc(
+            "Section forces are those of the mean strain of a step and χ/2 of its change; a step loses exactly the energy χ/2 \
+             ∫ ΔΓ·C ΔΓ + EI Δκ². First order, second with chi: 0. After Armero & Romero, Comput. Methods Appl. Mech. Eng. 190 (2001) 2603-2649.",
+        )
+        .example("let damped = scene.start(#{ integrator: energy_decaying(#{ chi: 0.2 }), dt: 0.1 });\nprint(energy_decaying());")
+        .see(&["energy_momentum", "generalized_alpha"]),
+        function("fourth_order", &[], |_| Ok(Dynamic::from(Method::FourthOrder)))
+            .returns("an integrator")
+            .summary("Five energy-momentum steps in one, for accuracy: keeps energy and both momenta to rounding, at any step size.")
+            .doc(
+                "Fourth order where loads and motion are smooth. A step costs five, one of them backwards in time, and pays where a \
+                 small error is wanted. Contact forces of sliders are those of the last fifth. Suzuki, Phys. Lett. A 146 (1990) 319-323.",
+            )
+            .example("print(fourth_order());")
             .see(&["energy_momentum"]),
+        function("generalized_alpha", &[options("options", RHO_INFINITY).optional()], |call| {
+            let rho_infinity = call.options_or_defaults("options")?.number("rho_infinity")?;
+            Ok(Dynamic::from(Method::GeneralizedAlpha { rho_infinity }))
+        })
+        .returns("an integrator")
+        .summary("For comparison: damps fast vibration, and keeps neither energy nor momenta exactly.")
+        .doc("Second order. Chung & Hulbert, J. Appl. Mech. 60 (1993) 371-375.")
+        .example("let damped = scene.start(#{ integrator: generalized_alpha(#{ rho_infinity: 0.8 }), dt: 0.1 });\nprint(generalized_alpha());")
+        .see(&["trapezoidal", "energy_decaying"]),
     ],
 };
+
+const CHI: &[Parameter] = &[number("chi")
+    .non_negative()
+    .or(Presence::Number(0.1))
+    .doc("χ, the share of damping; 0 is energy_momentum itself")];
+
+const RHO_INFINITY: &[Parameter] = &[number("rho_infinity")
+    .between(0.0, 1.0)
+    .or(Presence::Number(0.8))
+    .doc("ρ∞, by what the fastest vibration is multiplied in a step; 1 is the trapezoidal rule")];
 
 /// The integrator type, for other domains.
 pub const INTEGRATOR: Type = Type::of::<Method>();
@@ -41,7 +83,9 @@ impl Scripted for Method {
 
     fn show(&self) -> String {
         let entry = self.entry();
-        format!("{}: {}", entry.name, entry.summary)
+        let parameter = entry.parameter.zip(self.parameter());
+        let tuned = parameter.map(|(of, value)| format!(" ({} = {value})", of.name));
+        format!("{}{}: {}", entry.name, tuned.unwrap_or_default(), entry.summary)
     }
 
     fn details(&self) -> Details {
@@ -53,6 +97,7 @@ impl Scripted for Method {
 mod tests {
     use super::*;
     use crate::integrators::INTEGRATORS;
+    use crate::script::kind::Kind;
 
     #[test]
     fn every_integrator_of_the_registry_has_a_row_that_cites_its_source() {
@@ -65,6 +110,15 @@ mod tests {
                 row.doc,
                 entry.source
             );
+            let keys = match row.parameters {
+                [Parameter { kind: Kind::Options(keys), .. }] => *keys,
+                _ => &[],
+            };
+            let told: Vec<_> = keys.iter().map(|key| (key.name, key.doc, key.presence)).collect();
+            let known = entry.parameter.iter();
+            let known: Vec<_> =
+                known.map(|of| (of.name, of.meaning, Presence::Number(of.default))).collect();
+            assert_eq!(told, known, "{}", entry.name);
         }
     }
 }

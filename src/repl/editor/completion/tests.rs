@@ -32,7 +32,7 @@ fn names_of_the_session_and_the_language_are_offered() {
     assert_eq!(offered("1 + swi"), ["1 + swing(", "1 + switch"]);
     assert_eq!(offered("plot_h"), ["plot_history("]);
     assert_eq!(offered("plot_h¦(sim)"), ["plot_history(sim)"]);
-    assert_eq!(offered("ene"), ["energy_momentum()"]);
+    assert_eq!(offered("ene"), ["energy_decaying(", "energy_momentum()"]);
     assert_eq!(offered("TA"), ["TAU"]);
     assert_eq!(offered("wh"), ["while"]);
     assert_eq!(offered("sha"), ["shapes::"]);
