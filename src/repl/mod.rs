@@ -6,6 +6,7 @@ pub mod commands;
 pub mod editor;
 pub mod prompt;
 pub mod record;
+mod scope;
 pub mod session;
 pub mod shell;
 mod statements;

@@ -66,8 +66,9 @@ impl Record {
             let (time, steps) = (was.handle.time(), was.handle.simulation().counts().steps);
             if steps != was.steps {
                 let method = if time > was.time { "run_to" } else { "rewind" };
-                let line = format!("{}.{method}({});", was.name, format_number(time));
-                self.entries.push(Entry::Moved(line));
+                // An event on the way may throw again.
+                let call = format!("{}.{method}({});", was.name, format_number(time));
+                self.entries.push(Entry::Moved(format!("try {{ {call} }} catch {{ }}")));
             }
         }
         self.entries.len() > known

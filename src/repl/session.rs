@@ -1,6 +1,6 @@
 //! A session of the language without a terminal: inputs are evaluated one after another and see what the earlier ones left.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -12,8 +12,8 @@ use rhai::{
 };
 
 use super::record::{Record, Whereabouts, functions_of, whereabouts};
-use super::statements;
 use super::transcript::{PROMPT, Transcript};
+use super::{scope, statements};
 use crate::script::catalog::Catalog;
 use crate::script::context::{Context, Settings};
 use crate::script::diagnose::{Diagnostic, Explainer, is_interrupt};
@@ -299,31 +299,14 @@ impl Session {
     /// typed first.
     fn publish_constants(&mut self, known: usize) {
         let shared = self.global.constants.get_or_insert_with(Default::default);
-        let new = self.scope.iter_raw().take(self.scope.len().saturating_sub(known));
-        // The last variables come first.
-        let new: Vec<_> = new.filter(|(_, is_constant, _)| *is_constant).collect();
-        for (name, _, value) in new.into_iter().rev() {
-            shared.borrow_mut().insert(name.into(), value.clone());
-        }
+        shared.borrow_mut().extend(scope::constants_after(&self.scope, known));
     }
 
     /// Variables that were declared again are out of reach: a long session must not keep them.
     fn forget_shadowed(&mut self) {
-        let mut names = HashSet::new();
-        if self.scope.iter_raw().all(|(name, ..)| names.insert(name)) {
-            return;
+        if let Some(visible) = scope::visible(&self.scope) {
+            self.scope = visible;
         }
-        // The last variables come first, and they are the ones that are seen.
-        let mut names = HashSet::new();
-        let visible = self.scope.iter_raw().filter(|(name, ..)| names.insert(*name));
-        let mut scope = Scope::new();
-        for (name, is_constant, value) in visible.collect::<Vec<_>>().into_iter().rev() {
-            match is_constant {
-                true => scope.push_constant_dynamic(name, value.clone()),
-                false => scope.push_dynamic(name, value.clone()),
-            };
-        }
-        self.scope = scope;
     }
 
     fn explain(&self, error: &EvalAltResult) -> Diagnostic {

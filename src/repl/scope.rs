@@ -1,0 +1,33 @@
+//! Questions about the variables of a session.
+
+use std::collections::HashSet;
+
+use rhai::{Dynamic, ImmutableString, Scope};
+
+/// The variables that are not hidden by later ones of their names, if any is hidden.
+pub fn visible(scope: &Scope<'static>) -> Option<Scope<'static>> {
+    let mut names = HashSet::new();
+    // The last variables come first, and they are the ones that are seen.
+    let seen: Vec<_> = scope.iter_raw().filter(|(name, ..)| names.insert(*name)).collect();
+    if seen.len() == scope.len() {
+        return None;
+    }
+    let mut visible = Scope::new();
+    for (name, is_constant, value) in seen.into_iter().rev() {
+        match is_constant {
+            true => visible.push_constant_dynamic(name, value.clone()),
+            false => visible.push_dynamic(name, value.clone()),
+        };
+    }
+    Some(visible)
+}
+
+/// The constants that came to the first `known` variables, in their order.
+pub fn constants_after(
+    scope: &Scope,
+    known: usize,
+) -> impl Iterator<Item = (ImmutableString, Dynamic)> {
+    let new = scope.iter_raw().take(scope.len().saturating_sub(known));
+    let new: Vec<_> = new.filter(|(_, is_constant, _)| *is_constant).collect();
+    new.into_iter().rev().map(|(name, _, value)| (name.into(), value.clone()))
+}
