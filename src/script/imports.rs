@@ -24,8 +24,13 @@ pub struct FolderResolver {
     folder: PathBuf,
     inputs: InputFolders,
     being_read: RefCell<Vec<PathBuf>>,
-    /// With the time of their last change: a session may see a file in several states.
-    read: RefCell<HashMap<PathBuf, (Option<SystemTime>, Shared<Module>)>>,
+    read: RefCell<HashMap<PathBuf, ReadModule>>,
+}
+
+/// A module as its file was when it was read: a session may see a file in several states.
+struct ReadModule {
+    changed: Option<SystemTime>,
+    module: Shared<Module>,
 }
 
 impl FolderResolver {
@@ -107,14 +112,16 @@ impl ModuleResolver for FolderResolver {
         let (shown, file) = self.find(path).map_err(refused)?;
         self.refuse_chain(path, &file).map_err(refused)?;
         let changed = fs::metadata(&file).and_then(|about| about.modified()).ok();
-        if let Some((_, module)) = self.read.borrow().get(&file).filter(|(at, _)| *at == changed) {
-            return Ok(Shared::clone(module));
+        let known = self.read.borrow();
+        if let Some(read) = known.get(&file).filter(|read| read.changed == changed) {
+            return Ok(Shared::clone(&read.module));
         }
+        drop(known);
         self.being_read.borrow_mut().push(file.clone());
         let module = self.load(engine, global, &shown, position);
         self.being_read.borrow_mut().pop();
         let module = module?;
-        self.read.borrow_mut().insert(file, (changed, Shared::clone(&module)));
+        self.read.borrow_mut().insert(file, ReadModule { changed, module: Shared::clone(&module) });
         Ok(module)
     }
 }
