@@ -99,7 +99,7 @@ fn inputs_of_the_command_line_share_a_session() {
 #[test]
 fn commands_act_on_the_last_simulation() {
     let input = format!(
-        "{SPINNING}:step 10\n:back 5\n:run 0.8\n:invariants\n:plot energy\n:show\n:vars\n:explain\n"
+        "{SPINNING}:step 10\n:back 5\n:run 0.8\n:invariants\n:plot energy\n:plot drift\n:show\n:vars\n:explain\n"
     );
     let (code, replies, complaints) = piped(&input);
     assert_eq!((code, &*complaints), (0, ""), "{replies}");
@@ -107,6 +107,7 @@ fn commands_act_on_the_last_simulation() {
         "t = 1 after 10 steps\nt = 0.5 after 5 steps\nt = 0.8 after 8 steps\n",
         "energy E - W",
         "energy [energy]: 10.333",
+        "drift of angular momentum: ",
         "t = 0.8\nbeam1: from ",
         "sim    simulation  simulation 'spin' at t = 0.8",
         "sliders",

@@ -106,6 +106,17 @@ fn a_person_throws_a_beam_and_goes_back() {
 }
 
 #[test]
+fn what_is_typed_ahead_is_not_lost() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut session = start(folder.path(), &[]);
+    session.send("let a = 1\nlet b = 2\nlet c = 4\n").unwrap();
+    session.exp_string("withy:4> ").unwrap();
+    ask(&mut session, "a + b + c", "7");
+    session.send_control('d').unwrap();
+    session.exp_eof().unwrap();
+}
+
+#[test]
 fn history_lives_from_session_to_session() {
     let folder = tempfile::tempdir().unwrap();
     let mut first = start(folder.path(), &[]);

@@ -6,7 +6,9 @@ use super::suggest::nearest;
 use crate::beams::Station;
 use crate::geometry::Vec2;
 use crate::joints::{JointKind, Partner};
-use crate::output::{ConfigurationPicture, LineChart, Mark, Scale, Series, Style, significant};
+use crate::output::{
+    ConfigurationPicture, LineChart, Mark, Scale, Series, Style, scientific, significant,
+};
 use crate::simulation::{Configuration, History, Invariant, Simulation};
 
 /// Digits of the numbers in a summary.
@@ -39,6 +41,15 @@ pub fn history_chart(
 /// A chart of the drifts of energy and momenta on a logarithmic axis, as text for a terminal.
 pub fn drift_chart(history: &History, style: &Style) -> String {
     drift_lines("", history).text(style)
+}
+
+/// What a chart of the drifts would show, in lines: where there is no terminal.
+pub fn drift_summary(history: &History) -> String {
+    let line = |(name, of): &(&str, Invariant)| {
+        format!("drift of {}: {}", name.replace('_', " "), scientific(history.drift(*of), 2))
+    };
+    let moving = Invariant::ALL.iter().filter(|(_, of)| *of != Invariant::Gap);
+    moving.map(line).collect::<Vec<_>>().join("\n")
 }
 
 /// What a chart would show, in a line: where there is no terminal.

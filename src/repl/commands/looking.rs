@@ -71,6 +71,7 @@ pub fn plot(shell: &mut Shell, operand: &str) -> Outcome {
             Ok(sight::drift_chart(simulation.history(), &style))
         }
         Screen::Terminal(style) => sight::history_chart(simulation.history(), &columns, &style),
+        Screen::Pipe if columns == ["drift"] => Ok(sight::drift_summary(simulation.history())),
         Screen::Pipe => {
             let line = |column: &String| sight::column_summary(simulation.history(), column);
             Ok(columns.iter().map(line).collect::<Result<Vec<_>, _>>()?.join("\n"))

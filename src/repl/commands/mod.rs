@@ -84,7 +84,7 @@ pub const COMMANDS: &[Command] = &[
         operand: Operand::Column,
         placeholder: "[COLUMN …]",
         summary: "draws columns of the history over time; the energies unless columns are named",
-        doc: "For example `:plot kinetic strain`; at a terminal `:plot drift` shows how well the invariants are kept. Pictures for files are drawn by plot_history.",
+        doc: "For example `:plot kinetic strain`; `:plot drift` shows how well the invariants are kept. Pictures for files are drawn by plot_history.",
         body: looking::plot,
     },
     Command {
