@@ -114,7 +114,7 @@ impl Simulation {
         let end = halving.end();
         for _ in 0..MOST_ARRIVALS {
             let covered = self.cover(halving, monitor)?;
-            let is_there = self.time() >= end - 1e-9 * self.grid.dt();
+            let is_there = self.time() >= end - self.grid.slack();
             if covered == Covered::All || is_there || self.has_ended() {
                 return Ok(());
             }
@@ -197,7 +197,7 @@ impl Simulation {
         SimulationError::Step { time, dt, divisions, source }
     }
 
-    fn record(&mut self, interval: Interval, report: NewtonReport, retries: usize) {
+    pub(super) fn record(&mut self, interval: Interval, report: NewtonReport, retries: usize) {
         self.counts.steps += 1;
         self.counts.newton_iterations += report.iterations;
         self.counts.newton_max = self.counts.newton_max.max(report.iterations);
