@@ -4,7 +4,9 @@
 mod common;
 
 use common::reference::distance;
-use common::{assert_energy_never_grows, ends, run, scenes, settings, simulate, sliding_scenes};
+use common::{
+    assert_energy_never_grows, ends, run, scenes, sci, settings, simulate, sliding_scenes,
+};
 use withy::beams::Mesh;
 use withy::geometry::Vec2;
 use withy::integrators::{EnergyClaim, INTEGRATORS, IntegratorEntry, Method};
@@ -64,8 +66,7 @@ fn errors_go_with_the_tolerance() {
 
 #[test]
 fn errors_and_work_beside_those_of_fixed_steps() {
-    for (name, schedule) in
-        [("P1s", Schedule::smooth_pulse(2.5)), ("P1", Schedule::hold_for(2.5))]
+    for (name, schedule) in [("P1s", Schedule::smooth_pulse(2.5)), ("P1", Schedule::hold_for(2.5))]
     {
         let section = scenes::spaghetti_section(1e4, 100.0);
         let schedule = schedule.unwrap();
@@ -74,6 +75,7 @@ fn errors_and_work_beside_those_of_fixed_steps() {
         for method in [Method::EnergyMomentum, Method::FourthOrder] {
             let fixed = [0.2, 0.1, 0.05, 0.025, 0.0125].map(StepSize::from);
             let varying = [1e-2, 1e-3, 1e-4, 1e-5].map(adaptive);
+            let mut errors = Vec::new();
             for size in fixed.into_iter().chain(varying) {
                 let flight = simulate(scene(), method, size, 7.5);
                 let WorkCounts { steps, rejected, factorisations, .. } = *flight.counts();
@@ -83,8 +85,10 @@ fn errors_and_work_beside_those_of_fixed_steps() {
                     error(&flight, &exact),
                     size = size.to_string(),
                 );
-                assert!(error(&flight, &exact) < 0.1);
+                errors.push(error(&flight, &exact));
             }
+            let varying = &errors[errors.len() - 4..];
+            assert!(varying[3] < 3e-5 && varying[3] < 0.1 * varying[0], "{name}: {errors:?}");
         }
     }
 }
@@ -126,7 +130,7 @@ fn every_method_keeps_what_it_claims_whatever_the_steps() {
             let sizes = run.history().column("dt").unwrap();
             assert!(sizes[2..].iter().any(|dt| (dt / sizes[1] - 1.0).abs() > 0.1), "{label}");
         }
-        println!("{:18} worst drifts {worst:.1e?}", entry.name);
+        println!("{:18} worst drifts {}", entry.name, sci(&worst));
     }
 }
 
@@ -135,7 +139,9 @@ fn what_a_method_does_not_keep_small_errors_do_not_keep_either() {
     for entry in INTEGRATORS {
         let flight =
             simulate(scenes::spaghetti(&smooth(8), 1e4), entry.method, adaptive(1e-2), 7.5);
-        for (invariant, is_claimed) in claims(entry) {
+        // The momentum is kept by all without supports, claimed or not.
+        let claims = claims(entry).into_iter().filter(|(of, _)| *of != Invariant::Momentum);
+        for (invariant, is_claimed) in claims {
             let drift = flight.history().drift(invariant);
             assert!(is_claimed || drift > 1e-9, "{}: {invariant:?} {drift:.1e}", entry.name);
         }
@@ -145,7 +151,9 @@ fn what_a_method_does_not_keep_small_errors_do_not_keep_either() {
 fn counted(scene: Scene, method: Method, tolerance: f64, end: f64) -> String {
     let WorkCounts { steps, rejected, retries, newton_iterations, factorisations, .. } =
         *simulate(scene, method, adaptive(tolerance), end).counts();
-    format!("{steps} steps, {rejected} rejected, {retries} failed, {newton_iterations} iterations, {factorisations} factorised")
+    format!(
+        "{steps} steps, {rejected} rejected, {retries} failed, {newton_iterations} iterations, {factorisations} factorised"
+    )
 }
 
 #[test]
@@ -163,18 +171,26 @@ fn the_work_is_as_it_was() {
             0.5,
         ),
     ];
-    let expected = [""; 5];
+    let expected = [
+        "573 steps, 64 rejected, 0 failed, 3438 iterations, 3822 factorised",
+        "563 steps, 8 rejected, 0 failed, 3372 iterations, 3420 factorised",
+        "113 steps, 7 rejected, 0 failed, 3625 iterations, 3855 factorised",
+        "404 steps, 28 rejected, 0 failed, 2424 iterations, 2592 factorised",
+        "32 steps, 2 rejected, 0 failed, 190 iterations, 202 factorised",
+    ];
     assert_eq!(flights, expected);
 }
 
 #[test]
 fn steps_end_where_a_load_jumps_and_are_careful_after_it() {
     let scene = scenes::spaghetti(&smooth(14), 1e4);
-    let flight = simulate(scene, Method::EnergyMomentum, adaptive(1e-3), 5.0);
+    let control = StepControl { first: Some(1e-3), ..StepControl::to(1e-3) };
+    let flight = simulate(scene, Method::EnergyMomentum, control, 5.0);
     let rows = flight.history().samples();
     let jump = rows.iter().position(|row| row.measures.time == 2.5).unwrap();
-    assert!(rows[jump + 1].dt < 0.2 * rows[jump - 1].dt, "{:?}", &rows[jump - 1..jump + 2]);
-    assert!((rows[jump + 1].dt - rows[1].dt).abs() < 1e-9 * rows[1].dt);
+    let [before, after] = [rows[jump - 1].dt, rows[jump + 1].dt];
+    assert!(before > 2e-3 && (after - 1e-3).abs() < 1e-12, "{before} {after}");
+    assert!(rows[jump + 5].dt > 2e-3, "it grows again: {}", rows[jump + 5].dt);
     assert_eq!(rows.last().unwrap().measures.time, 5.0);
     for pair in rows.windows(2) {
         assert_eq!(pair[1].dt, pair[1].measures.time - pair[0].measures.time);
@@ -251,13 +267,17 @@ fn back_rewind_fork_save_and_load_go_on_bit_for_bit() {
 fn a_tolerance_beyond_reach_is_an_error_that_keeps_the_history() {
     let control = StepControl { smallest: Some(0.02), first: Some(0.1), ..StepControl::to(1e-5) };
     let settings = settings(Method::EnergyMomentum, control);
-    let mut flight = Simulation::start(scenes::smooth_spaghetti(&smooth(8), 100.0), settings).unwrap();
+    let mut flight =
+        Simulation::start(scenes::smooth_spaghetti(&smooth(8), 100.0), settings).unwrap();
     let error = run(&mut flight, 5.0).unwrap_err();
     let SimulationError::Tolerance { time, dt, error: by, .. } = error else { panic!("{error}") };
     assert!(dt <= 0.02 && by > 1.0 && time > 0.1 && time == flight.time());
     assert_eq!(flight.history().samples().last().unwrap().measures.time, time);
     let told = error.to_string();
-    assert!(told.contains("tolerance 0.00001 asks for steps below the smallest one, 2e-2"), "{told}");
+    assert!(
+        told.contains("tolerance 0.00001 asks for steps below the smallest one, 2e-2"),
+        "{told}"
+    );
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use super::controller::{Controller, Pace};
 use super::doubling::{Doubled, Doubling, Failed};
 use super::first_step::{first_step, length_of};
+use super::landing::MOST_ARRIVALS;
 use super::stepping::Halving;
 use super::{Monitor, Simulation, SimulationError, StepControl};
 use crate::integrators::{Interval, Method, StepError};
@@ -58,7 +59,9 @@ impl Adaptive {
             (now + wish, false)
         };
         let interval = Interval::between(now, end);
-        Plan { interval, is_cut, is_least: interval.duration() <= least }
+        // The duration is rounded as times are, the wish is not.
+        let is_least = wish <= least || interval.duration() <= least;
+        Plan { interval, is_cut, is_least }
     }
 }
 
@@ -83,11 +86,11 @@ impl Simulation {
         limit: f64,
         monitor: &mut dyn Monitor,
     ) -> Result<(), SimulationError> {
+        let Adaptive { controller, .. } = *adaptive;
         if let Some(halving) = self.under_way.filter(|halving| halving.end() <= limit) {
-            return self.cover_with_arrivals(halving, monitor);
+            return self.cover_uncompared(halving, controller.first, monitor);
         }
         self.under_way = None;
-        let Adaptive { controller, .. } = *adaptive;
         let mut pace = self.pace.unwrap_or_else(|| controller.start());
         if pace.tries == 0 && self.model.loads_may_jump() {
             controller.restart(&mut pace);
@@ -130,7 +133,7 @@ impl Simulation {
                     self.pace = Some(Pace { error: None, tries: 0, ..pace });
                     let middle = now + 0.5 * dt;
                     let half = Halving::new(Interval::between(now, middle));
-                    return self.cover_with_arrivals(half, monitor);
+                    return self.cover_uncompared(half, controller.first, monitor);
                 }
                 Err(Failed { source, .. }) if !source.may_be_cured_by_a_smaller_step() => {
                     return Err(SimulationError::Load { source });
@@ -148,5 +151,19 @@ impl Simulation {
             self.pace = Some(pace);
             self.ask(monitor)?;
         }
+    }
+
+    /// Goes on to the end of a step that is compared with nothing, or until a slider arrives: what comes then is compared again.
+    fn cover_uncompared(
+        &mut self,
+        halving: Halving,
+        first: f64,
+        monitor: &mut dyn Monitor,
+    ) -> Result<(), SimulationError> {
+        let has_rattled = self.arrivals.iter().nth_back(MOST_ARRIVALS - 1);
+        if has_rattled.is_some_and(|arrival| arrival.time > self.time() - first) {
+            return Err(self.rattles());
+        }
+        self.cover(halving, monitor).map(|_| ())
     }
 }

@@ -16,7 +16,7 @@ const PARTS: u64 = 1 << MOST_HALVINGS;
 
 /// How much of an interval was covered.
 #[derive(PartialEq, Eq)]
-enum Covered {
+pub(super) enum Covered {
     All,
     UntilAnArrival,
 }
@@ -120,15 +120,20 @@ impl Simulation {
             }
             halving = Halving::new(Interval::between(self.time(), end));
         }
+        Err(self.rattles())
+    }
+
+    /// The error of a slider that does not get away from an end.
+    pub(super) fn rattles(&self) -> SimulationError {
         let arrival = self.arrivals.last().map_or_else(
             || format!("a slider is about to arrive after t = {}", self.time()),
             |last| self.describe(last),
         );
-        Err(SimulationError::Rattles { arrival, most: MOST_ARRIVALS })
+        SimulationError::Rattles { arrival, most: MOST_ARRIVALS }
     }
 
     /// Covers an interval by one step or, where that fails, by halves of it, growing again after success.
-    fn cover(
+    pub(super) fn cover(
         &mut self,
         mut halving: Halving,
         monitor: &mut dyn Monitor,

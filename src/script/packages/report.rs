@@ -50,7 +50,7 @@ impl Reporter for SimulationHandle {
             "integrator": settings.method.entry().name,
             "rejected": counts.rejected,
             "dt": simulation.dt(),
-            "steps_of": settings.dt.to_string(),
+            "step_size": settings.dt.to_string(),
             "t": simulation.time(),
             "drift": drift,
             "energy": {
