@@ -162,7 +162,9 @@ impl Model {
             let (first, last) = slider.domain();
             // Where it has landed it may be beside the end by rounding.
             let slack = LANDED * (last - first);
-            if ![0.0, 1.0, 2.0, 3.0].contains(&own[0]) || !(first - slack..=last + slack).contains(&own[1]) {
+            if ![0.0, 1.0, 2.0, 3.0].contains(&own[0])
+                || !(first - slack..=last + slack).contains(&own[1])
+            {
                 return Err(refused("a slider is beside its beam"));
             }
         }
