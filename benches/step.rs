@@ -103,7 +103,7 @@ fn sliding_cost(spans: usize, beads: usize) -> (usize, (f64, f64), f64) {
 /// A step of a simulation, its rows recorded, with a limit for snapshots [bytes]; and the bytes of a snapshot.
 fn recorded_cost(spans: usize, limit: usize) -> ((f64, f64), usize) {
     let (method, tolerance) = (Method::EnergyMomentum, Tolerance::default());
-    let settings = Settings { method, dt: DT, tolerance };
+    let settings = Settings { method, dt: DT.into(), tolerance };
     let mut simulation = Simulation::start(flying_scene(spans), settings).unwrap();
     simulation.keep_snapshots(limit);
     let cost = measure(|| timed(|| simulation.step(&mut Unwatched).unwrap()));

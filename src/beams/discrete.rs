@@ -303,6 +303,11 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
         }
     }
 
+    fn write_normals(&self, normals: &mut Vec<Vec2>) {
+        let points = self.spans.iter().flat_map(|span| &span.force_points);
+        normals.extend(points.map(ForcePoint::normal));
+    }
+
     fn strain_energy(&self) -> f64 {
         let of_span = |span: &SpanPoints<N>| -> f64 {
             let force = span

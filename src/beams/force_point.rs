@@ -242,6 +242,11 @@ impl<const N: usize> ForcePoint<N> {
         0.5 * self.axis.weight * self.strain.dot(&force_of(section, self.strain))
     }
 
+    /// The normal of the section at the start of the step, in space.
+    pub(super) fn normal(&self) -> Vec2 {
+        Vec2::new(self.rotation.cos, self.rotation.sin)
+    }
+
     pub(super) fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.gradient.x, self.gradient.y, self.rotation.cos, self.rotation.sin]);
         // At the start the strain is zero; that of the configuration there is only rounded to it.

@@ -19,6 +19,7 @@ mod schedules;
 mod sections;
 mod simulations;
 mod sliding;
+mod step_sizes;
 mod text;
 mod time_travel;
 mod vectors;
@@ -41,6 +42,7 @@ pub const TABLES: &[&Table] = &[
     &sections::TABLE,
     &schedules::TABLE,
     &integrators::TABLE,
+    &step_sizes::TABLE,
     &scenes::TABLE,
     &loads::TABLE,
     &simulations::TABLE,
