@@ -7,6 +7,7 @@ use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
+use withy::analysis::Journal;
 
 fn withy(arguments: &[&str], file: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
@@ -86,11 +87,11 @@ fn a_wrong_reference_is_told_before_anything_runs() {
 /// Two short cases, and one that takes for ever; the reference is short, too.
 const ENDLESS: &str = "meshes: [bspline(2)], dts: [0.1, 0.05, 1e-8], times: [1], repeats: 1, reference: finest_run(#{ dt: 0.02 })";
 
-/// Waits until a journal has grown to its `records`-th record.
-fn wait_for_records(journal: &Path, least: u64) {
+/// Waits until so many cases are in a journal.
+fn wait_for(journal: &Path, cases: usize) {
     let begun = Instant::now();
-    while fs::metadata(journal).map_or(0, |about| about.len()) < least {
-        assert!(begun.elapsed() < Duration::from_secs(60), "no journal");
+    while Journal::open(journal).unwrap().len() < cases {
+        assert!(begun.elapsed() < Duration::from_secs(60), "the journal does not grow");
         std::thread::sleep(Duration::from_millis(20));
     }
 }
@@ -101,7 +102,7 @@ fn an_interrupted_study_goes_on_where_it_was() {
     let (folder, file) = script(ENDLESS, "");
     let journal = folder.path().join("out").join("rod.journal");
     let running = withy(&["study"], &file).spawn().unwrap();
-    wait_for_records(&journal, 1000);
+    wait_for(&journal, 3);
     let id = running.id().to_string();
     Command::new("kill").args(["-INT", &id]).status().unwrap();
     let output = running.wait_with_output().unwrap();

@@ -43,9 +43,9 @@ impl PrecisionRow {
         Self { mesh, settings, trial, timing, error, deviations, is_on_front: false }
     }
 
-    /// Median time of the run [s] and error; infinite where there are none.
+    /// Time of the run [s] and error; infinite where there are none.
     pub fn price_and_error(&self) -> (f64, f64) {
-        let price = self.timing.map_or(f64::INFINITY, |timing| timing.run.as_secs_f64());
+        let price = self.timing.map_or(f64::INFINITY, |timing| timing.price());
         (price, self.error.map_or(f64::INFINITY, |error| error.error()))
     }
 }
@@ -125,7 +125,7 @@ mod tests {
         let truth = Truth::of_run("own", &trial(0.01).readings);
         let row = |(dt, millis): (f64, u64)| {
             let run = Duration::from_millis(millis);
-            let timing = Timing { setup: run, run, shortest: run, repeats: 1 };
+            let timing = Timing { setup: run, run, shortest: run, processor: None, repeats: 1 };
             let trial = trial(dt);
             let timing = trial.outcome.is_finished().then_some(timing);
             let settings = spinning(dt, &[1.0]).settings;

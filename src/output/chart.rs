@@ -14,8 +14,8 @@ use super::{
 const LINE: f64 = 2.0;
 const MARK: f64 = 3.5;
 /// Width of lines and radius of marks of series of lesser weight, and how much of their colour is left.
-const FAINT: (f64, f64, f64) = (1.0, 2.6, 0.3);
-const THIN: f64 = 1.1;
+const FAINT: (f64, f64, f64) = (0.9, 2.4, 0.15);
+const THIN: f64 = 1.3;
 const NOTE: f64 = 12.0;
 
 /// The colour of a series.
@@ -186,7 +186,7 @@ impl LineChart {
         self
     }
 
-    /// Writes a few words beside a point of the data.
+    /// Writes a few words to the right of a point of the data and a little below it.
     pub fn note(mut self, at: Point, text: impl Into<String>) -> Self {
         self.notes.push((at, text.into()));
         self
@@ -291,7 +291,7 @@ impl Panel for LineChart {
         }
         for (at, text) in &self.notes {
             let (x, y) = frame.place(plot, *at);
-            canvas.text(text, (x + 7.0, y + 0.36 * NOTE), NOTE, Align::Start, GREY);
+            canvas.text(text, (x + 8.0, y + 1.2 * NOTE), NOTE, Align::Start, GREY);
         }
     }
 }

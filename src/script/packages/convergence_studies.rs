@@ -67,11 +67,11 @@ pub const TABLE: Table = Table {
     ],
 };
 
-const SETUP_OF_LADDERS: &str = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
+const SETUP_OF_LADDERS: &str = "let s = section(#{ EA: 100, GA: 100, EI: 10, rho_A: 1, rho_I: 1 });\n\
     let spinning = |mesh| {\n    let scene = new_scene(\"spinning\");\n    \
     scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: mesh, section: s, spin: 1 });\n    scene\n};\n\
     let ladder = study_convergence(#{ name: \"ladder\", scene: spinning, meshes: [bspline(2)], \
-    integrators: [energy_momentum(), fourth_order()], dts: [0.2, 0.1, 0.05], times: [1] });";
+    integrators: [energy_momentum(), fourth_order()], dts: [0.04, 0.02, 0.01], times: [1] });";
 
 const CONVERGENCE: Type = Type::of::<ConvergenceStudy>();
 const QUANTITY: Parameter =

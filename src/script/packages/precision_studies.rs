@@ -70,7 +70,7 @@ pub const TABLE: Table = Table {
             Ok(study.rows.iter().map(|row| map_of(&study, row).into()).collect::<Array>().into())
         })
         .returns("an array of maps")
-        .summary("All combinations: mesh, integrator, dt, error, run_time, steps, energy_drift, outcome, …")
+        .summary("All combinations: mesh, integrator, dt, error, run_time, steps, energy_drift, outcome and more.")
         .example("for row in study.rows { check(row.outcome == \"finished\" && row.energy_drift < 1e-12); }"),
         of_study("front", |call| {
             let PrecisionStudy(study) = call.receiver()?;

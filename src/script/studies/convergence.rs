@@ -96,7 +96,8 @@ fn size_name(study: &Convergence) -> &'static str {
     }
 }
 
-/// For every quantity: errors and orders of all integrators side by side, the order of all rungs together below.
+/// For every quantity that errs at all: errors and orders of all integrators side by side, the order of all rungs together
+/// below.
 pub fn table(study: &Convergence) -> String {
     let mut text = format!(
         "study '{}': convergence at {}, {}\nreference: {}",
@@ -211,7 +212,8 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
         study.name,
         at_times(&study.times)
     ))
-    .caption(format!("{}; reference: {}", study.fixed, study.truth.source))
+    .caption(study.fixed.clone())
+    .caption(format!("reference: {}", study.truth.source))
     .x_label(match study.refined {
         Refined::Step => "dt",
         Refined::Mesh => "mesh size 1 / spans",
@@ -221,6 +223,7 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
     .y_scale(Scale::Logarithmic)
     .sized(900.0, 640.0);
     let ladders = study.ladders.iter().filter(|ladder| ladder.quantity == quantity);
+    let mut noted: Vec<(u32, f64)> = Vec::new();
     for (number, ladder) in ladders.enumerate() {
         let point =
             |rung| Some((ladder.sizes[rung], ladder.error(rung).filter(|error| *error > 0.0)?));
@@ -231,9 +234,18 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
         chart =
             chart.series(Series::new(name, points).ink(ink).marker(marker).stroke(Stroke::Marked));
         if let Some((order, line)) = slope {
-            chart = chart
-                .note(line[0], format!("{order}"))
-                .series(Series::new("", line.to_vec()).ink(ink).stroke(Stroke::Dotted).thin());
+            // Lines of the same order that lie one over the other need one word.
+            let is_near = |(other, error): &(u32, f64)| {
+                *other == order && (error / line[0].1).ln().abs() < 0.4
+            };
+            if !noted.iter().any(is_near) {
+                noted.push((order, line[0].1));
+                let [(coarse, large), (fine, small)] = line;
+                let middle = ((coarse * fine).sqrt(), (large * small).sqrt());
+                chart = chart.note(middle, format!("order {order}"));
+            }
+            chart =
+                chart.series(Series::new("", line.to_vec()).ink(ink).stroke(Stroke::Dotted).thin());
         }
     }
     chart

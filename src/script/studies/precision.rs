@@ -123,6 +123,7 @@ pub fn table(study: &Precision) -> String {
         "dt",
         "error",
         "run [ms]",
+        "by clock",
         "shortest",
         "set-up",
         "unknowns",
@@ -139,8 +140,8 @@ pub fn table(study: &Precision) -> String {
     let mut table = Table::new(&heads);
     for row in &study.rows {
         let trial = &row.trial;
-        let time = |read: fn(&Timing) -> std::time::Duration| {
-            let time = row.timing.map(|timing| labels::milliseconds(read(&timing).as_secs_f64()));
+        let time = |read: fn(&Timing) -> f64| {
+            let time = row.timing.map(|timing| labels::milliseconds(read(&timing)));
             labels::number(time.unwrap_or_else(|| "-".to_owned()))
         };
         let drifts = trial.drifts[..3].iter().chain([&trial.free_energy_drift]);
@@ -162,7 +163,8 @@ pub fn table(study: &Precision) -> String {
                 .map(Cell::Text)
                 .chain([labels::number(labels::step_size(&row.settings))])
                 .chain([labels::number(labels::deviation(row.error))])
-                .chain([time(|of| of.run), time(|of| of.shortest), time(|of| of.setup)])
+                .chain([time(Timing::price), time(|of| of.run.as_secs_f64())])
+                .chain([time(|of| of.shortest.as_secs_f64()), time(|of| of.setup.as_secs_f64())])
                 .chain(counts.map(Cell::from))
                 .chain(drifts.map(|drift| labels::number(labels::drift(*drift))))
                 .chain([Cell::Text(labels::trouble(&trial.outcome))]),
@@ -174,9 +176,7 @@ pub fn table(study: &Precision) -> String {
 /// What is known of a row: names and values.
 fn facts(study: &Precision, row: &PrecisionRow) -> Vec<(String, Dynamic)> {
     let trial = &row.trial;
-    let seconds = |read: fn(&Timing) -> std::time::Duration| {
-        row.timing.map_or(f64::NAN, |timing| read(&timing).as_secs_f64())
-    };
+    let seconds = |read: fn(&Timing) -> f64| row.timing.map_or(f64::NAN, |timing| read(&timing));
     let error = |of: Option<crate::analysis::Deviation>| of.map_or(f64::NAN, |of| of.error());
     let number = |name: &str, value: f64| (name.to_owned(), Dynamic::from(value));
     let count = |name: &str, value: usize| (name.to_owned(), Dynamic::from(value as INT));
@@ -186,9 +186,10 @@ fn facts(study: &Precision, row: &PrecisionRow) -> Vec<(String, Dynamic)> {
         text("integrator", labels::method(&row.settings.method)),
         number("dt", row.settings.dt),
         number("error", error(row.error)),
-        number("run_time", seconds(|of| of.run)),
-        number("shortest", seconds(|of| of.shortest)),
-        number("setup_time", seconds(|of| of.setup)),
+        number("run_time", seconds(Timing::price)),
+        number("clock_time", seconds(|of| of.run.as_secs_f64())),
+        number("shortest", seconds(|of| of.shortest.as_secs_f64())),
+        number("setup_time", seconds(|of| of.setup.as_secs_f64())),
         count("unknowns", trial.unknowns),
         count("steps", trial.steps),
         count("newton_iterations", trial.newton_iterations),
@@ -252,13 +253,12 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
         "times slower",
     ];
     let mut table = Table::new(if study.rivals.is_empty() { &heads[..5] } else { &heads });
-    let peers: Vec<Option<&str>> = match study.peers() {
-        peers if peers.is_empty() => vec![None],
-        peers => peers.into_iter().map(Some).collect(),
-    };
     let none = || labels::number("-".to_owned());
     let number = |text: String| labels::number(text);
-    for (error, peer) in errors.iter().flat_map(|error| peers.iter().map(move |of| (error, of))) {
+    let pairs = errors
+        .iter()
+        .flat_map(|error| able_peers(study, *error).into_iter().map(move |of| (error, of)));
+    for (error, peer) in pairs {
         let ours = study.cheapest(*error);
         let rival = peer.and_then(|peer| study.cheapest_of(peer, *error));
         let mut cells = vec![number(format_number(*error))];
@@ -272,7 +272,7 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
             None => [none(), none(), none(), Cell::Text("no combination".to_owned())],
         });
         if let Some(peer) = peer {
-            cells.push(Cell::Text((*peer).to_owned()));
+            cells.push(Cell::Text(peer.to_owned()));
             cells.extend(match rival {
                 Some(rival) => [
                     number(labels::milliseconds(rival.run_time)),
@@ -294,6 +294,16 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
         machines => format!("\nrivals measured on {}", machines.join("; ")),
     };
     format!("{}{measured}", table.to_string().trim_end())
+}
+
+/// The programs of rivals that have a run with at most this error, the first of all when none has; nobody without rivals.
+fn able_peers(study: &Precision, error: f64) -> Vec<Option<&str>> {
+    let peers = study.peers();
+    let able = peers.iter().copied().filter(|peer| study.cheapest_of(peer, error).is_some());
+    match able.map(Some).collect::<Vec<_>>() {
+        able if able.is_empty() => vec![peers.first().copied()],
+        able => able,
+    }
 }
 
 /// How a row was computed.
@@ -368,5 +378,5 @@ pub fn chart(study: &Precision) -> LineChart {
             .series(look(best, "").stroke(Stroke::Dashed).thin());
     }
     let front = study.front().into_iter().map(PrecisionRow::price_and_error).collect();
-    chart.series(Series::new("our front", front).ink(Ink::Black).thin())
+    chart.series(Series::new("our front", front).ink(Ink::Black).stroke(Stroke::Solid).thin())
 }
