@@ -41,7 +41,7 @@ impl Simulation {
     /// # Errors
     /// When the time is before the start or to come, or the state there is not kept.
     pub fn rewind(&mut self, time: f64) -> Result<(), SimulationError> {
-        let (now, slack) = (self.time(), 1e-9 * self.grid.dt());
+        let (now, slack) = (self.time(), self.grid.slack());
         let samples = self.history.samples();
         let rows = samples.partition_point(|row| row.measures.time <= time + slack);
         if rows == 0 || time.is_nan() || time > now + slack {
@@ -59,7 +59,7 @@ impl Simulation {
     /// For checking scripts: goes back as [`rewind`](Self::rewind) does, or as near as a pretended run allows.
     pub fn pretend_rewind(&mut self, time: f64) {
         let samples = self.history.samples();
-        let slack = 1e-9 * self.grid.dt();
+        let slack = self.grid.slack();
         let rows = samples.partition_point(|row| row.measures.time <= time + slack);
         self.pretend_back_to(rows);
     }
@@ -84,6 +84,7 @@ impl Simulation {
         self.arrivals.truncate(snapshot.arrivals);
         self.counts = WorkCounts { wall: self.counts.wall, ..snapshot.counts };
         self.under_way = snapshot.under_way;
+        self.pace = snapshot.pace;
         self.snapshots.truncate(rows);
         Ok(())
     }
@@ -126,6 +127,7 @@ impl Simulation {
             counts: self.counts,
             passed: self.grid.passed(),
             under_way: self.under_way,
+            pace: self.pace,
         }
     }
 
@@ -142,6 +144,7 @@ impl Simulation {
         fork.counts = self.counts;
         fork.arrivals = self.arrivals.clone();
         fork.under_way = self.under_way;
+        fork.pace = self.pace;
         fork.snapshots = self.snapshots.clone();
         Ok(fork)
     }

@@ -1,15 +1,20 @@
 //! Running a scene and remembering what happened.
 
+mod adaptive;
 mod archive;
 mod back;
 mod columns;
+mod controller;
+mod doubling;
 mod error;
 mod explain;
+mod first_step;
 mod history;
 mod landing;
 mod outline;
 mod run;
 mod snapshots;
+mod step_size;
 mod stepping;
 mod time_grid;
 mod trajectory;
@@ -22,5 +27,6 @@ pub use history::{History, Invariant, Sample, Scales};
 pub use landing::{Arrival, ArrivalKind};
 pub use outline::{Configuration, Outline};
 pub use run::{Monitor, Settings, Simulation, Unwatched, WorkCounts};
+pub use step_size::{StepControl, StepSize, StepSizeError};
 pub use time_grid::TimeGrid;
 pub use trajectory::Trajectory;

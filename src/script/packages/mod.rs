@@ -21,6 +21,7 @@ mod schedules;
 mod sections;
 mod simulations;
 mod sliding;
+mod step_sizes;
 mod text;
 mod time_travel;
 mod vectors;
@@ -44,6 +45,7 @@ pub const TABLES: &[&Table] = &[
     &sections::TABLE,
     &schedules::TABLE,
     &integrators::TABLE,
+    &step_sizes::TABLE,
     &scenes::TABLE,
     &loads::TABLE,
     &simulations::TABLE,
