@@ -37,7 +37,7 @@ pub const TABLE: Table = Table {
              columns of the history that say what happened. Orders are told only from errors that the reference is good enough \
              to tell. The size of a mesh is one over the spans of all beams. Writes NAME.csv and NAME.svg.",
         )
-        .example("print(ladder.table);\ncheck(ladder.order(\"positions\", energy_momentum()) > 1.9);")
+        .example("print(ladder.table);\ncheck(ladder.order(\"positions\", energy_momentum()) > 1.4);")
         .see(&["study_work_precision", "finest_run", "order"]),
         property(CONVERGENCE, "table", |call| Ok(table(&call.receiver::<ConvergenceStudy>()?.0).into()))
             .returns("a text")
