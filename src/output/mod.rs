@@ -1,7 +1,7 @@
 //! Tables, files and pictures from plain data. Nothing here knows what a simulation is.
 //!
 //! ```text
-//! chart, motion → page → frame, legend, timebar → axis, curve, stroke → canvas → figure → svg, png → files
+//! chart, motion → page → frame, legend, timebar → axis, curve, stroke, marker → canvas → figure → svg, png → files
 //! chart → terminal → axis, curve
 //! ```
 //!
@@ -21,10 +21,12 @@ mod files;
 mod fonts;
 mod frame;
 mod legend;
+mod marker;
 mod motion;
 mod number;
 mod page;
 mod png;
+mod records;
 mod stroke;
 mod svg;
 mod table;
@@ -36,16 +38,18 @@ mod samples;
 
 pub use axis::{DEFAULT_FLOOR, Scale};
 pub use canvas::{Align, Area, Canvas, Direction, Point, Shape, Text};
-pub use chart::{LineChart, Series};
+pub use chart::{Ink, LineChart, Series, Weight};
 pub use colour::Colour;
 pub use csv::CsvTable;
 pub use error::OutputError;
 pub use figure::{Figure, PictureKind};
 pub use files::write_whole;
 pub use frame::Margins;
+pub use marker::Marker;
 pub use motion::{MotionPicture, Snapshot};
 pub use number::{format_number, scientific, significant};
 pub use page::{Page, Panel};
+pub use records::CsvRecords;
 pub use stroke::Stroke;
 pub use table::{Cell, Table};
 pub use terminal::{Colours, ConfigurationPicture, Glyphs, Mark, Style};

@@ -126,6 +126,11 @@ impl Meter {
         self.steps.set(self.steps.get() + 1);
     }
 
+    /// Counts the steps of a run that was made elsewhere.
+    pub fn count_steps(&self, steps: usize) {
+        self.steps.set(self.steps.get().saturating_add(steps as u64));
+    }
+
     /// Whether one more step is allowed; if not, the limit counts as passed.
     pub fn allows_a_step(&self) -> bool {
         let allowed = self.limits.steps.is_none_or(|limit| self.steps.get() < limit);

@@ -2,6 +2,7 @@
 
 mod arrays;
 mod checking;
+mod convergence_studies;
 mod events;
 mod explaining;
 pub mod geometry;
@@ -12,6 +13,7 @@ mod live;
 mod loads;
 mod math;
 mod pictures;
+mod precision_studies;
 mod report;
 mod saving;
 mod scenes;
@@ -26,6 +28,7 @@ mod vectors;
 mod windows;
 
 pub use live::SimulationHandle;
+pub use scenes::{SceneHandle, StationHandle};
 
 use super::table::Table;
 
@@ -52,6 +55,8 @@ pub const TABLES: &[&Table] = &[
     &histories::TABLE,
     &explaining::TABLE,
     &pictures::TABLE,
+    &precision_studies::TABLE,
+    &convergence_studies::TABLE,
     &help::TABLE,
 ];
 
