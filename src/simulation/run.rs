@@ -7,9 +7,10 @@ use serde::{Deserialize, Serialize};
 
 use super::columns::{extra_columns, extra_values};
 use super::landing::Arrival;
+use super::recording::StepTaken;
 use super::snapshots::Snapshots;
 use super::stepping::Halving;
-use super::{History, Outline, Sample, Scales, SimulationError, TimeGrid, Trajectory};
+use super::{History, Outline, Recording, Sample, Scales, SimulationError, TimeGrid, Trajectory};
 
 use crate::geometry::Vec2;
 use crate::integrators::{Integrator, Interval, Mechanism, Method};
@@ -79,6 +80,12 @@ pub struct Simulation {
     /// A step of the grid that is covered in part.
     pub(super) under_way: Option<Halving>,
     pub(super) snapshots: Snapshots,
+    pub(super) recording: Recording,
+    /// The first rows of the history, which stay; a further one belongs to the present.
+    pub(super) rows_kept: usize,
+    pub(super) last_step: StepTaken,
+    /// Where the present run ends; infinite for single steps [time].
+    pub(super) goal: f64,
     /// Made when the first picture asks for them.
     pub(super) outlines: OnceCell<Vec<Outline>>,
 }
@@ -116,6 +123,10 @@ impl Simulation {
             arrivals: Vec::new(),
             under_way: None,
             snapshots: Snapshots::default(),
+            recording: Recording::default(),
+            rows_kept: 1,
+            last_step: StepTaken::default(),
+            goal: f64::INFINITY,
             outlines: OnceCell::new(),
         })
     }
@@ -188,7 +199,10 @@ impl Simulation {
         if let Some(ending) = self.ending() {
             return Err(SimulationError::Ended { ending });
         }
-        self.step_at_most_to(f64::INFINITY, monitor)
+        self.goal = f64::INFINITY;
+        let stepped = self.step_at_most_to(f64::INFINITY, monitor);
+        self.show_present();
+        stepped
     }
 
     /// Steps until a time, which ends the last step, or until a slider ends the run.
@@ -199,12 +213,16 @@ impl Simulation {
         self.check_end(end)?;
         let now = self.time();
         let steps = ((end - now) / self.grid.dt()).min(1e6) as usize + 8;
-        self.history.reserve(steps);
-        self.trajectory.reserve(steps);
-        while !self.has_reached(end) && !self.has_ended() {
-            self.step_at_most_to(end, monitor)?;
+        let rows = self.recording.rows_of(steps);
+        self.history.reserve(rows);
+        self.trajectory.reserve(rows);
+        self.goal = end;
+        let mut ran = Ok(());
+        while ran.is_ok() && !self.has_reached(end) && !self.has_ended() {
+            ran = self.step_at_most_to(end, monitor);
         }
-        Ok(())
+        self.show_present();
+        ran
     }
 
     fn check_end(&self, end: f64) -> Result<(), SimulationError> {
@@ -234,6 +252,7 @@ impl Simulation {
         monitor: &mut dyn Monitor,
     ) -> Result<(), SimulationError> {
         self.check_end(end)?;
+        self.goal = end;
         let mut rows = 0;
         while !self.has_reached(end) {
             rows += 1;
@@ -242,10 +261,10 @@ impl Simulation {
             self.model.pass_time_to(next);
             self.grid.reach(next);
             self.counts.steps += 1;
-            let measures = self.model.measure();
-            let sample = Sample { measures, dt, ..Sample::default() };
-            self.history.push(sample, extra_values(&self.scene, &self.model));
-            self.trajectory.push(next, coordinates(&self.model));
+            self.last_step = StepTaken { dt, ..StepTaken::default() };
+            if self.is_worth_a_row() {
+                self.keep_row();
+            }
             self.remember();
             self.ask(monitor)?;
         }

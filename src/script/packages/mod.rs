@@ -12,6 +12,7 @@ mod live;
 mod loads;
 mod math;
 mod pictures;
+mod recording;
 mod report;
 mod saving;
 mod scenes;
@@ -44,6 +45,7 @@ pub const TABLES: &[&Table] = &[
     &scenes::TABLE,
     &loads::TABLE,
     &simulations::TABLE,
+    &recording::TABLE,
     &time_travel::TABLE,
     &saving::TABLE,
     &sliding::TABLE,
