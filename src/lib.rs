@@ -3,12 +3,13 @@
 //! Layers, each using only those to its right:
 //!
 //! ```text
-//! main → cli → repl → script → output → simulation → model ┬→ joints, loads → beams → geometry
+//! main → cli → repl → script → output, analysis → simulation → model ┬→ joints, loads → beams → geometry
 //!                                                          └→ integrators → newton → linalg
 //! ```
 
 #![forbid(unsafe_code)]
 
+pub mod analysis;
 pub mod beams;
 pub mod cli;
 pub mod geometry;

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Every layer with those it may use (design: main → cli → repl → script → output → simulation → model → …).
+/// Every layer with those it may use (design: main → cli → repl → script → output, analysis → simulation → model → …).
 const LAYERS: &[(&str, &[&str])] = &[
     ("geometry", &[]),
     ("linalg", &[]),
@@ -33,9 +33,24 @@ const LAYERS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "analysis",
+        &[
+            "simulation",
+            "model",
+            "joints",
+            "loads",
+            "beams",
+            "geometry",
+            "integrators",
+            "newton",
+            "linalg",
+        ],
+    ),
+    (
         "script",
         &[
             "output",
+            "analysis",
             "simulation",
             "model",
             "joints",
@@ -52,6 +67,7 @@ const LAYERS: &[(&str, &[&str])] = &[
         &[
             "script",
             "output",
+            "analysis",
             "simulation",
             "model",
             "joints",
@@ -69,6 +85,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "repl",
             "script",
             "output",
+            "analysis",
             "simulation",
             "model",
             "joints",

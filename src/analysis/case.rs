@@ -1,0 +1,143 @@
+//! A run to be made: a scene, how it is simulated, and when it is looked at.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use serde::{Deserialize, Serialize};
+
+use super::Outcome;
+use crate::model::Scene;
+use crate::simulation::{Monitor, Settings, Simulation, SimulationError};
+
+/// A run to be made.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Case {
+    /// What is simulated.
+    pub scene: Scene,
+    /// How.
+    pub settings: Settings,
+    /// When it is looked at, in order; the last one ends the run [time].
+    pub stops: Vec<f64>,
+}
+
+/// What a case may take.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Patience {
+    /// Steps and failed tries together.
+    pub steps: usize,
+    /// Time by the clock.
+    pub wall: Duration,
+}
+
+impl Default for Patience {
+    fn default() -> Self {
+        Self { steps: 10_000_000, wall: Duration::from_secs(600) }
+    }
+}
+
+/// Watches a run: it ends when the study is stopped or patience is at its end.
+struct Watch<'a> {
+    patience: Patience,
+    begun: Instant,
+    steps: usize,
+    stop: &'a AtomicBool,
+    exceeded: Option<String>,
+}
+
+impl Monitor for Watch<'_> {
+    fn goes_on(&mut self, _time: f64) -> bool {
+        self.steps += 1;
+        if self.steps > self.patience.steps {
+            self.exceeded = Some(format!("more than {} steps", self.patience.steps));
+        } else if self.begun.elapsed() > self.patience.wall {
+            self.exceeded = Some(format!("more than {} s", self.patience.wall.as_secs_f64()));
+        }
+        self.exceeded.is_none() && !self.stop.load(Ordering::Relaxed)
+    }
+}
+
+impl Case {
+    /// The case for another thread or another day; none when a load of it has a function of a script.
+    pub fn to_bytes(&self) -> Option<Vec<u8>> {
+        let is_data = self.scene.loads.iter().all(|load| load.schedule.can_be_stored());
+        is_data.then(|| postcard::to_stdvec(self).ok()).flatten()
+    }
+
+    /// A case from [`to_bytes`](Self::to_bytes); none when the bytes are something else.
+    pub fn from_bytes(bytes: &[u8]) -> Option<Self> {
+        postcard::from_bytes(bytes).ok()
+    }
+
+    /// Runs it and looks at it at every stop; the simulation as it was at its end is given too, unless it could not
+    /// start. A study that is stopped meanwhile leaves an unfinished run, whose outcome means nothing.
+    pub fn run(
+        &self,
+        patience: Patience,
+        stop: &AtomicBool,
+        mut look: impl FnMut(&Simulation),
+    ) -> (Outcome, Option<Simulation>) {
+        let mut simulation = match Simulation::start(self.scene.clone(), self.settings) {
+            Ok(simulation) => simulation,
+            Err(error) => {
+                return (Outcome::Failed { time: 0.0, reason: error.to_string() }, None);
+            }
+        };
+        let mut watch = Watch { patience, begun: Instant::now(), steps: 0, stop, exceeded: None };
+        for stop in &self.stops {
+            let run = simulation.run_to(*stop, &mut watch);
+            let time = simulation.time();
+            let outcome = match (run, watch.exceeded.take()) {
+                (_, Some(limit)) => Outcome::GaveUp { time, limit },
+                (Err(error), None) => Outcome::Failed { time, reason: error.to_string() },
+                (Ok(()), None) => match simulation.ending() {
+                    Some(ending) if !simulation.has_reached(*stop) => Outcome::Failed {
+                        time,
+                        reason: SimulationError::Ended { ending }.to_string(),
+                    },
+                    _ => {
+                        look(&simulation);
+                        continue;
+                    }
+                },
+            };
+            return (outcome, Some(simulation));
+        }
+        (Outcome::Finished, Some(simulation))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{never, spinning};
+    use super::*;
+
+    #[test]
+    fn a_case_is_looked_at_at_its_stops_in_another_life_too() {
+        let case = spinning(0.1, &[0.25, 1.0]);
+        let again = Case::from_bytes(&case.to_bytes().unwrap()).unwrap();
+        let energies = |case: &Case| {
+            let mut seen = Vec::new();
+            let look = |simulation: &Simulation| {
+                let last = simulation.history().samples().last().unwrap();
+                seen.push((simulation.time(), last.measures.energy.total()));
+            };
+            assert!(case.run(Patience::default(), &never(), look).0.is_finished());
+            seen
+        };
+        assert_eq!(energies(&case).iter().map(|(time, _)| *time).collect::<Vec<_>>(), [0.25, 1.0]);
+        assert_eq!(energies(&case), energies(&again));
+        assert!(Case::from_bytes(b"?").is_none());
+    }
+
+    #[test]
+    fn what_ends_a_run_early_is_said() {
+        let (outcome, simulation) =
+            spinning(-1.0, &[1.0]).run(Patience::default(), &never(), |_| ());
+        assert!(outcome.describe().contains("failed at t = 0: the step size"), "{outcome:?}");
+        assert!(simulation.is_none());
+        let patience = Patience { steps: 3, ..Patience::default() };
+        let (outcome, simulation) = spinning(0.1, &[1.0]).run(patience, &never(), |_| ());
+        assert!(outcome.describe().contains("more than 3 steps"), "{outcome:?}");
+        assert_eq!(simulation.unwrap().counts().steps, 4);
+    }
+}

@@ -1,0 +1,228 @@
+//! Finished cases on disk, so that a study that was interrupted goes on where it was.
+//!
+//! A journal is a file of records, each with its length and checksum; a record that was cut off by a crash ends it. It is
+//! removed when the study is complete.
+
+use std::collections::HashMap;
+use std::fs::{self, File, OpenOptions};
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+/// Of one record; more is damage.
+const LONGEST: usize = 1 << 30;
+
+/// A journal that cannot be read or written.
+#[derive(Debug, thiserror::Error)]
+#[error("the journal '{}' of the study cannot be {action}: {source}", path.display())]
+pub struct JournalError {
+    path: PathBuf,
+    action: &'static str,
+    source: io::Error,
+}
+
+/// What is known of the cases of a study from this run of it and from earlier ones that were interrupted.
+#[derive(Debug)]
+pub struct Journal {
+    path: PathBuf,
+    /// Results as they are stored, by the fingerprint of their case.
+    known: HashMap<u64, Vec<u8>>,
+    file: Option<File>,
+}
+
+impl Journal {
+    /// Opens a journal, or begins one with the first record.
+    ///
+    /// # Errors
+    /// When there is a file that cannot be read.
+    pub fn open(path: impl Into<PathBuf>) -> Result<Self, JournalError> {
+        let path = path.into();
+        let bytes = match fs::read(&path) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
+            Err(source) => return Err(JournalError { path, action: "read", source }),
+        };
+        let mut rest = bytes.as_slice();
+        let known = std::iter::from_fn(|| {
+            let (record, behind) = next_record(rest)?;
+            rest = behind;
+            postcard::from_bytes::<(u64, Vec<u8>)>(record).ok()
+        });
+        Ok(Self { known: known.collect(), path, file: None })
+    }
+
+    /// Forgets what earlier runs found.
+    ///
+    /// # Errors
+    /// When the file cannot be removed.
+    pub fn clear(&mut self) -> Result<(), JournalError> {
+        self.known.clear();
+        self.file = None;
+        remove(&self.path)
+    }
+
+    /// How many cases are known.
+    pub fn len(&self) -> usize {
+        self.known.len()
+    }
+
+    /// Whether no case is known.
+    pub fn is_empty(&self) -> bool {
+        self.known.is_empty()
+    }
+
+    /// The result of a case, by its fingerprint; none when there is none of this type.
+    pub fn find<T: DeserializeOwned>(&self, fingerprint: u64) -> Option<T> {
+        postcard::from_bytes(self.known.get(&fingerprint)?).ok()
+    }
+
+    /// Writes the result of a case down, at once.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write<T: Serialize>(
+        &mut self,
+        fingerprint: u64,
+        result: &T,
+    ) -> Result<(), JournalError> {
+        let path = self.path.clone();
+        let cannot = |source| JournalError { path, action: "written", source };
+        let Ok(result) = postcard::to_stdvec(result) else {
+            return Err(cannot(io::Error::other("the result has no form in a file")));
+        };
+        self.append(fingerprint, &result).map_err(cannot)?;
+        self.known.insert(fingerprint, result);
+        Ok(())
+    }
+
+    fn append(&mut self, fingerprint: u64, result: &[u8]) -> io::Result<()> {
+        if self.file.is_none() {
+            // What is known is written anew: a record that was cut off would hide those behind it.
+            let known = self.known.iter().map(|(other, result)| record(*other, result));
+            let known = known.collect::<io::Result<Vec<_>>>()?.concat();
+            if let Some(folder) = self.path.parent() {
+                fs::create_dir_all(folder)?;
+            }
+            let open = OpenOptions::new().create(true).write(true).truncate(true).open(&self.path);
+            self.file.insert(open?).write_all(&known)?;
+        }
+        let Some(file) = &mut self.file else { return Ok(()) };
+        file.write_all(&record(fingerprint, result)?)
+    }
+
+    /// The study is complete: there is nothing to go on with.
+    ///
+    /// # Errors
+    /// When the file cannot be removed.
+    pub fn finish(self) -> Result<(), JournalError> {
+        drop(self.file);
+        remove(&self.path)
+    }
+
+    /// A number for a case, from all that its result depends on.
+    ///
+    /// The version of withy is a part of it; another compiler may give other numbers, and cases are then run again.
+    pub fn fingerprint(parts: &[&[u8]]) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        env!("CARGO_PKG_VERSION").hash(&mut hasher);
+        parts.hash(&mut hasher);
+        hasher.finish()
+    }
+}
+
+fn remove(path: &Path) -> Result<(), JournalError> {
+    match fs::remove_file(path) {
+        Err(source) if source.kind() != io::ErrorKind::NotFound => {
+            Err(JournalError { path: path.to_owned(), action: "removed", source })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn record(fingerprint: u64, result: &[u8]) -> io::Result<Vec<u8>> {
+    let payload = postcard::to_stdvec(&(fingerprint, result)).map_err(io::Error::other)?;
+    let length = u32::try_from(payload.len()).map_err(io::Error::other)?;
+    let checksum = crc32fast::hash(&payload);
+    Ok([&length.to_le_bytes(), &checksum.to_le_bytes(), payload.as_slice()].concat())
+}
+
+/// The first record, if it is whole, and what is behind it.
+fn next_record(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
+    let (length, rest) = bytes.split_first_chunk()?;
+    let (checksum, rest) = rest.split_first_chunk()?;
+    let length = usize::try_from(u32::from_le_bytes(*length)).ok().filter(|it| *it <= LONGEST)?;
+    let (payload, rest) = rest.split_at_checked(length)?;
+    (crc32fast::hash(payload) == u32::from_le_bytes(*checksum)).then_some((payload, rest))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn written(path: &Path, cases: std::ops::Range<u64>) {
+        let mut journal = Journal::open(path).unwrap();
+        for case in cases {
+            journal.write(case, &(case as f64 / 3.0, f64::NAN, format!("case {case}"))).unwrap();
+        }
+    }
+
+    fn found(path: &Path) -> Vec<u64> {
+        let journal = Journal::open(path).unwrap();
+        let known = |case: &u64| {
+            let result: Option<(f64, f64, String)> = journal.find(*case);
+            assert!(
+                result.iter().all(|(third, nan, _)| *third == *case as f64 / 3.0 && nan.is_nan())
+            );
+            result.is_some()
+        };
+        (0..20).filter(known).collect()
+    }
+
+    #[test]
+    fn a_journal_goes_on_where_it_was_and_vanishes_when_all_is_done() {
+        let home = tempfile::tempdir().unwrap();
+        let path = home.path().join("new").join("study.journal");
+        assert!(Journal::open(&path).unwrap().is_empty());
+        assert!(!path.exists(), "a journal without records needs no file");
+        written(&path, 0..3);
+        written(&path, 3..5);
+        assert_eq!(found(&path), [0, 1, 2, 3, 4]);
+        assert_eq!(Journal::open(&path).unwrap().find::<Vec<String>>(7), None);
+        let mut journal = Journal::open(&path).unwrap();
+        journal.clear().unwrap();
+        assert!(found(&path).is_empty());
+        written(&path, 8..9);
+        Journal::open(&path).unwrap().finish().unwrap();
+        assert!(!path.exists());
+    }
+
+    #[test]
+    fn a_journal_cut_or_damaged_anywhere_keeps_what_is_before_and_can_go_on() {
+        let home = tempfile::tempdir().unwrap();
+        let path = home.path().join("study.journal");
+        written(&path, 0..4);
+        let whole = fs::read(&path).unwrap();
+        for at in 0..whole.len() {
+            fs::write(&path, &whole[..at]).unwrap();
+            let kept = found(&path).len();
+            assert_eq!(kept as u64, found(&path).last().map_or(0, |last| last + 1));
+            assert!(kept < 4, "{at}");
+            let mut damaged = whole.clone();
+            damaged[at] ^= 4;
+            fs::write(&path, &damaged).unwrap();
+            assert!(found(&path).len() < 4, "{at}");
+            written(&path, 10..11);
+            assert_eq!(found(&path).last(), Some(&10));
+        }
+    }
+
+    #[test]
+    fn fingerprints_tell_where_a_part_ends() {
+        let of = Journal::fingerprint;
+        assert_eq!(of(&[b"ab", b"c"]), of(&[b"ab", b"c"]));
+        assert_ne!(of(&[b"ab", b"c"]), of(&[b"a", b"bc"]));
+    }
+}

@@ -1,0 +1,163 @@
+//! Cases worked on by all cores at once.
+
+use std::any::Any;
+use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::thread;
+use std::time::Duration;
+
+use super::Case;
+
+/// How often it is asked whether to go on while no case ends.
+const PULSE: Duration = Duration::from_millis(50);
+
+/// Works on cases on all cores; those with functions of a script in their loads wait until the others are done, and are
+/// worked on by the calling thread.
+///
+/// `heed` is called on the calling thread: with the number and the result of a case as soon as it has one, and with `None`
+/// now and then between; when it breaks off, `stop` is set, and cases that have no result by then get none. The results are
+/// in the order of the cases; that of a case that panicked is the message.
+pub fn on_all_cores<R: Send>(
+    cases: &[Case],
+    stop: &AtomicBool,
+    work: impl Fn(&Case) -> R + Sync,
+    mut heed: impl FnMut(Option<(usize, &Result<R, String>)>) -> ControlFlow<()>,
+) -> Vec<Option<Result<R, String>>> {
+    let portable: Vec<Option<Vec<u8>>> = cases.iter().map(Case::to_bytes).collect();
+    let queue: Vec<(usize, &[u8])> = portable
+        .iter()
+        .enumerate()
+        .filter_map(|(number, bytes)| Some((number, bytes.as_deref()?)))
+        .collect();
+    let mut results: Vec<Option<Result<R, String>>> = cases.iter().map(|_| None).collect();
+    let cores = thread::available_parallelism().map_or(1, |cores| cores.get());
+    let next = AtomicUsize::new(0);
+    let is_stopped = || stop.load(Ordering::Relaxed);
+    let mut pulse = |news: Option<(usize, &Result<R, String>)>| {
+        if heed(news).is_break() {
+            stop.store(true, Ordering::Relaxed);
+        }
+    };
+    thread::scope(|scope| {
+        let (done, finished) = mpsc::channel();
+        for _ in 0..cores.min(queue.len()) {
+            let done = done.clone();
+            let (queue, next, work) = (&queue, &next, &work);
+            scope.spawn(move || {
+                while let Some((number, bytes)) = queue.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    if is_stopped() {
+                        break;
+                    }
+                    let case = Case::from_bytes(bytes).ok_or("the case cannot be read again");
+                    let result =
+                        case.map_err(str::to_owned).and_then(|case| guarded(|| work(&case)));
+                    if done.send((*number, result)).is_err() {
+                        break;
+                    }
+                }
+            });
+        }
+        drop(done);
+        loop {
+            match finished.recv_timeout(PULSE) {
+                Ok((number, result)) if !is_stopped() => {
+                    pulse(Some((number, &result)));
+                    results[number] = Some(result);
+                }
+                // What a stopped worker gave is not a result.
+                Ok(_) => (),
+                Err(mpsc::RecvTimeoutError::Timeout) => pulse(None),
+                Err(mpsc::RecvTimeoutError::Disconnected) => break,
+            }
+        }
+    });
+    let waiting = portable.iter().enumerate().filter(|(_, bytes)| bytes.is_none());
+    for (number, _) in waiting {
+        pulse(None);
+        let result = guarded(|| work(&cases[number]));
+        if is_stopped() {
+            break;
+        }
+        pulse(Some((number, &result)));
+        results[number] = Some(result);
+    }
+    results
+}
+
+/// What an action gives, or the message of its panic.
+fn guarded<R>(action: impl FnOnce() -> R) -> Result<R, String> {
+    catch_unwind(AssertUnwindSafe(action)).map_err(|panic| message(&*panic))
+}
+
+fn message(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().copied();
+    let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+    text.unwrap_or("a panic without a message").to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{never, pushed_by_a_function, spinning};
+    use super::super::{Outcome, Patience};
+    use super::*;
+
+    fn steps(case: &Case, stop: &AtomicBool) -> (Outcome, usize) {
+        let (outcome, simulation) = case.run(Patience::default(), stop, |_| ());
+        (outcome, simulation.map_or(0, |simulation| simulation.counts().steps))
+    }
+
+    #[test]
+    fn results_come_in_the_order_of_the_cases_those_of_functions_too() {
+        let stop = never();
+        let mut cases: Vec<Case> =
+            (1..=9).rev().map(|tens| spinning(0.1, &[f64::from(tens)])).collect();
+        cases.insert(4, pushed_by_a_function(0.1, &[0.5]));
+        let mut heard = Vec::new();
+        let results = on_all_cores(
+            &cases,
+            &stop,
+            |case| steps(case, &stop),
+            |news| {
+                heard.extend(news.map(|(number, _)| number));
+                ControlFlow::Continue(())
+            },
+        );
+        let steps: Vec<usize> =
+            results.into_iter().map(|result| result.unwrap().unwrap().1).collect();
+        assert_eq!(steps, [90, 80, 70, 60, 5, 50, 40, 30, 20, 10]);
+        assert_eq!(heard.last(), Some(&4));
+        heard.sort_unstable();
+        assert!(heard.into_iter().eq(0..10));
+    }
+
+    #[test]
+    fn a_panic_is_the_result_of_its_case_alone() {
+        let cases = [spinning(0.1, &[0.1]), spinning(0.2, &[0.2])];
+        let work = |case: &Case| match case.stops[0] {
+            0.1 => panic!("lost in case {}", case.stops[0]),
+            end => end,
+        };
+        let results = on_all_cores(&cases, &never(), work, |_| ControlFlow::Continue(()));
+        assert_eq!(results[0], Some(Err("lost in case 0.1".to_owned())));
+        assert_eq!(results[1], Some(Ok(0.2)));
+    }
+
+    #[test]
+    fn who_is_stopped_keeps_what_was_done_before() {
+        let stop = never();
+        let cases = [spinning(0.1, &[0.1]), spinning(0.1, &[1e9]), spinning(0.1, &[1e9])];
+        let results = on_all_cores(
+            &cases,
+            &stop,
+            |case| steps(case, &stop),
+            |news| match news {
+                Some((0, _)) => ControlFlow::Break(()),
+                _ => ControlFlow::Continue(()),
+            },
+        );
+        assert_eq!(results[0], Some(Ok((Outcome::Finished, 1))));
+        assert_eq!(results[1..], [None, None]);
+    }
+}
