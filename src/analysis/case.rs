@@ -35,12 +35,12 @@ impl Default for Patience {
     }
 }
 
-/// Watches a run: it ends when the study is stopped or patience is at its end.
+/// Watches a run: it ends when nobody wants it any more or patience is at its end.
 struct Watch<'a> {
     patience: Patience,
     begun: Instant,
     steps: usize,
-    stop: &'a AtomicBool,
+    is_wanted: &'a mut dyn FnMut() -> bool,
     exceeded: Option<String>,
 }
 
@@ -52,7 +52,7 @@ impl Monitor for Watch<'_> {
         } else if self.begun.elapsed() > self.patience.wall {
             self.exceeded = Some(format!("more than {} s", self.patience.wall.as_secs_f64()));
         }
-        self.exceeded.is_none() && !self.stop.load(Ordering::Relaxed)
+        self.exceeded.is_none() && (self.is_wanted)()
     }
 }
 
@@ -74,35 +74,50 @@ impl Case {
         &self,
         patience: Patience,
         stop: &AtomicBool,
-        mut look: impl FnMut(&Simulation),
+        look: impl FnMut(&Simulation),
     ) -> (Outcome, Option<Simulation>) {
-        let mut simulation = match Simulation::start(self.scene.clone(), self.settings) {
+        let mut simulation = match self.start() {
             Ok(simulation) => simulation,
-            Err(error) => {
-                return (Outcome::Failed { time: 0.0, reason: error.to_string() }, None);
-            }
+            Err(outcome) => return (outcome, None),
         };
-        let mut watch = Watch { patience, begun: Instant::now(), steps: 0, stop, exceeded: None };
+        let mut is_wanted = || !stop.load(Ordering::Relaxed);
+        let outcome = self.go(&mut simulation, patience, &mut is_wanted, look);
+        (outcome, Some(simulation))
+    }
+
+    /// The simulation at its start, or why there is none.
+    pub fn start(&self) -> Result<Simulation, Outcome> {
+        Simulation::start(self.scene.clone(), self.settings)
+            .map_err(|error| Outcome::Failed { time: 0.0, reason: error.to_string() })
+    }
+
+    /// Takes a simulation from its start to the last stop, and looks at it at every stop. `is_wanted` is asked after every
+    /// step; where it says no, the outcome means nothing.
+    pub fn go(
+        &self,
+        simulation: &mut Simulation,
+        patience: Patience,
+        is_wanted: &mut dyn FnMut() -> bool,
+        mut look: impl FnMut(&Simulation),
+    ) -> Outcome {
+        let begun = Instant::now();
+        let mut watch = Watch { patience, begun, steps: 0, is_wanted, exceeded: None };
         for stop in &self.stops {
             let run = simulation.run_to(*stop, &mut watch);
             let time = simulation.time();
-            let outcome = match (run, watch.exceeded.take()) {
-                (_, Some(limit)) => Outcome::GaveUp { time, limit },
-                (Err(error), None) => Outcome::Failed { time, reason: error.to_string() },
+            match (run, watch.exceeded.take()) {
+                (_, Some(limit)) => return Outcome::GaveUp { time, limit },
+                (Err(error), None) => return Outcome::Failed { time, reason: error.to_string() },
                 (Ok(()), None) => match simulation.ending() {
-                    Some(ending) if !simulation.has_reached(*stop) => Outcome::Failed {
-                        time,
-                        reason: SimulationError::Ended { ending }.to_string(),
-                    },
-                    _ => {
-                        look(&simulation);
-                        continue;
+                    Some(ending) if !simulation.has_reached(*stop) => {
+                        let reason = SimulationError::Ended { ending }.to_string();
+                        return Outcome::Failed { time, reason };
                     }
+                    _ => look(simulation),
                 },
-            };
-            return (outcome, Some(simulation));
+            }
         }
-        (Outcome::Finished, Some(simulation))
+        Outcome::Finished
     }
 }
 

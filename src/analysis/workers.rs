@@ -77,6 +77,8 @@ pub fn on_all_cores<R: Send>(
     for (number, _) in waiting {
         pulse(None);
         let result = guarded(|| work(&cases[number]));
+        // What stopped the study may have stopped the case before anybody else was told.
+        pulse(None);
         if is_stopped() {
             break;
         }

@@ -27,6 +27,9 @@ pub enum Command {
     /// Run a script: simulate, check, draw.
     #[command(after_help = EXIT_CODES)]
     Run(RunOptions),
+    /// Run a script of studies; what is finished when it is stopped is not run again the next time.
+    #[command(after_help = EXIT_CODES)]
+    Study(StudyOptions),
     /// Parse a script and build its scenes without running, printing or writing anything.
     #[command(after_help = EXIT_CODES)]
     Check(CheckOptions),
@@ -99,6 +102,28 @@ pub struct RunOptions {
     /// Write what each simulation says about itself to this JSON file, whole or not at all, also after a failure.
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
+    /// No progress bar and no closing lines; what the script prints and what fails is still shown.
+    #[arg(long, short)]
+    pub quiet: bool,
+    /// What the script may use.
+    #[command(flatten)]
+    pub limits: LimitOptions,
+}
+
+/// Options of `withy study`.
+#[derive(Args)]
+pub struct StudyOptions {
+    /// The script, a .rhai file.
+    pub file: PathBuf,
+    /// Folder for tables, pictures, and journals of what is finished; made when the first one is written.
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+    /// Forget what an interrupted run of these studies has finished.
+    #[arg(long)]
+    pub fresh: bool,
+    /// How often each run is timed, whatever the script says.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub repeats: Option<u32>,
     /// No progress bar and no closing lines; what the script prints and what fails is still shown.
     #[arg(long, short)]
     pub quiet: bool,

@@ -26,7 +26,7 @@ pub fn progress(wish: Wish) -> Box<dyn Progress + Send> {
     }
 }
 
-/// A bar over the time of one simulation at a time. What is over soon never makes one.
+/// A bar over the time of one simulation, or over the cases of one study, at a time. What is over soon never makes one.
 #[derive(Default)]
 struct Bar {
     begun: Cell<Option<Instant>>,
@@ -51,6 +51,18 @@ impl Bar {
         bar.enable_steady_tick(Duration::from_millis(200));
         bar
     }
+
+    /// Shows how far it is, unless it may be over soon.
+    fn show(&self, reached: f64, message: impl FnOnce() -> String) {
+        let mut shown = self.shown.borrow_mut();
+        if shown.is_none() && self.begun.get().is_none_or(|begun| begun.elapsed() < SOON) {
+            return;
+        }
+        let bar = shown.get_or_insert_with(|| self.make());
+        let share = (reached - self.from.get()) / (self.to.get() - self.from.get());
+        bar.set_position((share.clamp(0.0, 1.0) * PARTS as f64) as u64);
+        bar.set_message(message());
+    }
 }
 
 impl Progress for Bar {
@@ -63,14 +75,15 @@ impl Progress for Bar {
     }
 
     fn reach(&self, t: f64) {
-        let mut shown = self.shown.borrow_mut();
-        if shown.is_none() && self.begun.get().is_none_or(|begun| begun.elapsed() < SOON) {
-            return;
-        }
-        let bar = shown.get_or_insert_with(|| self.make());
-        let share = (t - self.from.get()) / (self.to.get() - self.from.get());
-        bar.set_position((share.clamp(0.0, 1.0) * PARTS as f64) as u64);
-        bar.set_message(format!("t = {}", format_number((t * 1e6).round() / 1e6)));
+        self.show(t, || format!("t = {}", format_number((t * 1e6).round() / 1e6)));
+    }
+
+    fn begin_cases(&self, name: &str, count: usize) {
+        self.begin(name, 0.0, count as f64);
+    }
+
+    fn reach_case(&self, done: usize) {
+        self.show(done as f64, || format!("{done} of {} cases", self.to.get()));
     }
 
     fn end(&self) {
@@ -104,5 +117,16 @@ mod tests {
         bar.end();
         bar.reach(0.7);
         assert!(bar.shown.borrow().is_none());
+    }
+
+    #[test]
+    fn a_study_has_a_bar_over_its_cases() {
+        let bar = Bar::default();
+        bar.begin_cases("flight", 8);
+        std::thread::sleep(SOON);
+        bar.reach_case(2);
+        let shown = bar.shown.borrow();
+        let shown = shown.as_ref().expect("a bar");
+        assert_eq!((shown.position(), shown.message().as_str()), (PARTS / 4, "2 of 8 cases"));
     }
 }

@@ -38,6 +38,7 @@ pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let exit = match arguments.command {
         Some(Command::Run(options)) => run::run(&options),
+        Some(Command::Study(options)) => run::study(&options),
         Some(Command::Check(options)) => run::check(&options),
         Some(Command::Repl(options)) => session::open(&options),
         Some(Command::Docs(options)) => docs::docs(&options),

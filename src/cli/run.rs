@@ -1,15 +1,15 @@
-//! `withy run` and `withy check`.
+//! `withy run`, `withy study` and `withy check`.
 
 use std::io::{self, IsTerminal, stderr, stdout};
 use std::path::Path;
 
 use super::Exit;
-use super::args::{CheckOptions, RunOptions};
+use super::args::{CheckOptions, RunOptions, StudyOptions};
 use super::bar::{self, Wish};
 use super::interrupt::{self, AtStake};
 use crate::output::write_whole;
 use crate::script::catalog::Catalog;
-use crate::script::context::{Mode, Settings};
+use crate::script::context::{JournalWish, Mode, Settings, StudyWishes};
 use crate::script::diagnose::{Colours, Diagnostic};
 use crate::script::panics;
 use crate::script::program::Program;
@@ -40,6 +40,34 @@ pub fn run(options: &RunOptions) -> Exit {
         show_summary(&outcome);
     }
     exit_for(&outcome)
+}
+
+/// Runs a script whose studies keep a journal.
+pub fn study(options: &StudyOptions) -> Exit {
+    let wish = if options.quiet { Wish::Hide } else { Wish::Show };
+    let studies = StudyWishes {
+        journal: if options.fresh { JournalWish::Anew } else { JournalWish::GoOn },
+        repeats: options.repeats.map(|repeats| repeats as usize),
+    };
+    let settings = Settings {
+        out: options.out.clone(),
+        interrupt: interrupt::flag(AtStake::Run),
+        limits: options.limits.limits(),
+        printed: Box::new(stdout()),
+        told: Box::new(stderr()),
+        progress: bar::progress(wish),
+        studies,
+        ..Settings::silent(Mode::Run)
+    };
+    match start(&options.file, settings) {
+        Ok(outcome) => {
+            if wish == Wish::Show {
+                show_summary(&outcome);
+            }
+            exit_for(&outcome)
+        }
+        Err(diagnostic) => refuse(&diagnostic),
+    }
 }
 
 /// Parses a script and builds its scenes.

@@ -46,6 +46,29 @@ pub struct Settings {
     pub told: Box<dyn Write + Send>,
     /// What shows how far a simulation is.
     pub progress: Box<dyn Progress + Send>,
+    /// How studies are made.
+    pub studies: StudyWishes,
+}
+
+/// How the studies of a run are made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StudyWishes {
+    /// Whether they can go on where an earlier run of them was interrupted.
+    pub journal: JournalWish,
+    /// How often cases are timed, whatever the script says.
+    pub repeats: Option<usize>,
+}
+
+/// What becomes of finished cases when a study is interrupted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum JournalWish {
+    /// They are lost.
+    #[default]
+    Without,
+    /// They are kept in the output folder, and those that are there are not run again.
+    GoOn,
+    /// They are kept in the output folder; what is there is forgotten first.
+    Anew,
 }
 
 impl Settings {
@@ -61,6 +84,7 @@ impl Settings {
             printed: Box::new(io::sink()),
             told: Box::new(io::sink()),
             progress: Box::new(NoProgress),
+            studies: StudyWishes::default(),
         }
     }
 }
@@ -86,6 +110,7 @@ struct Shared {
     told: RefCell<Box<dyn Write + Send>>,
     pipe_closed: Cell<bool>,
     progress: Box<dyn Progress + Send>,
+    studies: StudyWishes,
     output: OutputFolder,
     checks: RefCell<Checks>,
     reporters: RefCell<Vec<Box<dyn Reporter>>>,
@@ -110,6 +135,7 @@ impl Context {
             told: RefCell::new(settings.told),
             pipe_closed: Cell::new(false),
             progress: settings.progress,
+            studies: settings.studies,
             output: OutputFolder::new(settings.out, settings.folder, settings.mode),
             checks: RefCell::default(),
             reporters: RefCell::default(),
@@ -136,6 +162,11 @@ impl Context {
     /// What to tell how far a simulation is.
     pub fn progress(&self) -> &dyn Progress {
         &*self.0.progress
+    }
+
+    /// How studies are made.
+    pub fn studies(&self) -> StudyWishes {
+        self.0.studies
     }
 
     /// Refuses to go on after an interrupt, beyond a limit, or when nobody reads the output any more.

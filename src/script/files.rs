@@ -86,7 +86,11 @@ impl OutputFolder {
         &self.folder
     }
 
-    fn path_of(&self, name: &str) -> Result<PathBuf, ScriptError> {
+    /// The path of the file `name` of the output folder.
+    ///
+    /// # Errors
+    /// When the name leads out of the folder.
+    pub fn path_of(&self, name: &str) -> Result<PathBuf, ScriptError> {
         let path = self.folder.join(name);
         if !is_plain(name) || !self.stays_inside(&path) {
             return Err(ScriptError::new(format!(

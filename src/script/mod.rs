@@ -40,6 +40,7 @@ pub mod sight;
 pub mod sorting;
 pub mod sources;
 pub mod stored;
+pub mod studies;
 pub mod suggest;
 pub mod syntax;
 pub mod table;

@@ -2,6 +2,7 @@
 
 mod arrays;
 mod checking;
+mod cost_studies;
 mod events;
 mod explaining;
 pub mod geometry;
@@ -20,12 +21,14 @@ mod schedules;
 mod sections;
 mod simulations;
 mod sliding;
+mod stability_studies;
 mod text;
 mod time_travel;
 mod vectors;
 mod windows;
 
 pub use live::SimulationHandle;
+pub use scenes::{SceneHandle, StationHandle};
 
 use super::table::Table;
 
@@ -52,6 +55,8 @@ pub const TABLES: &[&Table] = &[
     &histories::TABLE,
     &explaining::TABLE,
     &pictures::TABLE,
+    &stability_studies::TABLE,
+    &cost_studies::TABLE,
     &help::TABLE,
 ];
 

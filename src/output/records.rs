@@ -1,0 +1,48 @@
+//! Tables of words and numbers for other programs: CSV with `#` comment lines above.
+
+use super::OutputError;
+
+/// Rows of texts under names of columns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CsvRecords {
+    /// Lines put above the table, each behind a `#`.
+    pub comments: Vec<String>,
+    /// The names of the columns.
+    pub names: Vec<String>,
+    /// The rows, each with a text for every column.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl CsvRecords {
+    /// The text of the file. Rows that are shorter or longer than the names are refused.
+    pub fn to_text(&self) -> Result<String, OutputError> {
+        let comments = self.comments.iter().flat_map(|comment| comment.lines());
+        let mut bytes: Vec<u8> =
+            comments.flat_map(|line| format!("# {line}\n").into_bytes()).collect();
+        let mut writer = ::csv::Writer::from_writer(&mut bytes);
+        writer.write_record(&self.names)?;
+        for row in &self.rows {
+            writer.write_record(row)?;
+        }
+        writer.flush().map_err(::csv::Error::from)?;
+        drop(writer);
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_with_commas_stay_in_their_cell() {
+        let mut records = CsvRecords {
+            comments: vec!["a study".into()],
+            names: vec!["mesh".into(), "error".into()],
+            rows: vec![vec!["8 spans, cubic".into(), "0.5".into()]],
+        };
+        assert_eq!(records.to_text().unwrap(), "# a study\nmesh,error\n\"8 spans, cubic\",0.5\n");
+        records.rows.push(vec!["alone".into()]);
+        assert!(records.to_text().is_err());
+    }
+}

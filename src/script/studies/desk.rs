@@ -1,0 +1,175 @@
+//! Where the cases of a study are worked on: in parallel or one by one, with progress and limits, and with a journal where one
+//! is wanted.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::AtomicBool;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::analysis::{Case, Journal, JournalError, on_all_cores};
+use crate::script::context::{Context, JournalWish};
+use crate::script::error::ScriptError;
+
+/// A study at work.
+pub struct Desk<'c> {
+    context: &'c Context,
+    name: String,
+    journal: Option<Journal>,
+}
+
+/// A kind of work that is done with each of some cases.
+#[derive(Clone, Copy)]
+pub struct Task<'t> {
+    /// What is done, in a word or two.
+    pub name: &'t str,
+    /// What the results depend on besides the cases.
+    pub parts: &'t [u8],
+}
+
+impl Task<'_> {
+    /// A number for a case under this task; none when the case cannot be written down.
+    fn fingerprint(&self, case: &Case) -> Option<u64> {
+        Some(Journal::fingerprint(&[self.name.as_bytes(), self.parts, &case.to_bytes()?]))
+    }
+}
+
+impl<'c> Desk<'c> {
+    /// Makes room for a study, whose name is that of its files; a journal is opened where the run wants one.
+    ///
+    /// # Errors
+    /// When the name is not one of a file in the output folder, or the journal cannot be read.
+    pub fn open(context: &'c Context, name: &str) -> Result<Self, ScriptError> {
+        let path = context.output().path_of(&format!("{name}.journal"))?;
+        let mut journal = match context.studies().journal {
+            JournalWish::Without => None,
+            _ => Some(Journal::open(path).map_err(refused)?),
+        };
+        if let (Some(journal), JournalWish::Anew) = (&mut journal, context.studies().journal) {
+            journal.clear().map_err(refused)?;
+        }
+        Ok(Self { context, name: name.to_owned(), journal })
+    }
+
+    /// Works on all cases that the journal does not know, on all cores. `steps_of` counts the steps of a result for the limits
+    /// of the run. A panic is the result of its case alone.
+    ///
+    /// # Errors
+    /// When the run is stopped: what was finished by then is in the journal.
+    pub fn in_parallel<R: Serialize + DeserializeOwned + Clone + Send>(
+        &mut self,
+        task: Task,
+        cases: &[Case],
+        steps_of: fn(&R) -> usize,
+        work: impl Fn(&Case, &AtomicBool) -> R + Sync,
+    ) -> Result<Vec<Result<R, String>>, ScriptError> {
+        let mut results: Vec<_> =
+            cases.iter().map(|case| self.recall(task, case).map(Ok)).collect();
+        let unknown: Vec<usize> = (0..cases.len()).filter(|at| results[*at].is_none()).collect();
+        let known = cases.len() - unknown.len();
+        self.tell_known(task, known, cases.len());
+        self.context.progress().begin_cases(&self.name, cases.len());
+        let asked: Vec<Case> = unknown.iter().map(|at| cases[*at].clone()).collect();
+        let (mut done, mut trouble) = (known, None);
+        let context = self.context;
+        let stop = AtomicBool::new(false);
+        let found = on_all_cores(
+            &asked,
+            &stop,
+            |case| work(case, &stop),
+            |news| {
+                if let Some((number, result)) = news {
+                    done += 1;
+                    context.progress().reach_case(done);
+                    if let Ok(result) = result {
+                        context.meter().count_steps(steps_of(result));
+                        trouble = self.write(task, &asked[number], result).err();
+                    }
+                }
+                let may_go_on = trouble.is_none() && context.stopped_by().is_none();
+                if may_go_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            },
+        );
+        context.progress().end();
+        trouble.map_or(Ok(()), |trouble| Err(refused(trouble)))?;
+        for (at, result) in unknown.into_iter().zip(found) {
+            results[at] = result;
+        }
+        let all: Option<Vec<_>> = results.into_iter().collect();
+        all.ok_or_else(|| match context.proceed() {
+            Err(stopped) => stopped,
+            Ok(()) => ScriptError::bug("a study lost a case"),
+        })
+    }
+
+    /// Works on one case after another on this thread, so that they can be timed; on those that the journal knows not again.
+    /// `work` is given a question whether it may go on.
+    ///
+    /// # Errors
+    /// When the run is stopped: what was finished by then is in the journal.
+    pub fn one_by_one<R: Serialize + DeserializeOwned>(
+        &mut self,
+        task: Task,
+        cases: &[Case],
+        mut work: impl FnMut(&Case, &mut dyn FnMut() -> bool) -> R,
+    ) -> Result<Vec<R>, ScriptError> {
+        let context = self.context;
+        context.progress().begin_cases(&format!("{}, {}", self.name, task.name), cases.len());
+        let mut results = Vec::with_capacity(cases.len());
+        for (number, case) in cases.iter().enumerate() {
+            context.progress().reach_case(number);
+            let result = match self.recall(task, case) {
+                Some(known) => known,
+                None => {
+                    let found = work(case, &mut || context.stopped_by().is_none());
+                    context.proceed()?;
+                    self.write(task, case, &found).map_err(refused)?;
+                    found
+                }
+            };
+            results.push(result);
+        }
+        context.progress().end();
+        Ok(results)
+    }
+
+    /// The study is complete: its journal is removed.
+    ///
+    /// # Errors
+    /// When it cannot be.
+    pub fn close(self) -> Result<(), ScriptError> {
+        self.journal.map_or(Ok(()), |journal| journal.finish().map_err(refused))
+    }
+
+    fn recall<R: DeserializeOwned>(&self, task: Task, case: &Case) -> Option<R> {
+        self.journal.as_ref()?.find(task.fingerprint(case)?)
+    }
+
+    fn write<R: Serialize>(
+        &mut self,
+        task: Task,
+        case: &Case,
+        result: &R,
+    ) -> Result<(), JournalError> {
+        match (&mut self.journal, task.fingerprint(case)) {
+            (Some(journal), Some(fingerprint)) => journal.write(fingerprint, result),
+            _ => Ok(()),
+        }
+    }
+
+    fn tell_known(&self, task: Task, known: usize, all: usize) {
+        if known > 0 {
+            let name = &self.name;
+            let what = task.name;
+            let told = format!(
+                "study '{name}' goes on: {known} of {all} {what} are known from an earlier run"
+            );
+            self.context.tell(&told);
+        }
+    }
+}
+
+fn refused(error: JournalError) -> ScriptError {
+    ScriptError::new(error.to_string())
+        .hint("choose another folder with --out DIR, or begin anew with --fresh")
+}
