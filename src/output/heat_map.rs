@@ -18,8 +18,9 @@ const EDGE: f64 = 14.0;
 const KEY: f64 = 26.0;
 /// Width and height of the bar of colours in it.
 const BAR: (f64, f64) = (110.0, 13.0);
-/// A cell when the map is alone on its page.
-const CELL: (f64, f64) = (104.0, 50.0);
+/// A cell when the map is alone on its page, and where it shares one.
+const CELL: (f64, f64) = (104.0, 52.0);
+const CELL_IN_COLUMNS: (f64, f64) = (76.0, 50.0);
 /// Between the lines of a hatching.
 const HATCH: f64 = 6.0;
 /// Lines of the text of a cell are so far apart.
@@ -105,6 +106,13 @@ impl HeatMap {
         (format!("≤ {}", power(self.scale.1)), format!("≥ {}", power(self.scale.2)))
     }
 
+    /// The size of a map with cells of a size.
+    fn with_cells(&self, cell: (f64, f64)) -> (f64, f64) {
+        let Margins { left, top, right, bottom } = self.margins(0.0, 0.0);
+        let (columns, rows) = (self.columns.1.len().max(4), self.rows.1.len().max(1));
+        (left + right + cell.0 * columns as f64, top + bottom + cell.1 * rows as f64)
+    }
+
     fn colour(&self, part: f64) -> Colour {
         // Cells are large: paler than lines may be, so that their texts are read easily.
         if part < 0.06 { mix(WHITE, ramp(0.0), 0.35) } else { ramp(part) }
@@ -162,7 +170,7 @@ impl HeatMap {
         let ink = match part {
             Some(part) => {
                 canvas.fill(*area, self.colour(part));
-                if part > 0.42 { WHITE } else { INK }
+                if part > 0.36 { WHITE } else { INK }
             }
             None => {
                 hatch(canvas, area);
@@ -213,9 +221,11 @@ fn outline(canvas: &mut Canvas, area: &Area) {
 
 impl Panel for HeatMap {
     fn size(&self) -> (f64, f64) {
-        let Margins { left, top, right, bottom } = self.margins(0.0, 0.0);
-        let (columns, rows) = (self.columns.1.len().max(4), self.rows.1.len().max(1));
-        (left + right + CELL.0 * columns as f64, top + bottom + CELL.1 * rows as f64)
+        self.with_cells(CELL)
+    }
+
+    fn size_among(&self, _rows: usize, columns: usize) -> (f64, f64) {
+        self.with_cells(if columns > 1 { CELL_IN_COLUMNS } else { CELL })
     }
 
     fn margins(&self, _width: f64, _height: f64) -> Margins {

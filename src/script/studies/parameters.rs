@@ -52,10 +52,13 @@ impl Swept {
     }
 }
 
-/// A value in few words: numbers and texts as they are, integrators and maps by their names.
+/// A value in few words: numbers, large ones as powers of ten, and texts as they are, integrators and maps by their names.
 pub fn label(call: &Call, value: &Dynamic) -> String {
     if let Some(number) = as_number(value) {
-        return format_number(number);
+        return match number.abs() >= 1e4 {
+            true => format!("{number:e}"),
+            false => format_number(number),
+        };
     }
     if let Some(method) = value.clone().try_cast::<Method>() {
         return method_label(&method);

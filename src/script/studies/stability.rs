@@ -247,7 +247,7 @@ impl StabilityMap {
                 let iterations = format!("{} it.", significant(verdict.mean_iterations, 2));
                 let retries = match verdict.retries {
                     0 => String::new(),
-                    retries => format!(" {retries} halved"),
+                    retries => format!("\n{retries} halved"),
                 };
                 let text = format!("{first}\n{iterations}{retries}");
                 HeatCell { value: Some(value), text }
