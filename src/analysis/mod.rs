@@ -1,26 +1,48 @@
 //! Studies: many runs, and what they say together. Nothing here draws or prints.
 //!
 //! ```text
-//! studies → case, outcome → workers → journal
+//! stability, cost → features
+//! precision, convergence → combination, truth, rivals → trial, observable, sheet
+//! trial → case, outcome → workers → journal
 //! ```
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod case;
+mod combination;
+mod convergence;
 mod cost;
 mod features;
 mod journal;
+mod observable;
 mod outcome;
+mod pareto;
+mod precision;
+mod rivals;
+mod sheet;
 mod stability;
+mod trial;
+mod truth;
 mod workers;
 
 #[cfg(test)]
 mod samples;
 
 pub use case::{Case, Patience};
+pub use combination::{
+    Combination, PART_OF_THE_SMALLEST_STEP, Subject, all_combinations, finest_mesh, highest_order,
+};
+pub use convergence::{ALL_POSITIONS, Convergence, Ladder, Refined};
 pub use cost::{CostCase, StepCost, step_costs};
 pub use features::{FEATURES, Feature};
 pub use journal::{Journal, JournalError};
+pub use observable::{Observable, ObservableKind, SYMBOLS};
 pub use outcome::Outcome;
+pub use pareto::pareto_front;
+pub use precision::{Precision, PrecisionRow};
+pub use rivals::{Rival, RivalError, machines};
+pub use sheet::{Sheet, SheetError};
 pub use stability::Verdict;
+pub use trial::{Timing, Trial};
+pub use truth::{Deviation, Readings, Truth, TruthError};
 pub use workers::on_all_cores;

@@ -3,15 +3,46 @@
 use super::{
     axis::{Axis, DEFAULT_FLOOR, Scale, extent},
     canvas::{Align, Area, Canvas, Point},
-    colour::{GREY, HUE_COUNT, hue},
+    colour::{Colour, GREY, HUE_COUNT, INK, hue, tint},
     frame::{Frame, Margins},
     legend::Entry,
+    marker::Marker,
     page::Panel,
     stroke::Stroke,
 };
 
 const LINE: f64 = 2.0;
 const MARK: f64 = 3.5;
+/// Width of lines and radius of marks of series of lesser weight, and how much of their colour is left.
+const FAINT: (f64, f64, f64) = (0.9, 2.4, 0.15);
+const THIN: f64 = 1.3;
+const NOTE: f64 = 12.0;
+
+/// The colour of a series.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Ink {
+    /// The next one of the palette.
+    #[default]
+    Next,
+    /// That of the series with this number, counted from 0, where series belong together.
+    OfSeries(usize),
+    /// That of titles: for what is about all series.
+    Black,
+    /// That of labels: for what guides the eye.
+    Grey,
+}
+
+/// How much a series catches the eye.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Weight {
+    /// As usual.
+    #[default]
+    Full,
+    /// Thin, before what is faint.
+    Thin,
+    /// Thin and pale, behind what matters.
+    Faint,
+}
 
 /// A named curve. Points that are not finite leave a gap.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -22,12 +53,42 @@ pub struct Series {
     pub points: Vec<Point>,
     /// How its line is drawn; `None` leaves the choice to the chart, which draws unbroken lines while colours last.
     pub stroke: Option<Stroke>,
+    /// The shape of its marks, where it has some.
+    pub marker: Marker,
+    /// Its colour.
+    pub ink: Ink,
+    /// How much it catches the eye.
+    pub weight: Weight,
 }
 
 impl Series {
-    /// A named curve through `points`.
+    /// A named curve through `points`; one without a name is not in the legend.
     pub fn new(name: impl Into<String>, points: Vec<Point>) -> Self {
-        Self { name: name.into(), points, stroke: None }
+        Self { name: name.into(), points, ..Self::default() }
+    }
+
+    /// Chooses the shape of marks.
+    pub fn marker(mut self, marker: Marker) -> Self {
+        self.marker = marker;
+        self
+    }
+
+    /// Chooses the colour.
+    pub fn ink(mut self, ink: Ink) -> Self {
+        self.ink = ink;
+        self
+    }
+
+    /// Draws it thin.
+    pub fn thin(mut self) -> Self {
+        self.weight = Weight::Thin;
+        self
+    }
+
+    /// Draws it thin and pale.
+    pub fn faint(mut self) -> Self {
+        self.weight = Weight::Faint;
+        self
     }
 
     /// Chooses how the line is drawn.
@@ -49,6 +110,8 @@ pub struct LineChart {
     y_range: Option<(f64, f64)>,
     size: (f64, f64),
     pub(super) series: Vec<Series>,
+    captions: Vec<String>,
+    notes: Vec<(Point, String)>,
 }
 
 impl LineChart {
@@ -64,6 +127,8 @@ impl LineChart {
             y_range: None,
             size: (900.0, 560.0),
             series: Vec::new(),
+            captions: Vec::new(),
+            notes: Vec::new(),
         }
     }
 
@@ -115,13 +180,25 @@ impl LineChart {
         self
     }
 
+    /// Adds a line of small words below the title.
+    pub fn caption(mut self, words: impl Into<String>) -> Self {
+        self.captions.push(words.into());
+        self
+    }
+
+    /// Writes a few words to the right of a point of the data and a little below it.
+    pub fn note(mut self, at: Point, text: impl Into<String>) -> Self {
+        self.notes.push((at, text.into()));
+        self
+    }
+
     fn points(&self) -> impl Iterator<Item = Point> {
         let points = self.series.iter().flat_map(|series| series.points.iter().copied());
         points.filter(|(x, y)| x.is_finite() && y.is_finite())
     }
 
     pub(super) fn frame(&self) -> Frame {
-        let marked = self.series.iter().any(|series| series.stroke == Some(Stroke::Marked));
+        let marked = self.series.iter().any(|series| series.stroke.is_some_and(Stroke::has_marks));
         let axis = |scale, values: &mut dyn Iterator<Item = f64>, margin| match scale {
             Scale::Linear => Axis::linear(values, margin),
             Scale::Logarithmic => Axis::logarithmic(values, self.floor),
@@ -134,6 +211,7 @@ impl LineChart {
         };
         Frame {
             title: self.title.clone(),
+            captions: self.captions.clone(),
             x_label: self.x_label.clone(),
             y_label: self.y_label.clone(),
             x: axis(
@@ -150,7 +228,7 @@ impl LineChart {
     fn legend(&self) -> Vec<Entry> {
         let entry = |(index, series): (usize, &Series)| {
             let (colour, stroke) = look(index, series);
-            Entry { name: series.name.clone(), colour, stroke }
+            Entry { name: series.name.clone(), colour, stroke, marker: series.marker }
         };
         match self.series.as_slice() {
             [only] if only.name == self.title || only.name == self.y_label => Vec::new(),
@@ -164,8 +242,14 @@ impl LineChart {
     }
 }
 
-fn look(index: usize, series: &Series) -> (super::colour::Colour, Stroke) {
-    (hue(index), series.stroke.unwrap_or(Stroke::of_round(index / HUE_COUNT)))
+fn look(index: usize, series: &Series) -> (Colour, Stroke) {
+    let colour = match series.ink {
+        Ink::Next => hue(index),
+        Ink::OfSeries(number) => hue(number),
+        Ink::Black => INK,
+        Ink::Grey => GREY,
+    };
+    (colour, series.stroke.unwrap_or(Stroke::of_round(index / HUE_COUNT)))
 }
 
 impl Panel for LineChart {
@@ -184,17 +268,30 @@ impl Panel for LineChart {
             let middle = ((plot.left + plot.right) / 2.0, (plot.top + plot.bottom) / 2.0);
             canvas.text("no data", middle, 14.0, Align::Middle, GREY);
         }
-        for (index, series) in self.series.iter().enumerate() {
+        let faint_first =
+            [Weight::Faint, Weight::Thin, Weight::Full].into_iter().flat_map(|weight| {
+                self.series.iter().enumerate().filter(move |(_, series)| series.weight == weight)
+            });
+        for (index, series) in faint_first {
             let (colour, stroke) = look(index, series);
+            let (line, mark, colour) = match series.weight {
+                Weight::Full => (LINE, MARK, colour),
+                Weight::Thin => (THIN, FAINT.1, colour),
+                Weight::Faint => (FAINT.0, FAINT.1, tint(colour, FAINT.2)),
+            };
             for run in frame.curve(plot, &series.points) {
                 match run.as_slice() {
-                    [dot] => canvas.disc(*dot, MARK, colour),
-                    _ => stroke.draw(canvas, &run, LINE, colour),
+                    [dot] if !stroke.has_marks() => canvas.disc(*dot, mark, colour),
+                    _ => stroke.draw(canvas, &run, line, colour),
                 }
-                if stroke == Stroke::Marked {
-                    run.iter().for_each(|&point| canvas.disc(point, MARK, colour));
+                if stroke.has_marks() {
+                    run.iter().for_each(|&point| series.marker.draw(canvas, point, mark, colour));
                 }
             }
+        }
+        for (at, text) in &self.notes {
+            let (x, y) = frame.place(plot, *at);
+            canvas.text(text, (x + 8.0, y + 1.2 * NOTE), NOTE, Align::Start, GREY);
         }
     }
 }

@@ -9,6 +9,7 @@ use super::{
 };
 
 const TITLE: f64 = 16.0;
+const CAPTION: f64 = 12.0;
 const LABEL: f64 = 13.0;
 const NUMBER: f64 = 12.0;
 /// Free paper around a panel.
@@ -53,6 +54,8 @@ impl Margins {
 pub struct Frame {
     /// What stands above the panel.
     pub title: String,
+    /// Small words below the title, line by line.
+    pub captions: Vec<String>,
     /// What the horizontal axis shows.
     pub x_label: String,
     /// What the vertical axis shows.
@@ -76,6 +79,7 @@ impl Frame {
         let left = EDGE + numbers + 10.0 + if self.has_y_label() { LABEL + 10.0 } else { 0.0 };
         let right = (EDGE + last / 2.0).max(24.0);
         let title = if self.title.is_empty() { 0.0 } else { TITLE + 10.0 };
+        let title = title + self.captions.len() as f64 * (CAPTION + 5.0);
         Margins {
             left,
             top: EDGE + title + legend::height(&self.legend, width - left - right) + 6.0,
@@ -88,6 +92,12 @@ impl Frame {
     pub fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
         let title = fonts::fit(&self.title, TITLE, area.right - plot.left - EDGE);
         canvas.text(&title, (plot.left, area.top + EDGE + TITLE * 0.8), TITLE, Align::Start, INK);
+        let mut baseline = area.top + EDGE + TITLE * 0.8;
+        for caption in &self.captions {
+            baseline += CAPTION + 5.0;
+            let caption = fonts::fit(caption, CAPTION, area.right - plot.left - EDGE);
+            canvas.text(&caption, (plot.left, baseline + 2.0), CAPTION, Align::Start, GREY);
+        }
         let legend_top = plot.top - 6.0 - legend::height(&self.legend, plot.width());
         legend::draw(canvas, &self.legend, &Area { top: legend_top, bottom: plot.top, ..*plot });
         self.draw_x_axis(canvas, area, plot);
@@ -182,6 +192,7 @@ mod tests {
     fn nothing_leaves_the_panel() {
         let frame = Frame {
             title: "A title that is far too long for its panel ".repeat(9),
+            captions: vec!["a line below it ".repeat(30); 2],
             x_label: "t [s]".into(),
             y_label: "energy [J]".repeat(30),
             x: Axis::between(0.0, 1e5),

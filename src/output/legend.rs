@@ -4,6 +4,7 @@ use super::{
     canvas::{Align, Area, Canvas},
     colour::{Colour, INK},
     fonts,
+    marker::Marker,
     stroke::Stroke,
 };
 
@@ -25,6 +26,8 @@ pub struct Entry {
     pub colour: Colour,
     /// How its line is drawn.
     pub stroke: Stroke,
+    /// The shape of its marks, if it has some.
+    pub marker: Marker,
 }
 
 /// The height that a legend takes when it is `width` wide.
@@ -41,8 +44,8 @@ pub fn draw(canvas: &mut Canvas, entries: &[Entry], area: &Area) {
         let mut x = area.left;
         for entry in row {
             entry.stroke.draw(canvas, &[(x, middle), (x + SAMPLE, middle)], 2.0, entry.colour);
-            if entry.stroke == Stroke::Marked {
-                canvas.disc((x + SAMPLE / 2.0, middle), 3.5, entry.colour);
+            if entry.stroke.has_marks() {
+                entry.marker.draw(canvas, (x + SAMPLE / 2.0, middle), 3.5, entry.colour);
             }
             let name = fitted(entry, area.width());
             canvas.text(&name, (x + SAMPLE + GAP, middle + 0.36 * TEXT), TEXT, Align::Start, INK);
@@ -90,7 +93,8 @@ mod tests {
     use super::*;
 
     fn entries(count: usize, name: &str) -> Vec<Entry> {
-        vec![Entry { name: name.into(), colour: INK, stroke: Stroke::Solid }; count]
+        let (stroke, marker) = (Stroke::Solid, Marker::Disc);
+        vec![Entry { name: name.into(), colour: INK, stroke, marker }; count]
     }
 
     #[test]

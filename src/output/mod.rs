@@ -1,7 +1,7 @@
 //! Tables, files and pictures from plain data. Nothing here knows what a simulation is.
 //!
 //! ```text
-//! chart, heat_map, motion → page → frame, legend, timebar → axis, curve, stroke → canvas → figure → svg, png → files
+//! chart, heat_map, bars, motion → page → frame, legend, timebar → axis, curve, stroke, marker → canvas → figure → svg, png → files
 //! chart, heat_map → terminal → axis, curve
 //! ```
 //!
@@ -23,6 +23,7 @@ mod fonts;
 mod frame;
 mod heat_map;
 mod legend;
+mod marker;
 mod motion;
 mod number;
 mod page;
@@ -40,7 +41,7 @@ mod samples;
 pub use axis::{DEFAULT_FLOOR, Scale};
 pub use bars::BarChart;
 pub use canvas::{Align, Area, Canvas, Direction, Point, Shape, Text};
-pub use chart::{LineChart, Series};
+pub use chart::{Ink, LineChart, Series, Weight};
 pub use colour::Colour;
 pub use csv::CsvTable;
 pub use error::OutputError;
@@ -48,6 +49,7 @@ pub use figure::{Figure, PictureKind};
 pub use files::write_whole;
 pub use frame::Margins;
 pub use heat_map::{HeatCell, HeatMap};
+pub use marker::Marker;
 pub use motion::{MotionPicture, Snapshot};
 pub use number::{format_number, scientific, significant};
 pub use page::{Page, Panel};

@@ -6,6 +6,7 @@ use super::{
     colour::{Colour, GREY, HUE_COUNT, INK, hue, ramp, tint},
     frame::{Frame, Margins},
     legend::Entry,
+    marker::Marker,
     page::{Page, Panel},
     stroke::Stroke,
     timebar::TimeBar,
@@ -142,6 +143,7 @@ impl MotionPicture {
         };
         Frame {
             title: self.title.clone(),
+            captions: Vec::new(),
             x_label: self.x_label.clone(),
             y_label: self.y_label.clone(),
             x: axis(x, width),
@@ -157,10 +159,11 @@ impl MotionPicture {
             name: name.clone(),
             colour: hue(index),
             stroke: Stroke::Solid,
+            marker: Marker::Disc,
         });
         let traces = self.traces.iter().enumerate().map(|(index, (name, _))| {
             let (colour, stroke) = self.trace_look(index);
-            Entry { name: name.clone(), colour, stroke }
+            Entry { name: name.clone(), colour, stroke, marker: Marker::Disc }
         });
         beams.chain(traces).filter(|entry| !entry.name.is_empty()).collect()
     }

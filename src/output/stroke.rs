@@ -16,8 +16,10 @@ pub enum Stroke {
     Dashed,
     /// Short dashes, nearly dots.
     Dotted,
-    /// An unbroken line with a dot at every point, for measured or computed points that are few.
+    /// An unbroken line with a mark at every point, for measured or computed points that are few.
     Marked,
+    /// Marks without a line between them.
+    Unjoined,
 }
 
 impl Stroke {
@@ -26,12 +28,18 @@ impl Stroke {
         [Stroke::Solid, Stroke::Dashed, Stroke::Dotted][round % 3]
     }
 
-    /// Draws one unbroken run of a curve, given in pixels. The dots of a marked line are not part of it.
+    /// Whether there is a mark at every point.
+    pub fn has_marks(self) -> bool {
+        matches!(self, Stroke::Marked | Stroke::Unjoined)
+    }
+
+    /// Draws one unbroken run of a curve, given in pixels. The marks of a line are not part of it.
     pub fn draw(self, canvas: &mut Canvas, run: &[Point], width: f64, colour: Colour) {
         let pattern: &[f64] = match self {
             Stroke::Solid | Stroke::Marked => {
                 return canvas.line(run.iter().copied(), width, colour);
             }
+            Stroke::Unjoined => return,
             Stroke::Dashed => &[7.0, 5.0],
             Stroke::Dotted => &[1.0, 5.0],
         };
@@ -54,6 +62,7 @@ mod tests {
             canvas.shapes().len()
         };
         assert_eq!((count(Stroke::Solid), count(Stroke::Dashed), count(Stroke::Dotted)), (1, 2, 4));
+        assert_eq!((count(Stroke::Marked), count(Stroke::Unjoined)), (1, 0));
         assert_eq!(Stroke::of_round(4), Stroke::Dashed);
     }
 }

@@ -131,11 +131,6 @@ impl Meter {
         self.steps.set(self.steps.get().saturating_add(steps as u64));
     }
 
-    /// How many more steps are allowed.
-    pub fn steps_left(&self) -> u64 {
-        self.limits.steps.map_or(u64::MAX, |limit| limit.saturating_sub(self.steps.get()))
-    }
-
     /// Whether one more step is allowed; if not, the limit counts as passed.
     pub fn allows_a_step(&self) -> bool {
         let allowed = self.limits.steps.is_none_or(|limit| self.steps.get() < limit);

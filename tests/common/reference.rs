@@ -1,4 +1,4 @@
-//! The reference solutions in `tests/reference`: see their header lines.
+//! The reference solutions in `scripts/studies/reference`: see their header lines.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ pub struct Table {
 }
 
 pub fn text(file: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference").join(file);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts/studies/reference").join(file);
     std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 

@@ -2,6 +2,7 @@
 
 mod arrays;
 mod checking;
+mod convergence_studies;
 mod cost_studies;
 mod events;
 mod explaining;
@@ -13,6 +14,7 @@ mod live;
 mod loads;
 mod math;
 mod pictures;
+mod precision_studies;
 mod recording;
 mod report;
 mod saving;
@@ -57,6 +59,8 @@ pub const TABLES: &[&Table] = &[
     &pictures::TABLE,
     &stability_studies::TABLE,
     &cost_studies::TABLE,
+    &precision_studies::TABLE,
+    &convergence_studies::TABLE,
     &help::TABLE,
 ];
 

@@ -127,7 +127,7 @@ fn as_history(value: &Dynamic) -> Option<HistoryHandle> {
 }
 
 /// Writes a picture in the format that the ending of its name asks for.
-fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic, ScriptError> {
+pub(super) fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic, ScriptError> {
     let file = call.text("file")?;
     let kind = PictureKind::of(Path::new(file.as_str()))?;
     let figure = picture.figure()?;

@@ -98,9 +98,8 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let plan = Plan::read(call, &options)?;
     let cases = plan.cases(call, &options, &scene)?;
     let context = call.context();
-    let steps = usize::try_from(context.meter().steps_left()).unwrap_or(usize::MAX);
     let wall = Duration::from_secs_f64(options.number("patience")?.min(1e9));
-    let patience = Patience { steps, wall };
+    let patience = Patience { wall, ..Patience::default() };
     let shown = options.text("show")?;
     let shown = Shown::ALL.iter().find(|(name, _)| *name == shown.as_str());
     let shown = shown.map_or(Shown::EnergyGrowth, |(_, shown)| *shown);

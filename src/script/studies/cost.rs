@@ -2,7 +2,7 @@
 
 use rhai::{Dynamic, FnPtr, Map};
 
-use super::parameters::method_label;
+use super::labels;
 use crate::analysis::{Case, CostCase, FEATURES, StepCost};
 use crate::integrators::{INTEGRATORS, Method};
 use crate::model::Scene;
@@ -102,7 +102,9 @@ pub fn cases(call: &Call, options: &Options, way: Way) -> Result<Vec<CostCase>, 
     cases.push(CostCase { recording: Recording::Nothing, ..quiet });
     cases.push(CostCase { snapshots: SNAPSHOTS, ..way.case("snapshots", fresh()?) });
     for entry in INTEGRATORS.iter().filter(|entry| entry.method != way.method) {
-        cases.push(Way { method: entry.method, ..way }.case(method_label(&entry.method), fresh()?));
+        cases.push(
+            Way { method: entry.method, ..way }.case(labels::method(&entry.method), fresh()?),
+        );
     }
     Ok(cases)
 }

@@ -86,7 +86,8 @@ impl<'c> Desk<'c> {
                         trouble = self.write(task, &asked[number], result).err();
                     }
                 }
-                let may_go_on = trouble.is_none() && context.stopped_by().is_none();
+                let has_steps = done == cases.len() || context.meter().allows_a_step();
+                let may_go_on = trouble.is_none() && has_steps && context.stopped_by().is_none();
                 if may_go_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             },
         );

@@ -2,6 +2,7 @@
 
 use rhai::{Array, Dynamic, Map};
 
+use super::labels;
 use crate::integrators::Method;
 use crate::script::call::Call;
 use crate::script::error::{Place, ScriptError};
@@ -61,19 +62,11 @@ pub fn label(call: &Call, value: &Dynamic) -> String {
         };
     }
     if let Some(method) = value.clone().try_cast::<Method>() {
-        return method_label(&method);
+        return labels::method(&method);
     }
     let named = value.read_lock::<Map>().and_then(|map| map.get("name").cloned());
     match named.unwrap_or_else(|| value.clone()) {
         text if text.is_string() => text.to_string(),
         other => call.show(&other),
     }
-}
-
-/// An integrator with its parameter.
-pub fn method_label(method: &Method) -> String {
-    let entry = method.entry();
-    let parameter = entry.parameter.zip(method.parameter());
-    let tuned = parameter.map(|(of, value)| format!(", {} = {}", of.name, format_number(value)));
-    format!("{}{}", entry.name, tuned.unwrap_or_default())
 }

@@ -1,0 +1,201 @@
+//! Convergence: how errors fall with the step size or the size of the mesh, and at which order.
+
+use super::observable::Observable;
+use super::trial::Trial;
+use super::truth::{Deviation, Truth};
+use crate::integrators::Method;
+
+/// What is refined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Refined {
+    /// The step size.
+    Step,
+    /// The mesh; its size is one over the number of spans.
+    Mesh,
+}
+
+/// The errors of one quantity with one integrator, from coarse to fine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ladder {
+    /// The integrator.
+    pub method: Method,
+    /// What was looked at, in words.
+    pub quantity: String,
+    /// Step sizes or sizes of the mesh.
+    pub sizes: Vec<f64>,
+    /// The errors; none where the run failed.
+    pub deviations: Vec<Option<Deviation>>,
+}
+
+impl Ladder {
+    /// The error at a rung, if the run came to its end.
+    pub fn error(&self, rung: usize) -> Option<f64> {
+        self.deviations.get(rung).copied().flatten().map(|of| of.error())
+    }
+
+    /// The size and the error of a rung from which an order can be told: one that is not zero, and that the reference is good
+    /// enough to tell.
+    fn point(&self, rung: usize) -> Option<(f64, f64)> {
+        let deviation = (*self.deviations.get(rung)?)?;
+        let is_told = deviation.is_resolved() && deviation.distance.is_finite();
+        is_told.then(|| (self.sizes[rung], deviation.distance))
+    }
+
+    /// The order observed between a rung and the one before, `ln(e₁/e₂) / ln(h₁/h₂)`.
+    pub fn order(&self, rung: usize) -> Option<f64> {
+        let ((coarse, large), (fine, small)) =
+            (self.point(rung.checked_sub(1)?)?, self.point(rung)?);
+        Some((large / small).ln() / (coarse / fine).ln()).filter(|order| order.is_finite())
+    }
+
+    /// The order of all rungs together: the slope of a straight line through the logarithms by least squares.
+    pub fn fitted_order(&self) -> Option<f64> {
+        let points: Vec<(f64, f64)> = (0..self.sizes.len())
+            .filter_map(|rung| self.point(rung))
+            .map(|(size, error)| (size.ln(), error.ln()))
+            .collect();
+        let count = points.len() as f64;
+        let mean = |part: fn(&(f64, f64)) -> f64| points.iter().map(part).sum::<f64>() / count;
+        let (x, y) = (mean(|point| point.0), mean(|point| point.1));
+        let covariance: f64 = points.iter().map(|point| (point.0 - x) * (point.1 - y)).sum();
+        let variance: f64 = points.iter().map(|point| (point.0 - x).powi(2)).sum();
+        (points.len() > 1 && variance > 0.0).then(|| covariance / variance)
+    }
+}
+
+/// A study of convergence.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Convergence {
+    /// Its name.
+    pub name: String,
+    /// What is refined.
+    pub refined: Refined,
+    /// What is not, in words.
+    pub fixed: String,
+    /// When errors are taken [time].
+    pub times: Vec<f64>,
+    /// What errors of positions are relative to [length].
+    pub length: f64,
+    /// What the quantities should be.
+    pub truth: Truth,
+    /// All quantities with the first integrator, then with the next.
+    pub ladders: Vec<Ladder>,
+    /// What became of runs that failed: the size, the integrator, why.
+    pub failures: Vec<(f64, Method, String)>,
+}
+
+/// What is called the error of all positions together.
+pub const ALL_POSITIONS: &str = "positions";
+
+impl Convergence {
+    /// The ladders of one integrator: all positions together, relative to the length; then what each observable does.
+    pub fn ladders_of(
+        method: Method,
+        rungs: &[(f64, Trial)],
+        (observables, truth, length): (&[Observable], &Truth, f64),
+    ) -> Vec<Ladder> {
+        let ladder = |quantity: String, read: &dyn Fn(&Trial) -> Option<Deviation>| {
+            let read =
+                |(_, trial): &(f64, Trial)| read(trial).filter(|_| trial.outcome.is_finished());
+            let sizes = rungs.iter().map(|(size, _)| *size).collect();
+            Ladder { method, quantity, sizes, deviations: rungs.iter().map(read).collect() }
+        };
+        let together = ladder(ALL_POSITIONS.to_owned(), &|trial| {
+            let all = truth.of_positions(observables, &trial.readings);
+            all.map(|all| all.divided_by(length))
+        });
+        let known = (0..observables.len()).filter(|index| truth.knows(*index));
+        let each = known.map(|index| {
+            let scale = if observables[index].is_position() { length } else { 1.0 };
+            ladder(observables[index].describe(), &|trial| {
+                truth.deviation(index, &trial.readings).map(|of| of.divided_by(scale))
+            })
+        });
+        std::iter::once(together).chain(each).collect()
+    }
+
+    /// The quantities, each once.
+    pub fn quantities(&self) -> Vec<&str> {
+        let mut names = Vec::new();
+        for name in self.ladders.iter().map(|ladder| ladder.quantity.as_str()) {
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names
+    }
+
+    /// The order that an integrator claims, where steps are what is refined.
+    pub fn claimed_order(&self, method: &Method) -> Option<u32> {
+        (self.refined == Refined::Step).then(|| method.entry().claims.order)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Patience;
+    use super::super::samples::{never, spinning};
+    use super::*;
+    use crate::beams::Station;
+    use crate::integrators::INTEGRATORS;
+
+    fn ladder(errors: &[Option<(f64, f64)>]) -> Ladder {
+        let deviation =
+            |of: &Option<(f64, f64)>| of.map(|(distance, trusted)| Deviation { distance, trusted });
+        Ladder {
+            method: Method::EnergyMomentum,
+            quantity: "q".into(),
+            sizes: (0..errors.len()).map(|rung| 0.5_f64.powi(rung as i32)).collect(),
+            deviations: errors.iter().map(deviation).collect(),
+        }
+    }
+
+    #[test]
+    fn orders_are_slopes_of_what_the_reference_can_tell() {
+        let clean = ladder(&[Some((16.0, 0.0)), Some((2.0, 0.0)), Some((0.25, 0.0))]);
+        assert_eq!((clean.order(0), clean.order(1), clean.order(2)), (None, Some(3.0), Some(3.0)));
+        assert!((clean.fitted_order().unwrap() - 3.0).abs() < 1e-12);
+        let blurred = ladder(&[Some((16.0, 0.1)), Some((4.0, 0.1)), Some((0.01, 0.1)), None]);
+        assert_eq!((blurred.order(2), blurred.order(3)), (None, None));
+        assert!((blurred.fitted_order().unwrap() - 2.0).abs() < 1e-12);
+        assert_eq!(blurred.error(2), Some(0.11));
+        assert_eq!(ladder(&[Some((1.0, 0.0))]).fitted_order(), None);
+        assert_eq!(ladder(&[Some((0.0, 0.0)), Some((1.0, 0.0))]).order(1), None);
+    }
+
+    /// Step sizes that follow the vibration along the rod.
+    #[test]
+    fn integrators_converge_at_the_order_they_claim() {
+        let columns = ["kinetic", "strain"].map(|name| Observable::of_column(name, name, 1.0));
+        let tip = Observable::of_station("tip", Station::on_beam(0, 2.0));
+        let observables: Vec<_> = tip.chain(columns).collect();
+        let trial = |method: Method, dt: f64| {
+            let mut case = spinning(dt, &[0.1, 0.2]);
+            case.settings.method = method;
+            Trial::of(&case, &observables, Patience::default(), &never())
+        };
+        let fine = trial(Method::FourthOrder, 0.00025);
+        let truth = Truth::of_run("own", &fine.readings);
+        for entry in INTEGRATORS.iter().filter(|entry| entry.claims.order > 1) {
+            let rungs: Vec<_> =
+                [0.004, 0.002, 0.001].map(|dt| (dt, trial(entry.method, dt))).into_iter().collect();
+            let ladders =
+                Convergence::ladders_of(entry.method, &rungs, (&observables, &truth, 2.0));
+            let names: Vec<_> = ladders.iter().map(|ladder| ladder.quantity.as_str()).collect();
+            assert_eq!(
+                names,
+                ["positions", "position of tip", "angle of tip", "kinetic", "strain"]
+            );
+            for ladder in &ladders[..3] {
+                let order = ladder.order(2).unwrap();
+                let claimed = f64::from(entry.claims.order);
+                assert!(
+                    (order - claimed).abs() < 0.3,
+                    "{} {}: {order}",
+                    entry.name,
+                    ladder.quantity
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! What is looked at in a run, to be compared with what it should be.
+
+use serde::{Deserialize, Serialize};
+
+use crate::beams::Station;
+use crate::geometry::Vec2;
+use crate::simulation::{History, Simulation};
+
+/// A named quantity of a simulation at one time.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Observable {
+    /// The name of the station, or of the column; unique among those of its kind.
+    pub name: String,
+    /// What it is.
+    pub kind: ObservableKind,
+}
+
+/// What can be looked at.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum ObservableKind {
+    /// Where a station is [length].
+    Position(Station),
+    /// The angle of the section at a station [rad].
+    Angle(Station),
+    /// A column of the history.
+    Column {
+        /// Its name there.
+        column: String,
+        /// By what it is multiplied.
+        factor: f64,
+    },
+}
+
+/// Columns of the history under the symbols that tables of solutions use for them.
+pub const SYMBOLS: [(&str, &str); 6] = [
+    ("E", "energy"),
+    ("KE", "kinetic"),
+    ("SE", "strain"),
+    ("px", "momentum_x"),
+    ("py", "momentum_y"),
+    ("Lz", "angular_momentum"),
+];
+
+/// Columns of a history that say how it was computed, not what happened.
+const OF_THE_COMPUTATION: [&str; 5] = ["t", "gap", "dt", "newton_iterations", "retries"];
+
+impl Observable {
+    /// Position and angle of a station; a particle has no angle.
+    pub fn of_station(name: &str, station: Station) -> impl Iterator<Item = Self> {
+        let angle = station.beam().map(|_| ObservableKind::Angle(station));
+        let kinds = std::iter::once(ObservableKind::Position(station)).chain(angle);
+        let name = name.to_owned();
+        kinds.map(move |kind| Self { name: name.clone(), kind })
+    }
+
+    /// A column of the history, times a factor.
+    pub fn of_column(name: &str, column: &str, factor: f64) -> Self {
+        let kind = ObservableKind::Column { column: column.to_owned(), factor };
+        Self { name: name.to_owned(), kind }
+    }
+
+    /// All columns of a history that say what happened.
+    pub fn of_history(history: &History) -> impl Iterator<Item = Self> {
+        let told = history.columns().filter(|(name, _)| !OF_THE_COMPUTATION.contains(name));
+        told.map(|(name, _)| Self::of_column(name, name, 1.0))
+    }
+
+    /// Whether it is the position of a station.
+    pub fn is_position(&self) -> bool {
+        matches!(self.kind, ObservableKind::Position(_))
+    }
+
+    /// In words: `position of tip`, `angle of tip`, `kinetic`.
+    pub fn describe(&self) -> String {
+        match &self.kind {
+            ObservableKind::Position(_) => format!("position of {}", self.name),
+            ObservableKind::Angle(_) => format!("angle of {}", self.name),
+            ObservableKind::Column { .. } => self.name.clone(),
+        }
+    }
+
+    /// Its present value: a vector for a position, else in the first component; NaN where there is none.
+    pub fn read(&self, simulation: &Simulation) -> Vec2 {
+        let scalar = |value: Option<f64>| Vec2::new(value.unwrap_or(f64::NAN), 0.0);
+        match &self.kind {
+            ObservableKind::Position(station) => simulation.place(station).map_or_else(
+                |_| Vec2::new(f64::NAN, f64::NAN),
+                |place| simulation.model().position(&place),
+            ),
+            ObservableKind::Angle(station) => {
+                scalar(simulation.model().angle(simulation.scene(), station))
+            }
+            ObservableKind::Column { column, factor } => {
+                let values = simulation.history().column(column);
+                scalar(values.and_then(|values| Some(values.last()? * factor)))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::spinning;
+    use super::*;
+
+    #[test]
+    fn stations_have_a_place_and_an_angle_and_histories_their_columns() {
+        let simulation = spinning(0.1, &[1.0]).start().unwrap();
+        let tip: Vec<_> = Observable::of_station("tip", Station::on_beam(0, 2.0)).collect();
+        assert_eq!(tip[0].read(&simulation), Vec2::new(2.0, 0.0));
+        assert_eq!((tip[1].describe().as_str(), tip[1].read(&simulation).x), ("angle of tip", 0.0));
+        assert_eq!(Observable::of_station("stone", Station::on_particle(0)).count(), 1);
+        let energy = Observable::of_column("2 E", "energy", 2.0).read(&simulation);
+        let measured = simulation.history().samples()[0].measures.energy.total();
+        assert_eq!(energy.x, 2.0 * measured);
+        assert!(Observable::of_column("S", "slider.position", 1.0).read(&simulation).x.is_nan());
+        let inside = Observable::of_station("inside", Station::on_beam(0, 0.3)).last().unwrap();
+        assert!(inside.read(&simulation).x.is_nan(), "its angle is not followed");
+        let names: Vec<_> =
+            Observable::of_history(simulation.history()).map(|of| of.name).collect();
+        assert!(names.contains(&"strain".to_owned()) && !names.contains(&"retries".to_owned()));
+    }
+
+    #[test]
+    fn symbols_stand_for_columns_that_there_are() {
+        let history = History::default();
+        assert!(SYMBOLS.iter().all(|(_, column)| history.dimension(column).is_some()));
+    }
+}

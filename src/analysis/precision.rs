@@ -1,0 +1,176 @@
+//! Error against run time: what each combination costs and what it gives, and which of them are worth it.
+
+use super::observable::Observable;
+use super::pareto::pareto_front;
+use super::rivals::Rival;
+use super::trial::{Timing, Trial};
+use super::truth::{Deviation, Truth};
+use crate::simulation::Settings;
+
+/// A combination, run and timed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PrecisionRow {
+    /// What the mesh is called.
+    pub mesh: String,
+    /// Integrator and step size.
+    pub settings: Settings,
+    /// What the run showed.
+    pub trial: Trial,
+    /// What it took; none where it failed.
+    pub timing: Option<Timing>,
+    /// The largest distance of a station from the reference, relative to the length of the study; none where the run failed.
+    pub error: Option<Deviation>,
+    /// How far each observable is from the reference, in its own unit; none where the run failed or the reference says
+    /// nothing of it.
+    pub deviations: Vec<Option<Deviation>>,
+    /// Whether no other combination is both faster and better.
+    pub is_on_front: bool,
+}
+
+impl PrecisionRow {
+    /// What became of a combination.
+    pub fn new(
+        (mesh, settings): (String, Settings),
+        trial: Trial,
+        timing: Option<Timing>,
+        (observables, truth, length): (&[Observable], &Truth, f64),
+    ) -> Self {
+        let is_finished = trial.outcome.is_finished();
+        let of = |index| truth.deviation(index, &trial.readings).filter(|_| is_finished);
+        let deviations = (0..observables.len()).map(of).collect();
+        let error = truth.of_positions(observables, &trial.readings).filter(|_| is_finished);
+        let error = error.map(|error| error.divided_by(length));
+        Self { mesh, settings, trial, timing, error, deviations, is_on_front: false }
+    }
+
+    /// Time of the run [s] and error; infinite where there are none.
+    pub fn price_and_error(&self) -> (f64, f64) {
+        let price = self.timing.map_or(f64::INFINITY, |timing| timing.price());
+        (price, self.error.map_or(f64::INFINITY, |error| error.error()))
+    }
+}
+
+/// A study of error against run time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Precision {
+    /// Its name.
+    pub name: String,
+    /// When errors are taken; the last one ends a run [time].
+    pub times: Vec<f64>,
+    /// What errors of positions are relative to [length].
+    pub length: f64,
+    /// What was looked at.
+    pub observables: Vec<Observable>,
+    /// What it should be.
+    pub truth: Truth,
+    /// All combinations in their order, those that failed too.
+    pub rows: Vec<PrecisionRow>,
+    /// What other programs needed.
+    pub rivals: Vec<Rival>,
+}
+
+impl Precision {
+    /// Marks those that are worth their price.
+    pub fn mark_front(&mut self) {
+        let points: Vec<_> = self.rows.iter().map(PrecisionRow::price_and_error).collect();
+        for (row, is_on_front) in self.rows.iter_mut().zip(pareto_front(&points)) {
+            row.is_on_front = is_on_front;
+        }
+    }
+
+    /// The combinations that are worth their price, the fastest first.
+    pub fn front(&self) -> Vec<&PrecisionRow> {
+        let mut front: Vec<_> = self.rows.iter().filter(|row| row.is_on_front).collect();
+        front.sort_by(|a, b| a.price_and_error().0.total_cmp(&b.price_and_error().0));
+        front
+    }
+
+    /// The fastest combination whose error is at most `error`.
+    pub fn cheapest(&self, error: f64) -> Option<&PrecisionRow> {
+        self.front().into_iter().find(|row| row.price_and_error().1 <= error)
+    }
+
+    /// The programs of the rivals, each once.
+    pub fn peers(&self) -> Vec<&str> {
+        let mut peers = Vec::new();
+        for peer in self.rivals.iter().map(|rival| rival.peer.as_str()) {
+            if !peers.contains(&peer) {
+                peers.push(peer);
+            }
+        }
+        peers
+    }
+
+    /// The fastest run of a program whose error is at most `error`.
+    pub fn cheapest_of(&self, peer: &str, error: f64) -> Option<&Rival> {
+        let able = self.rivals.iter().filter(|rival| rival.peer == peer && rival.error <= error);
+        able.min_by(|a, b| a.run_time.total_cmp(&b.run_time))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::super::Patience;
+    use super::super::samples::{never, spinning};
+    use super::*;
+    use crate::beams::Station;
+
+    /// A short spinning rod with three step sizes, the first of which cannot be; the last is the reference.
+    fn study() -> Precision {
+        let observables: Vec<_> = Observable::of_station("tip", Station::on_beam(0, 2.0)).collect();
+        let trial =
+            |dt| Trial::of(&spinning(dt, &[0.5, 1.0]), &observables, Patience::default(), &never());
+        let truth = Truth::of_run("own", &trial(0.01).readings);
+        let row = |(dt, millis): (f64, u64)| {
+            let run = Duration::from_millis(millis);
+            let timing = Timing { setup: run, run, shortest: run, processor: None, repeats: 1 };
+            let trial = trial(dt);
+            let timing = trial.outcome.is_finished().then_some(timing);
+            let settings = spinning(dt, &[1.0]).settings;
+            PrecisionRow::new(("m".into(), settings), trial, timing, (&observables, &truth, 2.0))
+        };
+        let rows = [(-0.1, 1), (0.25, 2), (0.125, 4), (0.25, 3)].map(row).to_vec();
+        let rival = |peer: &str, run_time, error| Rival {
+            peer: peer.into(),
+            series: peer.into(),
+            setting: String::new(),
+            run_time,
+            error,
+            energy_drift: 0.0,
+            machine: "m".into(),
+        };
+        let rivals = vec![rival("P", 9.0, 1e-9), rival("P", 1.0, 0.5), rival("Q", 1.0, 0.9)];
+        let (name, times, length) = ("s".into(), vec![0.5, 1.0], 2.0);
+        let mut study = Precision { name, times, length, observables, truth, rows, rivals };
+        study.mark_front();
+        study
+    }
+
+    #[test]
+    fn smaller_steps_are_better_and_dearer_and_what_failed_stays() {
+        let study = study();
+        let errors: Vec<f64> = study.rows.iter().map(|row| row.price_and_error().1).collect();
+        assert!(
+            errors[0].is_infinite() && errors[2] < 0.3 * errors[1] && errors[2] > 0.0,
+            "{errors:?}"
+        );
+        let front: Vec<bool> = study.rows.iter().map(|row| row.is_on_front).collect();
+        assert_eq!(front, [false, true, true, false]);
+        let of_tip = study.rows[1].deviations[0].unwrap().error();
+        assert_eq!(of_tip / 2.0, errors[1]);
+        assert_eq!(study.cheapest(errors[1]).unwrap(), &study.rows[1]);
+        assert_eq!(study.cheapest(0.5 * errors[1]).unwrap(), &study.rows[2]);
+        assert!(study.cheapest(0.0).is_none());
+    }
+
+    #[test]
+    fn the_cheapest_rival_is_good_enough() {
+        let study = study();
+        assert_eq!(study.peers(), ["P", "Q"]);
+        assert_eq!(study.cheapest_of("P", 1e-3).unwrap().run_time, 9.0);
+        assert_eq!(study.cheapest_of("P", 0.6).unwrap().run_time, 1.0);
+        assert!(study.cheapest_of("Q", 0.6).is_none());
+    }
+}

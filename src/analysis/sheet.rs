@@ -1,0 +1,132 @@
+//! Tables that others have written: CSV with `#` comment lines above.
+
+/// A table that cannot be used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SheetError {
+    /// It is no CSV.
+    #[error("line {line} is not a row of the table: {reason}")]
+    Row {
+        /// Where, counted from 1.
+        line: u64,
+        /// Why.
+        reason: String,
+    },
+    /// It has no such column.
+    #[error("it has no column '{column}'; its columns are {known}")]
+    Column {
+        /// The name asked for.
+        column: String,
+        /// The names that there are.
+        known: String,
+    },
+    /// A cell is not a number.
+    #[error("column '{column}' of row {row} holds '{text}', which is not a number")]
+    Number {
+        /// The name of the column.
+        column: String,
+        /// The row below the names, counted from 1.
+        row: usize,
+        /// What stands there.
+        text: String,
+    },
+}
+
+/// A table of texts with named columns.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Sheet {
+    columns: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Sheet {
+    /// Reads the text of a file.
+    ///
+    /// # Errors
+    /// When a row has more or fewer cells than there are columns.
+    pub fn parse(text: &str) -> Result<Self, SheetError> {
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_reader(text.as_bytes());
+        let wrong = |error: csv::Error| SheetError::Row {
+            line: error.position().map_or(1, csv::Position::line),
+            reason: match error.kind() {
+                csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
+                    format!("it has {len} cells, and there are {expected_len} columns")
+                }
+                _ => error.to_string(),
+            },
+        };
+        let texts = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
+        let columns = texts(reader.headers().map_err(wrong)?);
+        let rows = reader.records().map(|record| Ok(texts(&record.map_err(wrong)?)));
+        Ok(Self { columns, rows: rows.collect::<Result<_, _>>()? })
+    }
+
+    /// The names of its columns.
+    pub fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    /// How many rows it has.
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Whether it has no row.
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// Whether it has a column.
+    pub fn has(&self, column: &str) -> bool {
+        self.columns.iter().any(|name| name == column)
+    }
+
+    /// What stands in a row and a column.
+    ///
+    /// # Errors
+    /// When there is no such column.
+    ///
+    /// # Panics
+    /// When there is no such row.
+    pub fn text(&self, row: usize, column: &str) -> Result<&str, SheetError> {
+        let found = self.columns.iter().position(|name| name == column);
+        let missing =
+            || SheetError::Column { column: column.to_owned(), known: self.columns.join(", ") };
+        found.map(|index| self.rows[row][index].as_str()).ok_or_else(missing)
+    }
+
+    /// The number that stands in a row and a column.
+    ///
+    /// # Errors
+    /// When there is no such column, or something else than a number.
+    pub fn number(&self, row: usize, column: &str) -> Result<f64, SheetError> {
+        let text = self.text(row, column)?;
+        text.parse().map_err(|_| SheetError::Number {
+            column: column.to_owned(),
+            row: row + 1,
+            text: text.to_owned(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_wrong_with_a_table_is_said_with_its_place() {
+        let sheet = Sheet::parse("# how it was made\nt, x0\n0,1.5\n1,two\n").unwrap();
+        assert_eq!((sheet.len(), sheet.number(0, "x0")), (2, Ok(1.5)));
+        let told = sheet.number(1, "x0").unwrap_err().to_string();
+        assert_eq!(told, "column 'x0' of row 2 holds 'two', which is not a number");
+        let told = sheet.number(0, "y0").unwrap_err().to_string();
+        assert_eq!(told, "it has no column 'y0'; its columns are t, x0");
+        let told = Sheet::parse("# made\nt,x0\n0,1\n1\n").unwrap_err().to_string();
+        assert_eq!(
+            told,
+            "line 4 is not a row of the table: it has 1 cells, and there are 2 columns"
+        );
+    }
+}

@@ -1,0 +1,268 @@
+//! What the observables of a study should be, and how far results are from it.
+
+use super::observable::{Observable, ObservableKind};
+use super::sheet::{Sheet, SheetError};
+use crate::geometry::{Vec2, larger};
+
+/// Observables at the times of a study: the first index is the time, the second the observable.
+pub type Readings = Vec<Vec<Vec2>>;
+
+/// How far a result is from the truth, and how well the truth is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Deviation {
+    /// The distance from the reference.
+    pub distance: f64,
+    /// An estimate of the error of the reference itself; zero where it gives none.
+    pub trusted: f64,
+}
+
+impl Deviation {
+    /// Whether the reference is good enough to tell the error.
+    pub fn is_resolved(&self) -> bool {
+        self.distance > self.trusted
+    }
+
+    /// The error, or a bound of it where the reference does not tell.
+    pub fn error(&self) -> f64 {
+        if self.is_resolved() { self.distance } else { self.distance + self.trusted }
+    }
+
+    /// The larger of both; what is not a number is larger than all.
+    pub fn worst(self, other: Self) -> Self {
+        if larger(self.distance, other.distance) == self.distance || self.distance.is_nan() {
+            Self { trusted: self.trusted.max(other.trusted), ..self }
+        } else {
+            Self { trusted: self.trusted.max(other.trusted), ..other }
+        }
+    }
+
+    /// The same by another measure.
+    pub fn divided_by(self, scale: f64) -> Self {
+        Self { distance: self.distance / scale, trusted: self.trusted / scale }
+    }
+}
+
+/// A reference that cannot be used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TruthError {
+    /// Its table is wrong.
+    #[error(transparent)]
+    Sheet(#[from] SheetError),
+    /// It says nothing about a time of the study.
+    #[error("it has no row at t = {time}; the nearest rows are at t = {}", nearest.join(" and "))]
+    Time {
+        /// The time asked for.
+        time: f64,
+        /// The rows before and behind it.
+        nearest: Vec<String>,
+    },
+    /// It says nothing about any station.
+    #[error(
+        "it has no station of the study: for one called '{station}' it needs the columns x{station} and y{station}; its columns are {known}"
+    )]
+    Stations {
+        /// The name of one.
+        station: String,
+        /// The names of the columns.
+        known: String,
+    },
+}
+
+/// A value that an observable should have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Known {
+    value: Vec2,
+    trusted: f64,
+}
+
+/// What the observables of a study should be at its times.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Truth {
+    /// Where it comes from, in a line.
+    pub source: String,
+    /// Whether it is a run of our own, and no independent solution.
+    pub is_own: bool,
+    /// None where it says nothing.
+    known: Vec<Vec<Option<Known>>>,
+}
+
+/// Times that differ by less, relative to the larger of them and one, are the same.
+const SAME_TIME: f64 = 1e-9;
+
+/// The row of a table at a time.
+fn row_at(sheet: &Sheet, time: f64) -> Result<usize, TruthError> {
+    let times: Vec<f64> =
+        (0..sheet.len()).map(|row| sheet.number(row, "t")).collect::<Result<_, _>>()?;
+    let near = |other: f64| (other - time).abs() <= SAME_TIME * time.abs().max(1.0);
+    let nearest = || {
+        let before = times.iter().copied().filter(|other| *other < time).reduce(f64::max);
+        let behind = times.iter().copied().filter(|other| *other > time).reduce(f64::min);
+        before.into_iter().chain(behind).map(|time| time.to_string()).collect()
+    };
+    let found = times.iter().position(|other| near(*other));
+    found.ok_or_else(|| TruthError::Time { time, nearest: nearest() })
+}
+
+/// The first of these columns that a table has, as numbers of a row; zero where it has none.
+fn estimate(sheet: &Sheet, row: usize, columns: &[String]) -> Result<f64, SheetError> {
+    let found = columns.iter().find(|column| sheet.has(column));
+    found.map_or(Ok(0.0), |column| sheet.number(row, column).map(f64::abs))
+}
+
+/// What a table says of an observable.
+fn known_of(sheet: &Sheet, row: usize, of: &Observable) -> Result<Option<Known>, SheetError> {
+    let name = &of.name;
+    let number = |column: &str| sheet.number(row, column);
+    let either = |columns: &[String]| estimate(sheet, row, columns);
+    Ok(match &of.kind {
+        ObservableKind::Position(_) => {
+            let [x, y] = ["x", "y"].map(|axis| format!("{axis}{name}"));
+            if !sheet.has(&x) || !sheet.has(&y) {
+                return Ok(None);
+            }
+            let groups = [format!("d_{name}"), "d_pos".to_owned()];
+            let trusted = match [&x, &y].map(|column| format!("d_{column}")) {
+                [x, y] if sheet.has(&x) && sheet.has(&y) => number(&x)?.hypot(number(&y)?),
+                _ => either(&groups)?,
+            };
+            Some(Known { value: Vec2::new(number(&x)?, number(&y)?), trusted })
+        }
+        ObservableKind::Angle(_) => {
+            let column = format!("th{name}");
+            if !sheet.has(&column) {
+                return Ok(None);
+            }
+            let trusted = either(&[format!("d_{column}"), "d_th".to_owned()])?;
+            Some(Known { value: Vec2::new(number(&column)?, 0.0), trusted })
+        }
+        ObservableKind::Column { .. } if !sheet.has(name) => None,
+        ObservableKind::Column { .. } => {
+            let groups: &[&str] = match name.as_str() {
+                "KE" | "SE" => &["d_KE", "d_E"],
+                _ => &[],
+            };
+            let own = std::iter::once(format!("d_{name}"));
+            let columns: Vec<String> =
+                own.chain(groups.iter().map(|group| (*group).to_owned())).collect();
+            Some(Known { value: Vec2::new(number(name)?, 0.0), trusted: either(&columns)? })
+        }
+    })
+}
+
+impl Truth {
+    /// An independent solution: a table with a column t and, for a station called A, xA, yA and thA; other columns bear the
+    /// names of observables. Estimates of its own errors stand in columns d_xA, d_A or d_pos, d_thA or d_th, d_E, ….
+    ///
+    /// # Errors
+    /// When it has no row at one of the times, none of the stations, or something else than numbers.
+    pub fn of_sheet(
+        source: impl Into<String>,
+        sheet: &Sheet,
+        observables: &[Observable],
+        times: &[f64],
+    ) -> Result<Self, TruthError> {
+        let at = |time: &f64| -> Result<Vec<Option<Known>>, TruthError> {
+            let row = row_at(sheet, *time)?;
+            Ok(observables.iter().map(|of| known_of(sheet, row, of)).collect::<Result<_, _>>()?)
+        };
+        let known: Vec<_> = times.iter().map(at).collect::<Result<_, _>>()?;
+        let truth = Self { source: source.into(), is_own: false, known };
+        let mut positions = observables.iter().enumerate().filter(|(_, of)| of.is_position());
+        match positions.clone().next() {
+            Some((_, first)) if !positions.any(|(index, _)| truth.knows(index)) => {
+                Err(TruthError::Stations {
+                    station: first.name.clone(),
+                    known: sheet.columns().join(", "),
+                })
+            }
+            _ => Ok(truth),
+        }
+    }
+
+    /// What a run of our own gave.
+    pub fn of_run(source: impl Into<String>, readings: &Readings) -> Self {
+        let known = |value: &Vec2| {
+            (value.x.is_finite() && value.y.is_finite())
+                .then_some(Known { value: *value, trusted: 0.0 })
+        };
+        let known = readings.iter().map(|at| at.iter().map(known).collect()).collect();
+        Self { source: source.into(), is_own: true, known }
+    }
+
+    /// Whether it says something about an observable, by its index.
+    pub fn knows(&self, observable: usize) -> bool {
+        self.known.iter().any(|at| at.get(observable).is_some_and(Option::is_some))
+    }
+
+    /// The largest deviation of an observable at the times; none where it says nothing of it.
+    pub fn deviation(&self, observable: usize, readings: &Readings) -> Option<Deviation> {
+        let at = |(known, found): (&Vec<Option<Known>>, &Vec<Vec2>)| {
+            let known = (*known.get(observable)?)?;
+            let distance = (found.get(observable)? - known.value).norm();
+            Some(Deviation { distance, trusted: known.trusted })
+        };
+        self.known.iter().zip(readings).filter_map(at).reduce(Deviation::worst)
+    }
+
+    /// The largest deviation of all positions [length].
+    pub fn of_positions(
+        &self,
+        observables: &[Observable],
+        readings: &Readings,
+    ) -> Option<Deviation> {
+        let positions = observables.iter().enumerate().filter(|(_, of)| of.is_position());
+        positions.filter_map(|(index, _)| self.deviation(index, readings)).reduce(Deviation::worst)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::beams::Station;
+
+    const TABLE: &str = "t,xA,yA,thA,KE,d_pos,d_E\n0,0,0,0,1,0,0\n0.5,3,4,0.2,2,1e-3,0.1\n";
+
+    fn observables() -> Vec<Observable> {
+        let columns = [("KE", "kinetic"), ("SE", "strain")];
+        let columns = columns.map(|(name, column)| Observable::of_column(name, column, 1.0));
+        Observable::of_station("A", Station::on_beam(0, 0.0)).chain(columns).collect()
+    }
+
+    #[test]
+    fn a_table_tells_values_and_how_well_it_knows_them() {
+        let sheet = Sheet::parse(TABLE).unwrap();
+        let truth = Truth::of_sheet("T.csv", &sheet, &observables(), &[0.5]).unwrap();
+        let found = |x| vec![vec![Vec2::new(3.0, 4.0 + x), Vec2::zeros(), Vec2::new(2.0, 0.0)]];
+        let near = truth.of_positions(&observables(), &found(5e-4)).unwrap();
+        assert!(!near.is_resolved() && (near.error() - 1.5e-3).abs() < 1e-12, "{near:?}");
+        let far = truth.deviation(0, &found(0.1)).unwrap().divided_by(2.0);
+        assert!(far.is_resolved() && (far.error() - 0.05).abs() < 1e-12);
+        assert_eq!(truth.deviation(1, &found(0.0)).unwrap().error(), 0.2);
+        assert_eq!(truth.deviation(2, &found(0.0)).unwrap().trusted, 0.1);
+        assert!(!truth.knows(3) && truth.deviation(3, &found(0.0)).is_none());
+    }
+
+    #[test]
+    fn a_table_without_the_time_or_the_stations_is_refused() {
+        let sheet = Sheet::parse(TABLE).unwrap();
+        let told = Truth::of_sheet("T.csv", &sheet, &observables(), &[0.3]).unwrap_err();
+        assert_eq!(
+            told.to_string(),
+            "it has no row at t = 0.3; the nearest rows are at t = 0 and 0.5"
+        );
+        let other: Vec<_> = Observable::of_station("tip", Station::on_beam(0, 0.0)).collect();
+        let told = Truth::of_sheet("T.csv", &sheet, &other, &[0.5]).unwrap_err().to_string();
+        assert!(told.contains("xtip and ytip") && told.contains("t, xA, yA"), "{told}");
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_the_largest_deviation() {
+        let deviations = [1.0, f64::NAN, 3.0].map(|distance| Deviation { distance, trusted: 0.0 });
+        for order in [[0, 1, 2], [2, 1, 0], [1, 0, 2], [0, 2, 1]] {
+            let worst = order.map(|index| deviations[index]).into_iter().reduce(Deviation::worst);
+            assert!(worst.unwrap().error().is_nan());
+        }
+        let own = Truth::of_run("own", &vec![vec![Vec2::new(f64::NAN, 0.0), Vec2::zeros()]]);
+        assert!(!own.knows(0) && own.knows(1) && own.is_own);
+    }
+}

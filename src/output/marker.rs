@@ -1,0 +1,83 @@
+//! Marks at points of a curve, told apart by their shape also where colours are not.
+
+use super::{
+    canvas::{Area, Canvas, Point},
+    colour::{Colour, WHITE},
+};
+
+/// The shape of the marks of a series.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Marker {
+    /// A filled circle.
+    #[default]
+    Disc,
+    /// A filled square.
+    Square,
+    /// An outlined square on its corner.
+    Diamond,
+    /// An outlined triangle.
+    Triangle,
+    /// An outlined circle.
+    Ring,
+    /// Two strokes, like an x.
+    Cross,
+}
+
+impl Marker {
+    /// All of them, in the order in which series take them.
+    const ALL: [Self; 6] =
+        [Self::Disc, Self::Square, Self::Diamond, Self::Triangle, Self::Ring, Self::Cross];
+
+    /// The marker of series number `index`; they repeat.
+    pub fn of_index(index: usize) -> Self {
+        Self::ALL[index % Self::ALL.len()]
+    }
+
+    /// Draws it around a point, with the reach of a disc of this radius.
+    pub fn draw(self, canvas: &mut Canvas, (x, y): Point, radius: f64, colour: Colour) {
+        let width = 0.5 * radius;
+        let half = 0.9 * radius;
+        let mut outline = |corners: &[Point]| {
+            let corners = corners.iter().chain(&corners[..2]);
+            canvas.line(corners.map(|(dx, dy)| (x + dx * radius, y + dy * radius)), width, colour);
+        };
+        match self {
+            Self::Disc => canvas.disc((x, y), radius, colour),
+            Self::Square => {
+                let (left, top, right, bottom) = (x - half, y - half, x + half, y + half);
+                canvas.fill(Area { left, top, right, bottom }, colour);
+            }
+            Self::Diamond => outline(&[(0.0, -1.1), (1.1, 0.0), (0.0, 1.1), (-1.1, 0.0)]),
+            Self::Triangle => outline(&[(0.0, -1.1), (1.05, 0.8), (-1.05, 0.8)]),
+            Self::Ring => {
+                canvas.disc((x, y), radius, colour);
+                canvas.disc((x, y), 0.5 * radius, WHITE);
+            }
+            Self::Cross => {
+                for side in [-1.0, 1.0] {
+                    let ends = [(x - side * half, y - half), (x + side * half, y + half)];
+                    canvas.line(ends, width, colour);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::colour::INK;
+
+    #[test]
+    fn every_marker_draws_something_else_around_its_point() {
+        let drawn = |marker: Marker| {
+            let mut canvas = Canvas::default();
+            marker.draw(&mut canvas, (10.0, 10.0), 4.0, INK);
+            format!("{:?}", canvas.shapes())
+        };
+        let all: std::collections::HashSet<String> = Marker::ALL.into_iter().map(drawn).collect();
+        assert_eq!(all.len(), Marker::ALL.len());
+        assert!(all.iter().all(|shapes| shapes != "[]"));
+        assert_eq!(Marker::of_index(7), Marker::Square);
+    }
+}

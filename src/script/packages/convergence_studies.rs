@@ -1,0 +1,114 @@
+//! Studies of convergence.
+
+use std::rc::Rc;
+
+use rhai::{Array, Dynamic};
+
+use super::integrators::INTEGRATOR;
+use super::precision_studies::{
+    COLUMNS, DTS, LENGTH, MESHES, METHODS, NAME, PATIENCE, REFERENCE, SCENE_OF, TIMES,
+};
+use crate::analysis::{Convergence, Ladder};
+use crate::integrators::Method;
+use crate::script::call::Call;
+use crate::script::error::ScriptError;
+use crate::script::kind::{Details, Scripted, Type};
+use crate::script::parameter::{Parameter, object, options, text};
+use crate::script::studies::convergence::{chart, expect_quantity, find, map_of, study, table};
+use crate::script::table::{Table, function, method, property};
+
+/// Studies of convergence.
+pub const TABLE: Table = Table {
+    name: "convergence",
+    doc: "How errors fall when the step size or the mesh is refined, for every quantity, and at which order.",
+    types: &[CONVERGENCE],
+    setup: SETUP_OF_LADDERS,
+    constants: &[],
+    rows: &[
+        function("study_convergence", &[options("options", CONVERGENCE_KEYS)], |call| {
+            let study = study(call, &call.options("options")?)?;
+            Ok(Dynamic::from(ConvergenceStudy(Rc::new(study))))
+        })
+        .returns("a convergence study")
+        .summary("Runs a scene with several step sizes on one mesh, or on several meshes with one step size: errors and orders.")
+        .doc(
+            "scene, stations, reference and columns are as of study_work_precision. With a table as reference the quantities are \
+             those it has; with a run of our own, which holds unless given, they are the positions and angles of the stations and all \
+             columns of the history that say what happened. Orders are told only from errors that the reference is good enough \
+             to tell. The size of a mesh is one over the spans of all beams. Writes NAME.csv and NAME.svg.",
+        )
+        .example("print(ladder.table);\ncheck(ladder.order(\"positions\", energy_momentum()) > 1.9);")
+        .see(&["study_work_precision", "finest_run", "order"]),
+        property(CONVERGENCE, "table", |call| Ok(table(&call.receiver::<ConvergenceStudy>()?.0).into()))
+            .returns("a text")
+            .summary("Errors and observed orders of every quantity; the order of all sizes together, by least squares, below.")
+            .example("print(ladder.table);"),
+        property(CONVERGENCE, "rows", |call| {
+            let ConvergenceStudy(study) = call.receiver()?;
+            Ok(study.ladders.iter().map(|of| map_of(&study, of).into()).collect::<Array>().into())
+        })
+        .returns("an array of maps")
+        .summary("For every integrator and quantity: sizes, errors, orders, order and claimed.")
+        .example("for row in ladder.rows { check(row.errors.len() == 3 && row.orders.len() == 2); }"),
+        property(CONVERGENCE, "reference", |call| {
+            Ok(call.receiver::<ConvergenceStudy>()?.0.truth.source.clone().into())
+        })
+        .returns("a text")
+        .summary("What the errors are measured against.")
+        .example("check(ladder.reference.contains(\"own finest run\"));"),
+        method(CONVERGENCE, "order", &[QUANTITY, object("integrator", INTEGRATOR)], order)
+            .returns("a number")
+            .summary("The order of a quantity with an integrator, by least squares over all sizes; NaN where none can be told.")
+            .example("check_close(ladder.order(\"positions\", fourth_order()), 4, 0.5);")
+            .see(&["study_convergence"]),
+        method(CONVERGENCE, "plot", &[QUANTITY, text("file").doc("its name in the output folder, .svg or .png")], plot)
+            .summary("Draws the errors of a quantity over the sizes, with lines of the claimed orders.")
+            .example("ladder.plot(\"kinetic\", \"kinetic.svg\");"),
+    ],
+};
+
+const SETUP_OF_LADDERS: &str = "let s = section(#{ EA: 100, GA: 100, EI: 10, rho_A: 1, rho_I: 1 });\n\
+    let spinning = |mesh| {\n    let scene = new_scene(\"spinning\");\n    \
+    scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: mesh, section: s, spin: 1 });\n    scene\n};\n\
+    let ladder = study_convergence(#{ name: \"ladder\", scene: spinning, meshes: [bspline(2)], \
+    integrators: [energy_momentum(), fourth_order()], dts: [0.04, 0.02, 0.01], times: [1] });";
+
+const CONVERGENCE: Type = Type::of::<ConvergenceStudy>();
+const QUANTITY: Parameter =
+    text("quantity").doc("\"positions\", all of them together, or one that the table shows");
+const CONVERGENCE_KEYS: &[Parameter] =
+    &[NAME, SCENE_OF, MESHES, METHODS, DTS, TIMES, REFERENCE, COLUMNS, LENGTH, PATIENCE];
+
+/// A finished study.
+#[derive(Clone)]
+struct ConvergenceStudy(Rc<Convergence>);
+
+impl Scripted for ConvergenceStudy {
+    const NAME: &'static str = "convergence study";
+    const DOC: &'static str = "Errors over step sizes or meshes, and their orders.";
+
+    fn show(&self) -> String {
+        let Convergence { name, fixed, .. } = &*self.0;
+        let quantities = self.0.quantities().len();
+        format!("study '{name}': convergence of {quantities} quantities, {fixed}")
+    }
+
+    fn details(&self) -> Details {
+        vec![("reference".to_owned(), self.0.truth.source.clone())]
+    }
+}
+
+fn order(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let ConvergenceStudy(study) = call.receiver()?;
+    let (quantity, method) = (call.text("quantity")?, call.get::<Method>("integrator")?);
+    expect_quantity(call, &study, &quantity)?;
+    let order = find(&study, &quantity, &method).and_then(Ladder::fitted_order);
+    Ok(order.unwrap_or(f64::NAN).into())
+}
+
+fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let ConvergenceStudy(study) = call.receiver()?;
+    let quantity = call.text("quantity")?;
+    expect_quantity(call, &study, &quantity)?;
+    super::pictures::write_picture(call, &chart(&study, &quantity))
+}

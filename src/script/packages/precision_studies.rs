@@ -1,0 +1,204 @@
+//! Studies of error against run time.
+
+use std::rc::Rc;
+
+use rhai::{Array, Dynamic};
+
+use super::integrators::INTEGRATOR;
+use crate::analysis::Precision;
+use crate::script::call::Call;
+use crate::script::context::Mode;
+use crate::script::error::ScriptError;
+use crate::script::kind::{Details, Kind, Range, Scripted, Type};
+use crate::script::numbers::as_number;
+use crate::script::parameter::{
+    Parameter, Presence, anything, array, callback, either, number, numbers, object, options, text,
+    whole,
+};
+use crate::script::studies::precision::{comparison, map_of, study, table};
+use crate::script::studies::reference::FinestRun;
+use crate::script::table::{Row, Table, function, method, property};
+
+/// Studies of error against run time.
+pub const TABLE: Table = Table {
+    name: "error against run time",
+    doc: "A study runs a scene in many ways and says what they say together. withy study FILE keeps what is finished when it is \
+          interrupted, and goes on there the next time.",
+    types: &[PRECISION, FINEST_RUN],
+    setup: SETUP,
+    constants: &[],
+    rows: &[
+        function("study_work_precision", &[options("options", PRECISION_KEYS)], |call| {
+            let study = study(call, &call.options("options")?)?;
+            Ok(Dynamic::from(PrecisionStudy(Rc::new(study))))
+        })
+        .returns("a precision study")
+        .summary("Runs a scene with all meshes, integrators and step sizes: the error of each, and the time it takes.")
+        .doc(
+            "scene is a function that makes the scene on a mesh and gives it, or #{ scene: scene, stations: #{ tip: rod.end } }; \
+             without stations they are the ends of all beams and all particles. The error is the largest distance of a station \
+             from the reference at the times, divided by the length. The reference is the name of a table with the columns t and, \
+             for a station called tip, xtip, ytip and thtip, or finest_run(). All cases run in parallel first; then those that came \
+             to their end are timed one by one. Those that fail stay, with the reason. Writes NAME.csv and NAME.svg.",
+        )
+        .example(
+            "let study = study_work_precision(#{\n    name: \"spinning\", scene: spinning, meshes: [bspline(2), bspline(4)],\n    \
+             integrators: [energy_momentum(), fourth_order()], dts: [0.2, 0.1], times: [1], repeats: 1,\n});\n\
+             print(study.table);\ncheck(study.rows.len() == 8);",
+        )
+        .see(&["finest_run", "study_convergence", "cheapest", "front"]),
+        function("finest_run", &[options("options", FINEST_KEYS).optional()], finest_run)
+            .returns("a finest run")
+            .summary("As a reference of a study: a run of our own, marked as such in the results.")
+            .doc(
+                "Unless told otherwise it is made on the finest mesh of the study, with its integrator of the highest order and a \
+                 quarter of its smallest step size. Its own error is not known; errors of meshes need a finer mesh here.",
+            )
+            .example(
+                "let study = study_work_precision(#{\n    name: \"spinning\", scene: spinning, meshes: [bspline(2), bspline(4)],\n    \
+                 integrators: [energy_momentum()], dts: [0.1], times: [1], repeats: 1,\n    \
+                 reference: finest_run(#{ mesh: bspline(8), integrator: fourth_order(), dt: 0.1 }),\n});\n\
+                 check(study.reference.contains(\"own finest run\"));",
+            )
+            .see(&["study_work_precision", "study_convergence"]),
+        of_study("table", |call| Ok(table(&call.receiver::<PrecisionStudy>()?.0).into()))
+            .returns("a text")
+            .summary("All combinations: their errors, times, work and drifts; ● marks those on the front.")
+            .example("print(study.table);"),
+        of_study("rows", |call| {
+            let PrecisionStudy(study) = call.receiver()?;
+            Ok(study.rows.iter().map(|row| map_of(&study, row).into()).collect::<Array>().into())
+        })
+        .returns("an array of maps")
+        .summary("All combinations: mesh, integrator, dt, error, run_time, steps, energy_drift, outcome and more.")
+        .example("for row in study.rows { check(row.outcome == \"finished\" && row.energy_drift < 1e-12); }"),
+        of_study("front", |call| {
+            let PrecisionStudy(study) = call.receiver()?;
+            Ok(study.front().into_iter().map(|row| map_of(&study, row).into()).collect::<Array>().into())
+        })
+        .returns("an array of maps")
+        .summary("The combinations that are worth their time: none is both faster and better. The fastest comes first.")
+        .example("check(study.front[0].on_front);")
+        .see(&["cheapest"]),
+        of_study("reference", |call| Ok(call.receiver::<PrecisionStudy>()?.0.truth.source.clone().into()))
+            .returns("a text")
+            .summary("What the errors are measured against.")
+            .example("print(study.reference);"),
+        method(PRECISION, "cheapest", &[ERRORS], cheapest)
+            .returns("a map, () or a text")
+            .summary("The fastest combination with at most this error; of several errors a table, with rivals beside.")
+            .doc("For one error it is a map such as those of rows, or () when no combination is so good.")
+            .example("let best = study.cheapest(0.5);\nprint(best.run_time);\nprint(study.cheapest([0.5, 0.01]));")
+            .see(&["front"]),
+    ],
+};
+
+const PRECISION: Type = Type::of::<PrecisionStudy>();
+/// A reference that is a run of our own, for other domains.
+pub(super) const FINEST_RUN: Type = Type::of::<FinestRun>();
+
+/// How examples get a scene, and a study of it.
+const SETUP: &str = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
+    let spinning = |mesh| {\n    let scene = new_scene(\"spinning\");\n    \
+    scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: mesh, section: s, spin: 1 });\n    scene\n};\n\
+    let study = study_work_precision(#{ name: \"first\", scene: spinning, meshes: [bspline(2)], \
+    integrators: [energy_momentum()], dts: [0.1], times: [1], repeats: 1 });";
+
+const ERRORS: Parameter =
+    either("error", &[Kind::Number(Range::Positive), Kind::Numbers]).doc("an error, or several");
+
+/// Of all studies of errors.
+pub(super) const NAME: Parameter = text("name").doc("of the study and of its files");
+pub(super) const SCENE_OF: Parameter = callback("scene").doc("|mesh| …, makes the scene on a mesh");
+pub(super) const MESHES: Parameter = array("meshes").doc("what `scene` is called with, one by one");
+pub(super) const METHODS: Parameter = array("integrators").doc("at least one");
+pub(super) const DTS: Parameter = numbers("dts").unit("time").doc("step sizes");
+pub(super) const TIMES: Parameter =
+    numbers("times").unit("time").doc("when results are compared; the last one ends a run");
+pub(super) const REFERENCE: Parameter =
+    either("reference", &[Kind::Text, Kind::Object(FINEST_RUN)])
+        .doc("the name of a table, or finest_run(…), which holds unless given")
+        .optional();
+pub(super) const COLUMNS: Parameter = anything("columns")
+    .doc("columns of the reference that are columns of the history: #{ S: \"slider1.position\" }, or with a factor: [\"…\", 3.2]")
+    .optional();
+pub(super) const LENGTH: Parameter = number("length")
+    .positive()
+    .unit("length")
+    .doc("errors of positions are relative to it; that of the longest beam unless given")
+    .optional();
+pub(super) const PATIENCE: Parameter = number("patience")
+    .positive()
+    .or(Presence::Number(600.0))
+    .doc("seconds that one run may take; it fails when it takes more");
+
+const PRECISION_KEYS: &[Parameter] = &[
+    NAME,
+    SCENE_OF,
+    MESHES,
+    METHODS,
+    DTS,
+    TIMES,
+    REFERENCE,
+    COLUMNS,
+    LENGTH,
+    PATIENCE,
+    text("rivals").doc("the name of a table of what other programs need").optional(),
+    whole("repeats")
+        .positive()
+        .or(Presence::Whole(5))
+        .doc("how often a run is timed; fewer when that takes more than 10 s"),
+];
+
+const FINEST_KEYS: &[Parameter] = &[
+    anything("mesh").doc("what `scene` is called with").optional(),
+    number("dt").positive().unit("time").doc("its step size").optional(),
+    object("integrator", INTEGRATOR).optional(),
+];
+
+const fn of_study(name: &'static str, body: crate::script::table::Body) -> Row {
+    property(PRECISION, name, body)
+}
+
+/// A finished study.
+#[derive(Clone)]
+struct PrecisionStudy(Rc<Precision>);
+
+impl Scripted for PrecisionStudy {
+    const NAME: &'static str = "precision study";
+    const DOC: &'static str = "Error against run time of many ways to compute the same.";
+
+    fn show(&self) -> String {
+        let Precision { name, rows, .. } = &*self.0;
+        let finished = rows.iter().filter(|row| row.trial.outcome.is_finished()).count();
+        let front = self.0.front().len();
+        format!(
+            "study '{name}': {finished} of {} combinations finished, {front} on the front",
+            rows.len()
+        )
+    }
+
+    fn details(&self) -> Details {
+        vec![("reference".to_owned(), self.0.truth.source.clone())]
+    }
+}
+
+fn finest_run(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let options = call.options_or_defaults("options")?;
+    Ok(Dynamic::from(FinestRun {
+        mesh: options.value("mesh").ok(),
+        dt: options.number_if_given("dt"),
+        method: options.get_if("integrator"),
+    }))
+}
+
+fn cheapest(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let PrecisionStudy(study) = call.receiver()?;
+    let Some(error) = as_number(&call.value("error")?) else {
+        return Ok(comparison(&study, &call.numbers("error")?).into());
+    };
+    // A check of a script needs some row, for it has none that ran.
+    let pretended = study.rows.first().filter(|_| call.context().mode() == Mode::DryBuild);
+    let row = pretended.or_else(|| study.cheapest(error));
+    Ok(row.map_or(Dynamic::UNIT, |row| map_of(&study, row).into()))
+}

@@ -1,0 +1,289 @@
+//! Convergence: the study made, its tables, its file and its picture.
+
+use rhai::{Dynamic, Map};
+
+use super::desk::Desk;
+use super::labels;
+use super::plan::{Plan, at_key};
+use super::precision::at_times;
+use super::reference::Reference;
+use crate::analysis::{
+    ALL_POSITIONS, Case, Convergence, Ladder, Outcome, Refined, Trial, Truth, all_combinations,
+};
+use crate::integrators::Method;
+use crate::output::{
+    Cell, CsvRecords, Ink, LineChart, Marker, Panel, Scale, Series, Stroke, Table, format_number,
+    significant,
+};
+use crate::script::call::Call;
+use crate::script::context::Mode;
+use crate::script::error::ScriptError;
+use crate::script::options::Options;
+use crate::simulation::Settings;
+
+/// Makes the study that the options ask for; in a dry build nothing runs.
+pub fn study(call: &Call, options: &Options) -> Result<Convergence, ScriptError> {
+    let mut plan = Plan::read(call, options)?;
+    let refined = refined(call, &plan)?;
+    let reference = Reference::read(call, options, &mut plan)?;
+    let mut desk = Desk::open(call.context(), &plan.name)?;
+    let combinations = all_combinations(&plan.subjects, &plan.all_settings());
+    let cases: Vec<Case> =
+        combinations.iter().map(|of| of.case(&plan.subjects, &plan.times)).collect();
+    let (trials, truth) = match call.context().mode() {
+        Mode::DryBuild => {
+            let reason = "a check runs nothing".to_owned();
+            let trial = Trial::without_a_run(Outcome::Failed { time: 0.0, reason });
+            (vec![trial; cases.len()], Truth::of_run("none", &Vec::new()))
+        }
+        Mode::Run => reference.trials(call, &mut desk, &plan, &cases)?,
+    };
+    let size = |subject: usize, settings: &Settings| match refined {
+        Refined::Step => settings.dt,
+        Refined::Mesh => 1.0 / plan.subjects[subject].spans().max(1) as f64,
+    };
+    let (mut ladders, mut failures) = (Vec::new(), Vec::new());
+    for method in &plan.methods {
+        let of_method =
+            combinations.iter().zip(&trials).filter(|(of, _)| of.settings.method == *method);
+        let mut rungs: Vec<(f64, Trial)> =
+            of_method.map(|(of, trial)| (size(of.subject, &of.settings), trial.clone())).collect();
+        rungs.sort_by(|a, b| b.0.total_cmp(&a.0));
+        for (size, trial) in rungs.iter().filter(|(_, trial)| !trial.outcome.is_finished()) {
+            failures.push((*size, *method, trial.outcome.describe()));
+        }
+        let by = (plan.observables(), &truth, plan.length);
+        ladders.extend(Convergence::ladders_of(*method, &rungs, by));
+    }
+    let fixed = match refined {
+        Refined::Step => plan.subjects[0].mesh.clone(),
+        Refined::Mesh => format!("dt = {}", labels::step_size(&plan.all_settings()[0])),
+    };
+    let (name, times, length) = (plan.name, plan.times, plan.length);
+    let study = Convergence { name, refined, fixed, times, length, truth, ladders, failures };
+    write(call, &study)?;
+    desk.close()?;
+    Ok(study)
+}
+
+/// What is refined: there are several of it, and one of the other.
+fn refined(call: &Call, plan: &Plan) -> Result<Refined, ScriptError> {
+    match (plan.subjects.len(), plan.dts.len()) {
+        (1, 2..) => Ok(Refined::Step),
+        (2.., 1) => Ok(Refined::Mesh),
+        (meshes, dts) => {
+            let told = format!("{meshes} mesh(es) and {dts} step size(s) are given");
+            let hint = "give several step sizes and one mesh, or several meshes and one step size";
+            Err(at_key(call, "dts", told, hint))
+        }
+    }
+}
+
+/// Table and picture in the output folder.
+fn write(call: &Call, study: &Convergence) -> Result<(), ScriptError> {
+    let output = call.context().output();
+    output.write(&format!("{}.csv", study.name), records(study).to_text()?.as_bytes())?;
+    let picture = chart(study, ALL_POSITIONS).figure()?.to_svg()?;
+    output.write(&format!("{}.svg", study.name), picture.as_bytes())?;
+    Ok(())
+}
+
+/// What sizes are sizes of.
+fn size_name(study: &Convergence) -> &'static str {
+    match study.refined {
+        Refined::Step => "dt",
+        Refined::Mesh => "1 / spans",
+    }
+}
+
+/// For every quantity that errs at all: errors and orders of all integrators side by side, the order of all rungs together
+/// below.
+pub fn table(study: &Convergence) -> String {
+    let mut text = format!(
+        "study '{}': convergence at {}, {}\nreference: {}",
+        study.name,
+        at_times(&study.times),
+        study.fixed,
+        study.truth.source
+    );
+    for quantity in study.quantities() {
+        let ladders: Vec<&Ladder> =
+            study.ladders.iter().filter(|ladder| ladder.quantity == quantity).collect();
+        let names =
+            ladders.iter().flat_map(|ladder| [labels::method(&ladder.method), "order".into()]);
+        let heads: Vec<String> =
+            std::iter::once(size_name(study).to_owned()).chain(names).collect();
+        let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
+        let mut table = Table::new(&heads).title(quantity);
+        for (rung, size) in ladders[0].sizes.iter().enumerate() {
+            let shown = match study.refined {
+                Refined::Step => format_number(*size),
+                Refined::Mesh => format!("1/{}", significant(1.0 / size, 6)),
+            };
+            let cells = ladders.iter().flat_map(|ladder| {
+                let error = labels::deviation(ladder.deviations[rung]);
+                [error, order(ladder.order(rung))].map(Cell::Number)
+            });
+            table.row(std::iter::once(Cell::Number(shown)).chain(cells));
+        }
+        let fitted = ladders.iter().flat_map(|ladder| {
+            let claimed = study.claimed_order(&ladder.method);
+            let claimed = claimed.map_or_else(String::new, |order| format!("claimed {order}"));
+            [claimed, order(ladder.fitted_order())].map(Cell::Number)
+        });
+        table.row(std::iter::once(Cell::Text("all".to_owned())).chain(fitted));
+        text += &format!("\n\n{}", table.to_string().trim_end());
+    }
+    for (size, method, why) in &study.failures {
+        let (name, size) = (size_name(study), format_number(*size));
+        text += &format!("\n{} with {name} = {size}: {why}", labels::method(method));
+    }
+    text
+}
+
+fn order(order: Option<f64>) -> String {
+    order.map_or_else(|| "-".to_owned(), |order| format!("{order:.2}"))
+}
+
+/// All errors for other programs.
+fn records(study: &Convergence) -> CsvRecords {
+    let names = ["quantity", "integrator", size_name(study), "error", "is_resolved", "order"];
+    let number = |value: Option<f64>| value.map_or_else(String::new, format_number);
+    let rows = study.ladders.iter().flat_map(|ladder| {
+        ladder.sizes.iter().enumerate().map(move |(rung, size)| {
+            let resolved = ladder.deviations[rung].map(|of| of.is_resolved().to_string());
+            vec![
+                ladder.quantity.clone(),
+                labels::method(&ladder.method),
+                format_number(*size),
+                number(ladder.error(rung)),
+                resolved.unwrap_or_default(),
+                number(ladder.order(rung)),
+            ]
+        })
+    });
+    CsvRecords {
+        comments: vec![
+            format!(
+                "study '{}': convergence at {}, {}",
+                study.name,
+                at_times(&study.times),
+                study.fixed
+            ),
+            format!("reference: {}", study.truth.source),
+            format!(
+                "errors of positions relative to length {}, others in their own unit",
+                study.length
+            ),
+        ],
+        names: names.map(str::to_owned).to_vec(),
+        rows: rows.collect(),
+    }
+}
+
+/// A ladder as a map of a script.
+pub fn map_of(study: &Convergence, ladder: &Ladder) -> Map {
+    let array = |values: Vec<f64>| -> Dynamic {
+        values.into_iter().map(Dynamic::from).collect::<rhai::Array>().into()
+    };
+    let rungs = 0..ladder.sizes.len();
+    let told = |value: Option<f64>| value.unwrap_or(f64::NAN);
+    let claimed = study.claimed_order(&ladder.method).map(f64::from);
+    let facts: [(&str, Dynamic); 7] = [
+        ("quantity", ladder.quantity.clone().into()),
+        ("integrator", labels::method(&ladder.method).into()),
+        ("sizes", array(ladder.sizes.clone())),
+        ("errors", array(rungs.clone().map(|rung| told(ladder.error(rung))).collect())),
+        ("orders", array(rungs.skip(1).map(|rung| told(ladder.order(rung))).collect())),
+        ("order", told(ladder.fitted_order()).into()),
+        ("claimed", told(claimed).into()),
+    ];
+    facts.into_iter().map(|(name, value)| (name.into(), value)).collect()
+}
+
+/// Errors of a quantity over the sizes, with the slopes that are claimed, or else the nearest whole ones.
+pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
+    let relative = match quantity.starts_with("position") {
+        true => " / length",
+        false => "",
+    };
+    let mut chart = LineChart::new(format!(
+        "{}: convergence of {quantity} at {}",
+        study.name,
+        at_times(&study.times)
+    ))
+    .caption(study.fixed.clone())
+    .caption(format!("reference: {}", study.truth.source))
+    .x_label(match study.refined {
+        Refined::Step => "dt",
+        Refined::Mesh => "mesh size 1 / spans",
+    })
+    .y_label(format!("error{relative}"))
+    .x_scale(Scale::Logarithmic)
+    .y_scale(Scale::Logarithmic)
+    .sized(900.0, 640.0);
+    let ladders = study.ladders.iter().filter(|ladder| ladder.quantity == quantity);
+    let mut noted: Vec<(u32, f64)> = Vec::new();
+    for (number, ladder) in ladders.enumerate() {
+        let point =
+            |rung| Some((ladder.sizes[rung], ladder.error(rung).filter(|error| *error > 0.0)?));
+        let points: Vec<(f64, f64)> = (0..ladder.sizes.len()).filter_map(point).collect();
+        let slope = slope(study, ladder, &points);
+        let (ink, marker) = (Ink::OfSeries(number), Marker::of_index(number));
+        let name = labels::method(&ladder.method);
+        chart =
+            chart.series(Series::new(name, points).ink(ink).marker(marker).stroke(Stroke::Marked));
+        if let Some((order, line)) = slope {
+            // Lines of the same order that lie one over the other need one word.
+            let is_near = |(other, error): &(u32, f64)| {
+                *other == order && (error / line[0].1).ln().abs() < 0.4
+            };
+            if !noted.iter().any(is_near) {
+                noted.push((order, line[0].1));
+                let [(coarse, large), (fine, small)] = line;
+                let middle = ((coarse * fine).sqrt(), (large * small).sqrt());
+                chart = chart.note(middle, format!("order {order}"));
+            }
+            chart =
+                chart.series(Series::new("", line.to_vec()).ink(ink).stroke(Stroke::Dotted).thin());
+        }
+    }
+    chart
+}
+
+/// A line with the slope of an order through the last point that tells one, over all sizes.
+fn slope(
+    study: &Convergence,
+    ladder: &Ladder,
+    points: &[(f64, f64)],
+) -> Option<(u32, [(f64, f64); 2])> {
+    let fitted = || ladder.fitted_order().map(|order| order.round().max(0.0) as u32);
+    let order = study.claimed_order(&ladder.method).or_else(fitted)?;
+    let first = points.first()?;
+    let told = (0..ladder.sizes.len()).rev().find(|rung| {
+        ladder.deviations[*rung].is_some_and(|of| of.is_resolved())
+            && ladder.error(*rung) > Some(0.0)
+    })?;
+    let (size, error) = (ladder.sizes[told], ladder.error(told)?);
+    let at = |other: f64| (other, error * (other / size).powi(order as i32));
+    Some((order, [at(first.0), at(size)]))
+}
+
+/// Whether a study has a quantity; the names that there are where not.
+pub fn expect_quantity(
+    call: &Call,
+    study: &Convergence,
+    quantity: &str,
+) -> Result<(), ScriptError> {
+    let known = study.quantities();
+    if known.contains(&quantity) || call.context().mode() == Mode::DryBuild {
+        return Ok(());
+    }
+    let told = format!("the study '{}' has no quantity \"{quantity}\"", study.name);
+    Err(call.error(told).hint(format!("quantities: {}", known.join(", "))))
+}
+
+/// The ladder of a quantity with an integrator.
+pub fn find<'s>(study: &'s Convergence, quantity: &str, method: &Method) -> Option<&'s Ladder> {
+    study.ladders.iter().find(|of| of.quantity == quantity && of.method == *method)
+}

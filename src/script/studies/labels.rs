@@ -1,0 +1,51 @@
+//! What things of a study are called in tables and legends: short, and no two the same.
+
+use crate::analysis::{Deviation, Outcome};
+use crate::integrators::Method;
+use crate::output::{Cell, format_number, scientific, significant};
+use crate::simulation::Settings;
+
+/// Digits of an error.
+const ERROR_DIGITS: usize = 2;
+
+/// An integrator with its parameter: `energy_momentum`, `energy_decaying(0.1)`.
+pub fn method(method: &Method) -> String {
+    let parameter = method.parameter().map(|value| format!("({})", format_number(value)));
+    format!("{}{}", method.entry().name, parameter.unwrap_or_default())
+}
+
+/// A step size: `0.05`.
+pub fn step_size(settings: &Settings) -> String {
+    format_number(settings.dt)
+}
+
+/// An error: `3.4e-5`, or `≤ 2.1e-6` where the reference is not good enough to tell.
+pub fn deviation(deviation: Option<Deviation>) -> String {
+    match deviation {
+        None => "-".to_owned(),
+        Some(of) if of.is_resolved() || of.distance.is_nan() || of.trusted == 0.0 => {
+            scientific(of.error(), ERROR_DIGITS)
+        }
+        Some(of) => format!("≤ {}", scientific(of.error(), ERROR_DIGITS)),
+    }
+}
+
+/// A drift; a bar where there is none.
+pub fn drift(drift: f64) -> String {
+    if drift.is_nan() { "-".to_owned() } else { scientific(drift, ERROR_DIGITS) }
+}
+
+/// A time by the clock in milliseconds.
+pub fn milliseconds(seconds: f64) -> String {
+    significant(1e3 * seconds, 3)
+}
+
+/// A text that is set as a number.
+pub fn number(text: String) -> Cell {
+    Cell::Number(text)
+}
+
+/// What became of a run, if it did not come to its end.
+pub fn trouble(outcome: &Outcome) -> String {
+    if outcome.is_finished() { String::new() } else { outcome.describe() }
+}

@@ -1,0 +1,279 @@
+//! What a script asks of a study, read from its options: scenes on meshes, settings, times.
+
+use rhai::{Dynamic, Map};
+
+use crate::analysis::{Case, Observable, Patience, SYMBOLS, Sheet, Subject};
+use crate::beams::{Mesh, Station};
+use crate::integrators::Method;
+use crate::model::Scene;
+use crate::newton::Tolerance;
+use crate::script::call::Call;
+use crate::script::error::{Place, ScriptError};
+use crate::script::numbers::{as_number, format_number};
+use crate::script::options::Options;
+use crate::script::packages::{SceneHandle, StationHandle};
+use crate::simulation::{History, Settings};
+
+/// Everything a study needs but its reference.
+pub struct Plan {
+    /// The name of the study and of its files.
+    pub name: String,
+    /// A scene for each mesh.
+    pub subjects: Vec<Subject>,
+    /// The integrators.
+    pub methods: Vec<Method>,
+    /// The step sizes [time].
+    pub dts: Vec<f64>,
+    /// When results are compared, in order [time].
+    pub times: Vec<f64>,
+    /// What errors of positions are relative to [length].
+    pub length: f64,
+    /// What a case may take.
+    pub patience: Patience,
+}
+
+impl Plan {
+    /// Reads the options that all studies of errors have. Every scene is made, and the first is built, so that mistakes show
+    /// before anything runs.
+    pub fn read(call: &Call, options: &Options) -> Result<Self, ScriptError> {
+        let name = options.text("name")?.to_string();
+        let methods = all_of::<Method>(call, options, "integrators", "an integrator")?;
+        let dts = positive(call, options, "dts")?;
+        let times = positive(call, options, "times")?;
+        if times.windows(2).any(|pair| pair[0] >= pair[1]) {
+            return Err(at_key(call, "times", "the times must ascend", "the last one ends a run"));
+        }
+        let meshes = options.array("meshes")?;
+        if meshes.is_empty() {
+            return Err(at_key(call, "meshes", "there is no mesh", "for example [bspline(14)]"));
+        }
+        let scene_of = options.callback("scene")?;
+        call.expect_arguments(&scene_of, 1, "|mesh| …, a function that makes the scene on a mesh")?;
+        let subjects: Vec<Subject> =
+            meshes.iter().map(|mesh| subject_on(call, options, mesh)).collect::<Result<_, _>>()?;
+        expect_same_observables(call, &subjects)?;
+        let given = options.number_if_given("length");
+        let length = given.unwrap_or_else(|| size_of(&subjects[0].scene));
+        let seconds = options.number("patience")?;
+        let steps = call.context().meter().limits().steps;
+        let patience = Patience {
+            steps: steps.map_or(usize::MAX, |limit| usize::try_from(limit).unwrap_or(usize::MAX)),
+            wall: std::time::Duration::from_secs_f64(seconds.min(1e9)),
+        };
+        Ok(Self { name, subjects, methods, dts, times, length, patience })
+    }
+
+    /// The settings for an integrator and a step size.
+    pub fn settings(method: Method, dt: f64) -> Settings {
+        Settings { method, dt, tolerance: Tolerance::default() }
+    }
+
+    /// All integrators with all step sizes.
+    pub fn all_settings(&self) -> Vec<Settings> {
+        let with = |method: &Method| {
+            let method = *method;
+            self.dts.iter().map(move |dt| Self::settings(method, *dt))
+        };
+        self.methods.iter().flat_map(with).collect()
+    }
+
+    /// What is looked at.
+    pub fn observables(&self) -> &[Observable] {
+        &self.subjects[0].observables
+    }
+
+    /// The history of a run that has just begun, for its columns; the scene is built for it.
+    pub fn history(&self) -> Result<History, ScriptError> {
+        let (scene, stops) = (self.subjects[0].scene.clone(), self.times.clone());
+        let case = Case { scene, settings: self.all_settings()[0], stops };
+        let built = case.start().map_err(|outcome| ScriptError::new(outcome.describe()))?;
+        Ok(built.history().clone())
+    }
+
+    /// Looks at more than stations: at columns of the history. Those that a table of solutions has are meant by its names: the
+    /// symbols E, KE, SE, px, py and Lz, names of columns, or what `given` says they are. Without a table all columns are.
+    pub fn add_columns(
+        &mut self,
+        call: &Call,
+        given: Option<Map>,
+        table: Option<&Sheet>,
+    ) -> Result<(), ScriptError> {
+        let history = self.history()?;
+        let mut columns: Vec<Observable> = match table {
+            None => Observable::of_history(&history).collect(),
+            Some(sheet) => {
+                let symbols = SYMBOLS.iter().map(|(name, of)| Observable::of_column(name, of, 1.0));
+                let all = symbols.chain(Observable::of_history(&history));
+                all.filter(|of| sheet.has(&of.name)).collect()
+            }
+        };
+        for (name, meant) in given.unwrap_or_default() {
+            let observable = column_of(call, &name, &meant, &history)?;
+            columns.retain(|other| other.name != observable.name);
+            columns.push(observable);
+        }
+        for subject in &mut self.subjects {
+            subject.observables.extend(columns.iter().cloned());
+        }
+        Ok(())
+    }
+}
+
+/// What the option `columns` says of one: the name of a column, or the name and a factor.
+fn column_of(
+    call: &Call,
+    name: &str,
+    meant: &Dynamic,
+    history: &History,
+) -> Result<Observable, ScriptError> {
+    let parts = meant.clone().into_array().unwrap_or_else(|_| vec![meant.clone()]);
+    let text = |value: &Dynamic| value.clone().into_string().ok();
+    let (column, factor) = match parts.as_slice() {
+        [column] => (text(column), Some(1.0)),
+        [column, factor] => (text(column), as_number(factor)),
+        _ => (None, None),
+    };
+    let (Some(column), Some(factor)) = (column, factor) else {
+        let told = format!("columns: '{name}' is {}", call.describe(meant));
+        let hint = "write the name of a column of the history, or that and a factor: [\"slider1.position\", 3.2]";
+        return Err(at_key(call, "columns", told, hint));
+    };
+    if history.dimension(&column).is_none() {
+        let told = format!("columns: the history has no column \"{column}\"");
+        let names: Vec<_> = history.columns().map(|(name, _)| name).collect();
+        return Err(at_key(call, "columns", told, format!("columns: {}", names.join(", "))));
+    }
+    Ok(Observable::of_column(name, &column, factor))
+}
+
+/// An error about an option.
+pub fn at_key(
+    call: &Call,
+    key: &str,
+    told: impl std::fmt::Display,
+    hint: impl Into<String>,
+) -> ScriptError {
+    call.error(told).hint(hint).at(Place::Key(key.to_owned()))
+}
+
+/// The values of an array that must all be of one type, at least one.
+fn all_of<T: Clone + 'static>(
+    call: &Call,
+    options: &Options,
+    key: &str,
+    what: &str,
+) -> Result<Vec<T>, ScriptError> {
+    let array = options.array(key)?;
+    let one = |value: &Dynamic| {
+        value.clone().try_cast::<T>().ok_or_else(|| {
+            let told = format!("{key} must hold {what} each, got {}", call.describe(value));
+            at_key(call, key, told, "for example [energy_momentum(), fourth_order()]")
+        })
+    };
+    match array.as_slice() {
+        [] => Err(at_key(call, key, format!("{key} is empty"), format!("give {what} or more"))),
+        values => values.iter().map(one).collect(),
+    }
+}
+
+/// Positive numbers, at least one.
+fn positive(call: &Call, options: &Options, key: &str) -> Result<Vec<f64>, ScriptError> {
+    let numbers = options.numbers(key)?;
+    match numbers.iter().find(|number| **number <= 0.0) {
+        _ if numbers.is_empty() => {
+            Err(at_key(call, key, format!("{key} is empty"), "give one positive number or more"))
+        }
+        Some(wrong) => {
+            let told = format!("{key} holds {}", format_number(*wrong));
+            Err(at_key(call, key, told, "give positive numbers"))
+        }
+        None => Ok(numbers),
+    }
+}
+
+/// What a mesh is called.
+fn label_of(call: &Call, mesh: &Dynamic) -> String {
+    mesh.read_lock::<Mesh>().map_or_else(|| call.show(mesh), |mesh| mesh.describe())
+}
+
+/// The scene on a mesh, from the function of the study.
+pub fn subject_on(call: &Call, options: &Options, mesh: &Dynamic) -> Result<Subject, ScriptError> {
+    let made = call.invoke(&options.callback("scene")?, [mesh.clone()])?;
+    subject(call, label_of(call, mesh), &made)
+}
+
+/// What the function of a study gave for a mesh: a scene, or a map with it and its stations.
+fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<Subject, ScriptError> {
+    let hint = "it gives the scene, or #{ scene: scene, stations: #{ tip: rod.end } }";
+    let refused = || {
+        let told = format!("the function `scene` gives {}", call.describe(made));
+        at_key(call, "scene", told, hint)
+    };
+    let map = made.read_lock::<Map>().map(|map| map.clone());
+    let handle = match &map {
+        None => made.clone().try_cast::<SceneHandle>(),
+        Some(map) => map.get("scene").and_then(|scene| scene.clone().try_cast()),
+    };
+    let handle = handle.ok_or_else(refused)?;
+    if let Some(unknown) =
+        map.iter().flat_map(Map::keys).find(|key| !["scene", "stations"].contains(&key.as_str()))
+    {
+        let told = format!("the function `scene` gives a map with the unknown key '{unknown}'");
+        return Err(at_key(call, "scene", told, hint));
+    }
+    let stations = map.and_then(|map| map.get("stations").cloned());
+    let named: Vec<(String, Station)> = match stations {
+        None => usual_stations(&handle.scene().borrow()),
+        Some(stations) => {
+            let stations = stations.try_cast::<Map>().ok_or_else(refused)?;
+            let own = |(name, station): (&rhai::Identifier, &Dynamic)| {
+                let station = station.clone().try_cast::<StationHandle>().ok_or_else(|| {
+                    let told = format!("station '{name}' is {}", call.describe(station));
+                    at_key(call, "scene", told, hint)
+                })?;
+                Ok((name.to_string(), handle.own(&station)?))
+            };
+            stations.iter().map(own).collect::<Result<_, ScriptError>>()?
+        }
+    };
+    if named.is_empty() {
+        return Err(at_key(call, "scene", "the scene has no stations to compare", hint));
+    }
+    let observables =
+        named.iter().flat_map(|(name, station)| Observable::of_station(name, *station));
+    let observables = observables.collect();
+    let scene = handle.scene().borrow().clone();
+    Ok(Subject { mesh, scene, observables })
+}
+
+/// The ends of all beams, and all particles.
+fn usual_stations(scene: &Scene) -> Vec<(String, Station)> {
+    let ends = scene.beams.iter().enumerate().flat_map(|(index, beam)| {
+        [("start", 0.0), ("end", beam.axis.length())]
+            .map(|(end, s)| (format!("{}.{end}", beam.name), Station::on_beam(index, s)))
+    });
+    let particles = scene.particles.iter().enumerate();
+    let particles =
+        particles.map(|(index, particle)| (particle.name.clone(), Station::on_particle(index)));
+    ends.chain(particles).collect()
+}
+
+fn expect_same_observables(call: &Call, subjects: &[Subject]) -> Result<(), ScriptError> {
+    let other = subjects.iter().find(|of| of.observables != subjects[0].observables);
+    other.map_or(Ok(()), |other| {
+        let told = format!(
+            "the stations with the mesh '{}' are not those with '{}'",
+            other.mesh, subjects[0].mesh
+        );
+        Err(at_key(call, "scene", told, "a study compares the same stations on all meshes"))
+    })
+}
+
+/// The length of the longest beam, or the largest distance of a particle from the first one; one where there is none.
+fn size_of(scene: &Scene) -> f64 {
+    let beams = scene.beams.iter().map(|beam| beam.axis.length());
+    let first = scene.particles.first().map(|first| first.position).unwrap_or_default();
+    let particles = scene.particles.iter().map(|other| (other.position - first).norm());
+    let size = beams.reduce(f64::max).or_else(|| particles.reduce(f64::max));
+    size.filter(|size| *size > 0.0).unwrap_or(1.0)
+}

@@ -1,0 +1,145 @@
+//! What results are compared with: a table of an independent solution, or a finer run of our own.
+
+use rhai::Dynamic;
+
+use super::desk::{Desk, Task};
+use super::labels;
+use super::plan::{Plan, at_key, subject_on};
+use crate::analysis::{
+    Case, Outcome, PART_OF_THE_SMALLEST_STEP, Sheet, Trial, Truth, finest_mesh, highest_order,
+};
+use crate::integrators::Method;
+use crate::script::call::Call;
+use crate::script::error::ScriptError;
+use crate::script::kind::Scripted;
+use crate::script::numbers::format_number;
+use crate::script::options::Options;
+use crate::simulation::Settings;
+
+/// A run of our own as a reference, as far as the script says how it is made.
+#[derive(Clone, Default)]
+pub struct FinestRun {
+    /// What the function of the study makes the scene of; the finest mesh of the study unless given.
+    pub mesh: Option<Dynamic>,
+    /// A quarter of the smallest step size of the study unless given [time].
+    pub dt: Option<f64>,
+    /// That of the highest order in the study unless given.
+    pub method: Option<Method>,
+}
+
+impl Scripted for FinestRun {
+    const NAME: &'static str = "finest run";
+    const DOC: &'static str = "A run of our own that a study takes as its reference.";
+
+    fn show(&self) -> String {
+        let dt = self.dt.map(|dt| format!(", dt = {}", format_number(dt)));
+        let method = self.method.map(|method| format!(", {}", labels::method(&method)));
+        let mesh = self.mesh.as_ref().map(|_| ", on a mesh of its own");
+        let told = [mesh.unwrap_or_default(), &method.unwrap_or_default(), &dt.unwrap_or_default()];
+        format!("reference: own finest run{}", told.concat())
+    }
+}
+
+/// What results are compared with, before anything runs.
+pub enum Reference {
+    /// A table of an independent solution, and the name of its file.
+    Table(String, Sheet),
+    /// A run of our own: what is told of it, and its case.
+    OwnRun(String, Box<Case>),
+}
+
+/// Reads a table of the script's folder or the output folder.
+pub fn read_sheet(call: &Call, key: &str, file: &str) -> Result<Sheet, ScriptError> {
+    let bytes = call.context().output().read(file)?;
+    let text = String::from_utf8_lossy(&bytes);
+    Sheet::parse(&text).map_err(|error| {
+        at_key(call, key, format!("\"{file}\": {error}"), "a table is CSV, with # before comments")
+    })
+}
+
+impl Reference {
+    /// Reads the option `reference`, and looks in the plan at what it can be compared with.
+    pub fn read(call: &Call, options: &Options, plan: &mut Plan) -> Result<Self, ScriptError> {
+        let columns = options.get_if::<rhai::Map>("columns");
+        if let Ok(file) = options.text("reference") {
+            let sheet = read_sheet(call, "reference", &file)?;
+            plan.add_columns(call, columns, Some(&sheet))?;
+            let reference = Self::Table(file.to_string(), sheet);
+            // A wrong table is told of before anything runs.
+            reference.truth(call, plan, None)?;
+            return Ok(reference);
+        }
+        plan.add_columns(call, columns, None)?;
+        let run = options.get_if::<FinestRun>("reference").unwrap_or_default();
+        let smallest = plan.dts.iter().copied().fold(f64::INFINITY, f64::min);
+        let dt = run.dt.unwrap_or(PART_OF_THE_SMALLEST_STEP * smallest);
+        let method = run.method.or_else(|| highest_order(&plan.methods)).unwrap_or_default();
+        let finest = finest_mesh(&plan.subjects).unwrap_or(0);
+        let subject = match run.mesh {
+            None => plan.subjects[finest].clone(),
+            Some(mesh) => subject_on(call, options, &mesh)?,
+        };
+        let (method_name, mesh) = (labels::method(&method), subject.mesh);
+        let told = format!(
+            "own finest run ({mesh}, {method_name}, dt = {}), no independent solution",
+            format_number(dt)
+        );
+        let settings: Settings = Plan::settings(method, dt);
+        let case = Case { scene: subject.scene, settings, stops: plan.times.clone() };
+        Ok(Self::OwnRun(told, Box::new(case)))
+    }
+
+    /// The case that must be run for it, if it is one of our own.
+    fn case(&self) -> Option<&Case> {
+        match self {
+            Self::Table(..) => None,
+            Self::OwnRun(_, case) => Some(case),
+        }
+    }
+
+    /// What the observables should be; `own` is what its own run showed.
+    fn truth(&self, call: &Call, plan: &Plan, own: Option<&Trial>) -> Result<Truth, ScriptError> {
+        match (self, own) {
+            (Self::Table(file, sheet), _) => {
+                let source = format!("{file}, an independent solution");
+                Truth::of_sheet(source, sheet, plan.observables(), &plan.times).map_err(|error| {
+                    let hint = "give times and stations that the table has";
+                    at_key(call, "reference", format!("\"{file}\": {error}"), hint)
+                })
+            }
+            (Self::OwnRun(told, _), Some(trial)) if trial.outcome.is_finished() => {
+                Ok(Truth::of_run(told, &trial.readings))
+            }
+            (Self::OwnRun(told, _), trial) => {
+                let why = trial.map_or_else(String::new, |trial| trial.outcome.describe());
+                let hint =
+                    "choose another one with reference: finest_run(#{ … }) or the name of a table";
+                Err(at_key(call, "reference", format!("the reference failed: {told}: {why}"), hint))
+            }
+        }
+    }
+
+    /// Runs all cases, and the one of the reference with them: what each showed, and what it should have.
+    pub fn trials(
+        &self,
+        call: &Call,
+        desk: &mut Desk,
+        plan: &Plan,
+        cases: &[Case],
+    ) -> Result<(Vec<Trial>, Truth), ScriptError> {
+        let all: Vec<Case> = self.case().into_iter().chain(cases).cloned().collect();
+        let (observables, patience) = (plan.observables(), plan.patience);
+        let parts =
+            postcard::to_stdvec(&(observables, patience.wall, patience.steps)).unwrap_or_default();
+        let task = Task { name: "runs", parts: &parts };
+        let work = |case: &Case, stop: &_| Trial::of(case, observables, patience, stop);
+        let steps_of = |trial: &Trial| trial.steps + trial.retries;
+        let results = desk.in_parallel(task, &all, steps_of, work)?;
+        let panicked = |message| Trial::without_a_run(Outcome::Panicked { message });
+        let mut trials: Vec<Trial> =
+            results.into_iter().map(|result| result.unwrap_or_else(panicked)).collect();
+        let own = self.case().map(|_| trials.remove(0));
+        let truth = self.truth(call, plan, own.as_ref())?;
+        Ok((trials, truth))
+    }
+}
