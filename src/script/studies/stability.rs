@@ -18,7 +18,7 @@ use crate::script::packages::SceneHandle;
 use crate::simulation::Settings;
 
 /// Columns of text that a map on a terminal may take.
-const WIDTH: usize = 150;
+const WIDTH: usize = 160;
 /// Cells that did not come to their end, of which the reason is printed.
 const MOST_REASONS: usize = 12;
 /// Maps beside each other on a page.
@@ -208,7 +208,8 @@ impl StabilityMap {
         self.judged().map(cell).collect()
     }
 
-    fn heat_maps(&self) -> Vec<HeatMap> {
+    /// A map for each value of the plan's; `words` writes what is in a finished cell.
+    fn heat_maps(&self, words: fn(&Self, &Verdict) -> String) -> Vec<HeatMap> {
         let Plan { name, maps, rows, columns } = &self.plan;
         let per_map = rows.values.len() * columns.values.len();
         let (shows, powers) = self.shown.scale();
@@ -223,13 +224,13 @@ impl StabilityMap {
                 .hatched("did not finish");
             let rows = rows.labels.iter().zip(verdicts.chunks(columns.values.len()));
             rows.fold(empty, |map, (label, row)| {
-                map.row(label, row.iter().map(|verdict| self.heat_cell(verdict)).collect())
+                map.row(label, row.iter().map(|verdict| self.heat_cell(verdict, words)).collect())
             })
         };
         self.verdicts.chunks(per_map).enumerate().map(one).collect()
     }
 
-    fn heat_cell(&self, verdict: &Verdict) -> HeatCell {
+    fn heat_cell(&self, verdict: &Verdict, words: fn(&Self, &Verdict) -> String) -> HeatCell {
         let early = |what: &str, time: f64| HeatCell {
             value: None,
             text: format!("{what}\nt = {}", significant(time, 3)),
@@ -239,25 +240,43 @@ impl StabilityMap {
             Outcome::GaveUp { time, .. } => early("gave up", *time),
             Outcome::Panicked { .. } => HeatCell { value: None, text: "panicked".into() },
             Outcome::Finished => {
-                let value = self.shown.of(verdict);
-                let first = match self.shown {
-                    Shown::EnergyGrowth => scientific(value, 1),
-                    _ => significant(value, 3),
-                };
-                let iterations = format!("{} it.", significant(verdict.mean_iterations, 2));
-                let retries = match verdict.retries {
-                    0 => String::new(),
-                    retries => format!("\n{retries} halved"),
-                };
-                let text = format!("{first}\n{iterations}{retries}");
-                HeatCell { value: Some(value), text }
+                let value = Some(self.shown.of(verdict));
+                HeatCell { value, text: words(self, verdict) }
             }
         }
     }
 
+    /// The number that colours a finished cell.
+    fn coloured(&self, verdict: &Verdict) -> String {
+        let value = self.shown.of(verdict);
+        match self.shown {
+            Shown::EnergyGrowth => scientific(value, 1),
+            Shown::Iterations | Shown::Retries => significant(value, 3),
+        }
+    }
+
+    /// What is in a finished cell of a picture.
+    fn in_lines(&self, verdict: &Verdict) -> String {
+        let halved = match verdict.retries {
+            0 => String::new(),
+            retries => format!("\n{retries} halved"),
+        };
+        let iterations = significant(verdict.mean_iterations, 2);
+        format!("{}\n{iterations} it.{halved}", self.coloured(verdict))
+    }
+
+    /// The same in a few characters, for a table.
+    fn in_short(&self, verdict: &Verdict) -> String {
+        let halved = match verdict.retries {
+            0 => String::new(),
+            retries => format!(" {retries}h"),
+        };
+        format!("{} {}{halved}", self.coloured(verdict), significant(verdict.mean_iterations, 2))
+    }
+
     /// All maps on one page.
     pub fn page(&self) -> Page {
-        let maps = self.heat_maps();
+        let maps = self.heat_maps(Self::in_lines);
         let page = Page::grid(ABREAST.min(maps.len()));
         maps.into_iter().fold(page.title(&self.plan.name), Page::panel)
     }
@@ -266,11 +285,14 @@ impl StabilityMap {
     pub fn text(&self) -> String {
         let style =
             Style { glyphs: Glyphs::Braille, colours: Colours::None, width: WIDTH, height: 1 };
-        let maps = self.heat_maps().iter().map(|map| map.text(&style)).collect::<Vec<_>>();
+        let maps =
+            self.heat_maps(Self::in_short).iter().map(|map| map.text(&style)).collect::<Vec<_>>();
         let mut early: Vec<_> =
             self.judged().filter(|(_, verdict)| !verdict.outcome.is_finished()).collect();
         let (all, missing) = (self.verdicts.len(), early.len());
         let mut text = maps.join("\n\n");
+        let (shows, _) = self.shown.scale();
+        text.push_str(&format!("\nin a cell: {shows}, Newton iterations a step, halved steps (h)"));
         if missing > 0 {
             text.push_str(&format!("\n\n{missing} of {all} cells did not come to their end"));
             early.truncate(MOST_REASONS);
