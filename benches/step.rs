@@ -1,4 +1,7 @@
-//! The cost of a Newton iteration and of a step, in nanoseconds per unknown, over four decades of spans.
+//! The cost of a Newton iteration and of a step, in nanoseconds per unknown, from ten unknowns to a million.
+//!
+//! `cargo bench --bench step` prints all tables; `cargo bench --bench step -- --csv FILE` measures only what depends on the
+//! number of unknowns, and writes it as a table that `benches/compare_lapack.py FILE` sets beside LAPACK.
 #![allow(clippy::unwrap_used)]
 
 use std::hint::black_box;
@@ -18,6 +21,8 @@ use withy::simulation::{Settings, Simulation, Unwatched};
 const PATIENCE: Duration = Duration::from_millis(300);
 const FEWEST_REPEATS: usize = 5;
 const DT: f64 = 0.1;
+/// Where the flight of the spaghetti ends.
+const END: f64 = 7.5;
 /// Steps of a run with sliders.
 const RUN: usize = 15;
 
@@ -98,7 +103,7 @@ fn sliding_cost(spans: usize, beads: usize) -> (usize, (f64, f64), f64) {
 /// A step of a simulation, its rows recorded, with a limit for snapshots [bytes]; and the bytes of a snapshot.
 fn recorded_cost(spans: usize, limit: usize) -> ((f64, f64), usize) {
     let (method, tolerance) = (Method::EnergyMomentum, Tolerance::default());
-    let settings = Settings { method, dt: DT, tolerance };
+    let settings = Settings { method, dt: DT.into(), tolerance };
     let mut simulation = Simulation::start(flying_scene(spans), settings).unwrap();
     simulation.keep_snapshots(limit);
     let cost = measure(|| timed(|| simulation.step(&mut Unwatched).unwrap()));
@@ -123,26 +128,44 @@ fn timed(action: impl FnOnce()) -> Duration {
     begun.elapsed()
 }
 
-/// A step of the flying spaghetti, the same seventy-five again and again; with its mean Newton iterations.
-fn method_cost(method: Method) -> ((f64, f64), f64) {
-    let mut model = flying_beam(14);
+/// A step of the flying spaghetti, those of its whole flight again and again; with its mean Newton iterations.
+fn method_cost(method: Method, spans: usize, dt: f64) -> ((f64, f64), f64) {
+    let mut model = flying_beam(spans);
+    let flight = (END / dt).round() as usize;
     let mut integrator = method.build(&mut model, Tolerance::default());
     let (mut steps, mut iterations) = (0, 0);
     let start = model.state();
     let cost = measure(|| {
-        let step = steps % 75;
+        let step = steps % flight;
         if step == 0 {
             model.restore(&start);
         }
-        let interval = Interval::between(step as f64 * DT, (step + 1) as f64 * DT);
+        let interval = Interval::between(step as f64 * dt, (step + 1) as f64 * dt);
         steps += 1;
         timed(|| iterations += integrator.step(&mut model, interval).unwrap().iterations)
     });
     (cost, iterations as f64 / steps as f64)
 }
 
-/// Assembly, factorisation, solution, the residual after it, and a whole step; with its mean Newton iterations.
-fn costs(spans: usize) -> (usize, [(f64, f64); 5], f64) {
+/// What a beam costs.
+struct Costs {
+    spans: usize,
+    unknowns: usize,
+    /// Memory of the model and of the work space of its integrator [bytes].
+    bytes: usize,
+    /// Assembly, factorisation, solution, the residual after it, and a whole step [ns].
+    parts: [(f64, f64); 5],
+    /// The mean of a step.
+    iterations: f64,
+}
+
+/// The memory that this process occupies [bytes].
+fn occupied() -> usize {
+    memory_stats::memory_stats().unwrap().physical_mem
+}
+
+fn costs(spans: usize) -> Costs {
+    let before = occupied();
     let mut model = flying_beam(spans);
     let mut integrator = Method::EnergyMomentum.build(&mut model, Tolerance::default());
     let (mut steps, mut iterations) = (0, 0);
@@ -151,6 +174,7 @@ fn costs(spans: usize) -> (usize, [(f64, f64); 5], f64) {
         steps += 1;
         timed(|| iterations += integrator.step(&mut model, interval).unwrap().iterations)
     });
+    let bytes = occupied().saturating_sub(before);
 
     let unknowns = model.unknowns();
     model.begin_step(Interval::between(0.0, DT), &Stage::ALL).unwrap();
@@ -186,15 +210,19 @@ fn costs(spans: usize) -> (usize, [(f64, f64); 5], f64) {
         })
     });
     let parts = [assembly, factorisation, solving, checking, step];
-    (unknowns, parts, iterations as f64 / steps as f64)
+    Costs { spans, unknowns, bytes, parts, iterations: iterations as f64 / steps as f64 }
 }
 
-fn main() {
+/// The beams whose costs are measured, the largest one with a million unknowns.
+const SPANS: [usize; 6] = [14, 100, 1000, 10_000, 100_000, 333_331];
+
+/// Prints what depends on the number of unknowns.
+fn print_sizes() {
     println!(
         "nanoseconds per unknown, least / median; iteration = assembly + factorisation + solution\n"
     );
     println!(
-        "{:>6} {:>9} {:>13} {:>13} {:>13} {:>13} {:>13} {:>15} {:>11}",
+        "{:>7} {:>9} {:>13} {:>13} {:>13} {:>13} {:>13} {:>15} {:>11} {:>6}",
         "spans",
         "unknowns",
         "assembly",
@@ -203,10 +231,11 @@ fn main() {
         "iteration",
         "residual",
         "step",
-        "iterations"
+        "iterations",
+        "bytes"
     );
-    for spans in [10, 100, 1000, 10_000] {
-        let (unknowns, parts, iterations) = costs(spans);
+    for spans in SPANS {
+        let Costs { unknowns, bytes, parts, iterations, .. } = costs(spans);
         let per_unknown = |(least, median): (f64, f64)| {
             format!("{:.0} / {:.0}", least / unknowns as f64, median / unknowns as f64)
         };
@@ -215,21 +244,44 @@ fn main() {
             .iter()
             .fold((0.0, 0.0), |sum, part| (sum.0 + part.0, sum.1 + part.1));
         println!(
-            "{spans:>6} {unknowns:>9} {:>13} {:>13} {:>13} {:>13} {:>13} {:>15} {iterations:>11.2}",
+            "{spans:>7} {unknowns:>9} {:>13} {:>13} {:>13} {:>13} {:>13} {:>15} {iterations:>11.2} {:>6}",
             per_unknown(assembly),
             per_unknown(factorisation),
             per_unknown(solving),
             per_unknown(sum),
             per_unknown(checking),
-            per_unknown(step)
+            per_unknown(step),
+            bytes / unknowns
         );
     }
-    println!("\nmicroseconds per step of the flying spaghetti with 14 spans, least / median\n");
-    println!("{:>18} {:>15} {:>11}", "integrator", "step", "iterations");
-    for entry in INTEGRATORS {
-        let ((least, median), iterations) = method_cost(entry.method);
+}
+
+/// Writes the least times of what depends on the number of unknowns, in nanoseconds per unknown.
+fn write_sizes(file: &str) {
+    let mut table = "spans,unknowns,assembly,factorise,solve,residual,step,bytes\n".to_owned();
+    for Costs { spans, unknowns, bytes, parts, .. } in SPANS.map(costs) {
+        let parts = parts.map(|(least, _)| format!("{:.2}", least / unknowns as f64)).join(",");
+        table += &format!("{spans},{unknowns},{parts},{}\n", bytes / unknowns);
+    }
+    std::fs::write(file, table).unwrap();
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().collect();
+    if let Some(option) = arguments.iter().position(|argument| argument == "--csv") {
+        return write_sizes(&arguments[option + 1]);
+    }
+    print_sizes();
+    println!("\nmicroseconds per step of the flying spaghetti, least / median\n");
+    println!("{:>18} {:>6} {:>6} {:>15} {:>11}", "integrator", "spans", "dt", "step", "iterations");
+    let chosen = [Method::EnergyMomentum, Method::FourthOrder];
+    let few = chosen.into_iter().flat_map(|method| [(method, 8, 0.05), (method, 32, 0.025)]);
+    let all = INTEGRATORS.iter().map(|entry| (entry.method, 14, DT));
+    for (method, spans, dt) in all.chain(few) {
+        let ((least, median), iterations) = method_cost(method, spans, dt);
         let step = format!("{:.1} / {:.1}", least / 1e3, median / 1e3);
-        println!("{:>18} {step:>15} {iterations:>11.2}", entry.name);
+        let name = method.entry().name;
+        println!("{name:>18} {spans:>6} {dt:>6} {step:>15} {iterations:>11.2}");
     }
     println!(
         "\nmicroseconds per step of a simulation, least / median, without and with snapshots\n"

@@ -10,7 +10,7 @@ use common::{meshes, run, scenes, settings, sliding_scenes};
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::SLIDING_RULES;
 use withy::model::Scene;
-use withy::simulation::{Recording, Simulation, Unwatched};
+use withy::simulation::{Recording, Simulation, StepControl, Unwatched};
 
 thread_local! {
     static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
@@ -56,6 +56,18 @@ fn allocations_of(action: impl FnOnce()) -> usize {
 #[test]
 fn the_counter_counts() {
     assert_eq!(allocations_of(|| drop(std::hint::black_box(vec![1_u8; 100]))), 1);
+}
+
+#[test]
+fn steps_of_varying_size_take_no_allocations() {
+    let scene = scenes::spaghetti(&withy::beams::Mesh::bspline(14, 3, 2).unwrap(), 1e4);
+    let control = StepControl { largest: Some(0.001), ..StepControl::to(1e-3) };
+    let settings = settings(Method::EnergyMomentum, control);
+    let mut simulation = Simulation::start(scene, settings).unwrap();
+    let mut until = |end: f64| allocations_of(|| run(&mut simulation, end).unwrap());
+    until(0.01);
+    let (few, many) = (until(0.02), until(0.17));
+    assert!(few <= 4 && many <= 4, "{few} in 10 steps, {many} in 150");
 }
 
 /// Runs a scene for few and for many steps; both must take no more than `most` allocations.

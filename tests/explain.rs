@@ -149,7 +149,7 @@ fn functions_of_scripts_are_called_as_often_as_is_said() {
         let force = Vec2::new(1.0, 0.0);
         scene.add_load(LoadKind::Force { station, force, frame: Frame::Follower }, schedule);
         let said = used(&scene.explain().unwrap(), "force at the end of beam 'rod'");
-        let settings = Settings { method, dt: 0.1, tolerance: Tolerance::default() };
+        let settings = Settings { method, dt: 0.1.into(), tolerance: Tolerance::default() };
         let mut simulation = Simulation::start(scene, settings).unwrap();
         assert_eq!(calls.get(), 0, "starting and explaining call nothing");
         simulation.step(&mut Unwatched).unwrap();

@@ -39,7 +39,7 @@ fn steps_of(simulation: &Simulation) -> usize {
 
 fn start(scene: &Scene, settings: Settings) -> Simulation {
     let mut simulation = Simulation::start(scene.clone(), settings).unwrap();
-    simulation.cut_at(3.3 * settings.dt);
+    simulation.cut_at(3.3 * simulation.dt());
     simulation
 }
 
@@ -85,7 +85,7 @@ fn assert_walk_is_straight(
             1 => {
                 let time = simulation.time() * choose(1000) as f64 / 1000.0;
                 simulation.rewind(time).unwrap();
-                assert!(simulation.time() <= time + 1e-9 * settings.dt, "{label}");
+                assert!(simulation.time() <= time + simulation.slack(), "{label}");
             }
             2 => {
                 let fork = simulation.fork().unwrap();

@@ -230,3 +230,14 @@ fn files_are_told_when_they_are_written() {
     assert!(complaints.contains("wrote") && complaints.contains("spin.svg"), "{complaints}");
     assert!(folder.path().join("pictures/spin.svg").exists());
 }
+
+#[test]
+fn commands_step_by_a_tolerance_and_take_it_back() {
+    let adaptive = SPINNING.replace("dt: 0.1", "dt: adaptive(#{ tolerance: 1e-3 })");
+    let (code, replies, complaints) = piped(&format!("{adaptive}:step 3\n:back 3\n:run 1\n"));
+    let told = format!("{replies}{complaints}");
+    assert_eq!(code, 0, "{told}");
+    for place in ["after 3 steps", "t = 0 after 0 steps", "t = 1 after"] {
+        assert!(told.contains(place), "{place}: {told}");
+    }
+}

@@ -36,7 +36,8 @@ pub fn spinning(dt: f64, stops: &[f64]) -> Case {
         motion,
     };
     scene.add_beam(beam).unwrap();
-    let settings = Settings { method: Method::default(), dt, tolerance: Tolerance::default() };
+    let settings =
+        Settings { method: Method::default(), dt: dt.into(), tolerance: Tolerance::default() };
     Case { scene, settings, stops: stops.to_vec() }
 }
 

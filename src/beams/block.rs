@@ -1,9 +1,46 @@
 //! The dense tangent of one span.
 
-/// Rows and columns are (function, component): `block[a][i][b][j]`, components x, y, ω.
-pub(super) type Block<const N: usize> = [[[[f64; 3]; N]; 3]; N];
+use pulp::Simd;
 
-/// The block of zeros.
-pub(super) const fn zero_block<const N: usize>() -> Block<N> {
-    [[[[0.0; 3]; N]; 3]; N]
+/// A row of the tangent of one span: by function and component, x, y, ω.
+pub(super) type BlockRow<const N: usize> = [[f64; 3]; N];
+
+/// Rows and columns are (function, component): `rows[a][i][b][j]`, components x, y, ω; summed up by vector instructions.
+pub(super) struct Block<S, const N: usize> {
+    simd: S,
+    pub(super) rows: [[BlockRow<N>; 3]; N],
+}
+
+impl<S: Simd, const N: usize> Block<S, N> {
+    /// The block of zeros.
+    #[inline(always)]
+    pub(super) fn zeros(simd: S) -> Self {
+        Self { simd, rows: [[[[0.0; 3]; N]; 3]; N] }
+    }
+
+    /// Adds a multiple of a row to the row of a function and a component.
+    #[inline(always)]
+    pub(super) fn add_multiple(
+        &mut self,
+        (function, component): (usize, usize),
+        factor: f64,
+        row: &BlockRow<N>,
+    ) {
+        let to = self.rows[function][component].as_flattened_mut();
+        let (to, to_rest) = S::as_mut_simd_f64s(to);
+        let (from, from_rest) = S::as_simd_f64s(row.as_flattened());
+        let factors = self.simd.splat_f64s(factor);
+        for (to, from) in to.iter_mut().zip(from) {
+            *to = self.simd.add_f64s(*to, self.simd.mul_f64s(factors, *from));
+        }
+        for (to, from) in to_rest.iter_mut().zip(from_rest) {
+            *to += factor * from;
+        }
+    }
+
+    /// All entries, row after row.
+    #[inline(always)]
+    pub(super) fn entries(&self) -> &[f64] {
+        self.rows.as_flattened().as_flattened().as_flattened()
+    }
 }

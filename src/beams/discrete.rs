@@ -1,7 +1,9 @@
 //! A beam on its mesh: the quadrature points of all spans, the control points and the inertia.
 
+use pulp::{Arch, Simd, WithSimd};
+
 use super::axis_point::AxisPoint;
-use super::block::zero_block;
+use super::block::Block;
 use super::dynamics::{BodyDynamics, Collocation, ForceSummary, Movement};
 use super::force_point::ForcePoint;
 use super::moment_point::MomentPoint;
@@ -157,6 +159,37 @@ fn window_mut<const N: usize>(movements: &mut [Movement], first: usize) -> &mut 
         .expect("a span has as many control points as its basis has functions")
 }
 
+/// The work of [`add_linearised_forces`](BodyDynamics::add_linearised_forces).
+struct Linearisation<'a, const N: usize> {
+    beam: &'a mut DiscreteBeam<N>,
+    at: Collocation,
+    moved: &'a [Movement],
+    weight: f64,
+    forces: &'a mut [Movement],
+    tangent: &'a mut dyn FnMut(usize, &[f64]),
+}
+
+impl<const N: usize> WithSimd for Linearisation<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { beam, at, moved, weight, forces, tangent } = self;
+        let section = &beam.section;
+        for span in &mut beam.spans {
+            let (moved, forces) = (window(moved, span.first), window_mut(forces, span.first));
+            let mut block = Block::zeros(simd);
+            for point in &mut span.force_points {
+                point.add_linearised_forces(section, at, moved, weight, forces, &mut block);
+            }
+            for point in &span.moment_points {
+                point.add_linearised_forces(section, at, moved, weight, forces, &mut block);
+            }
+            tangent(span.first, block.entries());
+        }
+    }
+}
+
 impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
     fn order(&self) -> usize {
         N
@@ -208,17 +241,7 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
         forces: &mut [Movement],
         tangent: &mut dyn FnMut(usize, &[f64]),
     ) {
-        for span in &mut self.spans {
-            let (moved, forces) = (window(moved, span.first), window_mut(forces, span.first));
-            let mut block = zero_block::<N>();
-            for point in &mut span.force_points {
-                point.add_linearised_forces(&self.section, at, moved, weight, forces, &mut block);
-            }
-            for point in &span.moment_points {
-                point.add_linearised_forces(&self.section, at, moved, weight, forces, &mut block);
-            }
-            tangent(span.first, block.as_flattened().as_flattened().as_flattened());
-        }
+        Arch::new().dispatch(Linearisation { beam: self, at, moved, weight, forces, tangent });
     }
 
     fn add_mismatch_forces(&self, weight: f64, forces: &mut [Movement]) {
@@ -278,6 +301,11 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
                 }
             }
         }
+    }
+
+    fn write_normals(&self, normals: &mut Vec<Vec2>) {
+        let points = self.spans.iter().flat_map(|span| &span.force_points);
+        normals.extend(points.map(ForcePoint::normal));
     }
 
     fn strain_energy(&self) -> f64 {

@@ -95,6 +95,9 @@ pub trait BodyDynamics {
     /// Gives `factor · M` to `tangent`: control point of the row, of the column, and the three diagonal entries.
     fn add_inertia_tangent(&self, factor: f64, tangent: &mut dyn FnMut(usize, usize, Movement));
 
+    /// Appends the normal of each section at which strains are taken, at the start of the step [-].
+    fn write_normals(&self, normals: &mut Vec<Vec2>);
+
     /// The strain energy at the start of the step [energy].
     fn strain_energy(&self) -> f64;
 

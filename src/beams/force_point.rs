@@ -11,6 +11,8 @@
 //! The gradient `g = x'` and the rotation are kept at the point and advanced by increments, so that the strains do not
 //! depend on how far from the origin the beam has flown.
 
+use pulp::Simd;
+
 use super::axis_point::AxisPoint;
 use super::block::Block;
 use super::dynamics::{Collocation, ForceSummary, Movement};
@@ -83,7 +85,7 @@ impl<const N: usize> ForcePoint<N> {
     }
 
     /// `(Δg, Δω)` of movements.
-    #[inline]
+    #[inline(always)]
     fn interpolate(&self, moved: &[Movement; N]) -> (Vec2, f64) {
         let (mut gradient, mut rotation) = (Vec2::zeros(), 0.0);
         for ((shape, slope), [x, y, omega]) in
@@ -96,7 +98,7 @@ impl<const N: usize> ForcePoint<N> {
         (gradient, rotation)
     }
 
-    #[inline]
+    #[inline(always)]
     fn configuration(&self, at: Collocation, moved: &[Movement; N]) -> Configuration {
         let (change, increment) = self.interpolate(moved);
         let turn = at.rotations.turn(increment);
@@ -114,7 +116,7 @@ impl<const N: usize> ForcePoint<N> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn distribute(&self, weight: f64, gradient: Vec2, force: Vec2, forces: &mut [Movement; N]) {
         let (force, torque) = (
             force * (weight * self.axis.weight),
@@ -154,15 +156,15 @@ impl<const N: usize> ForcePoint<N> {
         });
     }
 
-    #[inline]
-    pub(super) fn add_linearised_forces(
+    #[inline(always)]
+    pub(super) fn add_linearised_forces<S: Simd>(
         &mut self,
         section: &Section,
         at: Collocation,
         moved: &[Movement; N],
         weight: f64,
         forces: &mut [Movement; N],
-        block: &mut Block<N>,
+        block: &mut Block<S, N>,
     ) {
         let now = self.configuration(at, moved);
         let (tau, sigma) = (at.configuration, at.stress);
@@ -184,27 +186,22 @@ impl<const N: usize> ForcePoint<N> {
         let e = Vec2::new(a1.dot(&lever), a2.dot(&lever)) - geometric;
         let f = lever.dot(&b);
 
+        // The rows of one component are multiples of each other.
+        let mut rows = [[[0.0; 3]; N]; 3];
+        let by = [[a1.x, a2.x, b.x], [a1.y, a2.y, b.y], [e.x, e.y, f]];
+        for (row, [by_x, by_y, by_rotation]) in rows.iter_mut().zip(by) {
+            let functions = self.axis.slope.iter().zip(&self.axis.shape);
+            for (entry, (slope, shape)) in row.iter_mut().zip(functions) {
+                *entry = [by_x * slope, by_y * slope, by_rotation * shape];
+            }
+        }
         let w = weight * self.axis.weight;
-        let force_rows = [[a1.x, a2.x, b.x], [a1.y, a2.y, b.y]];
-        let torque_row = [e.x, e.y, f];
-        for ((slope_a, shape_a), rows) in
-            self.axis.slope.iter().zip(&self.axis.shape).zip(block.iter_mut())
-        {
-            let (force_weight, torque_weight) = (w * slope_a, -w * shape_a);
-            let [row_x, row_y, row_omega] = rows;
-            let add = |row: &mut [[f64; 3]; N], weight: f64, by: &[f64; 3]| {
-                let by = by.map(|entry| entry * weight);
-                for ((entry, slope_b), shape_b) in
-                    row.iter_mut().zip(&self.axis.slope).zip(&self.axis.shape)
-                {
-                    entry[0] += by[0] * slope_b;
-                    entry[1] += by[1] * slope_b;
-                    entry[2] += by[2] * shape_b;
-                }
-            };
-            add(row_x, force_weight, &force_rows[0]);
-            add(row_y, force_weight, &force_rows[1]);
-            add(row_omega, torque_weight, &torque_row);
+        let functions = self.axis.slope.iter().zip(&self.axis.shape);
+        for (function, (slope, shape)) in functions.enumerate() {
+            let factors = [w * slope, w * slope, -w * shape];
+            for (component, (factor, row)) in factors.into_iter().zip(&rows).enumerate() {
+                block.add_multiple((function, component), factor, row);
+            }
         }
         self.mismatch = now.collocated_strain - strain_from(section, self.force);
         self.linearised_at = now;
@@ -243,6 +240,11 @@ impl<const N: usize> ForcePoint<N> {
 
     pub(super) fn strain_energy(&self, section: &Section) -> f64 {
         0.5 * self.axis.weight * self.strain.dot(&force_of(section, self.strain))
+    }
+
+    /// The normal of the section at the start of the step, in space.
+    pub(super) fn normal(&self) -> Vec2 {
+        Vec2::new(self.rotation.cos, self.rotation.sin)
     }
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {

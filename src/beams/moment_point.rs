@@ -4,6 +4,8 @@
 //! κ1 = κ0 + Δω'/q     1/q = dΔθ/dΔω     M = EI ((1-σ) κ0 + σ κ1)     S_a = w N_a' M/q
 //! ```
 
+use pulp::Simd;
+
 use super::axis_point::AxisPoint;
 use super::block::Block;
 use super::dynamics::{Collocation, ForceSummary, Movement};
@@ -30,7 +32,7 @@ impl<const N: usize> MomentPoint<N> {
     }
 
     /// `(Δω', Δω)` of movements.
-    #[inline]
+    #[inline(always)]
     fn interpolate(&self, moved: &[Movement; N]) -> (f64, f64) {
         let (mut slope, mut rotation) = (0.0, 0.0);
         for ((shape, derivative), [_, _, omega]) in
@@ -42,7 +44,7 @@ impl<const N: usize> MomentPoint<N> {
         (slope, rotation)
     }
 
-    #[inline]
+    #[inline(always)]
     fn response(&self, section: &Section, at: Collocation, moved: &[Movement; N]) -> Response {
         let (slope, rotation) = self.interpolate(moved);
         let turn = at.rotations.turn(rotation);
@@ -55,7 +57,7 @@ impl<const N: usize> MomentPoint<N> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn distribute(&self, moment: f64, forces: &mut [Movement; N]) {
         for (slope, [_, _, omega]) in self.axis.slope.iter().zip(forces) {
             *omega += slope * moment;
@@ -77,20 +79,20 @@ impl<const N: usize> MomentPoint<N> {
         summary.join(&ForceSummary { moment: moment.abs(), ..ForceSummary::default() });
     }
 
-    #[inline]
-    pub(super) fn add_linearised_forces(
+    #[inline(always)]
+    pub(super) fn add_linearised_forces<S: Simd>(
         &self,
         section: &Section,
         at: Collocation,
         moved: &[Movement; N],
         weight: f64,
         forces: &mut [Movement; N],
-        block: &mut Block<N>,
+        block: &mut Block<S, N>,
     ) {
         let response = self.response(section, at, moved);
         let w = weight * self.axis.weight;
         self.distribute(w * response.moment, forces);
-        for (slope_a, [_, _, row_omega]) in self.axis.slope.iter().zip(block.iter_mut()) {
+        for (slope_a, [_, _, row_omega]) in self.axis.slope.iter().zip(&mut block.rows) {
             let (by_slope, by_rotation) =
                 (w * slope_a * response.by_slope, w * slope_a * response.by_rotation);
             for ((entry, slope_b), shape_b) in

@@ -71,6 +71,8 @@ impl BodyDynamics for Particle {
 
     fn add_inertia_tangent(&self, _factor: f64, _tangent: &mut dyn FnMut(usize, usize, Movement)) {}
 
+    fn write_normals(&self, _normals: &mut Vec<Vec2>) {}
+
     fn strain_energy(&self) -> f64 {
         0.0
     }

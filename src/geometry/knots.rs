@@ -9,7 +9,7 @@ use super::error::finite;
 pub const MAX_DEGREE: usize = 10;
 
 /// The largest number of spans (elements) of a basis.
-pub const MAX_SPANS: usize = 100_000;
+pub const MAX_SPANS: usize = 400_000;
 
 /// Spans shorter than this fraction of the domain are taken for a slip of rounding and refused.
 const SHORTEST_SPAN: f64 = 1e-12;

@@ -211,7 +211,7 @@ mod tests {
         assert_eq!(refusal(4, &[0.0, 1.0]), "degree 4 is not available; allowed are 1 to 3");
         assert_eq!(
             refusal(1, &[]),
-            "spans: 0 asked for; at least 1 and at most 100000 are allowed"
+            "spans: 0 asked for; at least 1 and at most 400000 are allowed"
         );
         assert_eq!(
             refusal(1, &[f64::NAN, 1.0]),

@@ -3,8 +3,10 @@
 
 mod banded;
 mod bordered;
+mod elimination;
 mod error;
 mod ordering;
+mod substitution;
 
 pub use banded::{BandedLu, BandedMatrix};
 pub use bordered::{Border, BorderShape, BorderedLu, BorderedMatrix};

@@ -116,12 +116,12 @@ impl Body {
         let Self { dynamics, degrees_of_freedom, consecutive, moved, forces, unknowns, .. } = self;
         let rows = 3 * dynamics.order();
         dynamics.add_linearised_forces(at, moved, weight, forces, &mut |first, block| {
+            if let Some(start) = consecutive[first] {
+                return tangent.add_block(start, rows, block);
+            }
             let degrees = degrees_of_freedom[first..first + rows / 3].as_flattened();
-            for (row, values) in block.chunks_exact(rows).enumerate() {
-                match consecutive[first] {
-                    Some(start) => tangent.add_to_row(start + row, start, values),
-                    None => add_row(tangent, degrees[row], degrees, values, *unknowns),
-                }
+            for (values, &row) in block.chunks_exact(rows).zip(degrees) {
+                add_row(tangent, row, degrees, values, *unknowns);
             }
         });
         self.scatter(out);
@@ -143,13 +143,14 @@ impl Body {
         self.scatter(out);
     }
 
-    pub(super) fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
+    /// Gives `factor · M` to `add`: row, column and value; several of one place add up.
+    pub(super) fn inertia_entries(&self, factor: f64, add: &mut impl FnMut(usize, usize, f64)) {
         self.dynamics.add_inertia_tangent(factor, &mut |a, b, inertia| {
             for ((&row, &column), value) in
                 self.degrees_of_freedom[a].iter().zip(&self.degrees_of_freedom[b]).zip(inertia)
             {
                 if row < self.unknowns && column < self.unknowns {
-                    tangent.add(row, column, value);
+                    add(row, column, value);
                 }
             }
         });

@@ -36,10 +36,10 @@ impl Part {
         Self { name: name.into(), usage: Usage::Used(how.into()) }
     }
 
-    /// The steps of so much time, cut where they end earlier.
-    pub fn steps(dt: f64, cuts: &[f64]) -> Self {
+    /// Steps, in words, and the times at which they are cut.
+    pub fn steps(size: &str, cuts: &[f64]) -> Self {
         let cut = in_words(cuts).map(|times| format!("cut ahead at t = {times}"));
-        Self::used("steps", format!("dt = {dt}, {}", cut.unwrap_or("no cuts ahead".to_owned())))
+        Self::used("steps", format!("{size}, {}", cut.unwrap_or("no cuts ahead".to_owned())))
     }
 
     /// A part that is left out.

@@ -142,8 +142,13 @@ impl Model {
 
     /// Its diagonal.
     pub(super) fn diagonal_of_inertia(&self) -> Vec<f64> {
-        let inertia = self.inertia();
-        (0..self.unknowns).map(|at| inertia.get(at, at)).collect()
+        let mut diagonal = vec![0.0; self.unknowns];
+        self.inertia_entries(1.0, &mut |row, column, value| {
+            if row == column {
+                diagonal[row] += value;
+            }
+        });
+        diagonal
     }
 
     /// `Gᵀ` times a unit impulse: on the slave, and the opposite one on the master.

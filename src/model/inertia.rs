@@ -2,7 +2,6 @@
 
 use crate::beams::Place;
 use crate::geometry::{Vec2, cross};
-use crate::linalg::BandedMatrix;
 
 use super::body::Body;
 
@@ -30,19 +29,20 @@ impl Lump {
         }
     }
 
-    pub(super) fn add_inertia_tangent(
+    /// Gives `factor · M` to `add`: row, column and value; several of one place add up.
+    pub(super) fn inertia_entries(
         &self,
         body: &Body,
         factor: f64,
         unknowns: usize,
-        tangent: &mut BandedMatrix,
+        add: &mut impl FnMut(usize, usize, f64),
     ) {
         for (a, weight_a) in self.place.weights() {
             for (b, weight_b) in self.place.weights() {
                 let degrees = body.degrees_of_freedom[a].iter().zip(&body.degrees_of_freedom[b]);
                 for ((&row, &column), inertia) in degrees.zip(self.inertia()) {
                     if row < unknowns && column < unknowns {
-                        tangent.add(row, column, factor * weight_a * weight_b * inertia);
+                        add(row, column, factor * weight_a * weight_b * inertia);
                     }
                 }
             }

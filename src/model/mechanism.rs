@@ -62,6 +62,14 @@ impl Model {
             .for_each(|lump| lump.add_inertia(&self.bodies[lump.place.body], factor, rates, out));
     }
 
+    /// Gives `factor · M` to `add`: row, column and value; several of one place add up.
+    pub(super) fn inertia_entries(&self, factor: f64, add: &mut impl FnMut(usize, usize, f64)) {
+        self.bodies.iter().for_each(|body| body.inertia_entries(factor, add));
+        for lump in &self.lumps {
+            lump.inertia_entries(&self.bodies[lump.place.body], factor, self.unknowns, add);
+        }
+    }
+
     /// Energy, momenta and what was exchanged so far.
     pub fn measure(&mut self) -> Measures {
         let (mut twice_kinetic, mut momentum, mut angular_momentum) = (0.0, Vec2::zeros(), 0.0);
@@ -227,10 +235,7 @@ impl Mechanism for Model {
     }
 
     fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
-        self.bodies.iter().for_each(|body| body.add_inertia_tangent(factor, tangent));
-        for lump in &self.lumps {
-            lump.add_inertia_tangent(&self.bodies[lump.place.body], factor, self.unknowns, tangent);
-        }
+        self.inertia_entries(factor, &mut |row, column, value| tangent.add(row, column, value));
     }
 
     fn add_forces(

@@ -13,6 +13,7 @@ mod inertia;
 mod measures;
 mod mechanism;
 mod numbering;
+mod placement;
 mod queries;
 mod redundancy;
 mod scales;
@@ -27,6 +28,7 @@ pub use error::ModelError;
 pub use explain::{Part, Usage};
 pub use measures::{Energy, Measures};
 pub use mechanism::Model;
+pub use placement::{Distance, Placement};
 pub use queries::ModelState;
 pub use scene::{
     BeamDefinition, ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity,

@@ -4,6 +4,7 @@ use serde::Deserialize;
 
 use super::numbering::check_ties;
 use super::queries::ModelState;
+use super::sliding::LANDED;
 use super::{
     BeamDefinition, Model, ModelError, ParticleDefinition, PointMass, Scene, StationVelocity,
 };
@@ -159,7 +160,11 @@ impl Model {
         let of_sliders = &numbers[numbers.len() - width * self.sliders.len()..];
         for (slider, own) in self.sliders.iter().zip(of_sliders.chunks_exact(width)) {
             let (first, last) = slider.domain();
-            if ![0.0, 1.0, 2.0, 3.0].contains(&own[0]) || !(first..=last).contains(&own[1]) {
+            // Where it has landed it may be beside the end by rounding.
+            let slack = LANDED * (last - first);
+            if ![0.0, 1.0, 2.0, 3.0].contains(&own[0])
+                || !(first - slack..=last + slack).contains(&own[1])
+            {
                 return Err(refused("a slider is beside its beam"));
             }
         }

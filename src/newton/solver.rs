@@ -1,12 +1,18 @@
-//! Newton's method with a full tangent at every iteration.
+//! Newton's method with a full tangent at every iteration, and corrections with old factors where these do as well.
 
 use serde::{Deserialize, Serialize};
 
 use super::{Equations, Imbalance, NewtonError};
 use crate::linalg::{BorderShape, BorderedLu, BorderedMatrix};
 
-/// Imbalances below this need no new factors: two corrections with the old ones take them to rounding.
-const NEAR: f64 = 1e-9;
+/// Imbalances below this are corrected with the factors at hand, as long as that gets on.
+const NEAR: f64 = 1e-4;
+
+/// So many corrections cost about as much as an iteration with new factors, which squares the imbalance.
+const MOST_CORRECTIONS: i32 = 5;
+
+/// A correction that leaves more than this part of an imbalance has met rounding.
+const STANDSTILL: f64 = 0.1;
 
 /// When a solution is good enough, and when to give up.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -17,7 +23,7 @@ pub struct Tolerance {
     pub strain: f64,
     /// Largest relative violation of a constraint at which iteration ends.
     pub constraint: f64,
-    /// Imbalances above this are corrected once more with the last factors, which takes them to rounding.
+    /// Imbalances above this are corrected with the last factors, which takes them to rounding.
     pub polish: f64,
     /// Most iterations.
     pub iterations: usize,
@@ -30,15 +36,14 @@ impl Default for Tolerance {
 }
 
 impl Tolerance {
-    /// How many corrections with the factors at hand are worth while before new ones are made.
-    fn polishes(&self, imbalance: &Imbalance) -> usize {
+    /// Whether to correct once more with the factors at hand, when the last correction has reduced the imbalance by a factor
+    /// and so many may follow.
+    fn is_worth_correcting(&self, imbalance: &Imbalance, factor: f64, corrections: i32) -> bool {
+        let largest = imbalance.largest();
         if self.accepts(imbalance) {
-            1
-        } else if imbalance.largest() <= NEAR {
-            2
-        } else {
-            0
+            return largest > self.polish && factor < STANDSTILL;
         }
+        largest <= NEAR && largest * factor.powi(corrections) <= self.polish
     }
 
     fn accepts(&self, imbalance: &Imbalance) -> bool {
@@ -51,7 +56,7 @@ impl Tolerance {
 /// What a Newton solve took.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct NewtonReport {
-    /// Iterations, each with one factorisation; the polish at the end is not counted.
+    /// Iterations, each with one factorisation; corrections with factors at hand are not counted.
     pub iterations: usize,
     /// What was left.
     pub imbalance: Imbalance,
@@ -110,12 +115,15 @@ impl Newton {
             if !imbalance.is_finite() {
                 return Err(NewtonError::NotFinite { history: self.history.clone() });
             }
-            for _ in 0..self.tolerance.polishes(&imbalance) {
-                if imbalance.largest() <= self.tolerance.polish {
+            let mut factor = 0.0;
+            for left in (0..MOST_CORRECTIONS).rev() {
+                if !self.tolerance.is_worth_correcting(&imbalance, factor, left + 1) {
                     break;
                 }
+                let before = imbalance.largest();
                 equations.condense(residual);
                 imbalance = correct(equations, &factors, &mut self.correction, u, residual);
+                factor = imbalance.largest() / before;
             }
             if self.tolerance.accepts(&imbalance) {
                 return Ok(NewtonReport { iterations: self.history.len(), imbalance });

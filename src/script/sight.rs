@@ -255,8 +255,11 @@ mod tests {
         let beam = scene.add_beam(beam).unwrap();
         let start = scene.station(beam, 0.0).unwrap();
         scene.join(JointKind::Hinge, start, Partner::Ground).unwrap();
-        let settings =
-            Settings { method: Method::EnergyMomentum, dt: 0.1, tolerance: Tolerance::default() };
+        let settings = Settings {
+            method: Method::EnergyMomentum,
+            dt: 0.1.into(),
+            tolerance: Tolerance::default(),
+        };
         let mut simulation = Simulation::start(scene, settings).unwrap();
         simulation.run_to(1.5, &mut Unwatched).unwrap();
         simulation

@@ -41,7 +41,7 @@ impl Simulation {
     /// # Errors
     /// When the time is before the start or to come, or the state there is not kept.
     pub fn rewind(&mut self, time: f64) -> Result<(), SimulationError> {
-        let (now, slack) = (self.time(), 1e-9 * self.grid.dt());
+        let (now, slack) = (self.time(), self.grid.slack());
         if time.is_nan() || time < -slack || time > now + slack {
             return Err(SimulationError::NotBehind { time, now });
         }
@@ -75,7 +75,7 @@ impl Simulation {
 
     /// For checking scripts: goes back as [`rewind`](Self::rewind) does, or as near as a pretended run allows.
     pub fn pretend_rewind(&mut self, time: f64) {
-        self.pretend_back_to(self.steps_until(time + 1e-9 * self.grid.dt()).unwrap_or(0));
+        self.pretend_back_to(self.steps_until(time + self.grid.slack()).unwrap_or(0));
     }
 
     fn pretend_back_to(&mut self, steps: usize) {
@@ -107,6 +107,7 @@ impl Simulation {
         self.arrivals.truncate(snapshot.arrivals);
         self.counts = WorkCounts { wall: self.counts.wall, ..snapshot.counts };
         self.under_way = snapshot.under_way;
+        self.pace = snapshot.pace;
         self.snapshots.truncate(steps);
         self.show_present();
         Ok(())
@@ -152,6 +153,7 @@ impl Simulation {
             counts: self.counts,
             passed: self.grid.passed(),
             under_way: self.under_way,
+            pace: self.pace,
         }
     }
 
@@ -168,6 +170,7 @@ impl Simulation {
         fork.counts = self.counts;
         fork.arrivals = self.arrivals.clone();
         fork.under_way = self.under_way;
+        fork.pace = self.pace;
         fork.snapshots = self.snapshots.clone();
         fork.recording = self.recording;
         fork.rows_kept = self.rows_kept;

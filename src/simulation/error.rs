@@ -1,5 +1,6 @@
 //! Why a run could not start or go on.
 
+use super::StepSizeError;
 use crate::integrators::{MethodError, StepError};
 use crate::model::ModelError;
 
@@ -12,12 +13,9 @@ pub enum SimulationError {
     /// A method that does not exist with its parameter.
     #[error(transparent)]
     Method(#[from] MethodError),
-    /// A step size that is not positive.
-    #[error("the step size dt is {dt}, but must be a positive finite number [time]")]
-    StepSize {
-        /// Its value.
-        dt: f64,
-    },
+    /// A step size that is none, or a tolerance that cannot be kept.
+    #[error(transparent)]
+    StepSize(#[from] StepSizeError),
     /// An end of a run that has passed.
     #[error("the simulation is at t = {now} and cannot run to t = {end}; {advice}")]
     End {
@@ -37,6 +35,36 @@ pub enum SimulationError {
         dt: f64,
         /// By what the step was divided at last.
         divisions: u64,
+        /// Why the last try failed.
+        source: StepError,
+    },
+    /// A tolerance asks for steps that are too short.
+    #[error(
+        "the tolerance {tolerance} asks for steps below the smallest one, {smallest:e}, at t = {time}: one of dt = {dt:e} errs {error:.3} times as much as is allowed; give a larger tolerance or a smaller step: adaptive(#{{ tolerance: …, smallest: … }})"
+    )]
+    Tolerance {
+        /// The end of the last good step.
+        time: f64,
+        /// The tolerance.
+        tolerance: f64,
+        /// The step that was tried last.
+        dt: f64,
+        /// Its error over that allowed.
+        error: f64,
+        /// The smallest step.
+        smallest: f64,
+    },
+    /// No step down to the smallest worked.
+    #[error(
+        "no step from t = {time} works, down to the smallest one, {smallest:e} (dt = {dt:e}): {source}"
+    )]
+    Smallest {
+        /// The end of the last good step.
+        time: f64,
+        /// The step that was tried last.
+        dt: f64,
+        /// The smallest step.
+        smallest: f64,
         /// Why the last try failed.
         source: StepError,
     },

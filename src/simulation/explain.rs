@@ -1,6 +1,7 @@
 //! What a simulation uses, and what it therefore leaves out.
 
-use super::{Recording, Simulation};
+use super::controller::Controller;
+use super::{Recording, Simulation, WorkCounts};
 use crate::model::Part;
 
 impl Simulation {
@@ -17,7 +18,8 @@ impl Simulation {
         parts.push(Part::used("integrator", how));
         let now = self.time();
         let ahead: Vec<f64> = self.grid.cuts().iter().copied().filter(|cut| *cut > now).collect();
-        parts.push(Part::steps(self.settings().dt, &ahead));
+        parts.push(Part::steps(&self.settings().dt.to_string(), &ahead));
+        parts.push(self.explain_tries());
         parts.extend([self.explain_recording(), self.explain_snapshots()]);
         parts
     }
@@ -43,6 +45,25 @@ impl Simulation {
                 let (used, most) = (bytes as f64 / 1e6, limit as f64 / 1e6);
                 let how = format!("{kept} states in {used:.1} of {most} MB; one is copied a step");
                 Part::used("snapshots", how)
+            }
+        }
+    }
+
+    /// What becomes of steps that fail or err, and how often they did.
+    fn explain_tries(&self) -> Part {
+        let WorkCounts { rejected, retries, .. } = self.counts();
+        match &self.adaptive {
+            None => Part::left_out(
+                "error control",
+                "steps are as long as is said, and halved where they fail",
+            ),
+            Some(adaptive) => {
+                let Controller { first, smallest, .. } = adaptive.controller;
+                let how = format!(
+                    "each step is two of the method, compared with one as long as both: 3 solves for 2; the first is {first:.3e}, \
+                     none below {smallest:.1e}; rejected {rejected}, failed {retries} so far"
+                );
+                Part::used("error control", how)
             }
         }
     }

@@ -1,16 +1,21 @@
 //! Running a scene and remembering what happened.
 
+mod adaptive;
 mod archive;
 mod back;
 mod columns;
+mod controller;
+mod doubling;
 mod error;
 mod explain;
+mod first_step;
 mod history;
 mod landing;
 mod outline;
 mod recording;
 mod run;
 mod snapshots;
+mod step_size;
 mod stepping;
 mod time_grid;
 mod trajectory;
@@ -24,5 +29,6 @@ pub use landing::{Arrival, ArrivalKind};
 pub use outline::{Configuration, Outline};
 pub use recording::Recording;
 pub use run::{Monitor, Settings, Simulation, Unwatched, WorkCounts};
+pub use step_size::{StepControl, StepSize, StepSizeError};
 pub use time_grid::TimeGrid;
 pub use trajectory::Trajectory;

@@ -5,12 +5,16 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
+use super::adaptive::Adaptive;
 use super::columns::{extra_columns, extra_values};
+use super::controller::Pace;
 use super::landing::Arrival;
 use super::recording::StepTaken;
 use super::snapshots::Snapshots;
 use super::stepping::Halving;
-use super::{History, Outline, Recording, Sample, Scales, SimulationError, TimeGrid, Trajectory};
+use super::{
+    History, Outline, Recording, Sample, Scales, SimulationError, StepSize, TimeGrid, Trajectory,
+};
 
 use crate::geometry::Vec2;
 use crate::integrators::{Integrator, Interval, Mechanism, Method};
@@ -25,8 +29,8 @@ const MOST_PRETENDED: usize = 10_000;
 pub struct Settings {
     /// The integrator.
     pub method: Method,
-    /// The step size [time].
-    pub dt: f64,
+    /// The step size, or what it is found by.
+    pub dt: StepSize,
     /// Of the Newton solver.
     pub tolerance: Tolerance,
 }
@@ -44,6 +48,8 @@ pub struct WorkCounts {
     pub factorisations: usize,
     /// Failed tries.
     pub retries: usize,
+    /// Steps that erred by more than a tolerance allowed.
+    pub rejected: usize,
     /// Steps that were tried to find when a slider arrives at the end of its master.
     pub arrival_tries: usize,
     /// Time spent in steps.
@@ -77,6 +83,10 @@ pub struct Simulation {
     pub(super) trajectory: Trajectory,
     pub(super) counts: WorkCounts,
     pub(super) arrivals: Vec<Arrival>,
+    /// What finds the size of steps where it varies,
+    pub(super) adaptive: Option<Box<Adaptive>>,
+    /// and what it has found so far.
+    pub(super) pace: Option<Pace>,
     /// A step of the grid that is covered in part.
     pub(super) under_way: Option<Halving>,
     pub(super) snapshots: Snapshots,
@@ -94,11 +104,9 @@ impl Simulation {
     /// Builds a scene and puts it at its start, t = 0.
     ///
     /// # Errors
-    /// When the step size is not positive, the parameter of the method out of its range, or the scene cannot be built.
+    /// When the step size or the parameter of the method is out of its range, or the scene cannot be built.
     pub fn start(scene: Scene, settings: Settings) -> Result<Self, SimulationError> {
-        if !(settings.dt.is_finite() && settings.dt > 0.0) {
-            return Err(SimulationError::StepSize { dt: settings.dt });
-        }
+        settings.dt.check()?;
         settings.method.check()?;
         let mut model = Model::assemble(&scene)?;
         let integrator = settings.method.build(&mut model, settings.tolerance);
@@ -110,7 +118,14 @@ impl Simulation {
         let mut trajectory =
             Trajectory::new(2 * model.control_points().map(<[Vec2]>::len).sum::<usize>());
         trajectory.push(0.0, coordinates(&model));
-        let grid = TimeGrid::new(0.0, settings.dt, cuts);
+        let (grid, adaptive) = match settings.dt {
+            StepSize::Fixed(dt) => (TimeGrid::new(0.0, dt, cuts), None),
+            StepSize::Adaptive(control) => {
+                let adaptive = Adaptive::new(&control, settings.method, &scene, &model);
+                let smallest = adaptive.controller.smallest;
+                (TimeGrid::of_cuts(0.0, smallest, cuts), Some(Box::new(adaptive)))
+            }
+        };
         Ok(Self {
             scene,
             settings,
@@ -121,6 +136,8 @@ impl Simulation {
             trajectory,
             counts: WorkCounts::default(),
             arrivals: Vec::new(),
+            pace: adaptive.as_ref().map(|adaptive| adaptive.controller.start()),
+            adaptive,
             under_way: None,
             snapshots: Snapshots::default(),
             recording: Recording::default(),
@@ -176,14 +193,14 @@ impl Simulation {
         self.model.half_bandwidth()
     }
 
-    /// When the next step ends, if it goes no further than `limit` [time].
-    pub fn next_stop(&self, limit: f64) -> f64 {
-        self.grid.next(self.time(), limit)
-    }
-
     /// Whether a time has come, but for rounding.
     pub fn has_reached(&self, time: f64) -> bool {
-        self.time() >= time - 1e-9 * self.grid.dt()
+        self.time() >= time - self.grid.slack()
+    }
+
+    /// By how much a time may be missed and still be reached [time].
+    pub fn slack(&self) -> f64 {
+        self.grid.slack()
     }
 
     /// Makes a step end at a time to come.
@@ -212,7 +229,7 @@ impl Simulation {
     pub fn run_to(&mut self, end: f64, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
         self.check_end(end)?;
         let now = self.time();
-        let steps = ((end - now) / self.grid.dt()).min(1e6) as usize + 8;
+        let steps = ((end - now) / self.dt()).min(1e6) as usize + 8;
         let rows = self.recording.rows_of(steps);
         self.history.reserve(rows);
         self.trajectory.reserve(rows);
@@ -230,7 +247,7 @@ impl Simulation {
         if !end.is_finite() {
             return Err(SimulationError::End { now, end, advice: "give a finite time" });
         }
-        if end < now - 1e-9 * self.grid.dt() {
+        if end < now - self.grid.slack() {
             return Err(SimulationError::End {
                 now,
                 end,
@@ -256,7 +273,7 @@ impl Simulation {
         let mut rows = 0;
         while !self.has_reached(end) {
             rows += 1;
-            let next = if rows < MOST_PRETENDED { self.grid.next(self.time(), end) } else { end };
+            let next = if rows < MOST_PRETENDED { self.next_stop(end) } else { end };
             let dt = next - self.time();
             self.model.pass_time_to(next);
             self.grid.reach(next);
@@ -280,11 +297,14 @@ impl Simulation {
         monitor: &mut dyn Monitor,
     ) -> Result<(), SimulationError> {
         let begun = Instant::now();
-        let end = self.grid.next(self.time(), limit);
-        let begun_before = self.under_way.filter(|halving| halving.end() == end);
-        let way = Interval::between(self.time(), end);
-        let halving = begun_before.unwrap_or_else(|| Halving::new(way));
-        let stepped = self.cover_with_arrivals(halving, monitor);
+        let stepped = match self.adaptive.take() {
+            None => self.step_on_grid(limit, monitor),
+            Some(mut adaptive) => {
+                let stepped = self.adapt(&mut adaptive, limit, monitor);
+                self.adaptive = Some(adaptive);
+                stepped
+            }
+        };
         // What was interrupted goes on where it was, with steps of the same size.
         if !matches!(stepped, Err(SimulationError::Interrupted { .. })) {
             self.under_way = None;
@@ -292,6 +312,17 @@ impl Simulation {
         self.grid.reach(self.time());
         self.counts.wall += begun.elapsed();
         stepped
+    }
+
+    fn step_on_grid(
+        &mut self,
+        limit: f64,
+        monitor: &mut dyn Monitor,
+    ) -> Result<(), SimulationError> {
+        let end = self.grid.next(self.time(), limit);
+        let begun_before = self.under_way.filter(|halving| halving.end() == end);
+        let way = Interval::between(self.time(), end);
+        self.cover_with_arrivals(begun_before.unwrap_or_else(|| Halving::new(way)), monitor)
     }
 }
 

@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 
 use super::WorkCounts;
+use super::controller::Pace;
 use super::recording::StepTaken;
 use super::stepping::Halving;
 use crate::model::ModelState;
@@ -22,6 +23,8 @@ pub(super) struct Snapshot {
     pub(super) passed: u64,
     /// The step of the grid that was covered in part.
     pub(super) under_way: Option<Halving>,
+    /// Where steps are of varying size, how long the next one is to be.
+    pub(super) pace: Option<Pace>,
 }
 
 impl Snapshot {
@@ -147,6 +150,7 @@ mod tests {
             counts: WorkCounts { steps, ..WorkCounts::default() },
             passed: 0,
             under_way: None,
+            pace: None,
         }
     }
 

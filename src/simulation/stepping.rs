@@ -15,7 +15,7 @@ const PARTS: u64 = 1 << MOST_HALVINGS;
 
 /// How much of an interval was covered.
 #[derive(PartialEq, Eq)]
-enum Covered {
+pub(super) enum Covered {
     All,
     UntilAnArrival,
 }
@@ -113,21 +113,26 @@ impl Simulation {
         let end = halving.end();
         for _ in 0..MOST_ARRIVALS {
             let covered = self.cover(halving, monitor)?;
-            let is_there = self.time() >= end - 1e-9 * self.grid.dt();
+            let is_there = self.time() >= end - self.grid.slack();
             if covered == Covered::All || is_there || self.has_ended() {
                 return Ok(());
             }
             halving = Halving::new(Interval::between(self.time(), end));
         }
+        Err(self.rattles())
+    }
+
+    /// The error of a slider that does not get away from an end.
+    pub(super) fn rattles(&self) -> SimulationError {
         let arrival = self.arrivals.last().map_or_else(
             || format!("a slider is about to arrive after t = {}", self.time()),
             |last| self.describe(last),
         );
-        Err(SimulationError::Rattles { arrival, most: MOST_ARRIVALS })
+        SimulationError::Rattles { arrival, most: MOST_ARRIVALS }
     }
 
     /// Covers an interval by one step or, where that fails, by halves of it, growing again after success.
-    fn cover(
+    pub(super) fn cover(
         &mut self,
         mut halving: Halving,
         monitor: &mut dyn Monitor,
@@ -200,7 +205,8 @@ impl Simulation {
         SimulationError::Step { time, dt, divisions, source }
     }
 
-    fn count_step(&mut self, interval: Interval, report: NewtonReport, retries: usize) {
+    /// Counts a step that succeeded.
+    pub(super) fn count_step(&mut self, interval: Interval, report: NewtonReport, retries: usize) {
         self.counts.steps += 1;
         self.counts.newton_iterations += report.iterations;
         self.counts.newton_max = self.counts.newton_max.max(report.iterations);

@@ -3,11 +3,14 @@
 /// Grid points and cuts closer than this part of a step are one.
 const SAME: f64 = 1e-9;
 
-/// `t_n = t_0 + n dt`, cut where schedules jump or bend. Times are never accumulated.
-#[derive(Debug, Clone)]
+/// `t_n = t_0 + n dt`, cut where schedules jump or bend. Times are never accumulated. For steps of varying size there are only cuts.
+#[derive(Debug, Clone, Default)]
 pub struct TimeGrid {
     start: f64,
+    /// Infinite where there are only cuts.
     dt: f64,
+    /// Times closer than this are one.
+    slack: f64,
     /// In increasing order.
     cuts: Vec<f64>,
     /// The number of grid points passed.
@@ -16,11 +19,20 @@ pub struct TimeGrid {
 
 impl TimeGrid {
     /// A grid from `start` on; `cuts` in any order.
-    pub fn new(start: f64, dt: f64, mut cuts: Vec<f64>) -> Self {
-        cuts.retain(|cut| cut.is_finite() && *cut > start);
+    pub fn new(start: f64, dt: f64, cuts: Vec<f64>) -> Self {
+        Self { start, dt, slack: SAME * dt, cuts: Vec::new(), passed: 0 }.with_cuts(cuts)
+    }
+
+    /// Cuts alone, for steps down to a smallest size.
+    pub fn of_cuts(start: f64, smallest: f64, cuts: Vec<f64>) -> Self {
+        Self { dt: f64::INFINITY, ..Self::new(start, smallest, cuts) }
+    }
+
+    fn with_cuts(self, mut cuts: Vec<f64>) -> Self {
+        cuts.retain(|cut| cut.is_finite() && *cut > self.start);
         cuts.sort_by(f64::total_cmp);
-        cuts.dedup_by(|later, earlier| *later - *earlier <= SAME * dt);
-        Self { start, dt, cuts, passed: 0 }
+        cuts.dedup_by(|later, earlier| *later - *earlier <= self.slack);
+        Self { cuts, passed: 0, ..self }
     }
 
     /// The times beside the grid at which steps end, in increasing order [time].
@@ -28,14 +40,22 @@ impl TimeGrid {
         &self.cuts
     }
 
-    /// The distance of grid points [time].
+    /// The distance of grid points; infinite where there are none [time].
     pub fn dt(&self) -> f64 {
         self.dt
+    }
+
+    /// By how much a time may be missed and still be reached [time].
+    pub fn slack(&self) -> f64 {
+        self.slack
     }
 
     /// `t_0 + n dt`. A step that is one over a whole number is taken as such: n/10 is the number people write, n · 0.1 is
     /// often its neighbour.
     fn point(&self, n: u64) -> f64 {
+        if self.dt == f64::INFINITY {
+            return f64::INFINITY;
+        }
         let rate = (1.0 / self.dt).round();
         let is_whole = (rate * self.dt - 1.0).abs() < 1e-15;
         self.start + if is_whole { n as f64 / rate } else { n as f64 * self.dt }
@@ -43,7 +63,7 @@ impl TimeGrid {
 
     /// Adds a cut, where there is none yet.
     pub fn cut_at(&mut self, time: f64) {
-        let same = SAME * self.dt;
+        let same = self.slack;
         if self.cuts.iter().all(|cut| (cut - time).abs() > same) {
             self.cuts.insert(self.cuts.partition_point(|cut| *cut < time), time);
         }
@@ -51,7 +71,7 @@ impl TimeGrid {
 
     /// The end of the step that begins at `now`: the next grid point or cut, but not beyond `limit`.
     pub fn next(&self, now: f64, limit: f64) -> f64 {
-        let same = SAME * self.dt;
+        let same = self.slack;
         let mut passed = self.passed;
         while self.point(passed + 1) <= now + same {
             passed += 1;
@@ -76,7 +96,7 @@ impl TimeGrid {
 
     /// The same grid, begun anew with these cuts, as it is at a time.
     pub fn lay(&mut self, cuts: &[f64], now: f64) {
-        *self = Self::new(self.start, self.dt, cuts.to_vec());
+        *self = std::mem::take(self).with_cuts(cuts.to_vec());
         // Near enough to get there soon, and never too far.
         self.passed = (((now - self.start) / self.dt) as u64).saturating_sub(2);
         self.reach(now);
@@ -84,7 +104,7 @@ impl TimeGrid {
 
     /// Remembers that a time has been reached, so that the next search begins there.
     pub fn reach(&mut self, now: f64) {
-        let same = SAME * self.dt;
+        let same = self.slack;
         while self.point(self.passed + 1) <= now + same {
             self.passed += 1;
         }
@@ -124,6 +144,19 @@ mod tests {
         let mut again = TimeGrid::new(0.0, 1.0, vec![]);
         again.lay(&[f64::NAN, 2.5, -1.0], 1e6);
         assert_eq!((again.cuts(), again.passed()), (grid.cuts(), 1_000_000));
+    }
+
+    #[test]
+    fn without_points_only_cuts_and_limits_end_steps() {
+        let mut grid = TimeGrid::of_cuts(0.0, 1e-6, vec![3.0, 1.0]);
+        assert_eq!(
+            (grid.next(0.0, 9.0), grid.next(1.0, 2.0), grid.next(3.0, 9.0)),
+            (1.0, 2.0, 9.0)
+        );
+        assert_eq!(grid.next(3.0, f64::INFINITY), f64::INFINITY);
+        grid.reach(2.0);
+        grid.lay(&[4.0], 3.0);
+        assert_eq!((grid.next(3.0, 9.0), grid.passed()), (4.0, 0));
     }
 
     #[test]

@@ -17,20 +17,20 @@ use withy::geometry::Vec2;
 use withy::integrators::Method;
 use withy::model::Scene;
 use withy::newton::Tolerance;
-use withy::simulation::{History, Settings, Simulation, SimulationError, Unwatched};
+use withy::simulation::{History, Settings, Simulation, SimulationError, StepSize, Unwatched};
 
 pub fn at(x: f64, y: f64) -> Vec2 {
     Vec2::new(x, y)
 }
 
-pub fn settings(method: Method, dt: f64) -> Settings {
-    Settings { method, dt, tolerance: Tolerance::default() }
+pub fn settings(method: Method, dt: impl Into<StepSize>) -> Settings {
+    Settings { method, dt: dt.into(), tolerance: Tolerance::default() }
 }
 
-pub fn simulate(scene: Scene, method: Method, dt: f64, end: f64) -> Simulation {
-    let name = scene.name.clone();
+pub fn simulate(scene: Scene, method: Method, dt: impl Into<StepSize>, end: f64) -> Simulation {
+    let (name, dt) = (scene.name.clone(), dt.into());
     let mut simulation = Simulation::start(scene, settings(method, dt)).unwrap();
-    run(&mut simulation, end).unwrap_or_else(|error| panic!("{name}, dt = {dt}: {error}"));
+    run(&mut simulation, end).unwrap_or_else(|error| panic!("{name}, {dt}: {error}"));
     simulation
 }
 

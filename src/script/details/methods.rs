@@ -6,6 +6,7 @@ use crate::joints::SlidingRule;
 use crate::loads::{Schedule, Side};
 use crate::script::error::{Failure, Place};
 use crate::script::kind::Details;
+use crate::simulation::StepControl;
 
 /// Order, what is kept, the parameter, and the source.
 pub fn of_integrator(method: &Method) -> Details {
@@ -23,6 +24,19 @@ pub fn of_integrator(method: &Method) -> Details {
         .chain(optional.into_iter().flatten())
         .chain(std::iter::once(line("source", entry.source)))
         .collect()
+}
+
+/// The tolerance and the bounds, given or not.
+pub fn of_step_control(control: &StepControl) -> Details {
+    let bound = |value: Option<f64>, otherwise: &str| value.map_or(otherwise.to_owned(), number);
+    vec![
+        line("tolerance", number(control.tolerance)),
+        line("first step", bound(control.first, "from the scene")),
+        line("smallest", bound(control.smallest, "a millionth of the first")),
+        line("largest", bound(control.largest, "any")),
+        line("estimate", "two steps against one; both are kept, the one is not"),
+        line("controller", "PI; Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533-554"),
+    ]
 }
 
 /// What is kept, and the source.

@@ -3,7 +3,7 @@
 use super::{line, listed, number, pair};
 use crate::output::{scientific, significant};
 use crate::script::kind::Details;
-use crate::simulation::{History, Invariant, Simulation};
+use crate::simulation::{History, Invariant, Simulation, StepSize};
 
 /// Most sliders that are told of one by one.
 const SLIDERS: usize = 2;
@@ -32,9 +32,16 @@ pub fn of_simulation(simulation: &Simulation) -> Details {
         0 => String::new(),
         retries => format!(", {retries} tried again"),
     };
+    let rejected = match settings.dt {
+        StepSize::Fixed(_) => String::new(),
+        StepSize::Adaptive(_) => format!(", {} rejected", counts.rejected),
+    };
     let mut details = vec![
-        line("time", format!("t = {}, dt = {}", number(simulation.time()), number(settings.dt))),
-        line("steps", format!("{}{retries}", counts.steps)),
+        line(
+            "time",
+            format!("t = {}, dt = {}", number(simulation.time()), number(simulation.dt())),
+        ),
+        line("steps", format!("{}{rejected}{retries}", counts.steps)),
         line("Newton iterations", iterations),
         line("energy", energy),
         line("its parts", parts),

@@ -15,7 +15,7 @@ use crate::script::kind::{Details, Scripted};
 use crate::script::limits::Stop;
 use crate::script::numbers::format_number;
 use crate::script::stored::StoredFunction;
-use crate::simulation::{Monitor, Simulation, SimulationError};
+use crate::simulation::{Monitor, Simulation, SimulationError, StepSize};
 
 /// A running simulation; clones are the same one.
 #[derive(Clone)]
@@ -170,13 +170,13 @@ impl SimulationHandle {
 
     /// By how much a time may be missed and still be reached.
     fn slack(&self) -> f64 {
-        1e-9 * self.simulation().settings().dt
+        self.simulation().slack()
     }
 
     /// Goes on, calling the functions of the events on its way.
     pub fn go_on(&self, call: &Call, goal: &Goal) -> Result<(), ScriptError> {
         let context = call.context();
-        let dt = self.simulation().settings().dt;
+        let dt = self.simulation().dt();
         let now = self.time();
         let end = match goal {
             Goal::Steps(steps) => now + *steps as f64 * dt,
@@ -229,7 +229,7 @@ impl SimulationHandle {
         loop {
             let next = self.0.events.borrow().next_time().unwrap_or(f64::INFINITY);
             let stop = if next < end { next } else { end };
-            let slack = 1e-9 * self.simulation().settings().dt;
+            let slack = self.slack();
             let context = call.context();
             if self.time() < stop - slack && !context.meter().allows_a_step() {
                 context.proceed()?;
@@ -283,10 +283,21 @@ fn explain(error: SimulationError, context: &Context) -> ScriptError {
             Some(error) => ScriptError::Engine(error),
             None => ScriptError::from(error).hint("a load needs a finite value at all times"),
         },
-        SimulationError::Step { .. } => ScriptError::from(error).hint(
+        SimulationError::Step { .. } | SimulationError::Smallest { .. } => ScriptError::from(error).hint(
             "the history up to there is kept; try a smaller dt or a finer mesh, and check loads, stiffness, units and what is held",
         ),
+        SimulationError::Tolerance { .. } => {
+            ScriptError::from(error).hint("the history up to there is kept; adaptive steps land on jumps of schedules by themselves, but a function that jumps needs its breaks: schedule(|t| …, [t1, t2])")
+        }
         error => error.into(),
+    }
+}
+
+/// How long steps are, in numbers as the language writes them.
+fn step_size(size: &StepSize) -> String {
+    match size {
+        StepSize::Fixed(dt) => format!("dt = {}", format_number(*dt)),
+        StepSize::Adaptive(control) => control.to_string(),
     }
 }
 
@@ -306,12 +317,12 @@ impl Scripted for SimulationHandle {
         let (counts, settings) = (simulation.counts(), simulation.settings());
         let ended = simulation.ending().map(|ending| format!("; ended: {ending}"));
         format!(
-            "simulation '{}' at t = {} after {} steps, {}, dt = {}, {} unknowns{}",
+            "simulation '{}' at t = {} after {} steps, {}, {}, {} unknowns{}",
             self.0.name,
             format_number(simulation.time()),
             counts.steps,
             settings.method.entry().name,
-            format_number(settings.dt),
+            step_size(&settings.dt),
             simulation.unknowns(),
             ended.unwrap_or_default(),
         )

@@ -24,6 +24,7 @@ mod sections;
 mod simulations;
 mod sliding;
 mod stability_studies;
+mod step_sizes;
 mod text;
 mod time_travel;
 mod vectors;
@@ -47,6 +48,7 @@ pub const TABLES: &[&Table] = &[
     &sections::TABLE,
     &schedules::TABLE,
     &integrators::TABLE,
+    &step_sizes::TABLE,
     &scenes::TABLE,
     &loads::TABLE,
     &simulations::TABLE,

@@ -112,7 +112,8 @@ pub(super) const NAME: Parameter = text("name").doc("of the study and of its fil
 pub(super) const SCENE_OF: Parameter = callback("scene").doc("|mesh| …, makes the scene on a mesh");
 pub(super) const MESHES: Parameter = array("meshes").doc("what `scene` is called with, one by one");
 pub(super) const METHODS: Parameter = array("integrators").doc("at least one");
-pub(super) const DTS: Parameter = numbers("dts").unit("time").doc("step sizes");
+pub(super) const DTS: Parameter =
+    array("dts").unit("time").doc("step sizes, adaptive(#{ tolerance: 1e-4 }) among them");
 pub(super) const TIMES: Parameter =
     numbers("times").unit("time").doc("when results are compared; the last one ends a run");
 pub(super) const REFERENCE: Parameter =

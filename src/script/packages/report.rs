@@ -48,7 +48,9 @@ impl Reporter for SimulationHandle {
             "half_bandwidth": simulation.half_bandwidth(),
             "basis": basis.join("; "),
             "integrator": settings.method.entry().name,
-            "dt": settings.dt,
+            "rejected": counts.rejected,
+            "dt": simulation.dt(),
+            "step_size": settings.dt.to_string(),
             "t": simulation.time(),
             "drift": drift,
             "energy": {

@@ -6,6 +6,7 @@ use super::integrators::INTEGRATOR;
 use super::live::{Goal, SimulationHandle};
 use super::recording::RECORDING;
 use super::scenes::{SCENE, STATION, SceneHandle, StationHandle};
+use super::step_sizes::STEP_CONTROL;
 use super::time_travel::bytes;
 use super::windows::HistoryHandle;
 use crate::beams::Place;
@@ -15,12 +16,12 @@ use crate::newton::Tolerance;
 use crate::output::{Cell, Table as TextTable, scientific};
 use crate::script::call::Call;
 use crate::script::error::ScriptError;
-use crate::script::kind::{Scripted, Type};
+use crate::script::kind::{Kind, Range, Scripted, Type};
 use crate::script::parameter::{
-    Parameter, Presence, callback, number, object, options, text, whole,
+    Parameter, Presence, callback, either, number, object, options, text, whole,
 };
 use crate::script::table::{Row, Table, method, property};
-use crate::simulation::{Invariant, Recording, Settings, Simulation};
+use crate::simulation::{Invariant, Recording, Settings, Simulation, StepControl};
 
 /// Simulations.
 pub const TABLE: Table = Table {
@@ -126,11 +127,15 @@ pub const TABLE: Table = Table {
         count("newton_iterations", |call| counted(call, |simulation| simulation.counts().newton_iterations))
             .summary("Newton iterations of all steps."),
         count("retries", |call| counted(call, |simulation| simulation.counts().retries)).summary("Steps that failed and were halved."),
+        count("rejected", |call| counted(call, |simulation| simulation.counts().rejected))
+            .summary("Adaptive steps that erred by more than the tolerance allows, and were taken again.")
+            .see(&["adaptive"]),
         count("unknowns", |call| counted(call, Simulation::unknowns)).summary("Unknowns of a step."),
-        property(SIMULATION, "dt", |call| Ok(call.receiver::<SimulationHandle>()?.simulation().settings().dt.into()))
+        property(SIMULATION, "dt", |call| Ok(call.receiver::<SimulationHandle>()?.simulation().dt().into()))
             .returns("a number [time]")
-            .summary("The step size of the grid.")
-            .example("check(sim.dt == 0.1);"),
+            .summary("The step size of the grid; with adaptive steps that of the next step, if nothing cuts it.")
+            .example("check(sim.dt == 0.1);")
+            .see(&["adaptive"]),
         property(SIMULATION, "name", |call| Ok(call.receiver::<SimulationHandle>()?.name().into()))
             .returns("a text")
             .summary("Its name: that of the scene unless given.")
@@ -150,7 +155,9 @@ const INVARIANTS: Type = Type::of::<Invariants>();
 
 const AT: Parameter = object("station", STATION);
 const START: &[Parameter] = &[
-    number("dt").positive().unit("time").doc("the step size"),
+    either("dt", &[Kind::Number(Range::Positive), Kind::Object(STEP_CONTROL)])
+        .unit("time")
+        .doc("the step size, or adaptive(#{ tolerance: 1e-4 })"),
     object("integrator", INTEGRATOR).doc("energy_momentum() unless given").optional(),
     text("name").doc("the name in the report; that of the scene unless given").optional(),
     object("record", RECORDING).doc("every(n) or nothing(); every step unless given").optional(),
@@ -212,7 +219,7 @@ const fn invariant(name: &'static str, body: crate::script::table::Body) -> Row 
 const fn count(name: &'static str, body: crate::script::table::Body) -> Row {
     property(SIMULATION, name, body)
         .returns("a whole number")
-        .example("sim.step(2);\ncheck(sim.steps == 2 && sim.newton_iterations <= 8 && sim.retries == 0 && sim.unknowns == 21);")
+        .example("sim.step(2);\ncheck(sim.steps == 2 && sim.newton_iterations <= 8 && sim.retries == 0 && sim.rejected == 0 && sim.unknowns == 21);")
 }
 
 fn start(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -221,7 +228,10 @@ fn start(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options("options")?;
     let settings = Settings {
         method: options.get_if::<Method>("integrator").unwrap_or_default(),
-        dt: options.number("dt")?,
+        dt: match options.get_if::<StepControl>("dt") {
+            Some(control) => control.into(),
+            None => options.number("dt")?.into(),
+        },
         tolerance: Tolerance::default(),
     };
     let name = options.text("name").map_or_else(|_| scene.name.clone(), |name| name.to_string());

@@ -19,7 +19,7 @@ use crate::script::call::Call;
 use crate::script::context::Mode;
 use crate::script::error::ScriptError;
 use crate::script::options::Options;
-use crate::simulation::Settings;
+use crate::simulation::{Settings, StepSize};
 
 /// Makes the study that the options ask for; in a dry build nothing runs.
 pub fn study(call: &Call, options: &Options) -> Result<Convergence, ScriptError> {
@@ -39,7 +39,10 @@ pub fn study(call: &Call, options: &Options) -> Result<Convergence, ScriptError>
         Mode::Run => reference.trials(call, &mut desk, &plan, &cases)?,
     };
     let size = |subject: usize, settings: &Settings| match refined {
-        Refined::Step => settings.dt,
+        Refined::Step => match settings.dt {
+            StepSize::Fixed(dt) => dt,
+            StepSize::Adaptive(control) => control.tolerance,
+        },
         Refined::Mesh => 1.0 / plan.subjects[subject].spans().max(1) as f64,
     };
     let (mut ladders, mut failures) = (Vec::new(), Vec::new());
@@ -68,6 +71,11 @@ pub fn study(call: &Call, options: &Options) -> Result<Convergence, ScriptError>
 
 /// What is refined: there are several of it, and one of the other.
 fn refined(call: &Call, plan: &Plan) -> Result<Refined, ScriptError> {
+    let is_adaptive = |dt: &StepSize| matches!(dt, StepSize::Adaptive(_));
+    if plan.dts.len() > 1 && plan.dts.iter().any(is_adaptive) {
+        let hint = "orders are told of numbers; study_work_precision takes adaptive steps too";
+        return Err(at_key(call, "dts", "adaptive steps have no size to refine", hint));
+    }
     match (plan.subjects.len(), plan.dts.len()) {
         (1, 2..) => Ok(Refined::Step),
         (2.., 1) => Ok(Refined::Mesh),

@@ -42,7 +42,7 @@ pub struct CostTable {
 impl Way {
     fn case(&self, name: impl Into<String>, scene: Scene) -> CostCase {
         let settings =
-            Settings { method: self.method, dt: self.dt, tolerance: Tolerance::default() };
+            Settings { method: self.method, dt: self.dt.into(), tolerance: Tolerance::default() };
         let case = Case { scene, settings, stops: vec![self.dt * self.steps as f64] };
         CostCase { name: name.into(), case, recording: Recording::default(), snapshots: 0 }
     }

@@ -3,7 +3,7 @@
 use crate::analysis::{Deviation, Outcome};
 use crate::integrators::Method;
 use crate::output::{Cell, format_number, scientific, significant};
-use crate::simulation::Settings;
+use crate::simulation::{Settings, StepSize};
 
 /// Digits of an error.
 const ERROR_DIGITS: usize = 2;
@@ -14,9 +14,12 @@ pub fn method(method: &Method) -> String {
     format!("{}{}", method.entry().name, parameter.unwrap_or_default())
 }
 
-/// A step size: `0.05`.
+/// A step size: `0.05`, or `tolerance 1e-4`.
 pub fn step_size(settings: &Settings) -> String {
-    format_number(settings.dt)
+    match settings.dt {
+        StepSize::Fixed(dt) => format_number(dt),
+        StepSize::Adaptive(control) => format!("tolerance {}", format_number(control.tolerance)),
+    }
 }
 
 /// An error: `3.4e-5`, or `≤ 2.1e-6` where the reference is not good enough to tell.

@@ -12,7 +12,7 @@ use crate::script::error::{Place, ScriptError};
 use crate::script::numbers::{as_number, format_number};
 use crate::script::options::Options;
 use crate::script::packages::{SceneHandle, StationHandle};
-use crate::simulation::{History, Settings};
+use crate::simulation::{History, Settings, StepControl, StepSize};
 
 /// Everything a study needs but its reference.
 pub struct Plan {
@@ -22,8 +22,8 @@ pub struct Plan {
     pub subjects: Vec<Subject>,
     /// The integrators.
     pub methods: Vec<Method>,
-    /// The step sizes [time].
-    pub dts: Vec<f64>,
+    /// The step sizes.
+    pub dts: Vec<StepSize>,
     /// When results are compared, in order [time].
     pub times: Vec<f64>,
     /// What errors of positions are relative to [length].
@@ -38,7 +38,7 @@ impl Plan {
     pub fn read(call: &Call, options: &Options) -> Result<Self, ScriptError> {
         let name = options.text("name")?.to_string();
         let methods = all_of::<Method>(call, options, "integrators", "an integrator")?;
-        let dts = positive(call, options, "dts")?;
+        let dts = step_sizes(call, options)?;
         let times = positive(call, options, "times")?;
         if times.windows(2).any(|pair| pair[0] >= pair[1]) {
             return Err(at_key(call, "times", "the times must ascend", "the last one ends a run"));
@@ -64,7 +64,7 @@ impl Plan {
     }
 
     /// The settings for an integrator and a step size.
-    pub fn settings(method: Method, dt: f64) -> Settings {
+    pub fn settings(method: Method, dt: StepSize) -> Settings {
         Settings { method, dt, tolerance: Tolerance::default() }
     }
 
@@ -172,6 +172,22 @@ fn all_of<T: Clone + 'static>(
     };
     match array.as_slice() {
         [] => Err(at_key(call, key, format!("{key} is empty"), format!("give {what} or more"))),
+        values => values.iter().map(one).collect(),
+    }
+}
+
+/// Step sizes, at least one: positive numbers, or adaptive(…).
+fn step_sizes(call: &Call, options: &Options) -> Result<Vec<StepSize>, ScriptError> {
+    let one = |value: &Dynamic| {
+        let fixed = as_number(value).filter(|dt| dt.is_finite() && *dt > 0.0);
+        let control = || value.clone().try_cast::<StepControl>().map(StepSize::from);
+        fixed.map(StepSize::from).or_else(control).ok_or_else(|| {
+            let told = format!("dts holds {}", call.describe(value));
+            at_key(call, "dts", told, "give positive numbers, or adaptive(#{ tolerance: 1e-4 })")
+        })
+    };
+    match options.array("dts")?.as_slice() {
+        [] => Err(at_key(call, "dts", "dts is empty", "give one step size or more")),
         values => values.iter().map(one).collect(),
     }
 }

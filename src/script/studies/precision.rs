@@ -17,6 +17,7 @@ use crate::script::call::Call;
 use crate::script::context::Mode;
 use crate::script::error::ScriptError;
 use crate::script::options::Options;
+use crate::simulation::StepSize;
 
 /// Makes the study that the options ask for; in a dry build nothing runs.
 pub fn study(call: &Call, options: &Options) -> Result<Precision, ScriptError> {
@@ -184,7 +185,10 @@ fn facts(study: &Precision, row: &PrecisionRow) -> Vec<(String, Dynamic)> {
     let mut facts = vec![
         text("mesh", row.mesh.clone()),
         text("integrator", labels::method(&row.settings.method)),
-        number("dt", row.settings.dt),
+        match row.settings.dt {
+            StepSize::Fixed(dt) => number("dt", dt),
+            StepSize::Adaptive(_) => text("dt", labels::step_size(&row.settings)),
+        },
         number("error", error(row.error)),
         number("run_time", seconds(Timing::price)),
         number("clock_time", seconds(|of| of.run.as_secs_f64())),

@@ -14,7 +14,7 @@ use crate::script::error::ScriptError;
 use crate::script::kind::Scripted;
 use crate::script::numbers::format_number;
 use crate::script::options::Options;
-use crate::simulation::Settings;
+use crate::simulation::{StepControl, StepSize};
 
 /// A run of our own as a reference, as far as the script says how it is made.
 #[derive(Clone, Default)]
@@ -38,6 +38,25 @@ impl Scripted for FinestRun {
         let told = [mesh.unwrap_or_default(), &method.unwrap_or_default(), &dt.unwrap_or_default()];
         format!("reference: own finest run{}", told.concat())
     }
+}
+
+/// A part of the smallest of the fixed step sizes; where none is fixed, of the smallest tolerance.
+fn finer(dts: &[StepSize]) -> StepSize {
+    let fixed = dts.iter().filter_map(|dt| match dt {
+        StepSize::Fixed(dt) => Some(*dt),
+        StepSize::Adaptive(_) => None,
+    });
+    let controls = dts.iter().filter_map(|dt| match dt {
+        StepSize::Fixed(_) => None,
+        StepSize::Adaptive(control) => Some(control.tolerance),
+    });
+    let smallest = controls.fold(f64::INFINITY, f64::min);
+    let tolerance =
+        (PART_OF_THE_SMALLEST_STEP.powi(2) * smallest).max(StepControl::LEAST_TOLERANCE);
+    let control = StepControl { tolerance, first: None, smallest: None, largest: None };
+    fixed
+        .reduce(f64::min)
+        .map_or(StepSize::Adaptive(control), |dt| StepSize::Fixed(PART_OF_THE_SMALLEST_STEP * dt))
 }
 
 /// What results are compared with, before anything runs.
@@ -71,8 +90,7 @@ impl Reference {
         }
         plan.add_columns(call, columns, None)?;
         let run = options.get_if::<FinestRun>("reference").unwrap_or_default();
-        let smallest = plan.dts.iter().copied().fold(f64::INFINITY, f64::min);
-        let dt = run.dt.unwrap_or(PART_OF_THE_SMALLEST_STEP * smallest);
+        let dt = run.dt.map_or_else(|| finer(&plan.dts), StepSize::from);
         let method = run.method.or_else(|| highest_order(&plan.methods)).unwrap_or_default();
         let finest = finest_mesh(&plan.subjects).unwrap_or(0);
         let subject = match run.mesh {
@@ -80,11 +98,8 @@ impl Reference {
             Some(mesh) => subject_on(call, options, &mesh)?,
         };
         let (method_name, mesh) = (labels::method(&method), subject.mesh);
-        let told = format!(
-            "own finest run ({mesh}, {method_name}, dt = {}), no independent solution",
-            format_number(dt)
-        );
-        let settings: Settings = Plan::settings(method, dt);
+        let told = format!("own finest run ({mesh}, {method_name}, {dt}), no independent solution");
+        let settings = Plan::settings(method, dt);
         let case = Case { scene: subject.scene, settings, stops: plan.times.clone() };
         Ok(Self::OwnRun(told, Box::new(case)))
     }

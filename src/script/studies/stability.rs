@@ -166,7 +166,7 @@ fn case(call: &Call, options: &Options, values: &Map, given: Dynamic) -> Result<
     };
     let method = find("integrator").and_then(|value| value.try_cast::<Method>());
     let method = method.or_else(|| options.get_if("integrator")).unwrap_or_default();
-    let settings = Settings { method, dt: number("dt")?, tolerance: Tolerance::default() };
+    let settings = Settings { method, dt: number("dt")?.into(), tolerance: Tolerance::default() };
     let stops = vec![number("end")?];
     let scene = scene.scene().borrow().clone();
     Ok(Case { scene, settings, stops })

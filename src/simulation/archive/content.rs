@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{ArchiveError, envelope};
 use crate::model::{ModelState, Scene};
 use crate::newton::Tolerance;
+use crate::simulation::controller::Pace;
 use crate::simulation::recording::StepTaken;
 use crate::simulation::stepping::Halving;
 use crate::simulation::{Arrival, Recording, Sample, Settings, Simulation, WorkCounts};
@@ -37,6 +38,7 @@ struct Content<'a> {
     cuts: Cow<'a, [f64]>,
     /// The parts of a [`Halving`].
     under_way: Option<((f64, f64), u64, u32, usize)>,
+    pace: Option<Pace>,
 }
 
 fn refused(reason: &str) -> ArchiveError {
@@ -68,6 +70,7 @@ impl Simulation {
             counts: self.counts,
             cuts: self.grid.cuts().into(),
             under_way: self.under_way.map(Halving::to_parts),
+            pace: self.pace,
         };
         let bytes = postcard::to_stdvec(&content).map_err(|error| refused(&error.to_string()))?;
         Ok(envelope::wrap(&bytes))
@@ -104,6 +107,7 @@ impl Content<'_> {
             counts.newton_max,
             counts.factorisations,
             counts.retries,
+            counts.rejected,
             counts.arrival_tries,
             counts.wall.as_secs() as usize,
         ];
@@ -151,6 +155,13 @@ impl Content<'_> {
                 Some(halving.ok_or_else(|| refused("the step under way makes no sense"))?)
             }
         };
+        let bounds = simulation.adaptive.as_ref().map(|adaptive| adaptive.controller);
+        if self.pace.is_some() != bounds.is_some()
+            || bounds.zip(self.pace).is_some_and(|(bounds, pace)| !bounds.allows(&pace))
+        {
+            return Err(refused("the size of its next step makes no sense"));
+        }
+        simulation.pace = self.pace;
         simulation.grid.lay(&self.cuts, now);
         simulation.arrivals = self.arrivals.into_owned();
         simulation.counts = self.counts;

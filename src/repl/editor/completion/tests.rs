@@ -65,7 +65,10 @@ fn keys_of_options_are_offered_once() {
         ["scene.start(#{ integrator: trapezoidal() })"]
     );
     assert_eq!(offered("scene.start(#{ in¦, integrator: trapezoidal() })"), Vec::<String>::new());
-    assert_eq!(names("scene.start(#{ dt: 0.1, name: \"a\", "), ["integrator: ", "record: ", "snapshots: "]);
+    assert_eq!(
+        names("scene.start(#{ dt: 0.1, name: \"a\", "),
+        ["integrator: ", "record: ", "snapshots: "]
+    );
     assert_eq!(names("let m = #{ "), Vec::<String>::new());
     assert_eq!(
         names("scene.beam(#{ axis: line([0, 0], [1, 1]), basis: lagrange(#{ elem"),

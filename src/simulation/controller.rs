@@ -1,0 +1,198 @@
+//! The size of the next step, from the errors of the last ones: a PI controller.
+//!
+//! K. Gustafsson, Control theoretic techniques for stepsize selection in explicit Runge–Kutta methods, ACM Trans. Math. Softw. 17
+//! (1991) 533–554; E. Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), section IV.2.
+
+use serde::{Deserialize, Serialize};
+
+/// The part that steps are meant to be of the longest ones that would be accepted.
+const SAFETY: f64 = 0.9;
+
+/// A step is at most so many times the last one,
+const MOST_GROWTH: f64 = 5.0;
+
+/// and at least this part of it.
+const LEAST_GROWTH: f64 = 0.2;
+
+/// A step that is rejected twice is divided at least by two.
+const AGAIN: f64 = 0.5;
+
+/// How much counts what the last step had room for,
+const NOW: f64 = 0.7;
+
+/// and how much what the one before had.
+const BEFORE: f64 = 0.4;
+
+/// Errors below this part of what is allowed tell nothing about the next one.
+const LEAST_ERROR: f64 = 1e-4;
+
+/// What does not change in a run: the order of the error of a step, and bounds [time].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Controller {
+    /// The error of a step goes with this power of its size.
+    pub(super) order: f64,
+    pub(super) first: f64,
+    pub(super) smallest: f64,
+    pub(super) largest: f64,
+}
+
+/// What changes from step to step; it is a part of the state of a simulation.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(super) struct Pace {
+    /// The size of the next step, if nothing cuts it [time].
+    pub(super) wish: f64,
+    /// The error of the last step that was not cut, over that allowed; none where nothing is known.
+    pub(super) error: Option<f64>,
+    /// Tries of the next step that were rejected or failed.
+    pub(super) tries: usize,
+}
+
+/// A step that was tried.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Trial {
+    /// [time]
+    pub(super) duration: f64,
+    /// Its error over that allowed.
+    pub(super) error: f64,
+}
+
+impl Controller {
+    /// Before the first step.
+    pub(super) fn start(&self) -> Pace {
+        Pace { wish: self.first, error: None, tries: 0 }
+    }
+
+    /// Whether the next step may be such.
+    pub(super) fn allows(&self, pace: &Pace) -> bool {
+        let is_error = pace.error.is_none_or(|error| error >= LEAST_ERROR && error.is_finite());
+        (self.smallest..=self.largest).contains(&pace.wish)
+            && pace.wish.is_finite()
+            && is_error
+            && pace.tries < usize::MAX / 2
+    }
+
+    /// What comes is not as what was: a step as at the start, if that is shorter.
+    pub(super) fn restart(&self, pace: &mut Pace) {
+        *pace = Pace { wish: pace.wish.min(self.first), ..self.start() };
+    }
+
+    /// A step was accepted that was as long as was wished.
+    pub(super) fn accept(&self, pace: &mut Pace, trial: Trial) {
+        let error = trial.error.max(LEAST_ERROR);
+        let growth = match pace.error {
+            None => self.room(error),
+            Some(last) => self.room(error).powf(NOW) / self.room(last).powf(BEFORE),
+        };
+        // What has just failed is not tried again at once.
+        let most = if pace.tries > 0 { 1.0 } else { MOST_GROWTH };
+        let wish = trial.duration * growth.clamp(LEAST_GROWTH, most);
+        *pace = Pace { wish: self.bounded(wish), error: Some(error), tries: 0 };
+    }
+
+    /// A step was accepted that was cut short: it may let the next ones grow, and cannot shrink them.
+    pub(super) fn accept_cut(&self, pace: &mut Pace, trial: Trial) {
+        let mut alone = Pace { error: None, ..*pace };
+        self.accept(&mut alone, trial);
+        *pace = Pace { wish: alone.wish.max(pace.wish), error: pace.error, tries: 0 };
+    }
+
+    /// A step erred by too much.
+    pub(super) fn reject(&self, pace: &mut Pace, trial: Trial) {
+        let most = if pace.tries > 0 { AGAIN } else { SAFETY };
+        // An error that is not a number is a large one.
+        let error = if trial.error.is_nan() { f64::INFINITY } else { trial.error };
+        self.shorten(pace, trial.duration, self.room(error).clamp(LEAST_GROWTH, most));
+    }
+
+    /// A step was not solved.
+    pub(super) fn fail(&self, pace: &mut Pace, duration: f64) {
+        self.shorten(pace, duration, AGAIN);
+    }
+
+    /// By how much a step with such an error might have been longer.
+    fn room(&self, error: f64) -> f64 {
+        SAFETY * error.powf(-1.0 / self.order)
+    }
+
+    fn shorten(&self, pace: &mut Pace, duration: f64, part: f64) {
+        pace.tries += 1;
+        pace.wish = self.bounded(duration * part);
+    }
+
+    fn bounded(&self, wish: f64) -> f64 {
+        wish.clamp(self.smallest, self.largest)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CONTROLLER: Controller =
+        Controller { order: 3.0, first: 0.1, smallest: 1e-3, largest: 10.0 };
+
+    /// Steps with an error of `(size/right)³`, until 1.
+    fn sizes(first: f64, right: impl Fn(usize) -> f64) -> (Vec<f64>, usize) {
+        let mut pace = Pace { wish: first, ..CONTROLLER.start() };
+        let (mut sizes, mut rejected) = (Vec::new(), 0);
+        while sizes.len() < 30 {
+            let duration = pace.wish;
+            let trial = Trial { duration, error: (duration / right(sizes.len())).powi(3) };
+            if trial.error <= 1.0 {
+                CONTROLLER.accept(&mut pace, trial);
+                sizes.push(duration);
+            } else {
+                CONTROLLER.reject(&mut pace, trial);
+                rejected += 1;
+            }
+        }
+        (sizes, rejected)
+    }
+
+    #[test]
+    fn steps_settle_a_little_below_the_size_that_is_right() {
+        for first in [1e-3, 1.0, 9.0] {
+            let (sizes, rejected) = sizes(first, |_| 1.0);
+            assert!((sizes[29] - SAFETY).abs() < 1e-6, "{first}: {}", sizes[29]);
+            assert!(rejected <= 2, "{first}: {rejected}");
+        }
+    }
+
+    #[test]
+    fn steps_follow_a_right_size_that_changes() {
+        let (sizes, rejected) = sizes(0.5, |step| if step < 15 { 1.0 } else { 0.1 });
+        assert!(sizes[14] > 0.6 && sizes[15] < 0.1 && sizes[29] > 0.06, "{sizes:?}");
+        assert!(rejected <= 3, "{rejected}");
+    }
+
+    #[test]
+    fn a_cut_step_changes_nothing_unless_the_wish_was_too_small() {
+        let mut pace = Pace { wish: 1.0, error: Some(0.5), tries: 0 };
+        let before = pace;
+        CONTROLLER.accept_cut(&mut pace, Trial { duration: 1e-2, error: 1e-9 });
+        assert_eq!(pace, before);
+        CONTROLLER.accept_cut(&mut pace, Trial { duration: 0.9, error: 1e-3 });
+        assert!(pace.wish > 4.0 && pace.error == before.error);
+    }
+
+    #[test]
+    fn what_fails_is_halved_until_it_is_the_smallest() {
+        let mut pace = CONTROLLER.start();
+        CONTROLLER.fail(&mut pace, 0.1);
+        assert_eq!((pace.wish, pace.tries), (0.05, 1));
+        CONTROLLER.accept(&mut pace, Trial { duration: 0.05, error: 1e-6 });
+        assert_eq!((pace.wish, pace.tries), (0.05, 0), "it does not grow at once");
+        CONTROLLER.reject(&mut pace, Trial { duration: 2e-3, error: f64::NAN });
+        assert_eq!(pace.wish, 1e-3);
+    }
+
+    #[test]
+    fn after_a_jump_steps_begin_as_at_the_start() {
+        let mut pace = Pace { wish: 3.0, error: Some(0.5), tries: 2 };
+        CONTROLLER.restart(&mut pace);
+        assert_eq!(pace, CONTROLLER.start());
+        pace.wish = 0.01;
+        CONTROLLER.restart(&mut pace);
+        assert_eq!(pace.wish, 0.01);
+    }
+}

@@ -1,0 +1,90 @@
+//! The error of two steps of a method, seen by the side of a single one over the same time.
+
+use super::controller::Trial;
+use crate::geometry::larger;
+use crate::integrators::{Integrator, Interval, StepError};
+use crate::model::{Model, ModelState, Placement};
+use crate::newton::NewtonReport;
+
+/// Takes two steps, each one half of an interval, and compares them with one over all of it, which is thrown away.
+///
+/// Where a method has order `p`, the two err by `1/(2^p - 1)` of the difference (Richardson). They are kept as they are: what
+/// extrapolation would give is more accurate, but no step of the method, and has lost what steps of it keep.
+#[derive(Default)]
+pub(super) struct Doubling {
+    start: ModelState,
+    whole: Placement,
+    halves: Placement,
+    /// What errors of places are relative to [length].
+    length: f64,
+    /// `2^p - 1` times the error that is allowed [-].
+    allowed: f64,
+}
+
+/// Two steps that were taken.
+pub(super) struct Doubled {
+    /// Of all three solves.
+    pub(super) report: NewtonReport,
+    pub(super) trial: Trial,
+}
+
+/// A step that failed, the mechanism being where it was, and what was solved before that.
+pub(super) struct Failed {
+    pub(super) source: StepError,
+    /// Newton iterations.
+    pub(super) before: usize,
+}
+
+impl Doubling {
+    /// For methods of an order `p`, a length to compare errors with, and the error allowed.
+    pub(super) fn new(order: u32, length: f64, allowed: f64) -> Self {
+        let allowed = (2_f64.powi(order as i32) - 1.0) * allowed;
+        Self { length, allowed, ..Self::default() }
+    }
+
+    /// Takes two steps over an interval, and tells their error.
+    pub(super) fn step(
+        &mut self,
+        integrator: &mut dyn Integrator,
+        model: &mut Model,
+        interval: Interval,
+    ) -> Result<Doubled, Failed> {
+        let Interval { start, end, .. } = interval;
+        let middle = start + 0.5 * interval.duration();
+        model.write_state(&mut self.start);
+        let whole = [interval];
+        let mut report = take(integrator, model, &whole, 0)?;
+        model.write_placement(&mut self.whole);
+        model.restore(&self.start);
+        let halves = [Interval::between(start, middle), Interval::between(middle, end)];
+        report = take(integrator, model, &halves, report.iterations)
+            .inspect_err(|_| model.restore(&self.start))?;
+        model.write_placement(&mut self.halves);
+        let distance = self.whole.distance(&self.halves);
+        let apart = larger(distance.length / self.length, distance.angle);
+        let trial = Trial { duration: interval.duration(), error: apart / self.allowed };
+        Ok(Doubled { report, trial })
+    }
+
+    /// Goes back to where the last step began.
+    pub(super) fn take_back(&self, model: &mut Model) {
+        model.restore(&self.start);
+    }
+}
+
+/// Takes steps one after another, so many iterations having been done before.
+fn take(
+    integrator: &mut dyn Integrator,
+    model: &mut Model,
+    steps: &[Interval],
+    mut iterations: usize,
+) -> Result<NewtonReport, Failed> {
+    let mut last = NewtonReport::default();
+    for step in steps {
+        last = integrator
+            .step(model, *step)
+            .map_err(|source| Failed { source, before: iterations })?;
+        iterations += last.iterations;
+    }
+    Ok(NewtonReport { iterations, ..last })
+}
