@@ -10,7 +10,7 @@ use common::{meshes, run, scenes, settings, sliding_scenes};
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::SLIDING_RULES;
 use withy::model::Scene;
-use withy::simulation::{Simulation, StepControl};
+use withy::simulation::{Recording, Simulation, StepControl, Unwatched};
 
 thread_local! {
     static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
@@ -119,5 +119,24 @@ fn sliders_take_no_allocations_in_steps_either() {
                 assert_bounded(&label, scene, of.method, 4);
             }
         }
+    }
+}
+
+#[test]
+fn steps_that_are_not_recorded_take_no_allocations_at_all() {
+    let mesh = withy::beams::Mesh::bspline(14, 3, 2).unwrap();
+    for entry in INTEGRATORS {
+        let scene = scenes::spaghetti(&mesh, 1e4);
+        let mut simulation = Simulation::start(scene, settings(entry.method, 0.001)).unwrap();
+        simulation.record(Recording::Nothing);
+        run(&mut simulation, 0.01).unwrap();
+        simulation.record(Recording::Nothing);
+        let taken = allocations_of(|| {
+            for _ in 0..100 {
+                simulation.step(&mut Unwatched).unwrap();
+            }
+        });
+        // The row of the present is overwritten in its place.
+        assert!(taken <= 3, "{}: {taken}", entry.name);
     }
 }

@@ -11,7 +11,7 @@ use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::SlidingRule;
 use withy::loads::{LoadKind, Operation, Schedule};
 use withy::model::Scene;
-use withy::simulation::{ArchiveError, Monitor, Simulation, Unwatched};
+use withy::simulation::{ArchiveError, Monitor, Recording, Simulation, Unwatched};
 
 /// The bytes of a file, that of the time spent apart.
 fn content(simulation: &Simulation) -> Vec<u8> {
@@ -26,9 +26,16 @@ fn content(simulation: &Simulation) -> Vec<u8> {
     format!("{seen:?} {:?} {counts:?}", again.arrivals()).into_bytes()
 }
 
-fn assert_survives(label: &str, scene: Scene, method: Method, dt: f64, end: f64) {
+fn assert_survives(
+    label: &str,
+    scene: Scene,
+    (method, recording): (Method, Recording),
+    dt: f64,
+    end: f64,
+) {
     let mut simulation = Simulation::start(scene, settings(method, dt)).unwrap();
     simulation.cut_at(0.77 * end);
+    simulation.record(recording);
     run(&mut simulation, 0.5 * end).unwrap();
     let file = simulation.to_bytes("half way").unwrap();
     let (name, mut loaded) = Simulation::from_bytes(&file).unwrap();
@@ -46,13 +53,13 @@ fn every_scene_comes_back_and_goes_on_bit_for_bit() {
         for (name, mesh) in meshes(4) {
             for scene in scenes::all(&mesh) {
                 let label = format!("{}, {}, {name}", entry.name, scene.name);
-                assert_survives(&label, scene, entry.method, 0.05, 0.6);
+                assert_survives(&label, scene, (entry.method, Recording::default()), 0.05, 0.6);
             }
         }
         for rule in [SlidingRule::Conserving, SlidingRule::Exact] {
             for scene in sliding_scenes::all(&Mesh::bspline(4, 3, 2).unwrap(), rule) {
                 let label = format!("{}, {}", entry.name, scene.name);
-                assert_survives(&label, scene, entry.method, 0.02, 0.4);
+                assert_survives(&label, scene, (entry.method, Recording::Nothing), 0.02, 0.4);
             }
         }
     }

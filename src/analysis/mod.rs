@@ -1,6 +1,7 @@
 //! Studies: many runs, and what they say together. Nothing here draws or prints.
 //!
 //! ```text
+//! stability, cost → features
 //! precision, convergence → combination, truth, rivals → trial, observable, sheet
 //! trial → case, outcome → workers → journal
 //! ```
@@ -10,6 +11,8 @@
 mod case;
 mod combination;
 mod convergence;
+mod cost;
+mod features;
 mod journal;
 mod observable;
 mod outcome;
@@ -17,6 +20,7 @@ mod pareto;
 mod precision;
 mod rivals;
 mod sheet;
+mod stability;
 mod trial;
 mod truth;
 mod workers;
@@ -29,6 +33,8 @@ pub use combination::{
     Combination, PART_OF_THE_SMALLEST_STEP, Subject, all_combinations, finest_mesh, highest_order,
 };
 pub use convergence::{ALL_POSITIONS, Convergence, Ladder, Refined};
+pub use cost::{CostCase, StepCost, step_costs};
+pub use features::{FEATURES, Feature};
 pub use journal::{Journal, JournalError};
 pub use observable::{Observable, ObservableKind, SYMBOLS};
 pub use outcome::Outcome;
@@ -36,6 +42,7 @@ pub use pareto::pareto_front;
 pub use precision::{Precision, PrecisionRow};
 pub use rivals::{Rival, RivalError, machines};
 pub use sheet::{Sheet, SheetError};
+pub use stability::Verdict;
 pub use trial::{Timing, Trial};
 pub use truth::{Deviation, Readings, Truth, TruthError};
 pub use workers::on_all_cores;

@@ -196,7 +196,7 @@ fn typeset(x: f64, decimals: usize) -> String {
 }
 
 /// `10⁻¹²`.
-fn power_of_ten(power: f64) -> String {
+pub(super) fn power_of_ten(power: f64) -> String {
     let digits = format_number(power);
     let raised = digits.chars().map(|c| match c.to_digit(10) {
         Some(digit) => ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize],

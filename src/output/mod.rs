@@ -1,8 +1,8 @@
 //! Tables, files and pictures from plain data. Nothing here knows what a simulation is.
 //!
 //! ```text
-//! chart, motion → page → frame, legend, timebar → axis, curve, stroke, marker → canvas → figure → svg, png → files
-//! chart → terminal → axis, curve
+//! chart, heat_map, bars, motion → page → frame, legend, timebar → axis, curve, stroke, marker → canvas → figure → svg, png → files
+//! chart, heat_map → terminal → axis, curve
 //! ```
 //!
 //! Pictures look the same on every machine: text is drawn from an embedded font, and equal data gives equal bytes.
@@ -10,6 +10,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod axis;
+mod bars;
 mod canvas;
 mod chart;
 mod colour;
@@ -20,6 +21,7 @@ mod figure;
 mod files;
 mod fonts;
 mod frame;
+mod heat_map;
 mod legend;
 mod marker;
 mod motion;
@@ -37,6 +39,7 @@ mod timebar;
 mod samples;
 
 pub use axis::{DEFAULT_FLOOR, Scale};
+pub use bars::BarChart;
 pub use canvas::{Align, Area, Canvas, Direction, Point, Shape, Text};
 pub use chart::{Ink, LineChart, Series, Weight};
 pub use colour::Colour;
@@ -45,6 +48,7 @@ pub use error::OutputError;
 pub use figure::{Figure, PictureKind};
 pub use files::write_whole;
 pub use frame::Margins;
+pub use heat_map::{HeatCell, HeatMap};
 pub use marker::Marker;
 pub use motion::{MotionPicture, Snapshot};
 pub use number::{format_number, scientific, significant};

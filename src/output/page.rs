@@ -16,6 +16,18 @@ pub trait Panel {
     /// The width and height it looks best at when it is alone.
     fn size(&self) -> (f64, f64);
 
+    /// The width and height it takes on a page of so many rows and columns: panels that share one are smaller than alone.
+    fn size_among(&self, rows: usize, columns: usize) -> (f64, f64) {
+        let (width, height) = self.size();
+        let width = if columns > 1 { width * SIZE_IN_COLUMNS.0 } else { width };
+        let height = match (rows, columns) {
+            (..=1, ..=1) => height,
+            (..=1, _) => height * SIZE_IN_COLUMNS.1,
+            _ => height * HEIGHT_IN_ROWS,
+        };
+        (width, height)
+    }
+
     /// The room it needs around its plot when it is `width` by `height` large.
     fn margins(&self, width: f64, height: f64) -> Margins;
 
@@ -89,13 +101,7 @@ impl Page {
         let rows = self.panels.len().div_ceil(columns);
         let mut tracks = (vec![0f64; columns], vec![0f64; rows]);
         for (index, panel) in self.panels.iter().enumerate() {
-            let (width, height) = panel.size();
-            let width = if columns > 1 { width * SIZE_IN_COLUMNS.0 } else { width };
-            let height = match (rows, columns) {
-                (..=1, ..=1) => height,
-                (..=1, _) => height * SIZE_IN_COLUMNS.1,
-                _ => height * HEIGHT_IN_ROWS,
-            };
+            let (width, height) = panel.size_among(rows, columns);
             let (column, row) = (index % columns, index / columns);
             tracks.0[column] = tracks.0[column].max(width.ceil());
             tracks.1[row] = tracks.1[row].max(height.ceil());

@@ -108,6 +108,36 @@ fn charts() {
     show("many", &many);
 }
 
+fn stability(title: &str, growth: impl Fn(i32, f64) -> Option<f64>) -> HeatMap {
+    let dts = [1e-4, 1e-3, 0.01, 0.1, 0.3, 1.0];
+    let names = dts.iter().map(|dt| format_number(*dt)).collect();
+    let map = HeatMap::new(title, "energy growth", (-13, 1))
+        .columns("dt / first period", names)
+        .rows("EA L² / EI")
+        .hatched("failed");
+    (2..=12).step_by(2).fold(map, |map, power| {
+        let cell = |dt: &f64| {
+            let value = growth(power, *dt);
+            let text = value.map_or("t = 0.4\nretries".to_owned(), |value| {
+                format!("{}\n{} it.", scientific(value, 1), 3 + power / 4)
+            });
+            HeatCell { value, text }
+        };
+        map.row(format!("1e{power}"), dts.iter().map(cell).collect())
+    })
+}
+
+#[test]
+fn heat_maps() {
+    let conserving = stability("energy_momentum", |power, _| Some(2e-16 * f64::from(power)));
+    let wandering = stability("trapezoidal", |power, dt| {
+        let grown = 1e-5 * 10f64.powi(power / 2) * dt * dt;
+        (grown < 0.1 || dt < 0.3).then_some(grown)
+    });
+    show("map", &wandering);
+    show("maps", &Page::grid(2).title("Stability").panel(conserving).panel(wandering));
+}
+
 #[test]
 fn motions() {
     show("flight", &flight("Flying spaghetti", 2.5));

@@ -108,7 +108,10 @@ impl Simulation {
                         false => controller.accept(&mut pace, trial),
                     }
                     self.pace = Some(pace);
-                    self.record(interval, report, tries);
+                    self.count_step(interval, report, tries);
+                    if self.is_worth_a_row() {
+                        self.keep_row();
+                    }
                     self.remember();
                     return self.ask(monitor);
                 }

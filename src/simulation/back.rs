@@ -29,10 +29,10 @@ impl Simulation {
     /// # Errors
     /// When fewer steps were taken, or the state there is not kept.
     pub fn back(&mut self, steps: usize) -> Result<(), SimulationError> {
-        let (rows, taken) = (self.history.samples().len(), self.counts.steps);
-        match rows.checked_sub(steps) {
-            Some(rows) if rows > 0 => self.go_back_to(rows),
-            _ => Err(SimulationError::FewerSteps { steps, taken }),
+        let taken = self.counts.steps;
+        match taken.checked_sub(steps) {
+            Some(rest) => self.go_back_to(rest),
+            None => Err(SimulationError::FewerSteps { steps, taken }),
         }
     }
 
@@ -42,67 +42,91 @@ impl Simulation {
     /// When the time is before the start or to come, or the state there is not kept.
     pub fn rewind(&mut self, time: f64) -> Result<(), SimulationError> {
         let (now, slack) = (self.time(), self.grid.slack());
-        let samples = self.history.samples();
-        let rows = samples.partition_point(|row| row.measures.time <= time + slack);
-        if rows == 0 || time.is_nan() || time > now + slack {
+        if time.is_nan() || time < -slack || time > now + slack {
             return Err(SimulationError::NotBehind { time, now });
         }
-        self.go_back_to(rows)
+        if time >= now - slack {
+            return Ok(());
+        }
+        match self.steps_until(time + slack) {
+            Some(steps) => self.go_back_to(steps),
+            None => {
+                let first = self.snapshots.first();
+                let is_earlier = first.is_some_and(|first| time < first.time);
+                let steps = if is_earlier { 0 } else { self.counts.steps };
+                Err(self.forgotten(format!("t = {time}"), steps))
+            }
+        }
+    }
+
+    /// How many steps ended at or before a time, as far as history or snapshots know.
+    fn steps_until(&self, time: f64) -> Option<usize> {
+        if self.has_all_rows() {
+            let rows = self.history.samples();
+            return rows.partition_point(|row| row.measures.time <= time).checked_sub(1);
+        }
+        Some(self.snapshots.last_until(time, self.counts.steps)?.steps())
     }
 
     /// For checking scripts: goes back as [`back`](Self::back) does, or as near as a pretended run allows.
     pub fn pretend_back(&mut self, steps: usize) {
-        let rows = self.history.samples().len().saturating_sub(steps);
-        self.pretend_back_to(rows);
+        self.pretend_back_to(self.counts.steps.saturating_sub(steps));
     }
 
     /// For checking scripts: goes back as [`rewind`](Self::rewind) does, or as near as a pretended run allows.
     pub fn pretend_rewind(&mut self, time: f64) {
-        let samples = self.history.samples();
-        let slack = self.grid.slack();
-        let rows = samples.partition_point(|row| row.measures.time <= time + slack);
-        self.pretend_back_to(rows);
+        self.pretend_back_to(self.steps_until(time + self.grid.slack()).unwrap_or(0));
     }
 
-    fn pretend_back_to(&mut self, rows: usize) {
-        let Some(first) = self.snapshots.first().map(|first| first.rows) else { return };
-        if self.go_back_to(rows.max(first)).is_err() {
+    fn pretend_back_to(&mut self, steps: usize) {
+        let Some(first) = self.snapshots.first().map(Snapshot::steps) else { return };
+        if self.go_back_to(steps.max(first)).is_err() {
             // The first is always kept.
             let _: Result<(), SimulationError> = self.go_back_to(first);
         }
     }
 
-    fn go_back_to(&mut self, rows: usize) -> Result<(), SimulationError> {
-        if rows == self.history.samples().len() {
+    fn go_back_to(&mut self, steps: usize) -> Result<(), SimulationError> {
+        let back = self.counts.steps - steps;
+        if back == 0 {
             return Ok(());
         }
-        let Some(snapshot) = self.snapshots.find(rows) else { return Err(self.forgotten(rows)) };
+        let Some(snapshot) = self.snapshots.find(steps) else {
+            let target = match self.has_all_rows() {
+                true => format!("t = {}", self.history.samples()[steps].measures.time),
+                false => format!("where it was {back} steps ago"),
+            };
+            return Err(self.forgotten(target, steps));
+        };
         self.model.restore(&snapshot.state);
         self.grid.go_back(snapshot.passed);
+        self.rows_kept = snapshot.rows;
+        self.last_step = snapshot.last_step;
         self.history.truncate(snapshot.rows);
         self.trajectory.go_back(snapshot.rows);
         self.arrivals.truncate(snapshot.arrivals);
         self.counts = WorkCounts { wall: self.counts.wall, ..snapshot.counts };
         self.under_way = snapshot.under_way;
         self.pace = snapshot.pace;
-        self.snapshots.truncate(rows);
+        self.snapshots.truncate(steps);
+        self.show_present();
         Ok(())
     }
 
-    /// The error of a state that is not kept.
-    fn forgotten(&self, rows: usize) -> SimulationError {
-        let now = self.history.samples().len();
-        let time = |rows: usize| self.history.samples()[rows - 1].measures.time;
+    /// The error of a state that is not kept: in words, and the fewest steps that may have led there.
+    fn forgotten(&self, target: String, steps: usize) -> SimulationError {
+        let now = self.counts.steps;
         let kept = self.snapshots.first().zip(self.snapshots.unbroken_from(now));
+        let time = |steps: usize| self.snapshots.find(steps).map_or(self.time(), |of| of.time);
         match kept {
-            Some((first, _)) if rows < first.rows => {
-                SimulationError::BeforeFirst { time: time(rows), first: time(first.rows) }
+            Some((first, _)) if steps < first.steps() => {
+                SimulationError::BeforeFirst { target, first: first.time }
             }
             Some((first, from)) => SimulationError::Forgotten {
-                time: time(rows),
+                target,
                 steps: now - from,
                 oldest: time(from),
-                first: time(first.rows),
+                first: first.time,
                 limit: self.snapshots.limit() as f64 / 1e6,
             },
             None => SimulationError::NoSnapshots { limit: self.snapshots.limit() as f64 / 1e6 },
@@ -122,7 +146,9 @@ impl Simulation {
         self.model.write_state(&mut state);
         Snapshot {
             state,
-            rows: self.history.samples().len(),
+            time: self.time(),
+            rows: self.rows_kept,
+            last_step: self.last_step,
             arrivals: self.arrivals.len(),
             counts: self.counts,
             passed: self.grid.passed(),
@@ -146,6 +172,9 @@ impl Simulation {
         fork.under_way = self.under_way;
         fork.pace = self.pace;
         fork.snapshots = self.snapshots.clone();
+        fork.recording = self.recording;
+        fork.rows_kept = self.rows_kept;
+        fork.last_step = self.last_step;
         Ok(fork)
     }
 }

@@ -139,22 +139,22 @@ pub enum SimulationError {
     },
     /// States were not kept yet.
     #[error(
-        "cannot go back to t = {time}: states are kept from t = {first} on; earlier ones are not in a file of sim.save(…), and are not kept before sim.keep_snapshots(…)"
+        "cannot go back to {target}: states are kept from t = {first} on; earlier ones are not in a file of sim.save(…), and are not kept before sim.keep_snapshots(…)"
     )]
     BeforeFirst {
-        /// Where it should go.
-        time: f64,
+        /// Where it should go, in words.
+        target: String,
         /// When the first state was kept.
         first: f64,
     },
     /// The state there was forgotten for want of memory.
     #[error(
-        "cannot go back to t = {time}: with a limit of {limit} MB for snapshots only the last {steps} steps are kept, back to t = {oldest}, and the state at t = {first}; sim.rewind({first}) leads there, and for more start with scene.start(#{{ …, snapshots: {} }})",
+        "cannot go back to {target}: with a limit of {limit} MB for snapshots only the last {steps} steps are kept, back to t = {oldest}, and the state at t = {first}; sim.rewind({first}) leads there, and for more start with scene.start(#{{ …, snapshots: {} }})",
         (4.0 * limit).ceil().max(64.0)
     )]
     Forgotten {
-        /// Where it should go.
-        time: f64,
+        /// Where it should go, in words.
+        target: String,
         /// How many steps one can go back.
         steps: usize,
         /// Where these lead.

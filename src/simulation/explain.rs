@@ -1,7 +1,7 @@
 //! What a simulation uses, and what it therefore leaves out.
 
 use super::controller::Controller;
-use super::{Simulation, WorkCounts};
+use super::{Recording, Simulation, WorkCounts};
 use crate::model::Part;
 
 impl Simulation {
@@ -20,7 +20,33 @@ impl Simulation {
         let ahead: Vec<f64> = self.grid.cuts().iter().copied().filter(|cut| *cut > now).collect();
         parts.push(Part::steps(&self.settings().dt.to_string(), &ahead));
         parts.push(self.explain_tries());
+        parts.extend([self.explain_recording(), self.explain_snapshots()]);
         parts
+    }
+
+    fn explain_recording(&self) -> Part {
+        let numbers = self.history.columns().count() + self.trajectory.stride();
+        let rows = self.history.samples().len();
+        let how = format!("{}: {rows} rows of {numbers} numbers so far", self.recording.describe());
+        match self.recording {
+            Recording::Nothing => Part::left_out(
+                "recording",
+                "no rows between the ends of a run; energies are measured when asked for",
+            ),
+            Recording::Every(_) => Part::used("recording", how),
+        }
+    }
+
+    fn explain_snapshots(&self) -> Part {
+        let (kept, bytes) = self.snapshots_kept();
+        match self.snapshot_limit() {
+            0 => Part::left_out("snapshots", "no states to go back to, and no copies of them"),
+            limit => {
+                let (used, most) = (bytes as f64 / 1e6, limit as f64 / 1e6);
+                let how = format!("{kept} states in {used:.1} of {most} MB; one is copied a step");
+                Part::used("snapshots", how)
+            }
+        }
     }
 
     /// What becomes of steps that fail or err, and how often they did.

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::columns::{self, Column, ExtraColumn};
-use crate::geometry::{Vec2, larger};
+use crate::geometry::{Vec2, larger, smaller};
 use crate::model::Measures;
 
 /// A row of the history: what was measured at the end of a step, and what the step took.
@@ -187,6 +187,20 @@ impl History {
     /// impulses exchanged, also those of loads and supports that balance.
     pub fn drifts(&self, invariant: Invariant) -> Vec<f64> {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return Vec::new() };
+        let scale = self.scale(invariant, &first);
+        let change = |row: &Measures| match invariant {
+            Invariant::Gap => row.gap,
+            _ => (invariant.value(row) - invariant.value(&first)).norm(),
+        };
+        let relative = |row: &Sample| match change(&row.measures) {
+            0.0 => 0.0,
+            change => change / scale,
+        };
+        self.samples.iter().map(relative).collect()
+    }
+
+    /// What a change of an invariant is relative to.
+    fn scale(&self, invariant: Invariant, first: &Measures) -> f64 {
         let largest = |value: &dyn Fn(&Measures) -> f64| {
             self.samples.iter().map(|row| value(&row.measures).abs()).fold(0.0, f64::max)
         };
@@ -194,7 +208,7 @@ impl History {
         let kinetic = largest(&|row| row.energy.kinetic).max(rounding_energy);
         let motion = (2.0 * mass * kinetic).sqrt();
         let length = if length > 0.0 { length } else { largest(&|row| row.time) * motion / mass };
-        let scale = match invariant {
+        match invariant {
             Invariant::Energy => largest(&|row| row.energy.kinetic + row.energy.strain)
                 .max(largest(&|row| row.energy.potential - first.energy.potential))
                 .max(largest(&|row| row.work - first.work))
@@ -206,16 +220,23 @@ impl History {
                 .max(largest(&|row| row.angular_momentum))
                 .max(largest(&|row| row.gross_angular_impulse - first.gross_angular_impulse)),
             Invariant::Gap => 1.0,
-        };
-        let change = |row: &Measures| match invariant {
-            Invariant::Gap => row.gap,
-            _ => (invariant.value(row) - invariant.value(&first)).norm(),
-        };
-        let relative = |row: &Sample| match change(&row.measures) {
+        }
+    }
+
+    /// The largest rise of `E - W` above an earlier value, relative as the [`drifts`](Self::drifts) are; NaN when an energy is
+    /// NaN or there is no row.
+    pub fn energy_growth(&self) -> f64 {
+        let Some(first) = self.samples.first().map(|row| row.measures) else { return f64::NAN };
+        let mut least = f64::INFINITY;
+        let rises = self.samples.iter().map(|row| {
+            let energy = Invariant::Energy.value(&row.measures).x;
+            least = smaller(least, energy);
+            energy - least
+        });
+        match rises.fold(0.0, larger) {
             0.0 => 0.0,
-            change => change / scale,
-        };
-        self.samples.iter().map(relative).collect()
+            rise => rise / self.scale(Invariant::Energy, &first),
+        }
     }
 
     /// The largest of the [`drifts`](Self::drifts); NaN when one is NaN or there is no row.
@@ -261,6 +282,14 @@ mod tests {
         assert_eq!(history.between(1.0, f64::INFINITY).drift(Invariant::Energy), 0.0);
         assert_eq!(history.column("kinetic"), Some(vec![2.0, 4.0, 4.0]));
         assert_eq!(history.column("kinetics"), None);
+    }
+
+    #[test]
+    fn the_energy_grows_above_any_earlier_value() {
+        assert_eq!(history(&[4.0, 1.0, 3.0, 2.0, 2.5]).energy_growth(), 0.5);
+        assert_eq!(history(&[4.0, 3.0, 3.0]).energy_growth(), 0.0);
+        assert!(history(&[1.0, f64::NAN, 1.0]).energy_growth().is_nan());
+        assert!(history(&[]).energy_growth().is_nan());
     }
 
     #[test]

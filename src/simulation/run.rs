@@ -9,9 +9,12 @@ use super::adaptive::Adaptive;
 use super::columns::{extra_columns, extra_values};
 use super::controller::Pace;
 use super::landing::Arrival;
+use super::recording::StepTaken;
 use super::snapshots::Snapshots;
 use super::stepping::Halving;
-use super::{History, Outline, Sample, Scales, SimulationError, StepSize, TimeGrid, Trajectory};
+use super::{
+    History, Outline, Recording, Sample, Scales, SimulationError, StepSize, TimeGrid, Trajectory,
+};
 
 use crate::geometry::Vec2;
 use crate::integrators::{Integrator, Interval, Mechanism, Method};
@@ -87,6 +90,12 @@ pub struct Simulation {
     /// A step of the grid that is covered in part.
     pub(super) under_way: Option<Halving>,
     pub(super) snapshots: Snapshots,
+    pub(super) recording: Recording,
+    /// The first rows of the history, which stay; a further one belongs to the present.
+    pub(super) rows_kept: usize,
+    pub(super) last_step: StepTaken,
+    /// Where the present run ends; infinite for single steps [time].
+    pub(super) goal: f64,
     /// Made when the first picture asks for them.
     pub(super) outlines: OnceCell<Vec<Outline>>,
 }
@@ -131,6 +140,10 @@ impl Simulation {
             adaptive,
             under_way: None,
             snapshots: Snapshots::default(),
+            recording: Recording::default(),
+            rows_kept: 1,
+            last_step: StepTaken::default(),
+            goal: f64::INFINITY,
             outlines: OnceCell::new(),
         })
     }
@@ -203,7 +216,10 @@ impl Simulation {
         if let Some(ending) = self.ending() {
             return Err(SimulationError::Ended { ending });
         }
-        self.step_at_most_to(f64::INFINITY, monitor)
+        self.goal = f64::INFINITY;
+        let stepped = self.step_at_most_to(f64::INFINITY, monitor);
+        self.show_present();
+        stepped
     }
 
     /// Steps until a time, which ends the last step, or until a slider ends the run.
@@ -214,12 +230,16 @@ impl Simulation {
         self.check_end(end)?;
         let now = self.time();
         let steps = ((end - now) / self.dt()).min(1e6) as usize + 8;
-        self.history.reserve(steps);
-        self.trajectory.reserve(steps);
-        while !self.has_reached(end) && !self.has_ended() {
-            self.step_at_most_to(end, monitor)?;
+        let rows = self.recording.rows_of(steps);
+        self.history.reserve(rows);
+        self.trajectory.reserve(rows);
+        self.goal = end;
+        let mut ran = Ok(());
+        while ran.is_ok() && !self.has_reached(end) && !self.has_ended() {
+            ran = self.step_at_most_to(end, monitor);
         }
-        Ok(())
+        self.show_present();
+        ran
     }
 
     fn check_end(&self, end: f64) -> Result<(), SimulationError> {
@@ -249,6 +269,7 @@ impl Simulation {
         monitor: &mut dyn Monitor,
     ) -> Result<(), SimulationError> {
         self.check_end(end)?;
+        self.goal = end;
         let mut rows = 0;
         while !self.has_reached(end) {
             rows += 1;
@@ -257,10 +278,10 @@ impl Simulation {
             self.model.pass_time_to(next);
             self.grid.reach(next);
             self.counts.steps += 1;
-            let measures = self.model.measure();
-            let sample = Sample { measures, dt, ..Sample::default() };
-            self.history.push(sample, extra_values(&self.scene, &self.model));
-            self.trajectory.push(next, coordinates(&self.model));
+            self.last_step = StepTaken { dt, ..StepTaken::default() };
+            if self.is_worth_a_row() {
+                self.keep_row();
+            }
             self.remember();
             self.ask(monitor)?;
         }

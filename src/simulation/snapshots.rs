@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 
 use super::WorkCounts;
 use super::controller::Pace;
+use super::recording::StepTaken;
 use super::stepping::Halving;
 use crate::model::ModelState;
 
@@ -11,8 +12,11 @@ use crate::model::ModelState;
 #[derive(Debug, Clone)]
 pub(super) struct Snapshot {
     pub(super) state: ModelState,
-    /// The rows that its history had; it tells snapshots apart.
+    /// [time]
+    pub(super) time: f64,
+    /// The rows of its history that stay.
     pub(super) rows: usize,
+    pub(super) last_step: StepTaken,
     pub(super) arrivals: usize,
     pub(super) counts: WorkCounts,
     /// Grid points passed.
@@ -24,6 +28,11 @@ pub(super) struct Snapshot {
 }
 
 impl Snapshot {
+    /// The steps taken until then; they tell snapshots apart.
+    pub(super) fn steps(&self) -> usize {
+        self.counts.steps
+    }
+
     fn bytes(&self) -> usize {
         size_of::<Self>() + self.state.bytes()
     }
@@ -35,7 +44,7 @@ pub(super) struct Snapshots {
     /// [bytes]
     limit: usize,
     first: Option<Snapshot>,
-    /// In the order of time, one for each row of the history.
+    /// In the order of time, one for each step.
     recent: VecDeque<Snapshot>,
     /// Most recent ones that there is room for.
     most: usize,
@@ -80,25 +89,32 @@ impl Snapshots {
         self.all().count()
     }
 
-    /// The fewest rows from which on all states are kept, when there are so many now.
+    /// The fewest steps after which all states are kept, when there are so many now.
     pub(super) fn unbroken_from(&self, now: usize) -> Option<usize> {
-        let first = self.first.as_ref()?.rows;
-        let oldest = self.recent.front().map_or(now, |oldest| oldest.rows);
+        let first = self.first.as_ref()?.steps();
+        let oldest = self.recent.front().map_or(now, Snapshot::steps);
         Some(if oldest == first + 1 { first } else { oldest })
     }
 
-    /// The state in which the history had so many rows.
-    pub(super) fn find(&self, rows: usize) -> Option<&Snapshot> {
-        if let Some(first) = self.first.as_ref().filter(|first| first.rows == rows) {
+    /// The state after so many steps.
+    pub(super) fn find(&self, steps: usize) -> Option<&Snapshot> {
+        if let Some(first) = self.first.as_ref().filter(|first| first.steps() == steps) {
             return Some(first);
         }
-        let at = self.recent.binary_search_by_key(&rows, |snapshot| snapshot.rows).ok()?;
+        let at = self.recent.binary_search_by_key(&steps, Snapshot::steps).ok()?;
         self.recent.get(at)
     }
 
-    /// Forgets the states with more rows.
-    pub(super) fn truncate(&mut self, rows: usize) {
-        self.recent.truncate(self.recent.partition_point(|snapshot| snapshot.rows <= rows));
+    /// The last state at or before a time, if no step that is not kept may lie between; there are so many steps now.
+    pub(super) fn last_until(&self, time: f64, now: usize) -> Option<&Snapshot> {
+        let unbroken = self.unbroken_from(now)?;
+        let last = self.all().take_while(|snapshot| snapshot.time <= time).last()?;
+        (last.steps() >= unbroken).then_some(last)
+    }
+
+    /// Forgets the states after more steps.
+    pub(super) fn truncate(&mut self, steps: usize) {
+        self.recent.truncate(self.recent.partition_point(|snapshot| snapshot.steps() <= steps));
     }
 
     /// A state to write the next one into: that of the oldest snapshot when the store is full. None when none is to be kept.
@@ -124,12 +140,14 @@ impl Snapshots {
 mod tests {
     use super::*;
 
-    fn snapshot(rows: usize) -> Snapshot {
+    fn snapshot(steps: usize) -> Snapshot {
         Snapshot {
             state: ModelState::default(),
-            rows,
+            time: steps as f64,
+            rows: 1,
+            last_step: StepTaken::default(),
             arrivals: 0,
-            counts: WorkCounts::default(),
+            counts: WorkCounts { steps, ..WorkCounts::default() },
             passed: 0,
             under_way: None,
             pace: None,
@@ -139,9 +157,9 @@ mod tests {
     fn filled(limit: usize, last: usize) -> Snapshots {
         let mut snapshots = Snapshots::default();
         snapshots.set_limit(limit, || snapshot(1));
-        for rows in 2..=last {
+        for steps in 2..=last {
             if let Some(state) = snapshots.blank() {
-                snapshots.push(Snapshot { state, ..snapshot(rows) });
+                snapshots.push(Snapshot { state, ..snapshot(steps) });
             }
         }
         snapshots
@@ -152,8 +170,13 @@ mod tests {
         let snapshots = filled(10 * size_of::<Snapshot>(), 100);
         assert_eq!((snapshots.count(), snapshots.unbroken_from(100)), (10, Some(92)));
         assert!(snapshots.bytes() <= snapshots.limit());
-        let kept = |rows| snapshots.find(rows).is_some();
+        let kept = |steps| snapshots.find(steps).is_some();
         assert!(kept(1) && !kept(2) && !kept(91) && kept(92) && kept(100) && !kept(101));
+        let last = |time| snapshots.last_until(time, 100).map(Snapshot::steps);
+        assert_eq!(
+            (last(99.5), last(92.0), last(91.5), last(1.0)),
+            (Some(99), Some(92), None, None)
+        );
     }
 
     #[test]

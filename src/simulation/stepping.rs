@@ -1,9 +1,8 @@
 //! A step of the time grid: taken whole or in halves, cut where sliders arrive, and recorded.
 
-use super::columns::extra_values;
 use super::landing::MOST_ARRIVALS;
-use super::run::coordinates;
-use super::{Monitor, Sample, Simulation, SimulationError};
+use super::recording::StepTaken;
+use super::{Monitor, Simulation, SimulationError};
 use crate::integrators::{Interval, StepError};
 use crate::model::TrackLimit;
 use crate::newton::NewtonReport;
@@ -147,7 +146,8 @@ impl Simulation {
                     Ok(landing) => {
                         self.under_way = None;
                         if let Some((interval, report)) = landing.step {
-                            self.record(interval, report, halving.retries);
+                            self.count_step(interval, report, halving.retries);
+                            self.keep_row();
                         }
                         let arrived = self.arrive(&landing);
                         // An arrival without a step is not remembered: going on from the step before leads here again.
@@ -162,7 +162,10 @@ impl Simulation {
             }
             match stepped {
                 Ok(report) => {
-                    self.record(interval, report, halving.retries);
+                    self.count_step(interval, report, halving.retries);
+                    if self.is_worth_a_row() {
+                        self.keep_row();
+                    }
                     halving.succeed();
                     self.under_way = halving.rest();
                     self.remember();
@@ -202,20 +205,14 @@ impl Simulation {
         SimulationError::Step { time, dt, divisions, source }
     }
 
-    pub(super) fn record(&mut self, interval: Interval, report: NewtonReport, retries: usize) {
+    /// Counts a step that succeeded.
+    pub(super) fn count_step(&mut self, interval: Interval, report: NewtonReport, retries: usize) {
         self.counts.steps += 1;
         self.counts.newton_iterations += report.iterations;
         self.counts.newton_max = self.counts.newton_max.max(report.iterations);
         self.counts.factorisations += report.iterations;
-        let measures = self.model.measure();
-        let sample = Sample {
-            measures,
-            dt: interval.duration(),
-            newton_iterations: report.iterations,
-            retries,
-        };
-        self.history.push(sample, extra_values(&self.scene, &self.model));
-        self.trajectory.push(interval.end, coordinates(&self.model));
+        let (dt, newton_iterations) = (interval.duration(), report.iterations);
+        self.last_step = StepTaken { dt, newton_iterations, retries };
     }
 }
 

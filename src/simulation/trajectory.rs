@@ -60,6 +60,11 @@ impl Trajectory {
         self.numbers.truncate(kept * self.stride);
     }
 
+    /// How many numbers a configuration has.
+    pub(super) fn stride(&self) -> usize {
+        self.stride
+    }
+
     /// How many configurations were offered for each that is kept.
     pub(super) fn every(&self) -> usize {
         self.every

@@ -2,11 +2,13 @@
 //!
 //! ```text
 //! chart, picture → dots → sheet → style
+//! heat_map → sheet
 //! ```
 
 mod chart;
 mod dots;
 mod environment;
+mod heat_map;
 mod picture;
 mod sheet;
 mod style;

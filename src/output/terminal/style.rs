@@ -89,6 +89,7 @@ fn in_ascii(text: &str) -> String {
             '×' => plain.push('x'),
             '·' => plain.push('*'),
             '≤' => plain.push_str("<="),
+            '≥' => plain.push_str(">="),
             '…' => plain.push_str("..."),
             letter => plain.push(if letter.is_ascii() { letter } else { '?' }),
         }

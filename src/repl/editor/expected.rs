@@ -142,7 +142,7 @@ mod tests {
     fn the_keys_of_an_option_map_are_those_of_its_call() {
         assert_eq!(
             names("scene.start(#{", |at| at.keys()),
-            ["dt", "integrator", "name", "snapshots"]
+            ["dt", "integrator", "name", "record", "snapshots"]
         );
         assert!(names("let m = #{", |at| at.keys()).is_empty());
         assert!(names("scene.start(", |at| at.keys()).is_empty());

@@ -2,6 +2,7 @@
 
 use rhai::{Array, Dynamic, INT};
 
+use super::recording::expect_all_rows;
 use super::simulations::SPINNING;
 use super::windows::HistoryHandle;
 use crate::geometry::{larger, smaller};
@@ -16,7 +17,7 @@ use crate::simulation::{History, Invariant};
 /// Histories.
 pub const TABLE: Table = Table {
     name: "histories",
-    doc: "A row for each step. Columns: t, kinetic, strain, potential, energy, work, momentum_x, momentum_y, impulse_x, \
+    doc: "A row for each step, or as the option record says. Columns: t, kinetic, strain, potential, energy, work, momentum_x, momentum_y, impulse_x, \
           impulse_y, angular_momentum, angular_impulse, gap, dt, newton_iterations, retries. Each slider adds \
           NAME.position, NAME.speed, NAME.force, NAME.force_x and NAME.force_y, where NAME is its name.",
     types: &[HISTORY],
@@ -52,7 +53,7 @@ pub const TABLE: Table = Table {
             .summary("A column by name.")
             .example("sim.step(4);\ncheck(sim.history.column(\"t\").len() == 5);")
             .see(&["averaged"]),
-        method(HISTORY, "averaged", &[COLUMN], |call| Ok(numbers(column(call, History::averaged)?)))
+        method(HISTORY, "averaged", &[COLUMN], averaged)
             .returns("an array of numbers")
             .summary("A column in which each value is the mean of it and the value in the row before.")
             .doc(
@@ -122,6 +123,11 @@ fn column(
     history
         .read(|history| read(history, &name))
         .ok_or_else(|| ScriptError::bug(format!("no column '{name}'")))
+}
+
+fn averaged(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    expect_all_rows(call, &call.receiver::<HistoryHandle>()?.of, "a mean of neighbouring rows")?;
+    Ok(numbers(column(call, History::averaged)?))
 }
 
 fn numbers(column: Vec<f64>) -> Dynamic {

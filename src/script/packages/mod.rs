@@ -3,6 +3,7 @@
 mod arrays;
 mod checking;
 mod convergence_studies;
+mod cost_studies;
 mod events;
 mod explaining;
 pub mod geometry;
@@ -14,6 +15,7 @@ mod loads;
 mod math;
 mod pictures;
 mod precision_studies;
+mod recording;
 mod report;
 mod saving;
 mod scenes;
@@ -21,6 +23,7 @@ mod schedules;
 mod sections;
 mod simulations;
 mod sliding;
+mod stability_studies;
 mod step_sizes;
 mod text;
 mod time_travel;
@@ -49,12 +52,15 @@ pub const TABLES: &[&Table] = &[
     &scenes::TABLE,
     &loads::TABLE,
     &simulations::TABLE,
+    &recording::TABLE,
     &time_travel::TABLE,
     &saving::TABLE,
     &sliding::TABLE,
     &histories::TABLE,
     &explaining::TABLE,
     &pictures::TABLE,
+    &stability_studies::TABLE,
+    &cost_studies::TABLE,
     &precision_studies::TABLE,
     &convergence_studies::TABLE,
     &help::TABLE,

@@ -6,6 +6,7 @@ use rhai::{Array, Dynamic};
 
 use super::histories::HISTORY;
 use super::live::SimulationHandle;
+use super::recording::{expect_all_rows, expect_near, expect_rows_between};
 use super::report::history_table;
 use super::scenes::StationHandle;
 use super::simulations::{SIMULATION, SPINNING};
@@ -109,6 +110,13 @@ fn histories(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     }
 }
 
+/// The histories given, with rows between their ends.
+fn histories_over_time(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
+    let histories = histories(call)?;
+    histories.iter().try_for_each(|history| expect_rows_between(call, &history.of))?;
+    Ok(histories)
+}
+
 fn as_simulation(value: &Dynamic) -> Option<SimulationHandle> {
     value.clone().try_cast()
 }
@@ -169,7 +177,9 @@ fn motion(
         .beams(simulation.scene().beams.iter().map(|beam| beam.name.clone()));
     let plain = |point: &crate::geometry::Vec2| (point.x, point.y);
     for index in 0..=count.max(0.0) as usize {
-        if let Some(configuration) = simulation.configuration_near(from + index as f64 * every)? {
+        let time = from + index as f64 * every;
+        if let Some(configuration) = simulation.configuration_near(time)? {
+            expect_near(call, of, (time, configuration.time), every)?;
             picture = picture.snapshot(Snapshot {
                 time: configuration.time,
                 lines: configuration
@@ -215,7 +225,11 @@ fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
         false => (Scale::Linear, |value| value),
     };
     let read = if is_asked("average") { History::averaged } else { History::column };
-    let histories = histories(call)?;
+    let histories = histories_over_time(call)?;
+    if is_asked("average") {
+        let whose = histories.iter().map(|history| &history.of);
+        whose.into_iter().try_for_each(|of| expect_all_rows(call, of, "`average`"))?;
+    }
     let names = columns(call, &histories)?;
     let chart = |of: &HistoryHandle| {
         let title = options.text("title");
@@ -245,7 +259,7 @@ fn columns(call: &Call, histories: &[HistoryHandle]) -> Result<Vec<String>, Scri
 
 fn plot_drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let chart = |of: &HistoryHandle| of.read(|history| drift_lines(of.of.name(), history));
-    write_charts(call, histories(call)?.iter().map(chart).collect())
+    write_charts(call, histories_over_time(call)?.iter().map(chart).collect())
 }
 
 fn write_csv(call: &Call, table: CsvTable) -> Result<Dynamic, ScriptError> {

@@ -4,6 +4,7 @@ use rhai::{Dynamic, INT};
 
 use super::integrators::INTEGRATOR;
 use super::live::{Goal, SimulationHandle};
+use super::recording::RECORDING;
 use super::scenes::{SCENE, STATION, SceneHandle, StationHandle};
 use super::step_sizes::STEP_CONTROL;
 use super::time_travel::bytes;
@@ -20,7 +21,7 @@ use crate::script::parameter::{
     Parameter, Presence, callback, either, number, object, options, text, whole,
 };
 use crate::script::table::{Row, Table, method, property};
-use crate::simulation::{Invariant, Settings, Simulation, StepControl};
+use crate::simulation::{Invariant, Recording, Settings, Simulation, StepControl};
 
 /// Simulations.
 pub const TABLE: Table = Table {
@@ -35,7 +36,7 @@ pub const TABLE: Table = Table {
             .summary("Builds the scene and puts it at its start, t = 0.")
             .doc("Changes of the scene after that do not reach the simulation; start it again for another one.")
             .example("let again = scene.start(#{ integrator: trapezoidal(), dt: 0.05 });\nprint(again);")
-            .see(&["energy_momentum", "trapezoidal", "step", "run_to", "back"]),
+            .see(&["energy_momentum", "trapezoidal", "every", "step", "run_to", "back"]),
         method(SIMULATION, "step", &[whole("count").non_negative().or(Presence::Whole(1))], |call| {
             call.receiver::<SimulationHandle>()?.go_on(call, &Goal::Steps(call.count("count")?))?;
             Ok(Dynamic::UNIT)
@@ -159,6 +160,7 @@ const START: &[Parameter] = &[
         .doc("the step size, or adaptive(#{ tolerance: 1e-4 })"),
     object("integrator", INTEGRATOR).doc("energy_momentum() unless given").optional(),
     text("name").doc("the name in the report; that of the scene unless given").optional(),
+    object("record", RECORDING).doc("every(n) or nothing(); every step unless given").optional(),
     number("snapshots")
         .non_negative()
         .unit("MB")
@@ -235,6 +237,7 @@ fn start(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let name = options.text("name").map_or_else(|_| scene.name.clone(), |name| name.to_string());
     let mut simulation = Simulation::start(scene, settings)?;
     let limit = options.number_if_given("snapshots").map(bytes);
+    simulation.record(options.get_if::<Recording>("record").unwrap_or_default());
     simulation.keep_snapshots(limit.unwrap_or_else(|| call.context().snapshots()));
     Ok(Dynamic::from(SimulationHandle::new(simulation, handle, name, call.context())))
 }

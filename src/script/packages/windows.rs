@@ -37,8 +37,13 @@ impl HistoryHandle {
     /// The error of a window in which nothing was recorded.
     pub fn no_rows(&self, call: &Call) -> ScriptError {
         let now = format_number(self.of.time());
+        let recording = self.of.simulation().recording();
+        let recorded = match recording.is_complete() {
+            true => String::new(),
+            false => format!(" and recorded {} (option record)", recording.describe()),
+        };
         call.error("the history has no rows there")
-            .hint(format!("the simulation has run from t = 0 to {now}"))
+            .hint(format!("the simulation has run from t = 0 to {now}{recorded}"))
     }
 
     /// The names of its columns in a line.

@@ -1,8 +1,11 @@
 //! Studies as scripts ask for them: from options to cases, and from results to tables, files and pictures.
 
 pub mod convergence;
+pub mod cost;
 pub mod desk;
 pub mod labels;
+pub mod parameters;
 pub mod plan;
 pub mod precision;
 pub mod reference;
+pub mod stability;

@@ -8,8 +8,9 @@ use super::{ArchiveError, envelope};
 use crate::model::{ModelState, Scene};
 use crate::newton::Tolerance;
 use crate::simulation::controller::Pace;
+use crate::simulation::recording::StepTaken;
 use crate::simulation::stepping::Halving;
-use crate::simulation::{Arrival, Sample, Settings, Simulation, WorkCounts};
+use crate::simulation::{Arrival, Recording, Sample, Settings, Simulation, WorkCounts};
 
 /// Counts beyond this, and grid points beyond it, cannot have been counted.
 const MOST_COUNTED: usize = 1 << 52;
@@ -24,7 +25,9 @@ struct Content<'a> {
     scene: Cow<'a, Scene>,
     settings: Settings,
     state: ModelState,
+    recording: Recording,
     samples: Cow<'a, [Sample]>,
+    rows_kept: usize,
     extra: Cow<'a, [f64]>,
     /// How many configurations were offered to the trajectory for each that it kept.
     every: usize,
@@ -56,7 +59,9 @@ impl Simulation {
             scene: Cow::Borrowed(&self.scene),
             settings: self.settings,
             state: self.model.state(),
+            recording: self.recording,
             samples: self.history.samples().into(),
+            rows_kept: self.rows_kept,
             extra: self.history.extra_values().into(),
             every: self.trajectory.every(),
             times: self.trajectory.times().into(),
@@ -107,8 +112,10 @@ impl Content<'_> {
             counts.wall.as_secs() as usize,
         ];
         let is_counted = numbers.iter().all(|number| *number < MOST_COUNTED);
-        if !is_counted || self.samples.len() != counts.steps + 1 {
-            return Err(refused("its steps and the rows of its history differ"));
+        let rows = self.samples.len();
+        let has_rows = self.rows_kept >= 1 && (self.rows_kept..=self.rows_kept + 1).contains(&rows);
+        if !is_counted || !has_rows || rows > counts.steps + 1 {
+            return Err(refused("its steps and the rows of its history do not fit each other"));
         }
         let times = || self.samples.iter().map(|row| row.measures.time);
         let is_ordered = times().all(f64::is_finite) && times().is_sorted();
@@ -134,6 +141,7 @@ impl Content<'_> {
             return Err(refused("its time is not that of the last row of its history"));
         }
         let rows = self.samples.len();
+        simulation.last_step = self.samples.last().map(StepTaken::of).unwrap_or_default();
         let (samples, extra) = (self.samples.into_owned(), self.extra.into_owned());
         let history = simulation.history.with_rows(samples, extra);
         simulation.history = history.ok_or_else(|| refused("the rows of its history are torn"))?;
@@ -157,6 +165,7 @@ impl Content<'_> {
         simulation.grid.lay(&self.cuts, now);
         simulation.arrivals = self.arrivals.into_owned();
         simulation.counts = self.counts;
+        (simulation.recording, simulation.rows_kept) = (self.recording, self.rows_kept);
         Ok((self.name.into_owned(), simulation))
     }
 }

@@ -14,7 +14,7 @@ use super::ArchiveError;
 const MARK: [u8; 8] = *b"\x89withy\r\n";
 
 /// Of this program. A change of anything that is stored makes it one more.
-const FORMAT: u16 = 3;
+const FORMAT: u16 = 4;
 
 const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 
@@ -114,9 +114,9 @@ mod tests {
         let longer = [&file[..], b"more"].concat();
         assert_eq!(unwrap(&longer), Err(ArchiveError::Longer { more: 4 }));
         let mut newer = file.clone();
-        newer[8] = 4;
+        newer[8] = 5;
         let message = unwrap(&newer).unwrap_err().to_string();
-        assert!(message.contains(&format!("written by withy {PROGRAM} in format 4")), "{message}");
+        assert!(message.contains(&format!("written by withy {PROGRAM} in format 5")), "{message}");
     }
 
     #[test]

@@ -59,13 +59,16 @@ fn members_follow_from_the_type_of_the_receiver() {
 #[test]
 fn keys_of_options_are_offered_once() {
     assert_eq!(offered("scene.beam(#{ ax"), ["scene.beam(#{ axis: "]);
-    assert_eq!(offered("scene.start(#{ dt: 0.1, ¦ })").len(), 3);
+    assert_eq!(offered("scene.start(#{ dt: 0.1, ¦ })").len(), 4);
     assert_eq!(
         offered("scene.start(#{ in¦: trapezoidal() })"),
         ["scene.start(#{ integrator: trapezoidal() })"]
     );
     assert_eq!(offered("scene.start(#{ in¦, integrator: trapezoidal() })"), Vec::<String>::new());
-    assert_eq!(names("scene.start(#{ dt: 0.1, name: \"a\", "), ["integrator: ", "snapshots: "]);
+    assert_eq!(
+        names("scene.start(#{ dt: 0.1, name: \"a\", "),
+        ["integrator: ", "record: ", "snapshots: "]
+    );
     assert_eq!(names("let m = #{ "), Vec::<String>::new());
     assert_eq!(
         names("scene.beam(#{ axis: line([0, 0], [1, 1]), basis: lagrange(#{ elem"),

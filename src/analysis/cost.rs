@@ -1,0 +1,152 @@
+//! What a step costs: time, and the work that it consists of.
+
+use std::time::{Duration, Instant};
+
+use super::{Case, Outcome, Patience};
+use crate::integrators::Mechanism;
+use crate::simulation::{Recording, Simulation};
+
+/// A case with all that adds to the cost of a step.
+#[derive(Debug, Clone)]
+pub struct CostCase {
+    /// What it is called.
+    pub name: String,
+    /// The run.
+    pub case: Case,
+    /// Which states are recorded.
+    pub recording: Recording,
+    /// The memory for states to go back to [bytes].
+    pub snapshots: usize,
+}
+
+/// What the steps of a case cost.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepCost {
+    /// What it is called.
+    pub name: String,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// The unknowns of a step.
+    pub unknowns: usize,
+    /// How far from the diagonal the matrix of a step reaches.
+    pub half_bandwidth: usize,
+    /// The columns of contacts beside the band.
+    pub border: usize,
+    /// The columns of the history.
+    pub columns: usize,
+    /// Newton iterations of a step, on average.
+    pub iterations: f64,
+    /// Factorised matrices of a step, on average.
+    pub factorisations: f64,
+    /// The time of a step in the fastest run.
+    pub shortest: Duration,
+    /// The time of a step in the run that is faster than one half of them.
+    pub median: Duration,
+}
+
+impl CostCase {
+    fn start(&self) -> Result<Simulation, Outcome> {
+        let mut simulation = self.case.start()?;
+        simulation.record(self.recording);
+        simulation.keep_snapshots(self.snapshots);
+        Ok(simulation)
+    }
+}
+
+impl StepCost {
+    /// That of a case of which nothing is known but how it ended.
+    pub fn unmeasured(case: &CostCase, outcome: Outcome) -> Self {
+        Self {
+            name: case.name.clone(),
+            outcome,
+            unknowns: 0,
+            half_bandwidth: 0,
+            border: 0,
+            columns: 0,
+            iterations: f64::NAN,
+            factorisations: f64::NAN,
+            shortest: Duration::ZERO,
+            median: Duration::ZERO,
+        }
+    }
+}
+
+/// Measures the steps of cases, on this thread, one run at a time and the cases in turn, so that what disturbs the machine for
+/// a while disturbs all of them. Building a scene is not counted. None when `is_wanted` says no on the way.
+pub fn step_costs(
+    cases: &[CostCase],
+    repeats: usize,
+    is_wanted: &mut dyn FnMut() -> bool,
+) -> Option<Vec<StepCost>> {
+    let mut times: Vec<Vec<Duration>> = vec![Vec::new(); cases.len()];
+    let mut costs: Vec<Option<StepCost>> = vec![None; cases.len()];
+    // The first round warms up.
+    for round in 0..=repeats.max(1) {
+        for (number, case) in cases.iter().enumerate() {
+            let (cost, time) = measure(case, is_wanted);
+            if !is_wanted() {
+                return None;
+            }
+            if round > 0 {
+                times[number].push(time);
+                costs[number] = Some(cost);
+            }
+        }
+    }
+    let cost = |(cost, mut times): (StepCost, Vec<Duration>)| {
+        times.sort_unstable();
+        StepCost { shortest: times[0], median: times[times.len() / 2], ..cost }
+    };
+    Some(costs.into_iter().flatten().zip(times).map(cost).collect())
+}
+
+/// Runs a case once: its work, and the time of a step.
+fn measure(case: &CostCase, is_wanted: &mut dyn FnMut() -> bool) -> (StepCost, Duration) {
+    let mut simulation = match case.start() {
+        Ok(simulation) => simulation,
+        Err(outcome) => return (StepCost::unmeasured(case, outcome), Duration::ZERO),
+    };
+    let begun = Instant::now();
+    let outcome = case.case.go(&mut simulation, Patience::default(), is_wanted, |_| ());
+    let elapsed = begun.elapsed();
+    let counts = simulation.counts();
+    let steps = counts.steps.max(1);
+    let a_step = |count: usize| count as f64 / steps as f64;
+    let cost = StepCost {
+        unknowns: simulation.unknowns(),
+        half_bandwidth: simulation.half_bandwidth(),
+        border: simulation.model().constraint_shape().width,
+        columns: simulation.history().columns().count(),
+        iterations: a_step(counts.newton_iterations),
+        factorisations: a_step(counts.factorisations),
+        ..StepCost::unmeasured(case, outcome)
+    };
+    (cost, elapsed.div_f64(steps as f64))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::spinning;
+    use super::*;
+
+    fn case(name: &str, dt: f64) -> CostCase {
+        let case = spinning(dt, &[1.0]);
+        let recording = Recording::Nothing;
+        CostCase { name: name.into(), case, recording, snapshots: 0 }
+    }
+
+    #[test]
+    fn costs_are_those_of_a_step_in_the_order_of_the_cases() {
+        let mut never_enough = || true;
+        let cases = [case("first", 0.1), case("lost", -1.0), case("second", 0.05)];
+        let costs = step_costs(&cases, 2, &mut never_enough).unwrap();
+        assert_eq!(
+            costs.iter().map(|cost| &*cost.name).collect::<Vec<_>>(),
+            ["first", "lost", "second"]
+        );
+        assert!(costs[0].iterations >= 2.0 && costs[0].unknowns == 15, "{:?}", costs[0]);
+        assert!(costs[0].shortest > Duration::ZERO && costs[0].shortest <= costs[0].median);
+        assert!(!costs[1].outcome.is_finished());
+        assert_eq!(step_costs(&cases, 2, &mut || false), None);
+    }
+}

@@ -1,0 +1,125 @@
+//! Features that can be added to any scene with a beam, small enough to leave its motion much as it is.
+
+use crate::beams::Station;
+use crate::geometry::Vec2;
+use crate::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
+use crate::loads::{Frame, LoadKind, Schedule};
+use crate::model::{ModelError, ParticleDefinition, PointMass, Scene};
+
+/// How large what is added is, as a part of what the first beam has.
+const SMALL: f64 = 1e-3;
+
+/// Something that a scene may have.
+#[derive(Debug, Clone, Copy)]
+pub struct Feature {
+    /// Its name.
+    pub name: &'static str,
+    /// Adds it to the first beam of a scene.
+    pub add: fn(&mut Scene) -> Result<(), ModelError>,
+}
+
+/// Features, each of which costs what it costs and none of which another pays for.
+pub const FEATURES: &[Feature] = &[
+    Feature {
+        name: "gravity",
+        add: |scene| {
+            scene.gravity += Vec2::new(0.0, -small_force(scene) / beam_mass(scene));
+            Ok(())
+        },
+    },
+    Feature { name: "force", add: |scene| force_at_end(scene, Frame::Dead) },
+    Feature { name: "follower force", add: |scene| force_at_end(scene, Frame::Follower) },
+    Feature { name: "line load", add: |scene| line_load(scene, Frame::Dead) },
+    Feature { name: "follower line load", add: |scene| line_load(scene, Frame::Follower) },
+    Feature {
+        name: "point mass",
+        add: |scene| {
+            let (station, mass) = (end(scene)?, SMALL * beam_mass(scene));
+            scene.add_mass(PointMass { station, mass, rotary_inertia: 0.0 })
+        },
+    },
+    Feature {
+        name: "hinge",
+        add: |scene| {
+            let start = scene.station(0, 0.0)?;
+            scene.join(JointKind::Hinge, start, Partner::Ground)
+        },
+    },
+    Feature { name: "slider", add: bead },
+];
+
+fn length(scene: &Scene) -> f64 {
+    scene.beams[0].axis.length()
+}
+
+fn beam_mass(scene: &Scene) -> f64 {
+    scene.beams[0].section.mass_per_length * length(scene)
+}
+
+/// A part of the force that bends the beam by its length [force].
+fn small_force(scene: &Scene) -> f64 {
+    SMALL * scene.beams[0].section.bending_stiffness / length(scene).powi(2)
+}
+
+fn end(scene: &mut Scene) -> Result<Station, ModelError> {
+    let length = length(scene);
+    scene.station(0, length)
+}
+
+fn force_at_end(scene: &mut Scene, frame: Frame) -> Result<(), ModelError> {
+    let (station, size) = (end(scene)?, small_force(scene));
+    let kind = LoadKind::Force { station, force: Vec2::new(0.0, size), frame };
+    scene.add_load(kind, Schedule::Constant(1.0));
+    Ok(())
+}
+
+fn line_load(scene: &mut Scene, frame: Frame) -> Result<(), ModelError> {
+    let size = small_force(scene) / length(scene);
+    let kind = LoadKind::Line { beam: 0, force: Vec2::new(0.0, size), frame };
+    scene.add_load(kind, Schedule::Constant(1.0));
+    Ok(())
+}
+
+/// A small particle that slides from the middle of the beam.
+fn bead(scene: &mut Scene) -> Result<(), ModelError> {
+    let arc_length = 0.5 * length(scene);
+    let middle = scene.station(0, arc_length)?;
+    let position = scene.drawn_at(&middle)?;
+    let name = scene.free_name("bead");
+    let slave =
+        scene.add_particle(ParticleDefinition { name, position }, SMALL * beam_mass(scene))?;
+    let slider = Slider {
+        name: scene.free_name("slider"),
+        slave,
+        master: 0,
+        arc_length,
+        rule: SlidingRule::default(),
+        ends: EndAction::Release,
+        velocities: StartVelocities::Project,
+    };
+    scene.add_slider(slider).map(|_| ())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::spinning;
+    use super::*;
+    use crate::simulation::{Simulation, Unwatched};
+
+    #[test]
+    fn every_feature_can_be_added_and_hardly_disturbs() {
+        let case = spinning(0.05, &[0.5]);
+        let energy = |scene: Scene| {
+            let mut simulation = Simulation::start(scene, case.settings).unwrap();
+            simulation.run_to(0.5, &mut Unwatched).unwrap();
+            simulation.history().column("kinetic").unwrap().pop().unwrap()
+        };
+        let plain = energy(case.scene.clone());
+        for Feature { name, add } in FEATURES.iter().filter(|feature| feature.name != "hinge") {
+            let mut scene = case.scene.clone();
+            add(&mut scene).unwrap();
+            let changed = energy(scene);
+            assert!(changed != plain && (changed / plain - 1.0).abs() < 0.02, "{name}: {changed}");
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! What becomes of a run on the edge: whether it comes to its end, whether its energy grows, how hard it was.
+
+use std::sync::atomic::AtomicBool;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Case, Outcome, Patience};
+use crate::model::Scene;
+use crate::simulation::Simulation;
+
+/// What became of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Verdict {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// The largest rise of `E - W` above an earlier value after the last schedule has come to rest, relative to the largest
+    /// energy; NaN when there was no run, or it was lost in numbers that are none.
+    pub energy_growth: f64,
+    /// Steps that succeeded.
+    pub steps: usize,
+    /// Newton iterations of a step, on average.
+    pub mean_iterations: f64,
+    /// The most Newton iterations of one step.
+    pub most_iterations: usize,
+    /// Failed tries: steps that were halved.
+    pub retries: usize,
+}
+
+impl Verdict {
+    /// Runs a case and judges it.
+    pub fn of(case: &Case, patience: Patience, stop: &AtomicBool) -> Self {
+        let (outcome, simulation) = case.run(patience, stop, |_| ());
+        match simulation {
+            Some(simulation) => Self::on(&simulation, outcome),
+            None => Self::without_a_run(outcome),
+        }
+    }
+
+    fn on(simulation: &Simulation, outcome: Outcome) -> Self {
+        let counts = simulation.counts();
+        let free = simulation.history().between(rest(simulation.scene()), f64::INFINITY);
+        let rows = if free.samples().len() > 1 { &free } else { simulation.history() };
+        Self {
+            outcome,
+            energy_growth: rows.energy_growth(),
+            steps: counts.steps,
+            mean_iterations: counts.newton_iterations as f64 / counts.steps.max(1) as f64,
+            most_iterations: counts.newton_max,
+            retries: counts.retries,
+        }
+    }
+
+    /// That of a run that never began.
+    pub fn without_a_run(outcome: Outcome) -> Self {
+        Self {
+            outcome,
+            energy_growth: f64::NAN,
+            steps: 0,
+            mean_iterations: f64::NAN,
+            most_iterations: 0,
+            retries: 0,
+        }
+    }
+}
+
+/// When the last schedule of a scene has its last break [time].
+fn rest(scene: &Scene) -> f64 {
+    scene.loads.iter().flat_map(|load| load.schedule.breaks()).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{never, spinning};
+    use super::*;
+    use crate::integrators::Method;
+    use crate::loads::{LoadKind, Schedule};
+
+    fn verdict(case: &Case) -> Verdict {
+        Verdict::of(case, Patience::default(), &never())
+    }
+
+    #[test]
+    fn a_conserving_method_has_no_growth_and_the_trapezoidal_rule_has_some() {
+        let mut case = spinning(0.1, &[4.0]);
+        let station = case.scene.station(0, 0.0).unwrap();
+        let schedule = Schedule::hold_for(1.0).unwrap();
+        case.scene.add_load(LoadKind::Moment { station, moment: 80.0 }, schedule);
+        assert_eq!(rest(&case.scene), 1.0);
+        let kept = verdict(&case);
+        assert!(kept.outcome.is_finished() && kept.energy_growth < 1e-13, "{kept:?}");
+        assert!(kept.steps == 40 && kept.mean_iterations > 1.0 && kept.most_iterations < 8);
+        case.settings.method = Method::Trapezoidal;
+        let grown = verdict(&case);
+        assert!(grown.energy_growth > 1e-6, "{grown:?}");
+    }
+
+    #[test]
+    fn what_cannot_begin_has_a_reason_and_no_numbers() {
+        let lost = verdict(&spinning(f64::NAN, &[1.0]));
+        assert!(
+            matches!(&lost.outcome, Outcome::Failed { reason, .. } if reason.contains("step size"))
+        );
+        assert!(lost.energy_growth.is_nan() && lost.steps == 0);
+    }
+}

@@ -1,0 +1,122 @@
+//! Bar charts: level bars from zero, with a name before and a number behind each.
+
+use super::{
+    canvas::{Align, Area, Canvas},
+    colour::{AXIS, GREY, INK, hue, tint},
+    fonts,
+    frame::Margins,
+    page::Panel,
+};
+
+const TITLE: f64 = 16.0;
+const TEXT: f64 = 12.5;
+const EDGE: f64 = 14.0;
+/// The height of a bar with the paper around it, and of the bar alone.
+const ROW: (f64, f64) = (26.0, 16.0);
+/// The most room for a name.
+const NAME: f64 = 260.0;
+
+/// A bar.
+#[derive(Clone, Debug, PartialEq)]
+struct Bar {
+    name: String,
+    value: f64,
+    text: String,
+}
+
+/// Level bars below each other.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BarChart {
+    title: String,
+    label: String,
+    bars: Vec<Bar>,
+    mark: Option<f64>,
+}
+
+impl BarChart {
+    /// An empty chart; the label says what the lengths are.
+    pub fn new(title: impl Into<String>, label: impl Into<String>) -> Self {
+        Self { title: title.into(), label: label.into(), ..Self::default() }
+    }
+
+    /// Adds a bar below the others; the text stands behind it.
+    pub fn bar(mut self, name: impl Into<String>, value: f64, text: impl Into<String>) -> Self {
+        self.bars.push(Bar { name: name.into(), value, text: text.into() });
+        self
+    }
+
+    /// Marks a length, to compare all bars with.
+    pub fn mark(mut self, value: f64) -> Self {
+        self.mark = Some(value);
+        self
+    }
+
+    fn widest(&self, text: fn(&Bar) -> &str) -> f64 {
+        self.bars.iter().map(|bar| fonts::width(text(bar), TEXT)).fold(0.0, f64::max).min(NAME)
+    }
+}
+
+impl Panel for BarChart {
+    fn size(&self) -> (f64, f64) {
+        let Margins { top, bottom, .. } = self.margins(0.0, 0.0);
+        (900.0, (top + bottom + ROW.0 * self.bars.len() as f64).max(100.0))
+    }
+
+    fn margins(&self, _width: f64, _height: f64) -> Margins {
+        Margins {
+            left: EDGE + self.widest(|bar| &bar.name) + 8.0,
+            top: EDGE + TITLE + 14.0,
+            right: EDGE + self.widest(|bar| &bar.text) + 8.0,
+            bottom: EDGE + TEXT + 10.0,
+        }
+    }
+
+    fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
+        let title = fonts::fit(&self.title, TITLE, area.right - plot.left - EDGE);
+        canvas.text(&title, (plot.left, area.top + EDGE + TITLE * 0.8), TITLE, Align::Start, INK);
+        let values = self.bars.iter().map(|bar| bar.value).chain(self.mark);
+        let longest = values.filter(|value| value.is_finite()).fold(0.0, f64::max);
+        let place = |value: f64| plot.left + plot.width() * (value / longest).clamp(0.0, 1.0);
+        let row = plot.height() / self.bars.len().max(1) as f64;
+        for (index, bar) in self.bars.iter().enumerate() {
+            let middle = plot.top + row * (index as f64 + 0.5);
+            let baseline = middle + 0.36 * TEXT;
+            let name = fonts::fit(&bar.name, TEXT, NAME);
+            canvas.text(&name, (plot.left - 8.0, baseline), TEXT, Align::End, INK);
+            let right =
+                if bar.value.is_finite() && longest > 0.0 { place(bar.value) } else { plot.left };
+            let (top, bottom) = (middle - ROW.1 / 2.0, middle + ROW.1 / 2.0);
+            canvas.fill(Area { left: plot.left, top, right, bottom }, tint(hue(0), 0.7));
+            let text = fonts::fit(&bar.text, TEXT, NAME);
+            canvas.text(&text, (right + 6.0, baseline), TEXT, Align::Start, INK);
+        }
+        if let Some(mark) = self.mark.filter(|mark| mark.is_finite() && longest > 0.0) {
+            let x = place(mark);
+            canvas.line([(x, plot.top), (x, plot.bottom)], 1.0, GREY);
+        }
+        canvas.line([(plot.left, plot.top), (plot.left, plot.bottom)], 1.0, AXIS);
+        let below = (plot.left, plot.bottom + 8.0 + TEXT * 0.8);
+        canvas.text(&self.label, below, TEXT, Align::Start, GREY);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bars_have_their_names_and_numbers() {
+        let chart = BarChart::new("Cost of a step", "µs")
+            .bar("the scene alone", 30.0, "30 µs")
+            .bar("slider", 60.0, "60 µs")
+            .bar("lost", f64::NAN, "failed")
+            .mark(30.0);
+        let figure = chart.figure().unwrap();
+        let svg = figure.to_svg().unwrap();
+        for text in ["Cost of a step", "slider", "60 µs", "failed"] {
+            assert!(svg.contains(text), "{text}");
+        }
+        figure.to_png().unwrap();
+        BarChart::new("", "").figure().unwrap().to_png().unwrap();
+    }
+}

@@ -1,0 +1,341 @@
+//! Heat maps: cells in rows and columns, each coloured by a number on a logarithmic scale; cells that have none are hatched.
+
+use super::{
+    axis::power_of_ten,
+    canvas::{Align, Area, Canvas},
+    colour::{AXIS, Colour, GREY, INK, WHITE, mix, ramp},
+    fonts,
+    frame::Margins,
+    page::Panel,
+};
+
+const TITLE: f64 = 16.0;
+const LABEL: f64 = 13.0;
+const TEXT: f64 = 12.0;
+/// Free paper around a panel.
+const EDGE: f64 = 14.0;
+/// The strip that explains the colours.
+const KEY: f64 = 26.0;
+/// Width and height of the bar of colours in it.
+const BAR: (f64, f64) = (110.0, 13.0);
+/// A cell when the map is alone on its page, and where it shares one.
+const CELL: (f64, f64) = (104.0, 52.0);
+const CELL_IN_COLUMNS: (f64, f64) = (76.0, 50.0);
+/// Between the lines of a hatching.
+const HATCH: f64 = 6.0;
+/// Lines of the text of a cell are so far apart.
+const LINE: f64 = 14.0;
+
+/// A cell of a heat map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeatCell {
+    /// What colours it; one without a number is hatched.
+    pub value: Option<f64>,
+    /// What is written in it, in few words; a line break begins another line.
+    pub text: String,
+}
+
+/// Cells in rows and columns, with names for both, and a key to the colours.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeatMap {
+    title: String,
+    /// What the columns stand for, and their names.
+    pub(super) columns: (String, Vec<String>),
+    /// What the rows stand for, and their names, from above.
+    pub(super) rows: (String, Vec<String>),
+    /// What the colours show, and the powers of ten at which they begin and end.
+    pub(super) scale: (String, i32, i32),
+    /// What a hatched cell is.
+    pub(super) hatched: String,
+    pub(super) cells: Vec<Vec<HeatCell>>,
+}
+
+impl HeatMap {
+    /// An empty map. Numbers at or below the first power of ten are palest, those at or above the second darkest.
+    pub fn new(title: impl Into<String>, shows: impl Into<String>, powers: (i32, i32)) -> Self {
+        Self {
+            title: title.into(),
+            columns: (String::new(), Vec::new()),
+            rows: (String::new(), Vec::new()),
+            scale: (shows.into(), powers.0, powers.1.max(powers.0 + 1)),
+            hatched: "no value".into(),
+            cells: Vec::new(),
+        }
+    }
+
+    /// Says what the columns stand for, and names them.
+    pub fn columns(mut self, label: impl Into<String>, names: Vec<String>) -> Self {
+        self.columns = (label.into(), names);
+        self
+    }
+
+    /// Says what the rows stand for.
+    pub fn rows(mut self, label: impl Into<String>) -> Self {
+        self.rows.0 = label.into();
+        self
+    }
+
+    /// Says what a hatched cell is.
+    pub fn hatched(mut self, meaning: impl Into<String>) -> Self {
+        self.hatched = meaning.into();
+        self
+    }
+
+    /// Adds a row below the others; a cell too few is left white, one too many is not shown.
+    pub fn row(mut self, name: impl Into<String>, cells: Vec<HeatCell>) -> Self {
+        self.rows.1.push(name.into());
+        self.cells.push(cells);
+        self
+    }
+
+    /// What stands above the map.
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// How far a number is on the scale of colours, from 0 to 1; none for what is no number.
+    pub(super) fn part(&self, value: f64) -> Option<f64> {
+        let (low, high) = (f64::from(self.scale.1), f64::from(self.scale.2));
+        let place = (value.max(0.0).log10() - low) / (high - low);
+        (!value.is_nan()).then(|| place.clamp(0.0, 1.0))
+    }
+
+    /// The ends of the scale in words.
+    pub(super) fn ends(&self) -> (String, String) {
+        let power = |power: i32| power_of_ten(f64::from(power));
+        (format!("≤ {}", power(self.scale.1)), format!("≥ {}", power(self.scale.2)))
+    }
+
+    /// The size of a map with cells of a size.
+    fn with_cells(&self, cell: (f64, f64)) -> (f64, f64) {
+        let Margins { left, top, right, bottom } = self.margins(0.0, 0.0);
+        let (columns, rows) = (self.columns.1.len().max(4), self.rows.1.len().max(1));
+        (left + right + cell.0 * columns as f64, top + bottom + cell.1 * rows as f64)
+    }
+
+    fn colour(&self, part: f64) -> Colour {
+        // Cells are large: paler than lines may be, so that their texts are read easily.
+        if part < 0.06 { mix(WHITE, ramp(0.0), 0.35) } else { ramp(part) }
+    }
+
+    fn draw_key(&self, canvas: &mut Canvas, plot: &Area, room: f64) {
+        let middle = plot.top - KEY * 0.5 - 4.0;
+        let baseline = middle + 0.36 * TEXT;
+        let (low, high) = self.ends();
+        let mut x = plot.left;
+        let write = |canvas: &mut Canvas, text: &str, x: &mut f64, room: f64| {
+            let text = fonts::fit(text, TEXT, room);
+            canvas.text(&text, (*x, baseline), TEXT, Align::Start, INK);
+            *x += fonts::width(&text, TEXT) + 7.0;
+        };
+        write(canvas, &self.scale.0, &mut x, room - BAR.0 - 220.0);
+        write(canvas, &low, &mut x, 60.0);
+        let steps = 22;
+        let width = BAR.0 / f64::from(steps);
+        for step in 0..steps {
+            let left = x + f64::from(step) * width;
+            let bar = Area {
+                left,
+                top: middle - BAR.1 / 2.0,
+                right: left + width + 0.3,
+                bottom: middle + BAR.1 / 2.0,
+            };
+            canvas.fill(bar, self.colour(f64::from(step) / f64::from(steps - 1)));
+        }
+        x += BAR.0 + 7.0;
+        write(canvas, &high, &mut x, 60.0);
+        if self.cells.iter().flatten().all(|cell| cell.value.is_some()) {
+            return;
+        }
+        x += 10.0;
+        let sample = Area {
+            left: x,
+            top: middle - BAR.1 / 2.0,
+            right: x + 24.0,
+            bottom: middle + BAR.1 / 2.0,
+        };
+        hatch(canvas, &sample);
+        outline(canvas, &sample);
+        x += 31.0;
+        let rest = plot.left + room - x;
+        write(canvas, &self.hatched, &mut x, rest);
+    }
+
+    fn draw_cell(&self, canvas: &mut Canvas, cell: &HeatCell, area: &Area) {
+        let part = cell.value.and_then(|value| self.part(value));
+        let lines: Vec<String> =
+            cell.text.lines().map(|line| fonts::fit(line, TEXT, area.width() - 8.0)).collect();
+        let middle = ((area.left + area.right) / 2.0, (area.top + area.bottom) / 2.0);
+        let height = LINE * lines.len() as f64;
+        let ink = match part {
+            Some(part) => {
+                canvas.fill(*area, self.colour(part));
+                if part > 0.36 { WHITE } else { INK }
+            }
+            None => {
+                hatch(canvas, area);
+                let widest = lines.iter().map(|line| fonts::width(line, TEXT)).fold(0.0, f64::max);
+                let paper = Area {
+                    left: middle.0 - widest / 2.0 - 3.0,
+                    top: middle.1 - height / 2.0 - 1.0,
+                    right: middle.0 + widest / 2.0 + 3.0,
+                    bottom: middle.1 + height / 2.0 + 1.0,
+                };
+                canvas.fill(paper, WHITE);
+                INK
+            }
+        };
+        for (index, line) in lines.iter().enumerate() {
+            let baseline = middle.1 - height / 2.0 + LINE * (index as f64 + 0.5) + 0.36 * TEXT;
+            canvas.text(line, (middle.0, baseline), TEXT, Align::Middle, ink);
+        }
+    }
+}
+
+/// Fills an area with slanted lines.
+fn hatch(canvas: &mut Canvas, area: &Area) {
+    let (width, height) = (area.width(), area.height());
+    let count = ((width + height) / HATCH) as usize;
+    for index in 1..=count {
+        // From the left or lower side to the upper or right one.
+        let along = index as f64 * HATCH;
+        let from = if along <= height {
+            (area.left, area.top + along)
+        } else {
+            (area.left + along - height, area.bottom)
+        };
+        let to = if along <= width {
+            (area.left + along, area.top)
+        } else {
+            (area.right, area.top + along - width)
+        };
+        canvas.line([from, to], 1.0, AXIS);
+    }
+}
+
+fn outline(canvas: &mut Canvas, area: &Area) {
+    let Area { left, top, right, bottom } = *area;
+    let corners = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top)];
+    canvas.line(corners, 1.0, AXIS);
+}
+
+impl Panel for HeatMap {
+    fn size(&self) -> (f64, f64) {
+        self.with_cells(CELL)
+    }
+
+    fn size_among(&self, _rows: usize, columns: usize) -> (f64, f64) {
+        self.with_cells(if columns > 1 { CELL_IN_COLUMNS } else { CELL })
+    }
+
+    fn margins(&self, _width: f64, _height: f64) -> Margins {
+        let widest =
+            self.rows.1.iter().map(|name| fonts::width(name, TEXT)).fold(0.0, f64::max).min(220.0);
+        let label = |text: &str| if text.is_empty() { 0.0 } else { LABEL + 10.0 };
+        Margins {
+            left: EDGE + label(&self.rows.0) + widest + 8.0,
+            top: EDGE + TITLE + 12.0 + KEY + 4.0,
+            right: EDGE,
+            bottom: EDGE + TEXT + 8.0 + label(&self.columns.0),
+        }
+    }
+
+    fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
+        let title = fonts::fit(&self.title, TITLE, area.right - plot.left - EDGE);
+        canvas.text(&title, (plot.left, area.top + EDGE + TITLE * 0.8), TITLE, Align::Start, INK);
+        self.draw_key(canvas, plot, plot.width());
+        let (rows, columns) = (self.rows.1.len().max(1), self.columns.1.len().max(1));
+        let (width, height) = (plot.width() / columns as f64, plot.height() / rows as f64);
+        let place = |column: usize, row: usize| Area {
+            left: plot.left + width * column as f64,
+            top: plot.top + height * row as f64,
+            right: plot.left + width * (column + 1) as f64,
+            bottom: plot.top + height * (row + 1) as f64,
+        };
+        for (row, cells) in self.cells.iter().enumerate() {
+            for (column, cell) in cells.iter().take(columns).enumerate() {
+                self.draw_cell(canvas, cell, &place(column, row));
+            }
+        }
+        for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)))
+        {
+            outline(canvas, &place(column, row));
+        }
+        for (row, name) in self.rows.1.iter().enumerate() {
+            let name = fonts::fit(name, TEXT, 220.0);
+            let y = plot.top + height * (row as f64 + 0.5) + 0.36 * TEXT;
+            canvas.text(&name, (plot.left - 8.0, y), TEXT, Align::End, INK);
+        }
+        let baseline = plot.bottom + 8.0 + TEXT * 0.8;
+        for (column, name) in self.columns.1.iter().enumerate() {
+            let name = fonts::fit(name, TEXT, width - 4.0);
+            let x = plot.left + width * (column as f64 + 0.5);
+            canvas.text(&name, (x, baseline), TEXT, Align::Middle, INK);
+        }
+        let below = ((plot.left + plot.right) / 2.0, baseline + LABEL + 10.0);
+        let label = fonts::fit(&self.columns.0, LABEL, plot.width());
+        canvas.text(&label, below, LABEL, Align::Middle, GREY);
+        let beside = (area.left + EDGE + LABEL * 0.8, (plot.top + plot.bottom) / 2.0);
+        let label = fonts::fit(&self.rows.0, LABEL, plot.height() + 20.0);
+        canvas.text_upwards(&label, beside, LABEL, Align::Middle, GREY);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::canvas::Shape;
+
+    fn cell(value: Option<f64>, text: &str) -> HeatCell {
+        HeatCell { value, text: text.into() }
+    }
+
+    fn map() -> HeatMap {
+        HeatMap::new("growth", "of energy", (-14, 0))
+            .columns("dt", vec!["0.1".into(), "0.2".into()])
+            .rows("EA")
+            .row("1e4", vec![cell(Some(1e-16), "1e-16"), cell(Some(1e-7), "1e-7")])
+            .row("1e8", vec![cell(Some(7.0), "7"), cell(None, "failed\nt = 2")])
+    }
+
+    #[test]
+    fn numbers_have_their_places_on_the_scale() {
+        let part = |value| map().part(value);
+        assert_eq!((part(0.0), part(-1.0), part(1e-20)), (Some(0.0), Some(0.0), Some(0.0)));
+        assert_eq!((part(1e-7), part(1.0), part(f64::INFINITY)), (Some(0.5), Some(1.0), Some(1.0)));
+        assert_eq!(part(f64::NAN), None);
+        assert_eq!(map().ends(), ("≤ 10⁻¹⁴".to_owned(), "≥ 10⁰".to_owned()));
+    }
+
+    #[test]
+    fn every_cell_is_drawn_and_those_without_a_number_are_hatched() {
+        let figure = map().figure().unwrap();
+        let svg = figure.to_svg().unwrap();
+        for text in ["growth", "of energy", "1e-16", "failed", "t = 2", "no value", "EA", "dt"] {
+            assert!(svg.contains(text), "{text}");
+        }
+        assert_eq!(figure.to_svg().unwrap(), map().figure().unwrap().to_svg().unwrap());
+    }
+
+    #[test]
+    fn a_hatching_stays_in_its_area() {
+        let area = Area { left: 10.0, top: 20.0, right: 90.0, bottom: 41.0 };
+        let mut canvas = Canvas::default();
+        hatch(&mut canvas, &area);
+        assert!(canvas.shapes().len() > 10);
+        for shape in canvas.shapes() {
+            let Shape::Line { points, .. } = shape else { panic!("{shape:?}") };
+            for (x, y) in points {
+                assert!((10.0..=90.0).contains(x) && (20.0..=41.0).contains(y), "{points:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_map_of_nothing_and_one_with_missing_cells_are_pictures_too() {
+        let ragged = map().row("a very long name ".repeat(9), vec![]);
+        for map in [HeatMap::new("", "", (0, 0)), ragged] {
+            map.figure().unwrap().to_png().unwrap();
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! What features cost.
+
+use rhai::{Array, Dynamic};
+
+use super::integrators::INTEGRATOR;
+use crate::analysis::{Outcome, StepCost, step_costs};
+use crate::output::Panel;
+use crate::script::call::Call;
+use crate::script::context::Mode;
+use crate::script::error::ScriptError;
+use crate::script::kind::{Scripted, Type};
+use crate::script::parameter::{
+    Parameter, Presence, anything, callback, number, object, options, text, whole,
+};
+use crate::script::studies::cost::{CostTable, Way, cases};
+use crate::script::table::{Table, function, property};
+
+/// Costs.
+pub const TABLE: Table = Table {
+    name: "costs",
+    doc: "What a step costs, and what each feature of a scene adds.",
+    types: &[COST_TABLE],
+    setup: "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
+            let spinning = || {\n\
+            \x20   let scene = new_scene(\"example\");\n\
+            \x20   scene.beam(#{ axis: line([0, 0], [2, 0]), basis: bspline(2), section: s, spin: 1 });\n\
+            \x20   scene\n\
+            };",
+    constants: &[],
+    rows: &[
+        function("study_cost", &[options("options", STUDY)], study)
+            .returns("a table of costs")
+            .summary("Measures what a step of a scene costs, alone and with features added one by one.")
+            .doc(
+                "`scene` is a function that makes the scene; each feature is a function of such a scene that adds something to it. \
+                 Without `features` all that a scene with a beam can have are tried, small enough to leave the motion much as it is. \
+                 Further rows: nothing recorded, snapshots, and the other integrators. The scene alone is measured twice, which \
+                 shows how far times can be trusted. Runs are timed one at a time, all rows in turn, building the scene is not \
+                 counted; the least time and the median are told. The table is printed, written into NAME.csv and drawn into NAME.svg.",
+            )
+            .example(
+                "let costs = study_cost(#{ name: \"cost\", scene: spinning, dt: 0.05, steps: 10, repeats: 1, features: #{ gravity: |scene| scene.gravity([0, -9.81]) } });\n\
+                 let rows = costs.rows;\ncheck(rows[2].feature == \"gravity\" && rows[2].unknowns == rows[0].unknowns);",
+            )
+            .see(&["rows", "study_stability", "explain"]),
+        property(COST_TABLE, "rows", |call| {
+            let rows = call.receiver::<CostTable>()?.rows();
+            Ok(Dynamic::from(rows.into_iter().map(Dynamic::from).collect::<Array>()))
+        })
+        .returns("an array of maps")
+        .summary(
+            "A map for each row: feature, outcome, shortest and median time of a step in seconds, ratio to the scene alone, iterations, factorisations, unknowns, half_bandwidth, border and columns.",
+        )
+        .example(
+            "let costs = study_cost(#{ name: \"cost\", scene: spinning, dt: 0.05, steps: 10, repeats: 1, features: #{} });\n\
+             check(costs.rows[1].feature == \"the same again\" && costs.rows[1].iterations == costs.rows[0].iterations);",
+        ),
+    ],
+};
+
+const COST_TABLE: Type = Type::of::<CostTable>();
+
+const STUDY: &[Parameter] = &[
+    text("name").doc("of the study and its files"),
+    callback("scene").doc("|| …, a function that makes the scene"),
+    number("dt").positive().unit("time").doc("the step size"),
+    anything("features").doc("names and functions: #{ gravity: |scene| … }").optional(),
+    object("integrator", INTEGRATOR).doc("energy_momentum() unless given").optional(),
+    whole("steps").positive().or(Presence::Whole(200)).doc("of each run"),
+    whole("repeats").positive().or(Presence::Whole(5)).doc("how often each run is timed"),
+];
+
+impl Scripted for CostTable {
+    const NAME: &'static str = "table of costs";
+    const DOC: &'static str = "What a step of a scene costs, with one feature or another.";
+
+    fn show(&self) -> String {
+        self.text()
+    }
+}
+
+fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let options = call.options("options")?;
+    let context = call.context();
+    let method = options.get_if("integrator").unwrap_or_default();
+    let way = Way { method, dt: options.number("dt")?, steps: options.count("steps")? };
+    let cases = cases(call, &options, way)?;
+    let name = options.text("name")?.to_string();
+    let repeats = match context.mode() {
+        Mode::DryBuild => {
+            let pretended = |case| StepCost::unmeasured(case, Outcome::Finished);
+            let costs = cases.iter().map(pretended).collect();
+            return Ok(Dynamic::from(CostTable::new(name, costs)));
+        }
+        Mode::Run => context.studies().repeats.map_or_else(|| options.count("repeats"), Ok)?,
+    };
+    let costs = step_costs(&cases, repeats, &mut || context.stopped_by().is_none());
+    let Some(costs) = costs else {
+        context.proceed()?;
+        return Err(ScriptError::bug("a study of costs was stopped by nobody"));
+    };
+    let table = CostTable::new(name, costs);
+    context.print(&table.text());
+    let output = context.output();
+    output.write(&format!("{}.csv", table.name()), table.records().to_text()?.as_bytes())?;
+    output.write(&format!("{}.svg", table.name()), table.chart().figure()?.to_svg()?.as_bytes())?;
+    Ok(Dynamic::from(table))
+}

@@ -1,0 +1,105 @@
+//! Which states of a run are recorded.
+
+use std::num::NonZeroUsize;
+
+use rhai::Dynamic;
+
+use super::live::SimulationHandle;
+use super::simulations::SPINNING;
+use crate::script::call::Call;
+use crate::script::error::ScriptError;
+use crate::script::kind::{Scripted, Type};
+use crate::script::numbers::format_number;
+use crate::script::parameter::whole;
+use crate::script::table::{Table, function};
+use crate::simulation::Recording;
+
+/// Recording.
+pub const TABLE: Table = Table {
+    name: "recording",
+    doc: "A simulation records every step: a row in its history, a configuration for pictures. A long run need not: \
+          scene.start(#{ …, record: every(100) }). Its start, the end of every run_to, the times of sim.at and the arrivals of \
+          sliders are recorded in any case, and the present has a row as long as it is the present, so that sim.energy and its like \
+          always work. What is not recorded is not measured, and takes no memory.",
+    types: &[RECORDING],
+    setup: SPINNING,
+    constants: &[],
+    rows: &[
+        function("every", &[whole("steps").positive()], |call| {
+            let steps = NonZeroUsize::new(call.count("steps")?).unwrap_or(NonZeroUsize::MIN);
+            Ok(Dynamic::from(Recording::Every(steps)))
+        })
+        .returns("a recording")
+        .summary("Records the states after every so many steps.")
+        .example("let long = scene.start(#{ dt: 0.1, record: every(10) });\nlong.run_to(5);\ncheck(long.steps == 50 && long.history.rows == 6);")
+        .see(&["nothing", "start"]),
+        function("nothing", &[], |_| Ok(Dynamic::from(Recording::Nothing)))
+            .returns("a recording")
+            .summary("Records the start and the ends of runs, and nothing between.")
+            .example("let quiet = scene.start(#{ dt: 0.1, record: nothing() });\nquiet.run_to(5);\ncheck(quiet.history.rows == 2 && quiet.history.drift(\"energy\") < 1e-12);")
+            .see(&["every", "start"]),
+    ],
+};
+
+/// The recording type, for other domains.
+pub const RECORDING: Type = Type::of::<Recording>();
+
+impl Scripted for Recording {
+    const NAME: &'static str = "recording";
+    const DOC: &'static str = "Which states of a run are recorded.";
+
+    fn show(&self) -> String {
+        format!("recording of {}", self.describe())
+    }
+}
+
+/// Refuses what needs a row for every step.
+pub(super) fn expect_all_rows(
+    call: &Call,
+    of: &SimulationHandle,
+    what: &str,
+) -> Result<(), ScriptError> {
+    let simulation = of.simulation();
+    if simulation.has_all_rows() {
+        return Ok(());
+    }
+    let told = format!(
+        "{what} needs every step, but '{}' recorded {}",
+        of.name(),
+        simulation.recording().describe()
+    );
+    Err(call.error(told).hint("start it without the option record: scene.start(#{ dt: … })"))
+}
+
+/// Refuses to draw over time what has been recorded at the ends of runs only.
+pub(super) fn expect_rows_between(call: &Call, of: &SimulationHandle) -> Result<(), ScriptError> {
+    let simulation = of.simulation();
+    if simulation.recording() != Recording::Nothing || simulation.has_all_rows() {
+        return Ok(());
+    }
+    let told = format!("'{}' recorded {}", of.name(), simulation.recording().describe());
+    Err(call.error(told).hint("start it with the option record: every(100), or without it"))
+}
+
+/// Refuses a picture of a time from which too far away the nearest recorded configuration is.
+pub(super) fn expect_near(
+    call: &Call,
+    of: &SimulationHandle,
+    (time, recorded): (f64, f64),
+    apart: f64,
+) -> Result<(), ScriptError> {
+    let simulation = of.simulation();
+    if simulation.has_all_rows() || (time - recorded).abs() <= 0.5 * apart {
+        return Ok(());
+    }
+    let told = format!(
+        "'{}' recorded {}: the configuration nearest to t = {} is that of t = {}",
+        of.name(),
+        simulation.recording().describe(),
+        format_number(time),
+        format_number(recorded)
+    );
+    let hint =
+        "start it with the option record: every(n) and a smaller n, or draw with a larger `every`";
+    Err(call.error(told).hint(hint))
+}

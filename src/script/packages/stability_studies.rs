@@ -1,0 +1,127 @@
+//! Stability maps.
+
+use std::time::Duration;
+
+use rhai::{Array, Dynamic};
+
+use super::integrators::INTEGRATOR;
+use crate::analysis::{Outcome, Patience, Verdict};
+use crate::output::Panel;
+use crate::script::call::Call;
+use crate::script::context::Mode;
+use crate::script::error::ScriptError;
+use crate::script::kind::{Scripted, Type};
+use crate::script::parameter::{
+    Parameter, Presence, anything, callback, choice, number, object, options, text,
+};
+use crate::script::studies::desk::{Desk, Task};
+use crate::script::studies::stability::{Plan, Shown, StabilityMap};
+use crate::script::table::{Table, function, property};
+
+/// Stability maps.
+pub const TABLE: Table = Table {
+    name: "stability maps",
+    doc: "What becomes of a simulation on the edge: a run for every combination of parameters, on all cores.",
+    types: &[STABILITY_MAP],
+    setup: "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
+            let spinning = |cell| {\n\
+            \x20   let scene = new_scene(\"example\");\n\
+            \x20   scene.beam(#{ axis: line([0, 0], [2, 0]), basis: bspline(2), section: s, spin: 1 });\n\
+            \x20   scene\n\
+            };",
+    constants: &[],
+    rows: &[
+        function("study_stability", &[options("options", STUDY)], study)
+            .returns("a stability map")
+            .summary("Runs a scene for all combinations of parameters and shows which runs come to their end, and whose energy grows.")
+            .doc(
+                "`scene` is a function of a map that has the values of a cell under their names. It gives a scene, or a map of the scene \
+                 and how it is simulated: #{ scene: scene, dt: 0.1, end: 5, integrator: trapezoidal() }. What that leaves open is taken \
+                 from the values named dt, end or integrator, then from the options of the study. The energy growth of a cell is the \
+                 largest rise of E - W above an earlier value after the last break of the schedules, relative to the largest energy. The \
+                 maps are printed, drawn into NAME.svg and written into NAME.csv. Labels are numbers, texts, the names of integrators, or \
+                 what a map says under `name`.",
+            )
+            .example(
+                "let map = study_stability(#{\n    name: \"spin\", scene: spinning, end: 0.5,\n    rows: #{ dt: [0.05, 0.1] },\n    columns: #{ integrator: [energy_momentum(), trapezoidal()] },\n});\n\
+                 check(map.cells.all(|cell| cell.finished));\ncheck(map.cells[0].energy_growth < 1e-12);",
+            )
+            .see(&["cells", "study_cost"]),
+        property(STABILITY_MAP, "cells", |call| {
+            let cells = call.receiver::<StabilityMap>()?.cells();
+            Ok(Dynamic::from(cells.into_iter().map(Dynamic::from).collect::<Array>()))
+        })
+        .returns("an array of maps")
+        .summary("A map for each cell: its values, and finished, outcome, energy_growth, iterations, most_iterations, retries and steps.")
+        .example(
+            "let map = study_stability(#{ name: \"spin\", scene: spinning, end: 1, rows: #{ dt: [0.1] }, columns: #{ integrator: [fourth_order()] } });\n\
+             check(map.cells.len() == 1 && map.cells[0].steps == 10 && map.cells[0].dt == 0.1);",
+        ),
+    ],
+};
+
+const STABILITY_MAP: Type = Type::of::<StabilityMap>();
+
+const STUDY: &[Parameter] = &[
+    text("name").doc("of the study and its files"),
+    callback("scene").doc("|cell| …, a function that makes the scene of a cell"),
+    anything("rows").doc("a name and its values: #{ stiffness: [1e4, 1e8] }"),
+    anything("columns").doc("a name and its values: #{ dt: [0.1, 0.2] }"),
+    anything("maps").doc("a name and its values, one map for each").optional(),
+    object("integrator", INTEGRATOR).doc("energy_momentum() unless given").optional(),
+    number("dt").positive().unit("time").doc("the step size of all cells").optional(),
+    number("end").positive().unit("time").doc("the end of all runs").optional(),
+    choice("show", &["energy growth", "iterations", "retries"])
+        .or(Presence::Text("energy growth"))
+        .doc("what colours the cells"),
+    number("patience")
+        .positive()
+        .unit("s")
+        .or(Presence::Number(60.0))
+        .doc("the longest that a cell may take by the clock"),
+];
+
+impl Scripted for StabilityMap {
+    const NAME: &'static str = "stability map";
+    const DOC: &'static str = "What became of a run for every combination of parameters.";
+
+    fn show(&self) -> String {
+        let (all, finished) = self.counts();
+        format!("stability map '{}': {finished} of {all} cells finished", self.name())
+    }
+}
+
+fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let options = call.options("options")?;
+    let scene = options.callback("scene")?;
+    call.expect_arguments(&scene, 1, "|cell| …, a function that makes the scene of a cell")?;
+    let plan = Plan::read(call, &options)?;
+    let cases = plan.cases(call, &options, &scene)?;
+    let context = call.context();
+    let wall = Duration::from_secs_f64(options.number("patience")?.min(1e9));
+    let patience = Patience { wall, ..Patience::default() };
+    let shown = options.text("show")?;
+    let shown = Shown::ALL.iter().find(|(name, _)| *name == shown.as_str());
+    let shown = shown.map_or(Shown::EnergyGrowth, |(_, shown)| *shown);
+    let verdicts = match context.mode() {
+        Mode::DryBuild => vec![Verdict::without_a_run(Outcome::Finished); cases.len()],
+        Mode::Run => {
+            let mut desk = Desk::open(context, &plan.name)?;
+            let task = Task { name: "cells", parts: &[] };
+            let work = |case: &_, stop: &_| Verdict::of(case, patience, stop);
+            let verdicts =
+                desk.in_parallel(task, &cases, |verdict: &Verdict| verdict.steps, work)?;
+            desk.close()?;
+            let panicked = |message| Verdict::without_a_run(Outcome::Panicked { message });
+            verdicts.into_iter().map(|verdict| verdict.unwrap_or_else(panicked)).collect()
+        }
+    };
+    let map = plan.judged(shown, verdicts);
+    if context.mode() == Mode::Run {
+        context.print(&map.text());
+    }
+    let output = context.output();
+    output.write(&format!("{}.csv", map.name()), map.records().to_text()?.as_bytes())?;
+    output.write(&format!("{}.svg", map.name()), map.page().figure()?.to_svg()?.as_bytes())?;
+    Ok(Dynamic::from(map))
+}

@@ -1,0 +1,231 @@
+//! Cost studies: the same scene with features added one by one.
+
+use rhai::{Dynamic, FnPtr, Map};
+
+use super::labels;
+use crate::analysis::{Case, CostCase, FEATURES, StepCost};
+use crate::integrators::{INTEGRATORS, Method};
+use crate::model::Scene;
+use crate::newton::Tolerance;
+use crate::output::{BarChart, Cell, CsvRecords, Table, format_number, significant};
+use crate::script::call::Call;
+use crate::script::error::{Place, ScriptError};
+use crate::script::options::Options;
+use crate::script::packages::SceneHandle;
+use crate::simulation::{Recording, Settings};
+
+/// The memory for snapshots in the row that has some [bytes].
+const SNAPSHOTS: usize = 256_000_000;
+
+/// The names of the first two rows: the scene as it is, and the same once more, to see how far times can be trusted.
+const PLAIN: [&str; 2] = ["the scene alone", "the same again"];
+
+/// How the steps of all rows are taken, unless a row is about that.
+#[derive(Clone, Copy)]
+pub struct Way {
+    /// The integrator.
+    pub method: Method,
+    /// [time]
+    pub dt: f64,
+    /// How many.
+    pub steps: usize,
+}
+
+/// What the features of a scene cost.
+#[derive(Clone)]
+pub struct CostTable {
+    name: String,
+    /// The scene alone comes first.
+    costs: Vec<StepCost>,
+}
+
+impl Way {
+    fn case(&self, name: impl Into<String>, scene: Scene) -> CostCase {
+        let settings =
+            Settings { method: self.method, dt: self.dt.into(), tolerance: Tolerance::default() };
+        let case = Case { scene, settings, stops: vec![self.dt * self.steps as f64] };
+        CostCase { name: name.into(), case, recording: Recording::default(), snapshots: 0 }
+    }
+}
+
+/// The rows of a study: the scene alone, twice; with each feature; and in each other way.
+pub fn cases(call: &Call, options: &Options, way: Way) -> Result<Vec<CostCase>, ScriptError> {
+    let make = options.callback("scene")?;
+    call.expect_arguments(&make, 0, "|| …, a function that makes the scene")?;
+    let handle = || {
+        let given = call.invoke(&make, [])?;
+        given.clone().try_cast::<SceneHandle>().ok_or_else(|| {
+            let got = call.describe(&given);
+            call.error(format!("the function gives {got} instead of a scene"))
+                .hint("its last expression is the scene")
+                .at(Place::Key("scene".into()))
+        })
+    };
+    let fresh = || handle().map(|handle| handle.scene().borrow().clone());
+    let mut cases = Vec::new();
+    for name in PLAIN {
+        cases.push(way.case(name, fresh()?));
+    }
+    match options.has("features") {
+        true => {
+            let features: Map = options.value("features")?.try_cast().ok_or_else(|| {
+                call.error("features must be a map of names and functions")
+                    .hint("for example #{ gravity: |scene| scene.gravity([0, -9.81]) }")
+                    .at(Place::Key("features".into()))
+            })?;
+            for (name, add) in features {
+                let handle = handle()?;
+                let add: FnPtr = add.try_cast().ok_or_else(|| {
+                    call.error(format!("the feature '{name}' is no function"))
+                        .hint("write |scene| …, a function that adds it")
+                        .at(Place::Key("features".into()))
+                })?;
+                call.expect_arguments(&add, 1, "|scene| …, a function that adds the feature")?;
+                // What it gives has no meaning.
+                let _ = call.invoke(&add, [Dynamic::from(handle.clone())])?;
+                let scene = handle.scene().borrow().clone();
+                cases.push(way.case(name.as_str(), scene));
+            }
+        }
+        false => {
+            let has_beams = !cases[0].case.scene.beams.is_empty();
+            for feature in FEATURES.iter().filter(|_| has_beams) {
+                let mut scene = fresh()?;
+                // What a scene cannot have, such as a second hinge at the same place, is no row.
+                if (feature.add)(&mut scene).is_ok() {
+                    cases.push(way.case(feature.name, scene));
+                }
+            }
+        }
+    }
+    let quiet = way.case("nothing recorded", fresh()?);
+    cases.push(CostCase { recording: Recording::Nothing, ..quiet });
+    cases.push(CostCase { snapshots: SNAPSHOTS, ..way.case("snapshots", fresh()?) });
+    for entry in INTEGRATORS.iter().filter(|entry| entry.method != way.method) {
+        cases.push(
+            Way { method: entry.method, ..way }.case(labels::method(&entry.method), fresh()?),
+        );
+    }
+    Ok(cases)
+}
+
+impl CostTable {
+    /// The table of some costs, that of the scene alone first.
+    pub fn new(name: String, costs: Vec<StepCost>) -> Self {
+        Self { name, costs }
+    }
+
+    /// The name of the study.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The time of a step as a multiple of that of the scene alone.
+    fn ratio(&self, cost: &StepCost) -> f64 {
+        let alone = self.costs.first().map_or(f64::NAN, |first| first.shortest.as_secs_f64());
+        cost.shortest.as_secs_f64() / alone
+    }
+
+    /// A map for each row.
+    pub fn rows(&self) -> Vec<Map> {
+        let row = |cost: &StepCost| {
+            let whole = |count: usize| Dynamic::from(count as rhai::INT);
+            let entries: [(&str, Dynamic); 11] = [
+                ("feature", cost.name.clone().into()),
+                ("outcome", cost.outcome.describe().into()),
+                ("shortest", cost.shortest.as_secs_f64().into()),
+                ("median", cost.median.as_secs_f64().into()),
+                ("ratio", self.ratio(cost).into()),
+                ("iterations", cost.iterations.into()),
+                ("factorisations", cost.factorisations.into()),
+                ("unknowns", whole(cost.unknowns)),
+                ("half_bandwidth", whole(cost.half_bandwidth)),
+                ("border", whole(cost.border)),
+                ("columns", whole(cost.columns)),
+            ];
+            entries.map(|(name, value)| (name.into(), value)).into_iter().collect()
+        };
+        self.costs.iter().map(row).collect()
+    }
+
+    /// The table as text.
+    pub fn text(&self) -> String {
+        let heads = [
+            "feature",
+            "µs a step",
+            "median",
+            "ratio",
+            "iterations",
+            "unknowns",
+            "band",
+            "border",
+            "columns",
+        ];
+        let mut table = Table::new(&heads).title(format!("{}: cost of a step", self.name));
+        for cost in &self.costs {
+            if !cost.outcome.is_finished() {
+                table.row([cost.name.clone(), cost.outcome.describe()]);
+                continue;
+            }
+            let number = |value: f64, digits| Cell::Number(significant(value, digits));
+            table.row([
+                Cell::Text(cost.name.clone()),
+                number(cost.shortest.as_secs_f64() * 1e6, 3),
+                number(cost.median.as_secs_f64() * 1e6, 3),
+                Cell::Number(format!("{:.2}", self.ratio(cost))),
+                number(cost.iterations, 3),
+                cost.unknowns.into(),
+                cost.half_bandwidth.into(),
+                cost.border.into(),
+                cost.columns.into(),
+            ]);
+        }
+        table.to_string().trim_end().to_owned()
+    }
+
+    /// The table for other programs.
+    pub fn records(&self) -> CsvRecords {
+        let rows = self.rows();
+        let names = [
+            "feature",
+            "outcome",
+            "shortest",
+            "median",
+            "ratio",
+            "iterations",
+            "factorisations",
+            "unknowns",
+            "half_bandwidth",
+            "border",
+            "columns",
+        ];
+        let cell = |row: &Map, name: &str| {
+            let value = row.get(name).cloned().unwrap_or_default();
+            value.as_float().map_or_else(|_| value.to_string(), format_number)
+        };
+        CsvRecords {
+            comments: vec![format!("cost study: {}; times of a step in seconds", self.name)],
+            names: names.map(str::to_owned).to_vec(),
+            rows: rows.iter().map(|row| names.map(|name| cell(row, name)).to_vec()).collect(),
+        }
+    }
+
+    /// The times as bars, the scene alone marked.
+    pub fn chart(&self) -> BarChart {
+        let micro = |cost: &StepCost| cost.shortest.as_secs_f64() * 1e6;
+        let empty =
+            BarChart::new(format!("{}: cost of a step", self.name), "µs a step, least of all runs");
+        let marked = match self.costs.first() {
+            Some(alone) => empty.mark(micro(alone)),
+            None => empty,
+        };
+        self.costs.iter().fold(marked, |chart, cost| match cost.outcome.is_finished() {
+            true => {
+                let ratio =
+                    format!("{} µs, × {:.2}", significant(micro(cost), 3), self.ratio(cost));
+                chart.bar(&cost.name, micro(cost), ratio)
+            }
+            false => chart.bar(&cost.name, f64::NAN, "did not finish"),
+        })
+    }
+}

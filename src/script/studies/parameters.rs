@@ -1,0 +1,72 @@
+//! Parameters of a study: a name, and the values that it goes through.
+
+use rhai::{Array, Dynamic, Map};
+
+use super::labels;
+use crate::integrators::Method;
+use crate::script::call::Call;
+use crate::script::error::{Place, ScriptError};
+use crate::script::numbers::{as_number, format_number};
+use crate::script::options::Options;
+
+/// A name and its values.
+#[derive(Clone, Debug)]
+pub struct Swept {
+    /// The key under which a cell finds its value.
+    pub name: String,
+    /// The values.
+    pub values: Array,
+    /// A text for each of them.
+    pub labels: Vec<String>,
+}
+
+impl Swept {
+    /// Reads an option that is a map of one key, such as `#{ dt: [0.1, 0.2] }`.
+    pub fn read(call: &Call, options: &Options, key: &str) -> Result<Self, ScriptError> {
+        let wrong = |told: String| {
+            call.error(told)
+                .hint(format!("write {key}: #{{ dt: [0.1, 0.2] }}, a name and its values"))
+                .at(Place::Key(key.to_owned()))
+        };
+        let given = options.value(key)?;
+        let got = call.describe(&given);
+        let given = given.try_cast::<Map>().ok_or_else(|| wrong(format!("{key} is {got}")))?;
+        let (1, Some((name, values))) = (given.len(), given.iter().next()) else {
+            return Err(wrong(format!("{key} has {} names, but one is expected", given.len())));
+        };
+        let values = values.clone().try_cast::<Array>().filter(|values| !values.is_empty());
+        let values = values.ok_or_else(|| wrong(format!("{key}: '{name}' has no values")))?;
+        let labels = values.iter().map(|value| label(call, value)).collect();
+        Ok(Self { name: name.to_string(), values, labels })
+    }
+
+    /// A single nameless value, for an option that is left out.
+    pub fn none() -> Self {
+        Self { name: String::new(), values: vec![Dynamic::UNIT], labels: vec![String::new()] }
+    }
+
+    /// Puts the value number `index` under its name.
+    pub fn put(&self, index: usize, into: &mut Map) {
+        if !self.name.is_empty() {
+            into.insert(self.name.as_str().into(), self.values[index].clone());
+        }
+    }
+}
+
+/// A value in few words: numbers, large ones as powers of ten, and texts as they are, integrators and maps by their names.
+pub fn label(call: &Call, value: &Dynamic) -> String {
+    if let Some(number) = as_number(value) {
+        return match number.abs() >= 1e4 {
+            true => format!("{number:e}"),
+            false => format_number(number),
+        };
+    }
+    if let Some(method) = value.clone().try_cast::<Method>() {
+        return labels::method(&method);
+    }
+    let named = value.read_lock::<Map>().and_then(|map| map.get("name").cloned());
+    match named.unwrap_or_else(|| value.clone()) {
+        text if text.is_string() => text.to_string(),
+        other => call.show(&other),
+    }
+}

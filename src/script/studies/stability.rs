@@ -1,0 +1,339 @@
+//! Stability maps: a run for every combination of parameters, and what became of each.
+
+use rhai::{Dynamic, FnPtr, INT, Map};
+
+use super::parameters::Swept;
+use crate::analysis::{Case, Outcome, Verdict};
+use crate::integrators::Method;
+use crate::newton::Tolerance;
+use crate::output::{
+    Colours, CsvRecords, Glyphs, HeatCell, HeatMap, Page, Style, Table, format_number, scientific,
+    significant,
+};
+use crate::script::call::Call;
+use crate::script::error::{Place, ScriptError};
+use crate::script::numbers::as_number;
+use crate::script::options::Options;
+use crate::script::packages::SceneHandle;
+use crate::simulation::Settings;
+
+/// Columns of text that a map on a terminal may take.
+const WIDTH: usize = 160;
+/// Cells that did not come to their end, of which the reason is printed.
+const MOST_REASONS: usize = 12;
+/// Maps beside each other on a page.
+const ABREAST: usize = 2;
+
+/// What colours the cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shown {
+    /// The largest relative growth of the energy.
+    EnergyGrowth,
+    /// Newton iterations of a step, on average.
+    Iterations,
+    /// Failed tries.
+    Retries,
+}
+
+impl Shown {
+    /// All of them, by their names in scripts.
+    pub const ALL: [(&'static str, Self); 3] = [
+        ("energy growth", Self::EnergyGrowth),
+        ("iterations", Self::Iterations),
+        ("retries", Self::Retries),
+    ];
+
+    /// The number that is shown, what it is called, and the powers of ten at which colours begin and end.
+    fn of(self, verdict: &Verdict) -> f64 {
+        match self {
+            Self::EnergyGrowth => verdict.energy_growth,
+            Self::Iterations => verdict.mean_iterations,
+            Self::Retries => verdict.retries as f64,
+        }
+    }
+
+    fn scale(self) -> (&'static str, (i32, i32)) {
+        match self {
+            Self::EnergyGrowth => ("energy growth", (-12, 0)),
+            Self::Iterations => ("Newton iterations a step", (0, 2)),
+            Self::Retries => ("halved steps", (0, 4)),
+        }
+    }
+}
+
+/// What is studied: maps of rows and columns of cells.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The name of the study and of its files.
+    pub name: String,
+    /// One map for each value.
+    pub maps: Swept,
+    /// From above.
+    pub rows: Swept,
+    /// From the left.
+    pub columns: Swept,
+}
+
+/// A plan with what became of its cells.
+#[derive(Clone, Debug)]
+pub struct StabilityMap {
+    plan: Plan,
+    shown: Shown,
+    /// Map by map, row by row.
+    verdicts: Vec<Verdict>,
+}
+
+impl Plan {
+    /// Reads the options of a study.
+    pub fn read(call: &Call, options: &Options) -> Result<Self, ScriptError> {
+        let maps = match options.has("maps") {
+            true => Swept::read(call, options, "maps")?,
+            false => Swept::none(),
+        };
+        Ok(Self {
+            name: options.text("name")?.to_string(),
+            maps,
+            rows: Swept::read(call, options, "rows")?,
+            columns: Swept::read(call, options, "columns")?,
+        })
+    }
+
+    /// Numbers of map, row and column of all cells, in order.
+    fn cells(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
+        let (rows, columns) = (self.rows.values.len(), self.columns.values.len());
+        let all = self.maps.values.len() * rows * columns;
+        (0..all).map(move |at| [at / (rows * columns), at / columns % rows, at % columns])
+    }
+
+    /// The values of a cell by their names.
+    fn values(&self, [map, row, column]: [usize; 3]) -> Map {
+        let mut values = Map::new();
+        self.maps.put(map, &mut values);
+        self.rows.put(row, &mut values);
+        self.columns.put(column, &mut values);
+        values
+    }
+
+    /// The labels of a cell, with their names.
+    fn labels(&self, [map, row, column]: [usize; 3]) -> Vec<(&str, &str)> {
+        [(&self.maps, map), (&self.rows, row), (&self.columns, column)]
+            .into_iter()
+            .filter(|(of, _)| !of.name.is_empty())
+            .map(|(of, at)| (of.name.as_str(), of.labels[at].as_str()))
+            .collect()
+    }
+
+    /// The run of each cell, from what the function of the script gives for its values.
+    pub fn cases(
+        &self,
+        call: &Call,
+        options: &Options,
+        scene: &FnPtr,
+    ) -> Result<Vec<Case>, ScriptError> {
+        let case = |at| {
+            let values = self.values(at);
+            let given = call.invoke(scene, [Dynamic::from(values.clone())])?;
+            case(call, options, &values, given)
+        };
+        self.cells().map(case).collect()
+    }
+
+    /// The study with its results.
+    pub fn judged(self, shown: Shown, verdicts: Vec<Verdict>) -> StabilityMap {
+        StabilityMap { plan: self, shown, verdicts }
+    }
+}
+
+/// A case from a scene, or from a map of the scene and how it is simulated; what it leaves open is taken from the values of
+/// the cell, then from the options of the study.
+fn case(call: &Call, options: &Options, values: &Map, given: Dynamic) -> Result<Case, ScriptError> {
+    let own = given.read_lock::<Map>().map(|map| map.clone()).unwrap_or_default();
+    let scene = own.get("scene").cloned().unwrap_or_else(|| given.clone());
+    let find = |name: &str| own.get(name).or_else(|| values.get(name)).cloned();
+    let scene = scene.try_cast::<SceneHandle>().ok_or_else(|| {
+        let got = call.describe(&given);
+        call.error(format!("the function gives {got} instead of a scene"))
+            .hint("its last expression is the scene, or a map: #{ scene: scene, dt: 0.1, end: 5 }")
+            .at(Place::Key("scene".into()))
+    })?;
+    let number = |name: &str| {
+        let found = find(name).as_ref().and_then(as_number);
+        found.or_else(|| options.number_if_given(name)).ok_or_else(|| {
+            call.error(format!("no '{name}' is given")).hint(format!(
+                "as an option of the study, among its values, or in what the function gives: #{{ scene: scene, {name}: 0.1 }}"
+            ))
+        })
+    };
+    let method = find("integrator").and_then(|value| value.try_cast::<Method>());
+    let method = method.or_else(|| options.get_if("integrator")).unwrap_or_default();
+    let settings = Settings { method, dt: number("dt")?.into(), tolerance: Tolerance::default() };
+    let stops = vec![number("end")?];
+    let scene = scene.scene().borrow().clone();
+    Ok(Case { scene, settings, stops })
+}
+
+impl StabilityMap {
+    fn judged(&self) -> impl Iterator<Item = ([usize; 3], &Verdict)> {
+        self.plan.cells().zip(&self.verdicts)
+    }
+
+    /// How many cells there are, and how many came to their end.
+    pub fn counts(&self) -> (usize, usize) {
+        let finished = self.verdicts.iter().filter(|verdict| verdict.outcome.is_finished());
+        (self.verdicts.len(), finished.count())
+    }
+
+    /// The name of the study.
+    pub fn name(&self) -> &str {
+        &self.plan.name
+    }
+
+    /// A map for each cell: its values, and what became of it.
+    pub fn cells(&self) -> Vec<Map> {
+        let cell = |(at, verdict): ([usize; 3], &Verdict)| {
+            let mut cell = self.plan.values(at);
+            let whole = |count: usize| Dynamic::from(count as INT);
+            let entries: [(&str, Dynamic); 7] = [
+                ("finished", verdict.outcome.is_finished().into()),
+                ("outcome", verdict.outcome.describe().into()),
+                ("energy_growth", verdict.energy_growth.into()),
+                ("iterations", verdict.mean_iterations.into()),
+                ("most_iterations", whole(verdict.most_iterations)),
+                ("retries", whole(verdict.retries)),
+                ("steps", whole(verdict.steps)),
+            ];
+            cell.extend(entries.map(|(name, value)| (name.into(), value)));
+            cell
+        };
+        self.judged().map(cell).collect()
+    }
+
+    /// A map for each value of the plan's; `words` writes what is in a finished cell.
+    fn heat_maps(&self, words: fn(&Self, &Verdict) -> String) -> Vec<HeatMap> {
+        let Plan { name, maps, rows, columns } = &self.plan;
+        let per_map = rows.values.len() * columns.values.len();
+        let (shows, powers) = self.shown.scale();
+        let one = |(map, verdicts): (usize, &[Verdict])| {
+            let title = match maps.labels[map].as_str() {
+                "" => name.clone(),
+                label => label.to_owned(),
+            };
+            let empty = HeatMap::new(title, shows, powers)
+                .columns(&columns.name, columns.labels.clone())
+                .rows(&rows.name)
+                .hatched("did not finish");
+            let rows = rows.labels.iter().zip(verdicts.chunks(columns.values.len()));
+            rows.fold(empty, |map, (label, row)| {
+                map.row(label, row.iter().map(|verdict| self.heat_cell(verdict, words)).collect())
+            })
+        };
+        self.verdicts.chunks(per_map).enumerate().map(one).collect()
+    }
+
+    fn heat_cell(&self, verdict: &Verdict, words: fn(&Self, &Verdict) -> String) -> HeatCell {
+        let early = |what: &str, time: f64| HeatCell {
+            value: None,
+            text: format!("{what}\nt = {}", significant(time, 3)),
+        };
+        match &verdict.outcome {
+            Outcome::Failed { time, .. } => early("failed", *time),
+            Outcome::GaveUp { time, .. } => early("gave up", *time),
+            Outcome::Panicked { .. } => HeatCell { value: None, text: "panicked".into() },
+            Outcome::Finished => {
+                let value = Some(self.shown.of(verdict));
+                HeatCell { value, text: words(self, verdict) }
+            }
+        }
+    }
+
+    /// The number that colours a finished cell.
+    fn coloured(&self, verdict: &Verdict) -> String {
+        let value = self.shown.of(verdict);
+        match self.shown {
+            Shown::EnergyGrowth => scientific(value, 1),
+            Shown::Iterations | Shown::Retries => significant(value, 3),
+        }
+    }
+
+    /// What is in a finished cell of a picture.
+    fn in_lines(&self, verdict: &Verdict) -> String {
+        let halved = match verdict.retries {
+            0 => String::new(),
+            retries => format!("\n{retries} halved"),
+        };
+        let iterations = significant(verdict.mean_iterations, 2);
+        format!("{}\n{iterations} it.{halved}", self.coloured(verdict))
+    }
+
+    /// The same in a few characters, for a table.
+    fn in_short(&self, verdict: &Verdict) -> String {
+        let halved = match verdict.retries {
+            0 => String::new(),
+            retries => format!(" {retries}h"),
+        };
+        format!("{} {}{halved}", self.coloured(verdict), significant(verdict.mean_iterations, 2))
+    }
+
+    /// All maps on one page.
+    pub fn page(&self) -> Page {
+        let maps = self.heat_maps(Self::in_lines);
+        let page = Page::grid(ABREAST.min(maps.len()));
+        maps.into_iter().fold(page.title(&self.plan.name), Page::panel)
+    }
+
+    /// The maps as text, and why cells did not come to their end.
+    pub fn text(&self) -> String {
+        let style =
+            Style { glyphs: Glyphs::Braille, colours: Colours::None, width: WIDTH, height: 1 };
+        let maps =
+            self.heat_maps(Self::in_short).iter().map(|map| map.text(&style)).collect::<Vec<_>>();
+        let mut early: Vec<_> =
+            self.judged().filter(|(_, verdict)| !verdict.outcome.is_finished()).collect();
+        let (all, missing) = (self.verdicts.len(), early.len());
+        let mut text = maps.join("\n\n");
+        let (shows, _) = self.shown.scale();
+        text.push_str(&format!("\nin a cell: {shows}, Newton iterations a step, halved steps (h)"));
+        if missing > 0 {
+            text.push_str(&format!("\n\n{missing} of {all} cells did not come to their end"));
+            early.truncate(MOST_REASONS);
+            let mut table = Table::new(&["cell", "what happened"]);
+            for (at, verdict) in early {
+                let labels = self.plan.labels(at);
+                let labels = labels.iter().map(|(name, label)| format!("{name} {label}"));
+                let cell = labels.collect::<Vec<_>>().join(", ");
+                table.row([cell, verdict.outcome.describe()]);
+            }
+            text.push_str(&format!("\n{}", table.to_string().trim_end()));
+            if missing > MOST_REASONS {
+                text.push_str("\nthe others are in the table");
+            }
+        }
+        text
+    }
+
+    /// All cells as a table for other programs.
+    pub fn records(&self) -> CsvRecords {
+        let numbers = ["energy growth", "mean iterations", "most iterations", "retries", "steps"];
+        let first = self.plan.labels([0; 3]);
+        let own = first.iter().map(|(name, _)| (*name).to_owned());
+        let names = own.chain(["outcome".to_owned()]).chain(numbers.map(str::to_owned));
+        let row = |(at, verdict): ([usize; 3], &Verdict)| {
+            let labels = self.plan.labels(at);
+            let own = labels.iter().map(|(_, label)| (*label).to_owned());
+            let found = [
+                verdict.outcome.describe(),
+                format_number(verdict.energy_growth),
+                format_number(verdict.mean_iterations),
+                verdict.most_iterations.to_string(),
+                verdict.retries.to_string(),
+                verdict.steps.to_string(),
+            ];
+            own.chain(found).collect()
+        };
+        CsvRecords {
+            comments: vec![format!("stability study: {}", self.plan.name)],
+            names: names.collect(),
+            rows: self.judged().map(row).collect(),
+        }
+    }
+}
