@@ -23,6 +23,8 @@ pub fn boundary(engine: &Engine, text: &str, first: usize) -> Option<usize> {
         let at = program.offset(position.line()?, position.position()?);
         matches!(token, Token::SemiColon | Token::RightBrace).then_some(at + 1)
     });
+    // The engine's places are those of an engine: what is no place in the text is none to cut it.
+    let ends = ends.filter(|end| text.is_char_boundary(*end));
     let cuts: Vec<usize> = std::iter::once(0).chain(ends).collect();
     cuts.into_iter().rev().find(is_right)
 }
@@ -67,6 +69,10 @@ mod tests {
         assert_eq!(cut("if a { 1 } else { 2 } b", 1), Some(("if a { 1 } else { 2 }", " b")));
         assert_eq!(cut("let i = { 1 } - 2; i", 1), Some(("let i = { 1 } - 2;", " i")));
         assert_eq!(cut("{ let a = [1]; a?[0]; 3 }", 0), Some(("", "{ let a = [1]; a?[0]; 3 }")));
+        assert_eq!(
+            cut("// why;\nf(#{ a: 1 });\ng();", 1),
+            Some(("// why;\nf(#{ a: 1 });", "\ng();"))
+        );
         assert_eq!(cut("1 +", 0), None);
     }
 
