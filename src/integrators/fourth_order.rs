@@ -60,9 +60,7 @@ impl Integrator for FourthOrder {
         let mut behind = 0.0;
         for end in ENDS {
             match self.take_part(mechanism, interval.part(behind, end)) {
-                Ok(NewtonReport { iterations, imbalance }) => {
-                    whole = NewtonReport { iterations: whole.iterations + iterations, imbalance };
-                }
+                Ok(report) => whole = whole.then(report),
                 Err(error) => {
                     mechanism.return_to_checkpoint(&self.start);
                     return Err(error.of_whole(interval, whole.iterations));

@@ -56,10 +56,23 @@ impl Tolerance {
 /// What a Newton solve took.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct NewtonReport {
-    /// Iterations, each with one factorisation; corrections with factors at hand are not counted.
+    /// Iterations, each with one factorisation.
     pub iterations: usize,
+    /// Corrections with factors at hand, about a third of the work of an iteration each.
+    pub corrections: usize,
     /// What was left.
     pub imbalance: Imbalance,
+}
+
+impl NewtonReport {
+    /// Of two solves, one after the other.
+    pub fn then(self, next: Self) -> Self {
+        Self {
+            iterations: self.iterations + next.iterations,
+            corrections: self.corrections + next.corrections,
+            imbalance: next.imbalance,
+        }
+    }
 }
 
 /// The solver with its work space; solving allocates nothing unless it fails.
@@ -100,6 +113,7 @@ impl Newton {
         residual: &mut [f64],
     ) -> Result<NewtonReport, NewtonError> {
         self.history.clear();
+        let mut corrections = 0;
         while self.history.len() < self.tolerance.iterations {
             self.tangent.clear();
             residual.fill(0.0);
@@ -124,9 +138,11 @@ impl Newton {
                 equations.condense(residual);
                 imbalance = correct(equations, &factors, &mut self.correction, u, residual);
                 factor = imbalance.largest() / before;
+                corrections += 1;
             }
             if self.tolerance.accepts(&imbalance) {
-                return Ok(NewtonReport { iterations: self.history.len(), imbalance });
+                let iterations = self.history.len();
+                return Ok(NewtonReport { iterations, corrections, imbalance });
             }
         }
         Err(NewtonError::NotConverged { history: self.history.clone() })

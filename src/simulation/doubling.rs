@@ -53,12 +53,12 @@ impl Doubling {
         let middle = start + 0.5 * interval.duration();
         model.write_state(&mut self.start);
         let whole = [interval];
-        let mut report = take(integrator, model, &whole, 0)?;
+        let mut report = take(integrator, model, &whole, NewtonReport::default())?;
         model.write_placement(&mut self.whole);
         model.restore(&self.start);
         let halves = [Interval::between(start, middle), Interval::between(middle, end)];
-        report = take(integrator, model, &halves, report.iterations)
-            .inspect_err(|_| model.restore(&self.start))?;
+        report =
+            take(integrator, model, &halves, report).inspect_err(|_| model.restore(&self.start))?;
         model.write_placement(&mut self.halves);
         let distance = self.whole.distance(&self.halves);
         let apart = larger(distance.length / self.length, distance.angle);
@@ -72,19 +72,16 @@ impl Doubling {
     }
 }
 
-/// Takes steps one after another, so many iterations having been done before.
+/// Takes steps one after another, others having been solved before.
 fn take(
     integrator: &mut dyn Integrator,
     model: &mut Model,
     steps: &[Interval],
-    mut iterations: usize,
+    before: NewtonReport,
 ) -> Result<NewtonReport, Failed> {
-    let mut last = NewtonReport::default();
-    for step in steps {
-        last = integrator
-            .step(model, *step)
-            .map_err(|source| Failed { source, before: iterations })?;
-        iterations += last.iterations;
-    }
-    Ok(NewtonReport { iterations, ..last })
+    steps.iter().try_fold(before, |before, step| {
+        let report = integrator.step(model, *step);
+        let report = report.map_err(|source| Failed { source, before: before.iterations })?;
+        Ok(before.then(report))
+    })
 }

@@ -40,8 +40,10 @@ pub struct Settings {
 pub struct WorkCounts {
     /// Steps that succeeded.
     pub steps: usize,
-    /// Newton iterations of these steps.
+    /// Newton iterations of these steps, each with new factors.
     pub newton_iterations: usize,
+    /// Corrections of these steps with factors at hand.
+    pub corrections: usize,
     /// The most Newton iterations of one step.
     pub newton_max: usize,
     /// Factorised matrices, failed tries included.

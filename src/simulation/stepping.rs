@@ -209,6 +209,7 @@ impl Simulation {
     pub(super) fn count_step(&mut self, interval: Interval, report: NewtonReport, retries: usize) {
         self.counts.steps += 1;
         self.counts.newton_iterations += report.iterations;
+        self.counts.corrections += report.corrections;
         self.counts.newton_max = self.counts.newton_max.max(report.iterations);
         self.counts.factorisations += report.iterations;
         let (dt, newton_iterations) = (interval.duration(), report.iterations);

@@ -40,6 +40,7 @@ impl Reporter for SimulationHandle {
             "name": self.name(),
             "steps": counts.steps,
             "newton_iterations": counts.newton_iterations,
+            "corrections": counts.corrections,
             "newton_max": counts.newton_max,
             "factorisations": counts.factorisations,
             "retries": counts.retries,

@@ -125,7 +125,9 @@ pub const TABLE: Table = Table {
             .example("sim.run_to(1);\ncheck_close(sim.angle(rod.end), 1, 0.01);"),
         count("steps", |call| counted(call, |simulation| simulation.counts().steps)).summary("Steps taken."),
         count("newton_iterations", |call| counted(call, |simulation| simulation.counts().newton_iterations))
-            .summary("Newton iterations of all steps."),
+            .summary("Newton iterations of all steps, each with a factorisation."),
+        count("corrections", |call| counted(call, |simulation| simulation.counts().corrections))
+            .summary("Corrections of all steps with factors at hand: back substitutions beside those of the Newton iterations."),
         count("retries", |call| counted(call, |simulation| simulation.counts().retries)).summary("Steps that failed and were halved."),
         count("rejected", |call| counted(call, |simulation| simulation.counts().rejected))
             .summary("Adaptive steps that erred by more than the tolerance allows, and were taken again.")

@@ -104,6 +104,7 @@ impl Content<'_> {
         let numbers = [
             counts.steps,
             counts.newton_iterations,
+            counts.corrections,
             counts.newton_max,
             counts.factorisations,
             counts.retries,
