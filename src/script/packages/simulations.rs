@@ -175,14 +175,20 @@ const START: &[Parameter] = &[
 struct Invariants {
     measures: Measures,
     drifts: [f64; 4],
+    /// What the drifts are, over their column.
+    changes: &'static str,
 }
 
 impl Invariants {
     fn of(handle: &SimulationHandle) -> Self {
         let simulation = handle.simulation();
         let drifts = Invariant::ALL.map(|(_, invariant)| simulation.history().drift(invariant));
+        let changes = match simulation.has_all_rows() {
+            true => "largest change",
+            false => "largest change between recorded rows",
+        };
         drop(simulation);
-        Self { measures: measures(handle), drifts }
+        Self { measures: measures(handle), drifts, changes }
     }
 }
 
@@ -191,7 +197,7 @@ impl Scripted for Invariants {
     const DOC: &'static str = "How well energy, momenta and gap were kept.";
 
     fn show(&self) -> String {
-        let mut table = TextTable::new(&["invariant", "value", "largest change"]);
+        let mut table = TextTable::new(&["invariant", "value", self.changes]);
         for ((_, invariant), drift) in Invariant::ALL.iter().zip(self.drifts) {
             let value = invariant.value(&self.measures);
             let shown = if *invariant == Invariant::Momentum { value.norm() } else { value.x };
