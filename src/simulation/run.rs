@@ -124,8 +124,8 @@ impl Simulation {
             StepSize::Fixed(dt) => (TimeGrid::new(0.0, dt, cuts), None),
             StepSize::Adaptive(control) => {
                 let adaptive = Adaptive::new(&control, settings.method, &scene, &model);
-                let smallest = adaptive.controller.smallest;
-                (TimeGrid::of_cuts(0.0, smallest, cuts), Some(Box::new(adaptive)))
+                let first = adaptive.controller.first;
+                (TimeGrid::of_cuts(0.0, first, cuts), Some(Box::new(adaptive)))
             }
         };
         Ok(Self {
@@ -197,12 +197,12 @@ impl Simulation {
 
     /// Whether a time has come, but for rounding.
     pub fn has_reached(&self, time: f64) -> bool {
-        self.time() >= time - self.grid.slack()
+        self.grid.has_reached(self.time(), time)
     }
 
     /// By how much a time may be missed and still be reached [time].
     pub fn slack(&self) -> f64 {
-        self.grid.slack()
+        self.grid.slack(self.time())
     }
 
     /// Makes a step end at a time to come.
@@ -249,7 +249,7 @@ impl Simulation {
         if !end.is_finite() {
             return Err(SimulationError::End { now, end, advice: "give a finite time" });
         }
-        if end < now - self.grid.slack() {
+        if end < now - self.slack() {
             return Err(SimulationError::End {
                 now,
                 end,
