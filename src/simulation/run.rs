@@ -38,13 +38,14 @@ pub struct Settings {
 /// The work of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct WorkCounts {
-    /// Steps that succeeded.
+    /// Steps that succeeded; two halves that are compared with a whole one count as one.
     pub steps: usize,
-    /// Newton iterations of these steps, each with new factors.
+    /// Newton iterations of these steps, each with new factors; for steps of varying size those of all three solves that a pair
+    /// of half steps takes.
     pub newton_iterations: usize,
     /// Corrections of these steps with factors at hand.
     pub corrections: usize,
-    /// The most Newton iterations of one step.
+    /// The most Newton iterations of one step: of one solve where steps are fixed, of its three solves together where they vary.
     pub newton_max: usize,
     /// Factorised matrices, failed tries included.
     pub factorisations: usize,
