@@ -296,3 +296,61 @@ fn steps_that_cannot_be_solved_are_halved_down_to_the_smallest() {
     assert!(at_jump, "{error}");
     assert!(flight.time() == 0.5 && flight.counts().retries + flight.counts().rejected > 10);
 }
+
+/// What a beam does that starts at rest and is pushed from a time on, by stops whose rounding differs from that of the schedule.
+fn run_over_stops_that_round(first: Option<f64>, start: f64) -> Simulation {
+    let schedule = match start {
+        0.0 => Schedule::hold_for(0.3),
+        from => Schedule::pulse(from, from + 0.3),
+    };
+    let section = scenes::spaghetti_section(1e4, 100.0);
+    let scene = scenes::thrown(&smooth(4), section, schedule.unwrap(), Vec2::zeros());
+    let control = StepControl { first, ..StepControl::to(1e-2) };
+    let settings = settings(Method::EnergyMomentum, control);
+    let mut flight = Simulation::start(scene, settings).unwrap();
+    flight.keep_snapshots(1 << 28);
+    for i in 1..=10 {
+        run(&mut flight, start + i as f64 * 0.1).unwrap();
+    }
+    flight
+}
+
+#[test]
+fn stops_that_differ_by_rounding_are_one() {
+    assert!(3.0 * 0.1 > 0.3 && 1e3 + 3.0 * 0.1 != 1e3 + 0.1 + 0.1 + 0.1);
+    for first in [None, Some(1e-7)] {
+        for start in [0.0, 1e3] {
+            let mut flight = run_over_stops_that_round(first, start);
+            assert_eq!(flight.counts().retries, 0, "{first:?} from {start}");
+            let shortest = 0.2 * first.unwrap_or(1e-3);
+            let sizes = flight.history().column("dt").unwrap();
+            assert!(sizes[1..].iter().all(|dt| *dt > shortest), "{first:?} from {start}");
+            flight.rewind(start + 0.3).unwrap();
+            assert!((flight.time() - start - 0.3).abs() < 1e-9);
+            for end in [0.3, 3.0 * 0.1, 0.1 + 0.1 + 0.1, 0.7] {
+                run(&mut flight, start + end).unwrap();
+            }
+            assert!((flight.time() - start - 0.7).abs() < 1e-9);
+            assert_eq!(flight.counts().retries, 0, "{first:?} from {start}");
+        }
+    }
+}
+
+#[test]
+fn at_rest_steps_grow_no_further_than_the_largest() {
+    let section = scenes::spaghetti_section(1e4, 100.0);
+    let scene = scenes::free_beam(&smooth(2), section);
+    for largest in [None, Some(10.0), Some(f64::MAX)] {
+        let control = StepControl { first: Some(0.1), largest, ..StepControl::to(1e-3) };
+        let settings = settings(Method::EnergyMomentum, control);
+        let mut rest = Simulation::start(scene.clone(), settings).unwrap();
+        let ran = (0..2000).try_for_each(|_| rest.step(&mut Unwatched));
+        println!("{largest:?}: t = {:e}, {ran:?}", rest.time());
+        let longest = largest.unwrap_or(1e5);
+        assert!(rest.time().is_finite() && rest.dt() <= longest);
+        if longest < f64::MAX {
+            ran.unwrap();
+            assert!(rest.dt() > 0.99 * longest && rest.time() > 1900.0 * longest);
+        }
+    }
+}

@@ -273,6 +273,78 @@ mod tests {
         assert_eq!(matrix.factorise().unwrap_err(), LinearError::Singular { unknown: 1, size: 3 });
     }
 
+    /// Of small whole numbers, with a heavy diagonal.
+    fn whole_numbers(size: usize, half_bandwidth: usize) -> BandedMatrix {
+        let mut matrix = BandedMatrix::zeros(size, half_bandwidth);
+        for i in 0..size {
+            for j in i.saturating_sub(half_bandwidth)..(i + half_bandwidth + 1).min(size) {
+                let entry = ((5 * i * i + 3 * j + i * j) % 7) as f64 - 3.0;
+                matrix.add(i, j, if i == j { 11.0 } else { entry });
+            }
+        }
+        matrix
+    }
+
+    #[test]
+    fn a_zero_row_or_column_beyond_the_first_panel_is_singular() {
+        for zero in 3..12 {
+            let (mut row, mut column) = (whole_numbers(12, 5), whole_numbers(12, 5));
+            for i in zero.saturating_sub(5)..(zero + 6).min(12) {
+                row.add(zero, i, -row.get(zero, i));
+                column.add(i, zero, -column.get(i, zero));
+            }
+            let singular = |unknown| LinearError::Singular { unknown, size: 12 };
+            assert_eq!(column.factorise().unwrap_err(), singular(zero));
+            // Rows are exchanged until only the zero one is left.
+            assert_eq!(row.factorise().unwrap_err(), singular(11));
+        }
+    }
+
+    #[test]
+    fn an_entry_that_is_no_number_is_never_lost() {
+        for row in 0..12_usize {
+            for column in row.saturating_sub(5)..(row + 6).min(12) {
+                let mut matrix = whole_numbers(12, 5);
+                matrix.add(row, column, f64::NAN);
+                let mut x = [1.0; 12];
+                match matrix.factorise() {
+                    Ok(factors) => factors.solve(&mut x),
+                    Err(error) => {
+                        assert!(matches!(error, LinearError::NotFinite { .. }), "{error}");
+                        continue;
+                    }
+                }
+                assert!(x.iter().any(|x| !x.is_finite()), "({row}, {column})");
+            }
+        }
+    }
+
+    #[test]
+    fn graded_rows_are_solved_as_well_as_by_a_dense_matrix_with_pivoting() {
+        let size = 24;
+        // Powers of two, up to 1e12, keep the right-hand side of a solution of ones exact.
+        let gradings: [fn(i32) -> i32; 4] =
+            [|_| 0, |i| 40 * i / 23, |i| 40 - 40 * i / 23, |i| 7 * i % 41];
+        for (number, grading) in gradings.into_iter().enumerate() {
+            let base = whole_numbers(size, 5);
+            let mut matrix = BandedMatrix::zeros(size, 5);
+            for i in 0..size {
+                for j in i.saturating_sub(5)..(i + 6).min(size) {
+                    matrix.add(i, j, base.get(i, j) * 2_f64.powi(grading(i as i32)));
+                }
+            }
+            let reference = dense(&matrix);
+            let right = &reference * DVector::repeat(size, 1.0);
+            let error = |x: &[f64]| x.iter().fold(0.0, |most: f64, x| most.max((x - 1.0).abs()));
+            let mut x = right.as_slice().to_vec();
+            matrix.factorise().unwrap().solve(&mut x);
+            let pivoted = reference.lu().solve(&right).unwrap();
+            let (banded, pivoted) = (error(&x), error(pivoted.as_slice()));
+            println!("grading {number}: error {banded:.1e}, dense {pivoted:.1e}");
+            assert!(banded <= 10.0 * pivoted + 1e-14, "{number}: {banded:e} {pivoted:e}");
+        }
+    }
+
     #[test]
     fn an_infinite_entry_is_refused() {
         let mut matrix = BandedMatrix::zeros(2, 1);

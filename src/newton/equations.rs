@@ -19,9 +19,11 @@ impl Imbalance {
         [self.force, self.strain, self.constraint].iter().all(|part| part.is_finite())
     }
 
-    /// The largest part.
+    /// The largest part; no number, if one of them is none.
     pub fn largest(&self) -> f64 {
-        self.force.max(self.strain).max(self.constraint)
+        [self.strain, self.constraint].into_iter().fold(self.force, |largest, part| {
+            if part > largest || part.is_nan() { part } else { largest }
+        })
     }
 }
 

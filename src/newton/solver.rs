@@ -81,6 +81,7 @@ pub struct Newton {
     tolerance: Tolerance,
     tangent: BorderedMatrix,
     correction: Vec<f64>,
+    /// After each iteration and the corrections that followed it.
     history: Vec<Imbalance>,
 }
 
@@ -125,10 +126,6 @@ impl Newton {
                 }
             };
             let mut imbalance = correct(equations, &factors, &mut self.correction, u, residual);
-            self.history.push(imbalance);
-            if !imbalance.is_finite() {
-                return Err(NewtonError::NotFinite { history: self.history.clone() });
-            }
             let mut factor = 0.0;
             for left in (0..MOST_CORRECTIONS).rev() {
                 if !self.tolerance.is_worth_correcting(&imbalance, factor, left + 1) {
@@ -139,6 +136,11 @@ impl Newton {
                 imbalance = correct(equations, &factors, &mut self.correction, u, residual);
                 factor = imbalance.largest() / before;
                 corrections += 1;
+            }
+            // What is not finite is not worth correcting, so that no correction hides it.
+            self.history.push(imbalance);
+            if !imbalance.is_finite() {
+                return Err(NewtonError::NotFinite { history: self.history.clone() });
             }
             if self.tolerance.accepts(&imbalance) {
                 let iterations = self.history.len();
@@ -205,6 +207,44 @@ mod tests {
         let (report, u) = solve([1.5, 1.0]);
         assert!(report.unwrap().iterations <= 5);
         assert!((u[0] - 2.0_f64.sqrt()).abs() < 1e-15 && (u[1] - 0.5_f64.sqrt()).abs() < 1e-15);
+    }
+
+    /// `x = 0`, with imbalances that come from a list.
+    struct SpoiltByCorrections {
+        imbalances: std::vec::IntoIter<Imbalance>,
+    }
+
+    impl Equations for SpoiltByCorrections {
+        fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix) {
+            residual[0] = u[0];
+            tangent.band_mut().add(0, 0, 1.0);
+        }
+        fn condense(&mut self, _residual: &mut [f64]) {}
+        fn correct(&mut self, _correction: &[f64]) {}
+        fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> Imbalance {
+            residual[0] = u[0];
+            self.imbalances.next().unwrap()
+        }
+    }
+
+    #[test]
+    fn a_correction_that_leaves_the_finite_numbers_is_an_error_that_shows_it() {
+        let near = Imbalance { force: 1e-12, ..Imbalance::default() };
+        let spoilt = [
+            Imbalance { force: f64::NAN, ..near },
+            Imbalance { strain: f64::NAN, ..near },
+            Imbalance { constraint: f64::NAN, ..near },
+            Imbalance { strain: f64::INFINITY, ..near },
+        ];
+        for spoilt in spoilt {
+            assert!(!spoilt.largest().is_finite());
+            let mut equations = SpoiltByCorrections { imbalances: vec![near, spoilt].into_iter() };
+            let mut newton = Newton::new(1, 0, BorderShape::default(), Tolerance::default());
+            let error = newton.solve(&mut equations, &mut [1.0], &mut [0.0]).unwrap_err();
+            assert!(matches!(error, NewtonError::NotFinite { .. }), "{error}");
+            let [last] = error.history() else { panic!("{error}") };
+            assert!(!last.is_finite() && equations.imbalances.len() == 0);
+        }
     }
 
     #[test]

@@ -12,6 +12,9 @@ use crate::model::{Model, Scene};
 /// The smallest step where none is given, as a part of the first one.
 const SMALLEST: f64 = 1e-6;
 
+/// The largest one where none is given, as a multiple of the first: a scene at rest sets no other bound.
+const LARGEST: f64 = 1e6;
+
 /// No step is shorter than so many times what rounds a time.
 const ROUNDINGS: f64 = 64.0;
 
@@ -35,9 +38,10 @@ impl Adaptive {
     /// For a scene at its start.
     pub(super) fn new(control: &StepControl, method: Method, scene: &Scene, model: &Model) -> Self {
         let order = method.entry().claims.order;
-        let largest = control.largest.unwrap_or(f64::INFINITY);
         let least = control.smallest.unwrap_or(0.0);
-        let first = control.first.unwrap_or_else(|| first_step(scene, model).clamp(least, largest));
+        let most = control.largest.unwrap_or(f64::INFINITY);
+        let first = control.first.unwrap_or_else(|| first_step(scene, model).clamp(least, most));
+        let largest = control.largest.unwrap_or(LARGEST * first);
         let smallest = control.smallest.unwrap_or(SMALLEST * first);
         let controller = Controller { order: f64::from(order + 1), first, smallest, largest };
         let allowed = control.tolerance.powf(1.0 + 1.0 / f64::from(order));

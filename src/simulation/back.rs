@@ -41,7 +41,7 @@ impl Simulation {
     /// # Errors
     /// When the time is before the start or to come, or the state there is not kept.
     pub fn rewind(&mut self, time: f64) -> Result<(), SimulationError> {
-        let (now, slack) = (self.time(), self.grid.slack());
+        let (now, slack) = (self.time(), self.slack());
         if time.is_nan() || time < -slack || time > now + slack {
             return Err(SimulationError::NotBehind { time, now });
         }
@@ -75,7 +75,7 @@ impl Simulation {
 
     /// For checking scripts: goes back as [`rewind`](Self::rewind) does, or as near as a pretended run allows.
     pub fn pretend_rewind(&mut self, time: f64) {
-        self.pretend_back_to(self.steps_until(time + self.grid.slack()).unwrap_or(0));
+        self.pretend_back_to(self.steps_until(time + self.slack()).unwrap_or(0));
     }
 
     fn pretend_back_to(&mut self, steps: usize) {

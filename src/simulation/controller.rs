@@ -49,7 +49,7 @@ pub(super) struct Pace {
 
 /// A step that was tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Trial {
+pub(super) struct TriedStep {
     /// [time]
     pub(super) duration: f64,
     /// Its error over that allowed.
@@ -77,7 +77,7 @@ impl Controller {
     }
 
     /// A step was accepted that was as long as was wished.
-    pub(super) fn accept(&self, pace: &mut Pace, trial: Trial) {
+    pub(super) fn accept(&self, pace: &mut Pace, trial: TriedStep) {
         let error = trial.error.max(LEAST_ERROR);
         let growth = match pace.error {
             None => self.room(error),
@@ -90,14 +90,14 @@ impl Controller {
     }
 
     /// A step was accepted that was cut short: it may let the next ones grow, and cannot shrink them.
-    pub(super) fn accept_cut(&self, pace: &mut Pace, trial: Trial) {
+    pub(super) fn accept_cut(&self, pace: &mut Pace, trial: TriedStep) {
         let mut alone = Pace { error: None, ..*pace };
         self.accept(&mut alone, trial);
         *pace = Pace { wish: alone.wish.max(pace.wish), error: pace.error, tries: 0 };
     }
 
     /// A step erred by too much.
-    pub(super) fn reject(&self, pace: &mut Pace, trial: Trial) {
+    pub(super) fn reject(&self, pace: &mut Pace, trial: TriedStep) {
         let most = if pace.tries > 0 { AGAIN } else { SAFETY };
         // An error that is not a number is a large one.
         let error = if trial.error.is_nan() { f64::INFINITY } else { trial.error };
@@ -116,7 +116,8 @@ impl Controller {
 
     fn shorten(&self, pace: &mut Pace, duration: f64, part: f64) {
         pace.tries += 1;
-        pace.wish = self.bounded(duration * part);
+        // The end of a step may lie beyond all numbers, and its duration with it.
+        pace.wish = self.bounded(duration.min(pace.wish) * part);
     }
 
     fn bounded(&self, wish: f64) -> f64 {
@@ -137,7 +138,7 @@ mod tests {
         let (mut sizes, mut rejected) = (Vec::new(), 0);
         while sizes.len() < 30 {
             let duration = pace.wish;
-            let trial = Trial { duration, error: (duration / right(sizes.len())).powi(3) };
+            let trial = TriedStep { duration, error: (duration / right(sizes.len())).powi(3) };
             if trial.error <= 1.0 {
                 CONTROLLER.accept(&mut pace, trial);
                 sizes.push(duration);
@@ -169,9 +170,9 @@ mod tests {
     fn a_cut_step_changes_nothing_unless_the_wish_was_too_small() {
         let mut pace = Pace { wish: 1.0, error: Some(0.5), tries: 0 };
         let before = pace;
-        CONTROLLER.accept_cut(&mut pace, Trial { duration: 1e-2, error: 1e-9 });
+        CONTROLLER.accept_cut(&mut pace, TriedStep { duration: 1e-2, error: 1e-9 });
         assert_eq!(pace, before);
-        CONTROLLER.accept_cut(&mut pace, Trial { duration: 0.9, error: 1e-3 });
+        CONTROLLER.accept_cut(&mut pace, TriedStep { duration: 0.9, error: 1e-3 });
         assert!(pace.wish > 4.0 && pace.error == before.error);
     }
 
@@ -180,10 +181,19 @@ mod tests {
         let mut pace = CONTROLLER.start();
         CONTROLLER.fail(&mut pace, 0.1);
         assert_eq!((pace.wish, pace.tries), (0.05, 1));
-        CONTROLLER.accept(&mut pace, Trial { duration: 0.05, error: 1e-6 });
+        CONTROLLER.accept(&mut pace, TriedStep { duration: 0.05, error: 1e-6 });
         assert_eq!((pace.wish, pace.tries), (0.05, 0), "it does not grow at once");
-        CONTROLLER.reject(&mut pace, Trial { duration: 2e-3, error: f64::NAN });
+        CONTROLLER.reject(&mut pace, TriedStep { duration: 2e-3, error: f64::NAN });
         assert_eq!(pace.wish, 1e-3);
+    }
+
+    #[test]
+    fn a_step_beyond_all_numbers_is_shortened_too() {
+        let mut pace = Pace { wish: 4.0, error: None, tries: 0 };
+        CONTROLLER.fail(&mut pace, f64::INFINITY);
+        assert_eq!(pace.wish, 2.0);
+        CONTROLLER.reject(&mut pace, TriedStep { duration: f64::INFINITY, error: f64::NAN });
+        assert_eq!(pace.wish, 0.4);
     }
 
     #[test]

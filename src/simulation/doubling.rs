@@ -1,6 +1,6 @@
 //! The error of two steps of a method, seen by the side of a single one over the same time.
 
-use super::controller::Trial;
+use super::controller::TriedStep;
 use crate::geometry::larger;
 use crate::integrators::{Integrator, Interval, StepError};
 use crate::model::{Model, ModelState, Placement};
@@ -25,7 +25,7 @@ pub(super) struct Doubling {
 pub(super) struct Doubled {
     /// Of all three solves.
     pub(super) report: NewtonReport,
-    pub(super) trial: Trial,
+    pub(super) trial: TriedStep,
 }
 
 /// A step that failed, the mechanism being where it was, and what was solved before that.
@@ -62,7 +62,7 @@ impl Doubling {
         model.write_placement(&mut self.halves);
         let distance = self.whole.distance(&self.halves);
         let apart = larger(distance.length / self.length, distance.angle);
-        let trial = Trial { duration: interval.duration(), error: apart / self.allowed };
+        let trial = TriedStep { duration: interval.duration(), error: apart / self.allowed };
         Ok(Doubled { report, trial })
     }
 

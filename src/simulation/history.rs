@@ -13,7 +13,7 @@ pub struct Sample {
     pub measures: Measures,
     /// The length of the step; zero in the first row [time].
     pub dt: f64,
-    /// Newton iterations of the step.
+    /// Newton iterations of the step; where steps vary in size those of its three solves together.
     pub newton_iterations: usize,
     /// Failed tries before the step.
     pub retries: usize,

@@ -38,13 +38,14 @@ pub struct Settings {
 /// The work of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct WorkCounts {
-    /// Steps that succeeded.
+    /// Steps that succeeded; two halves that are compared with a whole one count as one.
     pub steps: usize,
-    /// Newton iterations of these steps, each with new factors.
+    /// Newton iterations of these steps, each with new factors; for steps of varying size those of all three solves that a pair
+    /// of half steps takes.
     pub newton_iterations: usize,
     /// Corrections of these steps with factors at hand.
     pub corrections: usize,
-    /// The most Newton iterations of one step.
+    /// The most Newton iterations of one step: of one solve where steps are fixed, of its three solves together where they vary.
     pub newton_max: usize,
     /// Factorised matrices, failed tries included.
     pub factorisations: usize,
@@ -124,8 +125,8 @@ impl Simulation {
             StepSize::Fixed(dt) => (TimeGrid::new(0.0, dt, cuts), None),
             StepSize::Adaptive(control) => {
                 let adaptive = Adaptive::new(&control, settings.method, &scene, &model);
-                let smallest = adaptive.controller.smallest;
-                (TimeGrid::of_cuts(0.0, smallest, cuts), Some(Box::new(adaptive)))
+                let first = adaptive.controller.first;
+                (TimeGrid::of_cuts(0.0, first, cuts), Some(Box::new(adaptive)))
             }
         };
         Ok(Self {
@@ -197,12 +198,12 @@ impl Simulation {
 
     /// Whether a time has come, but for rounding.
     pub fn has_reached(&self, time: f64) -> bool {
-        self.time() >= time - self.grid.slack()
+        self.grid.has_reached(self.time(), time)
     }
 
     /// By how much a time may be missed and still be reached [time].
     pub fn slack(&self) -> f64 {
-        self.grid.slack()
+        self.grid.slack(self.time())
     }
 
     /// Makes a step end at a time to come.
@@ -249,7 +250,7 @@ impl Simulation {
         if !end.is_finite() {
             return Err(SimulationError::End { now, end, advice: "give a finite time" });
         }
-        if end < now - self.grid.slack() {
+        if end < now - self.slack() {
             return Err(SimulationError::End {
                 now,
                 end,

@@ -25,7 +25,7 @@ pub struct StepControl {
     pub first: Option<f64>,
     /// No step that a tolerance asks for is shorter [time]; a millionth of the first where it is not given.
     pub smallest: Option<f64>,
-    /// No step is longer [time].
+    /// No step is longer [time]; a million times the first where it is not given.
     pub largest: Option<f64>,
 }
 

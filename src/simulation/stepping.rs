@@ -113,7 +113,7 @@ impl Simulation {
         let end = halving.end();
         for _ in 0..MOST_ARRIVALS {
             let covered = self.cover(halving, monitor)?;
-            let is_there = self.time() >= end - self.grid.slack();
+            let is_there = self.has_reached(end);
             if covered == Covered::All || is_there || self.has_ended() {
                 return Ok(());
             }

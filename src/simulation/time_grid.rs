@@ -1,7 +1,10 @@
 //! The times at which steps end.
 
-/// Grid points and cuts closer than this part of a step are one.
+/// Times closer than this part of a step are one,
 const SAME: f64 = 1e-9;
+
+/// and so are those that differ by so many roundings of a time.
+const ROUNDINGS: f64 = 4.0;
 
 /// `t_n = t_0 + n dt`, cut where schedules jump or bend. Times are never accumulated. For steps of varying size there are only cuts.
 #[derive(Debug, Clone, Default)]
@@ -9,7 +12,7 @@ pub struct TimeGrid {
     start: f64,
     /// Infinite where there are only cuts.
     dt: f64,
-    /// Times closer than this are one.
+    /// Times closer than this are one, unless their rounding is larger.
     slack: f64,
     /// In increasing order.
     cuts: Vec<f64>,
@@ -23,15 +26,15 @@ impl TimeGrid {
         Self { start, dt, slack: SAME * dt, cuts: Vec::new(), passed: 0 }.with_cuts(cuts)
     }
 
-    /// Cuts alone, for steps down to a smallest size.
-    pub fn of_cuts(start: f64, smallest: f64, cuts: Vec<f64>) -> Self {
-        Self { dt: f64::INFINITY, ..Self::new(start, smallest, cuts) }
+    /// Cuts alone, for steps that begin with a size and then vary.
+    pub fn of_cuts(start: f64, first: f64, cuts: Vec<f64>) -> Self {
+        Self { dt: f64::INFINITY, ..Self::new(start, first, cuts) }
     }
 
     fn with_cuts(self, mut cuts: Vec<f64>) -> Self {
         cuts.retain(|cut| cut.is_finite() && *cut > self.start);
         cuts.sort_by(f64::total_cmp);
-        cuts.dedup_by(|later, earlier| *later - *earlier <= self.slack);
+        cuts.dedup_by(|later, earlier| self.has_reached(*earlier, *later));
         Self { cuts, passed: 0, ..self }
     }
 
@@ -45,9 +48,14 @@ impl TimeGrid {
         self.dt
     }
 
-    /// By how much a time may be missed and still be reached [time].
-    pub fn slack(&self) -> f64 {
-        self.slack
+    /// By how much other times may differ from one and still be the same [time].
+    pub fn slack(&self, time: f64) -> f64 {
+        self.slack.max(ROUNDINGS * f64::EPSILON * time.abs())
+    }
+
+    /// Whether a time has come, or is the same as now.
+    pub fn has_reached(&self, now: f64, time: f64) -> bool {
+        now >= time - self.slack(now)
     }
 
     /// `t_0 + n dt`. A step that is one over a whole number is taken as such: n/10 is the number people write, n · 0.1 is
@@ -63,7 +71,7 @@ impl TimeGrid {
 
     /// Adds a cut, where there is none yet.
     pub fn cut_at(&mut self, time: f64) {
-        let same = self.slack;
+        let same = self.slack(time);
         if self.cuts.iter().all(|cut| (cut - time).abs() > same) {
             self.cuts.insert(self.cuts.partition_point(|cut| *cut < time), time);
         }
@@ -71,16 +79,15 @@ impl TimeGrid {
 
     /// The end of the step that begins at `now`: the next grid point or cut, but not beyond `limit`.
     pub fn next(&self, now: f64, limit: f64) -> f64 {
-        let same = self.slack;
         let mut passed = self.passed;
-        while self.point(passed + 1) <= now + same {
+        while self.has_reached(now, self.point(passed + 1)) {
             passed += 1;
         }
         let grid = self.point(passed + 1);
-        let cut = self.cuts[self.cuts.partition_point(|cut| *cut <= now + same)..].first();
+        let cut = self.cuts[self.cuts.partition_point(|cut| self.has_reached(now, *cut))..].first();
         // The cut comes last: where it and the limit are one, the schedule must see its own time.
         [Some(limit), cut.copied()].into_iter().flatten().fold(grid, |end, candidate| {
-            if candidate > now && candidate <= end + same { candidate } else { end }
+            if candidate > now && self.has_reached(end, candidate) { candidate } else { end }
         })
     }
 
@@ -104,8 +111,7 @@ impl TimeGrid {
 
     /// Remembers that a time has been reached, so that the next search begins there.
     pub fn reach(&mut self, now: f64) {
-        let same = self.slack;
-        while self.point(self.passed + 1) <= now + same {
+        while self.has_reached(now, self.point(self.passed + 1)) {
             self.passed += 1;
         }
     }
