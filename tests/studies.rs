@@ -84,6 +84,31 @@ fn a_wrong_reference_is_told_before_anything_runs() {
     }
 }
 
+#[test]
+fn wrong_rivals_are_told_before_anything_runs() {
+    let options = "meshes: [bspline(2)], dts: [1e-7], times: [1], rivals: \"rivals.csv\"";
+    let (folder, file) = script(options, "");
+    let rivals = "series,peer,integrator,run_time_s,t,xtip,ytip,energy_drift,machine\nA,A,euler,4,2,1,9,,an abacus\n";
+    fs::write(folder.path().join("rivals.csv"), rivals).unwrap();
+    let output = withy(&["study", "--max-time", "20"], &file).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(said(&output).contains("\"rivals.csv\""), "{}", said(&output));
+}
+
+#[test]
+fn what_ran_out_of_patience_is_tried_again() {
+    let options = "meshes: [bspline(2)], dts: [0.1, 1e-4], times: [1], repeats: 1, reference: finest_run(#{ dt: 0.05 })";
+    let (folder, file) = script(options, "print(study.table);");
+    let journal = folder.path().join("out").join("rod.journal");
+    let output = withy(&["study", "--max-steps", "300"], &file).output().unwrap();
+    assert_eq!(output.status.code(), Some(2), "{}", said(&output));
+    assert_eq!(Journal::open(&journal).unwrap().len(), 2, "the long one did not come to its end");
+    let output = withy(&["study"], &file).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    assert!(said(&output).contains("2 of 3 runs are known"), "{}", said(&output));
+    assert!(!printed(&output).contains("given up"), "{}", printed(&output));
+}
+
 /// Two short cases, and one that takes for ever; the reference is short, too.
 const ENDLESS: &str = "meshes: [bspline(2)], dts: [0.1, 0.05, 1e-8], times: [1], repeats: 1, reference: finest_run(#{ dt: 0.02 })";
 

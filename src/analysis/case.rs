@@ -1,5 +1,6 @@
 //! A run to be made: a scene, how it is simulated, and when it is looked at.
 
+use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -7,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Outcome;
 use crate::model::Scene;
-use crate::simulation::{Monitor, Settings, Simulation, SimulationError};
+use crate::simulation::{Monitor, Recording, Settings, Simulation, SimulationError, StepSize};
 
 /// A run to be made.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -19,6 +20,9 @@ pub struct Case {
     /// When it is looked at, in order; the last one ends the run [time].
     pub stops: Vec<f64>,
 }
+
+/// About as many states of a run are recorded at most, lest long runs on all cores fill the memory.
+const MOST_ROWS: f64 = 1e5;
 
 /// What a case may take.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,9 +84,20 @@ impl Case {
             Ok(simulation) => simulation,
             Err(outcome) => return (outcome, None),
         };
+        simulation.record(self.recording());
         let mut is_wanted = || !stop.load(Ordering::Relaxed);
         let outcome = self.go(&mut simulation, patience, &mut is_wanted, look);
         (outcome, Some(simulation))
+    }
+
+    /// Every state, but of a run of very many steps only as many as [`MOST_ROWS`].
+    fn recording(&self) -> Recording {
+        let steps = match (self.settings.dt, self.stops.last()) {
+            (StepSize::Fixed(dt), Some(end)) => end / dt,
+            _ => 0.0,
+        };
+        let every = NonZeroUsize::new((steps / MOST_ROWS).ceil() as usize);
+        every.map_or_else(Recording::default, Recording::Every)
     }
 
     /// The simulation at its start, or why there is none.
@@ -142,6 +157,14 @@ mod tests {
         assert_eq!(energies(&case).iter().map(|(time, _)| *time).collect::<Vec<_>>(), [0.25, 1.0]);
         assert_eq!(energies(&case), energies(&again));
         assert!(Case::from_bytes(b"?").is_none());
+    }
+
+    #[test]
+    fn a_run_of_very_many_steps_records_a_part_of_them() {
+        let every = |dt| spinning(dt, &[1.0]).recording();
+        assert_eq!(every(1e-5), Recording::default());
+        assert_eq!(every(1e-6), Recording::Every(NonZeroUsize::new(10).unwrap()));
+        assert_eq!(every(f64::NAN), Recording::default());
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use super::timing::median;
 use super::{Case, Outcome, Patience};
 use crate::integrators::Mechanism;
 use crate::simulation::{Recording, Simulation};
@@ -40,7 +41,7 @@ pub struct StepCost {
     pub factorisations: f64,
     /// The time of a step in the fastest run.
     pub shortest: Duration,
-    /// The time of a step in the run that is faster than one half of them.
+    /// The median over the runs of the time of a step.
     pub median: Duration,
 }
 
@@ -75,6 +76,7 @@ impl StepCost {
 /// a while disturbs all of them. Building a scene is not counted. None when `is_wanted` says no on the way.
 pub fn step_costs(
     cases: &[CostCase],
+    patience: Patience,
     repeats: usize,
     is_wanted: &mut dyn FnMut() -> bool,
 ) -> Option<Vec<StepCost>> {
@@ -83,7 +85,7 @@ pub fn step_costs(
     // The first round warms up.
     for round in 0..=repeats.max(1) {
         for (number, case) in cases.iter().enumerate() {
-            let (cost, time) = measure(case, is_wanted);
+            let (cost, time) = measure(case, patience, is_wanted);
             if !is_wanted() {
                 return None;
             }
@@ -93,21 +95,25 @@ pub fn step_costs(
             }
         }
     }
-    let cost = |(cost, mut times): (StepCost, Vec<Duration>)| {
-        times.sort_unstable();
-        StepCost { shortest: times[0], median: times[times.len() / 2], ..cost }
+    let cost = |(cost, times): (StepCost, Vec<Duration>)| {
+        let shortest = times.iter().copied().min().unwrap_or_default();
+        StepCost { shortest, median: median(times).unwrap_or_default(), ..cost }
     };
     Some(costs.into_iter().flatten().zip(times).map(cost).collect())
 }
 
 /// Runs a case once: its work, and the time of a step.
-fn measure(case: &CostCase, is_wanted: &mut dyn FnMut() -> bool) -> (StepCost, Duration) {
+fn measure(
+    case: &CostCase,
+    patience: Patience,
+    is_wanted: &mut dyn FnMut() -> bool,
+) -> (StepCost, Duration) {
     let mut simulation = match case.start() {
         Ok(simulation) => simulation,
         Err(outcome) => return (StepCost::unmeasured(case, outcome), Duration::ZERO),
     };
     let begun = Instant::now();
-    let outcome = case.case.go(&mut simulation, Patience::default(), is_wanted, |_| ());
+    let outcome = case.case.go(&mut simulation, patience, is_wanted, |_| ());
     let elapsed = begun.elapsed();
     let counts = simulation.counts();
     let steps = counts.steps.max(1);
@@ -139,7 +145,7 @@ mod tests {
     fn costs_are_those_of_a_step_in_the_order_of_the_cases() {
         let mut never_enough = || true;
         let cases = [case("first", 0.1), case("lost", -1.0), case("second", 0.05)];
-        let costs = step_costs(&cases, 2, &mut never_enough).unwrap();
+        let costs = step_costs(&cases, Patience::default(), 2, &mut never_enough).unwrap();
         assert_eq!(
             costs.iter().map(|cost| &*cost.name).collect::<Vec<_>>(),
             ["first", "lost", "second"]
@@ -147,6 +153,9 @@ mod tests {
         assert!(costs[0].iterations >= 1.0 && costs[0].unknowns == 15, "{:?}", costs[0]);
         assert!(costs[0].shortest > Duration::ZERO && costs[0].shortest <= costs[0].median);
         assert!(!costs[1].outcome.is_finished());
-        assert_eq!(step_costs(&cases, 2, &mut || false), None);
+        assert_eq!(step_costs(&cases, Patience::default(), 2, &mut || false), None);
+        let impatient = Patience { steps: 3, ..Patience::default() };
+        let costs = step_costs(&cases, impatient, 1, &mut || true).unwrap();
+        assert!(matches!(costs[0].outcome, Outcome::GaveUp { .. }), "{:?}", costs[0]);
     }
 }

@@ -8,12 +8,32 @@ use std::fs::{self, File, OpenOptions};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+use std::time::SystemTime;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 /// Of one record; more is damage.
 const LONGEST: usize = 1 << 30;
+
+/// How results are stored; it changes whenever that does.
+const FORMAT: u32 = 1;
+
+/// What tells this build of the program from others.
+type Build = (&'static str, Option<(u64, SystemTime)>);
+
+/// The version, and the length of the running program with the time at which it was written, where the system tells.
+fn build() -> Build {
+    static BUILD: OnceLock<Build> = OnceLock::new();
+    *BUILD.get_or_init(|| {
+        let file = || {
+            let file = fs::metadata(std::env::current_exe().ok()?).ok()?;
+            Some((file.len(), file.modified().ok()?))
+        };
+        (env!("CARGO_PKG_VERSION"), file())
+    })
+}
 
 /// A journal that cannot be read or written.
 #[derive(Debug, thiserror::Error)]
@@ -106,11 +126,22 @@ impl Journal {
             if let Some(folder) = self.path.parent() {
                 fs::create_dir_all(folder)?;
             }
-            let open = OpenOptions::new().create(true).write(true).truncate(true).open(&self.path);
-            self.file.insert(open?).write_all(&known)?;
+            // Beside it, and then in its place: at no time is there less on disk than was known.
+            let anew = self.anew();
+            let mut file = File::create(&anew)?;
+            file.write_all(&known)?;
+            file.sync_all()?;
+            drop(file);
+            fs::rename(&anew, &self.path)?;
+            self.file = Some(OpenOptions::new().append(true).open(&self.path)?);
         }
         let Some(file) = &mut self.file else { return Ok(()) };
         file.write_all(&record(fingerprint, result)?)
+    }
+
+    /// Where what is known is written before it takes the place of the journal.
+    fn anew(&self) -> PathBuf {
+        self.path.with_extension("journal.new")
     }
 
     /// The study is complete: there is nothing to go on with.
@@ -124,10 +155,11 @@ impl Journal {
 
     /// A number for a case, from all that its result depends on.
     ///
-    /// The version of withy is a part of it; another compiler may give other numbers, and cases are then run again.
+    /// The program is a part of it: one that was built anew may find something else. Another compiler may give other numbers,
+    /// and cases are then run again.
     pub fn fingerprint(parts: &[&[u8]]) -> u64 {
         let mut hasher = DefaultHasher::new();
-        env!("CARGO_PKG_VERSION").hash(&mut hasher);
+        (FORMAT, build()).hash(&mut hasher);
         parts.hash(&mut hasher);
         hasher.finish()
     }
@@ -217,6 +249,31 @@ mod tests {
             written(&path, 10..11);
             assert_eq!(found(&path).last(), Some(&10));
         }
+    }
+
+    #[test]
+    fn nothing_is_lost_when_going_on_is_cut_short() {
+        let home = tempfile::tempdir().unwrap();
+        let path = home.path().join("study.journal");
+        written(&path, 0..3);
+        // What cannot be written anew leaves the old file alone.
+        let anew = home.path().join("study.journal.new");
+        fs::create_dir(&anew).unwrap();
+        let mut journal = Journal::open(&path).unwrap();
+        assert!(journal.write(3, &0.0).unwrap_err().to_string().contains("cannot be written"));
+        assert_eq!(found(&path), [0, 1, 2]);
+        // Half a file from a crash is in nobody's way.
+        fs::remove_dir(&anew).unwrap();
+        fs::write(&anew, b"half").unwrap();
+        written(&path, 3..5);
+        assert_eq!(found(&path), [0, 1, 2, 3, 4]);
+        assert!(!anew.exists());
+    }
+
+    #[test]
+    fn a_build_of_the_program_is_told_by_its_file() {
+        assert!(build().1.is_some_and(|(length, _)| length > 0));
+        assert_eq!(build(), build());
     }
 
     #[test]

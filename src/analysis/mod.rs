@@ -3,7 +3,7 @@
 //! ```text
 //! stability, cost → features
 //! precision, convergence → combination, truth, rivals → trial, observable, sheet
-//! trial → case, outcome → workers → journal
+//! trial, timing → case, outcome → workers → journal
 //! ```
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
@@ -21,6 +21,7 @@ mod precision;
 mod rivals;
 mod sheet;
 mod stability;
+mod timing;
 mod trial;
 mod truth;
 mod workers;
@@ -43,6 +44,7 @@ pub use precision::{Precision, PrecisionRow};
 pub use rivals::{Rival, RivalError, machines};
 pub use sheet::{Sheet, SheetError};
 pub use stability::Verdict;
-pub use trial::{Timing, Trial};
+pub use timing::Timing;
+pub use trial::Trial;
 pub use truth::{Deviation, Readings, Truth, TruthError};
 pub use workers::on_all_cores;

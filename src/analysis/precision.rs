@@ -3,7 +3,8 @@
 use super::observable::Observable;
 use super::pareto::pareto_front;
 use super::rivals::Rival;
-use super::trial::{Timing, Trial};
+use super::timing::Timing;
+use super::trial::Trial;
 use super::truth::{Deviation, Truth};
 use crate::simulation::Settings;
 

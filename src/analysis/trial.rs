@@ -1,7 +1,6 @@
-//! What a run of a study shows: the observables, the work, what drifted; and the time it takes.
+//! What a run of a study shows: the observables, the work, what drifted.
 
 use std::sync::atomic::AtomicBool;
-use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
@@ -90,78 +89,6 @@ fn free_energy_drift(history: &History) -> f64 {
     }
 }
 
-/// How long a case takes.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Timing {
-    /// Median time to build the scene and its model.
-    pub setup: Duration,
-    /// Median time of the run by the clock.
-    pub run: Duration,
-    /// The shortest time of the run by the clock.
-    pub shortest: Duration,
-    /// Median time that the processor worked on the run; none where the system does not tell. On a machine that is busy with
-    /// something else this is what the run itself takes.
-    pub processor: Option<Duration>,
-    /// How often it was run.
-    pub repeats: usize,
-}
-
-/// A case that has been run for so long is not repeated any more.
-pub const ENOUGH: Duration = Duration::from_secs(10);
-
-/// The time that the processor has worked on this thread, as Linux tells it: exact after a pause, else only at every tick.
-fn processor_time() -> Option<Duration> {
-    std::thread::sleep(Duration::from_nanos(1));
-    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    told.split_whitespace().next()?.parse().ok().map(Duration::from_nanos)
-}
-
-impl Timing {
-    /// The time of the run: that of the processor, or by the clock where the system does not tell [s].
-    pub fn price(&self) -> f64 {
-        self.processor.unwrap_or(self.run).as_secs_f64()
-    }
-
-    /// Runs a case several times on this thread and takes medians; fewer times when that takes longer than [`ENOUGH`], but
-    /// once at least. None when `is_wanted` says no on the way, or a run fails.
-    pub fn of(
-        case: &Case,
-        patience: Patience,
-        repeats: usize,
-        is_wanted: &mut dyn FnMut() -> bool,
-    ) -> Option<Self> {
-        let begun = Instant::now();
-        let (mut setups, mut runs, mut works) = (Vec::new(), Vec::new(), Vec::new());
-        while runs.is_empty() || (runs.len() < repeats && begun.elapsed() < ENOUGH) {
-            let start = Instant::now();
-            let mut simulation = case.start().ok()?;
-            setups.push(start.elapsed());
-            let worked = processor_time();
-            let start = Instant::now();
-            let outcome = case.go(&mut simulation, patience, is_wanted, |_| ());
-            runs.push(start.elapsed());
-            works
-                .extend(processor_time().zip(worked).map(|(end, start)| end.saturating_sub(start)));
-            if !outcome.is_finished() || !is_wanted() {
-                return None;
-            }
-        }
-        let shortest = runs.iter().copied().min()?;
-        let repeats = runs.len();
-        // A clock of the processor that does not move is none.
-        let processor = median(works).filter(|time| !time.is_zero());
-        Some(Self { setup: median(setups)?, run: median(runs)?, shortest, processor, repeats })
-    }
-}
-
-/// The one in the middle; of an even number the mean of the two.
-fn median(mut durations: Vec<Duration>) -> Option<Duration> {
-    durations.sort_unstable();
-    let upper = durations.len() / 2;
-    let lower = durations.len().checked_sub(1)? / 2;
-    Some((durations[lower] + durations[upper]) / 2)
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::samples::{never, spinning};
@@ -198,23 +125,5 @@ mod tests {
         let (trial, expected) = pushed_for(1.0);
         assert!(expected > 0.0 && trial.free_energy_drift == expected, "{trial:?} {expected}");
         assert!(pushed_for(9.0).0.free_energy_drift.is_nan());
-    }
-
-    #[test]
-    fn a_case_is_timed_as_often_as_asked_unless_nobody_wants_it() {
-        let case = spinning(0.1, &[0.2]);
-        let timing = Timing::of(&case, Patience::default(), 3, &mut || true).unwrap();
-        assert!(timing.repeats == 3 && timing.shortest <= timing.run && timing.price() > 0.0);
-        assert_eq!(Timing::of(&case, Patience::default(), 3, &mut || false), None);
-        assert_eq!(Timing::of(&spinning(-1.0, &[1.0]), Patience::default(), 3, &mut || true), None);
-    }
-
-    #[test]
-    fn the_median_of_two_is_their_mean() {
-        let of =
-            |millis: &[u64]| median(millis.iter().map(|ms| Duration::from_millis(*ms)).collect());
-        assert_eq!(of(&[9, 1]), Some(Duration::from_millis(5)));
-        assert_eq!(of(&[9, 1, 2]), Some(Duration::from_millis(2)));
-        assert_eq!(of(&[]), None);
     }
 }

@@ -3,7 +3,7 @@
 use rhai::{Array, Dynamic};
 
 use super::integrators::INTEGRATOR;
-use crate::analysis::{Outcome, StepCost, step_costs};
+use crate::analysis::{Outcome, Patience, StepCost, step_costs};
 use crate::output::Panel;
 use crate::script::call::Call;
 use crate::script::context::Mode;
@@ -13,6 +13,7 @@ use crate::script::parameter::{
     Parameter, Presence, anything, callback, number, object, options, text, whole,
 };
 use crate::script::studies::cost::{CostTable, Way, cases};
+use crate::script::studies::plan::patience;
 use crate::script::table::{Table, function, property};
 
 /// Costs.
@@ -67,7 +68,10 @@ const STUDY: &[Parameter] = &[
     anything("features").doc("names and functions: #{ gravity: |scene| … }").optional(),
     object("integrator", INTEGRATOR).doc("energy_momentum() unless given").optional(),
     whole("steps").positive().or(Presence::Whole(200)).doc("of each run"),
-    whole("repeats").positive().or(Presence::Whole(5)).doc("how often each run is timed"),
+    whole("repeats")
+        .positive()
+        .or(Presence::Whole(5))
+        .doc("how often each run is timed; it records every step unless the row says otherwise"),
 ];
 
 impl Scripted for CostTable {
@@ -94,7 +98,8 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
         }
         Mode::Run => context.studies().repeats.map_or_else(|| options.count("repeats"), Ok)?,
     };
-    let costs = step_costs(&cases, repeats, &mut || context.stopped_by().is_none());
+    let patience = patience(call, Patience::default().wall.as_secs_f64());
+    let costs = step_costs(&cases, patience, repeats, &mut || context.stopped_by().is_none());
     let Some(costs) = costs else {
         context.proceed()?;
         return Err(ScriptError::bug("a study of costs was stopped by nobody"));

@@ -145,10 +145,9 @@ const PRECISION_KEYS: &[Parameter] = &[
     LENGTH,
     PATIENCE,
     text("rivals").doc("the name of a table of what other programs need").optional(),
-    whole("repeats")
-        .positive()
-        .or(Presence::Whole(5))
-        .doc("how often a run is timed; fewer when that takes more than 10 s"),
+    whole("repeats").positive().or(Presence::Whole(5)).doc(
+        "how often a run is timed, with every step recorded; fewer when that takes more than 10 s",
+    ),
 ];
 
 const FINEST_KEYS: &[Parameter] = &[

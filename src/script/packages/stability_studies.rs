@@ -1,11 +1,9 @@
 //! Stability maps.
 
-use std::time::Duration;
-
 use rhai::{Array, Dynamic};
 
 use super::integrators::INTEGRATOR;
-use crate::analysis::{Outcome, Patience, Verdict};
+use crate::analysis::{Outcome, Verdict};
 use crate::output::Panel;
 use crate::script::call::Call;
 use crate::script::context::Mode;
@@ -15,7 +13,8 @@ use crate::script::parameter::{
     Parameter, Presence, anything, callback, choice, number, object, options, text,
 };
 use crate::script::studies::desk::{Desk, Task};
-use crate::script::studies::stability::{Plan, Shown, StabilityMap};
+use crate::script::studies::plan::patience;
+use crate::script::studies::stability::{Shown, StabilityMap, StabilityPlan};
 use crate::script::table::{Table, function, property};
 
 /// Stability maps.
@@ -95,23 +94,21 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options("options")?;
     let scene = options.callback("scene")?;
     call.expect_arguments(&scene, 1, "|cell| …, a function that makes the scene of a cell")?;
-    let plan = Plan::read(call, &options)?;
+    let plan = StabilityPlan::read(call, &options)?;
     let cases = plan.cases(call, &options, &scene)?;
     let context = call.context();
-    let wall = Duration::from_secs_f64(options.number("patience")?.min(1e9));
-    let patience = Patience { wall, ..Patience::default() };
+    let patience = patience(call, options.number("patience")?);
     let shown = options.text("show")?;
     let shown = Shown::ALL.iter().find(|(name, _)| *name == shown.as_str());
     let shown = shown.map_or(Shown::EnergyGrowth, |(_, shown)| *shown);
+    let mut desk = Desk::open(context, &plan.name)?;
     let verdicts = match context.mode() {
         Mode::DryBuild => vec![Verdict::without_a_run(Outcome::Finished); cases.len()],
         Mode::Run => {
-            let mut desk = Desk::open(context, &plan.name)?;
             let task = Task { name: "cells", parts: &[] };
             let work = |case: &_, stop: &_| Verdict::of(case, patience, stop);
             let verdicts =
                 desk.in_parallel(task, &cases, |verdict: &Verdict| verdict.steps, work)?;
-            desk.close()?;
             let panicked = |message| Verdict::without_a_run(Outcome::Panicked { message });
             verdicts.into_iter().map(|verdict| verdict.unwrap_or_else(panicked)).collect()
         }
@@ -123,5 +120,6 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let output = context.output();
     output.write(&format!("{}.csv", map.name()), map.records().to_text()?.as_bytes())?;
     output.write(&format!("{}.svg", map.name()), map.page().figure()?.to_svg()?.as_bytes())?;
+    desk.close()?;
     Ok(Dynamic::from(map))
 }

@@ -125,7 +125,7 @@ pub fn table(study: &Convergence) -> String {
         let mut table = Table::new(&heads).title(quantity);
         for (rung, size) in ladders[0].sizes.iter().enumerate() {
             let shown = match study.refined {
-                Refined::Step => format_number(*size),
+                Refined::Step => significant(*size, 6),
                 Refined::Mesh => format!("1/{}", significant(1.0 / size, 6)),
             };
             let cells = ladders.iter().flat_map(|ladder| {
@@ -143,7 +143,7 @@ pub fn table(study: &Convergence) -> String {
         text += &format!("\n\n{}", table.to_string().trim_end());
     }
     for (size, method, why) in &study.failures {
-        let (name, size) = (size_name(study), format_number(*size));
+        let (name, size) = (size_name(study), significant(*size, 6));
         text += &format!("\n{} with {name} = {size}: {why}", labels::method(method));
     }
     text

@@ -7,9 +7,33 @@ use std::sync::atomic::AtomicBool;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::analysis::{Case, Journal, JournalError, on_all_cores};
+use crate::analysis::{Case, Journal, JournalError, Outcome, Timing, Trial, Verdict, on_all_cores};
 use crate::script::context::{Context, JournalWish};
 use crate::script::error::ScriptError;
+
+/// What is found of a case.
+pub trait Finding: Serialize + DeserializeOwned {
+    /// Whether the journal keeps it: what ran out of patience may come to its end another time.
+    fn is_final(&self) -> bool;
+}
+
+impl Finding for Trial {
+    fn is_final(&self) -> bool {
+        !matches!(self.outcome, Outcome::GaveUp { .. })
+    }
+}
+
+impl Finding for Verdict {
+    fn is_final(&self) -> bool {
+        !matches!(self.outcome, Outcome::GaveUp { .. })
+    }
+}
+
+impl Finding for Option<Timing> {
+    fn is_final(&self) -> bool {
+        self.is_some()
+    }
+}
 
 /// A study at work.
 pub struct Desk<'c> {
@@ -56,7 +80,7 @@ impl<'c> Desk<'c> {
     ///
     /// # Errors
     /// When the run is stopped: what was finished by then is in the journal.
-    pub fn in_parallel<R: Serialize + DeserializeOwned + Clone + Send>(
+    pub fn in_parallel<R: Finding + Clone + Send>(
         &mut self,
         task: Task,
         cases: &[Case],
@@ -108,7 +132,7 @@ impl<'c> Desk<'c> {
     ///
     /// # Errors
     /// When the run is stopped: what was finished by then is in the journal.
-    pub fn one_by_one<R: Serialize + DeserializeOwned>(
+    pub fn one_by_one<R: Finding>(
         &mut self,
         task: Task,
         cases: &[Case],
@@ -116,22 +140,20 @@ impl<'c> Desk<'c> {
     ) -> Result<Vec<R>, ScriptError> {
         let context = self.context;
         context.progress().begin_cases(&format!("{}, {}", self.name, task.name), cases.len());
-        let mut results = Vec::with_capacity(cases.len());
-        for (number, case) in cases.iter().enumerate() {
+        let results = cases.iter().enumerate().map(|(number, case)| {
             context.progress().reach_case(number);
-            let result = match self.recall(task, case) {
-                Some(known) => known,
-                None => {
-                    let found = work(case, &mut || context.stopped_by().is_none());
-                    context.proceed()?;
-                    self.write(task, case, &found).map_err(refused)?;
-                    found
-                }
-            };
-            results.push(result);
-        }
+            if let Some(known) = self.recall(task, case) {
+                return Ok(known);
+            }
+            let found = work(case, &mut || context.stopped_by().is_none());
+            context.proceed()?;
+            self.write(task, case, &found).map_err(refused)?;
+            Ok(found)
+        });
+        let results = results.collect();
+        // The bar ends before a reason to stop is told.
         context.progress().end();
-        Ok(results)
+        results
     }
 
     /// The study is complete: its journal is removed.
@@ -146,14 +168,16 @@ impl<'c> Desk<'c> {
         self.journal.as_ref()?.find(task.fingerprint(case)?)
     }
 
-    fn write<R: Serialize>(
+    fn write<R: Finding>(
         &mut self,
         task: Task,
         case: &Case,
         result: &R,
     ) -> Result<(), JournalError> {
         match (&mut self.journal, task.fingerprint(case)) {
-            (Some(journal), Some(fingerprint)) => journal.write(fingerprint, result),
+            (Some(journal), Some(fingerprint)) if result.is_final() => {
+                journal.write(fingerprint, result)
+            }
             _ => Ok(()),
         }
     }

@@ -5,6 +5,8 @@ use crate::integrators::Method;
 use crate::output::{Cell, format_number, scientific, significant};
 use crate::simulation::{Settings, StepSize};
 
+/// The most digits of a step size.
+const STEP_DIGITS: usize = 6;
 /// Digits of an error.
 const ERROR_DIGITS: usize = 2;
 
@@ -17,7 +19,7 @@ pub fn method(method: &Method) -> String {
 /// A step size: `0.05`, or `tolerance 1e-4`.
 pub fn step_size(settings: &Settings) -> String {
     match settings.dt {
-        StepSize::Fixed(dt) => format_number(dt),
+        StepSize::Fixed(dt) => significant(dt, STEP_DIGITS),
         StepSize::Adaptive(control) => format!("tolerance {}", format_number(control.tolerance)),
     }
 }

@@ -4,10 +4,14 @@ use rhai::{Array, Dynamic, Map};
 
 use super::labels;
 use crate::integrators::Method;
+use crate::output::significant;
 use crate::script::call::Call;
 use crate::script::error::{Place, ScriptError};
 use crate::script::numbers::{as_number, format_number};
 use crate::script::options::Options;
+
+/// The most significant digits of a number in a label.
+const DIGITS: usize = 6;
 
 /// A name and its values.
 #[derive(Clone, Debug)]
@@ -45,6 +49,12 @@ impl Swept {
         Self { name: String::new(), values: vec![Dynamic::UNIT], labels: vec![String::new()] }
     }
 
+    /// The value number `index` as a text for other programs: of a number all digits, else its label.
+    pub fn exact(&self, index: usize) -> String {
+        as_number(&self.values[index])
+            .map_or_else(|| self.labels[index].clone(), |number| format_number(number))
+    }
+
     /// Puts the value number `index` under its name.
     pub fn put(&self, index: usize, into: &mut Map) {
         if !self.name.is_empty() {
@@ -56,9 +66,10 @@ impl Swept {
 /// A value in few words: numbers, large ones as powers of ten, and texts as they are, integrators and maps by their names.
 pub fn label(call: &Call, value: &Dynamic) -> String {
     if let Some(number) = as_number(value) {
-        return match number.abs() >= 1e4 {
-            true => format!("{number:e}"),
-            false => format_number(number),
+        let short = significant(number, DIGITS);
+        return match short.parse::<f64>() {
+            Ok(large) if large.abs() >= 1e4 => format!("{large:e}"),
+            _ => short,
         };
     }
     if let Some(method) = value.clone().try_cast::<Method>() {

@@ -51,15 +51,10 @@ impl Plan {
         call.expect_arguments(&scene_of, 1, "|mesh| …, a function that makes the scene on a mesh")?;
         let subjects: Vec<Subject> =
             meshes.iter().map(|mesh| subject_on(call, options, mesh)).collect::<Result<_, _>>()?;
-        expect_same_observables(call, &subjects)?;
+        expect_same_observables(call, &subjects[0], &subjects[1..])?;
         let given = options.number_if_given("length");
         let length = given.unwrap_or_else(|| size_of(&subjects[0].scene));
-        let seconds = options.number("patience")?;
-        let steps = call.context().meter().limits().steps;
-        let patience = Patience {
-            steps: steps.map_or(usize::MAX, |limit| usize::try_from(limit).unwrap_or(usize::MAX)),
-            wall: std::time::Duration::from_secs_f64(seconds.min(1e9)),
-        };
+        let patience = patience(call, options.number("patience")?);
         Ok(Self { name, subjects, methods, dts, times, length, patience })
     }
 
@@ -176,14 +171,30 @@ fn all_of<T: Clone + 'static>(
     }
 }
 
-/// Step sizes, at least one: positive numbers, or adaptive(…).
+/// What a case may take: so many seconds, and no more steps than the whole run may take.
+pub fn patience(call: &Call, seconds: f64) -> Patience {
+    let steps = call.context().meter().limits().steps;
+    Patience {
+        steps: steps.map_or(usize::MAX, |limit| usize::try_from(limit).unwrap_or(usize::MAX)),
+        wall: std::time::Duration::from_secs_f64(seconds.min(1e9)),
+    }
+}
+
+/// A step size: a positive number, or adaptive(…); none when it is something else.
+pub fn step_size(value: &Dynamic) -> Option<StepSize> {
+    let fixed = as_number(value).filter(|dt| dt.is_finite() && *dt > 0.0);
+    let control = || value.clone().try_cast::<StepControl>().map(StepSize::from);
+    fixed.map(StepSize::from).or_else(control)
+}
+
+/// How a step size is written.
+pub const STEP_SIZE: &str = "give positive numbers, or adaptive(#{ tolerance: 1e-4 })";
+
+/// Step sizes, at least one.
 fn step_sizes(call: &Call, options: &Options) -> Result<Vec<StepSize>, ScriptError> {
     let one = |value: &Dynamic| {
-        let fixed = as_number(value).filter(|dt| dt.is_finite() && *dt > 0.0);
-        let control = || value.clone().try_cast::<StepControl>().map(StepSize::from);
-        fixed.map(StepSize::from).or_else(control).ok_or_else(|| {
-            let told = format!("dts holds {}", call.describe(value));
-            at_key(call, "dts", told, "give positive numbers, or adaptive(#{ tolerance: 1e-4 })")
+        step_size(value).ok_or_else(|| {
+            at_key(call, "dts", format!("dts holds {}", call.describe(value)), STEP_SIZE)
         })
     };
     match options.array("dts")?.as_slice() {
@@ -274,12 +285,17 @@ fn usual_stations(scene: &Scene) -> Vec<(String, Station)> {
     ends.chain(particles).collect()
 }
 
-fn expect_same_observables(call: &Call, subjects: &[Subject]) -> Result<(), ScriptError> {
-    let other = subjects.iter().find(|of| of.observables != subjects[0].observables);
+/// Whether other scenes have the stations of the first one; their columns are not looked for yet.
+pub fn expect_same_observables(
+    call: &Call,
+    first: &Subject,
+    others: &[Subject],
+) -> Result<(), ScriptError> {
+    let other = others.iter().find(|of| of.observables != first.observables);
     other.map_or(Ok(()), |other| {
         let told = format!(
             "the stations with the mesh '{}' are not those with '{}'",
-            other.mesh, subjects[0].mesh
+            other.mesh, first.mesh
         );
         Err(at_key(call, "scene", told, "a study compares the same stations on all meshes"))
     })

@@ -27,6 +27,16 @@ pub fn study(call: &Call, options: &Options) -> Result<Precision, ScriptError> {
         Ok(file) => Some((read_sheet(call, "rivals", &file)?, file)),
         Err(_) => None,
     };
+    let compared = |truth: &Truth| {
+        let Some((sheet, file)) = &rivals else { return Ok(Vec::new()) };
+        let by = (plan.times.as_slice(), plan.length);
+        Rival::of_sheet(sheet, plan.observables(), truth, by).map_err(|error| {
+            let hint = "rivals are compared at one time, at stations named as in the reference";
+            at_key(call, "rivals", format!("\"{file}\": {error}"), hint)
+        })
+    };
+    // Wrong rivals are told of before anything runs.
+    compared(&reference.foreseen(call, &plan)?)?;
     let mut desk = Desk::open(call.context(), &plan.name)?;
     let combinations = all_combinations(&plan.subjects, &plan.all_settings());
     let cases: Vec<Case> =
@@ -44,15 +54,9 @@ pub fn study(call: &Call, options: &Options) -> Result<Precision, ScriptError> {
             (trials, timings, truth)
         }
     };
-    let rivals = match rivals {
-        Some((sheet, file)) if call.context().mode() == Mode::Run => {
-            let by = (plan.times.as_slice(), plan.length);
-            Rival::of_sheet(&sheet, plan.observables(), &truth, by).map_err(|error| {
-                let hint = "rivals are compared at one time, at stations named as in the reference";
-                at_key(call, "rivals", format!("\"{file}\": {error}"), hint)
-            })?
-        }
-        _ => Vec::new(),
+    let rivals = match call.context().mode() {
+        Mode::Run => compared(&truth)?,
+        Mode::DryBuild => Vec::new(),
     };
     let judge = (plan.observables(), &truth, plan.length);
     let found = combinations.iter().zip(trials).zip(timings);

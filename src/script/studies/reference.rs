@@ -4,10 +4,11 @@ use rhai::Dynamic;
 
 use super::desk::{Desk, Task};
 use super::labels;
-use super::plan::{Plan, at_key, subject_on};
+use super::plan::{Plan, at_key, expect_same_observables, subject_on};
 use crate::analysis::{
     Case, Outcome, PART_OF_THE_SMALLEST_STEP, Sheet, Trial, Truth, finest_mesh, highest_order,
 };
+use crate::geometry::Vec2;
 use crate::integrators::Method;
 use crate::script::call::Call;
 use crate::script::error::ScriptError;
@@ -88,15 +89,20 @@ impl Reference {
             reference.truth(call, plan, None)?;
             return Ok(reference);
         }
-        plan.add_columns(call, columns, None)?;
         let run = options.get_if::<FinestRun>("reference").unwrap_or_default();
         let dt = run.dt.map_or_else(|| finer(&plan.dts), StepSize::from);
         let method = run.method.or_else(|| highest_order(&plan.methods)).unwrap_or_default();
         let finest = finest_mesh(&plan.subjects).unwrap_or(0);
         let subject = match run.mesh {
             None => plan.subjects[finest].clone(),
-            Some(mesh) => subject_on(call, options, &mesh)?,
+            Some(mesh) => {
+                let own = [subject_on(call, options, &mesh)?];
+                expect_same_observables(call, &plan.subjects[0], &own)?;
+                let [own] = own;
+                own
+            }
         };
+        plan.add_columns(call, columns, None)?;
         let (method_name, mesh) = (labels::method(&method), subject.mesh);
         let told = format!("own finest run ({mesh}, {method_name}, {dt}), no independent solution");
         let settings = Plan::settings(method, dt);
@@ -134,6 +140,17 @@ impl Reference {
         }
     }
 
+    /// A truth whose numbers mean nothing, but that knows what the one of the run will know: for what can be checked before.
+    pub fn foreseen(&self, call: &Call, plan: &Plan) -> Result<Truth, ScriptError> {
+        match self {
+            Self::Table(..) => self.truth(call, plan, None),
+            Self::OwnRun(told, _) => {
+                let nothing = vec![vec![Vec2::zeros(); plan.observables().len()]; plan.times.len()];
+                Ok(Truth::of_run(told, &nothing))
+            }
+        }
+    }
+
     /// Runs all cases, and the one of the reference with them: what each showed, and what it should have.
     pub fn trials(
         &self,
@@ -144,8 +161,7 @@ impl Reference {
     ) -> Result<(Vec<Trial>, Truth), ScriptError> {
         let all: Vec<Case> = self.case().into_iter().chain(cases).cloned().collect();
         let (observables, patience) = (plan.observables(), plan.patience);
-        let parts =
-            postcard::to_stdvec(&(observables, patience.wall, patience.steps)).unwrap_or_default();
+        let parts = postcard::to_stdvec(observables).unwrap_or_default();
         let task = Task { name: "runs", parts: &parts };
         let work = |case: &Case, stop: &_| Trial::of(case, observables, patience, stop);
         let steps_of = |trial: &Trial| trial.steps + trial.retries;

@@ -3,6 +3,7 @@
 use rhai::{Dynamic, FnPtr, INT, Map};
 
 use super::parameters::Swept;
+use super::plan::{STEP_SIZE, step_size};
 use crate::analysis::{Case, Outcome, Verdict};
 use crate::integrators::Method;
 use crate::newton::Tolerance;
@@ -15,12 +16,15 @@ use crate::script::error::{Place, ScriptError};
 use crate::script::numbers::as_number;
 use crate::script::options::Options;
 use crate::script::packages::SceneHandle;
+use crate::script::suggest::nearest;
 use crate::simulation::Settings;
 
 /// Columns of text that a map on a terminal may take.
 const WIDTH: usize = 160;
 /// Cells that did not come to their end, of which the reason is printed.
 const MOST_REASONS: usize = 12;
+/// What a function may say of a cell.
+const KEYS: [&str; 4] = ["scene", "dt", "end", "integrator"];
 /// Maps beside each other on a page.
 const ABREAST: usize = 2;
 
@@ -43,7 +47,7 @@ impl Shown {
         ("retries", Self::Retries),
     ];
 
-    /// The number that is shown, what it is called, and the powers of ten at which colours begin and end.
+    /// The number that is shown.
     fn of(self, verdict: &Verdict) -> f64 {
         match self {
             Self::EnergyGrowth => verdict.energy_growth,
@@ -52,6 +56,7 @@ impl Shown {
         }
     }
 
+    /// What it is called, and the powers of ten at which colours begin and end.
     fn scale(self) -> (&'static str, (i32, i32)) {
         match self {
             Self::EnergyGrowth => ("energy growth", (-12, 0)),
@@ -63,7 +68,7 @@ impl Shown {
 
 /// What is studied: maps of rows and columns of cells.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct StabilityPlan {
     /// The name of the study and of its files.
     pub name: String,
     /// One map for each value.
@@ -77,13 +82,13 @@ pub struct Plan {
 /// A plan with what became of its cells.
 #[derive(Clone, Debug)]
 pub struct StabilityMap {
-    plan: Plan,
+    plan: StabilityPlan,
     shown: Shown,
     /// Map by map, row by row.
     verdicts: Vec<Verdict>,
 }
 
-impl Plan {
+impl StabilityPlan {
     /// Reads the options of a study.
     pub fn read(call: &Call, options: &Options) -> Result<Self, ScriptError> {
         let maps = match options.has("maps") {
@@ -114,13 +119,16 @@ impl Plan {
         values
     }
 
+    /// The parameters that have a name, and which of their values a cell has.
+    fn axes(&self, [map, row, column]: [usize; 3]) -> impl Iterator<Item = (&Swept, usize)> {
+        let all = [(&self.maps, map), (&self.rows, row), (&self.columns, column)];
+        all.into_iter().filter(|(of, _)| !of.name.is_empty())
+    }
+
     /// The labels of a cell, with their names.
     fn labels(&self, [map, row, column]: [usize; 3]) -> Vec<(&str, &str)> {
-        [(&self.maps, map), (&self.rows, row), (&self.columns, column)]
-            .into_iter()
-            .filter(|(of, _)| !of.name.is_empty())
-            .map(|(of, at)| (of.name.as_str(), of.labels[at].as_str()))
-            .collect()
+        let axes = self.axes([map, row, column]);
+        axes.map(|(of, at)| (of.name.as_str(), of.labels[at].as_str())).collect()
     }
 
     /// The run of each cell, from what the function of the script gives for its values.
@@ -148,6 +156,7 @@ impl Plan {
 /// the cell, then from the options of the study.
 fn case(call: &Call, options: &Options, values: &Map, given: Dynamic) -> Result<Case, ScriptError> {
     let own = given.read_lock::<Map>().map(|map| map.clone()).unwrap_or_default();
+    expect_known_keys(call, &own)?;
     let scene = own.get("scene").cloned().unwrap_or_else(|| given.clone());
     let find = |name: &str| own.get(name).or_else(|| values.get(name)).cloned();
     let scene = scene.try_cast::<SceneHandle>().ok_or_else(|| {
@@ -156,20 +165,49 @@ fn case(call: &Call, options: &Options, values: &Map, given: Dynamic) -> Result<
             .hint("its last expression is the scene, or a map: #{ scene: scene, dt: 0.1, end: 5 }")
             .at(Place::Key("scene".into()))
     })?;
-    let number = |name: &str| {
-        let found = find(name).as_ref().and_then(as_number);
-        found.or_else(|| options.number_if_given(name)).ok_or_else(|| {
-            call.error(format!("no '{name}' is given")).hint(format!(
-                "as an option of the study, among its values, or in what the function gives: #{{ scene: scene, {name}: 0.1 }}"
-            ))
-        })
+    let missing = |name: &str| {
+        call.error(format!("no '{name}' is given")).hint(format!(
+            "as an option of the study, among its values, or in what the function gives: #{{ scene: scene, {name}: 0.1 }}"
+        ))
     };
-    let method = find("integrator").and_then(|value| value.try_cast::<Method>());
-    let method = method.or_else(|| options.get_if("integrator")).unwrap_or_default();
-    let settings = Settings { method, dt: number("dt")?.into(), tolerance: Tolerance::default() };
-    let stops = vec![number("end")?];
+    // What is given but is something else must not be replaced by an option: the cell would run what its label does not say.
+    let wrong = |name: &str, value: &Dynamic, hint: &str| {
+        call.error(format!("the '{name}' of a cell is {}", call.describe(value))).hint(hint)
+    };
+    let method = match find("integrator") {
+        Some(value) => value
+            .clone()
+            .try_cast::<Method>()
+            .ok_or_else(|| wrong("integrator", &value, "for example trapezoidal()"))?,
+        None => options.get_if("integrator").unwrap_or_default(),
+    };
+    let dt = match find("dt") {
+        Some(value) => step_size(&value).ok_or_else(|| wrong("dt", &value, STEP_SIZE))?,
+        None => options.number_if_given("dt").ok_or_else(|| missing("dt"))?.into(),
+    };
+    let end = match find("end") {
+        Some(value) => as_number(&value)
+            .filter(|end| end.is_finite() && *end > 0.0)
+            .ok_or_else(|| wrong("end", &value, "give a positive number"))?,
+        None => options.number_if_given("end").ok_or_else(|| missing("end"))?,
+    };
+    let settings = Settings { method, dt, tolerance: Tolerance::default() };
+    let stops = vec![end];
     let scene = scene.scene().borrow().clone();
     Ok(Case { scene, settings, stops })
+}
+
+/// Whether the map that a function gives says nothing that has no meaning.
+fn expect_known_keys(call: &Call, given: &Map) -> Result<(), ScriptError> {
+    let Some(unknown) = given.keys().find(|key| !KEYS.contains(&key.as_str())) else {
+        return Ok(());
+    };
+    let meant = nearest(unknown, KEYS);
+    let suggestion = meant.map(|name| format!("did you mean '{name}'? ")).unwrap_or_default();
+    Err(call
+        .error(format!("the function gives a map with the unknown key '{unknown}'"))
+        .hint(format!("{suggestion}known keys: {}", KEYS.join(", ")))
+        .at(Place::Key("scene".into())))
 }
 
 impl StabilityMap {
@@ -210,7 +248,7 @@ impl StabilityMap {
 
     /// A map for each value of the plan's; `words` writes what is in a finished cell.
     fn heat_maps(&self, words: fn(&Self, &Verdict) -> String) -> Vec<HeatMap> {
-        let Plan { name, maps, rows, columns } = &self.plan;
+        let StabilityPlan { name, maps, rows, columns } = &self.plan;
         let per_map = rows.values.len() * columns.values.len();
         let (shows, powers) = self.shown.scale();
         let one = |(map, verdicts): (usize, &[Verdict])| {
@@ -318,8 +356,7 @@ impl StabilityMap {
         let own = first.iter().map(|(name, _)| (*name).to_owned());
         let names = own.chain(["outcome".to_owned()]).chain(numbers.map(str::to_owned));
         let row = |(at, verdict): ([usize; 3], &Verdict)| {
-            let labels = self.plan.labels(at);
-            let own = labels.iter().map(|(_, label)| (*label).to_owned());
+            let own = self.plan.axes(at).map(|(of, at)| of.exact(at));
             let found = [
                 verdict.outcome.describe(),
                 format_number(verdict.energy_growth),
