@@ -34,8 +34,8 @@ pub const TABLE: Table = Table {
         .doc(
             "scene, stations, reference and columns are as of study_work_precision. With a table as reference the quantities are \
              those it has; with a run of our own, which holds unless given, they are the positions and angles of the stations and all \
-             columns of the history that say what happened. Orders are told only from errors that the reference is good enough \
-             to tell. The size of a mesh is one over the spans of all beams. Writes NAME.csv and NAME.svg.",
+             columns of the history that say what happened. Several meshes need a reference that is none of them: \
+             finest_run(#{ mesh: … }) or a table. Orders are told only from errors that the reference is good enough to tell. The size of a mesh is one over the spans of all beams. Writes NAME.csv and NAME.svg.",
         )
         .example("print(ladder.table);\ncheck(ladder.order(\"positions\", energy_momentum()) > 1.4);")
         .see(&["study_work_precision", "finest_run", "order"]),

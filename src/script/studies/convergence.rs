@@ -6,7 +6,7 @@ use super::desk::Desk;
 use super::labels;
 use super::plan::{Plan, at_key};
 use super::precision::at_times;
-use super::reference::Reference;
+use super::reference::{self, Reference};
 use crate::analysis::{
     ALL_POSITIONS, Case, Convergence, Ladder, Outcome, Refined, Trial, Truth, all_combinations,
 };
@@ -26,6 +26,9 @@ pub fn study(call: &Call, options: &Options) -> Result<Convergence, ScriptError>
     let mut plan = Plan::read(call, options)?;
     let refined = refined(call, &plan)?;
     let reference = Reference::read(call, options, &mut plan)?;
+    if plan.subjects.len() > 1 {
+        reference::expect_finer_than_all_meshes(call, options)?;
+    }
     let mut desk = Desk::open(call.context(), &plan.name)?;
     let combinations = all_combinations(&plan.subjects, &plan.all_settings());
     let cases: Vec<Case> =

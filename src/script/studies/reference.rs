@@ -77,6 +77,18 @@ pub fn read_sheet(call: &Call, key: &str, file: &str) -> Result<Sheet, ScriptErr
     })
 }
 
+/// Refuses to judge meshes by a run on one of them, whose own error would be taken for none.
+pub fn expect_finer_than_all_meshes(call: &Call, options: &Options) -> Result<(), ScriptError> {
+    let is_table = options.text("reference").is_ok();
+    let run = options.get_if::<FinestRun>("reference");
+    if is_table || run.is_some_and(|run| run.mesh.is_some()) {
+        return Ok(());
+    }
+    let told = "the errors of meshes cannot be told from a run on the finest of them";
+    let hint = "add reference: finest_run(#{ mesh: … }) with a still finer mesh, or the name of a table";
+    Err(at_key(call, "meshes", told, hint))
+}
+
 impl Reference {
     /// Reads the option `reference`, and looks in the plan at what it can be compared with.
     pub fn read(call: &Call, options: &Options, plan: &mut Plan) -> Result<Self, ScriptError> {
