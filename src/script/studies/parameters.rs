@@ -51,8 +51,7 @@ impl Swept {
 
     /// The value number `index` as a text for other programs: of a number all digits, else its label.
     pub fn exact(&self, index: usize) -> String {
-        as_number(&self.values[index])
-            .map_or_else(|| self.labels[index].clone(), format_number)
+        as_number(&self.values[index]).map_or_else(|| self.labels[index].clone(), format_number)
     }
 
     /// Puts the value number `index` under its name.

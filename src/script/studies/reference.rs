@@ -85,7 +85,8 @@ pub fn expect_finer_than_all_meshes(call: &Call, options: &Options) -> Result<()
         return Ok(());
     }
     let told = "the errors of meshes cannot be told from a run on the finest of them";
-    let hint = "add reference: finest_run(#{ mesh: … }) with a still finer mesh, or the name of a table";
+    let hint =
+        "add reference: finest_run(#{ mesh: … }) with a still finer mesh, or the name of a table";
     Err(at_key(call, "meshes", told, hint))
 }
 
