@@ -33,7 +33,7 @@ pub fn of_step_control(control: &StepControl) -> Details {
         line("tolerance", number(control.tolerance)),
         line("first step", bound(control.first, "from the scene")),
         line("smallest", bound(control.smallest, "a millionth of the first")),
-        line("largest", bound(control.largest, "any")),
+        line("largest", bound(control.largest, "a million times the first")),
         line("estimate", "two steps against one; both are kept, the one is not"),
         line("controller", "PI; Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533-554"),
     ]

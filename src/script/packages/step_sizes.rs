@@ -64,7 +64,11 @@ const ADAPTIVE: &[Parameter] = &[
         .unit("time")
         .doc("the run stops where shorter steps are needed; a millionth of the first unless given")
         .optional(),
-    number("largest").positive().unit("time").doc("no step is longer").optional(),
+    number("largest")
+        .positive()
+        .unit("time")
+        .doc("no step is longer; a million times the first unless given")
+        .optional(),
 ];
 
 /// The type of what steps of varying size keep to, for other domains.
