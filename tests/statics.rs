@@ -6,13 +6,13 @@ mod common;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use common::reference::{number, text};
-use common::statics::load_up;
 use common::{at, orders, scenes, sci};
 use withy::beams::{Mesh, Section};
 use withy::geometry::{Curve, Vec2};
 use withy::joints::{JointKind, Partner};
 use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{Model, Scene};
+use withy::model::Scene;
+use withy::statics::{Equilibrium, Loading};
 
 const LENGTH: f64 = 10.0;
 const BENDING: f64 = 100.0;
@@ -47,14 +47,19 @@ struct Tip {
 /// Loads the tip of a cantilever in equal steps.
 fn load_tip(mut scene: Scene, force: Vec2, moment: f64, steps: usize) -> Tip {
     let station = scenes::end_of(&mut scene, 0);
-    let ramp = Schedule::ramp(0.0, 1.0).unwrap();
-    scene.add_load(LoadKind::Force { station, force, frame: Frame::Dead }, ramp.clone());
-    scene.add_load(LoadKind::Moment { station, moment }, ramp);
-    let mut model = Model::assemble(&scene).unwrap();
-    let iterations = load_up(&mut model, steps, BENDING / LENGTH);
-    let position = *model.control_points().next().unwrap().last().unwrap();
-    let strain_energy = model.measure().energy.strain;
-    Tip { position, angle: model.end_angles(0).1, iterations, strain_energy }
+    let constant = Schedule::constant(1.0).unwrap();
+    scene.add_load(LoadKind::Force { station, force, frame: Frame::Dead }, constant.clone());
+    scene.add_load(LoadKind::Moment { station, moment }, constant);
+    let rest =
+        Equilibrium::find(scene, Loading { steps, ..Loading::default() }, &mut |_| true).unwrap();
+    let model = rest.model();
+    let end = rest.path().points().last().unwrap();
+    Tip {
+        position: *model.control_points().next().unwrap().last().unwrap(),
+        angle: model.end_angles(0).1,
+        iterations: rest.path().points().iter().map(|point| point.iterations).max().unwrap(),
+        strain_energy: end.strain_energy,
+    }
 }
 
 #[test]
