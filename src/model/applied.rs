@@ -214,8 +214,10 @@ impl AppliedLoad {
 
     /// Gives the load the value that it has just after a time, at the end of any movement.
     pub(super) fn hold_at(&mut self, time: f64) -> Result<(), LoadError> {
-        self.factors =
-            StageFactors { end: self.schedule.value(time, Side::After)?, ..StageFactors::default() };
+        self.factors = StageFactors {
+            end: self.schedule.value(time, Side::After)?,
+            ..StageFactors::default()
+        };
         Ok(())
     }
 

@@ -132,9 +132,12 @@ impl Model {
     pub fn support_force(&self, place: &Place, forces: &[f64]) -> Option<(Vec2, f64)> {
         let first = self.degrees_of_freedom() - self.supports.len();
         let (body, point) = (place.body, place.nearest_control_point());
-        let mut held = self.supports.iter().zip(&forces[first..]).filter(|(support, _)| {
-            (support.body, support.point) == (body, point)
-        }).peekable();
+        let mut held = self
+            .supports
+            .iter()
+            .zip(&forces[first..])
+            .filter(|(support, _)| (support.body, support.point) == (body, point))
+            .peekable();
         held.peek()?;
         let mut sum = (Vec2::zeros(), 0.0);
         for (support, force) in held {
@@ -165,6 +168,7 @@ impl Model {
         let standstill = vec![0.0; self.unknowns];
         let mut forces = vec![0.0; self.degrees_of_freedom()];
         let mut aside = BandedMatrix::zeros(self.unknowns, self.half_bandwidth);
+        self.begin_movement();
         let mut linearise = |body: &mut Body, tangent: &mut BandedMatrix| {
             let at = collocation(Stage::End);
             body.add_linearised_forces(at, &standstill, 1.0, &mut forces, tangent);

@@ -64,18 +64,6 @@ pub enum StaticsError {
         /// What Newton's method says.
         reason: Box<NewtonError>,
     },
-    /// More points than were allowed.
-    #[error(
-        "the path of '{scene}' is at load factor {reached} after {points} points; give more points or a smaller load"
-    )]
-    Long {
-        /// Its name.
-        scene: String,
-        /// The load factor at its end [-].
-        reached: f64,
-        /// Points.
-        points: usize,
-    },
     /// Somebody stopped it.
     #[error("stopped at load factor {reached}")]
     Interrupted {

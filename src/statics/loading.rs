@@ -37,7 +37,7 @@ pub struct ArcLength {
     /// The longest step: root mean square of the displacements, relative to the longest beam, and the rotations of all control
     /// points [-, rad].
     pub longest: f64,
-    /// Most points of the path.
+    /// Most points of the path, which ends with them wherever it is.
     pub points: usize,
 }
 

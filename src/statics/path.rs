@@ -26,6 +26,12 @@ impl Path {
         self.points.push(point);
     }
 
+    /// Adds a point at which nothing has moved.
+    pub(super) fn pretend(&mut self, load_factor: f64) {
+        let last = self.points.last().cloned();
+        self.points.extend(last.map(|point| PathPoint { load_factor, ..point }));
+    }
+
     /// All points.
     pub fn points(&self) -> &[PathPoint] {
         &self.points

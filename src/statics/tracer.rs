@@ -58,7 +58,7 @@ impl<'s> Tracer<'s> {
         Ok(())
     }
 
-    /// Follows the path until the load factor is reached.
+    /// Follows the path until the load factor is reached, or the path has as many points as it may have.
     pub(super) fn follow(
         &mut self,
         arc: ArcLength,
@@ -69,12 +69,8 @@ impl<'s> Tracer<'s> {
         let metric = self.metric();
         let mut trial = Trial::new(&self.model, &self.loading);
         let mut distance = norm(&metric, &self.movements).min(arc.longest);
-        while self.path.load_factor() != goal {
+        while self.path.load_factor() != goal && self.path.points().len() < arc.points {
             self.ask(goes_on)?;
-            if self.path.points().len() > arc.points {
-                let (scene, reached) = (self.scene.name.clone(), self.path.load_factor());
-                return Err(StaticsError::Long { scene, reached, points: arc.points });
-            }
             trial.look_along(&metric, &self.movements);
             distance = self.advance(&mut trial, distance, goal, &metric)?.min(arc.longest);
         }

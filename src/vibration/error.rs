@@ -4,7 +4,9 @@
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum VibrationError {
     /// None or too many were asked for.
-    #[error("{asked} modes were asked for, but the scene has {available}, one for each movement with inertia; ask for 1 to {available}")]
+    #[error(
+        "{asked} modes were asked for, but the scene has {available}, one for each movement with inertia; ask for 1 to {available}"
+    )]
     Count {
         /// How many.
         asked: usize,
@@ -12,7 +14,9 @@ pub enum VibrationError {
         available: usize,
     },
     /// A joint that lets places move along a beam.
-    #[error("slider '{slider}': modes of scenes with sliding joints are not built; replace it by a hinge where it is")]
+    #[error(
+        "slider '{slider}': modes of scenes with sliding joints are not built; replace it by a hinge where it is"
+    )]
     Slider {
         /// Its name.
         slider: String,
@@ -26,6 +30,8 @@ pub enum VibrationError {
         load: String,
     },
     /// Numbers that are not finite.
-    #[error("the stiffness or the inertia of the scene is not finite; check stiffness, masses and units")]
+    #[error(
+        "the stiffness or the inertia of the scene is not finite; check stiffness, masses and units"
+    )]
     NotFinite,
 }

@@ -76,6 +76,9 @@ impl Modes {
     /// # Errors
     /// When there are not so many, or something slides or turns with the beam.
     pub fn of(model: &mut Model, count: usize) -> Result<Self, VibrationError> {
+        if let Some(slider) = model.slider_names().next() {
+            return Err(VibrationError::Slider { slider: slider.to_owned() });
+        }
         if let Some(load) = model.follower() {
             return Err(VibrationError::Follower { load: load.to_owned() });
         }
@@ -113,6 +116,16 @@ impl Modes {
         &self.points
     }
 
+    /// The larger side of the box around the configuration [length].
+    pub fn size(&self) -> f64 {
+        let points = || self.points.iter().flatten();
+        let side = |along: fn(&Vec2) -> f64| {
+            let least = points().map(along).fold(f64::INFINITY, f64::min);
+            points().map(along).fold(f64::NEG_INFINITY, f64::max) - least
+        };
+        side(|at| at.x).max(side(|at| at.y))
+    }
+
     /// The configuration in a mode, its largest displacement of a control point as long as asked for [length].
     pub fn displaced(&self, mode: usize, amplitude: f64) -> Vec<Vec<Vec2>> {
         let scale = amplitude / self.largest(mode);
@@ -137,8 +150,7 @@ impl Modes {
 pub fn loose_movements(model: &mut Model) -> usize {
     let Ok(pencil) = Pencil::of(model) else { return 0 };
     let most = pencil.finite.min(12);
-    lowest(&pencil, most)
-        .map_or(0, |modes| modes.iter().filter(|mode| mode.is_free()).count())
+    lowest(&pencil, most).map_or(0, |modes| modes.iter().filter(|mode| mode.is_free()).count())
 }
 
 fn lowest(pencil: &Pencil, count: usize) -> Result<Vec<Mode>, VibrationError> {
@@ -164,8 +176,9 @@ fn shifted_pairs(pencil: &Pencil, shift: f64, count: usize) -> Option<Pairs> {
         return lowest_pairs(pencil, shift, count);
     }
     let (mut stiffness, mut inertia) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));
-    for (row, column, shifted, mass) in pencil.shifted(shift) {
-        (stiffness[(row, column)], inertia[(row, column)]) = (shifted, mass);
+    for (row, column, resistance, mass) in pencil.entries() {
+        stiffness[(row, column)] = resistance + shift * mass;
+        inertia[(row, column)] = mass;
     }
     pairs(stiffness, &inertia)
 }

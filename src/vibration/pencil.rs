@@ -1,5 +1,7 @@
 //! Stiffness and inertia of a configuration, and their combination with a shift.
 
+use nalgebra::DMatrix;
+
 use super::VibrationError;
 use crate::integrators::Mechanism;
 use crate::linalg::BandedMatrix;
@@ -40,15 +42,14 @@ impl Pencil {
         self.stiffness.size()
     }
 
-    /// The entries of `K + σ M` and of `M` in the band: row, column and both values.
-    pub(super) fn shifted(&self, shift: f64) -> impl Iterator<Item = (usize, usize, f64, f64)> {
+    /// The entries of `K` and `M` in the band: row, column and both values.
+    pub(super) fn entries(&self) -> impl Iterator<Item = (usize, usize, f64, f64)> {
         let (size, reach) = (self.size(), self.stiffness.half_bandwidth());
         (0..size).flat_map(move |row| {
             (row.saturating_sub(reach)..(row + reach + 1).min(size)).map(move |column| {
                 // Rounding differs on both sides of the diagonal.
                 let mean = |of: &BandedMatrix| 0.5 * (of.get(row, column) + of.get(column, row));
-                let inertia = mean(&self.inertia);
-                (row, column, mean(&self.stiffness) + shift * inertia, inertia)
+                (row, column, mean(&self.stiffness), mean(&self.inertia))
             })
         })
     }
@@ -56,17 +57,33 @@ impl Pencil {
     /// `K + σ M`, to be factorised.
     pub(super) fn shifted_band(&self, shift: f64) -> BandedMatrix {
         let mut band = BandedMatrix::zeros(self.size(), self.stiffness.half_bandwidth());
-        self.shifted(shift).for_each(|(row, column, value, _)| band.add(row, column, value));
+        for (row, column, stiffness, inertia) in self.entries() {
+            band.add(row, column, stiffness + shift * inertia);
+        }
         band
     }
 
-    /// `M x`
-    pub(super) fn inertia_times(&self, x: &[f64], out: &mut [f64]) {
-        let (size, reach) = (self.size(), self.inertia.half_bandwidth());
-        for (row, out) in out.iter_mut().enumerate() {
-            let first = row.saturating_sub(reach);
-            let columns = first..(row + reach + 1).min(size);
-            *out = columns.zip(&x[first..]).map(|(at, x)| self.inertia.get(row, at) * x).sum();
+    /// `M X`
+    pub(super) fn inertia_times(&self, vectors: &DMatrix<f64>) -> DMatrix<f64> {
+        self.times(vectors, |_, inertia| inertia)
+    }
+
+    /// `(K + σ M) X`
+    pub(super) fn shifted_times(&self, shift: f64, vectors: &DMatrix<f64>) -> DMatrix<f64> {
+        self.times(vectors, |stiffness, inertia| stiffness + shift * inertia)
+    }
+
+    fn times(&self, vectors: &DMatrix<f64>, entry: impl Fn(f64, f64) -> f64) -> DMatrix<f64> {
+        let mut product = DMatrix::zeros(vectors.nrows(), vectors.ncols());
+        for (row, column, stiffness, inertia) in self.entries() {
+            let value = entry(stiffness, inertia);
+            if value != 0.0 {
+                for (of, out) in vectors.column_iter().zip(product.column_iter_mut()) {
+                    let mut out = out;
+                    out[row] += value * of[column];
+                }
+            }
         }
+        product
     }
 }
