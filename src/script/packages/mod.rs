@@ -15,6 +15,7 @@ mod loads;
 mod math;
 mod pictures;
 mod precision_studies;
+mod reading_options;
 mod recording;
 mod report;
 mod saving;
@@ -63,6 +64,7 @@ pub const TABLES: &[&Table] = &[
     &cost_studies::TABLE,
     &precision_studies::TABLE,
     &convergence_studies::TABLE,
+    &reading_options::TABLE,
     &help::TABLE,
 ];
 
