@@ -30,7 +30,14 @@ macro_rules! module {
 }
 
 /// All modules, in the order of their page.
-pub const MODULES: &[Module] = &[module!("checks")];
+pub const MODULES: &[Module] = &[
+    module!("sections"),
+    module!("shapes"),
+    module!("schedules"),
+    module!("mechanisms"),
+    module!("checks"),
+    module!("comparisons"),
+];
 
 impl Module {
     /// Its text as a program.
