@@ -7,7 +7,7 @@ use super::translate::type_word;
 use crate::script::built_in::BuiltIn;
 use crate::script::catalog::Catalog;
 use crate::script::kind::with_article;
-use crate::script::library::{ModuleFunction, page_of};
+use crate::script::library::{FOLDER, ModuleFunction, page_of};
 use crate::script::operators;
 use crate::script::program::Program;
 use crate::script::suggest::nearest;
@@ -83,6 +83,20 @@ impl Unknown<'_> {
         let hint = match nearest(name, names()).and_then(|near| page.named(near)) {
             Some(near) => format!("did you mean '{}'? {}", near.name(), written(near)),
             None => format!("it has {}", names().collect::<Vec<_>>().join(", ")),
+        };
+        (message, Some(hint))
+    }
+
+    /// What stands before `::` and was not imported.
+    pub fn module(&self, name: &str) -> Words {
+        let message = format!("nothing was imported as '{name}'");
+        let imports = || self.outline.imports.iter().map(|(known, _)| known.as_str());
+        let hint = match (page_of(&format!("{FOLDER}{name}")), nearest(name, imports())) {
+            (Some(page), _) => {
+                format!("write import \"{}\" as {name}; before it", page.module.name)
+            }
+            (None, Some(near)) => format!("did you mean '{near}'?"),
+            (None, None) => format!("write import \"FILE\" as {name}; before it"),
         };
         (message, Some(hint))
     }

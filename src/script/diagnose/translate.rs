@@ -159,6 +159,7 @@ impl Explainer<'_> {
             Error::ErrorFunctionNotFound(signature, at) => unknown.function(signature, *at),
             Error::ErrorDotExpr(text, _) => unknown.property(text),
             Error::ErrorVariableNotFound(name, _) => self.variable(name, outline, trace),
+            Error::ErrorModuleNotFound(name, _) => unknown.module(name),
             Error::ErrorPropertyNotFound(key, _) => missing_key(key, outline),
             Error::ErrorRuntime(payload, _) => self.thrown(payload),
             Error::ErrorMismatchDataType(wanted, got, _)
