@@ -36,6 +36,7 @@ pub fn behind_entrances(module: &Module, ast: &AST, file: &str) -> Module {
     for (name, value) in module.iter_var() {
         outside.set_var(name, value.clone());
     }
+    outside.set_id(file);
     outside.build_index();
     outside
 }
