@@ -8,6 +8,7 @@ use rhai::{
     RhaiFunc, ScriptFuncDef, Shared,
 };
 
+use crate::script::error::BUG;
 use crate::script::sources::Sources;
 
 /// What the functions of a module see.
@@ -46,10 +47,10 @@ fn add(module: &mut Module, function: Shared<ScriptFuncDef>, surroundings: Surro
     let name = function.name.clone();
     let enter = move |native: Option<NativeCallContext>, values: &mut [&mut Dynamic]| {
         let values: Vec<Dynamic> = values.iter().map(|value| (**value).clone().flatten()).collect();
-        match native {
-            Some(native) => surroundings.call(&native, FnPtr::from(function.clone()), values),
-            None => Ok(Dynamic::UNIT),
-        }
+        let native = native.ok_or_else(|| {
+            EvalAltResult::ErrorSystem("a function was called from nowhere".into(), BUG.into())
+        })?;
+        surroundings.call(&native, FnPtr::from(function.clone()), values)
     };
     let native = RhaiFunc::Pure {
         func: Shared::new(enter),
