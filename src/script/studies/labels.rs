@@ -1,6 +1,6 @@
 //! What things of a study are called in tables and legends: short, and no two the same.
 
-use crate::analysis::{Deviation, Outcome};
+use crate::analysis::Deviation;
 use crate::integrators::Method;
 use crate::output::{Cell, format_number, scientific, significant};
 use crate::simulation::{Settings, StepSize};
@@ -48,9 +48,4 @@ pub fn milliseconds(seconds: f64) -> String {
 /// A text that is set as a number.
 pub fn number(text: String) -> Cell {
     Cell::Number(text)
-}
-
-/// What became of a run, if it did not come to its end.
-pub fn trouble(outcome: &Outcome) -> String {
-    if outcome.is_finished() { String::new() } else { outcome.describe() }
 }

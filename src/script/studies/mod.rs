@@ -1,5 +1,6 @@
 //! Studies as scripts ask for them: from options to cases, and from results to tables, files and pictures.
 
+pub mod cell;
 pub mod convergence;
 pub mod cost;
 pub mod desk;

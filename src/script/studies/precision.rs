@@ -113,69 +113,50 @@ pub fn at_times(times: &[f64]) -> String {
     format!("t = {}", times.join(", "))
 }
 
-/// All combinations, those on the front marked, those that failed with their reason.
+/// All combinations, a table for each mesh, those on the front marked; below, why some failed.
 pub fn table(study: &Precision) -> String {
-    let title = format!(
+    let mut text = format!(
         "study '{}': error at {} against run time\nreference: {}",
         study.name,
         at_times(&study.times),
         study.truth.source
     );
-    let heads = [
-        "front",
-        "mesh",
-        "integrator",
-        "dt",
-        "error",
-        "run [ms]",
-        "by clock",
-        "shortest",
-        "set-up",
-        "unknowns",
-        "steps",
-        "iterations",
-        "factorised",
-        "retries",
-        "drift E",
-        "drift p",
-        "drift L",
-        "E freed",
-        "",
-    ];
-    let mut table = Table::new(&heads);
-    for row in &study.rows {
-        let trial = &row.trial;
+    for rows in study.rows.chunk_by(|row, next| row.mesh == next.mesh) {
+        text += &format!("\n\n{}", table_of_mesh(rows).to_string().trim_end());
+    }
+    let failed: Vec<_> = study.rows.iter().filter(|row| !row.trial.outcome.is_finished()).collect();
+    if !failed.is_empty() {
+        text += &format!("\n\n{} of {} did not finish:", failed.len(), study.rows.len());
+    }
+    for row in failed {
+        text += &format!("\n{}: {}", with(row), row.trial.outcome.describe());
+    }
+    text
+}
+
+fn table_of_mesh(rows: &[PrecisionRow]) -> Table {
+    let heads =
+        ["", "integrator", "dt", "error", "run [ms]", "set-up", "steps", "iterations", "drift E"];
+    let unknowns = rows.iter().map(|row| row.trial.unknowns).max().unwrap_or(0);
+    let mut table = Table::new(&heads).title(format!("{}: {unknowns} unknowns", rows[0].mesh));
+    for row in rows {
         let time = |read: fn(&Timing) -> f64| {
             let time = row.timing.map(|timing| labels::milliseconds(read(&timing)));
             labels::number(time.unwrap_or_else(|| "-".to_owned()))
         };
-        let drifts = trial.drifts[..3].iter().chain([&trial.free_energy_drift]);
-        let words = [
-            if row.is_on_front { "●" } else { "" }.to_owned(),
-            row.mesh.clone(),
-            labels::method(&row.settings.method),
-        ];
-        let counts = [
-            trial.unknowns,
-            trial.steps,
-            trial.newton_iterations,
-            trial.factorisations,
-            trial.retries,
-        ];
-        table.row(
-            words
-                .into_iter()
-                .map(Cell::Text)
-                .chain([labels::number(labels::step_size(&row.settings))])
-                .chain([labels::number(labels::deviation(row.error))])
-                .chain([time(Timing::price), time(|of| of.run.as_secs_f64())])
-                .chain([time(|of| of.shortest.as_secs_f64()), time(|of| of.setup.as_secs_f64())])
-                .chain(counts.map(Cell::from))
-                .chain(drifts.map(|drift| labels::number(labels::drift(*drift))))
-                .chain([Cell::Text(labels::trouble(&trial.outcome))]),
-        );
+        table.row([
+            Cell::Text(if row.is_on_front { "●" } else { "" }.to_owned()),
+            Cell::Text(labels::method(&row.settings.method)),
+            labels::number(labels::step_size(&row.settings)),
+            labels::number(labels::deviation(row.error)),
+            time(Timing::price),
+            time(|of| of.setup.as_secs_f64()),
+            Cell::from(row.trial.steps),
+            Cell::from(row.trial.newton_iterations),
+            labels::number(labels::drift(row.trial.drifts[0])),
+        ]);
     }
-    format!("{title}\n{table}").trim_end().to_owned()
+    table
 }
 
 /// What is known of a row: names and values.
