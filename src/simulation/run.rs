@@ -116,7 +116,7 @@ impl Simulation {
         model.divide(cores());
         let integrator = settings.method.build(&mut model, settings.tolerance);
         let cuts = scene.loads.iter().flat_map(|load| load.schedule.breaks()).collect();
-        let longest = scene.beams.iter().map(|beam| beam.axis.length()).fold(0.0, f64::max);
+        let longest = scene.longest_beam().unwrap_or(0.0);
         let mut history = History::new(scales(&scene, &model, longest), extra_columns(&scene));
         let measures = model.measure();
         history.push(Sample { measures, ..Sample::default() }, extra_values(&scene, &model));

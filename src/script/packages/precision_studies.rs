@@ -15,7 +15,9 @@ use crate::script::parameter::{
     Parameter, Presence, anything, array, callback, either, number, numbers, object, options, text,
     whole,
 };
-use crate::script::studies::precision::{comparison, map_of, study, table};
+use crate::script::studies::precision::study;
+use crate::script::studies::precision_comparison::comparison;
+use crate::script::studies::precision_rows::{map_of, table};
 use crate::script::studies::reference::FinestRun;
 use crate::script::table::{Row, Table, function, method, property};
 

@@ -49,3 +49,9 @@ pub fn milliseconds(seconds: f64) -> String {
 pub fn number(text: String) -> Cell {
     Cell::Number(text)
 }
+
+/// The times in words: `t = 2.5, 7.5`.
+pub fn at_times(times: &[f64]) -> String {
+    let times: Vec<String> = times.iter().map(|time| format_number(*time)).collect();
+    format!("t = {}", times.join(", "))
+}

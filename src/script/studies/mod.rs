@@ -8,5 +8,8 @@ pub mod labels;
 pub mod parameters;
 pub mod plan;
 pub mod precision;
+pub mod precision_chart;
+pub mod precision_comparison;
+pub mod precision_rows;
 pub mod reference;
 pub mod stability;

@@ -340,9 +340,8 @@ pub fn expect_same_observables(
 
 /// The length of the longest beam, or the largest distance of a particle from the first one; one where there is none.
 fn size_of(scene: &Scene) -> f64 {
-    let beams = scene.beams.iter().map(|beam| beam.axis.length());
     let first = scene.particles.first().map(|first| first.position).unwrap_or_default();
     let particles = scene.particles.iter().map(|other| (other.position - first).norm());
-    let size = beams.reduce(f64::max).or_else(|| particles.reduce(f64::max));
+    let size = scene.longest_beam().or_else(|| particles.reduce(f64::max));
     size.filter(|size| *size > 0.0).unwrap_or(1.0)
 }
