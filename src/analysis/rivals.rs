@@ -127,7 +127,9 @@ mod tests {
         let truth = Truth::of_sheet("T", &table, &observables, &[1.0]).unwrap();
         let sheet = Sheet::parse(RIVALS).unwrap();
         let rivals = Rival::of_sheet(&sheet, &observables, &truth, (&[1.0], 10.0)).unwrap();
-        assert_eq!((rivals[0].error, rivals[1].error), (0.05, 0.0));
+        assert_eq!(rivals[0].error, 0.05);
+        // Who meets the reference errs by no more than rounding.
+        assert!(rivals[1].error < 1e-13, "{}", rivals[1].error);
         assert_eq!(rivals[0].setting, "euler, dt = 0.1");
         assert!(rivals[1].energy_drift.is_nan());
         assert_eq!(machines(&rivals), ["a Cray"]);
