@@ -80,9 +80,27 @@ const LAYERS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "exercises",
+        &[
+            "script",
+            "output",
+            "analysis",
+            "simulation",
+            "model",
+            "joints",
+            "loads",
+            "beams",
+            "geometry",
+            "integrators",
+            "newton",
+            "linalg",
+        ],
+    ),
+    (
         "cli",
         &[
             "repl",
+            "exercises",
             "script",
             "output",
             "analysis",
