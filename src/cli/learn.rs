@@ -71,7 +71,9 @@ fn welcome(workbook: &Workbook) -> Done {
     let passed = EXERCISES.iter().filter(|exercise| progress.has_passed(exercise)).count();
     say(&format!("{passed} of {} exercises are passed.\n", EXERCISES.len()));
     show_next(workbook)?;
-    say("\nwithy learn watch judges each file when you save it; withy learn list shows all exercises.");
+    say(
+        "\nwithy learn watch judges each file when you save it; withy learn list shows all exercises.",
+    );
     Ok(Exit::Good)
 }
 
@@ -222,7 +224,10 @@ fn watch(workbook: &Workbook, limits: &LimitOptions) -> Done {
         if exit == Exit::Good {
             say("");
         }
-        say(&format!("waiting until a file in {} is saved; Ctrl-C leaves", shown(workbook.folder())));
+        say(&format!(
+            "waiting until a file in {} is saved; Ctrl-C leaves",
+            shown(workbook.folder())
+        ));
         current = loop {
             if flag.load(Ordering::Relaxed) {
                 return Ok(Exit::Good);
@@ -243,6 +248,7 @@ fn shown(path: &Path) -> String {
 }
 
 fn colours() -> Colours {
-    let wants = stdout().is_terminal() && env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
+    let wants =
+        stdout().is_terminal() && env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
     if wants { Colours::Ansi } else { Colours::None }
 }

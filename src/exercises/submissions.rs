@@ -39,10 +39,9 @@ impl Submission {
         }
         all.sort_by(|a, b| a.student.cmp(&b.student));
         match all.is_empty() {
-            true => Err(ExerciseError::NoSubmissions {
-                path: folder.into(),
-                track: TRACKS[0].name,
-            }),
+            true => {
+                Err(ExerciseError::NoSubmissions { path: folder.into(), track: TRACKS[0].name })
+            }
             false => Ok(all),
         }
     }
