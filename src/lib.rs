@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! main → cli → repl, exercises → script → output, analysis → simulation → model ┬→ joints, loads → beams → geometry
-//!                                                                     └→ integrators → newton → linalg
+//!                                                                               └→ integrators → newton → linalg
 //! ```
 
 #![forbid(unsafe_code)]

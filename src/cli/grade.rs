@@ -16,8 +16,17 @@ use crate::exercises::submissions::Submission;
 use crate::output::{Cell, Table};
 use crate::script::context::{Mode, Settings};
 
-/// Grades all submissions of a folder and prints a table or JSON. What attempts write is thrown away.
-pub fn grade(folder: &Path, json: bool, limits: &LimitOptions) -> Result<Exit, ExerciseError> {
+/// How marks are shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// A table for people.
+    Table,
+    /// JSON for programs.
+    Json,
+}
+
+/// Grades all submissions of a folder and prints the marks. What attempts write is thrown away.
+pub fn grade(folder: &Path, form: Form, limits: &LimitOptions) -> Result<Exit, ExerciseError> {
     let submissions = Submission::all_in(folder)?;
     let flag = interrupt::flag(AtStake::Run);
     let out = env::temp_dir().join(format!("withy-grade-{}", process::id()));
@@ -37,9 +46,9 @@ pub fn grade(folder: &Path, json: bool, limits: &LimitOptions) -> Result<Exit, E
         })
         .collect();
     let Some(reports) = reports else { return Ok(Exit::Interrupted) };
-    match json {
-        true => say(&format!("{:#}", grading::json(&reports))),
-        false => say(&table(&reports)),
+    match form {
+        Form::Json => say(&format!("{:#}", grading::json(&reports))),
+        Form::Table => say(&table(&reports)),
     }
     Ok(Exit::Good)
 }

@@ -9,7 +9,7 @@ use std::thread;
 
 use super::Exit;
 use super::bar::{self, Wish};
-use super::grade::grade;
+use super::grade::{Form, grade};
 use super::interrupt::{self, AtStake};
 use super::learn_options::{LearnAction, LearnOptions};
 use super::limits::LimitOptions;
@@ -41,7 +41,9 @@ pub fn learn(options: &LearnOptions) -> Exit {
         Some(LearnAction::Hint { name }) => hint(&workbook, name.as_deref()),
         Some(LearnAction::Reset { name }) => reset(&workbook, name),
         Some(LearnAction::Watch { limits }) => watch(&workbook, limits),
-        Some(LearnAction::Grade { folder, json, limits }) => grade(folder, *json, limits),
+        Some(LearnAction::Grade { folder, json, limits }) => {
+            grade(folder, if *json { Form::Json } else { Form::Table }, limits)
+        }
     };
     done.unwrap_or_else(|error| refuse(&Diagnostic::general(error.to_string())))
 }

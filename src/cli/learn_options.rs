@@ -22,11 +22,11 @@ pub enum LearnAction {
     List,
     /// Show the first exercise that is not passed.
     Next,
-    /// Judge an attempt, or all of them.
+    /// Judge an attempt, or all of them; each may take 20 seconds unless --max-time says otherwise.
     Check {
         /// The exercise; without it, all.
         name: Option<String>,
-        /// What an attempt may use; 20 seconds unless --max-time says otherwise.
+        /// What an attempt may use.
         #[command(flatten)]
         limits: LimitOptions,
     },
@@ -42,7 +42,7 @@ pub enum LearnAction {
     },
     /// Judge an attempt each time it is saved, and go on to the next; Ctrl-C leaves.
     Watch {
-        /// What an attempt may use; 20 seconds unless --max-time says otherwise.
+        /// What an attempt may use.
         #[command(flatten)]
         limits: LimitOptions,
     },
@@ -53,7 +53,7 @@ pub enum LearnAction {
         /// Print JSON, with what is off in each attempt.
         #[arg(long)]
         json: bool,
-        /// What each attempt may use; 20 seconds unless --max-time says otherwise.
+        /// What each attempt may use.
         #[command(flatten)]
         limits: LimitOptions,
     },

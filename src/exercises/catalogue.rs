@@ -62,6 +62,7 @@ pub const EXERCISES: &[Exercise] = &[
     exercise!("integrators", "budget"),
     exercise!("sliding", "pendulum"),
     exercise!("sliding", "corner"),
+    exercise!("sliding", "bounces"),
     exercise!("sliding", "bead_clock"),
     exercise!("sliding", "launch"),
     exercise!("sliding", "sliding_rule"),
