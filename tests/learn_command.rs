@@ -213,6 +213,28 @@ fn watching_judges_what_is_saved_and_ends_with_ctrl_c() {
     assert_eq!(watching.wait().unwrap().code(), Some(0));
 }
 
+#[cfg(unix)]
+#[test]
+fn ctrl_c_stops_a_check_and_leaves_the_progress_as_it_was() {
+    let class = classroom();
+    said(class.path(), &[]);
+    let folder = class.path().join("withy-exercises");
+    solve(&folder, 1);
+    assert_eq!(said(&folder, &["check", EXERCISES[0].name]).0, 0);
+    fs::write(folder.join(EXERCISES[0].file()), "print(\"started\"); loop { }").unwrap();
+    let mut checking = Command::new(env!("CARGO_BIN_EXE_withy"))
+        .args(["learn", "check", EXERCISES[0].name])
+        .current_dir(&folder)
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let printed = lines(checking.stdout.take().unwrap());
+    wait_for(&printed, "started");
+    Command::new("kill").args(["-INT", &checking.id().to_string()]).status().unwrap();
+    assert_eq!(checking.wait().unwrap().code(), Some(130));
+    assert!(said(&folder, &[]).1.contains("1 of "));
+}
+
 #[test]
 fn watching_ends_when_all_is_passed() {
     let class = classroom();

@@ -37,3 +37,33 @@ impl Write for Muffled {
         self.writer.flush()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Mutex;
+
+    #[derive(Clone, Default)]
+    struct Heard(Arc<Mutex<Vec<u8>>>);
+
+    impl Write for Heard {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            self.0.lock().unwrap().extend(bytes);
+            Ok(bytes.len())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn nothing_gets_through_once_there_is_silence() {
+        let (heard, silence) = (Heard::default(), Silence::default());
+        let mut writer = silence.muffle(Box::new(heard.clone()));
+        writer.write_all(b"before").unwrap();
+        silence.begin();
+        writer.write_all(b"after").unwrap();
+        assert_eq!(*heard.0.lock().unwrap(), b"before");
+    }
+}

@@ -77,3 +77,34 @@ impl Progress {
         self.hints.remove(&exercise.id());
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exercises::catalogue::EXERCISES;
+
+    #[test]
+    fn exercises_of_another_version_are_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let text = r#"{ "passed": ["beams/of_tomorrow"], "hints": { "beams/of_tomorrow": 2 } }"#;
+        fs::write(folder.path().join(FILE), text).unwrap();
+        let mut progress = Progress::read(folder.path()).unwrap();
+        progress.note(&EXERCISES[0], true);
+        progress.write(folder.path()).unwrap();
+        let text = fs::read_to_string(folder.path().join(FILE)).unwrap();
+        let kept: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let passed = serde_json::json!([EXERCISES[0].id(), "beams/of_tomorrow"]);
+        let expected = serde_json::json!({ "passed": passed, "hints": { "beams/of_tomorrow": 2 } });
+        assert_eq!(kept, expected);
+    }
+
+    #[test]
+    fn what_is_forgotten_has_neither_passed_nor_had_hints() {
+        let mut progress = Progress::default();
+        progress.note(&EXERCISES[0], true);
+        progress.note_hint(&EXERCISES[0]);
+        assert_eq!((progress.has_passed(&EXERCISES[0]), progress.hints(&EXERCISES[0])), (true, 1));
+        progress.forget(&EXERCISES[0]);
+        assert_eq!(progress, Progress::default());
+    }
+}
