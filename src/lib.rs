@@ -3,8 +3,8 @@
 //! Layers, each using only those to its right:
 //!
 //! ```text
-//! main → cli → repl, exercises → script → output, analysis → simulation → model ┬→ joints, loads → beams → geometry
-//!                                                                               └→ integrators → newton → linalg
+//! main → cli → repl, exercises → script → output, analysis → simulation → statics → vibration → model ┬→ joints, loads → beams → geometry
+//!                                                                                                     └→ integrators → newton → linalg
 //! ```
 
 #![forbid(unsafe_code)]
@@ -24,3 +24,5 @@ pub mod output;
 pub mod repl;
 pub mod script;
 pub mod simulation;
+pub mod statics;
+pub mod vibration;

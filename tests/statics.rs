@@ -3,16 +3,18 @@
 
 mod common;
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use common::reference::{number, text};
-use common::statics::load_up;
 use common::{at, orders, scenes, sci};
-use withy::beams::{Mesh, Section};
+use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Curve, Vec2};
+use withy::integrators::Method;
 use withy::joints::{JointKind, Partner};
 use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{Model, Scene};
+use withy::model::Scene;
+use withy::simulation::Simulation;
+use withy::statics::{ArcLength, Control, Equilibrium, Loading, StaticsError};
 
 const LENGTH: f64 = 10.0;
 const BENDING: f64 = 100.0;
@@ -47,14 +49,19 @@ struct Tip {
 /// Loads the tip of a cantilever in equal steps.
 fn load_tip(mut scene: Scene, force: Vec2, moment: f64, steps: usize) -> Tip {
     let station = scenes::end_of(&mut scene, 0);
-    let ramp = Schedule::ramp(0.0, 1.0).unwrap();
-    scene.add_load(LoadKind::Force { station, force, frame: Frame::Dead }, ramp.clone());
-    scene.add_load(LoadKind::Moment { station, moment }, ramp);
-    let mut model = Model::assemble(&scene).unwrap();
-    let iterations = load_up(&mut model, steps, BENDING / LENGTH);
-    let position = *model.control_points().next().unwrap().last().unwrap();
-    let strain_energy = model.measure().energy.strain;
-    Tip { position, angle: model.end_angles(0).1, iterations, strain_energy }
+    let constant = Schedule::constant(1.0).unwrap();
+    scene.add_load(LoadKind::Force { station, force, frame: Frame::Dead }, constant.clone());
+    scene.add_load(LoadKind::Moment { station, moment }, constant);
+    let rest =
+        Equilibrium::find(scene, Loading { steps, ..Loading::default() }, &mut |_| true).unwrap();
+    let model = rest.model();
+    let end = rest.path().points().last().unwrap();
+    Tip {
+        position: *model.control_points().next().unwrap().last().unwrap(),
+        angle: model.end_angles(0).1,
+        iterations: rest.path().points().iter().map(|point| point.iterations).max().unwrap(),
+        strain_energy: end.strain_energy,
+    }
 }
 
 #[test]
@@ -91,6 +98,20 @@ fn every_step_of_the_roll_up_lies_on_its_circle() {
         let error = (tip.position - exact).norm();
         println!("rolled up by {angle:.3} rad: tip off by {error:.1e}");
         assert!(error < 1e-5, "{error}");
+    }
+}
+
+#[test]
+fn the_elastica_is_that_of_elliptic_integrals_for_every_load() {
+    let json: serde_json::Value = serde_json::from_str(&text("P4_statics.json")).unwrap();
+    for case in json["elastica"]["cases"].as_array().unwrap() {
+        let load = number(&case["a2"]) * BENDING / LENGTH.powi(2);
+        let exact = at(number(&case["x_over_L"]), number(&case["y_over_L"])) * LENGTH;
+        let scene = clamped(straight(), &smooth(32), section(1e10, 1e10));
+        let tip = load_tip(scene, at(0.0, load), 0.0, 8);
+        let error = (tip.position - exact).norm() / LENGTH;
+        assert!(error < 1e-6, "{}: {error}", case["a2"]);
+        assert!((tip.angle - number(&case["theta_L"])).abs() < 2e-6, "{}", case["a2"]);
     }
 }
 
@@ -152,4 +173,161 @@ fn a_quarter_arc_unrolls_to_a_line() {
         );
         assert!(error < 1e-2);
     }
+}
+
+fn with_force(mut scene: Scene, station: Station, force: Vec2) -> Scene {
+    let load = LoadKind::Force { station, force, frame: Frame::Dead };
+    scene.add_load(load, Schedule::constant(1.0).unwrap());
+    scene
+}
+
+fn find(scene: Scene, loading: Loading) -> Result<Equilibrium, StaticsError> {
+    Equilibrium::find(scene, loading, &mut |_| true)
+}
+
+fn along(steps: usize, points: usize) -> Loading {
+    let control = Control::ArcLength(ArcLength { longest: 0.05, points });
+    Loading { steps, control, ..Loading::default() }
+}
+
+/// A circular arch of 215°, clamped at one end and hinged at the other, with a force downwards at its crown.
+fn deep_arch(force: f64) -> Scene {
+    let (radius, lean) = (100.0, 17.5_f64.to_radians());
+    let axis = Curve::arc(Vec2::zeros(), radius, -lean, PI + lean).unwrap();
+    let length = axis.length();
+    let section = Section { bending_stiffness: 1e6, ..section(1e8, 1e8) };
+    let mut scene = clamped(axis, &smooth(40), section);
+    let end = scene.station(0, length).unwrap();
+    scene.join(JointKind::Hinge, end, Partner::Ground).unwrap();
+    let crown = scene.station(0, 0.5 * length).unwrap();
+    with_force(scene, crown, at(0.0, -force))
+}
+
+/// D. A. DaDeppo & R. Schmidt, Instability of clamped-hinged circular arches subjected to a point load, J. Appl. Mech. 42
+/// (1975) 894–896: 897 without extension and shear.
+#[test]
+fn the_deep_arch_of_dadeppo_and_schmidt_buckles_at_897() {
+    let rest = find(deep_arch(1000.0), along(20, 150)).unwrap();
+    let limits = rest.path().limit_points();
+    println!("deep arch: limit points {limits:.5?}, {} points", rest.path().points().len());
+    assert!((limits[0] * 1000.0 / 897.0 - 1.0).abs() < 2e-3, "{limits:?}");
+    // Beyond it no load step finds anything near; short of it every one does.
+    let under = |factor| Loading { steps: 20, factor, ..Loading::default() };
+    find(deep_arch(1000.0), under(0.99 * limits[0])).unwrap();
+    let beyond = find(deep_arch(1000.0), under(1.01 * limits[0])).map(|_| ()).unwrap_err();
+    let StaticsError::Lost { reached, .. } = beyond else { panic!("{beyond}") };
+    assert!(reached > 0.98 * limits[0] && reached <= 1.001 * limits[0], "{reached}");
+}
+
+/// Two hinged legs, joined rigidly at a corner, with a force downwards at a fifth of the upper one.
+fn lees_frame(force: f64) -> Scene {
+    let side = 120.0;
+    let section = Section { bending_stiffness: 14400.0, ..section(4.32e4, 4.32e6) };
+    let mut scene = Scene::new("Lee's frame");
+    let leg = scenes::line(Vec2::zeros(), at(0.0, side));
+    let leg = scenes::add_beam(&mut scene, leg, &smooth(16), section);
+    let top = scenes::line(at(0.0, side), at(side, side));
+    let top = scenes::add_beam(&mut scene, top, &smooth(20), section);
+    let corner = [(leg, side), (top, 0.0)].map(|(beam, s)| scene.station(beam, s).unwrap());
+    scene.join(JointKind::Rigid, corner[0], Partner::Station(corner[1])).unwrap();
+    for (beam, s) in [(leg, 0.0), (top, side)] {
+        let station = scene.station(beam, s).unwrap();
+        scene.join(JointKind::Hinge, station, Partner::Ground).unwrap();
+    }
+    let fifth = scene.station(top, 0.2 * side).unwrap();
+    with_force(scene, fifth, at(0.0, -force))
+}
+
+/// S.-L. Lee, F. S. Manuel & E. C. Rossow, Large deflections and stability of elastic frames, J. Eng. Mech. Div. ASCE 94
+/// (1968) 521–547: first limit load 18.55.
+#[test]
+fn lees_frame_is_followed_through_both_its_limit_points() {
+    let rest = find(lees_frame(25.0), along(20, 400)).unwrap();
+    let limits: Vec<f64> = rest.path().limit_points().iter().map(|factor| 25.0 * factor).collect();
+    println!("Lee's frame: limit loads {limits:.4?}, {} points", rest.path().points().len());
+    assert_eq!(limits.len(), 2);
+    assert!((limits[0] / 18.55 - 1.0).abs() < 5e-3, "{limits:?}");
+    assert!(limits[1] < 0.0, "{limits:?}");
+    assert_eq!(rest.path().load_factor(), 1.0);
+}
+
+#[test]
+fn a_configuration_between_limit_points_is_unstable() {
+    let mut before = find(lees_frame(25.0), along(20, 8)).unwrap();
+    assert!(before.path().limit_points().is_empty() && before.modes(2).unwrap().is_stable());
+    let mut points = 8;
+    let mut between = loop {
+        points += 2;
+        let rest = find(lees_frame(25.0), along(20, points)).unwrap();
+        if !rest.path().limit_points().is_empty() {
+            break rest;
+        }
+    };
+    let modes = between.modes(2).unwrap();
+    assert!(!modes.is_stable() && modes.all()[0].growth_rate() > 0.0);
+    assert_eq!(modes.all()[0].angular_frequency(), 0.0);
+}
+
+#[test]
+fn reactions_balance_the_loads() {
+    let scene = clamped(straight(), &smooth(16), section(1e4, 1e4));
+    let (start, mut scene) = (scene.stations[0], scene);
+    let end = scenes::end_of(&mut scene, 0);
+    let mut rest =
+        find(with_force(scene, end, at(0.0, 10.0)), Loading { steps: 8, ..Loading::default() })
+            .unwrap();
+    let place = |station: &Station| rest.scene().place(station, rest.model().meshes()).unwrap();
+    let (start, end) = (place(&start), place(&end));
+    let tip = rest.model().position(&end);
+    let (force, moment) = rest.reaction(&start).unwrap();
+    assert!((force - at(0.0, -10.0)).norm() < 1e-9, "{force}");
+    assert!((moment + 10.0 * tip.x).abs() < 1e-8, "{moment}");
+    assert_eq!(rest.reaction(&end), None);
+}
+
+#[test]
+fn what_is_not_held_or_not_loaded_or_slides_is_told() {
+    let mut free = Scene::new("free");
+    scenes::add_beam(&mut free, straight(), &smooth(4), section(1e4, 1e4));
+    let end = scenes::end_of(&mut free, 0);
+    let loose = find(with_force(free.clone(), end, at(0.0, 1.0)), Loading::default());
+    let error = loose.map(|_| ()).unwrap_err();
+    assert!(matches!(error, StaticsError::Loose { movements: 3, .. }), "{error}");
+    let nothing = find(free, Loading::default()).map(|_| ()).unwrap_err();
+    assert!(matches!(nothing, StaticsError::NoLoad { .. }), "{nothing}");
+    let held = clamped(straight(), &smooth(4), section(1e4, 1e4));
+    let mut stopped = held.clone();
+    let end = scenes::end_of(&mut stopped, 0);
+    let asked = Loading { steps: 4, ..Loading::default() };
+    let mut goes_on = |reached: f64| reached < 0.5;
+    let error = Equilibrium::find(with_force(stopped, end, at(0.0, 1.0)), asked, &mut goes_on);
+    assert_eq!(error.map(|_| ()).unwrap_err(), StaticsError::Interrupted { reached: 0.5 });
+    for loading in [
+        Loading { steps: 0, ..Loading::default() },
+        Loading { factor: f64::NAN, ..Loading::default() },
+        Loading { time: f64::INFINITY, ..Loading::default() },
+    ] {
+        let error = find(held.clone(), loading).map(|_| ()).unwrap_err();
+        assert!(matches!(error, StaticsError::Value { .. }), "{error}");
+    }
+}
+
+#[test]
+fn a_simulation_that_starts_at_rest_stays_there_and_swings_when_let_go() {
+    let mut scene = clamped(straight(), &smooth(8), section(1e4, 1e4));
+    let station = scenes::end_of(&mut scene, 0);
+    let load = LoadKind::Force { station, force: at(0.0, 5.0), frame: Frame::Dead };
+    scene.add_load(load, Schedule::hold_for(1.0).unwrap());
+    let rest = find(scene, Loading { steps: 4, ..Loading::default() }).unwrap();
+    let place = rest.scene().place(&station, rest.model().meshes()).unwrap();
+    let tip = rest.model().position(&place);
+    let settings = common::settings(Method::EnergyMomentum, 0.05);
+    let mut simulation = Simulation::start_at_rest(&rest, settings).unwrap();
+    let strain = simulation.history().samples()[0].measures.energy.strain;
+    common::run(&mut simulation, 1.0).unwrap();
+    assert!((simulation.model().position(&place) - tip).norm() < 1e-8);
+    common::run(&mut simulation, 3.0).unwrap();
+    assert!((simulation.model().position(&place) - tip).norm() > 1.0);
+    let energy = simulation.history().samples().last().unwrap().measures.energy.total();
+    assert!((energy / strain - 1.0).abs() < 1e-9, "{energy} {strain}");
 }

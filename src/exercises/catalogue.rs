@@ -50,6 +50,9 @@ macro_rules! exercise {
 pub const EXERCISES: &[Exercise] = &[
     exercise!("beams", "change_one_number"),
     exercise!("beams", "rectangle"),
+    exercise!("beams", "circle"),
+    exercise!("beams", "stocky"),
+    exercise!("beams", "first_frequency"),
     exercise!("splines", "knot_vector"),
     exercise!("splines", "kink"),
     exercise!("splines", "refine"),

@@ -212,6 +212,15 @@ impl AppliedLoad {
         Ok(())
     }
 
+    /// Gives the load the value that it has just after a time, at the end of any movement.
+    pub(super) fn hold_at(&mut self, time: f64) -> Result<(), LoadError> {
+        self.factors = StageFactors {
+            end: self.schedule.value(time, Side::After)?,
+            ..StageFactors::default()
+        };
+        Ok(())
+    }
+
     pub(super) fn trackers(&self) -> impl Iterator<Item = &Tracker> {
         let followers =
             if let Action::Follower(followers) = &self.action { followers.as_slice() } else { &[] };

@@ -349,13 +349,7 @@ impl Mechanism for Model {
         let rotations = self.step.rotations;
         let exchange = self.exchange_in_step(residual);
         self.exchanged += exchange;
-        let Self { trackers, loads, bodies, .. } = self;
-        for tracker in
-            trackers.iter_mut().chain(loads.iter_mut().flat_map(AppliedLoad::trackers_mut))
-        {
-            tracker.advance(bodies[tracker.place.body].moved(), rotations);
-        }
-        self.bodies.iter_mut().for_each(|body| body.advance(rotations));
+        self.move_gathered(rotations);
         let ending = self.step.interval.ending();
         self.sliders.iter_mut().for_each(|slider| {
             slider.advance(&self.bodies, constraints, ending);

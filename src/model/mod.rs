@@ -3,6 +3,7 @@
 mod accelerations;
 mod applied;
 mod assemble;
+mod at_rest;
 mod body;
 mod connection;
 mod error;
@@ -24,6 +25,7 @@ mod sliding;
 mod stored;
 mod tracker;
 
+pub use at_rest::StaticForces;
 pub use error::ModelError;
 pub use explain::{Part, Usage};
 pub use measures::{Energy, Measures};

@@ -20,6 +20,8 @@ use crate::geometry::Vec2;
 use crate::integrators::{Integrator, Interval, Mechanism, Method};
 use crate::model::{Model, Scene};
 use crate::newton::Tolerance;
+use crate::statics::Equilibrium;
+use crate::vibration::{Modes, VibrationError};
 
 /// Most steps that a pretended run has.
 const MOST_PRETENDED: usize = 10_000;
@@ -109,9 +111,24 @@ impl Simulation {
     /// # Errors
     /// When the step size or the parameter of the method is out of its range, or the scene cannot be built.
     pub fn start(scene: Scene, settings: Settings) -> Result<Self, SimulationError> {
+        let model = Model::assemble(&scene)?;
+        Self::of(scene, model, settings)
+    }
+
+    /// Puts the scene of an equilibrium at t = 0, at rest as it was found.
+    ///
+    /// # Errors
+    /// When the step size or the parameter of the method is out of its range.
+    pub fn start_at_rest(rest: &Equilibrium, settings: Settings) -> Result<Self, SimulationError> {
+        let scene = rest.scene().clone();
+        let mut model = Model::assemble(&scene)?;
+        model.restore(&rest.model().state());
+        Self::of(scene, model, settings)
+    }
+
+    fn of(scene: Scene, mut model: Model, settings: Settings) -> Result<Self, SimulationError> {
         settings.dt.check()?;
         settings.method.check()?;
-        let mut model = Model::assemble(&scene)?;
         let integrator = settings.method.build(&mut model, settings.tolerance);
         let cuts = scene.loads.iter().flat_map(|load| load.schedule.breaks()).collect();
         let longest = scene.beams.iter().map(|beam| beam.axis.length()).fold(0.0, f64::max);
@@ -179,6 +196,14 @@ impl Simulation {
     /// Configurations so far.
     pub fn trajectory(&self) -> &Trajectory {
         &self.trajectory
+    }
+
+    /// The lowest natural modes of the present configuration, taken as one at rest.
+    ///
+    /// # Errors
+    /// When there are not so many, or something slides or turns with the beam.
+    pub fn modes(&mut self, count: usize) -> Result<Modes, VibrationError> {
+        Modes::of(&mut self.model, count)
     }
 
     /// The work so far.

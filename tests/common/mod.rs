@@ -10,7 +10,6 @@ pub mod reference;
 pub mod scenes;
 pub mod sliding;
 pub mod sliding_scenes;
-pub mod statics;
 
 use withy::beams::{Mesh, Quadrature};
 use withy::geometry::Vec2;

@@ -113,20 +113,6 @@ pub fn differences(point: &[f64], h: f64, f: &mut dyn FnMut(&[f64]) -> Vec<f64>)
     DMatrix::from_columns(&columns.collect::<Vec<_>>())
 }
 
-/// Squares of the circular frequencies of small vibration about the present state, smallest first.
-pub fn eigenvalues(model: &mut Model) -> Vec<f64> {
-    model.begin_step(STEP, &Stage::ALL).unwrap();
-    let standstill = vec![0.0; model.unknowns()];
-    let stiffness = tangent(model, Stage::End, &standstill);
-    let lower = inertia(model).cholesky().expect("the inertia is positive definite").l();
-    let half = lower.solve_lower_triangular(&stiffness).unwrap();
-    let reduced = lower.solve_lower_triangular(&half.transpose()).unwrap();
-    let symmetric = (&reduced + reduced.transpose()) * 0.5;
-    let mut values = symmetric.symmetric_eigenvalues().as_slice().to_vec();
-    values.sort_by(f64::total_cmp);
-    values
-}
-
 /// The moment about the origin of forces on the unknowns.
 pub fn torque(model: &mut Model, forces: &[f64]) -> f64 {
     let arm = |(unknown, force): (Unknown, &f64)| match unknown {

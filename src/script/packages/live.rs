@@ -16,6 +16,7 @@ use crate::script::limits::Stop;
 use crate::script::numbers::format_number;
 use crate::script::stored::StoredFunction;
 use crate::simulation::{Monitor, Simulation, SimulationError, StepSize};
+use crate::vibration::Modes;
 
 /// A running simulation; clones are the same one.
 #[derive(Clone)]
@@ -98,6 +99,11 @@ impl SimulationHandle {
 
     fn is_latest(&self, context: &Context) {
         context.note_simulation(Dynamic::from(self.clone()));
+    }
+
+    /// The lowest modes about its present configuration.
+    pub fn modes(&self, count: usize) -> Result<Modes, ScriptError> {
+        Ok(self.0.simulation.borrow_mut().modes(count)?)
     }
 
     /// Changes the memory for states to go back to [bytes].

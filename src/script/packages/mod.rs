@@ -4,6 +4,7 @@ mod arrays;
 mod checking;
 mod convergence_studies;
 mod cost_studies;
+mod equilibria;
 mod events;
 mod explaining;
 pub mod geometry;
@@ -13,10 +14,12 @@ mod integrators;
 mod live;
 mod loads;
 mod math;
+mod modes;
 mod pictures;
 mod precision_studies;
 mod recording;
 mod report;
+mod rest_pictures;
 mod saving;
 mod scenes;
 mod schedules;
@@ -51,6 +54,8 @@ pub const TABLES: &[&Table] = &[
     &step_sizes::TABLE,
     &scenes::TABLE,
     &loads::TABLE,
+    &equilibria::TABLE,
+    &modes::TABLE,
     &simulations::TABLE,
     &recording::TABLE,
     &time_travel::TABLE,
@@ -59,6 +64,7 @@ pub const TABLES: &[&Table] = &[
     &histories::TABLE,
     &explaining::TABLE,
     &pictures::TABLE,
+    &rest_pictures::TABLE,
     &stability_studies::TABLE,
     &cost_studies::TABLE,
     &precision_studies::TABLE,

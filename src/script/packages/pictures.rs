@@ -262,10 +262,11 @@ fn plot_drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
     write_charts(call, histories_over_time(call)?.iter().map(chart).collect())
 }
 
-fn write_csv(call: &Call, table: CsvTable) -> Result<Dynamic, ScriptError> {
+/// Writes a table, if the name of its file ends as it should.
+pub(super) fn write_csv(call: &Call, table: CsvTable) -> Result<Dynamic, ScriptError> {
     let file = call.text("file")?;
     if !file.ends_with(".csv") {
-        return Err(call.error(format!("\"{file}\" does not end in .csv")).at(Place::Argument(1)));
+        return Err(call.error(format!("\"{file}\" does not end in .csv")));
     }
     call.context().output().write(&file, table.to_text()?.as_bytes())?;
     Ok(Dynamic::UNIT)

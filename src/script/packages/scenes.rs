@@ -240,11 +240,20 @@ impl StationHandle {
     /// Its place in a simulation, if that is one of its scene.
     pub fn on(&self, handle: &SimulationHandle) -> Result<beams::Place, ScriptError> {
         let simulation = handle.simulation();
-        handle.scene().own(self)?;
-        let scene = simulation.scene();
+        self.within(handle.scene(), simulation.scene(), simulation.model().meshes())
+    }
+
+    /// Its place among the meshes of a scene that was built when it was `built`, if it is one of that scene.
+    pub fn within(
+        &self,
+        of: &SceneHandle,
+        built: &Scene,
+        meshes: &[Mesh],
+    ) -> Result<beams::Place, ScriptError> {
+        of.own(self)?;
         let known = match self.station.body {
-            BodyIndex::Beam(beam) => beam < scene.beams.len(),
-            BodyIndex::Particle(particle) => particle < scene.particles.len(),
+            BodyIndex::Beam(beam) => beam < built.beams.len(),
+            BodyIndex::Particle(particle) => particle < built.particles.len(),
         };
         if !known {
             let told = format!("{} was added after the scene was started", self.show());
@@ -252,7 +261,7 @@ impl StationHandle {
                 ScriptError::new(told).hint("add everything before scene.start(…), or start again")
             );
         }
-        Ok(simulation.place(&self.station)?)
+        Ok(built.place(&self.station, meshes)?)
     }
 }
 

@@ -21,7 +21,7 @@ use crate::script::parameter::{
     Parameter, Presence, callback, either, number, object, options, text, whole,
 };
 use crate::script::table::{Row, Table, method, property};
-use crate::simulation::{Invariant, Recording, Settings, Simulation, StepControl};
+use crate::simulation::{Invariant, Recording, Settings, Simulation, SimulationError, StepControl};
 
 /// Simulations.
 pub const TABLE: Table = Table {
@@ -156,7 +156,7 @@ pub const SIMULATION: Type = Type::of::<SimulationHandle>();
 const INVARIANTS: Type = Type::of::<Invariants>();
 
 const AT: Parameter = object("station", STATION);
-const START: &[Parameter] = &[
+pub(super) const START: &[Parameter] = &[
     either("dt", &[Kind::Number(Range::Positive), Kind::Object(STEP_CONTROL)])
         .unit("time")
         .doc("the step size, or adaptive(#{ tolerance: 1e-4 })"),
@@ -233,6 +233,15 @@ const fn count(name: &'static str, body: crate::script::table::Body) -> Row {
 fn start(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SceneHandle>()?;
     let scene = handle.scene().borrow().clone();
+    begin(call, handle, |settings| Simulation::start(scene, settings))
+}
+
+/// A simulation as the options ask for it.
+pub(super) fn begin(
+    call: &Call,
+    of: SceneHandle,
+    start: impl FnOnce(Settings) -> Result<Simulation, SimulationError>,
+) -> Result<Dynamic, ScriptError> {
     let options = call.options("options")?;
     let settings = Settings {
         method: options.get_if::<Method>("integrator").unwrap_or_default(),
@@ -242,12 +251,13 @@ fn start(call: &mut Call) -> Result<Dynamic, ScriptError> {
         },
         tolerance: Tolerance::default(),
     };
-    let name = options.text("name").map_or_else(|_| scene.name.clone(), |name| name.to_string());
-    let mut simulation = Simulation::start(scene, settings)?;
+    let mut simulation = start(settings)?;
+    let name = options.text("name").map(|name| name.to_string());
+    let name = name.unwrap_or_else(|_| simulation.scene().name.clone());
     let limit = options.number_if_given("snapshots").map(bytes);
     simulation.record(options.get_if::<Recording>("record").unwrap_or_default());
     simulation.keep_snapshots(limit.unwrap_or_else(|| call.context().snapshots()));
-    Ok(Dynamic::from(SimulationHandle::new(simulation, handle, name, call.context())))
+    Ok(Dynamic::from(SimulationHandle::new(simulation, of, name, call.context())))
 }
 
 fn measures(handle: &SimulationHandle) -> Measures {
@@ -277,17 +287,24 @@ fn place(call: &Call) -> Result<(SimulationHandle, Place), ScriptError> {
 }
 
 fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let handle = call.receiver::<SimulationHandle>()?;
+    let (handle, _) = place(call)?;
     let station = call.get::<StationHandle>("station")?;
-    station.on(&handle)?;
+    let simulation = handle.simulation();
+    followed(call, &station, simulation.model().angle(simulation.scene(), &station.station()))
+}
+
+/// The angle at a station, if it was followed from the start.
+pub(super) fn followed(
+    call: &Call,
+    station: &StationHandle,
+    angle: Option<f64>,
+) -> Result<Dynamic, ScriptError> {
     if station.station().beam().is_none() {
         let told = format!("{} does not turn: it has no angle", station.show());
         return Err(call.error(told).hint("ask for the angle at a station of a beam"));
     }
-    let simulation = handle.simulation();
-    let angle = simulation.model().angle(simulation.scene(), &station.station());
     angle.map(Dynamic::from).ok_or_else(|| {
         call.error(format!("the angle at {} was not followed", station.show()))
-            .hint("make the station with beam.at(s) before scene.start(…)")
+            .hint("make the station with beam.at(s) before scene.start(…) or scene.equilibrium(…)")
     })
 }

@@ -1,0 +1,184 @@
+//! The model without inertia: what balances at rest, and how it resists small movements.
+//!
+//! Movements are counted from the present configuration; rotations are increments of the angle itself, for which the stiffness
+//! is the Hessian of the potential energy.
+
+use super::Model;
+use super::applied::{Action, AppliedLoad, collocation};
+use super::body::Body;
+use crate::beams::{ForceSummary, Place, RotationIncrement};
+use crate::geometry::{Vec2, larger};
+use crate::integrators::{Mechanism, Stage};
+use crate::joints::Component;
+use crate::linalg::BandedMatrix;
+use crate::loads::LoadError;
+
+/// The largest of the forces that meet at rest.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StaticForces {
+    /// The largest force: in a section, or of a load [force].
+    pub force: f64,
+    /// The largest moment: in a section, or of a load [force·length].
+    pub moment: f64,
+    /// The largest mismatch between the strain of a section force and that of the configuration [-].
+    pub strain_mismatch: f64,
+}
+
+impl Model {
+    /// Gives all loads the values that they have just after a time.
+    ///
+    /// # Errors
+    /// When one has no finite value then: its name, and why.
+    pub fn hold_loads_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
+        let hold = |load: &mut AppliedLoad| {
+            load.hold_at(time).map_err(|reason| (load.name.clone(), reason))
+        };
+        self.loads.iter_mut().try_for_each(hold)
+    }
+
+    /// The first load that turns with a section, which has no potential.
+    pub fn follower(&self) -> Option<&str> {
+        let turns = |load: &&AppliedLoad| matches!(load.action, Action::Follower(_));
+        self.loads.iter().find(turns).map(|load| load.name.as_str())
+    }
+
+    /// Which unknown movements are rotations.
+    pub fn rotations(&self) -> &[bool] {
+        &self.is_rotation
+    }
+
+    /// Takes the section forces of the last movement for a start of the next.
+    pub fn begin_movement(&mut self) {
+        self.bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
+    }
+
+    /// Adds the internal forces minus `load_factor` times the loads, with the section forces as they are.
+    pub fn add_static_forces(
+        &mut self,
+        movements: &[f64],
+        load_factor: f64,
+        out: &mut [f64],
+    ) -> StaticForces {
+        let mut summary = ForceSummary::default();
+        for body in &mut self.bodies {
+            summary.join(&body.add_forces(collocation(Stage::End), movements, 1.0, out));
+        }
+        let (force, moment) = self.subtract_static_loads(movements, load_factor, out);
+        StaticForces {
+            force: larger(summary.force, load_factor.abs() * force),
+            moment: larger(summary.moment, load_factor.abs() * moment),
+            strain_mismatch: summary.strain_mismatch,
+        }
+    }
+
+    /// Adds the condensed internal forces minus `load_factor` times the loads, and their derivative by the movements.
+    pub fn add_linearised_static_forces(
+        &mut self,
+        movements: &[f64],
+        load_factor: f64,
+        out: &mut [f64],
+        tangent: &mut BandedMatrix,
+    ) {
+        for body in &mut self.bodies {
+            body.add_linearised_forces(collocation(Stage::End), movements, 1.0, out, tangent);
+        }
+        self.subtract_static_loads(movements, load_factor, out);
+        for load in &self.loads {
+            let (bodies, unknowns) = (&self.bodies, self.unknowns);
+            load.add_tangent(bodies, Stage::End, movements, load_factor, unknowns, tangent);
+        }
+    }
+
+    /// Subtracts `load_factor` times the loads and the weight; returns the largest force and moment of a whole load on a
+    /// control point.
+    pub fn subtract_static_loads(
+        &mut self,
+        movements: &[f64],
+        load_factor: f64,
+        out: &mut [f64],
+    ) -> (f64, f64) {
+        let mut largest = (0.0, 0.0);
+        let mut join = |(force, moment): (f64, f64)| {
+            largest = (larger(largest.0, force), larger(largest.1, moment));
+        };
+        if let Some(gravity) = &self.gravity {
+            gravity.subtract_from(&self.bodies, load_factor, out);
+            join(gravity.largest(1.0));
+        }
+        for load in &mut self.loads {
+            join(load.subtract_from(&self.bodies, Stage::End, movements, load_factor, out));
+        }
+        largest
+    }
+
+    /// Moves everything, and leaves it at rest there.
+    pub fn move_by(&mut self, movements: &[f64]) {
+        for body in &mut self.bodies {
+            body.gather(movements);
+        }
+        self.move_gathered(RotationIncrement::Angle);
+        self.rates.fill(0.0);
+    }
+
+    /// The displacements of the control points of all bodies in a movement [length].
+    pub fn displacements(&self, movements: &[f64]) -> Vec<Vec<Vec2>> {
+        let of_body = |body: &Body| {
+            (0..body.degrees_of_freedom.len()).map(|at| body.vector_at(at, movements)).collect()
+        };
+        self.bodies.iter().map(of_body).collect()
+    }
+
+    /// The forces of the supports on the scene at a place, from forces at rest: force and moment; none where nothing is held.
+    pub fn support_force(&self, place: &Place, forces: &[f64]) -> Option<(Vec2, f64)> {
+        let first = self.degrees_of_freedom() - self.supports.len();
+        let (body, point) = (place.body, place.nearest_control_point());
+        let mut held = self
+            .supports
+            .iter()
+            .zip(&forces[first..])
+            .filter(|(support, _)| (support.body, support.point) == (body, point))
+            .peekable();
+        held.peek()?;
+        let mut sum = (Vec2::zeros(), 0.0);
+        for (support, force) in held {
+            match support.component {
+                Component::X => sum.0.x += force,
+                Component::Y => sum.0.y += force,
+                Component::Rotation => sum.1 += force,
+            }
+        }
+        Some(sum)
+    }
+
+    /// Moves trackers and bodies by the movements that the bodies gathered last.
+    pub(super) fn move_gathered(&mut self, rotations: RotationIncrement) {
+        let Self { trackers, loads, bodies, .. } = self;
+        for tracker in
+            trackers.iter_mut().chain(loads.iter_mut().flat_map(AppliedLoad::trackers_mut))
+        {
+            tracker.advance(bodies[tracker.place.body].moved(), rotations);
+        }
+        self.bodies.iter_mut().for_each(|body| body.advance(rotations));
+    }
+
+    /// Adds the stiffness of the present configuration, with the section forces of its strain.
+    ///
+    /// Loads of fixed direction have none; those that turn with a section are left out.
+    pub fn add_stiffness(&mut self, stiffness: &mut BandedMatrix) {
+        let standstill = vec![0.0; self.unknowns];
+        let mut forces = vec![0.0; self.degrees_of_freedom()];
+        let mut aside = BandedMatrix::zeros(self.unknowns, self.half_bandwidth);
+        self.begin_movement();
+        let mut linearise = |body: &mut Body, tangent: &mut BandedMatrix| {
+            let at = collocation(Stage::End);
+            body.add_linearised_forces(at, &standstill, 1.0, &mut forces, tangent);
+        };
+        for body in &mut self.bodies {
+            // A motion leaves the section forces of the middle of its last step. A correction by nothing makes them those of
+            // the strain.
+            linearise(body, &mut aside);
+            body.correct_section_forces(&standstill);
+            linearise(body, stiffness);
+        }
+    }
+}

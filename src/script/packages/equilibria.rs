@@ -1,0 +1,336 @@
+//! Equilibrium of a scene: finding it, looking at it, and letting it go.
+
+use std::cell::{Ref, RefCell};
+use std::rc::Rc;
+
+use rhai::{Array, Dynamic, INT, Map};
+
+use super::modes::ModesHandle;
+use super::scenes::{SCENE, STATION, SceneHandle, StationHandle};
+use super::simulations::{START, begin, followed};
+use crate::beams::Place;
+use crate::output::significant;
+use crate::script::call::Call;
+use crate::script::context::Mode;
+use crate::script::error::ScriptError;
+use crate::script::kind::{Details, Scripted, Type};
+use crate::script::parameter::{Parameter, Presence, number, object, options, whole};
+use crate::script::table::{Body, Row, Table, function, method, property};
+use crate::simulation::Simulation;
+use crate::statics::{ArcLength, Control, Equilibrium, Loading, StaticsError};
+
+/// Equilibrium.
+pub const TABLE: Table = Table {
+    name: "equilibrium",
+    doc: "Where a scene rests under its loads. Loads are put on together, in steps from nothing to the whole; what happens over \
+          time plays no part. Loads that turn with a beam are followed. The elements are those of simulations.",
+    types: &[EQUILIBRIUM, CONTROL],
+    setup: BENT,
+    constants: &[],
+    rows: &[
+        method(SCENE, "equilibrium", &[options("options", LOADING).optional()], find)
+            .returns("an equilibrium")
+            .summary("Finds where the scene rests under its loads and its weight.")
+            .doc(
+                "The scene must be held: supports must leave it no movement without resistance. A load step that finds nothing \
+                 is halved, eight times at most. Where a structure snaps through, or to follow it under a falling load, take \
+                 control: arc_length().",
+            )
+            .example(
+                "let rest = scene.equilibrium(#{ load_steps: 4 });\n\
+                 check_close(rest.angle(rod.end), 3.14159265358979 / 2, 1e-9);",
+            )
+            .see(&["load_control", "arc_length", "modes", "start", "plot_equilibrium"]),
+        function("load_control", &[], |_| Ok(Dynamic::from(Control::Load)))
+            .returns("a load control")
+            .summary("Prescribes the load in each step: equal parts of it.")
+            .example("let rest = scene.equilibrium(#{ load_steps: 4, control: load_control() });\ncheck(rest.load_factors == [0, 0.25, 0.5, 0.75, 1]);")
+            .see(&["arc_length", "equilibrium"]),
+        function("arc_length", &[options("options", ARC_LENGTH).optional()], |call| {
+            let options = call.options_or_defaults("options")?;
+            let arc = ArcLength { longest: options.number("longest")?, points: options.count("points")? };
+            Ok(Dynamic::from(Control::ArcLength(arc)))
+        })
+        .returns("a load control")
+        .summary("Prescribes how far the scene moves in each step; the load follows, and may fall.")
+        .doc(
+            "So a path of equilibria is followed through its limit points, until the whole load is reached for the first time. \
+             The first step puts on 1/load_steps of the load. Riks, Int. J. Solids Struct. 15 (1979) 529-551.",
+        )
+        .example(
+            "let rest = scene.equilibrium(#{ load_steps: 4, control: arc_length(#{ longest: 0.1 }) });\n\
+             check(rest.load_factor == 1 && rest.limit_points.len() == 0);",
+        )
+        .see(&["load_control", "equilibrium", "limit_points"]),
+        method(EQUILIBRIUM, "position", &[AT], |call| {
+            let (rest, place) = place(call)?;
+            let position = rest.rest().model().position(&place);
+            Ok(Dynamic::from(position))
+        })
+        .returns("a vector [length]")
+        .summary("Where a station rests.")
+        .example("let rest = scene.equilibrium();\ncheck(rest.position(rod.end).y > 1);")
+        .see(&["positions", "angle"]),
+        method(EQUILIBRIUM, "positions", &[AT], |call| {
+            let (rest, place) = place(call)?;
+            let positions = rest.rest().along_path(|model| model.position(&place))?;
+            Ok(positions.into_iter().map(Dynamic::from).collect::<Array>().into())
+        })
+        .returns("an array of vectors [length]")
+        .summary("Where a station was at every point of the path, beginning with the unloaded scene.")
+        .example("let rest = scene.equilibrium(#{ load_steps: 4 });\ncheck(rest.positions(rod.end).len() == 5);")
+        .see(&["load_factors", "plot_load_path"]),
+        method(EQUILIBRIUM, "angle", &[AT], angle)
+            .returns("a number [rad]")
+            .summary("The angle of the section at a station, counter-clockwise and not wrapped.")
+            .doc("Stations inside a beam are followed if they were made before the equilibrium was found.")
+            .example("let rest = scene.equilibrium();\ncheck_close(rest.angle(rod.start), 0, 1e-12);"),
+        method(EQUILIBRIUM, "reaction", &[AT], reaction)
+            .returns("a map: force, a vector, and moment")
+            .summary("What the support at a station gives.")
+            .doc("A joint between beams is none: only what the ground gives is told.")
+            .example("let rest = scene.equilibrium();\ncheck_close(rest.reaction(rod.start).moment, -s.EI * 3.14159265358979 / 4, 1e-6);"),
+        method(EQUILIBRIUM, "modes", &[whole("count").positive().or(Presence::Whole(6))], |call| {
+            let handle = call.receiver::<EquilibriumHandle>()?;
+            let modes = handle.0.rest.borrow_mut().modes(call.count("count")?)?;
+            Ok(Dynamic::from(ModesHandle::new(handle.0.scene.clone(), &handle.rest().scene().clone(), modes)))
+        })
+        .returns("modes")
+        .summary("The lowest natural frequencies and shapes of vibration about the equilibrium.")
+        .doc("A configuration that is not stable has modes that grow instead: see growth_rates.")
+        .example("let rest = scene.equilibrium();\ncheck(rest.modes(2).is_stable);")
+        .see(&["modes", "plot_modes"]),
+        method(EQUILIBRIUM, "start", &[options("options", START)], |call| {
+            let handle = call.receiver::<EquilibriumHandle>()?;
+            begin(call, handle.0.scene.clone(), |settings| {
+                Simulation::start_at_rest(&handle.rest(), settings)
+            })
+        })
+        .returns("a simulation")
+        .summary("Puts the scene at t = 0 where it rests, without velocity.")
+        .doc(
+            "Its loads follow their schedules from there: what was bent by hold_for(1) is let go at t = 1. Options are those of \
+             scene.start.",
+        )
+        .example(
+            "let rest = scene.equilibrium();\nlet sim = rest.start(#{ dt: 0.01 });\nsim.run_to(0.1);\n\
+             check(norm(sim.position(rod.end) - rest.position(rod.end)) < 1e-9);",
+        )
+        .see(&["hold_for"]),
+        told("load_factor", "a number [-]", |call| look(call, |of| of.path().load_factor().into()))
+            .summary("The part of the loads that acts: what was asked for, unless a path ended before.")
+            .example("check(scene.equilibrium().load_factor == 1);"),
+        told("load_factors", "an array of numbers [-]", |call| look(call, |of| {
+            of.path().points().iter().map(|point| point.load_factor.into()).collect::<Array>().into()
+        }))
+        .summary("That at every point of the path, beginning with 0.")
+        .example("check(scene.equilibrium(#{ load_steps: 2 }).load_factors == [0, 0.5, 1]);"),
+        told("limit_points", "an array of numbers [-]", |call| look(call, |of| {
+            of.path().limit_points().into_iter().map(Dynamic::from).collect::<Array>().into()
+        }))
+        .summary("The load factors at which the path turns: where the structure would snap through.")
+        .example("check(scene.equilibrium().limit_points.len() == 0);")
+        .see(&["arc_length"]),
+        told("strain", "a number [energy]", |call| look(call, |of| {
+            of.path().points().last().map_or(0.0, |point| point.strain_energy).into()
+        }))
+        .summary("The strain energy.")
+        .example("check_close(scene.equilibrium().strain, (s.EI * 3.14159265358979 / 4)^2 * rod.length / s.EI / 2, 1e-6);"),
+        told("iterations", "a whole number", |call| look(call, |of| {
+            let taken = of.path().points().iter().map(|point| point.iterations).sum::<usize>();
+            Dynamic::from(taken as INT)
+        }))
+        .summary("Newton iterations of all steps that led there.")
+        .example("check(scene.equilibrium(#{ load_steps: 4 }).iterations <= 16);"),
+    ],
+};
+
+/// How examples get something bent.
+pub(super) const BENT: &str = "let scene = new_scene(\"example\");\n\
+    let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
+    let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });\n\
+    scene.clamp(rod.start);\n\
+    scene.moment(rod.end, s.EI * 3.14159265358979 / 4);";
+
+/// The equilibrium type, for other domains.
+pub const EQUILIBRIUM: Type = Type::of::<EquilibriumHandle>();
+const CONTROL: Type = Type::of::<Control>();
+
+const AT: Parameter = object("station", STATION);
+const LOADING: &[Parameter] = &[
+    whole("load_steps")
+        .positive()
+        .or(Presence::Whole(10))
+        .doc("in how many steps the loads are put on; with arc_length() the part of the first"),
+    object("control", CONTROL).doc("load_control() unless given, or arc_length()").optional(),
+    number("load_factor").or(Presence::Number(1.0)).doc("how much of the loads acts at the end"),
+    number("time")
+        .unit("time")
+        .or(Presence::Number(0.0))
+        .doc("when loads are taken from their schedules, just after it"),
+];
+const ARC_LENGTH: &[Parameter] = &[
+    number("longest").positive().or(Presence::Number(0.05)).doc(
+        "the longest step: the root mean square of displacements over the longest beam, and of rotations in rad",
+    ),
+    whole("points").positive().or(Presence::Whole(1000)).doc("most points of the path, which then ends where it is"),
+];
+
+/// An equilibrium that a script holds; clones are the same one.
+#[derive(Clone)]
+pub struct EquilibriumHandle(Rc<Held>);
+
+struct Held {
+    scene: SceneHandle,
+    rest: RefCell<Equilibrium>,
+}
+
+impl EquilibriumHandle {
+    /// The equilibrium itself.
+    pub fn rest(&self) -> Ref<'_, Equilibrium> {
+        self.0.rest.borrow()
+    }
+
+    /// The place of a station of its scene.
+    pub fn place(&self, station: &StationHandle) -> Result<Place, ScriptError> {
+        let rest = self.rest();
+        station.within(&self.0.scene, rest.scene(), rest.model().meshes())
+    }
+}
+
+impl Scripted for EquilibriumHandle {
+    const NAME: &'static str = "equilibrium";
+    const DOC: &'static str = "A scene at rest under its loads, and the path that led there.";
+
+    fn show(&self) -> String {
+        let rest = self.rest();
+        let points = rest.path().points();
+        format!(
+            "equilibrium of '{}' at load factor {}, {} points, strain energy {}",
+            rest.scene().name,
+            significant(rest.path().load_factor(), 6),
+            points.len(),
+            significant(points.last().map_or(0.0, |point| point.strain_energy), 6),
+        )
+    }
+
+    fn details(&self) -> Details {
+        let rest = self.rest();
+        let limits = rest.path().limit_points();
+        let shown = |value: &f64| significant(*value, 6);
+        let line = |label: &str, value: String| (label.to_owned(), value);
+        let most = rest.path().points().iter().map(|point| point.iterations).max();
+        let mut details = vec![
+            line("taken at", format!("t = {}", significant(rest.loading().time, 6))),
+            line("Newton iterations", format!("at most {} a step", most.unwrap_or(0))),
+        ];
+        if !limits.is_empty() {
+            let limits: Vec<String> = limits.iter().map(shown).collect();
+            details.push(line("limit points", limits.join(", ")));
+        }
+        details
+    }
+}
+
+impl Scripted for Control {
+    const NAME: &'static str = "load control";
+    const DOC: &'static str = "What is prescribed while loads are put on.";
+
+    fn show(&self) -> String {
+        match self {
+            Self::Load => "load control".into(),
+            Self::ArcLength(ArcLength { longest, points }) => {
+                format!("arc-length control, steps of at most {longest}, {points} points")
+            }
+        }
+    }
+}
+
+const fn told(name: &'static str, returns: &'static str, body: Body) -> Row {
+    property(EQUILIBRIUM, name, body).returns(returns)
+}
+
+fn look(call: &Call, read: fn(&Equilibrium) -> Dynamic) -> Result<Dynamic, ScriptError> {
+    Ok(read(&call.receiver::<EquilibriumHandle>()?.rest()))
+}
+
+fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let scene = call.receiver::<SceneHandle>()?;
+    let options = call.options_or_defaults("options")?;
+    let loading = Loading {
+        time: options.number("time")?,
+        factor: options.number("load_factor")?,
+        steps: options.count("load_steps")?,
+        control: options.get_if::<Control>("control").unwrap_or_default(),
+        ..Loading::default()
+    };
+    let description = scene.scene().borrow().clone();
+    let context = call.context();
+    let found = match context.mode() {
+        Mode::DryBuild => Equilibrium::pretend(description, loading),
+        Mode::Run => {
+            let name = description.name.clone();
+            context.progress().begin(&name, 0.0, loading.factor);
+            let found = Equilibrium::find(description, loading, &mut |reached| {
+                context.progress().reach(reached);
+                context.meter().count_step();
+                context.meter().allows_a_step() && !context.is_stopped()
+            });
+            context.progress().end();
+            found
+        }
+    };
+    let rest = match found {
+        Err(StaticsError::Interrupted { .. }) => {
+            context.proceed()?;
+            return Err(ScriptError::bug("an equilibrium was stopped by nobody"));
+        }
+        Err(error @ StaticsError::Load { .. }) => {
+            return Err(match context.take_callback_error() {
+                Some(error) => ScriptError::Engine(error),
+                None => error.into(),
+            });
+        }
+        Err(error @ StaticsError::Lost { .. }) => {
+            let hint = "take more load_steps; where the structure snaps through, follow it with control: arc_length(), or stop before with load_factor";
+            return Err(ScriptError::from(error).hint(hint));
+        }
+        found => found?,
+    };
+    let path = rest.path();
+    if path.load_factor() != loading.factor {
+        let (points, factor) = (path.points().len(), significant(path.load_factor(), 6));
+        let name = &rest.scene().name;
+        context.tell(&format!(
+            "note: the path of '{name}' ends after {points} points, at load factor {factor}"
+        ));
+    }
+    Ok(Dynamic::from(EquilibriumHandle(Rc::new(Held { scene, rest: RefCell::new(rest) }))))
+}
+
+/// The equilibrium that is called, and a place of it.
+fn place(call: &Call) -> Result<(EquilibriumHandle, Place), ScriptError> {
+    let handle = call.receiver::<EquilibriumHandle>()?;
+    let place = handle.place(&call.get::<StationHandle>("station")?)?;
+    Ok((handle, place))
+}
+
+fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (handle, _) = place(call)?;
+    let station = call.get::<StationHandle>("station")?;
+    let rest = handle.rest();
+    followed(call, &station, rest.model().angle(rest.scene(), &station.station()))
+}
+
+fn reaction(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (handle, place) = place(call)?;
+    let reaction = handle.0.rest.borrow_mut().reaction(&place);
+    let Some((force, moment)) = reaction else {
+        let station = call.get::<StationHandle>("station")?;
+        return Err(call
+            .error(format!("nothing holds the scene at {}", station.show()))
+            .hint("ask where scene.clamp(…) or scene.hinge(…) ties it to the ground"));
+    };
+    let map = [("force", Dynamic::from(force)), ("moment", moment.into())];
+    Ok(map.into_iter().map(|(name, value)| (name.into(), value)).collect::<Map>().into())
+}

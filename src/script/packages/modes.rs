@@ -1,0 +1,155 @@
+//! Natural modes of vibration.
+
+use std::rc::Rc;
+
+use rhai::{Array, Dynamic, INT};
+
+use super::live::SimulationHandle;
+use super::scenes::{SCENE, STATION, SceneHandle, StationHandle};
+use super::simulations::SIMULATION;
+use crate::model::{Model, Scene};
+use crate::output::{Cell, Table as TextTable, significant};
+use crate::script::call::Call;
+use crate::script::error::{Place, ScriptError};
+use crate::script::kind::{Scripted, Type};
+use crate::script::parameter::{Parameter, Presence, object, whole};
+use crate::script::table::{Body, Row, Table, method, property};
+use crate::vibration::{Mode, Modes};
+
+/// Modes.
+pub const TABLE: Table = Table {
+    name: "modes",
+    doc: "How a scene vibrates by little about a configuration: natural frequencies and their shapes, the lowest first. A \
+          movement that meets no resistance has frequency 0.",
+    types: &[MODES],
+    setup: VIBRATING,
+    constants: &[],
+    rows: &[
+        method(SCENE, "modes", &[COUNT], |call| {
+            let handle = call.receiver::<SceneHandle>()?;
+            let scene = handle.scene().borrow().clone();
+            let modes = Modes::of(&mut Model::assemble(&scene)?, call.count("count")?)?;
+            Ok(Dynamic::from(ModesHandle::new(handle, &scene, modes)))
+        })
+        .returns("modes")
+        .summary("The lowest natural frequencies and shapes of the scene as it is drawn.")
+        .doc(
+            "With up to 240 unknowns all modes are found at once, with more only the lowest, by subspace iteration (Bathe, Finite Element \
+             Procedures, 2014, 11.6). About another configuration: rest.modes(n) of an equilibrium, sim.modes(n) of a simulation.",
+        )
+        .example("let modes = scene.modes(3);\nprint(modes);\ncheck_close(modes.angular_frequencies[0], 0.35160 * 2.5^2, 0.01);")
+        .see(&["plot_modes", "equilibrium"]),
+        method(SIMULATION, "modes", &[COUNT], |call| {
+            let handle = call.receiver::<SimulationHandle>()?;
+            let modes = handle.modes(call.count("count")?)?;
+            let simulation = handle.simulation();
+            Ok(Dynamic::from(ModesHandle::new(handle.scene().clone(), simulation.scene(), modes)))
+        })
+        .returns("modes")
+        .summary("Those about the present configuration of a simulation, as if it stood still there.")
+        .example("let sim = scene.start(#{ dt: 0.1 });\ncheck(sim.modes(1).angular_frequencies == scene.modes(1).angular_frequencies);"),
+        told("angular_frequencies", "an array of numbers [rad/time]", |call| list(call, Mode::angular_frequency))
+            .summary("ω of each mode; 0 where nothing vibrates.")
+            .example("let modes = scene.modes(2);\ncheck(modes.angular_frequencies[1] > modes.angular_frequencies[0]);")
+            .see(&["frequencies", "periods"]),
+        told("frequencies", "an array of numbers [1/time]", |call| list(call, Mode::frequency))
+            .summary("ω/2π of each mode: vibrations in a unit of time.")
+            .example("let modes = scene.modes(1);\ncheck_close(modes.frequencies[0] * modes.periods[0], 1, 1e-12);"),
+        told("periods", "an array of numbers [time]", |call| list(call, Mode::period))
+            .summary("2π/ω of each mode; infinite where nothing vibrates.")
+            .example("let half = scene.modes(1).periods[0] / 2;\nlet sim = scene.start(#{ dt: half / 20 });\nsim.run_to(half);"),
+        told("growth_rates", "an array of numbers [1/time]", |call| list(call, Mode::growth_rate))
+            .summary("How fast each mode grows if the configuration is unstable; 0 for what vibrates.")
+            .example("check(scene.modes(1).growth_rates == [0]);")
+            .see(&["is_stable"]),
+        told("is_stable", "true or false", |call| Ok(modes(call)?.0.modes.is_stable().into()))
+            .summary("Whether none of the modes grows by itself.")
+            .example("check(scene.modes(1).is_stable);"),
+        told("count", "a whole number", |call| Ok(Dynamic::from(modes(call)?.0.modes.all().len() as INT)))
+            .summary("How many modes there are.")
+            .example("check(scene.modes(4).count == 4);"),
+        method(MODES, "displacement", &[whole("mode").non_negative(), object("station", STATION)], |call| {
+            let handle = modes(call)?;
+            let (mode, count) = (call.count("mode")?, handle.0.modes.all().len());
+            if mode >= count {
+                let told = format!("mode {mode} was asked for, but there are {count}, counted from 0");
+                return Err(call.error(told).hint(format!("give 0 to {}", count - 1)).at(Place::Argument(0)));
+            }
+            let station = call.get::<StationHandle>("station")?;
+            let place = station.within(&handle.0.of, &handle.0.scene, handle.0.modes.meshes())?;
+            Ok(Dynamic::from(handle.0.modes.displacement(mode, &place)))
+        })
+        .returns("a vector [-]")
+        .summary("How far a station moves in a mode, the first being mode 0, relative to the control point that moves most.")
+        .example("let modes = scene.modes(2);\ncheck_close(norm(modes.displacement(0, rod.end)), 1, 1e-9);\ncheck(norm(modes.displacement(1, rod.start)) < 1e-12);"),
+    ],
+};
+
+/// How examples get something that vibrates.
+const VIBRATING: &str = "let scene = new_scene(\"example\");\n\
+    let s = section(#{ EA: 1e6, GA: 1e6, EI: 100, rho_A: 1, rho_I: 1e-4 });\n\
+    let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [4, 0]), basis: bspline(8), section: s });\n\
+    scene.clamp(rod.start);";
+
+const COUNT: Parameter = whole("count").positive().or(Presence::Whole(6));
+
+/// The modes type, for other domains.
+pub const MODES: Type = Type::of::<ModesHandle>();
+
+/// Modes that a script holds, with the scene that has them.
+#[derive(Clone)]
+pub struct ModesHandle(Rc<Held>);
+
+struct Held {
+    of: SceneHandle,
+    scene: Scene,
+    modes: Modes,
+}
+
+impl ModesHandle {
+    /// Modes of a scene as it was built.
+    pub fn new(of: SceneHandle, scene: &Scene, modes: Modes) -> Self {
+        Self(Rc::new(Held { of, scene: scene.clone(), modes }))
+    }
+
+    /// The scene that has the modes, as it was built, and the modes.
+    pub fn held(&self) -> (&Scene, &Modes) {
+        (&self.0.scene, &self.0.modes)
+    }
+}
+
+impl Scripted for ModesHandle {
+    const NAME: &'static str = "modes";
+    const DOC: &'static str = "Natural frequencies of small vibration, and their shapes.";
+
+    fn show(&self) -> String {
+        let mut table = TextTable::new(&["mode", "ω [rad/time]", "period [time]", ""]);
+        for (number, mode) in self.0.modes.all().iter().enumerate() {
+            let shown = |value: f64| Cell::Number(significant(value, 7));
+            let (period, remark) = match mode.square {
+                0.0 => (Cell::Text("-".into()), "meets no resistance".to_owned()),
+                square if square < 0.0 => {
+                    let rate = significant(mode.growth_rate(), 4);
+                    (Cell::Text("-".into()), format!("unstable: grows like exp({rate} t)"))
+                }
+                _ => (shown(mode.period()), String::new()),
+            };
+            let number = Cell::Number(number.to_string());
+            table.row([number, shown(mode.angular_frequency()), period, Cell::Text(remark)]);
+        }
+        table.to_string().trim_end().to_owned()
+    }
+}
+
+const fn told(name: &'static str, returns: &'static str, body: Body) -> Row {
+    property(MODES, name, body).returns(returns)
+}
+
+fn modes(call: &Call) -> Result<ModesHandle, ScriptError> {
+    call.receiver()
+}
+
+fn list(call: &Call, read: fn(&Mode) -> f64) -> Result<Dynamic, ScriptError> {
+    let values = modes(call)?.0.modes.all().iter().map(read).map(Dynamic::from).collect::<Array>();
+    Ok(values.into())
+}

@@ -1,0 +1,190 @@
+//! Pictures and files of equilibria and modes.
+
+use rhai::{Array, Dynamic};
+
+use super::equilibria::{BENT, EQUILIBRIUM, EquilibriumHandle};
+use super::modes::{MODES, ModesHandle};
+use super::pictures::{write_csv, write_picture};
+use super::scenes::{STATION, StationHandle};
+use crate::geometry::Vec2;
+use crate::output::{CsvTable, LineChart, MotionPicture, Page, Series, Snapshot, significant};
+use crate::script::call::Call;
+use crate::script::error::{Place, ScriptError};
+use crate::script::kind::Scripted;
+use crate::script::parameter::{Parameter, Presence, array, number, object, options, text, whole};
+use crate::script::table::{Table, function};
+use crate::simulation::{Configuration, Outline};
+
+/// Pictures of equilibria and modes.
+pub const TABLE: Table = Table {
+    name: "pictures of equilibria and modes",
+    doc: "Like pictures of simulations: SVG or PNG by the ending of the file name, tables as CSV, into the output folder.",
+    types: &[],
+    setup: BENT,
+    constants: &[],
+    rows: &[
+        function("plot_equilibrium", &[REST, FILE, options("options", SHAPES).optional()], plot_equilibrium)
+            .summary("Draws configurations along the path of equilibria over each other.")
+            .doc("Of a long path some are left out, the same number between each two that are drawn.")
+            .example("let rest = scene.equilibrium();\nplot_equilibrium(rest, \"bent.svg\", #{ trace: [rod.end] });")
+            .see(&["equilibrium", "plot_load_path", "plot_motion"]),
+        function("plot_load_path", &[REST, object("station", STATION), FILE], plot_load_path)
+            .summary("Draws the load factor over the displacements of a station, limit points and all.")
+            .example("let rest = scene.equilibrium();\nplot_load_path(rest, rod.end, \"path.svg\");")
+            .see(&["arc_length", "limit_points", "write_load_path"]),
+        function("write_load_path", &[REST, STATIONS, FILE], write_load_path)
+            .summary("Writes load factor, strain energy and the positions of stations along the path as CSV, every digit kept.")
+            .example("let rest = scene.equilibrium();\nwrite_load_path(rest, [rod.end], \"path.csv\");")
+            .see(&["plot_load_path", "positions"]),
+        function("plot_modes", &[object("modes", MODES), FILE, options("options", MODE_SHAPES).optional()], plot_modes)
+            .summary("Draws the shapes of modes beside each other, each over the configuration at rest.")
+            .example("plot_modes(scene.modes(4), \"modes.svg\", #{ columns: 2 });")
+            .see(&["modes"]),
+    ],
+};
+
+const REST: Parameter = object("equilibrium", EQUILIBRIUM);
+const FILE: Parameter = text("file").doc("its name in the output folder");
+const STATIONS: Parameter = array("stations").doc("stations, such as [rod.end]");
+const SHAPES: &[Parameter] = &[
+    whole("shapes").positive().or(Presence::Whole(20)).doc("at most so many configurations"),
+    array("trace").doc("stations whose paths are drawn").optional(),
+    text("title").doc("the name of the scene unless given").optional(),
+];
+const MODE_SHAPES: &[Parameter] = &[
+    number("amplitude")
+        .positive()
+        .or(Presence::Number(0.1))
+        .doc("the largest displacement, relative to the size of the scene"),
+    whole("columns").positive().or(Presence::Whole(2)).doc("of pictures"),
+];
+
+fn plain(point: &Vec2) -> (f64, f64) {
+    (point.x, point.y)
+}
+
+fn snapshot(configuration: &Configuration) -> Snapshot {
+    let plain_line = |line: &Vec<Vec2>| line.iter().map(plain).collect();
+    Snapshot {
+        time: configuration.time,
+        lines: configuration.lines.iter().map(plain_line).collect(),
+        marks: configuration.marks.iter().map(plain).collect(),
+        particles: configuration.particles.iter().map(plain).collect(),
+    }
+}
+
+fn plot_equilibrium(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let handle = call.get::<EquilibriumHandle>("equilibrium")?;
+    let options = call.options_or_defaults("options")?;
+    let rest = handle.rest();
+    let scene = rest.scene();
+    let title = options.text("title").map_or_else(|_| scene.name.clone(), |text| text.to_string());
+    let mut picture = MotionPicture::new(title)
+        .beams(scene.beams.iter().map(|beam| beam.name.clone()))
+        .time_label("load factor");
+    let factors: Vec<f64> = rest.path().points().iter().map(|point| point.load_factor).collect();
+    let grows = factors.is_sorted();
+    if !grows {
+        picture = picture.time_label("point of the path");
+    }
+    let outlines = Outline::of_scene(scene, rest.model().meshes())?;
+    let configurations = rest.along_path(|model| {
+        let points: Vec<&[Vec2]> = model.control_points().collect();
+        Outline::draw(&outlines, 0.0, &points)
+    })?;
+    let apart = (factors.len() - 1).div_ceil(options.count("shapes")?).max(1);
+    let last = factors.len() - 1;
+    for (index, configuration) in configurations.iter().enumerate() {
+        if (last - index).is_multiple_of(apart) {
+            let time = if grows { factors[index] } else { index as f64 };
+            picture = picture.snapshot(Snapshot { time, ..snapshot(configuration) });
+        }
+    }
+    for station in
+        stations(call, &options.array("trace").unwrap_or_default(), Place::Key("trace".into()))?
+    {
+        let path = positions(&handle, &station)?;
+        picture =
+            picture.trace(format!("path of {}", station.show()), path.iter().map(plain).collect());
+    }
+    write_picture(call, &picture)
+}
+
+fn plot_load_path(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let handle = call.get::<EquilibriumHandle>("equilibrium")?;
+    let station = call.get::<StationHandle>("station")?;
+    let rest = handle.rest();
+    let positions = positions(&handle, &station)?;
+    let start = positions.first().copied().unwrap_or_default();
+    let series = |name: &str, along: fn(&Vec2) -> f64| {
+        let points = positions.iter().zip(rest.path().points());
+        Series::new(
+            name,
+            points.map(|(at, point)| (along(&(at - start)), point.load_factor)).collect(),
+        )
+    };
+    let chart = LineChart::new(rest.scene().name.clone())
+        .x_label(format!("displacement of {} [length]", station.show()))
+        .y_label("load factor [-]")
+        .series(series("along x", |moved| moved.x))
+        .series(series("along y", |moved| moved.y));
+    write_picture(call, &chart)
+}
+
+fn write_load_path(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let handle = call.get::<EquilibriumHandle>("equilibrium")?;
+    let rest = handle.rest();
+    let points = rest.path().points();
+    let table = CsvTable::new()
+        .comment(format!("equilibria of {}", rest.scene().name))
+        .column("load factor [-]", points.iter().map(|point| point.load_factor).collect())
+        .column("strain [energy]", points.iter().map(|point| point.strain_energy).collect());
+    let stations = stations(call, &call.array("stations")?, Place::Argument(1))?;
+    let table = stations.iter().try_fold(table, |table, station| {
+        let (name, path) = (station.show(), positions(&handle, station)?);
+        Ok::<_, ScriptError>(
+            table
+                .column(format!("x of {name} [length]"), path.iter().map(|at| at.x).collect())
+                .column(format!("y of {name} [length]"), path.iter().map(|at| at.y).collect()),
+        )
+    })?;
+    write_csv(call, table)
+}
+
+fn plot_modes(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let handle = call.get::<ModesHandle>("modes")?;
+    let options = call.options_or_defaults("options")?;
+    let (scene, modes) = handle.held();
+    let outlines = Outline::of_scene(scene, modes.meshes())?;
+    let draw = |points: &[Vec<Vec2>]| {
+        let points: Vec<&[Vec2]> = points.iter().map(Vec::as_slice).collect();
+        Outline::draw(&outlines, 0.0, &points)
+    };
+    let at_rest = draw(modes.points());
+    let size = modes.size() * options.number("amplitude")?;
+    let pictures = modes.all().iter().enumerate().map(|(number, mode)| {
+        let omega = significant(mode.angular_frequency(), 5);
+        let picture = MotionPicture::new(format!("mode {number}: ω = {omega}"))
+            .snapshot(snapshot(&draw(&modes.displaced(number, size))));
+        at_rest.lines.iter().fold(picture, |picture, line| {
+            picture.trace("at rest", line.iter().map(plain).collect())
+        })
+    });
+    let page = Page::grid(options.count("columns")?).title(format!("Modes of {}", scene.name));
+    write_picture(call, &pictures.fold(page, Page::panel))
+}
+
+fn positions(
+    handle: &EquilibriumHandle,
+    station: &StationHandle,
+) -> Result<Vec<Vec2>, ScriptError> {
+    let place = handle.place(station)?;
+    Ok(handle.rest().along_path(|model| model.position(&place))?)
+}
+
+fn stations(call: &Call, array: &Array, at: Place) -> Result<Vec<StationHandle>, ScriptError> {
+    let stations = array.iter().map(|value| value.clone().try_cast::<StationHandle>());
+    stations.collect::<Option<_>>().ok_or_else(|| {
+        call.error("the array must hold stations").hint("for example [rod.end]").at(at)
+    })
+}

@@ -1,0 +1,119 @@
+//! A scene at rest under its loads.
+
+use super::tracer::Tracer;
+use super::{Control, Loading, Path, PathPoint, StaticsError};
+use crate::beams::Place;
+use crate::geometry::Vec2;
+use crate::integrators::Mechanism;
+use crate::model::{Model, Scene};
+use crate::vibration::{Modes, VibrationError};
+
+/// A scene at rest under its loads, and the path that led there.
+///
+/// Start velocities of the scene play no part. Loads are put on together, in proportion.
+pub struct Equilibrium {
+    scene: Scene,
+    loading: Loading,
+    model: Model,
+    path: Path,
+}
+
+impl Equilibrium {
+    /// Finds the equilibrium of a scene; `goes_on` is asked after every step, with its load factor.
+    ///
+    /// # Errors
+    /// When the scene cannot be built or slides, a load has no value or none acts, no equilibrium is found, or it is stopped.
+    pub fn find(
+        scene: Scene,
+        loading: Loading,
+        goes_on: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<Self, StaticsError> {
+        let model = prepare(&scene, &loading)?;
+        let mut tracer = Tracer::new(&scene, model, loading);
+        match loading.control {
+            Control::Load => tracer.load_up(goes_on)?,
+            Control::ArcLength(arc) => tracer.follow(arc, goes_on)?,
+        }
+        let Tracer { model, path, .. } = tracer;
+        Ok(Self { scene, loading, model, path })
+    }
+
+    /// The scene as it is drawn, as if that were its equilibrium, for checking scripts.
+    ///
+    /// # Errors
+    /// As for [`find`](Self::find), but for what only a solution shows.
+    pub fn pretend(scene: Scene, loading: Loading) -> Result<Self, StaticsError> {
+        let model = prepare(&scene, &loading)?;
+        let Tracer { model, mut path, .. } = Tracer::new(&scene, model, loading);
+        path.pretend(loading.factor);
+        Ok(Self { scene, loading, model, path })
+    }
+
+    /// What is at rest.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// How the loads were put on.
+    pub fn loading(&self) -> &Loading {
+        &self.loading
+    }
+
+    /// The model in its equilibrium.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// How it got there.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Something of the model at every point of the path.
+    ///
+    /// # Errors
+    /// None that the scene did not have when the equilibrium was found.
+    pub fn along_path<T>(&self, look: impl Fn(&Model) -> T) -> Result<Vec<T>, StaticsError> {
+        let mut model = Model::assemble(&self.scene)?;
+        let at = |point: &PathPoint| {
+            model.restore(&point.state);
+            look(&model)
+        };
+        Ok(self.path.points().iter().map(at).collect())
+    }
+
+    /// What holds the scene at a place: force and moment; none where no support is.
+    pub fn reaction(&mut self, place: &Place) -> Option<(Vec2, f64)> {
+        let mut forces = vec![0.0; self.model.degrees_of_freedom()];
+        let standstill = vec![0.0; self.model.unknowns()];
+        self.model.begin_movement();
+        self.model.add_static_forces(&standstill, self.path.load_factor(), &mut forces);
+        self.model.support_force(place, &forces)
+    }
+
+    /// The lowest natural modes of vibration about the equilibrium.
+    ///
+    /// # Errors
+    /// When there are not so many, or a load turns with the beam.
+    pub fn modes(&mut self, count: usize) -> Result<Modes, VibrationError> {
+        Modes::of(&mut self.model, count)
+    }
+}
+
+/// The model at its start, its loads as they will be held.
+fn prepare(scene: &Scene, loading: &Loading) -> Result<Model, StaticsError> {
+    loading.check()?;
+    if let Some(slider) = scene.sliders.first() {
+        return Err(StaticsError::Slider { slider: slider.name.clone() });
+    }
+    let mut model = Model::assemble(scene)?;
+    model
+        .hold_loads_at(loading.time)
+        .map_err(|(load, source)| StaticsError::Load { load, source })?;
+    let mut loads = vec![0.0; model.degrees_of_freedom()];
+    model.subtract_static_loads(&vec![0.0; model.unknowns()], 1.0, &mut loads);
+    if loads.iter().all(|load| *load == 0.0) {
+        return Err(StaticsError::NoLoad { time: loading.time });
+    }
+    Ok(model)
+}

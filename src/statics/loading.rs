@@ -1,0 +1,83 @@
+//! How loads are put on, and how the path of equilibria is followed.
+
+use super::StaticsError;
+use crate::newton::Tolerance;
+
+/// From nothing to the whole of the loads.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Loading {
+    /// The time at which loads are taken from their schedules, just after it [time].
+    pub time: f64,
+    /// The load factor at the end: the loads themselves for 1 [-].
+    pub factor: f64,
+    /// In how many equal steps; under arc-length control the size of the first.
+    pub steps: usize,
+    /// What is prescribed in a step.
+    pub control: Control,
+    /// Of the Newton solver.
+    pub tolerance: Tolerance,
+}
+
+/// What is prescribed in a step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Control {
+    /// The load factor. Ends at a limit point.
+    #[default]
+    Load,
+    /// How far the scene moves; the load factor follows, and may fall.
+    ArcLength(ArcLength),
+}
+
+/// Steps along the path of equilibria.
+///
+/// E. Riks, An incremental approach to the solution of snapping and buckling problems, Int. J. Solids Struct. 15 (1979)
+/// 529–551, with the normal plane of Keller (1977); the size of steps as in Crisfield, Comput. Struct. 13 (1981) 55–62.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ArcLength {
+    /// The longest step: root mean square of the displacements, relative to the longest beam, and the rotations of all control
+    /// points [-, rad].
+    pub longest: f64,
+    /// Most points of the path, which ends with them wherever it is.
+    pub points: usize,
+}
+
+impl Default for Loading {
+    fn default() -> Self {
+        Self {
+            time: 0.0,
+            factor: 1.0,
+            steps: 1,
+            control: Control::default(),
+            tolerance: Tolerance::default(),
+        }
+    }
+}
+
+impl Default for ArcLength {
+    fn default() -> Self {
+        Self { longest: 0.05, points: 1000 }
+    }
+}
+
+impl Loading {
+    /// # Errors
+    /// When a number is out of its range.
+    pub(super) fn check(&self) -> Result<(), StaticsError> {
+        let value = |name, value, allowed| Err(StaticsError::Value { name, value, allowed });
+        if self.steps == 0 {
+            return value("load_steps", 0.0, "at least 1");
+        }
+        if !(self.factor.is_finite() && self.factor != 0.0) {
+            return value("load_factor", self.factor, "a finite number other than 0");
+        }
+        if !self.time.is_finite() {
+            return value("time", self.time, "a finite number");
+        }
+        match self.control {
+            Control::ArcLength(ArcLength { longest, .. }) if !(longest > 0.0) => {
+                value("longest", longest, "a positive number")
+            }
+            _ => Ok(()),
+        }
+    }
+}

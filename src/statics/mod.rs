@@ -1,0 +1,13 @@
+//! Equilibrium of a scene under its loads: in steps of the load, or along the path of equilibria through its limit points.
+
+mod balance;
+mod equilibrium;
+mod error;
+mod loading;
+mod path;
+mod tracer;
+
+pub use equilibrium::Equilibrium;
+pub use error::StaticsError;
+pub use loading::{ArcLength, Control, Loading};
+pub use path::{Path, PathPoint};

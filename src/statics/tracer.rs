@@ -1,0 +1,231 @@
+//! Finding one equilibrium after another.
+
+use super::balance::{AlongPath, Balance, UnderLoad};
+use super::{ArcLength, Loading, Path, PathPoint, StaticsError};
+use crate::integrators::Mechanism;
+use crate::linalg::BorderShape;
+use crate::model::{Model, Scene};
+use crate::newton::{Newton, NewtonError};
+use crate::vibration::loose_movements;
+
+/// A step that finds no equilibrium is halved so often.
+const MOST_HALVINGS: u32 = 8;
+
+/// Steps along the path grow and shrink so that each takes about so many iterations.
+const WANTED_ITERATIONS: f64 = 4.0;
+
+/// Follows equilibria from the unloaded scene on.
+pub(super) struct Tracer<'s> {
+    scene: &'s Scene,
+    length: f64,
+    loading: Loading,
+    pub(super) model: Model,
+    pub(super) path: Path,
+    newton: Newton,
+    movements: Vec<f64>,
+    residual: Vec<f64>,
+}
+
+impl<'s> Tracer<'s> {
+    pub(super) fn new(scene: &'s Scene, mut model: Model, loading: Loading) -> Self {
+        let longest = scene.beams.iter().map(|beam| beam.axis.length()).fold(0.0, f64::max);
+        let unknowns = model.unknowns();
+        let none = BorderShape::default();
+        let mut path = Path::default();
+        path.push(point(&mut model, 0.0, 0));
+        Self {
+            scene,
+            length: if longest > 0.0 { longest } else { 1.0 },
+            loading,
+            newton: Newton::new(unknowns, model.half_bandwidth(), none, loading.tolerance),
+            movements: vec![0.0; unknowns],
+            residual: vec![0.0; model.degrees_of_freedom()],
+            model,
+            path,
+        }
+    }
+
+    /// Puts the loads on in equal steps.
+    pub(super) fn load_up(
+        &mut self,
+        goes_on: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<(), StaticsError> {
+        let Loading { factor, steps, .. } = self.loading;
+        for step in 1..=steps {
+            self.reach(factor * step as f64 / steps as f64, MOST_HALVINGS)?;
+            self.ask(goes_on)?;
+        }
+        Ok(())
+    }
+
+    /// Follows the path until the load factor is reached, or the path has as many points as it may have.
+    pub(super) fn follow(
+        &mut self,
+        arc: ArcLength,
+        goes_on: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<(), StaticsError> {
+        let Loading { factor: goal, steps, .. } = self.loading;
+        self.reach(goal / steps as f64, MOST_HALVINGS)?;
+        let metric = self.metric();
+        let mut trial = Trial::new(&self.model, &self.loading);
+        let mut distance = norm(&metric, &self.movements).min(arc.longest);
+        while self.path.load_factor() != goal && self.path.points().len() < arc.points {
+            self.ask(goes_on)?;
+            trial.look_along(&metric, &self.movements);
+            distance = self.advance(&mut trial, distance, goal, &metric)?.min(arc.longest);
+        }
+        Ok(())
+    }
+
+    /// Takes a step of some distance along the path, or of a part of it; returns the distance for the next.
+    fn advance(
+        &mut self,
+        trial: &mut Trial,
+        mut distance: f64,
+        goal: f64,
+        metric: &[f64],
+    ) -> Result<f64, StaticsError> {
+        let from = self.path.load_factor();
+        let mut reason = None;
+        for _ in 0..=MOST_HALVINGS {
+            match trial.find(&mut self.model, self.length, from, distance) {
+                // A longer way than that has led to another part of the path.
+                Ok(_) if norm(metric, trial.movements()) > 2.0 * distance => {}
+                Ok(_) if (from < goal) != (trial.factor() < goal) => {
+                    return self.reach(goal, MOST_HALVINGS).map(|()| distance);
+                }
+                Ok(iterations) => {
+                    self.movements.copy_from_slice(trial.movements());
+                    self.accept(trial.factor(), iterations);
+                    let growth = (WANTED_ITERATIONS / iterations as f64).sqrt();
+                    return Ok(distance * growth.clamp(0.5, 1.5));
+                }
+                Err(error) => reason = Some(error),
+            }
+            distance *= 0.5;
+        }
+        Err(self.lost(reason.unwrap_or(NewtonError::NotConverged { history: Vec::new() })))
+    }
+
+    /// Goes to a load factor, in halves where the whole step finds nothing.
+    fn reach(&mut self, factor: f64, halvings: u32) -> Result<(), StaticsError> {
+        let from = self.path.load_factor();
+        match self.find(factor) {
+            Ok(iterations) => {
+                self.accept(factor, iterations);
+                Ok(())
+            }
+            Err(error) if halvings == 0 => Err(self.lost(error)),
+            Err(_) => {
+                self.reach(0.5 * (from + factor), halvings - 1)?;
+                self.reach(factor, halvings - 1)
+            }
+        }
+    }
+
+    fn find(&mut self, factor: f64) -> Result<usize, NewtonError> {
+        self.movements.fill(0.0);
+        self.model.begin_movement();
+        let balance = Balance { model: &mut self.model, length: self.length };
+        let mut equations = UnderLoad { balance, factor };
+        let report = self.newton.solve(&mut equations, &mut self.movements, &mut self.residual)?;
+        Ok(report.iterations)
+    }
+
+    fn accept(&mut self, factor: f64, iterations: usize) {
+        self.model.move_by(&self.movements);
+        self.path.push(point(&mut self.model, factor, iterations));
+    }
+
+    fn ask(&self, goes_on: &mut dyn FnMut(f64) -> bool) -> Result<(), StaticsError> {
+        let reached = self.path.load_factor();
+        if goes_on(reached) { Ok(()) } else { Err(StaticsError::Interrupted { reached }) }
+    }
+
+    fn lost(&mut self, reason: NewtonError) -> StaticsError {
+        let (scene, reached) = (self.scene.name.clone(), self.path.load_factor());
+        if self.path.points().len() == 1 {
+            let movements = loose_movements(&mut self.model);
+            if movements > 0 {
+                return StaticsError::Loose { scene, movements };
+            }
+        }
+        StaticsError::Lost { scene, reached, reason: Box::new(reason) }
+    }
+
+    /// What movements are squared with: relative to a length, as angles, and as means over the control points.
+    fn metric(&self) -> Vec<f64> {
+        let share = 3.0 / self.movements.len() as f64;
+        let weight = |turns: &bool| if *turns { share } else { share / self.length.powi(2) };
+        self.model.rotations().iter().map(weight).collect()
+    }
+}
+
+/// A step along the path, with its work space.
+struct Trial {
+    newton: Newton,
+    normal: Vec<f64>,
+    /// The movements, then the load factor.
+    unknowns: Vec<f64>,
+    residual: Vec<f64>,
+    forces: Vec<f64>,
+}
+
+impl Trial {
+    fn new(model: &Model, loading: &Loading) -> Self {
+        let unknowns = model.unknowns();
+        let border = BorderShape { width: 1, row_entries: unknowns };
+        Self {
+            newton: Newton::new(unknowns, model.half_bandwidth(), border, loading.tolerance),
+            normal: vec![0.0; unknowns],
+            unknowns: vec![0.0; unknowns + 1],
+            residual: vec![0.0; unknowns + 1],
+            forces: vec![0.0; model.degrees_of_freedom()],
+        }
+    }
+
+    /// Goes on in the direction of the last movement.
+    fn look_along(&mut self, metric: &[f64], last: &[f64]) {
+        let inverse = 1.0 / norm(metric, last);
+        for ((normal, weight), u) in self.normal.iter_mut().zip(metric).zip(last) {
+            *normal = weight * u * inverse;
+        }
+    }
+
+    /// From a standstill: the first iteration then goes along the tangent of the path.
+    fn find(
+        &mut self,
+        model: &mut Model,
+        length: f64,
+        from: f64,
+        distance: f64,
+    ) -> Result<usize, NewtonError> {
+        self.unknowns.fill(0.0);
+        if let Some(factor) = self.unknowns.last_mut() {
+            *factor = from;
+        }
+        model.begin_movement();
+        let balance = Balance { model, length };
+        let mut equations =
+            AlongPath { balance, normal: &self.normal, distance, forces: &mut self.forces };
+        let report = self.newton.solve(&mut equations, &mut self.unknowns, &mut self.residual)?;
+        Ok(report.iterations)
+    }
+
+    fn movements(&self) -> &[f64] {
+        &self.unknowns[..self.normal.len()]
+    }
+
+    fn factor(&self) -> f64 {
+        self.unknowns[self.normal.len()]
+    }
+}
+
+fn point(model: &mut Model, load_factor: f64, iterations: usize) -> PathPoint {
+    let strain_energy = model.measure().energy.strain;
+    PathPoint { load_factor, strain_energy, iterations, state: model.state() }
+}
+
+fn norm(metric: &[f64], movements: &[f64]) -> f64 {
+    metric.iter().zip(movements).map(|(weight, u)| weight * u * u).sum::<f64>().sqrt()
+}

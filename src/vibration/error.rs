@@ -1,0 +1,37 @@
+//! Why modes were not found.
+
+/// Modes that were not found.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum VibrationError {
+    /// None or too many were asked for.
+    #[error(
+        "{asked} modes were asked for, but the scene has {available}, one for each movement with inertia; ask for 1 to {available}"
+    )]
+    Count {
+        /// How many.
+        asked: usize,
+        /// How many there are.
+        available: usize,
+    },
+    /// A joint that lets places move along a beam.
+    #[error(
+        "slider '{slider}': modes of scenes with sliding joints are not built; replace it by a hinge where it is"
+    )]
+    Slider {
+        /// Its name.
+        slider: String,
+    },
+    /// A load that turns with a section: its vibration has no modes of this kind.
+    #[error(
+        "load '{load}' turns with the beam: its stiffness is not symmetric, and the vibration may grow by itself; give it a fixed direction, or simulate"
+    )]
+    Follower {
+        /// Its name.
+        load: String,
+    },
+    /// Numbers that are not finite.
+    #[error(
+        "the stiffness or the inertia of the scene is not finite; check stiffness, masses and units"
+    )]
+    NotFinite,
+}

@@ -1,0 +1,206 @@
+//! Natural frequencies and shapes.
+
+use std::f64::consts::TAU;
+
+use nalgebra::DMatrix;
+
+use super::VibrationError;
+use super::pencil::Pencil;
+use super::reduced::{Pairs, pairs};
+use super::subspace::lowest_pairs;
+use crate::beams::{Mesh, Place};
+use crate::geometry::Vec2;
+use crate::model::Model;
+
+/// Up to so many unknowns all modes are found at once.
+const SMALL: usize = 240;
+
+/// A squared frequency below so many times its rounding is zero.
+const ROUNDING: f64 = 64.0;
+
+/// A shift by so many times the rounding keeps a stiffness definite that rigid motions leave singular.
+const FIRST_SHIFT: f64 = 1e4;
+
+/// An unstable configuration needs a larger shift; after so many tries by a hundred there is none.
+const MOST_SHIFTS: usize = 12;
+
+/// A natural vibration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mode {
+    /// `ω²`: exactly zero for a movement without resistance, negative if the configuration is unstable [1/time²].
+    pub square: f64,
+    /// The movements of the unknowns, with `φᵀ M φ = 1`.
+    pub shape: Vec<f64>,
+}
+
+impl Mode {
+    /// `ω`; zero where nothing vibrates [rad/time].
+    pub fn angular_frequency(&self) -> f64 {
+        self.square.max(0.0).sqrt()
+    }
+
+    /// `ω/2π` [1/time].
+    pub fn frequency(&self) -> f64 {
+        self.angular_frequency() / TAU
+    }
+
+    /// `2π/ω`, infinite where nothing vibrates [time].
+    pub fn period(&self) -> f64 {
+        1.0 / self.frequency()
+    }
+
+    /// Whether the movement meets no resistance.
+    pub fn is_free(&self) -> bool {
+        self.square == 0.0
+    }
+
+    /// How fast a disturbance of an unstable configuration grows; zero if it is stable [1/time].
+    pub fn growth_rate(&self) -> f64 {
+        (-self.square).max(0.0).sqrt()
+    }
+}
+
+/// The lowest modes of a configuration.
+#[derive(Debug, Clone)]
+pub struct Modes {
+    modes: Vec<Mode>,
+    meshes: Vec<Mesh>,
+    /// The configuration: control points of all bodies, and shapes as displacements of these.
+    points: Vec<Vec<Vec2>>,
+    displacements: Vec<Vec<Vec<Vec2>>>,
+}
+
+impl Modes {
+    /// The modes of a model in its present configuration, taken as one at rest.
+    ///
+    /// # Errors
+    /// When there are not so many, or something slides or turns with the beam.
+    pub fn of(model: &mut Model, count: usize) -> Result<Self, VibrationError> {
+        if let Some(slider) = model.slider_names().next() {
+            return Err(VibrationError::Slider { slider: slider.to_owned() });
+        }
+        if let Some(load) = model.follower() {
+            return Err(VibrationError::Follower { load: load.to_owned() });
+        }
+        let pencil = Pencil::of(model)?;
+        if count == 0 || count > pencil.finite {
+            return Err(VibrationError::Count { asked: count, available: pencil.finite });
+        }
+        let modes = lowest(&pencil, count)?;
+        let displacements = modes.iter().map(|mode| model.displacements(&mode.shape)).collect();
+        Ok(Self {
+            modes,
+            meshes: model.meshes().to_vec(),
+            points: model.control_points().map(<[Vec2]>::to_vec).collect(),
+            displacements,
+        })
+    }
+
+    /// From the lowest on.
+    pub fn all(&self) -> &[Mode] {
+        &self.modes
+    }
+
+    /// Whether every small disturbance stays small, or at least grows by its start velocity only.
+    pub fn is_stable(&self) -> bool {
+        self.modes.iter().all(|mode| mode.square >= 0.0)
+    }
+
+    /// The meshes of the beams.
+    pub fn meshes(&self) -> &[Mesh] {
+        &self.meshes
+    }
+
+    /// The configuration itself: control points of all bodies [length].
+    pub fn points(&self) -> &[Vec<Vec2>] {
+        &self.points
+    }
+
+    /// The larger side of the box around the configuration [length].
+    pub fn size(&self) -> f64 {
+        let points = || self.points.iter().flatten();
+        let side = |along: fn(&Vec2) -> f64| {
+            let least = points().map(along).fold(f64::INFINITY, f64::min);
+            points().map(along).fold(f64::NEG_INFINITY, f64::max) - least
+        };
+        side(|at| at.x).max(side(|at| at.y))
+    }
+
+    /// The configuration in a mode, its largest displacement of a control point as long as asked for [length].
+    pub fn displaced(&self, mode: usize, amplitude: f64) -> Vec<Vec<Vec2>> {
+        let scale = amplitude / self.largest(mode);
+        let moved = |(points, by): (&Vec<Vec2>, &Vec<Vec2>)| {
+            points.iter().zip(by).map(|(point, by)| point + by * scale).collect()
+        };
+        self.points.iter().zip(&self.displacements[mode]).map(moved).collect()
+    }
+
+    /// The displacement of a place in a mode, relative to the largest of a control point [-].
+    pub fn displacement(&self, mode: usize, place: &Place) -> Vec2 {
+        place.interpolate(&self.displacements[mode][place.body]) / self.largest(mode)
+    }
+
+    fn largest(&self, mode: usize) -> f64 {
+        let points = self.displacements[mode].iter().flatten();
+        points.map(|by| by.norm()).fold(f64::MIN_POSITIVE, f64::max)
+    }
+}
+
+/// The number of movements that meet no resistance in the present configuration without loads.
+pub fn loose_movements(model: &mut Model) -> usize {
+    let Ok(pencil) = Pencil::of(model) else { return 0 };
+    let most = pencil.finite.min(12);
+    lowest(&pencil, most).map_or(0, |modes| modes.iter().filter(|mode| mode.is_free()).count())
+}
+
+fn lowest(pencil: &Pencil, count: usize) -> Result<Vec<Mode>, VibrationError> {
+    let rough = |shift| {
+        let more = (count + 4).min(pencil.finite);
+        shifted_pairs(pencil, shift, more).map(|pairs| (shift, pairs))
+    };
+    let smallest = if pencil.rounding > 0.0 { FIRST_SHIFT * pencil.rounding } else { 1.0 };
+    let shifts = (0..MOST_SHIFTS).map(|tries| smallest * 100_f64.powi(tries as i32));
+    let (shift, pairs) = shifts.into_iter().find_map(rough).ok_or(VibrationError::NotFinite)?;
+    let modes = modes_of(pencil, &pairs, shift, count);
+    // A shift of the size of the lowest square keeps the digits of the others.
+    let fine = squares(pencil, &pairs, shift).find(|square| *square > shift);
+    let refined = fine.filter(|_| modes.iter().all(|mode| mode.square >= 0.0)).and_then(|shift| {
+        shifted_pairs(pencil, shift, count).map(|pairs| modes_of(pencil, &pairs, shift, count))
+    });
+    Ok(refined.unwrap_or(modes))
+}
+
+fn shifted_pairs(pencil: &Pencil, shift: f64, count: usize) -> Option<Pairs> {
+    let size = pencil.size();
+    if size > SMALL {
+        return lowest_pairs(pencil, shift, count);
+    }
+    let (mut stiffness, mut inertia) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));
+    for (row, column, resistance, mass) in pencil.entries() {
+        stiffness[(row, column)] = resistance + shift * mass;
+        inertia[(row, column)] = mass;
+    }
+    pairs(stiffness, &inertia)
+}
+
+/// `ω² = 1/μ - σ` of each pair, zero where rounding hides it.
+fn squares<'a>(pencil: &Pencil, pairs: &'a Pairs, shift: f64) -> impl Iterator<Item = f64> + 'a {
+    let smallest = ROUNDING * pencil.rounding;
+    pairs.values.iter().map(move |value| {
+        let square = 1.0 / value - shift;
+        if square.abs() <= smallest { 0.0 } else { square }
+    })
+}
+
+fn modes_of(pencil: &Pencil, pairs: &Pairs, shift: f64, count: usize) -> Vec<Mode> {
+    let shapes = pairs.vectors.column_iter().zip(&pairs.values);
+    squares(pencil, pairs, shift)
+        .zip(shapes)
+        .take(count)
+        // `φᵀ M φ = μ` for the vectors of the shifted problem.
+        .map(|(square, (vector, value))| {
+            let scale = 1.0 / value.sqrt();
+            Mode { square, shape: vector.iter().map(|entry| entry * scale).collect() }
+        })
+        .collect()
+}

@@ -1,0 +1,56 @@
+//! The lowest modes of a large scene, by subspace iteration with a shifted and inverted stiffness.
+//!
+//! K.-J. Bathe, Finite Element Procedures, 2nd ed. (2014), section 11.6.
+
+use nalgebra::DMatrix;
+
+use super::pencil::Pencil;
+use super::reduced::{Pairs, pairs};
+
+/// Iterations end when no shifted square changes by more than this part of itself, and rounding.
+const SETTLED: f64 = 1e-12;
+
+/// By how many times what rounding may add to a square it may go on changing.
+const SETTLED_ROUNDING: f64 = 16.0;
+
+/// Most iterations. With twice as many vectors as modes the error of a beam's falls by 256 in each.
+const MOST_ITERATIONS: usize = 60;
+
+/// The pairs of a few more than `count` modes; none if the shifted stiffness cannot be factorised or is not positive definite.
+pub(super) fn lowest_pairs(pencil: &Pencil, shift: f64, count: usize) -> Option<Pairs> {
+    let size = pencil.size();
+    let width = (2 * count).max(count + 8).min(size);
+    let mut matrix = pencil.shifted_band(shift);
+    let factors = matrix.factorise().ok()?;
+    let mut vectors = DMatrix::from_fn(size, width, scattered);
+    let mut before = vec![f64::INFINITY; count];
+    for _ in 0..MOST_ITERATIONS {
+        vectors = pencil.inertia_times(&vectors);
+        vectors.column_iter_mut().for_each(|mut vector| factors.solve(vector.as_mut_slice()));
+        // Rigid motions outgrow all others by far: what is left of these shows beside them only after orthogonalisation.
+        vectors = vectors.qr().q();
+        let project = |of: DMatrix<f64>| {
+            let projected = vectors.tr_mul(&of);
+            (&projected + projected.transpose()) * 0.5
+        };
+        let stiffness = project(pencil.shifted_times(shift, &vectors));
+        let inertia = project(pencil.inertia_times(&vectors));
+        let Pairs { values, vectors: turned } = pairs(stiffness, &inertia)?;
+        vectors *= turned;
+        let shifted_squares: Vec<f64> = values[..count].iter().map(|value| 1.0 / value).collect();
+        let is_settled = before.iter().zip(&shifted_squares).all(|(before, now)| {
+            (before - now).abs() <= SETTLED * now.abs() + SETTLED_ROUNDING * pencil.rounding
+        });
+        if is_settled {
+            return Some(Pairs { values, vectors });
+        }
+        before = shifted_squares;
+    }
+    None
+}
+
+/// Numbers without pattern, always the same.
+fn scattered(row: usize, column: usize) -> f64 {
+    let golden = 0.618_033_988_749_894_9;
+    ((row + 1) as f64 * golden * (column + 1) as f64).fract() - 0.5
+}
