@@ -75,6 +75,9 @@ fn every_plausible_mistake_is_explained() {
 const OTHER_ANSWERS: &[(&str, &str, &str)] = &[
     ("change_one_number", "const EI = 28;", "const EI = 27.0;"),
     ("rectangle", "width * height^3 / 12", "area * height^2 / 12"),
+    ("circle", "2 * PI * strip.EI / 10", "-2 * PI * strip.EI / 10"),
+    ("stocky", "sqrt(27 * timber.EI / timber.GA)", "0.95"),
+    ("first_frequency", "0.003;", "10 / 3342;"),
     ("knot_vector", "knots(3, [0, 0, 0, 0, 0.25, 0.5, 0.75, 1, 1, 1, 1])", "knots(4)"),
     ("kink", "knots(2).insert(0.5, 2)", "knots(4).insert(0.5, 2)"),
     ("unlocking", "bspline(14)", "bspline(16)"),
