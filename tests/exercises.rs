@@ -192,6 +192,7 @@ fn broken_attempts_are_shown_where_they_are_broken() {
         ("let k = todo(\"knots\");", "still to do: knots"),
         ("", "your script has no variable 'k' when it ends"),
         ("{ let k = knots(4); }", "no variable 'k'"),
+        ("let k = [0, 1];", "should be knots, and is an array"),
         ("fn f(n) { f(n + 1) } f(0);", "too deeply"),
     ];
     for (text, phrase) in cases {

@@ -17,6 +17,7 @@ use crate::script::catalog::Catalog;
 use crate::script::context::{Context, Settings};
 use crate::script::diagnose::{Blame, Diagnostic, Explainer, is_interrupt};
 use crate::script::engine;
+use crate::script::kind::with_article;
 use crate::script::panics;
 use crate::script::program::Program;
 use crate::script::runner::{self, SNAPSHOTS};
@@ -126,7 +127,9 @@ impl Trial {
                     seen.push(name.as_str(), number);
                 }
                 found => wrong.push(format!(
-                    "the variable '{name}' of your script should be a {of}, and is a {found}"
+                    "the variable '{name}' of your script should be {}, and is {}",
+                    with_article(of),
+                    with_article(found)
                 )),
             }
         }
