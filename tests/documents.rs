@@ -58,14 +58,23 @@ fn every_block_of_rhai_in_the_documents_runs() {
 
 #[test]
 fn the_language_reference_is_up_to_date() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/language.md");
-    let current = withy::script::reference::reference(&Catalog::standard());
+    expect_written("docs/language.md", &withy::script::reference::reference(&Catalog::standard()));
+}
+
+#[test]
+fn the_pages_of_the_library_are_up_to_date() {
+    expect_written("docs/standard_library.md", &withy::script::library::document());
+}
+
+/// Compares a document that is made with what is written, or writes it when asked to.
+fn expect_written(document: &str, current: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(document);
     if std::env::var_os("WITHY_UPDATE").is_some() {
-        std::fs::write(&path, &current).unwrap();
+        std::fs::write(&path, current).unwrap();
     }
     let written = std::fs::read_to_string(&path).unwrap_or_default();
     assert!(
         written == current,
-        "docs/language.md is old: run WITHY_UPDATE=1 cargo test --test documents"
+        "{document} is old: run WITHY_UPDATE=1 cargo test --test documents"
     );
 }

@@ -129,6 +129,8 @@ fn frequencies_agree_with_the_exact_ones() {
             assert!(flexural[0] < allowed && axial < 1e-2, "{}, {name}", case.name);
             if name == "cubic C2" {
                 assert!(flexural.iter().all(|error| *error < 1.2e-2), "{}", case.name);
+                // A constant section force is in balance: waves along the axis meet no wall at the ends of the patch.
+                assert!(axial < 1e-5, "{}: {axial}", case.name);
             }
         }
     }
@@ -141,7 +143,7 @@ fn frequencies_of_smooth_cubics_converge_at_third_order_or_better() {
             .map(|spans| vibrate(&case, &Mesh::bspline(spans, 3, 2).unwrap()).1[2])
             .to_vec();
         println!("{:24} third mode {} orders {:.2?}", case.name, sci(&errors), orders(&errors));
-        assert!((errors[0] / errors[2]).log2() > 2.0 * 2.85, "{}", case.name);
+        assert!((errors[0] / errors[2]).log2() > 2.0 * 2.75, "{}", case.name);
     }
 }
 

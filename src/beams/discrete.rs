@@ -69,7 +69,7 @@ impl Axis<'_> {
     fn points<const N: usize>(
         &self,
         span: Span,
-        rule: &GaussRule,
+        rule: impl IntoIterator<Item = (f64, f64)>,
     ) -> Result<Vec<(AxisPoint<N>, Vec2)>, BeamError> {
         let place = |(xi, weight): (f64, f64)| {
             let values = self.basis.evaluate_in(&span, xi);
@@ -83,7 +83,7 @@ impl Axis<'_> {
             slope.iter_mut().zip(values.slopes()).for_each(|(to, from)| *to = from / speed);
             Ok((AxisPoint { shape, slope, weight: weight * speed }, derivative / speed))
         };
-        rule.iter_on(span.start, span.end).map(place).collect()
+        rule.into_iter().map(place).collect()
     }
 }
 
@@ -100,24 +100,24 @@ impl<const N: usize> DiscreteBeam<N> {
         let inertia_rule = mesh.inertia_rule()?;
         let mut gram = vec![[0.0; N]; control_points.len()];
         let mut spans = Vec::new();
-        for quadrature in mesh.quadrature_spans() {
+        for (quadrature, force_rule) in mesh.quadrature_spans().into_iter().zip(mesh.force_rules()?)
+        {
             let span = quadrature.span;
-            let force_rule = GaussRule::new(quadrature.force_points)?;
             let moment_rule = GaussRule::new(quadrature.moment_points)?;
             spans.push(SpanPoints {
                 first: span.first,
                 force_points: axis
-                    .points(span, &force_rule)?
+                    .points(span, force_rule)?
                     .into_iter()
                     .map(ForcePoint::new)
                     .collect(),
                 moment_points: axis
-                    .points(span, &moment_rule)?
+                    .points(span, moment_rule.iter_on(span.start, span.end))?
                     .into_iter()
                     .map(|(axis, _)| MomentPoint::new(axis))
                     .collect(),
             });
-            for (at, _) in axis.points::<N>(span, &inertia_rule)? {
+            for (at, _) in axis.points::<N>(span, inertia_rule.iter_on(span.start, span.end))? {
                 for (a, row) in gram[span.first..span.first + N].iter_mut().enumerate() {
                     for (k, entry) in row[..N - a].iter_mut().enumerate() {
                         *entry += at.weight * at.shape[a] * at.shape[a + k];

@@ -3,7 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::BeamError;
-use crate::geometry::{Basis, GaussRule, GeometryError, KnotVector, LagrangeBasis, Span};
+use crate::geometry::{
+    Basis, GaussRule, GeometryError, KnotVector, LagrangeBasis, Span, derivative_weights,
+};
 
 /// Where axial and shear strain are sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -154,29 +156,58 @@ impl Mesh {
     /// The spans with the numbers of their quadrature points for `Γ` and `κ`.
     pub(super) fn quadrature_spans(&self) -> Vec<QuadratureSpan> {
         let degree = self.basis.degree();
-        let spans = self.basis.spans();
-        // Two spans are joined smoothly when all but one of their functions are common to both.
-        let smooth: Vec<bool> =
-            spans.windows(2).map(|pair| pair[1].first == pair[0].first + 1 && degree > 1).collect();
-        let joined = |at: Option<usize>| at.and_then(|at| smooth.get(at).copied()).unwrap_or(false);
-        spans
-            .iter()
-            .enumerate()
-            .map(|(index, &span)| {
-                let (before, after) = (joined(index.checked_sub(1)), joined(Some(index)));
-                let patch = match (before, after) {
-                    (true, true) => 1,
-                    (false, false) => degree,
-                    _ => 1 + degree / 2,
-                };
-                let force_points = match self.quadrature {
-                    Quadrature::Patch => patch,
-                    Quadrature::Points(points) => points,
-                };
-                let moment_points = if before || after { (degree - 1).max(2) } else { degree };
-                QuadratureSpan { span, force_points, moment_points }
+        self.runs()
+            .into_iter()
+            .flat_map(|run| {
+                let last = run.len() - 1;
+                run.into_iter().enumerate().map(move |(at, span)| {
+                    let patch = match last {
+                        0 => degree,
+                        _ if at == 0 || at == last => 1 + degree / 2,
+                        _ => 1,
+                    };
+                    let force_points = match self.quadrature {
+                        Quadrature::Patch => patch,
+                        Quadrature::Points(points) => points,
+                    };
+                    let moment_points = if last > 0 { (degree - 1).max(2) } else { degree };
+                    QuadratureSpan { span, force_points, moment_points }
+                })
             })
             .collect()
+    }
+
+    /// The spans, those that are joined smoothly together: all but one of the functions of two neighbours are common to both.
+    fn runs(&self) -> Vec<Vec<Span>> {
+        let is_joined = |a: &Span, b: &Span| b.first == a.first + 1 && self.basis.degree() > 1;
+        let spans = self.basis.spans();
+        spans.chunk_by(is_joined).map(<[Span]>::to_vec).collect()
+    }
+
+    /// Points and weights for `Γ` on each span: `∫ f dξ ≈ Σ weight · f(point)`.
+    ///
+    /// The points are those of Gauss. Where the patch rule has as many as a run of spans has derivatives of functions, its weights are chosen to
+    /// integrate these exactly, so that a constant section force is in balance: Gauss's single points do that only far from
+    /// the ends of the run.
+    pub(super) fn force_rules(&self) -> Result<Vec<Vec<(f64, f64)>>, GeometryError> {
+        let gauss = |of: &QuadratureSpan| {
+            let rule = GaussRule::new(of.force_points)?;
+            Ok(rule.iter_on(of.span.start, of.span.end).collect())
+        };
+        let spans = self.quadrature_spans();
+        let mut rules: Vec<Vec<(f64, f64)>> =
+            spans.iter().map(gauss).collect::<Result<_, GeometryError>>()?;
+        if self.quadrature == Quadrature::Patch {
+            let mut rest = rules.as_mut_slice();
+            for run in self.runs() {
+                let (rules, others) = rest.split_at_mut(run.len());
+                rest = others;
+                if run.len() > 1 {
+                    balance(&self.basis, &run, rules);
+                }
+            }
+        }
+        Ok(rules)
     }
 
     /// The Gauss rule that integrates the inertia of a span exactly when it is straight.
@@ -186,6 +217,22 @@ impl Mesh {
 
     fn points_of_inertia(&self) -> usize {
         self.basis.degree() + 1
+    }
+}
+
+/// A weight may become so many times smaller than that of Gauss.
+const SMALLEST_WEIGHT: f64 = 0.1;
+
+/// Gives a run the weights that integrate derivatives exactly, if there are such and all are clearly positive: spans of very different
+/// lengths keep those of Gauss, for a negative weight would be a negative stiffness.
+fn balance(basis: &Basis, run: &[Span], rules: &mut [Vec<(f64, f64)>]) {
+    let points = |rule: &Vec<(f64, f64)>| rule.iter().map(|(xi, _)| *xi).collect();
+    let points: Vec<Vec<f64>> = rules.iter().map(points).collect();
+    let Some(weights) = derivative_weights(basis, run, &points) else { return };
+    let gauss = rules.iter_mut().flatten().map(|(_, weight)| weight);
+    if gauss.zip(&weights).all(|(gauss, weight)| *weight >= SMALLEST_WEIGHT * *gauss) {
+        let gauss = rules.iter_mut().flatten().map(|(_, weight)| weight);
+        gauss.zip(weights).for_each(|(gauss, weight)| *gauss = weight);
     }
 }
 

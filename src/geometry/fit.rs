@@ -1,14 +1,7 @@
 //! A curve in the terms of a basis: its control points or nodes.
 
+use super::collocation::{Row, solve};
 use super::{Basis, Curve, GeometryError, Vec2};
-
-/// One row of the collocation system `Σ_i N_i(ξ_r) P_i = x(ξ_r)`.
-struct Row {
-    /// Number of the first unknown with an entry.
-    first: usize,
-    entries: Vec<f64>,
-    right_side: Vec2,
-}
 
 /// The control points (splines) or nodes (Lagrange) [length] of `curve` in `basis`, one for each function;
 /// the domain of the basis is mapped affinely to that of the curve.
@@ -40,7 +33,7 @@ pub fn interpolate(curve: &Curve, basis: &Basis) -> Result<Vec<Vec2>, GeometryEr
                     right_side: point?,
                 })
             });
-            Ok(eliminate(rows.collect::<Result<_, GeometryError>>()?))
+            Ok(solve(rows.collect::<Result<_, GeometryError>>()?))
         }
     }
 }
@@ -49,32 +42,6 @@ pub fn interpolate(curve: &Curve, basis: &Basis) -> Result<Vec<Vec2>, GeometryEr
 pub fn corresponding(xi: f64, (a, b): (f64, f64), (start, end): (f64, f64)) -> f64 {
     let t = (xi - a) / (b - a);
     ((1.0 - t) * start + t * end).clamp(start, end)
-}
-
-/// The solution of a banded system by Gauss elimination without pivoting, which is stable for the
-/// totally positive matrices of B-spline collocation (de Boor & Pinkus 1977, Numer. Math. 27) and fills
-/// nothing in: `first` does not decrease from row to row, and no row is longer than another.
-fn eliminate(mut rows: Vec<Row>) -> Vec<Vec2> {
-    for r in 0..rows.len() {
-        let (done, rest) = rows.split_at_mut(r);
-        let row = &mut rest[0];
-        for (k, pivot) in done.iter().enumerate().skip(row.first) {
-            let factor = row.entries[k - row.first] / pivot.entries[k - pivot.first];
-            let tail = &pivot.entries[k - pivot.first..];
-            for (entry, above) in row.entries[k - row.first..].iter_mut().zip(tail) {
-                *entry -= factor * above;
-            }
-            row.right_side -= factor * pivot.right_side;
-        }
-    }
-    let mut solution = vec![Vec2::zeros(); rows.len()];
-    for (r, row) in rows.iter().enumerate().rev() {
-        let (pivot, beyond) = (row.entries[r - row.first], &row.entries[r - row.first + 1..]);
-        let known: Vec2 =
-            beyond.iter().zip(&solution[r + 1..]).map(|(entry, point)| *entry * point).sum();
-        solution[r] = (row.right_side - known) / pivot;
-    }
-    solution
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ mod arc;
 mod arc_length;
 mod basis;
 mod bspline;
+mod collocation;
 mod curve;
 mod error;
 mod extremes;
@@ -19,6 +20,7 @@ mod quadrature;
 #[cfg(test)]
 mod samples;
 mod spline_curve;
+mod spline_rule;
 mod values;
 
 pub use arc::CircularArc;
@@ -35,4 +37,5 @@ pub use passage::Passage;
 pub use planar::{Vec2, cross, perpendicular, unit};
 pub use quadrature::GaussRule;
 pub use spline_curve::SplineCurve;
+pub use spline_rule::derivative_weights;
 pub use values::BasisValues;

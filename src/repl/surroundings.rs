@@ -5,6 +5,7 @@ use rhai::{Dynamic, Map};
 use super::commands::COMMANDS;
 use super::editor::surroundings::{CommandWord, Function, Module, Surroundings, Variable};
 use super::shell::Shell;
+use crate::script::library::{ModuleFunction, page_of};
 
 impl Shell {
     /// The names that an input can use now.
@@ -23,12 +24,19 @@ impl Shell {
             name: function.name.to_string(),
             parameters: function.params.iter().map(ToString::to_string).collect(),
         };
+        let of_library = |function: &ModuleFunction| Function {
+            name: function.name().to_owned(),
+            parameters: function.parameters.clone(),
+        };
         let module = |(alias, module): (&str, &rhai::Module)| Module {
             alias: alias.to_owned(),
-            functions: module
-                .iter_script_fn_info()
-                .map(|(.., function)| definition(function))
-                .collect(),
+            functions: match module.id().and_then(page_of) {
+                Some(page) => page.functions.iter().map(of_library).collect(),
+                None => module
+                    .iter_script_fn_info()
+                    .map(|(.., function)| definition(function))
+                    .collect(),
+            },
         };
         Surroundings {
             catalog: session.catalog().clone(),

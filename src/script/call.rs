@@ -8,6 +8,7 @@ use super::arguments::Arguments;
 use super::context::Context;
 use super::error::ScriptError;
 use super::numbers::{as_number, describe};
+use super::sources::Sources;
 use super::stored::StoredFunction;
 use super::table::Row;
 
@@ -69,9 +70,11 @@ impl<'c, 'r> Call<'c, 'r> {
         Ok(())
     }
 
-    /// The line of the script that calls, from 1.
+    /// The line of the script that calls, from 1; for a call by the standard library, the line that called the library.
     pub fn line(&self) -> usize {
-        self.native.call_position().line().unwrap_or(0)
+        let entered = Sources::of(self.native.engine())
+            .entered_at(self.native.global_runtime_state().source());
+        entered.or(self.native.call_position().line()).unwrap_or(0)
     }
 
     /// Calls a script function back. Its own errors, positions and trace stay as they are.

@@ -1,5 +1,5 @@
-//! Imports of files from the script's own folder, each read once as long as it does not change. A file that imports itself, in however many steps, is
-//! an error, not an abort.
+//! Imports: modules of the standard library, whose names begin with `std/`, and files from the script's own folder, each read
+//! once as long as it does not change. A file that imports itself, in however many steps, is an error, not an abort.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -13,13 +13,14 @@ use rhai::{
 
 use super::error::ScriptError;
 use super::files::InputFolders;
+use super::library;
 use super::program::Program;
 use super::runner::parse;
 
 /// Files that import files that import files: so many at most.
 const LONGEST_CHAIN: usize = 50;
 
-/// Finds modules in a folder, and remembers which were read and which are being read.
+/// Finds modules in the library or in a folder, and remembers which were read and which are being read.
 pub struct FolderResolver {
     folder: PathBuf,
     inputs: InputFolders,
@@ -53,6 +54,28 @@ impl FolderResolver {
         let shown =
             if self.folder == Path::new(".") { file.into() } else { self.folder.join(file) };
         Ok((shown, real))
+    }
+
+    /// A module of the library, behind its entrances.
+    fn load_library(
+        &self,
+        engine: &Engine,
+        global: &mut GlobalRuntimeState,
+        of: &library::Module,
+        position: Position,
+    ) -> Result<Shared<Module>, Box<EvalAltResult>> {
+        let file = PathBuf::from(of.file);
+        if let Some(read) = self.read.borrow().get(&file) {
+            return Ok(Shared::clone(&read.module));
+        }
+        let ast = parse(engine, &of.program())?;
+        let module = Module::eval_ast_as_new_raw(engine, &mut Scope::new(), global, &ast).map_err(
+            |error| Box::new(EvalAltResult::ErrorInModule(of.file.into(), error, position)),
+        )?;
+        let module = Shared::new(library::behind_entrances(&module, &ast, of.file));
+        let read = ReadModule { changed: None, module: Shared::clone(&module) };
+        self.read.borrow_mut().insert(file, read);
+        Ok(module)
     }
 
     fn refuse_chain(&self, name: &str, file: &PathBuf) -> Result<(), ScriptError> {
@@ -109,6 +132,9 @@ impl ModuleResolver for FolderResolver {
         position: Position,
     ) -> Result<Shared<Module>, Box<EvalAltResult>> {
         let refused = |error: ScriptError| error.into_engine(position);
+        if let Some(module) = library::find(path) {
+            return self.load_library(engine, global, module.map_err(refused)?, position);
+        }
         let (shown, file) = self.find(path).map_err(refused)?;
         self.refuse_chain(path, &file).map_err(refused)?;
         let changed = fs::metadata(&file).and_then(|about| about.modified()).ok();

@@ -23,6 +23,7 @@ pub mod help;
 pub mod imports;
 pub mod kind;
 pub mod lexing;
+pub mod library;
 pub mod limits;
 pub mod numbers;
 pub mod operators;

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::diagnose::Diagnostic;
+use super::library;
 
 /// A script to be run: its name in messages, its text, and the folder that `import` looks in.
 #[derive(Clone, Debug)]
@@ -57,6 +58,9 @@ impl Program {
     pub(super) fn of_source(&self, source: &str) -> Self {
         if source.is_empty() || source == self.name {
             return self.clone();
+        }
+        if let Some(Ok(module)) = library::find(source) {
+            return module.program();
         }
         Self::load(Path::new(source)).unwrap_or_else(|_| Self {
             name: source.into(),

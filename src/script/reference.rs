@@ -14,7 +14,8 @@ const HEAD: &str = "# The language
 *Made from the tables in `src/script`; `WITHY_UPDATE=1 cargo test --test documents` makes it again.*
 
 withy speaks [Rhai](https://rhai.rs/book) with numbers as in science. The same pages are shown by `withy docs NAME`, and by \
-`help(\"NAME\")` in a script. Every example runs, after the lines that its section begins with.
+`help(\"NAME\")` in a script. Every example runs, after the lines that its section begins with. Ready-made sections, shapes, schedules, mechanisms, \
+checks and comparisons are in the [standard library](standard_library.md).
 ";
 
 const ABOUT_ROWS: &str = "How to read an entry: after `→` stands what it gives back. Optional arguments stand in brackets. \

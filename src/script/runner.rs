@@ -15,6 +15,7 @@ use super::diagnose::{Diagnostic, Explainer, is_interrupt};
 use super::engine;
 use super::error::ScriptError;
 use super::lexing::{open_comment, tokens};
+use super::library::FOLDER;
 use super::limits::{DEFAULT_MEGABYTES, Limits, MEGABYTE};
 use super::panics;
 use super::program::Program;
@@ -124,11 +125,17 @@ pub fn parse(engine: &Engine, program: &Program) -> Result<AST, Box<EvalAltResul
 /// What a simulation may keep to go back to, in a script that goes back [bytes].
 pub const SNAPSHOTS: usize = 256_000_000;
 
-/// Whether a script may go back in time: a scene pays only for what it uses. What an imported file does is not known.
+/// Whether a script may go back in time: a scene pays only for what it uses. The library never does; what another imported file does is
+/// not known.
 fn may_go_back(program: &Program) -> bool {
-    tokens(&program.text).iter().any(|(token, _)| match token {
+    let tokens = tokens(&program.text);
+    let is_library = |index: usize| match tokens.get(index) {
+        Some((Token::StringConstant(path), _)) => path.starts_with(FOLDER),
+        _ => false,
+    };
+    tokens.iter().enumerate().any(|(index, (token, _))| match token {
         Token::Identifier(name) => matches!(name.as_str(), "back" | "rewind"),
-        Token::Import => true,
+        Token::Import => !is_library(index + 1),
         _ => false,
     })
 }
@@ -176,5 +183,17 @@ fn evaluate(program: &Program, catalog: &Catalog, context: &Context) -> Ending {
         Err(error) => {
             Ending::Failed(Explainer { program, catalog, engine: &engine }.explain(&error))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_scripts_that_may_go_back_pay_for_it() {
+        let may = |text: &str| may_go_back(&Program::named("a", text));
+        assert!(may("sim.back(3);") && may("import \"parts\" as parts;"));
+        assert!(!may("import \"std/checks\" as checks; // back"));
     }
 }

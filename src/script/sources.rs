@@ -1,16 +1,40 @@
-//! Which file a script function stands in: the engine loses it where closures of modules are called by natives.
+//! Where script functions stand and where the library was called from: the engine loses the file where closures of modules are
+//! called by natives, and tells only errors the line of a call.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
 use rhai::{AST, Engine};
 
-/// The names of all script functions and closures that an engine has read, with their files.
+use super::library::FOLDER;
+
+/// The names of all script functions and closures that an engine has read, with their files, and the line that the standard
+/// library was entered from.
 ///
 /// It travels as the default tag of the engine.
 #[derive(Clone, Debug, Default)]
-pub struct Sources(Rc<RefCell<HashMap<String, HashSet<String>>>>);
+pub struct Sources {
+    functions: Rc<RefCell<HashMap<String, HashSet<String>>>>,
+    entered_at: Rc<Cell<Option<usize>>>,
+}
+
+/// Lasts as long as a call into the library.
+pub struct InLibrary {
+    entered_at: Rc<Cell<Option<usize>>>,
+    before: Option<usize>,
+}
+
+impl Drop for InLibrary {
+    fn drop(&mut self) {
+        self.entered_at.set(self.before);
+    }
+}
+
+/// Whether a file belongs to the library.
+fn is_library(source: Option<&str>) -> bool {
+    source.is_some_and(|source| source.starts_with(FOLDER))
+}
 
 impl Sources {
     /// Gives an engine a register of its own.
@@ -25,7 +49,7 @@ impl Sources {
 
     /// Notes the functions of a file.
     pub fn note(&self, ast: &AST, source: &str) {
-        let mut known = self.0.borrow_mut();
+        let mut known = self.functions.borrow_mut();
         for function in ast.iter_functions() {
             known.entry(function.name.to_owned()).or_default().insert(source.to_owned());
         }
@@ -33,7 +57,7 @@ impl Sources {
 
     /// The file of the function `name`: `claimed` where that is possible, nothing where the function is native.
     pub fn find(&self, name: &str, claimed: &str) -> Option<String> {
-        let known = self.0.borrow();
+        let known = self.functions.borrow();
         if known.is_empty() {
             return Some(claimed.to_owned());
         }
@@ -42,5 +66,20 @@ impl Sources {
             true => Some(claimed.to_owned()),
             false => files.iter().min().cloned(),
         }
+    }
+
+    /// Notes a call into the library from a line of the file `caller`, until what is given back is dropped. The library may call
+    /// itself: the line outside of it counts.
+    pub fn enter_library(&self, caller: Option<&str>, line: Option<usize>) -> InLibrary {
+        let before = self.entered_at.get();
+        if !is_library(caller) {
+            self.entered_at.set(line);
+        }
+        InLibrary { entered_at: self.entered_at.clone(), before }
+    }
+
+    /// The line that the library was entered from, while the running call stands in the library.
+    pub fn entered_at(&self, running: Option<&str>) -> Option<usize> {
+        self.entered_at.get().filter(|_| is_library(running))
     }
 }

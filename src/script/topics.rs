@@ -164,13 +164,15 @@ pub const TOPICS: &[Topic] = &[
     },
     Topic {
         name: "import",
-        words: &["export", "as", "module", "modules"],
-        summary: "`import \"name\" as n;` reads `name.rhai` beside the script.",
+        words: &["export", "as", "module", "modules", "library", "std"],
+        summary: "`import \"name\" as n;` reads `name.rhai` beside the script, `import \"std/name\" as n;` a module of the library.",
         doc: "Its functions are called `n::function(…)`, its variables that are exported with `export` are `n::variable`. A file is read \
-              once; one that imports itself is an error. Closures that come from another file cannot be called.",
+              once; one that imports itself is an error. Closures that come from another file cannot be called. Names that begin with std/ belong to the library: \
+              a file of your own in a folder std is not read.",
         example: "fn twice(x) { 2 * x }\nexport const LENGTH = 2;\n\
                   // If this were parts.rhai, another file beside it could say\n\
-                  // import \"parts\" as parts; print(parts::twice(parts::LENGTH));\ncheck(twice(LENGTH) == 4);",
+                  // import \"parts\" as parts; print(parts::twice(parts::LENGTH));\ncheck(twice(LENGTH) == 4);\n\
+                  import \"std/checks\" as checks;\nchecks::assert_close(\"twice\", twice(LENGTH), 4, 0);",
         see: &["functions"],
     },
     Topic {

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use super::candidates::{Candidate, fitting};
+use crate::script::library::{FOLDER, MODULES};
 
 /// Which files are meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +20,12 @@ pub enum Files {
 pub fn complete_path(typed: &str, folder: &Path, files: Files) -> (usize, Vec<Candidate>) {
     let start = typed.rfind('/').map_or(0, |slash| slash + 1);
     let (parent, name) = typed.split_at(start);
+    if files == Files::Modules && parent == FOLDER {
+        let names = MODULES.iter().filter_map(|module| module.name.strip_prefix(FOLDER));
+        return (start, fitting(name, names.map(|name| Candidate::word(name, ""))));
+    }
+    let library = (files == Files::Modules && parent.is_empty())
+        .then(|| Candidate::word(FOLDER, "the standard library"));
     let entries = fs::read_dir(folder.join(parent)).into_iter().flatten().flatten();
     let candidates = entries.filter_map(|entry| {
         let known = entry.file_name().into_string().ok()?;
@@ -31,7 +38,7 @@ pub fn complete_path(typed: &str, folder: &Path, files: Files) -> (usize, Vec<Ca
             (false, Files::Modules) => Some(Candidate::word(known.strip_suffix(".rhai")?, "")),
         }
     });
-    (start, fitting(name, candidates))
+    (start, fitting(name, library.into_iter().chain(candidates)))
 }
 
 #[cfg(test)]
@@ -57,5 +64,7 @@ mod tests {
         assert_eq!(names("parts/a", Files::Modules), (6, vec!["arch".into()]));
         assert_eq!(names("nowhere/", Files::Any), (8, vec![]));
         assert_eq!(names(".h", Files::Any).1, [".hidden"]);
+        assert_eq!(names("st", Files::Modules), (0, vec!["std/".into()]));
+        assert_eq!(names("std/se", Files::Modules), (4, vec!["sections".into()]));
     }
 }

@@ -7,6 +7,7 @@ use super::translate::type_word;
 use crate::script::built_in::BuiltIn;
 use crate::script::catalog::Catalog;
 use crate::script::kind::with_article;
+use crate::script::library::{FOLDER, ModuleFunction, page_of};
 use crate::script::operators;
 use crate::script::program::Program;
 use crate::script::suggest::nearest;
@@ -43,6 +44,9 @@ impl Unknown<'_> {
         {
             return self.operator(operators::written(name), &types);
         }
+        if let Some((module, own)) = name.rsplit_once("::") {
+            return self.of_module(module, own, types.len());
+        }
         let rows: Vec<_> = self.catalog.named(name).collect();
         let of_receiver = rows
             .iter()
@@ -60,6 +64,41 @@ impl Unknown<'_> {
             return words;
         }
         self.unknown_name(name, &types, &rows, self.is_dotted(at))
+    }
+
+    /// A function of an imported module; only what the standard library has is known.
+    fn of_module(&self, module: &str, name: &str, got: usize) -> Words {
+        let message = format!("there is no function '{name}' in '{module}'");
+        let mut imports = self.outline.imports.iter().rev();
+        let path = imports.find(|(known, _)| known == module).map(|(_, path)| path);
+        let Some(page) = path.and_then(|path| page_of(path)) else { return (message, None) };
+        let written =
+            |of: &ModuleFunction| format!("{module}::{}({})", of.name(), of.parameters.join(", "));
+        if let Some(known) = page.named(name) {
+            let takes = arguments(known.parameters.len());
+            let told = format!("{module}::{name} takes {takes}, got {got}");
+            return (told, Some(format!("write {}", written(known))));
+        }
+        let names = || page.functions.iter().map(ModuleFunction::name);
+        let hint = match nearest(name, names()).and_then(|near| page.named(near)) {
+            Some(near) => format!("did you mean '{}'? {}", near.name(), written(near)),
+            None => format!("it has {}", names().collect::<Vec<_>>().join(", ")),
+        };
+        (message, Some(hint))
+    }
+
+    /// What stands before `::` and was not imported.
+    pub fn module(&self, name: &str) -> Words {
+        let message = format!("nothing was imported as '{name}'");
+        let imports = || self.outline.imports.iter().map(|(known, _)| known.as_str());
+        let hint = match (page_of(&format!("{FOLDER}{name}")), nearest(name, imports())) {
+            (Some(page), _) => {
+                format!("write import \"{}\" as {name}; before it", page.module.name)
+            }
+            (None, Some(near)) => format!("did you mean '{near}'?"),
+            (None, None) => format!("write import \"FILE\" as {name}; before it"),
+        };
+        (message, Some(hint))
     }
 
     /// A function of Rhai that these values could be meant for, called with the wrong ones.

@@ -71,6 +71,8 @@ pub enum Callee {
     Closure,
     /// A file that was imported.
     File(String),
+    /// Nothing: the line of the standard library at which the error arose.
+    Library,
 }
 
 impl Diagnostic {

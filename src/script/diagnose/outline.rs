@@ -15,6 +15,8 @@ pub struct Outline {
     pub functions: Vec<(String, usize)>,
     /// Keys of map literals.
     pub keys: Vec<String>,
+    /// What is imported, with the names that it gets.
+    pub imports: Vec<(String, String)>,
 }
 
 impl Outline {
@@ -34,6 +36,7 @@ impl Outline {
                 Token::Let | Token::Const | Token::For => {
                     outline.declare(token, name(1), depth, *position)
                 }
+                Token::As => outline.imported(&tokens[..index], name(1)),
                 Token::Fn => outline.define(name(1), parameters(&tokens[index..])),
                 Token::Identifier(key)
                     if matches!(tokens.get(index + 1), Some((Token::Colon, _))) =>
@@ -52,6 +55,12 @@ impl Outline {
             self.top_level.push((name.clone(), position.line().unwrap_or(0)));
         }
         self.variables.push(name);
+    }
+
+    fn imported(&mut self, before: &[(Token, Position)], name: Option<String>) {
+        if let (Some((Token::StringConstant(path), _)), Some(name)) = (before.last(), name) {
+            self.imports.push((name, path.to_string()));
+        }
     }
 
     fn define(&mut self, name: Option<String>, parameters: Vec<String>) {
@@ -89,5 +98,7 @@ mod tests {
         assert_eq!(outline.functions, [("f".to_owned(), 2)]);
         assert_eq!(outline.variables, ["a", "x", "y", "b", "i"]);
         assert_eq!(outline.keys, ["key"]);
+        let outline = Outline::of("import \"std/checks\" as c;");
+        assert_eq!(outline.imports, [("c".to_owned(), "std/checks".to_owned())]);
     }
 }

@@ -67,6 +67,10 @@ impl std::fmt::Display for Step {
                 write!(f, "in the file {name}")?;
                 "imported"
             }
+            Callee::Library => {
+                f.write_str("in the library")?;
+                "raised"
+            }
         };
         match (self.line, &self.file) {
             (Some(line), Some(file)) => write!(f, ", {reached} at {file}:{line}"),

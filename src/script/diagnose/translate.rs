@@ -6,8 +6,9 @@ use super::calls::Unknown;
 use super::outline::Outline;
 use super::{Callee, Diagnostic, Step, locate, parsing};
 use crate::script::catalog::Catalog;
-use crate::script::error::{BUG, Failure};
+use crate::script::error::{BUG, Failure, Place};
 use crate::script::kind::with_article;
+use crate::script::library::FOLDER;
 use crate::script::limits::Stop;
 use crate::script::program::Program;
 use crate::script::sources::Sources;
@@ -33,6 +34,8 @@ struct Unwrapped<'e> {
     trace: Vec<Step>,
     /// Where the innermost of them was called.
     called_at: Option<(Program, Position)>,
+    /// Where the standard library was called, when the error arose in it.
+    library_called_at: Option<(Program, Position)>,
 }
 
 /// What is wrong, what to do, and where.
@@ -56,7 +59,8 @@ fn stopped_by(token: &Dynamic) -> Stop {
 impl Explainer<'_> {
     /// The diagnostic for `error`.
     pub fn explain(&self, error: &EvalAltResult) -> Diagnostic {
-        let Unwrapped { inner, program, trace, called_at } = self.unwrap(error);
+        let Unwrapped { inner, program, mut trace, called_at, library_called_at } =
+            self.unwrap(error);
         if let EvalAltResult::ErrorSystem(message, mark) = inner
             && mark.to_string() == BUG
         {
@@ -64,6 +68,22 @@ impl Explainer<'_> {
         }
         let outline = Outline::of(&program.text);
         let (message, hint) = self.words(inner, &program, &outline, &trace);
+        if let Some((caller, at)) = library_called_at {
+            let file = Some(program.name.clone());
+            let line = inner.position().line();
+            trace.insert(0, Step { callee: Callee::Library, line, file });
+            let place = match inner {
+                EvalAltResult::ErrorRuntime(payload, _) => payload.read_lock::<Failure>(),
+                _ => None,
+            };
+            // A key that the library hands on is written in the call of the user too; an argument is another one there.
+            let place = match place.map(|failure| failure.place.clone()) {
+                Some(Place::Key(key)) => Place::Key(key),
+                _ => Place::Call,
+            };
+            let location = locate::part_of_call(&caller, self.catalog, at, &place);
+            return Diagnostic { hint, location, trace, ..Diagnostic::general(message) };
+        }
         let location = self.location(inner, &program).or_else(|| {
             let (caller, at) = called_at.as_ref()?;
             locate::word_at(caller, *at)
@@ -78,6 +98,7 @@ impl Explainer<'_> {
         let mut program = self.program.clone();
         let mut inner = error;
         let mut called_at = None;
+        let mut library_called_at = None;
         loop {
             let (callee, file, cause, at) = match inner {
                 EvalAltResult::ErrorInFunctionCall(name, source, cause, at) => {
@@ -90,12 +111,16 @@ impl Explainer<'_> {
                 EvalAltResult::ErrorInModule(path, cause, at) => {
                     (Callee::File(path.clone()), Some(path.clone()), cause, at)
                 }
-                _ => return Unwrapped { inner, program, trace, called_at },
+                _ => return Unwrapped { inner, program, trace, called_at, library_called_at },
             };
             let caller = (program.name != self.program.name).then(|| program.name.clone());
             trace.insert(0, Step { callee, line: at.line(), file: caller });
             called_at = Some((program.clone(), *at));
             if let Some(file) = file {
+                library_called_at = match file.starts_with(FOLDER) {
+                    true => library_called_at.or(called_at.clone()),
+                    false => None,
+                };
                 program = self.program.of_source(&file);
             }
             inner = cause;
@@ -134,6 +159,7 @@ impl Explainer<'_> {
             Error::ErrorFunctionNotFound(signature, at) => unknown.function(signature, *at),
             Error::ErrorDotExpr(text, _) => unknown.property(text),
             Error::ErrorVariableNotFound(name, _) => self.variable(name, outline, trace),
+            Error::ErrorModuleNotFound(name, _) => unknown.module(name),
             Error::ErrorPropertyNotFound(key, _) => missing_key(key, outline),
             Error::ErrorRuntime(payload, _) => self.thrown(payload),
             Error::ErrorMismatchDataType(wanted, got, _)

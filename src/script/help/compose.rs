@@ -2,11 +2,12 @@
 
 use super::find::{Subject, find};
 use super::page::{Page, Span};
-use super::rows;
 use super::unknown::Unknown;
+use super::{library, rows};
 use crate::script::built_in::BuiltInTable;
 use crate::script::catalog::Catalog;
 use crate::script::kind::{Type, with_article};
+use crate::script::library::{Block, pages};
 use crate::script::numbers::format_number;
 use crate::script::parameter::Parameter;
 use crate::script::table::{Constant, Row, Table};
@@ -40,6 +41,8 @@ pub fn page(catalog: &Catalog, name: &str) -> Result<Page, Unknown> {
             Subject::Constant(constant) => describe_constant(&mut page, constant),
             Subject::Table(table) => describe_table(&mut page, table),
             Subject::BuiltIns(table) => describe_built_ins(&mut page, table),
+            Subject::Module(of) => library::module(&mut page, of),
+            Subject::ModuleFunction(of) => library::function(&mut page, of),
             Subject::Option(..) => (),
         }
     }
@@ -76,6 +79,13 @@ fn overview(catalog: &Catalog) -> Page {
     page.heading("From Rhai");
     let tables = catalog.built_in_tables();
     tables.for_each(|table| entry(&mut page, table.name, first_sentence(table.doc)));
+    page.gap();
+    page.heading("The standard library, import \"std/sections\" as sections;");
+    for of in pages() {
+        if let Some(Block::Paragraph(about)) = of.about.first() {
+            entry(&mut page, of.module.name, first_sentence(about));
+        }
+    }
     page
 }
 

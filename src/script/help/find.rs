@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use crate::script::built_in::{BuiltIn, BuiltInTable};
 use crate::script::catalog::Catalog;
 use crate::script::kind::{Kind, Type};
+use crate::script::library::{ModuleFunction, ModulePage, page_of, pages};
 use crate::script::parameter::Parameter;
 use crate::script::table::{Constant, Form, Row, Table};
 use crate::script::topics::{TOPICS, Topic};
@@ -28,6 +29,10 @@ pub enum Subject {
     Table(&'static Table),
     /// Functions of Rhai about one kind of value.
     BuiltIns(&'static BuiltInTable),
+    /// A module of the standard library.
+    Module(&'static ModulePage),
+    /// A function of such a module.
+    ModuleFunction(&'static ModuleFunction),
 }
 
 /// Everything that `name` stands for, the most likely first; nothing if it is unknown.
@@ -69,6 +74,10 @@ pub fn names(catalog: &Catalog) -> BTreeSet<&'static str> {
         names.insert(topic.name);
         names.extend(topic.words);
     }
+    for page in pages() {
+        names.insert(page.module.name);
+        names.extend(page.functions.iter().map(|function| function.full_name.as_str()));
+    }
     names
 }
 
@@ -98,6 +107,8 @@ fn named(catalog: &Catalog, name: &str) -> Vec<Subject> {
                 .filter(|table| table.name.strip_suffix('s') == Some(name) || table.name == name)
                 .map(Subject::BuiltIns),
         )
+        .chain(page_of(name).map(Subject::Module))
+        .chain(pages().iter().filter_map(|page| page.named(name)).map(Subject::ModuleFunction))
         .collect()
 }
 

@@ -2,6 +2,7 @@
 
 mod compose;
 mod find;
+mod library;
 mod page;
 mod rows;
 mod unknown;

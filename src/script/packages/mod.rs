@@ -17,6 +17,7 @@ mod math;
 mod modes;
 mod pictures;
 mod precision_studies;
+mod reading_options;
 mod recording;
 mod report;
 mod rest_pictures;
@@ -69,6 +70,7 @@ pub const TABLES: &[&Table] = &[
     &cost_studies::TABLE,
     &precision_studies::TABLE,
     &convergence_studies::TABLE,
+    &reading_options::TABLE,
     &help::TABLE,
 ];
 

@@ -166,7 +166,7 @@ pub(super) const START: &[Parameter] = &[
     number("snapshots")
         .non_negative()
         .unit("MB")
-        .doc("memory for states to go back to; 256 where the script says back, rewind or import, else 0")
+        .doc("memory for states to go back to; 256 where the script says back or rewind or imports a file, else 0")
         .optional(),
 ];
 

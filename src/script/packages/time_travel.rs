@@ -13,7 +13,7 @@ use crate::script::table::{Table, method};
 pub const TABLE: Table = Table {
     name: "going back",
     doc: "A simulation can go back to states that it was in, bit for bit, as long as these fit into the memory set aside for them. \
-          That is 256 MB for each simulation of a script that says back, rewind or import somewhere, and none else; \
+          That is 256 MB for each simulation of a script that says back or rewind or imports a file somewhere (the library does not count), and none else; \
           scene.start(#{ …, snapshots: 64 }) sets aside 64 MB. When it is full, the oldest states but the start are forgotten.",
     types: &[],
     setup: SPINNING,

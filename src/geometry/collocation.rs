@@ -1,0 +1,44 @@
+//! Systems of equations in which splines are asked for at points.
+
+use std::ops::{AddAssign, Div, Mul, SubAssign};
+
+/// One row of a collocation system, such as `Σ_i N_i(ξ_r) P_i = x(ξ_r)`.
+pub(super) struct Row<R> {
+    /// Number of the first unknown with an entry.
+    pub(super) first: usize,
+    pub(super) entries: Vec<f64>,
+    pub(super) right_side: R,
+}
+
+/// The solution of a banded system by Gauss elimination without pivoting, which is stable for the totally positive matrices
+/// of B-spline collocation (de Boor & Pinkus 1977, Numer. Math. 27) and fills nothing in: neither the first nor the last
+/// column with an entry decreases from row to row.
+pub(super) fn solve<R>(mut rows: Vec<Row<R>>) -> Vec<R>
+where
+    R: Copy + Default + AddAssign + SubAssign + Mul<f64, Output = R> + Div<f64, Output = R>,
+{
+    for r in 0..rows.len() {
+        let (done, rest) = rows.split_at_mut(r);
+        let row = &mut rest[0];
+        for (k, pivot) in done.iter().enumerate().skip(row.first) {
+            let factor = row.entries[k - row.first] / pivot.entries[k - pivot.first];
+            let tail = &pivot.entries[k - pivot.first..];
+            for (entry, above) in row.entries[k - row.first..].iter_mut().zip(tail) {
+                *entry -= factor * above;
+            }
+            row.right_side -= pivot.right_side * factor;
+        }
+    }
+    let mut solution = vec![R::default(); rows.len()];
+    for (r, row) in rows.iter().enumerate().rev() {
+        let (pivot, beyond) = (row.entries[r - row.first], &row.entries[r - row.first + 1..]);
+        let mut known = R::default();
+        for (entry, value) in beyond.iter().zip(&solution[r + 1..]) {
+            known += *value * *entry;
+        }
+        let mut right_side = row.right_side;
+        right_side -= known;
+        solution[r] = right_side / pivot;
+    }
+    solution
+}

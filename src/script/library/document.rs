@@ -1,0 +1,56 @@
+//! The standard library as a document, from the comments of its modules.
+
+use std::fmt::Write;
+
+use super::pages::{Block, ModulePage, pages};
+
+const HEAD: &str = "# The standard library
+
+*Made from the comments in `stdlib/*.rhai`; `WITHY_UPDATE=1 cargo test --test documents` makes it again.*
+
+Modules in the [language](language.md) itself, which are part of the program: `import \"std/sections\" as sections;` works in every script, in \
+files that scripts import, and at the prompt. They are read when they are imported, and not before. Names that begin with `std/` belong to the \
+library: a file of your own in a folder `std` is never read in its place, nor at all. The same pages are shown by `withy docs std/sections` and \
+`help(\"sections::rectangle\")`. The files in [stdlib/](../stdlib) are meant to be read: copy what you want to change. Every example runs.
+";
+
+/// The pages of all modules in Markdown.
+pub fn document() -> String {
+    let mut text = HEAD.to_owned();
+    text.push('\n');
+    for page in pages() {
+        let anchor = page.module.name.replace('/', "-");
+        let names: Vec<_> =
+            page.functions.iter().map(|known| format!("`{}`", known.name())).collect();
+        // Writing to a text cannot fail.
+        let _ = writeln!(text, "- [{}](#{anchor}): {}", page.module.name, names.join(" "));
+    }
+    pages().iter().for_each(|page| describe(&mut text, page));
+    text
+}
+
+fn describe(text: &mut String, page: &ModulePage) {
+    let name = page.module.name;
+    let _ = write!(text, "\n<a id=\"{}\"></a>\n\n## {name}\n", name.replace('/', "-"));
+    write_blocks(text, &page.about);
+    for function in &page.functions {
+        let _ = write!(text, "\n### `{}`\n", function.signature());
+        write_blocks(text, &function.text);
+    }
+}
+
+fn write_blocks(text: &mut String, blocks: &[Block]) {
+    let mut was_item = false;
+    for block in blocks {
+        let is_item = matches!(block, Block::Item(_));
+        if !(was_item && is_item) {
+            text.push('\n');
+        }
+        let _ = match block {
+            Block::Paragraph(words) => writeln!(text, "{words}"),
+            Block::Item(words) => writeln!(text, "- {words}"),
+            Block::Example(script) => writeln!(text, "```rhai example\n{script}\n```"),
+        };
+        was_item = is_item;
+    }
+}

@@ -1,0 +1,11 @@
+//! The standard library: modules in Rhai that are part of the program, `import "std/sections" as sections;`.
+
+mod document;
+mod entrance;
+mod modules;
+mod pages;
+
+pub use document::document;
+pub use entrance::behind_entrances;
+pub use modules::{FOLDER, MODULES, Module, find};
+pub use pages::{Block, ModuleFunction, ModulePage, page_of, pages};

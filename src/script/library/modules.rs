@@ -1,0 +1,70 @@
+//! The modules and their texts. None is parsed before a script imports it.
+
+use crate::script::error::ScriptError;
+use crate::script::program::Program;
+use crate::script::suggest::nearest;
+
+/// What names of modules of the library begin with. Files of a script's own folder never have such a name.
+pub const FOLDER: &str = "std/";
+
+/// A module of the library.
+#[derive(Debug)]
+pub struct Module {
+    /// Its name in an import.
+    pub name: &'static str,
+    /// Its file, as messages name it.
+    pub file: &'static str,
+    /// Its text.
+    pub text: &'static str,
+}
+
+/// Names a file of `stdlib/`.
+macro_rules! module {
+    ($name:literal) => {
+        Module {
+            name: concat!("std/", $name),
+            file: concat!("std/", $name, ".rhai"),
+            text: include_str!(concat!("../../../stdlib/", $name, ".rhai")),
+        }
+    };
+}
+
+/// All modules, in the order of their page.
+pub const MODULES: &[Module] = &[
+    module!("sections"),
+    module!("shapes"),
+    module!("schedules"),
+    module!("mechanisms"),
+    module!("checks"),
+    module!("comparisons"),
+];
+
+impl Module {
+    /// Its text as a program.
+    pub fn program(&self) -> Program {
+        Program::named(self.file, self.text)
+    }
+}
+
+/// The module that an import names, with or without `.rhai`; nothing for files of the script's own folder.
+///
+/// # Errors
+/// The name belongs to the library, but it has no such module.
+pub fn find(path: &str) -> Option<Result<&'static Module, ScriptError>> {
+    let name = path.strip_suffix(".rhai").unwrap_or(path);
+    if !name.starts_with(FOLDER) {
+        return None;
+    }
+    let known = MODULES.iter().find(|module| module.name == name);
+    Some(known.ok_or_else(|| unknown(name)))
+}
+
+fn unknown(name: &str) -> ScriptError {
+    let names: Vec<_> = MODULES.iter().map(|module| module.name).collect();
+    let meant = nearest(name, names.iter().copied());
+    let meant = meant.map(|near| format!("did you mean \"{near}\"? ")).unwrap_or_default();
+    ScriptError::new(format!("the library has no module \"{name}\"")).hint(format!(
+        "{meant}it has {}; a folder of your own cannot be called std",
+        names.join(", ")
+    ))
+}

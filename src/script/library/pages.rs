@@ -1,0 +1,217 @@
+//! What the modules say about themselves: the comments `//!` of a file and `///` of its functions, taken apart. They are read when
+//! someone asks for help, not when a module is imported.
+
+use std::sync::LazyLock;
+
+use super::modules::{FOLDER, MODULES, Module};
+
+/// What is said about a module.
+#[derive(Debug)]
+pub struct ModulePage {
+    /// The module.
+    pub module: &'static Module,
+    /// What it is for.
+    pub about: Vec<Block>,
+    /// Its public functions, in the order of the file.
+    pub functions: Vec<ModuleFunction>,
+}
+
+/// What is said about a function of a module.
+#[derive(Debug)]
+pub struct ModuleFunction {
+    /// Its name behind that of the module: `sections::rectangle`.
+    pub full_name: String,
+    /// The names of what it takes.
+    pub parameters: Vec<String>,
+    /// The summary, what it takes, sources, and examples.
+    pub text: Vec<Block>,
+}
+
+/// A part of what is said.
+#[derive(Debug, PartialEq, Eq)]
+pub enum Block {
+    /// Sentences.
+    Paragraph(String),
+    /// An entry of a list.
+    Item(String),
+    /// A script that runs.
+    Example(String),
+}
+
+static PAGES: LazyLock<Vec<ModulePage>> =
+    LazyLock::new(|| MODULES.iter().map(ModulePage::of).collect());
+
+/// The pages of all modules.
+pub fn pages() -> &'static [ModulePage] {
+    &PAGES
+}
+
+/// The page of the module that an import names, if it is one of the library.
+pub fn page_of(path: &str) -> Option<&'static ModulePage> {
+    let name = path.strip_suffix(".rhai").unwrap_or(path);
+    PAGES.iter().find(|page| page.module.name == name)
+}
+
+impl ModulePage {
+    fn of(module: &'static Module) -> Self {
+        let mut page = Self { module, about: Vec::new(), functions: Vec::new() };
+        let (mut about, mut said) = (Vec::new(), Vec::new());
+        for line in module.text.lines() {
+            if let Some(text) = line.strip_prefix("//!") {
+                about.push(text);
+            } else if let Some(text) = line.strip_prefix("///") {
+                said.push(text);
+            } else {
+                if let Some(head) = line.strip_prefix("fn ") {
+                    page.functions.extend(ModuleFunction::of(module, head, &said));
+                }
+                said.clear();
+            }
+        }
+        page.about = blocks(&about);
+        page
+    }
+
+    /// The function that is called so, with or without the name of the module before it.
+    pub fn named(&self, name: &str) -> Option<&ModuleFunction> {
+        self.functions.iter().find(|known| known.full_name == name || known.name() == name)
+    }
+}
+
+impl ModuleFunction {
+    /// From what stands behind `fn`.
+    fn of(module: &Module, head: &str, said: &[&str]) -> Option<Self> {
+        let (name, rest) = head.split_once('(')?;
+        let (parameters, _) = rest.split_once(')')?;
+        let parameters = parameters.split(',').map(|name| name.trim().to_owned());
+        Some(Self {
+            full_name: format!("{}::{name}", module.name.trim_start_matches(FOLDER)),
+            parameters: parameters.filter(|name| !name.is_empty()).collect(),
+            text: blocks(said),
+        })
+    }
+
+    /// Its own name.
+    pub fn name(&self) -> &str {
+        self.full_name.rsplit("::").next().unwrap_or_default()
+    }
+
+    /// How it is written when its module has the name that it has in the library.
+    pub fn signature(&self) -> String {
+        format!("{}({})", self.full_name, self.parameters.join(", "))
+    }
+
+    /// The first paragraph.
+    pub fn summary(&self) -> &str {
+        match self.text.first() {
+            Some(Block::Paragraph(text)) => text,
+            _ => "",
+        }
+    }
+
+    /// Its examples.
+    pub fn examples(&self) -> impl Iterator<Item = &str> {
+        self.text.iter().filter_map(|block| match block {
+            Block::Example(script) => Some(script.as_str()),
+            _ => None,
+        })
+    }
+}
+
+/// The blocks of a comment without its leaders.
+fn blocks(lines: &[&str]) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    let mut example: Option<Vec<&str>> = None;
+    let mut is_new = true;
+    for line in lines {
+        let line = line.strip_prefix(' ').unwrap_or(line);
+        if line.starts_with("```") {
+            match example.take() {
+                Some(script) => blocks.push(Block::Example(script.join("\n"))),
+                None => example = Some(Vec::new()),
+            }
+            is_new = true;
+        } else if let Some(script) = &mut example {
+            script.push(line);
+        } else if let Some(item) = line.strip_prefix("- ") {
+            blocks.push(Block::Item(item.to_owned()));
+            is_new = false;
+        } else if line.trim().is_empty() {
+            is_new = true;
+        } else {
+            match blocks.last_mut() {
+                Some(Block::Paragraph(text) | Block::Item(text)) if !is_new => {
+                    *text += &format!(" {}", line.trim());
+                }
+                _ => blocks.push(Block::Paragraph(line.trim().to_owned())),
+            }
+            is_new = false;
+        }
+    }
+    blocks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::script::catalog::Catalog;
+    use crate::script::context::{Mode, Settings};
+    use crate::script::program::Program;
+    use crate::script::runner::{Ending, run};
+
+    #[test]
+    fn a_comment_is_taken_apart() {
+        let lines = [
+            " One",
+            " sentence.",
+            "",
+            " - `a`: a length,",
+            "   as drawn",
+            "",
+            " ```rhai",
+            " f(1);",
+            " ```",
+        ];
+        let expected = [
+            Block::Paragraph("One sentence.".into()),
+            Block::Item("`a`: a length, as drawn".into()),
+            Block::Example("f(1);".into()),
+        ];
+        assert_eq!(blocks(&lines), expected);
+    }
+
+    #[test]
+    fn every_function_is_documented_with_an_example() {
+        for page in pages() {
+            assert!(!page.about.is_empty() && !page.functions.is_empty(), "{}", page.module.name);
+            for function in &page.functions {
+                let name = &function.full_name;
+                assert!(function.summary().ends_with('.'), "{name}: the summary is a sentence");
+                assert!(function.examples().count() > 0, "{name}: an example is missing");
+                for parameter in &function.parameters {
+                    let named = format!("`{parameter}`");
+                    let is_told = |block: &Block| match block {
+                        Block::Paragraph(text) | Block::Item(text) => text.contains(&named),
+                        Block::Example(_) => false,
+                    };
+                    assert!(function.text.iter().any(is_told), "{name}: what is {parameter}?");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn every_example_of_the_library_runs() {
+        for function in pages().iter().flat_map(|page| &page.functions) {
+            for example in function.examples() {
+                let name = &function.full_name;
+                assert!(example.contains(name.as_str()), "{name}: the example does not show it");
+                let out = tempfile::tempdir().unwrap();
+                let settings = Settings { out: out.path().into(), ..Settings::silent(Mode::Run) };
+                let outcome = run(&Program::named(name, example), &Catalog::standard(), settings);
+                assert!(matches!(outcome.ending, Ending::Finished), "{name}: {:?}", outcome.ending);
+                assert_eq!(outcome.checks.failed(), [], "{name}");
+            }
+        }
+    }
+}
