@@ -1,7 +1,9 @@
 //! The cost of a Newton iteration and of a step, in nanoseconds per unknown, from ten unknowns to a million.
 //!
 //! `cargo bench --bench step` prints all tables; `cargo bench --bench step -- --csv FILE` measures only what depends on the
-//! number of unknowns, and writes it as a table that `benches/compare_lapack.py FILE` sets beside LAPACK.
+//! number of unknowns, and writes it as a table that `benches/compare_lapack.py FILE` sets beside LAPACK. `--spans 1000,10000`
+//! measures beams of so many spans only, `--threads 1` with one thread where large beams are worked on by as many as there are
+//! cores.
 #![allow(clippy::unwrap_used)]
 
 use std::hint::black_box;
@@ -164,9 +166,10 @@ fn occupied() -> usize {
     memory_stats::memory_stats().unwrap().physical_mem
 }
 
-fn costs(spans: usize) -> Costs {
+fn costs(spans: usize, threads: usize) -> Costs {
     let before = occupied();
     let mut model = flying_beam(spans);
+    model.divide(threads);
     let mut integrator = Method::EnergyMomentum.build(&mut model, Tolerance::default());
     let (mut steps, mut iterations) = (0, 0);
     let step = measure(|| {
@@ -217,7 +220,7 @@ fn costs(spans: usize) -> Costs {
 const SPANS: [usize; 6] = [14, 100, 1000, 10_000, 100_000, 333_331];
 
 /// Prints what depends on the number of unknowns.
-fn print_sizes() {
+fn print_sizes(spans: &[usize], threads: usize) {
     println!(
         "nanoseconds per unknown, least / median; iteration = assembly + factorisation + solution\n"
     );
@@ -234,8 +237,8 @@ fn print_sizes() {
         "iterations",
         "bytes"
     );
-    for spans in SPANS {
-        let Costs { unknowns, bytes, parts, iterations, .. } = costs(spans);
+    for &spans in spans {
+        let Costs { unknowns, bytes, parts, iterations, .. } = costs(spans, threads);
         let per_unknown = |(least, median): (f64, f64)| {
             format!("{:.0} / {:.0}", least / unknowns as f64, median / unknowns as f64)
         };
@@ -257,9 +260,9 @@ fn print_sizes() {
 }
 
 /// Writes the least times of what depends on the number of unknowns, in nanoseconds per unknown.
-fn write_sizes(file: &str) {
+fn write_sizes(file: &str, threads: usize) {
     let mut table = "spans,unknowns,assembly,factorise,solve,residual,step,bytes\n".to_owned();
-    for Costs { spans, unknowns, bytes, parts, .. } in SPANS.map(costs) {
+    for Costs { spans, unknowns, bytes, parts, .. } in SPANS.map(|spans| costs(spans, threads)) {
         let parts = parts.map(|(least, _)| format!("{:.2}", least / unknowns as f64)).join(",");
         table += &format!("{spans},{unknowns},{parts},{}\n", bytes / unknowns);
     }
@@ -268,10 +271,20 @@ fn write_sizes(file: &str) {
 
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
-    if let Some(option) = arguments.iter().position(|argument| argument == "--csv") {
-        return write_sizes(&arguments[option + 1]);
+    let option = |name: &str| {
+        let at = arguments.iter().position(|argument| argument == name)?;
+        Some(arguments[at + 1].as_str())
+    };
+    let cores = std::thread::available_parallelism().map_or(1, |cores| cores.get());
+    let threads = option("--threads").map_or(cores, |threads| threads.parse().unwrap());
+    if let Some(file) = option("--csv") {
+        return write_sizes(file, threads);
     }
-    print_sizes();
+    if let Some(spans) = option("--spans") {
+        let spans = spans.split(',').map(|spans| spans.parse().unwrap());
+        return print_sizes(&spans.collect::<Vec<usize>>(), threads);
+    }
+    print_sizes(&SPANS, threads);
     println!("\nmicroseconds per step of the flying spaghetti, least / median\n");
     println!("{:>18} {:>6} {:>6} {:>15} {:>11}", "integrator", "spans", "dt", "step", "iterations");
     let chosen = [Method::EnergyMomentum, Method::FourthOrder];

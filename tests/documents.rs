@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used)]
 
+use std::io::Write;
 use std::path::Path;
+use std::process::{Command, Stdio};
 
 use withy::script::catalog::Catalog;
 use withy::script::context::{Mode, Settings};
@@ -50,10 +52,90 @@ fn every_block_of_rhai_in_the_documents_runs() {
             let outcome = run(&Program::named(&name, &block.text), &Catalog::standard(), settings);
             assert!(matches!(outcome.ending, Ending::Finished), "{name}: {:?}", outcome.ending);
             assert_eq!(outcome.checks.failed(), [], "{name}");
+            keep_pictures(&document, out.path());
             count += 1;
         }
     }
     assert!(count > 0, "the README has an example");
+}
+
+/// Where a document shows a picture that one of its blocks draws, that picture is kept when asked for, and must be there.
+fn keep_pictures(document: &Path, drawn: &Path) {
+    let text = std::fs::read_to_string(document).unwrap();
+    for picture in std::fs::read_dir(drawn).unwrap().map(|entry| entry.unwrap().path()) {
+        let shown = format!("pictures/{}", picture.file_name().unwrap().to_string_lossy());
+        if !text.contains(&format!("({shown})")) {
+            continue;
+        }
+        let kept = document.with_file_name(&shown);
+        if std::env::var_os("WITHY_UPDATE").is_some() {
+            std::fs::copy(&picture, &kept).unwrap();
+        }
+        assert!(kept.is_file(), "{shown} is not there: WITHY_UPDATE=1 cargo test --test documents");
+    }
+}
+
+/// Inputs of a session in a document, each with what it says.
+fn session(block: &Block) -> Vec<(String, Vec<String>)> {
+    let mut inputs: Vec<(String, Vec<String>)> = Vec::new();
+    for line in block.text.lines() {
+        match line.strip_prefix("withy:").and_then(|rest| rest.split_once("> ")) {
+            Some((_, input)) => inputs.push((input.to_owned(), Vec::new())),
+            None => inputs.last_mut().unwrap().1.push(line.trim_end().to_owned()),
+        }
+    }
+    inputs
+}
+
+/// Whether two words are the same, or numbers that are but for rounding.
+fn is_same(written: &str, said: &str) -> bool {
+    let number = |word: &str| word.trim_matches(|c| "(),".contains(c)).parse::<f64>();
+    match (number(written), number(said)) {
+        (Ok(a), Ok(b)) => (a - b).abs() <= 1e-6 * a.abs() + 1e-9,
+        _ => written == said,
+    }
+}
+
+#[test]
+fn the_sessions_of_the_documents_say_what_is_written() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut count = 0;
+    for document in ["docs/guide.md", "README.md"] {
+        let text = std::fs::read_to_string(root.join(document)).unwrap();
+        let is_session = |block: &Block| block.text.starts_with("withy:");
+        for block in blocks(&text, "text").iter().filter(|block| is_session(block)) {
+            let inputs = session(block);
+            let piped: String =
+                inputs.iter().map(|(input, _)| format!("{input}\nprint(\"§\");\n")).collect();
+            let folder = tempfile::tempdir().unwrap();
+            let said = said_by_a_session(folder.path(), &piped);
+            for ((input, written), said) in inputs.iter().zip(said.split("§\n")) {
+                // Pictures are drawn at a terminal; a pipe gets a line.
+                if input.starts_with(":plot") || input.starts_with(":show") {
+                    continue;
+                }
+                let place = format!("{document}:{}: {input}: {said}", block.line);
+                let said: Vec<&str> = said.split_whitespace().collect();
+                let written: Vec<&str> =
+                    written.iter().flat_map(|line| line.split_whitespace()).collect();
+                assert_eq!(written.len(), said.len(), "{place}");
+                assert!(written.iter().zip(&said).all(|(a, b)| is_same(a, b)), "{place}");
+                count += 1;
+            }
+        }
+    }
+    assert!(count > 10);
+}
+
+fn said_by_a_session(folder: &Path, piped: &str) -> String {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_withy"))
+        .current_dir(folder)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(piped.as_bytes()).unwrap();
+    String::from_utf8(child.wait_with_output().unwrap().stdout).unwrap()
 }
 
 #[test]

@@ -85,6 +85,17 @@ fn a_wrong_reference_is_told_before_anything_runs() {
 }
 
 #[test]
+fn a_reference_without_a_number_is_told_with_its_place() {
+    let options = "meshes: [bspline(2)], dts: [1e-7], times: [1], reference: \"turned.csv\"";
+    let (folder, file) = script(options, "");
+    fs::write(folder.path().join("turned.csv"), TURNED.replace("1.6829", "nan")).unwrap();
+    let output = withy(&["study"], &file).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let told = "\"turned.csv\": line 3, column 'ytip', holds 'nan', which is not a finite number";
+    assert!(said(&output).contains(told), "{}", said(&output));
+}
+
+#[test]
 fn wrong_rivals_are_told_before_anything_runs() {
     let options = "meshes: [bspline(2)], dts: [1e-7], times: [1], rivals: \"rivals.csv\"";
     let (folder, file) = script(options, "");
@@ -97,22 +108,22 @@ fn wrong_rivals_are_told_before_anything_runs() {
 
 #[test]
 fn what_ran_out_of_patience_is_tried_again() {
-    let options = "meshes: [bspline(2)], dts: [0.1, 1e-3, 5e-4, 2e-4], times: [1], repeats: 1, reference: finest_run(#{ dt: 0.05 })";
+    let options = "meshes: [bspline(2)], dts: [0.1, 1e-3, 5e-4, 2e-4], times: [1], repeats: 1, reference: finest_run(#{ dt: 0.04 })";
     let (folder, file) = script(options, "print(study.table);");
     let journal = folder.path().join("out").join("rod.journal");
     let output = withy(&["study", "--max-steps", "300"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(2), "{}", said(&output));
-    // The reference and the first case are short; the others do not come to their end.
+    // The runs of the reference and the first case are short; the others do not come to their end.
     let known = Journal::open(&journal).unwrap().len();
-    assert!((1..=2).contains(&known), "{known}");
+    assert!((1..=3).contains(&known), "{known}");
     let output = withy(&["study"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
-    let told = format!("{known} of 5 runs are known");
+    let told = format!("{known} of 6 runs are known");
     assert!(said(&output).contains(&told), "{}", said(&output));
     assert!(!printed(&output).contains("given up"), "{}", printed(&output));
 }
 
-/// Two short cases, and one that takes for ever; the reference is short, too.
+/// Two short cases, and one that takes for ever; the two runs of the reference are short, too.
 const ENDLESS: &str = "meshes: [bspline(2)], dts: [0.1, 0.05, 1e-8], times: [1], repeats: 1, reference: finest_run(#{ dt: 0.02 })";
 
 /// Waits until so many cases are in a journal.
@@ -130,7 +141,7 @@ fn an_interrupted_study_goes_on_where_it_was() {
     let (folder, file) = script(ENDLESS, "");
     let journal = folder.path().join("out").join("rod.journal");
     let running = withy(&["study"], &file).spawn().unwrap();
-    wait_for(&journal, 3);
+    wait_for(&journal, 4);
     let id = running.id().to_string();
     Command::new("kill").args(["-INT", &id]).status().unwrap();
     let output = running.wait_with_output().unwrap();
@@ -143,7 +154,7 @@ fn an_interrupted_study_goes_on_where_it_was() {
         said(&output).lines().find(|line| line.contains("are known")).map(str::to_owned)
     };
     let goes_on = known(&["study", "--max-time", "1"]).unwrap();
-    assert_eq!(goes_on, "study 'rod' goes on: 3 of 4 runs are known from an earlier run");
+    assert_eq!(goes_on, "study 'rod' goes on: 4 of 5 runs are known from an earlier run");
     assert_eq!(known(&["study", "--max-time", "1", "--fresh"]), None);
 
     // The same with an end: the endless case is replaced, the others are known, and so are they after a limit.
@@ -151,7 +162,7 @@ fn an_interrupted_study_goes_on_where_it_was() {
     fs::write(&file, text.replace("1e-8", "0.025")).unwrap();
     let output = withy(&["study"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
-    assert!(said(&output).contains("3 of 4 runs are known"), "{}", said(&output));
+    assert!(said(&output).contains("4 of 5 runs are known"), "{}", said(&output));
     assert!(!journal.exists());
 }
 

@@ -100,10 +100,13 @@ impl Case {
         every.map_or_else(Recording::default, Recording::Every)
     }
 
-    /// The simulation at its start, or why there is none.
+    /// The simulation at its start, or why there is none. It keeps to one thread: the cores are busy with other cases, or
+    /// the time of this one is taken.
     pub fn start(&self) -> Result<Simulation, Outcome> {
-        Simulation::start(self.scene.clone(), self.settings)
-            .map_err(|error| Outcome::Failed { time: 0.0, reason: error.to_string() })
+        let mut simulation = Simulation::start(self.scene.clone(), self.settings)
+            .map_err(|error| Outcome::Failed { time: 0.0, reason: error.to_string() })?;
+        simulation.use_threads(1);
+        Ok(simulation)
     }
 
     /// Takes a simulation from its start to the last stop, and looks at it at every stop. `is_wanted` is asked after every

@@ -20,12 +20,12 @@ pub enum SheetError {
         known: String,
     },
     /// A cell is not a number.
-    #[error("column '{column}' of row {row} holds '{text}', which is not a number")]
+    #[error("line {line}, column '{column}', holds '{text}', which is not a finite number")]
     Number {
         /// The name of the column.
         column: String,
-        /// The row below the names, counted from 1.
-        row: usize,
+        /// Where, counted from 1.
+        line: u64,
         /// What stands there.
         text: String,
     },
@@ -35,7 +35,8 @@ pub enum SheetError {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sheet {
     columns: Vec<String>,
-    rows: Vec<Vec<String>>,
+    /// Each with the line where it stands, counted from 1.
+    rows: Vec<(u64, Vec<String>)>,
 }
 
 impl Sheet {
@@ -59,7 +60,10 @@ impl Sheet {
         };
         let texts = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
         let columns = texts(reader.headers().map_err(wrong)?);
-        let rows = reader.records().map(|record| Ok(texts(&record.map_err(wrong)?)));
+        let rows = reader.records().map(|record| {
+            let record = record.map_err(wrong)?;
+            Ok((record.position().map_or(1, csv::Position::line), texts(&record)))
+        });
         Ok(Self { columns, rows: rows.collect::<Result<_, _>>()? })
     }
 
@@ -94,18 +98,19 @@ impl Sheet {
         let found = self.columns.iter().position(|name| name == column);
         let missing =
             || SheetError::Column { column: column.to_owned(), known: self.columns.join(", ") };
-        found.map(|index| self.rows[row][index].as_str()).ok_or_else(missing)
+        found.map(|index| self.rows[row].1[index].as_str()).ok_or_else(missing)
     }
 
     /// The number that stands in a row and a column.
     ///
     /// # Errors
-    /// When there is no such column, or something else than a number.
+    /// When there is no such column, or something else than a finite number.
     pub fn number(&self, row: usize, column: &str) -> Result<f64, SheetError> {
         let text = self.text(row, column)?;
-        text.parse().map_err(|_| SheetError::Number {
+        let number = text.parse().ok().filter(|number: &f64| number.is_finite());
+        number.ok_or_else(|| SheetError::Number {
             column: column.to_owned(),
-            row: row + 1,
+            line: self.rows[row].0,
             text: text.to_owned(),
         })
     }
@@ -117,10 +122,14 @@ mod tests {
 
     #[test]
     fn what_is_wrong_with_a_table_is_said_with_its_place() {
-        let sheet = Sheet::parse("# how it was made\nt, x0\n0,1.5\n1,two\n").unwrap();
-        assert_eq!((sheet.len(), sheet.number(0, "x0")), (2, Ok(1.5)));
-        let told = sheet.number(1, "x0").unwrap_err().to_string();
-        assert_eq!(told, "column 'x0' of row 2 holds 'two', which is not a number");
+        let sheet = Sheet::parse("# how it was made\nt, x0\n0,1.5\n1,two\n2,NaN\n").unwrap();
+        assert_eq!((sheet.len(), sheet.number(0, "x0")), (3, Ok(1.5)));
+        for (row, told) in
+            [(1, "line 4, column 'x0', holds 'two'"), (2, "line 5, column 'x0', holds 'NaN'")]
+        {
+            let error = sheet.number(row, "x0").unwrap_err().to_string();
+            assert_eq!(error, format!("{told}, which is not a finite number"));
+        }
         let told = sheet.number(0, "y0").unwrap_err().to_string();
         assert_eq!(told, "it has no column 'y0'; its columns are t, x0");
         let told = Sheet::parse("# made\nt,x0\n0,1\n1\n").unwrap_err().to_string();

@@ -68,6 +68,9 @@ pub enum TruthError {
     },
 }
 
+/// No reference of rounded numbers tells errors below this, relative to the size of an observable.
+const ROUNDING: f64 = 1e-13;
+
 /// A value that an observable should have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Known {
@@ -189,6 +192,17 @@ impl Truth {
         Self { source: source.into(), is_own: true, known }
     }
 
+    /// Trusts each value no further than another run, a little coarser, agrees with it.
+    pub fn as_far_as(mut self, coarser: &Readings) -> Self {
+        for (known, other) in self.known.iter_mut().zip(coarser) {
+            for (known, other) in known.iter_mut().zip(other) {
+                *known =
+                    known.map(|known| Known { trusted: (*other - known.value).norm(), ..known });
+            }
+        }
+        self
+    }
+
     /// Whether it says something about an observable, by its index.
     pub fn knows(&self, observable: usize) -> bool {
         self.known.iter().any(|at| at.get(observable).is_some_and(Option::is_some))
@@ -196,10 +210,12 @@ impl Truth {
 
     /// The largest deviation of an observable at the times; none where it says nothing of it.
     pub fn deviation(&self, observable: usize, readings: &Readings) -> Option<Deviation> {
+        let values = self.known.iter().filter_map(|at| (*at.get(observable)?)?.value.norm().into());
+        let rounding = ROUNDING * values.fold(0.0, f64::max);
         let at = |(known, found): (&Vec<Option<Known>>, &Vec<Vec2>)| {
             let known = (*known.get(observable)?)?;
             let distance = (found.get(observable)? - known.value).norm();
-            Some(Deviation { distance, trusted: known.trusted })
+            Some(Deviation { distance, trusted: known.trusted.max(rounding) })
         };
         self.known.iter().zip(readings).filter_map(at).reduce(Deviation::worst)
     }
@@ -253,6 +269,17 @@ mod tests {
         let other: Vec<_> = Observable::of_station("tip", Station::on_beam(0, 0.0)).collect();
         let told = Truth::of_sheet("T.csv", &sheet, &other, &[0.5]).unwrap_err().to_string();
         assert!(told.contains("xtip and ytip") && told.contains("t, xA, yA"), "{told}");
+    }
+
+    #[test]
+    fn a_run_of_our_own_knows_what_a_coarser_one_confirms() {
+        let readings = |x: f64, angle: f64| vec![vec![Vec2::new(x, 0.0), Vec2::new(angle, 0.0)]];
+        let own = Truth::of_run("own", &readings(1.0, 0.5)).as_far_as(&readings(1.0, 0.51));
+        let deviation = |x, angle, of| own.deviation(of, &readings(x, angle)).unwrap();
+        assert!(deviation(1.0 + 1e-12, 0.5, 0).is_resolved());
+        assert!(!deviation(1.0 + 1e-14, 0.5, 0).is_resolved(), "rounding is no error");
+        assert!(!deviation(1.0, 0.495, 1).is_resolved() && deviation(1.0, 0.48, 1).is_resolved());
+        assert!((deviation(1.0, 0.495, 1).error() - 0.015).abs() < 1e-12);
     }
 
     #[test]

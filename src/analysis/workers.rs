@@ -9,6 +9,7 @@ use std::thread;
 use std::time::Duration;
 
 use super::Case;
+use crate::simulation::cores;
 
 /// How often it is asked whether to go on while no case ends.
 const PULSE: Duration = Duration::from_millis(50);
@@ -32,7 +33,6 @@ pub fn on_all_cores<R: Send>(
         .filter_map(|(number, bytes)| Some((number, bytes.as_deref()?)))
         .collect();
     let mut results: Vec<Option<Result<R, String>>> = cases.iter().map(|_| None).collect();
-    let cores = thread::available_parallelism().map_or(1, |cores| cores.get());
     let next = AtomicUsize::new(0);
     let is_stopped = || stop.load(Ordering::Relaxed);
     let mut pulse = |news: Option<(usize, &Result<R, String>)>| {
@@ -42,7 +42,7 @@ pub fn on_all_cores<R: Send>(
     };
     thread::scope(|scope| {
         let (done, finished) = mpsc::channel();
-        for _ in 0..cores.min(queue.len()) {
+        for _ in 0..cores().min(queue.len()) {
             let done = done.clone();
             let (queue, next, work) = (&queue, &next, &work);
             scope.spawn(move || {

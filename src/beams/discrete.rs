@@ -1,12 +1,16 @@
 //! A beam on its mesh: the quadrature points of all spans, the control points and the inertia.
 
+use std::ops::Range;
+
 use pulp::{Arch, Simd, WithSimd};
 
 use super::axis_point::AxisPoint;
 use super::block::Block;
-use super::dynamics::{BodyDynamics, Collocation, ForceSummary, Movement};
+use super::dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Movement};
 use super::force_point::ForcePoint;
 use super::moment_point::MomentPoint;
+use super::parts::{MOST_PARTS, Parts};
+use super::span_points::{SpanPoints, window_mut};
 use super::{BeamError, Mesh, RotationIncrement, Section};
 use crate::geometry::{Basis, GaussRule, Span, Vec2};
 
@@ -20,15 +24,9 @@ struct DiscreteBeam<const N: usize> {
     control_points: Vec<Vec2>,
     remainders: Vec<Vec2>,
     spans: Vec<SpanPoints<N>>,
+    parts: Parts,
     /// `∫ N_a N_{a+k} dX` for k = 0 … N-1 [length].
     gram: Vec<[f64; N]>,
-}
-
-#[derive(Debug, Clone)]
-struct SpanPoints<const N: usize> {
-    first: usize,
-    force_points: Vec<ForcePoint<N>>,
-    moment_points: Vec<MomentPoint<N>>,
 }
 
 /// A beam with the axis that the control points draw on a mesh, where it is free of stress; `length` is about that of the
@@ -126,7 +124,36 @@ impl<const N: usize> DiscreteBeam<N> {
             }
         }
         let remainders = vec![Vec2::zeros(); control_points.len()];
-        Ok(Self { section, control_points, remainders, spans, gram })
+        let parts = Parts::default();
+        Ok(Self { section, control_points, remainders, spans, parts, gram })
+    }
+
+    /// Adds `factor · M · rates` to the forces on the control points of a range.
+    fn add_inertia_at(
+        &self,
+        points: Range<usize>,
+        factor: f64,
+        rates: &[Movement],
+        forces: &mut [Movement],
+    ) {
+        let Range { start, end } = points;
+        let mut add = |to: usize, inertia: Movement, rate: Movement| {
+            for ((force, inertia), rate) in forces[to - start].iter_mut().zip(inertia).zip(rate) {
+                *force += inertia * rate;
+            }
+        };
+        let first = start.saturating_sub(N - 1);
+        for (a, row) in (first..end).zip(&self.gram[first..]) {
+            for (b, entry) in (a..rates.len()).zip(row) {
+                let inertia = self.inertia_of(factor * entry);
+                if a >= start {
+                    add(a, inertia, rates[b]);
+                }
+                if b > a && b >= start && b < end {
+                    add(b, inertia, rates[a]);
+                }
+            }
+        }
     }
 
     fn inertia_of(&self, entry: f64) -> Movement {
@@ -144,27 +171,15 @@ pub(super) fn move_compensated(point: &mut Vec2, remainder: &mut Vec2, [x, y, _]
     *point = reached;
 }
 
-/// The movements of the `N` control points from `first` on.
-#[inline]
-fn window<const N: usize>(movements: &[Movement], first: usize) -> &[Movement; N] {
-    movements[first..]
-        .first_chunk()
-        .expect("a span has as many control points as its basis has functions")
-}
-
-#[inline]
-fn window_mut<const N: usize>(movements: &mut [Movement], first: usize) -> &mut [Movement; N] {
-    movements[first..]
-        .first_chunk_mut()
-        .expect("a span has as many control points as its basis has functions")
-}
-
-/// The work of [`add_linearised_forces`](BodyDynamics::add_linearised_forces).
+/// The work of [`add_linearised_forces`](BodyDynamics::add_linearised_forces) on some spans.
 struct Linearisation<'a, const N: usize> {
-    beam: &'a mut DiscreteBeam<N>,
+    section: &'a Section,
+    spans: &'a mut [SpanPoints<N>],
     at: Collocation,
     moved: &'a [Movement],
     weight: f64,
+    /// Of the control points from this one on.
+    first: usize,
     forces: &'a mut [Movement],
     tangent: &'a mut dyn FnMut(usize, &[f64]),
 }
@@ -174,17 +189,11 @@ impl<const N: usize> WithSimd for Linearisation<'_, N> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { beam, at, moved, weight, forces, tangent } = self;
-        let section = &beam.section;
-        for span in &mut beam.spans {
-            let (moved, forces) = (window(moved, span.first), window_mut(forces, span.first));
+        let Self { section, spans, at, moved, weight, first, forces, tangent } = self;
+        for span in spans {
+            let forces = window_mut(forces, span.first - first);
             let mut block = Block::zeros(simd);
-            for point in &mut span.force_points {
-                point.add_linearised_forces(section, at, moved, weight, forces, &mut block);
-            }
-            for point in &span.moment_points {
-                point.add_linearised_forces(section, at, moved, weight, forces, &mut block);
-            }
+            span.add_linearised_forces(section, at, moved, weight, forces, &mut block);
             tangent(span.first, block.entries());
         }
     }
@@ -207,10 +216,15 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
         &self.remainders
     }
 
+    fn divide(&mut self, most: usize) -> Vec<usize> {
+        self.parts = Parts::worthwhile(&self.spans, most);
+        self.parts.first_points()
+    }
+
     fn begin_step(&mut self) {
-        for span in &mut self.spans {
+        self.parts.each(&mut self.spans, |span| {
             span.force_points.iter_mut().for_each(ForcePoint::begin_step);
-        }
+        });
     }
 
     fn add_forces(
@@ -220,16 +234,17 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
         weight: f64,
         forces: &mut [Movement],
     ) -> ForceSummary {
+        let Self { section, spans, parts, .. } = self;
+        let mut summaries = [ForceSummary::default(); MOST_PARTS];
+        let summaries = &mut summaries[..parts.count()];
+        parts.sum(spans, forces, summaries, |summary, spans, first, forces| {
+            for span in spans {
+                let forces = window_mut(forces, span.first - first);
+                span.add_forces(section, at, moved, weight, forces, summary);
+            }
+        });
         let mut summary = ForceSummary::default();
-        for span in &mut self.spans {
-            let (moved, forces) = (window(moved, span.first), window_mut(forces, span.first));
-            for point in &mut span.force_points {
-                point.add_forces(&self.section, at, moved, weight, forces, &mut summary);
-            }
-            for point in &span.moment_points {
-                point.add_forces(&self.section, at, moved, weight, forces, &mut summary);
-            }
-        }
+        summaries.iter().for_each(|part| summary.join(part));
         summary
     }
 
@@ -239,27 +254,29 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
         moved: &[Movement],
         weight: f64,
         forces: &mut [Movement],
-        tangent: &mut dyn FnMut(usize, &[f64]),
+        tangents: &mut [BlockSink<'_>],
     ) {
-        Arch::new().dispatch(Linearisation { beam: self, at, moved, weight, forces, tangent });
+        let Self { section, spans, parts, .. } = self;
+        parts.sum(spans, forces, tangents, |tangent, spans, first, forces| {
+            let section = &*section;
+            let some = Linearisation { section, spans, at, moved, weight, first, forces, tangent };
+            Arch::new().dispatch(some);
+        });
     }
 
-    fn add_mismatch_forces(&self, weight: f64, forces: &mut [Movement]) {
-        for span in &self.spans {
-            let forces = window_mut(forces, span.first);
-            span.force_points
-                .iter()
-                .for_each(|point| point.add_mismatch_forces(&self.section, weight, forces));
-        }
+    fn add_mismatch_forces(&mut self, weight: f64, forces: &mut [Movement]) {
+        let Self { section, spans, parts, .. } = self;
+        parts.sum(spans, forces, &mut [(); MOST_PARTS], |(), spans, first, forces| {
+            for span in spans {
+                let forces = window_mut(forces, span.first - first);
+                span.add_mismatch_forces(section, weight, forces);
+            }
+        });
     }
 
     fn correct_section_forces(&mut self, correction: &[Movement]) {
-        for span in &mut self.spans {
-            let correction = window(correction, span.first);
-            span.force_points
-                .iter_mut()
-                .for_each(|point| point.correct_section_force(&self.section, correction));
-        }
+        let Self { section, spans, parts, .. } = self;
+        parts.each(spans, |span| span.correct_section_forces(section, correction));
     }
 
     fn advance(&mut self, moved: &[Movement], rotations: RotationIncrement) {
@@ -268,35 +285,31 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
         {
             move_compensated(point, remainder, movement);
         }
-        for span in &mut self.spans {
-            let moved = window(moved, span.first);
-            span.force_points.iter_mut().for_each(|point| point.advance(moved, rotations));
-            span.moment_points.iter_mut().for_each(|point| point.advance(moved, rotations));
-        }
+        self.parts.each(&mut self.spans, |span| span.advance(moved, rotations));
     }
 
     fn add_inertia(&self, factor: f64, rates: &[Movement], forces: &mut [Movement]) {
-        for (a, row) in self.gram.iter().enumerate() {
-            for (b, entry) in (a..rates.len()).zip(row) {
-                let inertia = self.inertia_of(factor * entry);
-                for (component, inertia) in inertia.iter().enumerate() {
-                    forces[a][component] += inertia * rates[b][component];
-                    if b > a {
-                        forces[b][component] += inertia * rates[a][component];
-                    }
-                }
-            }
-        }
+        self.parts.each_point(forces, |points, forces| {
+            self.add_inertia_at(points, factor, rates, forces);
+        });
     }
 
-    fn add_inertia_tangent(&self, factor: f64, tangent: &mut dyn FnMut(usize, usize, Movement)) {
-        for (a, row) in self.gram.iter().enumerate() {
+    fn add_inertia_tangent(
+        &self,
+        factor: f64,
+        points: Range<usize>,
+        tangent: &mut dyn FnMut(usize, usize, Movement),
+    ) {
+        let first = points.start.saturating_sub(N - 1);
+        for (a, row) in (first..).zip(&self.gram[first..points.end]) {
             // Functions that share no span may stand far apart in the numbering of the tangent.
             let coupled = (a..self.gram.len()).zip(row).filter(|(_, entry)| **entry != 0.0);
             for (b, entry) in coupled {
                 let inertia = self.inertia_of(factor * entry);
-                tangent(a, b, inertia);
-                if b > a {
+                if a >= points.start {
+                    tangent(a, b, inertia);
+                }
+                if b > a && points.contains(&b) {
                     tangent(b, a, inertia);
                 }
             }
@@ -309,20 +322,7 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
     }
 
     fn strain_energy(&self) -> f64 {
-        let of_span = |span: &SpanPoints<N>| -> f64 {
-            let force = span
-                .force_points
-                .iter()
-                .map(|point| point.strain_energy(&self.section))
-                .sum::<f64>();
-            let moment = span
-                .moment_points
-                .iter()
-                .map(|point| point.strain_energy(&self.section))
-                .sum::<f64>();
-            force + moment
-        };
-        self.spans.iter().map(of_span).sum()
+        self.spans.iter().map(|span| span.strain_energy(&self.section)).sum()
     }
 
     fn lumped_lengths(&self) -> Vec<f64> {

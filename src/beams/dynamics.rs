@@ -1,5 +1,7 @@
 //! What a body offers to the model: a beam, whatever its basis, or a particle.
 
+use std::ops::Range;
+
 use super::RotationIncrement;
 use crate::geometry::{Vec2, larger};
 
@@ -40,15 +42,22 @@ impl ForceSummary {
     }
 }
 
+/// Takes the derivative of the forces of a span: its first control point and the rows of the block, one after another.
+pub type BlockSink<'a> = &'a mut (dyn FnMut(usize, &[f64]) + Send);
+
 /// A beam on its basis, or a particle: reference quantities, state at the start of a step, and the iterate of the step.
 ///
 /// Movements, rates and forces are indexed by control point.
-pub trait BodyDynamics {
+pub trait BodyDynamics: Sync {
     /// The number of functions that are non-zero on a span, degree + 1.
     fn order(&self) -> usize;
 
     /// The first control point of each span.
     fn span_starts(&self) -> Vec<usize>;
+
+    /// From here on works in at most so many parts at once, in as many as pay, with the same results; the first control
+    /// point of each part but the first.
+    fn divide(&mut self, most: usize) -> Vec<usize>;
 
     /// Control points at the start of the step [length].
     fn control_points(&self) -> &[Vec2];
@@ -68,20 +77,23 @@ pub trait BodyDynamics {
         forces: &mut [Movement],
     ) -> ForceSummary;
 
-    /// Adds `weight` times the condensed internal forces, and gives `weight` times their derivative to `tangent`,
-    /// span by span: the first control point and the rows of the block, one after another.
+    /// Adds `weight` times the condensed internal forces, and gives `weight` times their derivative, span by span, to the
+    /// sink of the part.
+    ///
+    /// The sink of the part behind a cut gets spans astride the cut before its own, that of the part before it after its own;
+    /// each is to take the rows of the control points of its part.
     fn add_linearised_forces(
         &mut self,
         at: Collocation,
         moved: &[Movement],
         weight: f64,
         forces: &mut [Movement],
-        tangent: &mut dyn FnMut(usize, &[f64]),
+        tangents: &mut [BlockSink<'_>],
     );
 
     /// Adds `weight` times the forces that would close the strain mismatch met by the last forces, in the directions
     /// of the last linearisation.
-    fn add_mismatch_forces(&self, weight: f64, forces: &mut [Movement]);
+    fn add_mismatch_forces(&mut self, weight: f64, forces: &mut [Movement]);
 
     /// Updates the section forces for a correction of the movements of the last linearisation.
     fn correct_section_forces(&mut self, correction: &[Movement]);
@@ -92,8 +104,14 @@ pub trait BodyDynamics {
     /// Adds `factor · M · rates`.
     fn add_inertia(&self, factor: f64, rates: &[Movement], forces: &mut [Movement]);
 
-    /// Gives `factor · M` to `tangent`: control point of the row, of the column, and the three diagonal entries.
-    fn add_inertia_tangent(&self, factor: f64, tangent: &mut dyn FnMut(usize, usize, Movement));
+    /// Gives the rows of some control points in `factor · M` to `tangent`: control point of the row, of the column, and the
+    /// three diagonal entries.
+    fn add_inertia_tangent(
+        &self,
+        factor: f64,
+        points: Range<usize>,
+        tangent: &mut dyn FnMut(usize, usize, Movement),
+    );
 
     /// Appends the normal of each section at which strains are taken, at the start of the step [-].
     fn write_normals(&self, normals: &mut Vec<Vec2>);

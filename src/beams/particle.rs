@@ -1,8 +1,10 @@
 //! A particle: a body of one point, without a section, strain or extent. Its mass is a point mass of the scene.
 
+use std::ops::Range;
+
 use super::RotationIncrement;
 use super::discrete::move_compensated;
-use super::dynamics::{BodyDynamics, Collocation, ForceSummary, Movement};
+use super::dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Movement};
 use crate::geometry::Vec2;
 
 /// A point that moves by itself.
@@ -25,6 +27,10 @@ impl BodyDynamics for Particle {
     }
 
     fn span_starts(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
+    fn divide(&mut self, _most: usize) -> Vec<usize> {
         Vec::new()
     }
 
@@ -54,11 +60,11 @@ impl BodyDynamics for Particle {
         _moved: &[Movement],
         _weight: f64,
         _forces: &mut [Movement],
-        _tangent: &mut dyn FnMut(usize, &[f64]),
+        _tangents: &mut [BlockSink<'_>],
     ) {
     }
 
-    fn add_mismatch_forces(&self, _weight: f64, _forces: &mut [Movement]) {}
+    fn add_mismatch_forces(&mut self, _weight: f64, _forces: &mut [Movement]) {}
 
     fn correct_section_forces(&mut self, _correction: &[Movement]) {}
 
@@ -69,7 +75,13 @@ impl BodyDynamics for Particle {
 
     fn add_inertia(&self, _factor: f64, _rates: &[Movement], _forces: &mut [Movement]) {}
 
-    fn add_inertia_tangent(&self, _factor: f64, _tangent: &mut dyn FnMut(usize, usize, Movement)) {}
+    fn add_inertia_tangent(
+        &self,
+        _factor: f64,
+        _points: Range<usize>,
+        _tangent: &mut dyn FnMut(usize, usize, Movement),
+    ) {
+    }
 
     fn write_normals(&self, _normals: &mut Vec<Vec2>) {}
 

@@ -5,9 +5,9 @@
 
 use pulp::Arch;
 
-use super::LinearError;
 use super::elimination::{Elimination, PANEL, SMALLEST_REACH};
 use super::substitution::{StripSubstitution, Substitution};
+use super::{BandRows, LinearError};
 
 /// A square matrix whose entries `(i, j)` vanish for `|i - j|` above the half-bandwidth.
 #[derive(Debug, Clone)]
@@ -104,56 +104,18 @@ impl BandedMatrix {
         self.storage.clear();
     }
 
+    /// All rows, to add entries to.
     #[inline]
-    fn offset(&self, row: usize, column: usize) -> usize {
-        debug_assert!(
-            row.abs_diff(column) <= self.half_bandwidth,
-            "({row}, {column}) is outside the band"
-        );
-        row * self.storage.stride() + column + self.storage.centre() - row
+    pub fn rows_mut(&mut self) -> BandRows<'_> {
+        let (stride, centre) = (self.storage.stride(), self.storage.centre());
+        let (rows, half_bandwidth) = (0..self.size, self.half_bandwidth);
+        BandRows { rows, entries: &mut self.storage.rows, stride, centre, half_bandwidth }
     }
 
     /// Adds `value` to the entry at `(row, column)`, which must lie in the band.
     #[inline]
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
-        let at = self.offset(row, column);
-        self.storage.rows[at] += value;
-    }
-
-    /// Adds `values` to the entries of `row` that begin at `first_column`.
-    #[inline]
-    pub fn add_to_row(&mut self, row: usize, first_column: usize, values: &[f64]) {
-        let at = self.offset(row, first_column);
-        for (entry, value) in self.storage.rows[at..at + values.len()].iter_mut().zip(values) {
-            *entry += value;
-        }
-    }
-
-    /// Adds a square block, row after row, to the rows and columns from `first` on.
-    pub fn add_block(&mut self, first: usize, width: usize, values: &[f64]) {
-        // The widths of spans of degree 1 to 3 are known to the compiler.
-        match width {
-            6 => self.add_rows::<6>(first, values),
-            9 => self.add_rows::<9>(first, values),
-            12 => self.add_rows::<12>(first, values),
-            _ => {
-                for (row, values) in values.chunks_exact(width).enumerate() {
-                    self.add_to_row(first + row, first, values);
-                }
-            }
-        }
-    }
-
-    #[inline]
-    fn add_rows<const WIDTH: usize>(&mut self, first: usize, values: &[f64]) {
-        let (rows, _) = values.as_chunks::<WIDTH>();
-        for (row, values) in rows.iter().enumerate() {
-            let at = self.offset(first + row, first);
-            let (entries, _) = self.storage.rows[at..at + WIDTH].as_chunks_mut::<WIDTH>();
-            for entries in entries {
-                entries.iter_mut().zip(values).for_each(|(entry, value)| *entry += value);
-            }
-        }
+        self.rows_mut().add(row, column, value);
     }
 
     /// The entry at `(row, column)`; zero outside the band.
@@ -161,7 +123,7 @@ impl BandedMatrix {
         if row.abs_diff(column) > self.half_bandwidth {
             0.0
         } else {
-            self.storage.rows[self.offset(row, column)]
+            self.storage.rows[row * self.storage.stride() + column + self.storage.centre() - row]
         }
     }
 
@@ -244,25 +206,11 @@ mod tests {
     #[test]
     fn a_zero_on_the_diagonal_is_no_obstacle() {
         let mut matrix = BandedMatrix::zeros(2, 1);
-        matrix.add_to_row(0, 0, &[0.0, 2.0]);
-        matrix.add_to_row(1, 0, &[4.0, 1.0]);
+        matrix.rows_mut().add_to_row(0, 0, &[0.0, 2.0]);
+        matrix.rows_mut().add_to_row(1, 0, &[4.0, 1.0]);
         let mut x = [6.0, 7.0];
         matrix.factorise().unwrap().solve(&mut x);
         assert_eq!(x, [1.0, 3.0]);
-    }
-
-    #[test]
-    fn blocks_of_any_width_are_added_row_by_row() {
-        for width in 1..14 {
-            let mut matrix = BandedMatrix::zeros(20, 14);
-            let values: Vec<f64> = (0..width * width).map(|index| index as f64).collect();
-            matrix.add_block(3, width, &values);
-            matrix.add_block(3, width, &values);
-            assert_eq!(matrix.get(2, 3), 0.0);
-            for (index, value) in values.iter().enumerate() {
-                assert_eq!(matrix.get(3 + index / width, 3 + index % width), 2.0 * value);
-            }
-        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Matrices of one step: banded storage with a pivoted LU, a border for what reaches further, and the ordering that
 //! keeps the band narrow.
 
+mod band_rows;
 mod banded;
 mod bordered;
 mod elimination;
@@ -8,6 +9,7 @@ mod error;
 mod ordering;
 mod substitution;
 
+pub use band_rows::BandRows;
 pub use banded::{BandedLu, BandedMatrix};
 pub use bordered::{Border, BorderShape, BorderedLu, BorderedMatrix};
 pub use error::LinearError;

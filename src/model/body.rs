@@ -1,8 +1,13 @@
 //! A body of the model: its dynamics, and where its movements stand among the degrees of freedom.
 
-use crate::beams::{BodyDynamics, Collocation, ForceSummary, Movement, Place, RotationIncrement};
+use std::iter::once;
+use std::ops::Range;
+
+use crate::beams::{
+    BlockSink, BodyDynamics, Collocation, ForceSummary, Movement, Place, RotationIncrement, at_once,
+};
 use crate::geometry::{Vec2, cross};
-use crate::linalg::BandedMatrix;
+use crate::linalg::{BandRows, BandedMatrix};
 
 /// A beam or a particle with the places of its movements in the vectors of the mechanism.
 pub(super) struct Body {
@@ -11,6 +16,8 @@ pub(super) struct Body {
     /// For each span that moves consecutive unknowns only: the first of them.
     consecutive: Vec<Option<usize>>,
     unknowns: usize,
+    /// The first control point and the first row of each part that is worked on at the same time, but for the first part.
+    parts: Vec<(usize, usize)>,
     moved: Vec<Movement>,
     forces: Vec<Movement>,
 }
@@ -37,9 +44,30 @@ impl Body {
             degrees_of_freedom,
             consecutive,
             unknowns,
+            parts: Vec::new(),
             moved: zeros.clone(),
             forces: zeros,
         }
+    }
+
+    /// From here on works in at most so many parts at once, with the same results: in one, where it is not large, or the
+    /// rows of its parts do not stand one part after another. The number of parts.
+    pub(super) fn divide(&mut self, most: usize) -> usize {
+        let points = self.dynamics.divide(most);
+        let rows_of = |points: &[[usize; 3]]| {
+            let rows = points.as_flattened().iter().filter(|row| **row < self.unknowns);
+            Some((*rows.clone().min()?, *rows.max()?))
+        };
+        let first_row = |&point: &usize| {
+            let (before, behind) = self.degrees_of_freedom.split_at(point);
+            let ((_, last), (first, _)) = (rows_of(before)?, rows_of(behind)?);
+            (last < first).then_some((point, first))
+        };
+        self.parts = points.iter().map(first_row).collect::<Option<_>>().unwrap_or_else(|| {
+            self.dynamics.divide(1);
+            Vec::new()
+        });
+        self.parts.len() + 1
     }
 
     /// The values of the unknowns at this body; supported movements are zero.
@@ -113,17 +141,26 @@ impl Body {
         tangent: &mut BandedMatrix,
     ) {
         self.gather(increments);
-        let Self { dynamics, degrees_of_freedom, consecutive, moved, forces, unknowns, .. } = self;
-        let rows = 3 * dynamics.order();
-        dynamics.add_linearised_forces(at, moved, weight, forces, &mut |first, block| {
-            if let Some(start) = consecutive[first] {
-                return tangent.add_block(start, rows, block);
-            }
-            let degrees = degrees_of_freedom[first..first + rows / 3].as_flattened();
-            for (values, &row) in block.chunks_exact(rows).zip(degrees) {
-                add_row(tangent, row, degrees, values, *unknowns);
-            }
-        });
+        let Self { dynamics, degrees_of_freedom, consecutive, moved, forces, parts, unknowns } =
+            self;
+        let (order, unknowns) = (dynamics.order(), *unknowns);
+        let places = Places { degrees_of_freedom, consecutive, order, unknowns };
+        let mut add = |tangents: &mut [BlockSink<'_>]| {
+            dynamics.add_linearised_forces(at, moved, weight, forces, tangents);
+        };
+        if parts.is_empty() {
+            let mut rows = tangent.rows_mut();
+            add(&mut [&mut |first, block| places.add_block(&mut rows, first, block)]);
+        } else {
+            let mut sinks: Vec<_> = rows_of_parts(parts, tangent)
+                .map(|mut rows| {
+                    let places = &places;
+                    move |first: usize, block: &[f64]| places.add_block(&mut rows, first, block)
+                })
+                .collect();
+            let mut sinks: Vec<BlockSink<'_>> = sinks.iter_mut().map(|sink| sink as _).collect();
+            add(&mut sinks);
+        }
         self.scatter(out);
     }
 
@@ -145,7 +182,16 @@ impl Body {
 
     /// Gives `factor · M` to `add`: row, column and value; several of one place add up.
     pub(super) fn inertia_entries(&self, factor: f64, add: &mut impl FnMut(usize, usize, f64)) {
-        self.dynamics.add_inertia_tangent(factor, &mut |a, b, inertia| {
+        self.inertia_entries_of(0..self.degrees_of_freedom.len(), factor, add);
+    }
+
+    fn inertia_entries_of(
+        &self,
+        points: Range<usize>,
+        factor: f64,
+        add: &mut impl FnMut(usize, usize, f64),
+    ) {
+        self.dynamics.add_inertia_tangent(factor, points, &mut |a, b, inertia| {
             for ((&row, &column), value) in
                 self.degrees_of_freedom[a].iter().zip(&self.degrees_of_freedom[b]).zip(inertia)
             {
@@ -153,6 +199,25 @@ impl Body {
                     add(row, column, value);
                 }
             }
+        });
+    }
+
+    /// Adds `factor · M` to the tangent.
+    pub(super) fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
+        let add = |points, mut rows: BandRows<'_>| {
+            self.inertia_entries_of(points, factor, &mut |row, column, value| {
+                rows.add(row, column, value);
+            });
+        };
+        let points = self.degrees_of_freedom.len();
+        if self.parts.is_empty() {
+            return add(0..points, tangent.rows_mut());
+        }
+        let starts = once(0).chain(self.parts.iter().map(|(point, _)| *point));
+        let ends = self.parts.iter().map(|(point, _)| *point).chain(once(points));
+        let points = starts.zip(ends).map(|(start, end)| start..end);
+        at_once(points.zip(rows_of_parts(&self.parts, tangent)), |(points, rows)| {
+            add(points, rows);
         });
     }
 
@@ -173,19 +238,50 @@ impl Body {
     }
 }
 
-fn add_row(
-    tangent: &mut BandedMatrix,
-    row: usize,
-    columns: &[usize],
-    values: &[f64],
+/// The rows of a tangent, cut where parts begin.
+fn rows_of_parts<'a>(
+    parts: &[(usize, usize)],
+    tangent: &'a mut BandedMatrix,
+) -> impl Iterator<Item = BandRows<'a>> {
+    let cuts = parts.iter().map(|(_, row)| Some(*row)).chain(once(None));
+    cuts.scan(Some(tangent.rows_mut()), |left, cut| {
+        let rows = left.take()?;
+        let Some(cut) = cut else { return Some(rows) };
+        let (part, rest) = rows.split_at(cut);
+        *left = Some(rest);
+        Some(part)
+    })
+}
+
+/// Where the movements of spans stand in the tangent.
+struct Places<'a> {
+    degrees_of_freedom: &'a [[usize; 3]],
+    consecutive: &'a [Option<usize>],
+    /// The number of control points of a span.
+    order: usize,
     unknowns: usize,
-) {
-    if row >= unknowns {
-        return;
-    }
-    for (&column, &value) in columns.iter().zip(values) {
-        if column < unknowns {
-            tangent.add(row, column, value);
+}
+
+impl Places<'_> {
+    /// Adds the block of a span, but for rows that are not at hand.
+    fn add_block(&self, rows: &mut BandRows<'_>, first: usize, block: &[f64]) {
+        let width = 3 * self.order;
+        let at_hand = rows.rows();
+        if let Some(start) = self.consecutive[first]
+            && at_hand.start <= start
+            && start + width <= at_hand.end
+        {
+            return rows.add_block(start, width, block);
+        }
+        let degrees = self.degrees_of_freedom[first..first + self.order].as_flattened();
+        for (values, row) in block.chunks_exact(width).zip(degrees) {
+            if at_hand.contains(row) {
+                for (&column, &value) in degrees.iter().zip(values) {
+                    if column < self.unknowns {
+                        rows.add(*row, column, value);
+                    }
+                }
+            }
         }
     }
 }

@@ -3,6 +3,7 @@
 use crate::beams::Place;
 use crate::geometry::{Vec2, cross};
 
+use super::Model;
 use super::body::Body;
 
 /// A mass at a place of a beam: it moves with the control points whose functions are non-zero there.
@@ -57,5 +58,23 @@ impl Lump {
         let at = self.place.interpolate(body.dynamics.control_points());
         let angular = self.rotary_inertia * spin;
         (momentum.dot(&velocity) + angular * spin, momentum, cross(at, momentum) + angular)
+    }
+}
+
+impl Model {
+    /// Gives `factor · M` to `add`: row, column and value; several of one place add up.
+    pub(super) fn inertia_entries(&self, factor: f64, add: &mut impl FnMut(usize, usize, f64)) {
+        self.bodies.iter().for_each(|body| body.inertia_entries(factor, add));
+        self.inertia_entries_of_lumps(factor, add);
+    }
+
+    pub(super) fn inertia_entries_of_lumps(
+        &self,
+        factor: f64,
+        add: &mut impl FnMut(usize, usize, f64),
+    ) {
+        for lump in &self.lumps {
+            lump.inertia_entries(&self.bodies[lump.place.body], factor, self.unknowns, add);
+        }
     }
 }

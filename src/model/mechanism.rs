@@ -62,14 +62,6 @@ impl Model {
             .for_each(|lump| lump.add_inertia(&self.bodies[lump.place.body], factor, rates, out));
     }
 
-    /// Gives `factor · M` to `add`: row, column and value; several of one place add up.
-    pub(super) fn inertia_entries(&self, factor: f64, add: &mut impl FnMut(usize, usize, f64)) {
-        self.bodies.iter().for_each(|body| body.inertia_entries(factor, add));
-        for lump in &self.lumps {
-            lump.inertia_entries(&self.bodies[lump.place.body], factor, self.unknowns, add);
-        }
-    }
-
     /// Energy, momenta and what was exchanged so far.
     pub fn measure(&mut self) -> Measures {
         let (mut twice_kinetic, mut momentum, mut angular_momentum) = (0.0, Vec2::zeros(), 0.0);
@@ -128,6 +120,11 @@ impl Model {
 
     pub(super) fn all_trackers_mut(&mut self) -> impl Iterator<Item = &mut Tracker> {
         self.trackers.iter_mut().chain(self.loads.iter_mut().flat_map(AppliedLoad::trackers_mut))
+    }
+
+    /// From here on up to so many threads work on a large body, with the same results; how many at most.
+    pub fn divide(&mut self, threads: usize) -> usize {
+        self.bodies.iter_mut().map(|body| body.divide(threads)).max().unwrap_or(1)
     }
 
     /// Moves the clock without moving anything else.
@@ -235,7 +232,10 @@ impl Mechanism for Model {
     }
 
     fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
-        self.inertia_entries(factor, &mut |row, column, value| tangent.add(row, column, value));
+        self.bodies.iter().for_each(|body| body.add_inertia_tangent(factor, tangent));
+        self.inertia_entries_of_lumps(factor, &mut |row, column, value| {
+            tangent.add(row, column, value);
+        });
     }
 
     fn add_forces(

@@ -99,6 +99,11 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// The length of the longest beam, if there is one [length].
+    pub fn longest_beam(&self) -> Option<f64> {
+        self.beams.iter().map(|beam| beam.axis.length()).reduce(f64::max)
+    }
+
     /// An empty scene.
     pub fn new(name: impl Into<String>) -> Self {
         Self {

@@ -115,6 +115,8 @@ struct Shared {
     checks: RefCell<Checks>,
     reporters: RefCell<Vec<Box<dyn Reporter>>>,
     callback_error: RefCell<Option<Box<EvalAltResult>>>,
+    /// The names of studies so far.
+    study_names: RefCell<HashSet<String>>,
     snapshots: usize,
     latest_simulation: RefCell<Option<Dynamic>>,
     /// Weak, for the engine has this context in all its functions.
@@ -140,6 +142,7 @@ impl Context {
             checks: RefCell::default(),
             reporters: RefCell::default(),
             callback_error: RefCell::default(),
+            study_names: RefCell::default(),
             snapshots: settings.snapshots,
             latest_simulation: RefCell::default(),
             engine: RefCell::default(),
@@ -167,6 +170,11 @@ impl Context {
     /// How studies are made.
     pub fn studies(&self) -> StudyWishes {
         self.0.studies
+    }
+
+    /// Takes a name for a study; whether no other one had it.
+    pub fn claim_study(&self, name: &str) -> bool {
+        self.0.study_names.borrow_mut().insert(name.to_owned())
     }
 
     /// Refuses to go on after an interrupt, beyond a limit, or when nobody reads the output any more.
@@ -335,8 +343,10 @@ impl Context {
         }
     }
 
-    /// Lets go of the simulations that the report would tell of: a session has no report.
+    /// Lets go of the simulations that the report would tell of, and of the names of studies: a session has no report, and the
+    /// next input may make a study anew.
     pub fn forget_reporters(&self) {
+        self.0.study_names.borrow_mut().clear();
         self.0.reporters.borrow_mut().clear();
     }
 

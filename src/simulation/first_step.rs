@@ -8,9 +8,8 @@ const PART: f64 = 1e-3;
 
 /// The longest beam; without beams the largest distance of a particle from the origin, or 1 [length].
 pub(super) fn length_of(scene: &Scene, model: &Model) -> f64 {
-    let beams = scene.beams.iter().map(|beam| beam.axis.length());
     let distances = model.control_points().flatten().map(|point| point.norm());
-    let largest = beams.reduce(f64::max).or_else(|| distances.reduce(f64::max));
+    let largest = scene.longest_beam().or_else(|| distances.reduce(f64::max));
     largest.filter(|length| *length > 0.0).unwrap_or(1.0)
 }
 

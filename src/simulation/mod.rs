@@ -5,6 +5,7 @@ mod archive;
 mod back;
 mod columns;
 mod controller;
+mod cores;
 mod doubling;
 mod error;
 mod explain;
@@ -23,6 +24,7 @@ mod views;
 
 pub use archive::ArchiveError;
 pub use columns::{Column, ExtraColumn};
+pub use cores::cores;
 pub use error::SimulationError;
 pub use history::{History, Invariant, Sample, Scales};
 pub use landing::{Arrival, ArrivalKind};

@@ -14,6 +14,7 @@ use super::snapshots::Snapshots;
 use super::stepping::Halving;
 use super::{
     History, Outline, Recording, Sample, Scales, SimulationError, StepSize, TimeGrid, Trajectory,
+    cores,
 };
 
 use crate::geometry::Vec2;
@@ -129,9 +130,10 @@ impl Simulation {
     fn of(scene: Scene, mut model: Model, settings: Settings) -> Result<Self, SimulationError> {
         settings.dt.check()?;
         settings.method.check()?;
+        model.divide(cores());
         let integrator = settings.method.build(&mut model, settings.tolerance);
         let cuts = scene.loads.iter().flat_map(|load| load.schedule.breaks()).collect();
-        let longest = scene.beams.iter().map(|beam| beam.axis.length()).fold(0.0, f64::max);
+        let longest = scene.longest_beam().unwrap_or(0.0);
         let mut history = History::new(scales(&scene, &model, longest), extra_columns(&scene));
         let measures = model.measure();
         history.push(Sample { measures, ..Sample::default() }, extra_values(&scene, &model));
@@ -166,6 +168,11 @@ impl Simulation {
             goal: f64::INFINITY,
             outlines: OnceCell::new(),
         })
+    }
+
+    /// From here on up to so many threads work on a large beam, at first as many as there are cores; results are the same.
+    pub fn use_threads(&mut self, most: usize) {
+        self.model.divide(most);
     }
 
     /// Where the simulation is [time].

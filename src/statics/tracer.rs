@@ -28,14 +28,14 @@ pub(super) struct Tracer<'s> {
 
 impl<'s> Tracer<'s> {
     pub(super) fn new(scene: &'s Scene, mut model: Model, loading: Loading) -> Self {
-        let longest = scene.beams.iter().map(|beam| beam.axis.length()).fold(0.0, f64::max);
         let unknowns = model.unknowns();
         let none = BorderShape::default();
         let mut path = Path::default();
         path.push(point(&mut model, 0.0, 0));
         Self {
             scene,
-            length: if longest > 0.0 { longest } else { 1.0 },
+            // A scene of particles alone has no moments.
+            length: scene.longest_beam().unwrap_or(1.0),
             loading,
             newton: Newton::new(unknowns, model.half_bandwidth(), none, loading.tolerance),
             movements: vec![0.0; unknowns],

@@ -13,7 +13,7 @@ use crate::script::parameter::{
     Parameter, Presence, anything, callback, number, object, options, text, whole,
 };
 use crate::script::studies::cost::{CostTable, Way, cases};
-use crate::script::studies::plan::patience;
+use crate::script::studies::plan::{patience, study_name};
 use crate::script::table::{Table, function, property};
 
 /// Costs.
@@ -89,7 +89,7 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let method = options.get_if("integrator").unwrap_or_default();
     let way = Way { method, dt: options.number("dt")?, steps: options.count("steps")? };
     let cases = cases(call, &options, way)?;
-    let name = options.text("name")?.to_string();
+    let name = study_name(call, &options)?;
     let repeats = match context.mode() {
         Mode::DryBuild => {
             let pretended = |case| StepCost::unmeasured(case, Outcome::Finished);

@@ -15,7 +15,9 @@ use crate::script::parameter::{
     Parameter, Presence, anything, array, callback, either, number, numbers, object, options, text,
     whole,
 };
-use crate::script::studies::precision::{comparison, map_of, study, table};
+use crate::script::studies::precision::study;
+use crate::script::studies::precision_comparison::comparison;
+use crate::script::studies::precision_rows::{map_of, table};
 use crate::script::studies::reference::FinestRun;
 use crate::script::table::{Row, Table, function, method, property};
 
@@ -52,7 +54,9 @@ pub const TABLE: Table = Table {
             .summary("As a reference of a study: a run of our own, marked as such in the results.")
             .doc(
                 "Unless told otherwise it is made on the finest mesh of the study, with its integrator of the highest order and a \
-                 quarter of its smallest step size. Its own error is not known; errors of meshes need a finer mesh here.",
+                 quarter of its smallest step size. It is run with twice its step as well: errors smaller than the difference are marked \
+                 with ≤, and no order is told of them, unless all runs of the study have its very integrator and step size, so that \
+                 errors in time are the same. Its error of the mesh is not known; errors of meshes need a finer mesh here.",
             )
             .example(
                 "let study = study_work_precision(#{\n    name: \"spinning\", scene: spinning, meshes: [bspline(2), bspline(4)],\n    \
@@ -63,7 +67,7 @@ pub const TABLE: Table = Table {
             .see(&["study_work_precision", "study_convergence"]),
         of_study("table", |call| Ok(table(&call.receiver::<PrecisionStudy>()?.0).into()))
             .returns("a text")
-            .summary("All combinations: their errors, times, work and drifts; ● marks those on the front.")
+            .summary("All combinations, mesh by mesh: errors, times, work and the drift of energy; ● marks those on the front.")
             .example("print(study.table);"),
         of_study("rows", |call| {
             let PrecisionStudy(study) = call.receiver()?;

@@ -3,7 +3,7 @@
 use rhai::{Array, Dynamic};
 
 use super::integrators::INTEGRATOR;
-use crate::analysis::{Outcome, Verdict};
+use crate::analysis::{Case, Outcome, Verdict};
 use crate::output::Panel;
 use crate::script::call::Call;
 use crate::script::context::Mode;
@@ -36,7 +36,7 @@ pub const TABLE: Table = Table {
             .doc(
                 "`scene` is a function of a map that has the values of a cell under their names. It gives a scene, or a map of the scene \
                  and how it is simulated: #{ scene: scene, dt: 0.1, end: 5, integrator: trapezoidal() }. What that leaves open is taken \
-                 from the values named dt, end or integrator, then from the options of the study. The energy growth of a cell is the \
+                 from the values named dt, end or integrator, then from the options of the study. When it throws, that is what became of the cell. The energy growth of a cell is the \
                  largest rise of E - W above an earlier value after the last break of the schedules, relative to the largest energy. The \
                  maps are printed, drawn into NAME.svg and written into NAME.csv. Labels are numbers, texts, the names of integrators, or \
                  what a map says under `name`.",
@@ -95,7 +95,7 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = options.callback("scene")?;
     call.expect_arguments(&scene, 1, "|cell| …, a function that makes the scene of a cell")?;
     let plan = StabilityPlan::read(call, &options)?;
-    let cases = plan.cases(call, &options, &scene)?;
+    let made = plan.cases(call, &options, &scene)?;
     let context = call.context();
     let patience = patience(call, options.number("patience")?);
     let shown = options.text("show")?;
@@ -103,14 +103,20 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let shown = shown.map_or(Shown::EnergyGrowth, |(_, shown)| *shown);
     let mut desk = Desk::open(context, &plan.name)?;
     let verdicts = match context.mode() {
-        Mode::DryBuild => vec![Verdict::without_a_run(Outcome::Finished); cases.len()],
+        Mode::DryBuild => vec![Verdict::without_a_run(Outcome::Finished); made.len()],
         Mode::Run => {
             let task = Task { name: "cells", parts: &[] };
             let work = |case: &_, stop: &_| Verdict::of(case, patience, stop);
+            let cases: Vec<Case> = made.iter().flatten().cloned().collect();
             let verdicts =
                 desk.in_parallel(task, &cases, |verdict: &Verdict| verdict.steps, work)?;
             let panicked = |message| Verdict::without_a_run(Outcome::Panicked { message });
-            verdicts.into_iter().map(|verdict| verdict.unwrap_or_else(panicked)).collect()
+            let mut ran = verdicts.into_iter().map(|verdict| verdict.unwrap_or_else(panicked));
+            let of = |made: Result<Case, String>| match made {
+                Ok(_) => ran.next(),
+                Err(reason) => Some(Verdict::without_a_run(Outcome::Failed { time: 0.0, reason })),
+            };
+            made.into_iter().filter_map(of).collect()
         }
     };
     let map = plan.judged(shown, verdicts);

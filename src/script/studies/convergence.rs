@@ -5,7 +5,6 @@ use rhai::{Dynamic, Map};
 use super::desk::Desk;
 use super::labels;
 use super::plan::{Plan, at_key};
-use super::precision::at_times;
 use super::reference::{self, Reference};
 use crate::analysis::{
     ALL_POSITIONS, Case, Convergence, Ladder, Outcome, Refined, Trial, Truth, all_combinations,
@@ -113,7 +112,7 @@ pub fn table(study: &Convergence) -> String {
     let mut text = format!(
         "study '{}': convergence at {}, {}\nreference: {}",
         study.name,
-        at_times(&study.times),
+        labels::at_times(&study.times),
         study.fixed,
         study.truth.source
     );
@@ -178,7 +177,7 @@ fn records(study: &Convergence) -> CsvRecords {
             format!(
                 "study '{}': convergence at {}, {}",
                 study.name,
-                at_times(&study.times),
+                labels::at_times(&study.times),
                 study.fixed
             ),
             format!("reference: {}", study.truth.source),
@@ -221,7 +220,7 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
     let mut chart = LineChart::new(format!(
         "{}: convergence of {quantity} at {}",
         study.name,
-        at_times(&study.times)
+        labels::at_times(&study.times)
     ))
     .caption(study.fixed.clone())
     .caption(format!("reference: {}", study.truth.source))

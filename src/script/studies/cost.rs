@@ -20,6 +20,9 @@ const SNAPSHOTS: usize = 256_000_000;
 /// The names of the first two rows: the scene as it is, and the same once more, to see how far times can be trusted.
 const PLAIN: [&str; 2] = ["the scene alone", "the same again"];
 
+/// Times of the same work that differ by more than this factor cast doubt on all ratios.
+const TRUSTED_RATIO: f64 = 1.1;
+
 /// How the steps of all rows are taken, unless a row is about that.
 #[derive(Clone, Copy)]
 pub struct Way {
@@ -180,7 +183,24 @@ impl CostTable {
                 cost.columns.into(),
             ]);
         }
-        table.to_string().trim_end().to_owned()
+        let table = table.to_string();
+        [Some(table.trim_end().to_owned()), self.doubt()]
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
+            .join("\n")
+    }
+
+    /// A warning, when the same work took another time.
+    fn doubt(&self) -> Option<String> {
+        let ratio = self.ratio(self.costs.get(1).filter(|cost| cost.name == PLAIN[1])?);
+        (!(1.0 / TRUSTED_RATIO..=TRUSTED_RATIO).contains(&ratio)).then(|| {
+            format!(
+                "warning: {} took {ratio:.2} times as long; ratios are no surer than that. Try again when the machine is \
+                 idle, or with more steps or repeats",
+                PLAIN[1]
+            )
+        })
     }
 
     /// The table for other programs.
@@ -227,5 +247,37 @@ impl CostTable {
             }
             false => chart.bar(&cost.name, f64::NAN, "did not finish"),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+    use crate::analysis::Outcome;
+
+    fn table(times: [u64; 2]) -> CostTable {
+        let cost = |(name, micros): (&str, u64)| StepCost {
+            name: name.to_owned(),
+            outcome: Outcome::Finished,
+            unknowns: 9,
+            half_bandwidth: 8,
+            border: 0,
+            columns: 9,
+            iterations: 2.0,
+            factorisations: 2.0,
+            shortest: Duration::from_micros(micros),
+            median: Duration::from_micros(micros),
+        };
+        let costs = PLAIN.into_iter().zip(times).map(cost).collect();
+        CostTable::new("cost".to_owned(), costs)
+    }
+
+    #[test]
+    fn times_that_do_not_come_again_are_doubted() {
+        assert!(!table([100, 109]).text().contains("warning"));
+        assert!(table([100, 120]).text().contains("warning: the same again took 1.20 times"));
+        assert!(table([100, 80]).text().contains("warning: the same again took 0.80 times"));
     }
 }

@@ -1,6 +1,6 @@
 //! What things of a study are called in tables and legends: short, and no two the same.
 
-use crate::analysis::{Deviation, Outcome};
+use crate::analysis::Deviation;
 use crate::integrators::Method;
 use crate::output::{Cell, format_number, scientific, significant};
 use crate::simulation::{Settings, StepSize};
@@ -50,7 +50,8 @@ pub fn number(text: String) -> Cell {
     Cell::Number(text)
 }
 
-/// What became of a run, if it did not come to its end.
-pub fn trouble(outcome: &Outcome) -> String {
-    if outcome.is_finished() { String::new() } else { outcome.describe() }
+/// The times in words: `t = 2.5, 7.5`.
+pub fn at_times(times: &[f64]) -> String {
+    let times: Vec<String> = times.iter().map(|time| format_number(*time)).collect();
+    format!("t = {}", times.join(", "))
 }

@@ -1,5 +1,6 @@
 //! Studies as scripts ask for them: from options to cases, and from results to tables, files and pictures.
 
+pub mod cell;
 pub mod convergence;
 pub mod cost;
 pub mod desk;
@@ -7,5 +8,8 @@ pub mod labels;
 pub mod parameters;
 pub mod plan;
 pub mod precision;
+pub mod precision_chart;
+pub mod precision_comparison;
+pub mod precision_rows;
 pub mod reference;
 pub mod stability;

@@ -2,6 +2,7 @@
 
 use rhai::{Dynamic, Map};
 
+use super::labels;
 use crate::analysis::{Case, Observable, Patience, SYMBOLS, Sheet, Subject};
 use crate::beams::{Mesh, Station};
 use crate::integrators::Method;
@@ -36,7 +37,7 @@ impl Plan {
     /// Reads the options that all studies of errors have. Every scene is made, and the first is built, so that mistakes show
     /// before anything runs.
     pub fn read(call: &Call, options: &Options) -> Result<Self, ScriptError> {
-        let name = options.text("name")?.to_string();
+        let name = study_name(call, options)?;
         let methods = all_of::<Method>(call, options, "integrators", "an integrator")?;
         let dts = step_sizes(call, options)?;
         let times = positive(call, options, "times")?;
@@ -49,6 +50,13 @@ impl Plan {
         }
         let scene_of = options.callback("scene")?;
         call.expect_arguments(&scene_of, 1, "|mesh| …, a function that makes the scene on a mesh")?;
+        expect_all_different(call, "integrators", &methods, labels::method)?;
+        expect_all_different(call, "dts", &dts, StepSize::to_string)?;
+        let named = |mesh: &Dynamic| {
+            (label_of(call, mesh), mesh.read_lock::<Mesh>().map(|mesh| mesh.clone()))
+        };
+        let named: Vec<(String, Option<Mesh>)> = meshes.iter().map(named).collect();
+        expect_all_different(call, "meshes", &named, |(label, _)| label.clone())?;
         let subjects: Vec<Subject> =
             meshes.iter().map(|mesh| subject_on(call, options, mesh)).collect::<Result<_, _>>()?;
         expect_same_observables(call, &subjects[0], &subjects[1..])?;
@@ -139,6 +147,35 @@ fn column_of(
         return Err(at_key(call, "columns", told, format!("columns: {}", names.join(", "))));
     }
     Ok(Observable::of_column(name, &column, factor))
+}
+
+/// The name of a study and of its files, which no other study of the run has.
+pub fn study_name(call: &Call, options: &Options) -> Result<String, ScriptError> {
+    let name = options.text("name")?.to_string();
+    if name.trim().is_empty() {
+        let hint = "its files are called after it, for example \"precision\"";
+        return Err(at_key(call, "name", "the name of a study is empty", hint));
+    }
+    if !call.context().claim_study(&name) {
+        let told = format!("there is a study '{name}' in this run already");
+        let hint = "give each study a name of its own, for its files would be overwritten";
+        return Err(at_key(call, "name", told, hint));
+    }
+    Ok(name)
+}
+
+/// Refuses to do the same work twice under one name.
+fn expect_all_different<T: PartialEq>(
+    call: &Call,
+    key: &str,
+    values: &[T],
+    show: impl Fn(&T) -> String,
+) -> Result<(), ScriptError> {
+    let again = (1..values.len()).find(|at| values[..*at].contains(&values[*at]));
+    again.map_or(Ok(()), |at| {
+        let told = format!("{key} holds {} twice", show(&values[at]));
+        Err(at_key(call, key, told, "give each once"))
+    })
 }
 
 /// An error about an option.
@@ -303,9 +340,8 @@ pub fn expect_same_observables(
 
 /// The length of the longest beam, or the largest distance of a particle from the first one; one where there is none.
 fn size_of(scene: &Scene) -> f64 {
-    let beams = scene.beams.iter().map(|beam| beam.axis.length());
     let first = scene.particles.first().map(|first| first.position).unwrap_or_default();
     let particles = scene.particles.iter().map(|other| (other.position - first).norm());
-    let size = beams.reduce(f64::max).or_else(|| particles.reduce(f64::max));
+    let size = scene.longest_beam().or_else(|| particles.reduce(f64::max));
     size.filter(|size| *size > 0.0).unwrap_or(1.0)
 }

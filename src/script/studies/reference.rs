@@ -60,12 +60,23 @@ fn finer(dts: &[StepSize]) -> StepSize {
         .map_or(StepSize::Adaptive(control), |dt| StepSize::Fixed(PART_OF_THE_SMALLEST_STEP * dt))
 }
 
+/// Twice the step, or the tolerance that gives about that with a method of second order.
+fn doubled(dt: StepSize) -> StepSize {
+    match dt {
+        StepSize::Fixed(dt) => StepSize::Fixed(2.0 * dt),
+        StepSize::Adaptive(control) => {
+            StepSize::Adaptive(StepControl { tolerance: 4.0 * control.tolerance, ..control })
+        }
+    }
+}
+
 /// What results are compared with, before anything runs.
 pub enum Reference {
     /// A table of an independent solution, and the name of its file.
     Table(String, Sheet),
-    /// A run of our own: what is told of it, and its case.
-    OwnRun(String, Box<Case>),
+    /// A run of our own: what is told of it, its case, and the same with twice the step, which shows how well it is known.
+    /// Where all runs of the study have its very settings, errors in time are common to all, and there is no second one.
+    OwnRun(String, Vec<Case>),
 }
 
 /// Reads a table of the script's folder or the output folder.
@@ -99,7 +110,7 @@ impl Reference {
             plan.add_columns(call, columns, Some(&sheet))?;
             let reference = Self::Table(file.to_string(), sheet);
             // A wrong table is told of before anything runs.
-            reference.truth(call, plan, None)?;
+            reference.truth(call, plan, &[])?;
             return Ok(reference);
         }
         let run = options.get_if::<FinestRun>("reference").unwrap_or_default();
@@ -118,21 +129,26 @@ impl Reference {
         plan.add_columns(call, columns, None)?;
         let (method_name, mesh) = (labels::method(&method), subject.mesh);
         let told = format!("own finest run ({mesh}, {method_name}, {dt}), no independent solution");
-        let settings = Plan::settings(method, dt);
-        let case = Case { scene: subject.scene, settings, stops: plan.times.clone() };
-        Ok(Self::OwnRun(told, Box::new(case)))
+        let case = |dt| {
+            let settings = Plan::settings(method, dt);
+            Case { scene: subject.scene.clone(), settings, stops: plan.times.clone() }
+        };
+        let finest = case(dt);
+        let is_common = plan.all_settings().iter().all(|other| *other == finest.settings);
+        let coarser = (!is_common).then(|| case(doubled(dt)));
+        Ok(Self::OwnRun(told, [finest].into_iter().chain(coarser).collect()))
     }
 
-    /// The case that must be run for it, if it is one of our own.
-    fn case(&self) -> Option<&Case> {
+    /// The cases that must be run for it, if it is of our own.
+    fn cases(&self) -> &[Case] {
         match self {
-            Self::Table(..) => None,
-            Self::OwnRun(_, case) => Some(case),
+            Self::Table(..) => &[],
+            Self::OwnRun(_, cases) => cases,
         }
     }
 
-    /// What the observables should be; `own` is what its own run showed.
-    fn truth(&self, call: &Call, plan: &Plan, own: Option<&Trial>) -> Result<Truth, ScriptError> {
+    /// What the observables should be; `own` is what its own runs showed.
+    fn truth(&self, call: &Call, plan: &Plan, own: &[Trial]) -> Result<Truth, ScriptError> {
         match (self, own) {
             (Self::Table(file, sheet), _) => {
                 let source = format!("{file}, an independent solution");
@@ -141,22 +157,24 @@ impl Reference {
                     at_key(call, "reference", format!("\"{file}\": {error}"), hint)
                 })
             }
-            (Self::OwnRun(told, _), Some(trial)) if trial.outcome.is_finished() => {
-                Ok(Truth::of_run(told, &trial.readings))
+            (Self::OwnRun(told, _), [finest, coarser @ ..]) => {
+                if let Some(failed) = own.iter().find(|trial| !trial.outcome.is_finished()) {
+                    let why = failed.outcome.describe();
+                    let hint = "choose another one with reference: finest_run(#{ … }) or the name of a table";
+                    let told = format!("the reference failed: {told}: {why}");
+                    return Err(at_key(call, "reference", told, hint));
+                }
+                let truth = Truth::of_run(told, &finest.readings);
+                Ok(coarser.iter().fold(truth, |truth, other| truth.as_far_as(&other.readings)))
             }
-            (Self::OwnRun(told, _), trial) => {
-                let why = trial.map_or_else(String::new, |trial| trial.outcome.describe());
-                let hint =
-                    "choose another one with reference: finest_run(#{ … }) or the name of a table";
-                Err(at_key(call, "reference", format!("the reference failed: {told}: {why}"), hint))
-            }
+            (Self::OwnRun(..), []) => Err(ScriptError::bug("a study has lost its reference")),
         }
     }
 
     /// A truth whose numbers mean nothing, but that knows what the one of the run will know: for what can be checked before.
     pub fn foreseen(&self, call: &Call, plan: &Plan) -> Result<Truth, ScriptError> {
         match self {
-            Self::Table(..) => self.truth(call, plan, None),
+            Self::Table(..) => self.truth(call, plan, &[]),
             Self::OwnRun(told, _) => {
                 let nothing = vec![vec![Vec2::zeros(); plan.observables().len()]; plan.times.len()];
                 Ok(Truth::of_run(told, &nothing))
@@ -164,7 +182,7 @@ impl Reference {
         }
     }
 
-    /// Runs all cases, and the one of the reference with them: what each showed, and what it should have.
+    /// Runs all cases, and those of the reference with them: what each showed, and what it should have.
     pub fn trials(
         &self,
         call: &Call,
@@ -172,7 +190,7 @@ impl Reference {
         plan: &Plan,
         cases: &[Case],
     ) -> Result<(Vec<Trial>, Truth), ScriptError> {
-        let all: Vec<Case> = self.case().into_iter().chain(cases).cloned().collect();
+        let all: Vec<Case> = self.cases().iter().chain(cases).cloned().collect();
         let (observables, patience) = (plan.observables(), plan.patience);
         let parts = postcard::to_stdvec(observables).unwrap_or_default();
         let task = Task { name: "runs", parts: &parts };
@@ -180,10 +198,10 @@ impl Reference {
         let steps_of = |trial: &Trial| trial.steps + trial.retries;
         let results = desk.in_parallel(task, &all, steps_of, work)?;
         let panicked = |message| Trial::without_a_run(Outcome::Panicked { message });
-        let mut trials: Vec<Trial> =
+        let mut own: Vec<Trial> =
             results.into_iter().map(|result| result.unwrap_or_else(panicked)).collect();
-        let own = self.case().map(|_| trials.remove(0));
-        let truth = self.truth(call, plan, own.as_ref())?;
+        let trials = own.split_off(self.cases().len());
+        let truth = self.truth(call, plan, &own)?;
         Ok((trials, truth))
     }
 }

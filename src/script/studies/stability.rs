@@ -2,29 +2,22 @@
 
 use rhai::{Dynamic, FnPtr, INT, Map};
 
+use super::cell::{case, thrown};
 use super::parameters::Swept;
-use super::plan::{STEP_SIZE, step_size};
+use super::plan::study_name;
 use crate::analysis::{Case, Outcome, Verdict};
-use crate::integrators::Method;
-use crate::newton::Tolerance;
 use crate::output::{
     Colours, CsvRecords, Glyphs, HeatCell, HeatMap, Page, Style, Table, format_number, scientific,
     significant,
 };
 use crate::script::call::Call;
-use crate::script::error::{Place, ScriptError};
-use crate::script::numbers::as_number;
+use crate::script::error::ScriptError;
 use crate::script::options::Options;
-use crate::script::packages::SceneHandle;
-use crate::script::suggest::nearest;
-use crate::simulation::Settings;
 
 /// Columns of text that a map on a terminal may take.
 const WIDTH: usize = 160;
 /// Cells that did not come to their end, of which the reason is printed.
 const MOST_REASONS: usize = 12;
-/// What a function may say of a cell.
-const KEYS: [&str; 4] = ["scene", "dt", "end", "integrator"];
 /// Maps beside each other on a page.
 const ABREAST: usize = 2;
 
@@ -96,7 +89,7 @@ impl StabilityPlan {
             false => Swept::none(),
         };
         Ok(Self {
-            name: options.text("name")?.to_string(),
+            name: study_name(call, options)?,
             maps,
             rows: Swept::read(call, options, "rows")?,
             columns: Swept::read(call, options, "columns")?,
@@ -131,83 +124,42 @@ impl StabilityPlan {
         axes.map(|(of, at)| (of.name.as_str(), of.labels[at].as_str())).collect()
     }
 
-    /// The run of each cell, from what the function of the script gives for its values.
+    /// The run of each cell, from what the function of the script gives for its values, or what it throws.
+    ///
+    /// # Errors
+    /// When it gives something wrong, fails otherwise, or throws at every cell: then it is the function that is wrong.
     pub fn cases(
         &self,
         call: &Call,
         options: &Options,
         scene: &FnPtr,
-    ) -> Result<Vec<Case>, ScriptError> {
-        let case = |at| {
+    ) -> Result<Vec<Result<Case, String>>, ScriptError> {
+        let mut first = None;
+        let mut made = Vec::new();
+        for at in self.cells() {
             let values = self.values(at);
-            let given = call.invoke(scene, [Dynamic::from(values.clone())])?;
-            case(call, options, &values, given)
-        };
-        self.cells().map(case).collect()
+            made.push(match call.invoke(scene, [Dynamic::from(values.clone())]) {
+                Ok(given) => Ok(case(call, options, &values, given)?),
+                Err(ScriptError::Engine(error)) => match thrown(call, &error) {
+                    Some(reason) => {
+                        first.get_or_insert(error);
+                        Err(reason)
+                    }
+                    None => return Err(ScriptError::Engine(error)),
+                },
+                Err(error) => return Err(error),
+            });
+        }
+        match first {
+            Some(error) if made.iter().all(Result::is_err) => Err(ScriptError::Engine(error)),
+            _ => Ok(made),
+        }
     }
 
     /// The study with its results.
     pub fn judged(self, shown: Shown, verdicts: Vec<Verdict>) -> StabilityMap {
         StabilityMap { plan: self, shown, verdicts }
     }
-}
-
-/// A case from a scene, or from a map of the scene and how it is simulated; what it leaves open is taken from the values of
-/// the cell, then from the options of the study.
-fn case(call: &Call, options: &Options, values: &Map, given: Dynamic) -> Result<Case, ScriptError> {
-    let own = given.read_lock::<Map>().map(|map| map.clone()).unwrap_or_default();
-    expect_known_keys(call, &own)?;
-    let scene = own.get("scene").cloned().unwrap_or_else(|| given.clone());
-    let find = |name: &str| own.get(name).or_else(|| values.get(name)).cloned();
-    let scene = scene.try_cast::<SceneHandle>().ok_or_else(|| {
-        let got = call.describe(&given);
-        call.error(format!("the function gives {got} instead of a scene"))
-            .hint("its last expression is the scene, or a map: #{ scene: scene, dt: 0.1, end: 5 }")
-            .at(Place::Key("scene".into()))
-    })?;
-    let missing = |name: &str| {
-        call.error(format!("no '{name}' is given")).hint(format!(
-            "as an option of the study, among its values, or in what the function gives: #{{ scene: scene, {name}: 0.1 }}"
-        ))
-    };
-    // What is given but is something else must not be replaced by an option: the cell would run what its label does not say.
-    let wrong = |name: &str, value: &Dynamic, hint: &str| {
-        call.error(format!("the '{name}' of a cell is {}", call.describe(value))).hint(hint)
-    };
-    let method = match find("integrator") {
-        Some(value) => value
-            .clone()
-            .try_cast::<Method>()
-            .ok_or_else(|| wrong("integrator", &value, "for example trapezoidal()"))?,
-        None => options.get_if("integrator").unwrap_or_default(),
-    };
-    let dt = match find("dt") {
-        Some(value) => step_size(&value).ok_or_else(|| wrong("dt", &value, STEP_SIZE))?,
-        None => options.number_if_given("dt").ok_or_else(|| missing("dt"))?.into(),
-    };
-    let end = match find("end") {
-        Some(value) => as_number(&value)
-            .filter(|end| end.is_finite() && *end > 0.0)
-            .ok_or_else(|| wrong("end", &value, "give a positive number"))?,
-        None => options.number_if_given("end").ok_or_else(|| missing("end"))?,
-    };
-    let settings = Settings { method, dt, tolerance: Tolerance::default() };
-    let stops = vec![end];
-    let scene = scene.scene().borrow().clone();
-    Ok(Case { scene, settings, stops })
-}
-
-/// Whether the map that a function gives says nothing that has no meaning.
-fn expect_known_keys(call: &Call, given: &Map) -> Result<(), ScriptError> {
-    let Some(unknown) = given.keys().find(|key| !KEYS.contains(&key.as_str())) else {
-        return Ok(());
-    };
-    let meant = nearest(unknown, KEYS);
-    let suggestion = meant.map(|name| format!("did you mean '{name}'? ")).unwrap_or_default();
-    Err(call
-        .error(format!("the function gives a map with the unknown key '{unknown}'"))
-        .hint(format!("{suggestion}known keys: {}", KEYS.join(", ")))
-        .at(Place::Key("scene".into())))
 }
 
 impl StabilityMap {

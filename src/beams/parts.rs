@@ -1,0 +1,165 @@
+//! The spans of a beam in parts, on which several threads work at once, with the very bits that one thread gives.
+//!
+//! Parts are cut at control points: each owns those from its cut to the next one, and the spans that reach no others. A few
+//! spans lie astride a cut. Sums are rounded, so that each of them is to be made in the order of the spans; spans astride a cut
+//! therefore count for the control points behind it before the parts are worked on, and for those before it afterwards.
+
+use std::ops::Range;
+use std::thread;
+
+use super::dynamics::Movement;
+use super::span_points::{SpanPoints, window, window_mut};
+
+/// Most parts of a beam: a few cores use up the bandwidth of the memory.
+pub(super) const MOST_PARTS: usize = 8;
+
+/// Fewest spans of a part: with half of it the gain of a step is lost in the noise of starting threads (docs/studies.md).
+const SMALLEST_PART: usize = 4000;
+
+/// Where one part ends and the next begins.
+#[derive(Debug, Clone, PartialEq)]
+struct Cut {
+    /// The first control point behind it.
+    point: usize,
+    /// The spans that reach over it.
+    astride: Range<usize>,
+}
+
+/// How a beam is cut.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Parts {
+    cuts: Vec<Cut>,
+}
+
+/// Works on all tasks at once: on the first one here, on each other one in a thread of its own.
+pub fn at_once<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + Sync) {
+    thread::scope(|scope| {
+        let (work, mut tasks) = (&work, tasks.into_iter());
+        let first = tasks.next();
+        for task in tasks {
+            scope.spawn(move || work(task));
+        }
+        first.map(work)
+    });
+}
+
+impl Parts {
+    /// At most so many parts, as large as is worth a thread.
+    pub(super) fn worthwhile<const N: usize>(spans: &[SpanPoints<N>], most: usize) -> Self {
+        Self::new(spans, most.min(MOST_PARTS).min(spans.len() / SMALLEST_PART))
+    }
+
+    /// So many parts, of about as many spans each.
+    fn new<const N: usize>(spans: &[SpanPoints<N>], count: usize) -> Self {
+        let cut = |part: usize| {
+            let behind = part * spans.len() / count;
+            let point = spans[behind].first;
+            let begin = spans[..behind].partition_point(|span| span.first + N <= point);
+            Cut { point, astride: begin..behind }
+        };
+        Self { cuts: (1..count).map(cut).collect() }
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.cuts.len() + 1
+    }
+
+    /// The first control point of each part but the first.
+    pub(super) fn first_points(&self) -> Vec<usize> {
+        self.cuts.iter().map(|cut| cut.point).collect()
+    }
+
+    /// Works on spans that give nothing to each other.
+    pub(super) fn each<const N: usize>(
+        &self,
+        spans: &mut [SpanPoints<N>],
+        work: impl Fn(&mut SpanPoints<N>) + Sync,
+    ) {
+        if self.cuts.is_empty() {
+            return spans.iter_mut().for_each(work);
+        }
+        let most = spans.len().div_ceil(self.count());
+        at_once(spans.chunks_mut(most), |part| part.iter_mut().for_each(&work));
+    }
+
+    /// Works on the sums of the control points of each part.
+    pub(super) fn each_point(
+        &self,
+        sums: &mut [Movement],
+        work: impl Fn(Range<usize>, &mut [Movement]) + Sync,
+    ) {
+        if self.cuts.is_empty() {
+            return work(0..sums.len(), sums);
+        }
+        let mut parts = Vec::with_capacity(self.count());
+        let (mut sums, mut next) = (sums, 0);
+        for cut in &self.cuts {
+            let (before, behind) = sums.split_at_mut(cut.point - next);
+            parts.push((next..cut.point, before));
+            (sums, next) = (behind, cut.point);
+        }
+        parts.push((next..next + sums.len(), sums));
+        at_once(parts, |(points, sums)| work(points, sums));
+    }
+
+    /// Adds up what spans give to control points.
+    ///
+    /// `work` is called with what a part has for itself, some spans, the first control point of some sums, and these. Of
+    /// spans astride a cut it is called twice, and must do the same both times.
+    pub(super) fn sum<const N: usize, C: Send>(
+        &self,
+        spans: &mut [SpanPoints<N>],
+        sums: &mut [Movement],
+        own: &mut [C],
+        work: impl Fn(&mut C, &mut [SpanPoints<N>], usize, &mut [Movement]) + Sync,
+    ) {
+        if self.cuts.is_empty() {
+            return work(&mut own[0], spans, 0, sums);
+        }
+        let on_one_side =
+            |own: &mut C, span: &mut SpanPoints<N>, sums: &mut [Movement], side: Range<usize>| {
+                let first = span.first;
+                let mut copy: [Movement; N] = *window(sums, first);
+                work(own, std::slice::from_mut(span), first, &mut copy);
+                let sums = window_mut::<N>(sums, first);
+                let Range { start, end } = side;
+                let side = start.max(first) - first..end.min(first + N) - first;
+                sums[side.clone()].copy_from_slice(&copy[side]);
+            };
+        for (cut, own) in self.cuts.iter().zip(&mut own[1..]) {
+            for span in &mut spans[cut.astride.clone()] {
+                on_one_side(own, span, sums, cut.point..usize::MAX);
+            }
+        }
+        at_once(self.split(spans, sums, own), |(own, spans, first, sums)| {
+            work(own, spans, first, sums);
+        });
+        for (cut, own) in self.cuts.iter().zip(own) {
+            for span in &mut spans[cut.astride.clone()] {
+                on_one_side(own, span, sums, 0..cut.point);
+            }
+        }
+    }
+
+    /// What each part has for itself: its spans without those astride, its first control point and its sums.
+    fn split<'a, const N: usize, C>(
+        &self,
+        mut spans: &'a mut [SpanPoints<N>],
+        mut sums: &'a mut [Movement],
+        own: &'a mut [C],
+    ) -> Vec<(&'a mut C, &'a mut [SpanPoints<N>], usize, &'a mut [Movement])> {
+        let mut parts = Vec::with_capacity(self.count());
+        let (mut next_span, mut next_point) = (0, 0);
+        let mut own = own.iter_mut();
+        for (cut, own) in self.cuts.iter().zip(&mut own) {
+            let (before, behind) = spans.split_at_mut(cut.astride.start - next_span);
+            let (sums_before, sums_behind) = sums.split_at_mut(cut.point - next_point);
+            parts.push((own, before, next_point, sums_before));
+            spans = &mut behind[cut.astride.len()..];
+            sums = sums_behind;
+            (next_span, next_point) = (cut.astride.end, cut.point);
+        }
+        parts.extend(own.next().map(|own| (own, spans, next_point, sums)));
+        parts
+    }
+}

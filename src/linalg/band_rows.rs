@@ -1,0 +1,121 @@
+//! Rows of a banded matrix to which entries are added: all of them, or some, so that threads may have their own.
+
+use std::ops::Range;
+
+/// Consecutive rows of a [`BandedMatrix`](super::BandedMatrix).
+#[derive(Debug)]
+pub struct BandRows<'a> {
+    pub(super) rows: Range<usize>,
+    /// From the beginning of the first of the rows on.
+    pub(super) entries: &'a mut [f64],
+    /// The length of a row.
+    pub(super) stride: usize,
+    /// Where the diagonal stands in a row.
+    pub(super) centre: usize,
+    pub(super) half_bandwidth: usize,
+}
+
+impl BandRows<'_> {
+    /// Which rows these are.
+    pub fn rows(&self) -> Range<usize> {
+        self.rows.clone()
+    }
+
+    /// The rows before one of them, and those from it on.
+    pub fn split_at(self, row: usize) -> (Self, Self) {
+        let Self { rows, entries, stride, centre, half_bandwidth } = self;
+        let (before, behind) = entries.split_at_mut((row - rows.start) * stride);
+        let part = |rows, entries| Self { rows, entries, stride, centre, half_bandwidth };
+        (part(rows.start..row, before), part(row..rows.end, behind))
+    }
+
+    #[inline]
+    fn offset(&self, row: usize, column: usize) -> usize {
+        debug_assert!(
+            row.abs_diff(column) <= self.half_bandwidth,
+            "({row}, {column}) is outside the band"
+        );
+        (row - self.rows.start) * self.stride + column + self.centre - row
+    }
+
+    /// Adds `value` to the entry at `(row, column)`, which must lie in the band and in these rows.
+    #[inline]
+    pub fn add(&mut self, row: usize, column: usize, value: f64) {
+        let at = self.offset(row, column);
+        self.entries[at] += value;
+    }
+
+    /// Adds `values` to the entries of `row` that begin at `first_column`.
+    #[inline]
+    pub fn add_to_row(&mut self, row: usize, first_column: usize, values: &[f64]) {
+        let at = self.offset(row, first_column);
+        for (entry, value) in self.entries[at..at + values.len()].iter_mut().zip(values) {
+            *entry += value;
+        }
+    }
+
+    /// Adds a square block, row after row, to the rows and columns from `first` on.
+    pub fn add_block(&mut self, first: usize, width: usize, values: &[f64]) {
+        // The widths of spans of degree 1 to 3 are known to the compiler.
+        match width {
+            6 => self.add_rows::<6>(first, values),
+            9 => self.add_rows::<9>(first, values),
+            12 => self.add_rows::<12>(first, values),
+            _ => {
+                for (row, values) in values.chunks_exact(width).enumerate() {
+                    self.add_to_row(first + row, first, values);
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn add_rows<const WIDTH: usize>(&mut self, first: usize, values: &[f64]) {
+        let (rows, _) = values.as_chunks::<WIDTH>();
+        for (row, values) in rows.iter().enumerate() {
+            let at = self.offset(first + row, first);
+            let (entries, _) = self.entries[at..at + WIDTH].as_chunks_mut::<WIDTH>();
+            for entries in entries {
+                entries.iter_mut().zip(values).for_each(|(entry, value)| *entry += value);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::BandedMatrix;
+
+    #[test]
+    fn rows_that_were_split_off_are_those_of_the_matrix() {
+        let (mut whole, mut parted) = (BandedMatrix::zeros(9, 3), BandedMatrix::zeros(9, 3));
+        let (before, behind) = parted.rows_mut().split_at(4);
+        assert_eq!((before.rows(), behind.rows()), (0..4, 4..9));
+        for mut part in [before, behind] {
+            for row in part.rows() {
+                for column in row.saturating_sub(3)..(row + 4).min(9) {
+                    let value = (10 * row + column) as f64;
+                    part.add(row, column, value);
+                    whole.add(row, column, value);
+                }
+            }
+        }
+        for (row, column) in (0..9).flat_map(|row| (0..9).map(move |column| (row, column))) {
+            assert_eq!(parted.get(row, column), whole.get(row, column), "({row}, {column})");
+        }
+    }
+
+    #[test]
+    fn blocks_of_any_width_are_added_row_by_row() {
+        for width in 1..14 {
+            let mut matrix = BandedMatrix::zeros(20, 14);
+            let values: Vec<f64> = (0..width * width).map(|index| index as f64).collect();
+            matrix.rows_mut().add_block(3, width, &values);
+            matrix.rows_mut().add_block(3, width, &values);
+            assert_eq!(matrix.get(2, 3), 0.0);
+            for (index, value) in values.iter().enumerate() {
+                assert_eq!(matrix.get(3 + index / width, 3 + index % width), 2.0 * value);
+            }
+        }
+    }
+}

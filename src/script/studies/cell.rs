@@ -1,0 +1,93 @@
+//! What the function of a stability study gives for a cell, or throws.
+
+use rhai::{Dynamic, EvalAltResult, Map};
+
+use super::plan::{STEP_SIZE, step_size};
+use crate::analysis::Case;
+use crate::integrators::Method;
+use crate::newton::Tolerance;
+use crate::script::call::Call;
+use crate::script::error::{Failure, Place, ScriptError};
+use crate::script::numbers::as_number;
+use crate::script::options::Options;
+use crate::script::packages::SceneHandle;
+use crate::script::suggest::nearest;
+use crate::simulation::Settings;
+
+/// What a function may say of a cell.
+const KEYS: [&str; 4] = ["scene", "dt", "end", "integrator"];
+
+/// What a script has thrown, or a function of ours has refused, in words; none for other errors.
+pub fn thrown(call: &Call, error: &EvalAltResult) -> Option<String> {
+    match error {
+        EvalAltResult::ErrorInFunctionCall(_, _, inner, _) => thrown(call, inner),
+        EvalAltResult::ErrorRuntime(value, _) => Some(match value.read_lock::<Failure>() {
+            Some(failure) => failure.message.clone(),
+            None => value.clone().into_string().unwrap_or_else(|_| call.show(value)),
+        }),
+        _ => None,
+    }
+}
+
+/// A case from a scene, or from a map of the scene and how it is simulated; what it leaves open is taken from the values of
+/// the cell, then from the options of the study.
+pub fn case(
+    call: &Call,
+    options: &Options,
+    values: &Map,
+    given: Dynamic,
+) -> Result<Case, ScriptError> {
+    let own = given.read_lock::<Map>().map(|map| map.clone()).unwrap_or_default();
+    expect_known_keys(call, &own)?;
+    let scene = own.get("scene").cloned().unwrap_or_else(|| given.clone());
+    let find = |name: &str| own.get(name).or_else(|| values.get(name)).cloned();
+    let scene = scene.try_cast::<SceneHandle>().ok_or_else(|| {
+        let got = call.describe(&given);
+        call.error(format!("the function gives {got} instead of a scene"))
+            .hint("its last expression is the scene, or a map: #{ scene: scene, dt: 0.1, end: 5 }")
+            .at(Place::Key("scene".into()))
+    })?;
+    let missing = |name: &str| {
+        call.error(format!("no '{name}' is given")).hint(format!(
+            "as an option of the study, among its values, or in what the function gives: #{{ scene: scene, {name}: 0.1 }}"
+        ))
+    };
+    // What is given but is something else must not be replaced by an option: the cell would run what its label does not say.
+    let wrong = |name: &str, value: &Dynamic, hint: &str| {
+        call.error(format!("the '{name}' of a cell is {}", call.describe(value))).hint(hint)
+    };
+    let method = match find("integrator") {
+        Some(value) => value
+            .clone()
+            .try_cast::<Method>()
+            .ok_or_else(|| wrong("integrator", &value, "for example trapezoidal()"))?,
+        None => options.get_if("integrator").unwrap_or_default(),
+    };
+    let dt = match find("dt") {
+        Some(value) => step_size(&value).ok_or_else(|| wrong("dt", &value, STEP_SIZE))?,
+        None => options.number_if_given("dt").ok_or_else(|| missing("dt"))?.into(),
+    };
+    let end = match find("end") {
+        Some(value) => as_number(&value)
+            .filter(|end| end.is_finite() && *end > 0.0)
+            .ok_or_else(|| wrong("end", &value, "give a positive number"))?,
+        None => options.number_if_given("end").ok_or_else(|| missing("end"))?,
+    };
+    let settings = Settings { method, dt, tolerance: Tolerance::default() };
+    let stops = vec![end];
+    let scene = scene.scene().borrow().clone();
+    Ok(Case { scene, settings, stops })
+}
+
+/// Whether the map that a function gives says nothing that has no meaning.
+fn expect_known_keys(call: &Call, given: &Map) -> Result<(), ScriptError> {
+    let Some(unknown) = given.keys().find(|key| !KEYS.contains(&key.as_str())) else {
+        return Ok(());
+    };
+    let meant = nearest(unknown, KEYS);
+    let suggestion = meant.map(|name| format!("did you mean '{name}'? ")).unwrap_or_default();
+    Err(call
+        .error(format!("the function gives a map with the unknown key '{unknown}'"))
+        .hint(format!("{suggestion}known keys: {}", KEYS.join(", ")))
+        .at(Place::Key("scene".into())))
+}

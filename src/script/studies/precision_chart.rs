@@ -1,0 +1,74 @@
+//! The picture of a study of error against run time.
+
+use super::labels;
+use crate::analysis::{Precision, PrecisionRow, machines};
+use crate::output::{Ink, LineChart, Marker, Scale, Series, Stroke};
+
+/// Error over run time, one colour for an integrator or a rival, the front of ours drawn through.
+pub fn chart(study: &Precision) -> LineChart {
+    let mut chart = LineChart::new(format!(
+        "{}: error at {} against run time",
+        study.name,
+        labels::at_times(&study.times)
+    ))
+    .caption(format!("reference: {}", study.truth.source))
+    .x_label("run time [s], set-up apart")
+    .y_label("error / length")
+    .x_scale(Scale::Logarithmic)
+    .y_scale(Scale::Logarithmic)
+    .sized(900.0, 640.0);
+    for machine in machines(&study.rivals) {
+        chart = chart.caption(format!("rivals measured on {machine}"));
+    }
+    let finite = |(price, error): &(f64, f64)| price.is_finite() && error.is_finite();
+    let mut methods: Vec<String> = Vec::new();
+    for row in &study.rows {
+        let name = labels::method(&row.settings.method);
+        if !methods.contains(&name) {
+            methods.push(name);
+        }
+    }
+    for (number, name) in methods.iter().enumerate() {
+        let own = study.rows.iter().filter(|row| labels::method(&row.settings.method) == *name);
+        let look =
+            |series: Series| series.ink(Ink::OfSeries(number)).marker(Marker::of_index(number));
+        let mut of_mesh: Vec<(&str, Vec<(f64, f64)>)> = Vec::new();
+        for row in own.clone() {
+            match of_mesh.last_mut() {
+                Some((mesh, points)) if *mesh == row.mesh => points.push(row.price_and_error()),
+                _ => of_mesh.push((&row.mesh, vec![row.price_and_error()])),
+            }
+        }
+        for (_, points) in of_mesh {
+            let points = points.into_iter().filter(finite).collect();
+            chart = chart.series(look(Series::new("", points)).stroke(Stroke::Marked).faint());
+        }
+        let best = own.filter(|row| row.is_on_front).map(PrecisionRow::price_and_error);
+        chart = chart.series(look(Series::new(name, best.collect())).stroke(Stroke::Unjoined));
+    }
+    let mut series: Vec<&str> = Vec::new();
+    for rival in &study.rivals {
+        if !series.contains(&rival.series.as_str()) {
+            series.push(&rival.series);
+        }
+    }
+    for (number, name) in series.into_iter().enumerate() {
+        let own: Vec<_> = study.rivals.iter().filter(|rival| rival.series == name).collect();
+        let points: Vec<(f64, f64)> =
+            own.iter().map(|rival| (rival.run_time, rival.error)).collect();
+        let is_best = crate::analysis::pareto_front(&points);
+        let number = methods.len() + number;
+        let look = |points: Vec<(f64, f64)>, name: &str| {
+            Series::new(name, points).ink(Ink::OfSeries(number)).marker(Marker::of_index(number))
+        };
+        let mut best: Vec<(f64, f64)> =
+            points.iter().zip(is_best).filter(|(_, is_best)| *is_best).map(|(at, _)| *at).collect();
+        best.sort_by(|a, b| a.0.total_cmp(&b.0));
+        chart = chart
+            .series(look(points, "").stroke(Stroke::Unjoined).faint())
+            .series(look(best.clone(), name).stroke(Stroke::Unjoined))
+            .series(look(best, "").stroke(Stroke::Dashed).thin());
+    }
+    let front = study.front().into_iter().map(PrecisionRow::price_and_error).collect();
+    chart.series(Series::new("our front", front).ink(Ink::Black).stroke(Stroke::Solid).thin())
+}

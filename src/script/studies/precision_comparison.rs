@@ -1,0 +1,75 @@
+//! Our fastest combinations beside the fastest runs of other programs.
+
+use super::labels;
+use super::precision_rows::with;
+use crate::analysis::{Precision, machines};
+use crate::output::{Cell, Table, format_number, scientific};
+
+/// The fastest of ours and of every rival for each of some errors.
+pub fn comparison(study: &Precision, errors: &[f64]) -> String {
+    let heads = [
+        "error ≤",
+        "ours [ms]",
+        "error",
+        "drift E",
+        "with",
+        "rival",
+        "[ms]",
+        "error",
+        "drift E",
+        "with",
+        "times slower",
+    ];
+    let mut table = Table::new(if study.rivals.is_empty() { &heads[..5] } else { &heads });
+    let none = || labels::number("-".to_owned());
+    let number = |text: String| labels::number(text);
+    let pairs = errors
+        .iter()
+        .flat_map(|error| able_peers(study, *error).into_iter().map(move |of| (error, of)));
+    for (error, peer) in pairs {
+        let ours = study.cheapest(*error);
+        let rival = peer.and_then(|peer| study.cheapest_of(peer, *error));
+        let mut cells = vec![number(format_number(*error))];
+        cells.extend(match ours {
+            Some(row) => [
+                number(labels::milliseconds(row.price_and_error().0)),
+                number(labels::deviation(row.error)),
+                number(labels::drift(row.trial.free_energy_drift)),
+                Cell::Text(with(row)),
+            ],
+            None => [none(), none(), none(), Cell::Text("no combination".to_owned())],
+        });
+        if let Some(peer) = peer {
+            cells.push(Cell::Text(peer.to_owned()));
+            cells.extend(match rival {
+                Some(rival) => [
+                    number(labels::milliseconds(rival.run_time)),
+                    number(scientific(rival.error, 2)),
+                    number(labels::drift(rival.energy_drift)),
+                    Cell::Text(format!("{}, {}", rival.series, rival.setting)),
+                ],
+                None => [none(), none(), none(), Cell::Text("no run".to_owned())],
+            });
+            let ratio =
+                ours.zip(rival).map(|(row, rival)| rival.run_time / row.price_and_error().0);
+            cells.push(ratio.map_or_else(none, |ratio| number(format!("{ratio:.1}"))));
+        }
+        table.row(cells);
+    }
+    let machines = machines(&study.rivals);
+    let measured = match machines.as_slice() {
+        [] => String::new(),
+        machines => format!("\nrivals measured on {}", machines.join("; ")),
+    };
+    format!("{}{measured}", table.to_string().trim_end())
+}
+
+/// The programs of rivals that have a run with at most this error, the first of all when none has; nobody without rivals.
+fn able_peers(study: &Precision, error: f64) -> Vec<Option<&str>> {
+    let peers = study.peers();
+    let able = peers.iter().copied().filter(|peer| study.cheapest_of(peer, error).is_some());
+    match able.map(Some).collect::<Vec<_>>() {
+        able if able.is_empty() => vec![peers.first().copied()],
+        able => able,
+    }
+}
