@@ -3,8 +3,8 @@
 //! Layers, each using only those to its right:
 //!
 //! ```text
-//! main → cli → repl → script → output, analysis → simulation → statics → vibration → model ┬→ joints, loads → beams → geometry
-//!                                                                                └→ integrators → newton → linalg
+//! main → cli → repl, exercises → script → output, analysis → simulation → statics → vibration → model ┬→ joints, loads → beams → geometry
+//!                                                                                                     └→ integrators → newton → linalg
 //! ```
 
 #![forbid(unsafe_code)]
@@ -12,6 +12,7 @@
 pub mod analysis;
 pub mod beams;
 pub mod cli;
+pub mod exercises;
 pub mod geometry;
 pub mod integrators;
 pub mod joints;

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use super::learn_options::LearnOptions;
 use super::limits::LimitOptions;
 use crate::repl::editor::Keys;
 
@@ -35,6 +36,8 @@ pub enum Command {
     Check(CheckOptions),
     /// Show help on a name, the whole reference, or write definition files for editors.
     Docs(DocsOptions),
+    /// Learn by doing: exercises with hints and a judge.
+    Learn(LearnOptions),
     /// Open a prompt: step, look, go back. Reads inputs from a pipe where there is no terminal.
     #[command(after_help = EXIT_CODES)]
     Repl(ReplOptions),

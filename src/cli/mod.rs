@@ -3,7 +3,10 @@
 mod args;
 mod bar;
 mod docs;
+mod grade;
 mod interrupt;
+mod learn;
+mod learn_options;
 mod limits;
 mod run;
 mod session;
@@ -42,6 +45,7 @@ pub fn main() -> ExitCode {
         Some(Command::Check(options)) => run::check(&options),
         Some(Command::Repl(options)) => session::open(&options),
         Some(Command::Docs(options)) => docs::docs(&options),
+        Some(Command::Learn(options)) => learn::learn(&options),
         None => session::start(arguments.session),
     };
     exit.into()

@@ -27,6 +27,11 @@ pub const TABLE: Table = Table {
             .summary("Records whether two numbers differ by no more than a tolerance, and shows both if they do.")
             .example("check_close(sin(PI), 0, 1e-15, \"a zero of the sine\");")
             .see(&["check"]),
+        function("todo", &[text("what").doc("what is to stand in its place")], todo)
+            .summary("Stops the script where something is still to be written, and says what.")
+            .doc("It stands in exercises in the place of what one is to find.")
+            .example("try { todo(\"a stiffness\") } catch (problem) { check(problem.message == \"still to do: a stiffness\"); }")
+            .see(&["check"]),
         property(PROBLEM, "message", |call| Ok(call.receiver::<Failure>()?.message.into()))
             .returns("a text")
             .summary("What went wrong.")
@@ -47,6 +52,12 @@ fn check(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let holds = call.boolean("condition")?;
     record(call, holds, "");
     Ok(Dynamic::UNIT)
+}
+
+fn todo(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let what = call.text("what")?;
+    Err(ScriptError::new(format!("still to do: {what}"))
+        .hint("write it in the place of todo(…), quotes and all"))
 }
 
 fn check_close(call: &mut Call) -> Result<Dynamic, ScriptError> {

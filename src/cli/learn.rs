@@ -1,0 +1,256 @@
+//! `withy learn`: exercises, for one who learns.
+
+use std::env;
+use std::io::{IsTerminal, Write, stderr, stdout};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+
+use super::Exit;
+use super::bar::{self, Wish};
+use super::grade::{Form, grade};
+use super::interrupt::{self, AtStake};
+use super::learn_options::{LearnAction, LearnOptions};
+use super::limits::LimitOptions;
+use super::run::refuse;
+use crate::exercises::catalogue::{EXERCISES, TRACKS, find};
+use crate::exercises::error::ExerciseError;
+use crate::exercises::exercise::Exercise;
+use crate::exercises::judging::{Verdict, judge};
+use crate::exercises::watch::{INTERVAL, Watcher};
+use crate::exercises::workbook::{Advice, Workbook};
+use crate::script::context::{Mode, Settings};
+use crate::script::diagnose::{Colours, Diagnostic};
+use crate::script::panics;
+use crate::script::program::Program;
+
+/// Does what was asked for.
+pub fn learn(options: &LearnOptions) -> Exit {
+    panics::silence();
+    let workbook = Workbook::near(Path::new("."));
+    let done = match &options.action {
+        None => welcome(&workbook),
+        Some(LearnAction::List) => list(&workbook),
+        Some(LearnAction::Next) => begin(&workbook).and_then(|()| show_next(&workbook)),
+        Some(LearnAction::Check { name: Some(name), limits }) => {
+            let flag = interrupt::flag(AtStake::Run);
+            begin(&workbook).and_then(|()| check(&workbook, find(name)?, limits, &flag))
+        }
+        Some(LearnAction::Check { name: None, limits }) => check_all(&workbook, limits),
+        Some(LearnAction::Hint { name }) => hint(&workbook, name.as_deref()),
+        Some(LearnAction::Reset { name }) => reset(&workbook, name),
+        Some(LearnAction::Watch { limits }) => watch(&workbook, limits),
+        Some(LearnAction::Grade { folder, json, limits }) => {
+            grade(folder, if *json { Form::Json } else { Form::Table }, limits)
+        }
+    };
+    done.unwrap_or_else(|error| refuse(&Diagnostic::general(error.to_string())))
+}
+
+type Done = Result<Exit, ExerciseError>;
+
+/// Prints a line; one who reads no more has read enough.
+pub(super) fn say(text: &str) {
+    let _ = writeln!(stdout(), "{text}");
+}
+
+/// Makes what is missing of the folder of exercises.
+fn begin(workbook: &Workbook) -> Result<(), ExerciseError> {
+    if workbook.fill()? == EXERCISES.len() {
+        say(&format!(
+            "{} exercises for you are in {}\n",
+            EXERCISES.len(),
+            shown(workbook.folder())
+        ));
+    }
+    Ok(())
+}
+
+fn welcome(workbook: &Workbook) -> Done {
+    begin(workbook)?;
+    let progress = workbook.progress()?;
+    let passed = EXERCISES.iter().filter(|exercise| progress.has_passed(exercise)).count();
+    say(&format!("{passed} of {} exercises are passed.\n", EXERCISES.len()));
+    show_next(workbook)?;
+    say(
+        "\nwithy learn watch judges each file when you save it; withy learn list shows all exercises.",
+    );
+    Ok(Exit::Good)
+}
+
+fn list(workbook: &Workbook) -> Done {
+    let progress = workbook.progress()?;
+    let longest = EXERCISES.iter().map(|exercise| exercise.name.len()).max().unwrap_or(0);
+    for track in TRACKS {
+        say(track.title);
+        for exercise in EXERCISES.iter().filter(|exercise| exercise.track == track.name) {
+            let mark = if progress.has_passed(exercise) { "passed" } else { "" };
+            say(&format!("  {mark:<6}  {:<longest$}  {}", exercise.name, exercise.title()));
+        }
+    }
+    Ok(Exit::Good)
+}
+
+/// Says what comes next.
+fn show_next(workbook: &Workbook) -> Done {
+    match workbook.next()? {
+        Some(exercise) => {
+            say(&format!("Next: {}. {}", exercise.id(), exercise.title()));
+            say(&format!("  edit           {}", shown(&workbook.file(exercise))));
+            say(&format!("  then           withy learn check {}", exercise.name));
+            say(&format!("  if it is hard  withy learn hint {}", exercise.name));
+        }
+        None => say("All exercises are passed. Congratulations!"),
+    }
+    Ok(Exit::Good)
+}
+
+/// Judges an attempt and says what it found.
+fn check(
+    workbook: &Workbook,
+    exercise: &Exercise,
+    limits: &LimitOptions,
+    flag: &Arc<AtomicBool>,
+) -> Done {
+    let settings = Settings {
+        out: workbook.folder().join("out"),
+        interrupt: Arc::clone(flag),
+        limits: limits.limits(),
+        printed: Box::new(stdout()),
+        told: Box::new(stderr()),
+        progress: bar::progress(Wish::Show),
+        ..Settings::silent(Mode::Run)
+    };
+    let verdict = judge_file(workbook, exercise, settings);
+    if !matches!(verdict, Verdict::Interrupted) {
+        workbook.note(exercise, matches!(verdict, Verdict::Passed))?;
+    }
+    let off = match verdict {
+        Verdict::Passed => {
+            say(&format!("passed: {}", exercise.id()));
+            show_next(workbook)?;
+            return Ok(Exit::Good);
+        }
+        Verdict::Interrupted => {
+            say("interrupted: the attempt was not judged");
+            return Ok(Exit::Interrupted);
+        }
+        Verdict::Broken(why) | Verdict::Stopped(why) => why.render(colours()),
+        Verdict::Off(found) => found.iter().map(|found| format!("  - {found}\n")).collect(),
+    };
+    say(&format!("{off}\nnot yet: {}", exercise.id()));
+    say(&format!("a hint: withy learn hint {}", exercise.name));
+    Ok(Exit::CheckFailed)
+}
+
+fn judge_file(workbook: &Workbook, exercise: &Exercise, settings: Settings) -> Verdict {
+    match Program::load(&workbook.file(exercise)) {
+        Ok(attempt) => judge(exercise, &attempt, settings),
+        Err(why) => Verdict::Broken(why),
+    }
+}
+
+/// Judges all attempts, in a line each.
+fn check_all(workbook: &Workbook, limits: &LimitOptions) -> Done {
+    begin(workbook)?;
+    let flag = interrupt::flag(AtStake::Run);
+    let mut passed = 0;
+    for exercise in EXERCISES {
+        let settings = Settings {
+            out: workbook.folder().join("out"),
+            interrupt: Arc::clone(&flag),
+            limits: limits.limits(),
+            ..Settings::silent(Mode::Run)
+        };
+        let verdict = judge_file(workbook, exercise, settings);
+        let has_passed = matches!(verdict, Verdict::Passed);
+        let word = match verdict {
+            Verdict::Interrupted => return Ok(Exit::Interrupted),
+            _ if has_passed => "passed ",
+            _ => "not yet",
+        };
+        workbook.note(exercise, has_passed)?;
+        passed += usize::from(has_passed);
+        say(&format!("{word}  {}", exercise.id()));
+    }
+    say(&format!("\n{passed} of {} exercises are passed.", EXERCISES.len()));
+    Ok(if passed == EXERCISES.len() { Exit::Good } else { Exit::CheckFailed })
+}
+
+fn hint(workbook: &Workbook, name: Option<&str>) -> Done {
+    begin(workbook)?;
+    let exercise = match name {
+        Some(name) => find(name)?,
+        None => match workbook.next()? {
+            Some(exercise) => exercise,
+            None => return show_next(workbook),
+        },
+    };
+    match workbook.hint(exercise)? {
+        Advice::Hint { text, number, count } => {
+            say(&format!("{}, hint {number} of {count}: {text}", exercise.id()));
+        }
+        Advice::Solution(solution) => {
+            say(&format!("{}: there are no more hints. One solution:\n", exercise.id()));
+            say(solution.trim_end());
+        }
+    }
+    Ok(Exit::Good)
+}
+
+fn reset(workbook: &Workbook, name: &str) -> Done {
+    begin(workbook)?;
+    let exercise = find(name)?;
+    let kept = workbook.reset(exercise)?;
+    say(&format!(
+        "{} is as it was at the start; your attempt is kept as {}",
+        shown(&workbook.file(exercise)),
+        shown(&kept)
+    ));
+    Ok(Exit::Good)
+}
+
+/// Judges what is saved, until all is passed or Ctrl-C comes.
+fn watch(workbook: &Workbook, limits: &LimitOptions) -> Done {
+    begin(workbook)?;
+    let flag = interrupt::flag(AtStake::Run);
+    let mut watcher = Watcher::new(workbook);
+    let mut current = workbook.next()?;
+    while let Some(exercise) = current {
+        let exit = check(workbook, exercise, limits, &flag)?;
+        let next = workbook.next()?;
+        if next.is_none() || flag.load(Ordering::Relaxed) {
+            return Ok(Exit::Good);
+        }
+        if exit == Exit::Good {
+            say("");
+        }
+        say(&format!(
+            "waiting until a file in {} is saved; Ctrl-C leaves",
+            shown(workbook.folder())
+        ));
+        current = loop {
+            if flag.load(Ordering::Relaxed) {
+                return Ok(Exit::Good);
+            }
+            match watcher.changed() {
+                Some(exercise) => break Some(exercise),
+                None => thread::sleep(INTERVAL),
+            }
+        };
+    }
+    show_next(workbook)
+}
+
+/// A path as one would type it here.
+fn shown(path: &Path) -> String {
+    let path: PathBuf = path.strip_prefix(".").unwrap_or(path).into();
+    if path.as_os_str().is_empty() { "this folder".into() } else { path.display().to_string() }
+}
+
+fn colours() -> Colours {
+    let wants =
+        stdout().is_terminal() && env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
+    if wants { Colours::Ansi } else { Colours::None }
+}

@@ -1,0 +1,63 @@
+//! Definitions of `withy learn` on the command line, and nothing else.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+
+use super::limits::LimitOptions;
+
+/// Options of `withy learn`.
+#[derive(Args)]
+#[command(after_help = EXIT_CODES)]
+pub struct LearnOptions {
+    /// What to do; without it: where you are, and what comes next.
+    #[command(subcommand)]
+    pub action: Option<LearnAction>,
+}
+
+/// What `withy learn` can do.
+#[derive(Subcommand)]
+pub enum LearnAction {
+    /// Show all exercises, and which are passed.
+    List,
+    /// Show the first exercise that is not passed.
+    Next,
+    /// Judge an attempt, or all of them; each may take 20 seconds unless --max-time says otherwise.
+    Check {
+        /// The exercise; without it, all.
+        name: Option<String>,
+        /// What an attempt may use.
+        #[command(flatten)]
+        limits: LimitOptions,
+    },
+    /// Give a hint, one more each time.
+    Hint {
+        /// The exercise; without it, the next one.
+        name: Option<String>,
+    },
+    /// Begin an exercise anew; the old attempt is kept beside it.
+    Reset {
+        /// The exercise.
+        name: String,
+    },
+    /// Judge an attempt each time it is saved, and go on to the next; Ctrl-C leaves.
+    Watch {
+        /// What an attempt may use.
+        #[command(flatten)]
+        limits: LimitOptions,
+    },
+    /// Judge the attempts of a class: a folder with a folder for each student.
+    Grade {
+        /// The folder of the class, or of one student.
+        folder: PathBuf,
+        /// Print JSON, with what is off in each attempt.
+        #[arg(long)]
+        json: bool,
+        /// What each attempt may use.
+        #[command(flatten)]
+        limits: LimitOptions,
+    },
+}
+
+const EXIT_CODES: &str = "Exit codes: 0 what was checked is passed, 1 it is not, 2 an argument or a folder is wrong, 130 \
+                          stopped by Ctrl-C. To grade exits with 0 whatever the marks are; so does Ctrl-C while watching.";

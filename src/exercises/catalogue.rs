@@ -1,0 +1,119 @@
+//! The table of all exercises, in the order in which they are met. Each row embeds its files in the program.
+
+use super::error::ExerciseError;
+use super::exercise::Exercise;
+use crate::script::suggest::nearest;
+
+/// A track of exercises.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Track {
+    /// Its name, and that of its folders.
+    pub name: &'static str,
+    /// What it is about.
+    pub title: &'static str,
+}
+
+/// The tracks, in their order.
+pub const TRACKS: &[Track] = &[
+    Track { name: "beams", title: "Beams and sections" },
+    Track { name: "splines", title: "Splines and knot vectors" },
+    Track { name: "integrators", title: "Integrators and invariants" },
+    Track { name: "sliding", title: "Joints and sliding" },
+];
+
+/// An exercise from its files.
+macro_rules! exercise {
+    ($track:literal, $name:literal) => {
+        Exercise {
+            track: $track,
+            name: $name,
+            start: include_str!(concat!("../../scripts/exercises/", $track, "/", $name, ".rhai")),
+            solution: include_str!(concat!(
+                "../../scripts/exercises/solutions/",
+                $track,
+                "/",
+                $name,
+                ".rhai"
+            )),
+            judge: include_str!(concat!(
+                "../../scripts/exercises/judges/",
+                $track,
+                "/",
+                $name,
+                ".rhai"
+            )),
+        }
+    };
+}
+
+/// All exercises, track by track, from easy to hard.
+pub const EXERCISES: &[Exercise] = &[
+    exercise!("beams", "change_one_number"),
+    exercise!("beams", "rectangle"),
+    exercise!("beams", "circle"),
+    exercise!("beams", "stocky"),
+    exercise!("beams", "first_frequency"),
+    exercise!("splines", "knot_vector"),
+    exercise!("splines", "kink"),
+    exercise!("splines", "refine"),
+    exercise!("splines", "locking"),
+    exercise!("splines", "unlocking"),
+    exercise!("integrators", "keep_the_energy"),
+    exercise!("integrators", "load_inside_a_step"),
+    exercise!("integrators", "order"),
+    exercise!("integrators", "decay"),
+    exercise!("integrators", "budget"),
+    exercise!("sliding", "pendulum"),
+    exercise!("sliding", "corner"),
+    exercise!("sliding", "bounces"),
+    exercise!("sliding", "bead_clock"),
+    exercise!("sliding", "launch"),
+    exercise!("sliding", "sliding_rule"),
+];
+
+/// The exercise that is meant by `name`, `track/name`, or the path of its file.
+///
+/// # Errors
+/// When there is none, with the one that was probably meant.
+pub fn find(name: &str) -> Result<&'static Exercise, ExerciseError> {
+    let wanted = name.strip_suffix(".rhai").unwrap_or(name);
+    let is_meant = |exercise: &&Exercise| {
+        wanted == exercise.name
+            || wanted == exercise.id()
+            || wanted.ends_with(&format!("/{}", exercise.id()))
+    };
+    EXERCISES.iter().find(is_meant).ok_or_else(|| {
+        let short = wanted.rsplit('/').next().unwrap_or(wanted);
+        let nearest = nearest(short, EXERCISES.iter().map(|exercise| exercise.name));
+        ExerciseError::Unknown { name: name.into(), nearest: nearest.map(str::to_owned) }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_found_in_every_way_that_one_writes_them() {
+        for name in ["kink", "splines/kink", "splines/kink.rhai", "./x/splines/kink.rhai"] {
+            assert_eq!(find(name).unwrap().id(), "splines/kink", "{name}");
+        }
+    }
+
+    #[test]
+    fn a_slip_is_recognised() {
+        let told = find("knik").unwrap_err().to_string();
+        assert!(told.contains("did you mean 'kink'?"), "{told}");
+        assert!(find("beams/kink").is_err());
+    }
+
+    #[test]
+    fn no_two_exercises_share_a_name_and_tracks_are_in_order() {
+        let tracks: Vec<_> = EXERCISES.iter().map(|exercise| exercise.track).collect();
+        let known: Vec<_> = TRACKS.iter().map(|track| track.name).collect();
+        assert_eq!(tracks.chunk_by(|a, b| a == b).map(|run| run[0]).collect::<Vec<_>>(), known);
+        for (index, exercise) in EXERCISES.iter().enumerate() {
+            assert!(EXERCISES[..index].iter().all(|other| other.name != exercise.name));
+        }
+    }
+}

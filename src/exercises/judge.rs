@@ -1,0 +1,74 @@
+//! The head of a judge's script: what it needs of the attempt, and hints.
+//!
+//! ```text
+//! //! needs: sim (simulation), rod (beam)
+//! //! hint: The first hint may go on
+//! //!   in further lines.
+//! //! hint: The second one says more.
+//! ```
+
+/// What stands in the head of a judge's script.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Judge {
+    /// The variables of the attempt that the judge sees, and no others.
+    pub needs: Vec<Need>,
+    /// Hints, each more open than the one before.
+    pub hints: Vec<String>,
+}
+
+/// A variable that an attempt must define.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Need {
+    /// Its name.
+    pub name: String,
+    /// The name of its type, as in messages and help.
+    pub of: String,
+}
+
+impl Judge {
+    /// Reads the head of a script.
+    pub fn of(script: &str) -> Self {
+        let head = script.lines().map_while(|line| line.strip_prefix("//!")).map(str::trim);
+        let mut entries: Vec<String> = Vec::new();
+        for line in head {
+            let begins = ["needs:", "hint:"].iter().any(|key| line.starts_with(key));
+            match entries.last_mut() {
+                Some(last) if !begins => *last += &format!(" {line}"),
+                _ => entries.push(line.to_owned()),
+            }
+        }
+        let of_key = |key: &'static str| {
+            entries.iter().filter_map(move |entry| entry.strip_prefix(key)).map(str::trim)
+        };
+        Self {
+            needs: of_key("needs:").flat_map(|list| list.split(',')).filter_map(need).collect(),
+            hints: of_key("hint:").map(str::to_owned).collect(),
+        }
+    }
+}
+
+/// `name (type)`.
+fn need(text: &str) -> Option<Need> {
+    let (name, of) = text.trim().strip_suffix(')')?.split_once(" (")?;
+    Some(Need { name: name.into(), of: of.into() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_head_has_needs_and_hints_in_their_order() {
+        let script = "//! needs: sim (simulation), n (whole number)\n//! hint: Look\n//!   twice.\n\
+                      //! hint: Then think.\n\ncheck(true);\n//! hint: not in the head";
+        let judge = Judge::of(script);
+        let need = |name: &str, of: &str| Need { name: name.into(), of: of.into() };
+        assert_eq!(judge.needs, [need("sim", "simulation"), need("n", "whole number")]);
+        assert_eq!(judge.hints, ["Look twice.", "Then think."]);
+    }
+
+    #[test]
+    fn a_script_without_a_head_needs_nothing() {
+        assert_eq!(Judge::of("check(true);\n//! hint: late"), Judge::default());
+    }
+}

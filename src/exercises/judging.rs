@@ -1,0 +1,178 @@
+//! Judging an attempt: it runs as any script, then the judge's script runs with variables of it and looks at the physics.
+//!
+//! The judge sees the variables that it names in its head, and nothing else of the attempt: functions, constants and
+//! names of the attempt cannot take the place of what the judge calls. Only checks of the judge count.
+
+use std::io;
+use std::panic::{self, AssertUnwindSafe};
+use std::rc::Rc;
+use std::time::Duration;
+
+use rhai::{Engine, OptimizationLevel, Scope};
+
+use super::exercise::Exercise;
+use super::judge::Need;
+use super::muffle::Silence;
+use crate::script::catalog::Catalog;
+use crate::script::context::{Context, Settings};
+use crate::script::diagnose::{Blame, Diagnostic, Explainer, is_interrupt};
+use crate::script::engine;
+use crate::script::kind::with_article;
+use crate::script::panics;
+use crate::script::program::Program;
+use crate::script::runner::{self, SNAPSHOTS};
+
+/// How long an attempt may take, and its judge as well, unless a limit is set.
+pub const PATIENCE: Duration = Duration::from_secs(20);
+
+/// What came of an attempt.
+#[derive(Debug)]
+pub enum Verdict {
+    /// It does what the exercise asks for.
+    Passed,
+    /// It runs, and this is off, in the judge's words.
+    Off(Vec<String>),
+    /// It does not run to its end.
+    Broken(Diagnostic),
+    /// It was stopped by a limit.
+    Stopped(Diagnostic),
+    /// It was stopped from outside.
+    Interrupted,
+}
+
+/// Runs an attempt, then its judge. What the attempt prints goes where the settings say.
+pub fn judge(exercise: &Exercise, attempt: &Program, settings: Settings) -> Verdict {
+    let mut limits = settings.limits;
+    limits.time = limits.time.or(Some(PATIENCE));
+    let settings =
+        Settings { limits, snapshots: SNAPSHOTS, folder: attempt.folder.clone(), ..settings };
+    let hold = || match Trial::open(settings).and_then(|trial| trial.hold(exercise, attempt)) {
+        Ok(()) => Verdict::Passed,
+        Err(verdict) => verdict,
+    };
+    runner::on_large_stack(&limits, hold).unwrap_or_else(Verdict::Broken)
+}
+
+/// What attempt and judge share: the engine, and the state of the run.
+struct Trial {
+    catalog: Catalog,
+    context: Context,
+    engine: Rc<Engine>,
+    silence: Silence,
+}
+
+impl Trial {
+    fn open(settings: Settings) -> Result<Self, Verdict> {
+        let silence = Silence::default();
+        let folder = settings.folder.clone();
+        let settings = Settings {
+            printed: silence.muffle(settings.printed),
+            told: silence.muffle(settings.told),
+            ..settings
+        };
+        let (catalog, context) = (Catalog::standard(), Context::new(settings));
+        let mut engine = engine::build(&catalog, &context).map_err(broken_by_us)?;
+        engine::import_from(&mut engine, &folder);
+        // The variables of an attempt must be there after it.
+        engine.set_optimization_level(OptimizationLevel::None);
+        let engine = Rc::new(engine);
+        context.lend(&engine);
+        Ok(Self { catalog, context, engine, silence })
+    }
+
+    fn hold(&self, exercise: &Exercise, attempt: &Program) -> Result<(), Verdict> {
+        let mut scope = Scope::new();
+        self.run(attempt, &mut scope)?;
+        self.silence.begin();
+        let judge = exercise.judge();
+        let mut seen = self.show(&judge.needs, &scope).map_err(Verdict::Off)?;
+        let (made, failed) =
+            self.context.with_checks(|checks| (checks.made(), checks.failed().len()));
+        let program = Program::named(&format!("the judge of {}", exercise.id()), exercise.judge);
+        self.run(&program, &mut seen).map_err(|verdict| match verdict {
+            Verdict::Broken(why) if why.blame == Blame::User => {
+                Verdict::Off(vec![format!("the judge could not go on: {}", why.message)])
+            }
+            other => other,
+        })?;
+        let found = self.context.with_checks(|checks| {
+            let found = checks.failed()[failed..].iter().map(|check| check.message.clone());
+            (checks.made() > made).then(|| found.collect::<Vec<_>>())
+        });
+        match found {
+            None => Err(broken_by_us(format!("{} has looked at nothing", program.name))),
+            Some(found) if found.is_empty() => Ok(()),
+            Some(found) => Err(Verdict::Off(found)),
+        }
+    }
+
+    /// The variables that a judge needs, or what is wrong with them.
+    fn show(&self, needs: &[Need], attempt: &Scope) -> Result<Scope<'static>, Vec<String>> {
+        let mut seen = Scope::new();
+        let mut wrong = Vec::new();
+        for Need { name, of } in needs {
+            let Some(value) = attempt.get(name) else {
+                wrong.push(format!(
+                    "your script has no variable '{name}' when it ends; the judge looks at it, so it must be made there with \
+                     'let {name} = …', outside of braces"
+                ));
+                continue;
+            };
+            let value = value.flatten_clone();
+            match self.engine.map_type_name(value.type_name()) {
+                found if found == of => _ = seen.push_dynamic(name.as_str(), value),
+                // A whole number is welcome wherever a number is.
+                "whole number" if of == "number" => {
+                    let number = value.as_int().unwrap_or_default() as f64;
+                    seen.push(name.as_str(), number);
+                }
+                found => wrong.push(format!(
+                    "the variable '{name}' of your script should be {}, and is {}",
+                    with_article(of),
+                    with_article(found)
+                )),
+            }
+        }
+        if wrong.is_empty() { Ok(seen) } else { Err(wrong) }
+    }
+
+    /// Runs a script; its variables stay in the scope.
+    fn run(&self, program: &Program, scope: &mut Scope<'static>) -> Result<(), Verdict> {
+        let _watchdog = self.context.meter().watch().map_err(no_watchdog)?;
+        // A panic in a native body is our mistake: the next attempt must still be judged.
+        let run = AssertUnwindSafe(|| {
+            let ast = runner::parse(&self.engine, program)?;
+            self.engine.run_ast_with_scope(scope, &ast)
+        });
+        let outcome = panic::catch_unwind(run);
+        self.context.progress().end();
+        self.context.flush();
+        match outcome {
+            Ok(Ok(())) => Ok(()),
+            Ok(Err(error)) if is_interrupt(&error) => Err(Verdict::Interrupted),
+            Ok(Err(error)) => {
+                let (catalog, engine) = (&self.catalog, &*self.engine);
+                let why = Explainer { program, catalog, engine }.explain(&error);
+                let is_stopped = self.context.is_stopped();
+                Err(if is_stopped { Verdict::Stopped(why) } else { Verdict::Broken(why) })
+            }
+            Err(panic) => Err(broken_by_us(panics::message(&*panic))),
+        }
+    }
+}
+
+/// Simulations hold functions that hold the context, which holds the last simulation.
+impl Drop for Trial {
+    fn drop(&mut self) {
+        self.context.forget_simulations();
+    }
+}
+
+fn broken_by_us(why: String) -> Verdict {
+    Verdict::Broken(Diagnostic::bug(why))
+}
+
+fn no_watchdog(error: io::Error) -> Verdict {
+    let told = format!("cannot start a thread that keeps the limits: {error}");
+    Verdict::Broken(Diagnostic::general(told))
+}

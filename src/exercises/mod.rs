@@ -1,0 +1,16 @@
+//! Exercises: a start file with a gap, a judge that looks at the physics of the attempt, hints in steps, a solution.
+//!
+//! [`catalogue`] is the table of all; [`judging`] runs an attempt and its judge; [`workbook`] is the folder of a student,
+//! [`submissions`] are the folders of a class. Nothing is printed here: `cli` does that.
+
+pub mod catalogue;
+pub mod error;
+pub mod exercise;
+pub mod grading;
+pub mod judge;
+pub mod judging;
+mod muffle;
+pub mod progress;
+pub mod submissions;
+pub mod watch;
+pub mod workbook;

@@ -1,0 +1,112 @@
+//! The folders of a class: which students there are, and where their attempts lie.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::catalogue::{EXERCISES, TRACKS};
+use super::error::ExerciseError;
+use super::exercise::Exercise;
+use super::workbook;
+
+/// What one student has handed in.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Submission {
+    /// The student: the name of the folder.
+    pub student: String,
+    /// The folder.
+    pub folder: PathBuf,
+}
+
+impl Submission {
+    /// The submissions in a folder, by name: each folder in it is one; or it is one itself, when attempts lie there.
+    ///
+    /// # Errors
+    /// When the folder cannot be read, or there is nothing to grade.
+    pub fn all_in(folder: &Path) -> Result<Vec<Self>, ExerciseError> {
+        let unreadable = |source| ExerciseError::Read { path: folder.into(), source };
+        let own = Self::new(folder);
+        if own.holds_attempts() {
+            return Ok(vec![own]);
+        }
+        let mut all = Vec::new();
+        for entry in fs::read_dir(folder).map_err(unreadable)? {
+            let path = entry.map_err(unreadable)?.path();
+            let is_hidden =
+                path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+            if path.is_dir() && !is_hidden {
+                all.push(Self::new(&path));
+            }
+        }
+        all.sort_by(|a, b| a.student.cmp(&b.student));
+        match all.is_empty() {
+            true => {
+                Err(ExerciseError::NoSubmissions { path: folder.into(), track: TRACKS[0].name })
+            }
+            false => Ok(all),
+        }
+    }
+
+    fn new(folder: &Path) -> Self {
+        let real = folder.canonicalize().unwrap_or_else(|_| folder.into());
+        let name = real.file_name().map(|name| name.to_string_lossy().into_owned());
+        Self { student: name.unwrap_or_else(|| ".".into()), folder: folder.into() }
+    }
+
+    /// The attempt at an exercise: in the folder of its track, with or without the folder that `withy learn` makes, or
+    /// beside the others.
+    pub fn attempt(&self, exercise: &Exercise) -> Option<PathBuf> {
+        let inside = self.folder.join(workbook::FOLDER);
+        let places = [
+            self.folder.join(exercise.file()),
+            inside.join(exercise.file()),
+            self.folder.join(format!("{}.rhai", exercise.name)),
+        ];
+        places.into_iter().find(|place| place.exists())
+    }
+
+    fn holds_attempts(&self) -> bool {
+        EXERCISES.iter().any(|exercise| self.attempt(exercise).is_some())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn write(folder: &Path, file: &str) {
+        let path = folder.join(file);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, "").unwrap();
+    }
+
+    #[test]
+    fn students_are_folders_by_name_however_their_files_lie() {
+        let class = tempfile::tempdir().unwrap();
+        write(class.path(), "carl/kink.rhai");
+        write(class.path(), "ada/splines/kink.rhai");
+        write(class.path(), "bea/withy-exercises/splines/kink.rhai");
+        write(class.path(), ".git/config");
+        write(class.path(), "README.md");
+        let all = Submission::all_in(class.path()).unwrap();
+        let names: Vec<_> = all.iter().map(|submission| submission.student.as_str()).collect();
+        assert_eq!(names, ["ada", "bea", "carl"]);
+        let kink = super::super::catalogue::find("kink").unwrap();
+        assert!(all.iter().all(|submission| submission.attempt(kink).is_some()));
+    }
+
+    #[test]
+    fn the_files_of_one_student_are_one_submission() {
+        let one = tempfile::tempdir().unwrap();
+        write(one.path(), "splines/kink.rhai");
+        write(one.path(), "out/picture.svg");
+        assert_eq!(Submission::all_in(one.path()).unwrap().len(), 1);
+    }
+
+    #[test]
+    fn an_empty_folder_and_none_are_refused() {
+        let empty = tempfile::tempdir().unwrap();
+        let told = Submission::all_in(empty.path()).unwrap_err().to_string();
+        assert!(told.contains("one folder for each student"), "{told}");
+        assert!(Submission::all_in(&empty.path().join("none")).is_err());
+    }
+}

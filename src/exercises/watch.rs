@@ -1,0 +1,67 @@
+//! Which attempts were saved since one looked last.
+//!
+//! Files are read and compared: a few kilobytes a few times a second. That works on every file system and with every
+//! editor, also with those that put a new file in the place of the old one, and a file that was saved unchanged is not
+//! judged again.
+
+use std::fs;
+use std::time::Duration;
+
+use super::catalogue::EXERCISES;
+use super::exercise::Exercise;
+use super::workbook::Workbook;
+
+/// How long to wait between two looks.
+pub const INTERVAL: Duration = Duration::from_millis(200);
+
+/// The attempts as they were when one looked last.
+pub struct Watcher<'a> {
+    workbook: &'a Workbook,
+    seen: Vec<Option<Vec<u8>>>,
+}
+
+impl<'a> Watcher<'a> {
+    /// Looks for the first time.
+    pub fn new(workbook: &'a Workbook) -> Self {
+        let seen = EXERCISES.iter().map(|exercise| content(workbook, exercise)).collect();
+        Self { workbook, seen }
+    }
+
+    /// The first exercise, in the order of the table, whose file has another content than before. A file that is not
+    /// there, as between the two halves of saving, has not changed.
+    pub fn changed(&mut self) -> Option<&'static Exercise> {
+        EXERCISES.iter().zip(&mut self.seen).find_map(|(exercise, seen)| {
+            let now = content(self.workbook, exercise);
+            let has_changed = now.is_some() && now != *seen;
+            has_changed.then(|| {
+                *seen = now;
+                exercise
+            })
+        })
+    }
+}
+
+fn content(workbook: &Workbook, exercise: &Exercise) -> Option<Vec<u8>> {
+    fs::read(workbook.file(exercise)).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_change_is_seen_once_and_a_file_that_is_away_for_a_moment_is_none() {
+        let folder = tempfile::tempdir().unwrap();
+        let workbook = Workbook::near(folder.path());
+        workbook.fill().unwrap();
+        let mut watcher = Watcher::new(&workbook);
+        assert_eq!(watcher.changed(), None);
+        let file = workbook.file(&EXERCISES[1]);
+        fs::remove_file(&file).unwrap();
+        assert_eq!(watcher.changed(), None);
+        fs::write(&file, "new").unwrap();
+        assert_eq!(watcher.changed(), Some(&EXERCISES[1]));
+        fs::write(&file, "new").unwrap();
+        assert_eq!(watcher.changed(), None);
+    }
+}

@@ -1,0 +1,223 @@
+//! The folder of a student: start files, attempts, progress.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::catalogue::EXERCISES;
+use super::error::ExerciseError;
+use super::exercise::Exercise;
+use super::progress::{self, Progress};
+use crate::output::write_whole;
+
+/// The folder that is made where there is none yet.
+pub const FOLDER: &str = "withy-exercises";
+
+/// A folder with a file for each exercise. What a student has written there is never overwritten.
+#[derive(Debug)]
+pub struct Workbook {
+    folder: PathBuf,
+}
+
+/// A hint, or what comes after the last one.
+#[derive(Debug, PartialEq, Eq)]
+pub enum Advice {
+    /// A hint with its number, from 1, and how many there are.
+    Hint {
+        /// What it says.
+        text: String,
+        /// Its number, from 1.
+        number: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// All hints were given: a solution.
+    Solution(&'static str),
+}
+
+impl Workbook {
+    /// The folder of a student who is in `here`: that one, if it is a folder of exercises, else one below. Writes nothing.
+    pub fn near(here: &Path) -> Self {
+        let is_inside = here.join(progress::FILE).exists();
+        Self { folder: if is_inside { here.into() } else { here.join(FOLDER) } }
+    }
+
+    /// Makes the folder, and the start files that are not there. Gives how many were written.
+    ///
+    /// # Errors
+    /// When something cannot be written.
+    pub fn fill(&self) -> Result<usize, ExerciseError> {
+        let missing: Vec<_> =
+            EXERCISES.iter().filter(|exercise| !self.file(exercise).exists()).collect();
+        for exercise in &missing {
+            write_whole(self.file(exercise), exercise.start.as_bytes())?;
+        }
+        if !self.folder.join(progress::FILE).exists() {
+            Progress::default().write(&self.folder)?;
+        }
+        Ok(missing.len())
+    }
+
+    /// Where it is.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The file of an attempt.
+    pub fn file(&self, exercise: &Exercise) -> PathBuf {
+        self.folder.join(exercise.track).join(format!("{}.rhai", exercise.name))
+    }
+
+    /// How far the student is.
+    ///
+    /// # Errors
+    /// When the file of the progress cannot be used.
+    pub fn progress(&self) -> Result<Progress, ExerciseError> {
+        Progress::read(&self.folder)
+    }
+
+    /// The first exercise that is not passed; none when all are.
+    ///
+    /// # Errors
+    /// When the file of the progress cannot be used.
+    pub fn next(&self) -> Result<Option<&'static Exercise>, ExerciseError> {
+        let progress = self.progress()?;
+        Ok(EXERCISES.iter().find(|exercise| !progress.has_passed(exercise)))
+    }
+
+    /// Notes what the last check of an exercise said.
+    ///
+    /// # Errors
+    /// When the file of the progress cannot be used.
+    pub fn note(&self, exercise: &Exercise, passed: bool) -> Result<(), ExerciseError> {
+        self.change(|progress| progress.note(exercise, passed))
+    }
+
+    /// The next hint for an exercise, which counts as given.
+    ///
+    /// # Errors
+    /// When the file of the progress cannot be used.
+    pub fn hint(&self, exercise: &Exercise) -> Result<Advice, ExerciseError> {
+        let given = self.progress()?.hints(exercise);
+        let hints = exercise.judge().hints;
+        let Some(text) = hints.get(given).cloned() else {
+            return Ok(Advice::Solution(exercise.solution));
+        };
+        self.change(|progress| progress.note_hint(exercise))?;
+        Ok(Advice::Hint { text, number: given + 1, count: hints.len() })
+    }
+
+    /// Begins an exercise anew. Gives the file that keeps the old attempt.
+    ///
+    /// # Errors
+    /// When something cannot be written; the attempt is still there then.
+    pub fn reset(&self, exercise: &Exercise) -> Result<PathBuf, ExerciseError> {
+        let file = self.file(exercise);
+        let kept = free_name(&file);
+        fs::rename(&file, &kept).map_err(|source| ExerciseError::Keep {
+            from: file.clone(),
+            to: kept.clone(),
+            source,
+        })?;
+        write_whole(&file, exercise.start.as_bytes())?;
+        self.change(|progress| progress.forget(exercise))?;
+        Ok(kept)
+    }
+
+    /// The file is read again each time: a student may ask for a hint while another window watches.
+    fn change(&self, change: impl FnOnce(&mut Progress)) -> Result<(), ExerciseError> {
+        let before = self.progress()?;
+        let mut progress = before.clone();
+        change(&mut progress);
+        if progress == before { Ok(()) } else { progress.write(&self.folder) }
+    }
+}
+
+/// `name.old`, or `name.old2` and so on where that is taken.
+fn free_name(file: &Path) -> PathBuf {
+    let numbered = |number: usize| match number {
+        1 => file.with_extension("old"),
+        _ => file.with_extension(format!("old{number}")),
+    };
+    let mut number = 1;
+    while numbered(number).exists() {
+        number += 1;
+    }
+    numbered(number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn workbook() -> (tempfile::TempDir, Workbook) {
+        let folder = tempfile::tempdir().unwrap();
+        let workbook = Workbook::near(folder.path());
+        workbook.fill().unwrap();
+        (folder, workbook)
+    }
+
+    #[test]
+    fn it_is_found_from_outside_and_from_inside() {
+        let (folder, workbook) = workbook();
+        assert_eq!(workbook.folder(), folder.path().join(FOLDER));
+        assert_eq!(Workbook::near(workbook.folder()).folder(), workbook.folder());
+    }
+
+    #[test]
+    fn only_missing_files_are_written() {
+        let (_folder, workbook) = workbook();
+        let file = workbook.file(&EXERCISES[0]);
+        fs::write(&file, "mine").unwrap();
+        fs::remove_file(workbook.file(&EXERCISES[1])).unwrap();
+        assert_eq!(workbook.fill().unwrap(), 1);
+        assert_eq!(fs::read_to_string(file).unwrap(), "mine");
+    }
+
+    #[test]
+    fn progress_survives_and_follows_the_last_check() {
+        let (_folder, workbook) = workbook();
+        assert_eq!(workbook.next().unwrap(), Some(&EXERCISES[0]));
+        workbook.note(&EXERCISES[0], true).unwrap();
+        let again = Workbook::near(workbook.folder());
+        assert_eq!(again.next().unwrap(), Some(&EXERCISES[1]));
+        again.note(&EXERCISES[0], false).unwrap();
+        assert_eq!(workbook.next().unwrap(), Some(&EXERCISES[0]));
+    }
+
+    #[test]
+    fn each_hint_says_more_and_the_solution_comes_last() {
+        let (_folder, workbook) = workbook();
+        let hints = EXERCISES[0].judge().hints;
+        for (index, hint) in hints.iter().enumerate() {
+            let (number, count) = (index + 1, hints.len());
+            let expected = Advice::Hint { text: hint.clone(), number, count };
+            assert_eq!(workbook.hint(&EXERCISES[0]).unwrap(), expected);
+        }
+        let last = workbook.hint(&EXERCISES[0]).unwrap();
+        assert_eq!(last, Advice::Solution(EXERCISES[0].solution));
+    }
+
+    #[test]
+    fn a_reset_keeps_every_old_attempt() {
+        let (_folder, workbook) = workbook();
+        let file = workbook.file(&EXERCISES[0]);
+        for attempt in ["first", "second"] {
+            fs::write(&file, attempt).unwrap();
+            workbook.note(&EXERCISES[0], true).unwrap();
+            let kept = workbook.reset(&EXERCISES[0]).unwrap();
+            assert_eq!(fs::read_to_string(kept).unwrap(), attempt);
+            assert_eq!(fs::read_to_string(&file).unwrap(), EXERCISES[0].start);
+            assert!(!workbook.progress().unwrap().has_passed(&EXERCISES[0]));
+        }
+    }
+
+    #[test]
+    fn damaged_progress_is_told_and_left_alone() {
+        let (_folder, workbook) = workbook();
+        let file = workbook.folder().join(progress::FILE);
+        fs::write(&file, "{ half").unwrap();
+        let told = workbook.note(&EXERCISES[0], true).unwrap_err().to_string();
+        assert!(told.contains("is damaged") && told.contains("your attempts stay"), "{told}");
+        assert_eq!(fs::read_to_string(&file).unwrap(), "{ half");
+    }
+}

@@ -1,0 +1,331 @@
+//! `withy learn` through the real binary: what is said, what is written, exit codes, watching, grading.
+
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::thread;
+use std::time::Duration;
+
+use tempfile::TempDir;
+use withy::exercises::catalogue::EXERCISES;
+
+fn learn(folder: &Path, words: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
+    command.arg("learn").args(words).current_dir(folder).output().unwrap()
+}
+
+/// The exit code and all that was said.
+fn said(folder: &Path, words: &[&str]) -> (i32, String) {
+    let output = learn(folder, words);
+    let text = [output.stdout, output.stderr].map(|said| String::from_utf8(said).unwrap()).concat();
+    (output.status.code().unwrap(), text)
+}
+
+fn classroom() -> TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+fn solve(folder: &Path, count: usize) {
+    for exercise in &EXERCISES[..count] {
+        let file = folder.join(exercise.file());
+        fs::create_dir_all(file.parent().unwrap()).unwrap();
+        fs::write(file, exercise.solution).unwrap();
+    }
+}
+
+#[test]
+fn a_first_look_makes_the_folder_and_says_what_to_do() {
+    let class = classroom();
+    let (code, text) = said(class.path(), &[]);
+    assert_eq!(code, 0);
+    let first = EXERCISES[0].name;
+    assert!(
+        text.contains(&format!("{} exercises for you are in withy-exercises", EXERCISES.len())),
+        "{text}"
+    );
+    assert!(text.contains(&format!("0 of {} exercises are passed", EXERCISES.len())), "{text}");
+    assert!(text.contains(&format!("withy learn check {first}")), "{text}");
+    let files =
+        EXERCISES.iter().map(|exercise| class.path().join("withy-exercises").join(exercise.file()));
+    for (file, exercise) in files.zip(EXERCISES) {
+        assert_eq!(fs::read_to_string(file).unwrap(), exercise.start);
+    }
+    let (_, again) = said(&class.path().join("withy-exercises"), &["next"]);
+    assert!(
+        again.contains(&format!("edit           {}/{first}.rhai", EXERCISES[0].track)),
+        "{again}"
+    );
+}
+
+#[test]
+fn listing_writes_nothing_and_shows_every_title() {
+    let class = classroom();
+    let (code, text) = said(class.path(), &["list"]);
+    assert_eq!(code, 0);
+    assert!(EXERCISES.iter().all(|exercise| text.contains(exercise.title())), "{text}");
+    assert_eq!(fs::read_dir(class.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn checks_tell_by_their_exit_code_and_progress_survives() {
+    let class = classroom();
+    let name = EXERCISES[0].name;
+    let (code, text) = said(class.path(), &["check", name]);
+    assert_eq!(code, 1, "{text}");
+    assert!(text.contains("the strip is too soft") && text.contains("not yet:"), "{text}");
+    let folder = class.path().join("withy-exercises");
+    solve(&folder, 1);
+    let (code, text) = said(class.path(), &["check", name]);
+    assert_eq!(code, 0, "{text}");
+    assert!(text.contains(&format!("Next: {}", EXERCISES[1].id())), "{text}");
+    assert!(said(&folder, &["list"]).1.contains(&format!("passed  {name}")));
+    assert!(said(&folder, &[]).1.contains("1 of "));
+}
+
+#[test]
+fn mistakes_are_shown_at_their_line_and_column() {
+    let class = classroom();
+    said(class.path(), &[]);
+    let file = class.path().join("withy-exercises/splines/kink.rhai");
+    fs::write(&file, "let k = knots(2)\nlet roof = 1;").unwrap();
+    let (code, text) = said(class.path(), &["check", "kink"]);
+    assert_eq!(code, 1);
+    assert!(text.contains("kink.rhai:1:17"), "{text}");
+    assert!(!text.contains('\u{1b}'), "no colours in a pipe");
+}
+
+#[test]
+fn all_are_checked_without_a_name() {
+    let class = classroom();
+    said(class.path(), &[]);
+    let folder = class.path().join("withy-exercises");
+    solve(&folder, 2);
+    let (code, text) = said(&folder, &["check"]);
+    assert_eq!(code, 1);
+    assert!(text.ends_with(&format!("2 of {} exercises are passed.\n", EXERCISES.len())), "{text}");
+    solve(&folder, EXERCISES.len());
+    let (code, text) = said(&folder, &["check"]);
+    assert_eq!(code, 0, "{text}");
+    assert!(said(&folder, &["next"]).1.contains("Congratulations"));
+}
+
+#[test]
+fn hints_come_one_by_one_and_then_the_solution() {
+    let class = classroom();
+    let exercise = &EXERCISES[1];
+    let hints = exercise.judge().hints;
+    for (index, hint) in hints.iter().enumerate() {
+        let (code, text) = said(class.path(), &["hint", exercise.name]);
+        assert_eq!(code, 0);
+        assert!(text.contains(&format!("hint {} of {}: {hint}", index + 1, hints.len())), "{text}");
+    }
+    let (_, text) = said(class.path(), &["hint", exercise.name]);
+    assert!(
+        text.contains("One solution:") && text.contains(exercise.solution.trim_end()),
+        "{text}"
+    );
+    assert!(said(class.path(), &["hint"]).1.contains(&format!("{}, hint 1", EXERCISES[0].id())));
+}
+
+#[test]
+fn a_reset_keeps_the_attempt_and_says_where() {
+    let class = classroom();
+    said(class.path(), &[]);
+    let file = class.path().join("withy-exercises").join(EXERCISES[0].file());
+    fs::write(&file, "mine").unwrap();
+    let (code, text) = said(class.path(), &["reset", EXERCISES[0].name]);
+    assert_eq!(code, 0);
+    let kept = file.with_extension("old");
+    assert!(
+        text.contains(&format!(
+            "kept as withy-exercises/{}/{}.old",
+            EXERCISES[0].track, EXERCISES[0].name
+        )),
+        "{text}"
+    );
+    assert_eq!(fs::read_to_string(kept).unwrap(), "mine");
+    assert_eq!(fs::read_to_string(file).unwrap(), EXERCISES[0].start);
+}
+
+#[test]
+fn unknown_names_and_damaged_progress_are_told() {
+    let class = classroom();
+    let (code, text) = said(class.path(), &["check", "knik"]);
+    assert_eq!(code, 2);
+    assert!(text.contains("there is no exercise 'knik'; did you mean 'kink'?"), "{text}");
+    fs::write(class.path().join("withy-exercises/withy-progress.json"), "[]").unwrap();
+    let (code, text) = said(class.path(), &["next"]);
+    assert_eq!(code, 2);
+    assert!(text.contains("is damaged"), "{text}");
+}
+
+/// The lines that a process prints, as they come.
+fn lines(output: impl std::io::Read + Send + 'static) -> Receiver<String> {
+    let (send, receive) = channel();
+    thread::spawn(move || {
+        for line in BufReader::new(output).lines().map_while(Result::ok) {
+            if send.send(line).is_err() {
+                return;
+            }
+        }
+    });
+    receive
+}
+
+fn wait_for(lines: &Receiver<String>, phrase: &str) {
+    let mut heard = Vec::new();
+    loop {
+        match lines.recv_timeout(Duration::from_secs(60)) {
+            Ok(line) if line.contains(phrase) => return,
+            Ok(line) => heard.push(line),
+            Err(_) => panic!("'{phrase}' was not said, but: {heard:#?}"),
+        }
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn watching_judges_what_is_saved_and_ends_with_ctrl_c() {
+    let class = classroom();
+    said(class.path(), &[]);
+    let folder = class.path().join("withy-exercises");
+    let mut watching = Command::new(env!("CARGO_BIN_EXE_withy"))
+        .args(["learn", "watch"])
+        .current_dir(&folder)
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let printed = lines(watching.stdout.take().unwrap());
+    wait_for(&printed, &format!("not yet: {}", EXERCISES[0].id()));
+    wait_for(&printed, "waiting until a file");
+    solve(&folder, 1);
+    wait_for(&printed, &format!("passed: {}", EXERCISES[0].id()));
+    wait_for(&printed, &format!("Next: {}", EXERCISES[1].id()));
+    wait_for(&printed, "waiting until a file");
+    fs::write(folder.join(EXERCISES[1].file()), "let strip = 1;").unwrap();
+    wait_for(&printed, "'strip' of your script should be a section, and is a whole number");
+    wait_for(&printed, "waiting until a file");
+    Command::new("kill").args(["-INT", &watching.id().to_string()]).status().unwrap();
+    assert_eq!(watching.wait().unwrap().code(), Some(0));
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_stops_a_check_and_leaves_the_progress_as_it_was() {
+    let class = classroom();
+    said(class.path(), &[]);
+    let folder = class.path().join("withy-exercises");
+    solve(&folder, 1);
+    assert_eq!(said(&folder, &["check", EXERCISES[0].name]).0, 0);
+    fs::write(folder.join(EXERCISES[0].file()), "print(\"started\"); loop { }").unwrap();
+    let mut checking = Command::new(env!("CARGO_BIN_EXE_withy"))
+        .args(["learn", "check", EXERCISES[0].name])
+        .current_dir(&folder)
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let printed = lines(checking.stdout.take().unwrap());
+    wait_for(&printed, "started");
+    Command::new("kill").args(["-INT", &checking.id().to_string()]).status().unwrap();
+    assert_eq!(checking.wait().unwrap().code(), Some(130));
+    assert!(said(&folder, &[]).1.contains("1 of "));
+}
+
+#[test]
+fn watching_ends_when_all_is_passed() {
+    let class = classroom();
+    said(class.path(), &[]);
+    let folder = class.path().join("withy-exercises");
+    solve(&folder, EXERCISES.len());
+    said(&folder, &["check"]);
+    let (code, text) = said(&folder, &["watch"]);
+    assert_eq!(code, 0);
+    assert!(text.contains("All exercises are passed"), "{text}");
+}
+
+/// A class: one has solved two, one has broken files of every kind, one has only begun.
+fn class_of_three() -> TempDir {
+    let class = classroom();
+    let write = |student: &str, name: &str, content: &[u8]| {
+        let file = class.path().join(student).join(name);
+        fs::create_dir_all(file.parent().unwrap()).unwrap();
+        fs::write(file, content).unwrap();
+    };
+    solve(&class.path().join("ada"), 2);
+    write("bea", "withy-exercises/splines/knot_vector.rhai", b"let k = knots(3, [0, 1");
+    write("bea", "withy-exercises/splines/kink.rhai", b"// \xff\xfe");
+    write("bea", "withy-exercises/splines/refine.rhai", b"loop { }");
+    write(
+        "bea",
+        "withy-exercises/splines/unlocking.rhai",
+        b"plot_history(1, 2, 3); let mesh = bspline(3);",
+    );
+    write("carl", &EXERCISES[0].file(), EXERCISES[0].start.replace('\n', "\r\n").as_bytes());
+    write(
+        "carl",
+        "beams/rectangle.rhai",
+        b"let strip = section(#{ EA: 1, GA: 1, EI: 1, rho_A: 1, rho_I: 1 });",
+    );
+    class
+}
+
+#[test]
+fn a_class_is_graded_as_json_whatever_it_hands_in() {
+    let class = class_of_three();
+    let output = learn(class.path(), &["grade", ".", "--json", "--max-time", "1"]);
+    assert_eq!(output.status.code(), Some(0));
+    let text = String::from_utf8(output.stdout).unwrap();
+    let graded: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let keys: Vec<_> = graded.as_object().unwrap().keys().collect();
+    assert_eq!(keys, ["exercises", "students"]);
+    assert_eq!(graded["exercises"], EXERCISES.len());
+    let students = graded["students"].as_array().unwrap();
+    let names: Vec<_> =
+        students.iter().map(|student| student["student"].as_str().unwrap()).collect();
+    assert_eq!(names, ["ada", "bea", "carl"]);
+    assert_eq!(students[0]["passed"], 2);
+    let result = |student: usize, id: &str| {
+        let exercises = students[student]["exercises"].as_array().unwrap();
+        assert_eq!(exercises.len(), EXERCISES.len());
+        let found = exercises.iter().find(|exercise| exercise["exercise"] == id).unwrap();
+        let keys: Vec<_> = found.as_object().unwrap().keys().collect();
+        assert_eq!(keys, ["exercise", "result", "message"]);
+        [&found["result"], &found["message"]].map(|text| text.as_str().unwrap().to_owned())
+    };
+    assert_eq!(result(0, "sliding/corner"), ["missing", ""]);
+    assert_eq!(result(2, &EXERCISES[0].id()), ["untouched", ""]);
+    let starts = |student, id: &str, mark: &str, message: &str| {
+        let [result, said] = result(student, id);
+        assert!(result == mark && said.contains(message), "{id}: {result}, {said}");
+    };
+    starts(1, "splines/knot_vector", "broken", "line 1: ");
+    starts(1, "splines/kink", "broken", "not UTF-8");
+    starts(1, "splines/refine", "stopped", "longer than 1 s");
+    starts(1, "splines/unlocking", "broken", "line 1: ");
+    starts(2, "beams/rectangle", "off", "EA is not Young's modulus times the area");
+    let again = learn(class.path(), &["grade", ".", "--json", "--max-time", "1"]);
+    assert_eq!(String::from_utf8(again.stdout).unwrap(), text, "equal submissions, equal bytes");
+    assert!(!class.path().join("ada/out").exists(), "nothing is written to a submission");
+}
+
+#[test]
+fn a_class_is_graded_as_a_table() {
+    let class = class_of_three();
+    let (code, text) = said(class.path(), &["grade", "ada"]);
+    assert_eq!(code, 0);
+    assert!(text.lines().any(|line| line.starts_with("ada") && line.contains("missing")), "{text}");
+    let sum = text.lines().last().unwrap().split_whitespace().collect::<Vec<_>>();
+    assert_eq!(sum, ["ada", "2", EXERCISES.len().to_string().as_str()]);
+}
+
+#[test]
+fn a_folder_that_holds_no_submissions_is_refused() {
+    let class = classroom();
+    let (code, text) = said(class.path(), &["grade", "."]);
+    assert_eq!(code, 2);
+    assert!(text.contains("one folder for each student"), "{text}");
+}
