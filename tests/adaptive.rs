@@ -88,7 +88,7 @@ fn errors_and_work_beside_those_of_fixed_steps() {
                 errors.push(error(&flight, &exact));
             }
             let varying = &errors[errors.len() - 4..];
-            assert!(varying[3] < 3e-5 && varying[3] < 0.1 * varying[0], "{name}: {errors:?}");
+            assert!(varying[3] < 3e-5 && varying[3] < 0.2 * varying[0], "{name}: {errors:?}");
         }
     }
 }
@@ -172,11 +172,11 @@ fn the_work_is_as_it_was() {
         ),
     ];
     let expected = [
-        "573 steps, 64 rejected, 0 failed, 1724 iterations, 1919 factorised",
+        "572 steps, 60 rejected, 0 failed, 1723 iterations, 1907 factorised",
         "563 steps, 8 rejected, 0 failed, 1703 iterations, 1731 factorised",
-        "113 steps, 7 rejected, 0 failed, 2506 iterations, 2663 factorised",
-        "404 steps, 28 rejected, 0 failed, 1212 iterations, 1296 factorised",
-        "32 steps, 2 rejected, 0 failed, 96 iterations, 102 factorised",
+        "114 steps, 9 rejected, 0 failed, 2515 iterations, 2717 factorised",
+        "404 steps, 24 rejected, 0 failed, 1212 iterations, 1284 factorised",
+        "31 steps, 1 rejected, 0 failed, 93 iterations, 96 factorised",
     ];
     assert_eq!(flights, expected);
 }

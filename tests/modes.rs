@@ -18,7 +18,7 @@ use withy::vibration::{Mode, Modes, VibrationError};
 fn frequencies(scene: &Scene) -> Vec<f64> {
     let mut model = Model::assemble(scene).unwrap();
     let all = model.unknowns();
-    let modes = Modes::of(&mut model, all).unwrap();
+    let modes = Modes::of(&mut model, all, &mut || true).unwrap();
     modes.all().iter().map(Mode::angular_frequency).collect()
 }
 
@@ -178,7 +178,7 @@ fn the_lowest_modes_of_a_large_scene_are_those_of_a_small_one() {
         let of = |spans: usize| {
             let scene = supported(support, &Mesh::bspline(spans, 3, 2).unwrap(), section);
             let mut model = Model::assemble(&scene).unwrap();
-            (model.unknowns(), squares(&Modes::of(&mut model, 8).unwrap()))
+            (model.unknowns(), squares(&Modes::of(&mut model, 8, &mut || true).unwrap()))
         };
         let ((small, dense), (large, sparse)) = (of(76), of(80));
         assert!(small <= 240 && large > 240, "{small} {large}");
@@ -194,13 +194,13 @@ fn the_lowest_modes_of_a_large_scene_are_those_of_a_small_one() {
         &Mesh::bspline(400, 3, 2).unwrap(),
         scenes::spaghetti_section(1e6, 100.0),
     );
-    let modes = Modes::of(&mut Model::assemble(&scene).unwrap(), 4).unwrap();
+    let modes = Modes::of(&mut Model::assemble(&scene).unwrap(), 4, &mut || true).unwrap();
     let coarse = supported(
         "cantilever",
         &Mesh::bspline(16, 5, 2).unwrap(),
         scenes::spaghetti_section(1e6, 100.0),
     );
-    let exact = Modes::of(&mut Model::assemble(&coarse).unwrap(), 4).unwrap();
+    let exact = Modes::of(&mut Model::assemble(&coarse).unwrap(), 4, &mut || true).unwrap();
     let difference = largest_difference(&squares(&modes), &squares(&exact));
     assert!(difference < 2e-6, "{difference}");
 }
@@ -218,7 +218,7 @@ fn a_column_loses_its_stiffness_at_eulers_load() {
         let load = LoadKind::Force { station, force, frame: Frame::Dead };
         scene.add_load(load, Schedule::constant(1.0).unwrap());
         let mut rest = Equilibrium::find(scene, Loading::default(), &mut |_| true).unwrap();
-        rest.modes(1).unwrap().all()[0].clone()
+        rest.modes(1, &mut || true).unwrap().all()[0].clone()
     };
     let (below, above) = (lowest(0.999), lowest(1.001));
     assert!(below.square > 0.0 && above.square < 0.0, "{} {}", below.square, above.square);
@@ -243,7 +243,7 @@ fn looking_for_modes_changes_nothing_of_a_simulation() {
         for step in 1..10 {
             common::run(&mut simulation, 0.1 * f64::from(step)).unwrap();
             if looks {
-                assert!(simulation.modes(3).unwrap().all()[0].square != 0.0);
+                assert!(simulation.modes(3, &mut || true).unwrap().all()[0].square != 0.0);
             }
         }
         simulation.model().state()
@@ -256,7 +256,7 @@ fn shapes_are_those_of_the_inertia_and_modes_that_cannot_be_are_told() {
     let scene =
         scenes::cantilever(&Mesh::bspline(8, 3, 2).unwrap(), scenes::spaghetti_section(1e4, 100.0));
     let mut model = Model::assemble(&scene).unwrap();
-    let modes = Modes::of(&mut model, 5).unwrap();
+    let modes = Modes::of(&mut model, 5, &mut || true).unwrap();
     for (a, first) in modes.all().iter().enumerate() {
         let mut momenta = vec![0.0; model.degrees_of_freedom()];
         model.add_inertia(1.0, &first.shape, &mut momenta);
@@ -267,14 +267,14 @@ fn shapes_are_those_of_the_inertia_and_modes_that_cannot_be_are_told() {
     }
     let available = model.unknowns();
     for asked in [0, available + 1] {
-        let error = Modes::of(&mut model, asked).unwrap_err();
+        let error = Modes::of(&mut model, asked, &mut || true).unwrap_err();
         assert_eq!(error, VibrationError::Count { asked, available });
     }
     let mut turned = scene;
     let station = scenes::end_of(&mut turned, 0);
     let load = LoadKind::Force { station, force: at(0.0, 3.0), frame: Frame::Follower };
     turned.add_load(load, Schedule::constant(1.0).unwrap());
-    let error = Modes::of(&mut Model::assemble(&turned).unwrap(), 1).unwrap_err();
+    let error = Modes::of(&mut Model::assemble(&turned).unwrap(), 1, &mut || true).unwrap_err();
     assert!(matches!(error, VibrationError::Follower { .. }), "{error}");
 }
 
@@ -285,8 +285,11 @@ fn a_beam_without_rotary_inertia_has_a_mode_for_each_movement_with_inertia() {
     let scene = supported("free-free", &Mesh::bspline(6, 3, 2).unwrap(), section);
     let mut model = Model::assemble(&scene).unwrap();
     let finite = model.unknowns() * 2 / 3;
-    let all = Modes::of(&mut model, finite).unwrap();
+    let all = Modes::of(&mut model, finite, &mut || true).unwrap();
     assert!(all.all().iter().all(|mode| mode.square.is_finite()));
     assert_eq!(all.all().iter().filter(|mode| mode.is_free()).count(), 3);
-    assert!(matches!(Modes::of(&mut model, finite + 1), Err(VibrationError::Count { .. })));
+    assert!(matches!(
+        Modes::of(&mut model, finite + 1, &mut || true),
+        Err(VibrationError::Count { .. })
+    ));
 }

@@ -50,9 +50,10 @@ fn every_integrator_converges_in_time_at_the_order_it_claims() {
                 entry.name,
                 sci(&changes)
             );
-            for slope in &slopes[1..] {
-                assert!((slope - f64::from(entry.claims.order)).abs() < 0.2, "{}", entry.name);
-            }
+            // The first halvings of a method of high order still find fast vibration that they do not resolve.
+            let (order, [.., last]) = (f64::from(entry.claims.order), slopes[..]) else { continue };
+            assert!((last - order).abs() < 0.15, "{}", entry.name);
+            assert!(slopes[1..].iter().all(|slope| *slope > order - 0.2), "{}", entry.name);
         }
     }
 }

@@ -254,7 +254,10 @@ fn lees_frame_is_followed_through_both_its_limit_points() {
 #[test]
 fn a_configuration_between_limit_points_is_unstable() {
     let mut before = find(lees_frame(25.0), along(20, 8)).unwrap();
-    assert!(before.path().limit_points().is_empty() && before.modes(2).unwrap().is_stable());
+    assert!(
+        before.path().limit_points().is_empty()
+            && before.modes(2, &mut || true).unwrap().is_stable()
+    );
     let mut points = 8;
     let mut between = loop {
         points += 2;
@@ -263,7 +266,7 @@ fn a_configuration_between_limit_points_is_unstable() {
             break rest;
         }
     };
-    let modes = between.modes(2).unwrap();
+    let modes = between.modes(2, &mut || true).unwrap();
     assert!(!modes.is_stable() && modes.all()[0].growth_rate() > 0.0);
     assert_eq!(modes.all()[0].angular_frequency(), 0.0);
 }

@@ -80,11 +80,11 @@ fn line_load(scene: &mut Scene, frame: Frame) -> Result<(), ModelError> {
     Ok(())
 }
 
-/// A small particle that slides from the middle of the beam.
+/// A small particle that slides from a place near the middle of the beam: in the middle of one that spins it would rest.
 fn bead(scene: &mut Scene) -> Result<(), ModelError> {
-    let arc_length = 0.5 * length(scene);
-    let middle = scene.station(0, arc_length)?;
-    let position = scene.drawn_at(&middle)?;
+    let arc_length = 0.4 * length(scene);
+    let place = scene.station(0, arc_length)?;
+    let position = scene.drawn_at(&place)?;
     let name = scene.free_name("bead");
     let slave =
         scene.add_particle(ParticleDefinition { name, position }, SMALL * beam_mass(scene))?;

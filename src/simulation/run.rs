@@ -22,7 +22,6 @@ use crate::integrators::{Integrator, Interval, Mechanism, Method};
 use crate::model::{Model, Scene};
 use crate::newton::Tolerance;
 use crate::statics::Equilibrium;
-use crate::vibration::{Modes, VibrationError};
 
 /// Most steps that a pretended run has.
 const MOST_PRETENDED: usize = 10_000;
@@ -203,14 +202,6 @@ impl Simulation {
     /// Configurations so far.
     pub fn trajectory(&self) -> &Trajectory {
         &self.trajectory
-    }
-
-    /// The lowest natural modes of the present configuration, taken as one at rest.
-    ///
-    /// # Errors
-    /// When there are not so many, or something slides or turns with the beam.
-    pub fn modes(&mut self, count: usize) -> Result<Modes, VibrationError> {
-        Modes::of(&mut self.model, count)
     }
 
     /// The work so far.

@@ -4,6 +4,7 @@ use super::{Configuration, Outline, Simulation};
 use crate::beams::{Place, Station};
 use crate::geometry::Vec2;
 use crate::model::ModelError;
+use crate::vibration::{Modes, VibrationError};
 
 impl Simulation {
     /// The place of a station on its body.
@@ -12,6 +13,18 @@ impl Simulation {
     /// When it lies outside its beam.
     pub fn place(&self, station: &Station) -> Result<Place, ModelError> {
         self.scene.place(station, self.model.meshes())
+    }
+
+    /// The lowest natural modes of the present configuration, taken as one at rest.
+    ///
+    /// # Errors
+    /// When there are not so many, something slides or turns with the beam, or it is stopped.
+    pub fn modes(
+        &mut self,
+        count: usize,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Modes, VibrationError> {
+        Modes::of(&mut self.model, count, goes_on)
     }
 
     /// Where a place was, at all times of the trajectory.

@@ -95,8 +95,12 @@ impl Equilibrium {
     ///
     /// # Errors
     /// When there are not so many, or a load turns with the beam.
-    pub fn modes(&mut self, count: usize) -> Result<Modes, VibrationError> {
-        Modes::of(&mut self.model, count)
+    pub fn modes(
+        &mut self,
+        count: usize,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Modes, VibrationError> {
+        Modes::of(&mut self.model, count, goes_on)
     }
 }
 

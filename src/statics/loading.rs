@@ -74,7 +74,7 @@ impl Loading {
             return value("time", self.time, "a finite number");
         }
         match self.control {
-            Control::ArcLength(ArcLength { longest, .. }) if !(longest > 0.0) => {
+            Control::ArcLength(ArcLength { longest, .. }) if longest.is_nan() || longest <= 0.0 => {
                 value("longest", longest, "a positive number")
             }
             _ => Ok(()),

@@ -52,8 +52,7 @@ impl<'s> Tracer<'s> {
     ) -> Result<(), StaticsError> {
         let Loading { factor, steps, .. } = self.loading;
         for step in 1..=steps {
-            self.reach(factor * step as f64 / steps as f64, MOST_HALVINGS)?;
-            self.ask(goes_on)?;
+            self.reach(factor * step as f64 / steps as f64, MOST_HALVINGS, goes_on)?;
         }
         Ok(())
     }
@@ -65,14 +64,13 @@ impl<'s> Tracer<'s> {
         goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<(), StaticsError> {
         let Loading { factor: goal, steps, .. } = self.loading;
-        self.reach(goal / steps as f64, MOST_HALVINGS)?;
+        self.reach(goal / steps as f64, MOST_HALVINGS, goes_on)?;
         let metric = self.metric();
         let mut trial = Trial::new(&self.model, &self.loading);
         let mut distance = norm(&metric, &self.movements).min(arc.longest);
         while self.path.load_factor() != goal && self.path.points().len() < arc.points {
-            self.ask(goes_on)?;
             trial.look_along(&metric, &self.movements);
-            distance = self.advance(&mut trial, distance, goal, &metric)?.min(arc.longest);
+            distance = self.advance(&mut trial, distance, &metric, goes_on)?.min(arc.longest);
         }
         Ok(())
     }
@@ -82,17 +80,18 @@ impl<'s> Tracer<'s> {
         &mut self,
         trial: &mut Trial,
         mut distance: f64,
-        goal: f64,
         metric: &[f64],
+        goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<f64, StaticsError> {
-        let from = self.path.load_factor();
+        let (from, goal) = (self.path.load_factor(), self.loading.factor);
         let mut reason = None;
         for _ in 0..=MOST_HALVINGS {
+            self.ask(goes_on)?;
             match trial.find(&mut self.model, self.length, from, distance) {
                 // A longer way than that has led to another part of the path.
                 Ok(_) if norm(metric, trial.movements()) > 2.0 * distance => {}
                 Ok(_) if (from < goal) != (trial.factor() < goal) => {
-                    return self.reach(goal, MOST_HALVINGS).map(|()| distance);
+                    return self.reach(goal, MOST_HALVINGS, goes_on).map(|()| distance);
                 }
                 Ok(iterations) => {
                     self.movements.copy_from_slice(trial.movements());
@@ -108,7 +107,13 @@ impl<'s> Tracer<'s> {
     }
 
     /// Goes to a load factor, in halves where the whole step finds nothing.
-    fn reach(&mut self, factor: f64, halvings: u32) -> Result<(), StaticsError> {
+    fn reach(
+        &mut self,
+        factor: f64,
+        halvings: u32,
+        goes_on: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<(), StaticsError> {
+        self.ask(goes_on)?;
         let from = self.path.load_factor();
         match self.find(factor) {
             Ok(iterations) => {
@@ -117,8 +122,8 @@ impl<'s> Tracer<'s> {
             }
             Err(error) if halvings == 0 => Err(self.lost(error)),
             Err(_) => {
-                self.reach(0.5 * (from + factor), halvings - 1)?;
-                self.reach(factor, halvings - 1)
+                self.reach(0.5 * (from + factor), halvings - 1, goes_on)?;
+                self.reach(factor, halvings - 1, goes_on)
             }
         }
     }

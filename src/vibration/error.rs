@@ -29,6 +29,17 @@ pub enum VibrationError {
         /// Its name.
         load: String,
     },
+    /// Subspace iteration that went on and on.
+    #[error(
+        "the modes did not settle in {iterations} iterations; ask for a few more or fewer of them, or take a coarser mesh"
+    )]
+    Unsettled {
+        /// How many.
+        iterations: usize,
+    },
+    /// Somebody stopped it.
+    #[error("stopped while modes were looked for")]
+    Interrupted,
     /// Numbers that are not finite.
     #[error(
         "the stiffness or the inertia of the scene is not finite; check stiffness, masses and units"

@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 use super::VibrationError;
 use super::pencil::Pencil;
 use super::reduced::{Pairs, pairs};
-use super::subspace::lowest_pairs;
+use super::subspace::{Refusal, lowest_pairs};
 use crate::beams::{Mesh, Place};
 use crate::geometry::Vec2;
 use crate::model::Model;
@@ -71,11 +71,16 @@ pub struct Modes {
 }
 
 impl Modes {
-    /// The modes of a model in its present configuration, taken as one at rest.
+    /// The modes of a model in its present configuration, taken as one at rest; `goes_on` is asked again and again where they are
+    /// looked for in a large scene.
     ///
     /// # Errors
-    /// When there are not so many, or something slides or turns with the beam.
-    pub fn of(model: &mut Model, count: usize) -> Result<Self, VibrationError> {
+    /// When there are not so many, something slides or turns with the beam, or it is stopped.
+    pub fn of(
+        model: &mut Model,
+        count: usize,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Self, VibrationError> {
         if let Some(slider) = model.slider_names().next() {
             return Err(VibrationError::Slider { slider: slider.to_owned() });
         }
@@ -86,7 +91,7 @@ impl Modes {
         if count == 0 || count > pencil.finite {
             return Err(VibrationError::Count { asked: count, available: pencil.finite });
         }
-        let modes = lowest(&pencil, count)?;
+        let modes = lowest(&pencil, count, goes_on)?;
         let displacements = modes.iter().map(|mode| model.displacements(&mode.shape)).collect();
         Ok(Self {
             modes,
@@ -146,41 +151,64 @@ impl Modes {
     }
 }
 
-/// The number of movements that meet no resistance in the present configuration without loads.
+/// The number of movements that meet no resistance in the present configuration without loads; 0 where a scene is too
+/// large to find that out at once.
 pub fn loose_movements(model: &mut Model) -> usize {
+    if model.rotations().len() > SMALL {
+        return 0;
+    }
     let Ok(pencil) = Pencil::of(model) else { return 0 };
-    let most = pencil.finite.min(12);
-    lowest(&pencil, most).map_or(0, |modes| modes.iter().filter(|mode| mode.is_free()).count())
+    let modes = lowest(&pencil, pencil.finite, &mut || true).unwrap_or_default();
+    modes.iter().filter(|mode| mode.is_free()).count()
 }
 
-fn lowest(pencil: &Pencil, count: usize) -> Result<Vec<Mode>, VibrationError> {
-    let rough = |shift| {
-        let more = (count + 4).min(pencil.finite);
-        shifted_pairs(pencil, shift, more).map(|pairs| (shift, pairs))
+fn lowest(
+    pencil: &Pencil,
+    count: usize,
+    goes_on: &mut dyn FnMut() -> bool,
+) -> Result<Vec<Mode>, VibrationError> {
+    let more = (count + 4).min(pencil.finite);
+    let mut shift = if pencil.rounding > 0.0 { FIRST_SHIFT * pencil.rounding } else { 1.0 };
+    let mut tries = 0;
+    let pairs = loop {
+        match shifted_pairs(pencil, shift, more, goes_on) {
+            Ok(pairs) => break pairs,
+            Err(Refusal::Final(error)) => return Err(error),
+            Err(Refusal::NotDefinite) if tries == MOST_SHIFTS => {
+                return Err(VibrationError::NotFinite);
+            }
+            Err(Refusal::NotDefinite) => (shift, tries) = (100.0 * shift, tries + 1),
+        }
     };
-    let smallest = if pencil.rounding > 0.0 { FIRST_SHIFT * pencil.rounding } else { 1.0 };
-    let shifts = (0..MOST_SHIFTS).map(|tries| smallest * 100_f64.powi(tries as i32));
-    let (shift, pairs) = shifts.into_iter().find_map(rough).ok_or(VibrationError::NotFinite)?;
     let modes = modes_of(pencil, &pairs, shift, count);
     // A shift of the size of the lowest square keeps the digits of the others.
     let fine = squares(pencil, &pairs, shift).find(|square| *square > shift);
-    let refined = fine.filter(|_| modes.iter().all(|mode| mode.square >= 0.0)).and_then(|shift| {
-        shifted_pairs(pencil, shift, count).map(|pairs| modes_of(pencil, &pairs, shift, count))
-    });
-    Ok(refined.unwrap_or(modes))
+    let Some(shift) = fine.filter(|_| modes.iter().all(|mode| mode.square >= 0.0)) else {
+        return Ok(modes);
+    };
+    match shifted_pairs(pencil, shift, count, goes_on) {
+        Ok(pairs) => Ok(modes_of(pencil, &pairs, shift, count)),
+        Err(Refusal::Final(VibrationError::Interrupted)) => Err(VibrationError::Interrupted),
+        Err(_) => Ok(modes),
+    }
 }
 
-fn shifted_pairs(pencil: &Pencil, shift: f64, count: usize) -> Option<Pairs> {
+fn shifted_pairs(
+    pencil: &Pencil,
+    shift: f64,
+    count: usize,
+    goes_on: &mut dyn FnMut() -> bool,
+) -> Result<Pairs, Refusal> {
     let size = pencil.size();
     if size > SMALL {
-        return lowest_pairs(pencil, shift, count);
+        return lowest_pairs(pencil, shift, count, goes_on);
     }
     let (mut stiffness, mut inertia) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));
     for (row, column, resistance, mass) in pencil.entries() {
         stiffness[(row, column)] = resistance + shift * mass;
         inertia[(row, column)] = mass;
     }
-    pairs(stiffness, &inertia)
+    pairs(stiffness, &inertia).ok_or(Refusal::NotDefinite)
 }
 
 /// `ω² = 1/μ - σ` of each pair, zero where rounding hides it.

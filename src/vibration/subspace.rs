@@ -4,8 +4,17 @@
 
 use nalgebra::DMatrix;
 
+use super::VibrationError;
 use super::pencil::Pencil;
 use super::reduced::{Pairs, pairs};
+
+/// Why there are no pairs.
+pub(super) enum Refusal {
+    /// A larger shift may help.
+    NotDefinite,
+    /// Nothing will.
+    Final(VibrationError),
+}
 
 /// Iterations end when no shifted square changes by more than this part of itself, and rounding.
 const SETTLED: f64 = 1e-12;
@@ -16,15 +25,26 @@ const SETTLED_ROUNDING: f64 = 16.0;
 /// Most iterations. With twice as many vectors as modes the error of a beam's falls by 256 in each.
 const MOST_ITERATIONS: usize = 60;
 
-/// The pairs of a few more than `count` modes; none if the shifted stiffness cannot be factorised or is not positive definite.
-pub(super) fn lowest_pairs(pencil: &Pencil, shift: f64, count: usize) -> Option<Pairs> {
+/// The pairs of a few more than `count` modes.
+///
+/// # Errors
+/// When the shifted stiffness cannot be factorised or is not positive definite, the iteration does not settle, or is stopped.
+pub(super) fn lowest_pairs(
+    pencil: &Pencil,
+    shift: f64,
+    count: usize,
+    goes_on: &mut dyn FnMut() -> bool,
+) -> Result<Pairs, Refusal> {
     let size = pencil.size();
     let width = (2 * count).max(count + 8).min(size);
     let mut matrix = pencil.shifted_band(shift);
-    let factors = matrix.factorise().ok()?;
+    let factors = matrix.factorise().map_err(|_| Refusal::NotDefinite)?;
     let mut vectors = DMatrix::from_fn(size, width, scattered);
     let mut before = vec![f64::INFINITY; count];
     for _ in 0..MOST_ITERATIONS {
+        if !goes_on() {
+            return Err(Refusal::Final(VibrationError::Interrupted));
+        }
         vectors = pencil.inertia_times(&vectors);
         vectors.column_iter_mut().for_each(|mut vector| factors.solve(vector.as_mut_slice()));
         // Rigid motions outgrow all others by far: what is left of these shows beside them only after orthogonalisation.
@@ -35,18 +55,19 @@ pub(super) fn lowest_pairs(pencil: &Pencil, shift: f64, count: usize) -> Option<
         };
         let stiffness = project(pencil.shifted_times(shift, &vectors));
         let inertia = project(pencil.inertia_times(&vectors));
-        let Pairs { values, vectors: turned } = pairs(stiffness, &inertia)?;
+        let Pairs { values, vectors: turned } =
+            pairs(stiffness, &inertia).ok_or(Refusal::NotDefinite)?;
         vectors *= turned;
         let shifted_squares: Vec<f64> = values[..count].iter().map(|value| 1.0 / value).collect();
         let is_settled = before.iter().zip(&shifted_squares).all(|(before, now)| {
             (before - now).abs() <= SETTLED * now.abs() + SETTLED_ROUNDING * pencil.rounding
         });
         if is_settled {
-            return Some(Pairs { values, vectors });
+            return Ok(Pairs { values, vectors });
         }
         before = shifted_squares;
     }
-    None
+    Err(Refusal::Final(VibrationError::Unsettled { iterations: MOST_ITERATIONS }))
 }
 
 /// Numbers without pattern, always the same.

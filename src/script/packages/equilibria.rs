@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use rhai::{Array, Dynamic, INT, Map};
 
-use super::modes::ModesHandle;
+use super::modes::{ModesHandle, look as look_for_modes};
 use super::scenes::{SCENE, STATION, SceneHandle, StationHandle};
 use super::simulations::{START, begin, followed};
 use crate::beams::Place;
@@ -86,13 +86,15 @@ pub const TABLE: Table = Table {
             .doc("Stations inside a beam are followed if they were made before the equilibrium was found.")
             .example("let rest = scene.equilibrium();\ncheck_close(rest.angle(rod.start), 0, 1e-12);"),
         method(EQUILIBRIUM, "reaction", &[AT], reaction)
-            .returns("a map: force, a vector, and moment")
+            .returns("a map")
             .summary("What the support at a station gives.")
-            .doc("A joint between beams is none: only what the ground gives is told.")
+            .doc("The map holds force, a vector, and moment. A joint between beams is no support: only what the ground gives is told.")
             .example("let rest = scene.equilibrium();\ncheck_close(rest.reaction(rod.start).moment, -s.EI * 3.14159265358979 / 4, 1e-6);"),
         method(EQUILIBRIUM, "modes", &[whole("count").positive().or(Presence::Whole(6))], |call| {
             let handle = call.receiver::<EquilibriumHandle>()?;
-            let modes = handle.0.rest.borrow_mut().modes(call.count("count")?)?;
+            let modes = look_for_modes(call, |count, goes_on| {
+                handle.0.rest.borrow_mut().modes(count, goes_on)
+            })?;
             Ok(Dynamic::from(ModesHandle::new(handle.0.scene.clone(), &handle.rest().scene().clone(), modes)))
         })
         .returns("modes")

@@ -16,7 +16,7 @@ use crate::script::limits::Stop;
 use crate::script::numbers::format_number;
 use crate::script::stored::StoredFunction;
 use crate::simulation::{Monitor, Simulation, SimulationError, StepSize};
-use crate::vibration::Modes;
+use crate::vibration::{Modes, VibrationError};
 
 /// A running simulation; clones are the same one.
 #[derive(Clone)]
@@ -102,8 +102,12 @@ impl SimulationHandle {
     }
 
     /// The lowest modes about its present configuration.
-    pub fn modes(&self, count: usize) -> Result<Modes, ScriptError> {
-        Ok(self.0.simulation.borrow_mut().modes(count)?)
+    pub fn modes(
+        &self,
+        count: usize,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Modes, VibrationError> {
+        self.0.simulation.borrow_mut().modes(count, goes_on)
     }
 
     /// Changes the memory for states to go back to [bytes].

@@ -14,7 +14,7 @@ use crate::script::error::{Place, ScriptError};
 use crate::script::kind::{Scripted, Type};
 use crate::script::parameter::{Parameter, Presence, object, whole};
 use crate::script::table::{Body, Row, Table, method, property};
-use crate::vibration::{Mode, Modes};
+use crate::vibration::{Mode, Modes, VibrationError};
 
 /// Modes.
 pub const TABLE: Table = Table {
@@ -28,7 +28,8 @@ pub const TABLE: Table = Table {
         method(SCENE, "modes", &[COUNT], |call| {
             let handle = call.receiver::<SceneHandle>()?;
             let scene = handle.scene().borrow().clone();
-            let modes = Modes::of(&mut Model::assemble(&scene)?, call.count("count")?)?;
+            let mut model = Model::assemble(&scene)?;
+            let modes = look(call, |count, goes_on| Modes::of(&mut model, count, goes_on))?;
             Ok(Dynamic::from(ModesHandle::new(handle, &scene, modes)))
         })
         .returns("modes")
@@ -41,13 +42,13 @@ pub const TABLE: Table = Table {
         .see(&["plot_modes", "equilibrium"]),
         method(SIMULATION, "modes", &[COUNT], |call| {
             let handle = call.receiver::<SimulationHandle>()?;
-            let modes = handle.modes(call.count("count")?)?;
+            let modes = look(call, |count, goes_on| handle.modes(count, goes_on))?;
             let simulation = handle.simulation();
             Ok(Dynamic::from(ModesHandle::new(handle.scene().clone(), simulation.scene(), modes)))
         })
         .returns("modes")
         .summary("Those about the present configuration of a simulation, as if it stood still there.")
-        .example("let sim = scene.start(#{ dt: 0.1 });\ncheck(sim.modes(1).angular_frequencies == scene.modes(1).angular_frequencies);"),
+        .example("let sim = scene.start(#{ dt: 0.1 });\nlet drawn = scene.modes(1).angular_frequencies;\ncheck(sim.modes(1).angular_frequencies == drawn);"),
         told("angular_frequencies", "an array of numbers [rad/time]", |call| list(call, Mode::angular_frequency))
             .summary("ω of each mode; 0 where nothing vibrates.")
             .example("let modes = scene.modes(2);\ncheck(modes.angular_frequencies[1] > modes.angular_frequencies[0]);")
@@ -138,6 +139,21 @@ impl Scripted for ModesHandle {
             table.row([number, shown(mode.angular_frequency()), period, Cell::Text(remark)]);
         }
         table.to_string().trim_end().to_owned()
+    }
+}
+
+/// Looks for so many modes as the call asks for, until the run is stopped.
+pub(super) fn look(
+    call: &Call,
+    find: impl FnOnce(usize, &mut dyn FnMut() -> bool) -> Result<Modes, VibrationError>,
+) -> Result<Modes, ScriptError> {
+    let context = call.context();
+    match find(call.count("count")?, &mut || !context.is_stopped()) {
+        Err(VibrationError::Interrupted) => {
+            context.proceed()?;
+            Err(ScriptError::bug("a search for modes was stopped by nobody"))
+        }
+        found => Ok(found?),
     }
 }
 
