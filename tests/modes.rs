@@ -205,6 +205,60 @@ fn the_lowest_modes_of_a_large_scene_are_those_of_a_small_one() {
     assert!(difference < 2e-6, "{difference}");
 }
 
+/// Shear stiffness over rotary inertia is so large that rounding of that size would hide all bending.
+#[test]
+fn the_lowest_mode_of_a_thin_strip_is_not_taken_for_a_free_movement() {
+    let (modulus, density, thickness, width, length) = (210e9, 7850.0, 1e-3, 0.02, 4.0);
+    let area = thickness * width;
+    let second_moment = area * thickness * thickness / 12.0;
+    let section = Section {
+        axial_stiffness: modulus * area,
+        shear_stiffness: modulus * area / 3.12,
+        bending_stiffness: modulus * second_moment,
+        mass_per_length: density * area,
+        rotary_inertia: density * second_moment,
+    };
+    let mut scene = Scene::new("strip");
+    let axis = scenes::line(Vec2::zeros(), at(length, 0.0));
+    let beam = scenes::add_beam(&mut scene, axis, &Mesh::bspline(16, 3, 2).unwrap(), section);
+    let start = scene.station(beam, 0.0).unwrap();
+    scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
+    let modes = Modes::of(&mut Model::assemble(&scene).unwrap(), 2, &mut || true).unwrap();
+    let wave = (section.bending_stiffness / section.mass_per_length).sqrt() / length.powi(2);
+    for (mode, exact) in modes.all().iter().zip([3.516015, 22.03449]) {
+        let error = mode.angular_frequency() / (exact * wave) - 1.0;
+        assert!(error.abs() < 1e-3, "{error}");
+    }
+}
+
+/// Beside many soft modes a single unstable one, far below them, must not be passed by.
+#[test]
+fn an_unstable_mode_among_many_soft_ones_is_found_or_the_search_refused() {
+    let of = |spans: usize| {
+        let mut scene = Scene::new("cable and column");
+        let mesh = |spans| Mesh::bspline(spans, 3, 2).unwrap();
+        let soft = Section { rotary_inertia: 1e-2, ..scenes::spaghetti_section(1.0, 1e-4) };
+        let cable = scenes::line(at(0.0, 5.0), at(10.0, 5.0));
+        let cable = scenes::add_beam(&mut scene, cable, &mesh(spans), soft);
+        let stiff = Section { rotary_inertia: 1e-2, ..scenes::spaghetti_section(1e6, 100.0) };
+        let column = scenes::line(Vec2::zeros(), at(1.0, 0.0));
+        let column = scenes::add_beam(&mut scene, column, &mesh(6), stiff);
+        for beam in [cable, column] {
+            let start = scene.station(beam, 0.0).unwrap();
+            scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
+        }
+        let station = scene.station(column, 1.0).unwrap();
+        let load = LoadKind::Force { station, force: at(-400.0, 0.0), frame: Frame::Dead };
+        scene.add_load(load, Schedule::constant(1.0).unwrap());
+        let mut rest = Equilibrium::find(scene, Loading::default(), &mut |_| true).unwrap();
+        (rest.model().unknowns(), rest.modes(6, &mut || true))
+    };
+    let ((small, few), (large, many)) = (of(40), of(90));
+    assert!(small <= 240 && large > 240);
+    assert!(!few.unwrap().is_stable());
+    assert!(many.map_or(true, |modes| !modes.is_stable()));
+}
+
 /// Euler's column: clamped and free, it loses its stiffness at π² EI/(4 L²), and its lowest square falls about linearly.
 #[test]
 fn a_column_loses_its_stiffness_at_eulers_load() {

@@ -51,7 +51,7 @@ fn every_integrator_converges_in_time_at_the_order_it_claims() {
                 sci(&changes)
             );
             // The first halvings of a method of high order still find fast vibration that they do not resolve.
-            let (order, [.., last]) = (f64::from(entry.claims.order), slopes[..]) else { continue };
+            let (order, last) = (f64::from(entry.claims.order), slopes[slopes.len() - 1]);
             assert!((last - order).abs() < 0.15, "{}", entry.name);
             assert!(slopes[1..].iter().all(|slope| *slope > order - 0.2), "{}", entry.name);
         }

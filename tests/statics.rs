@@ -258,14 +258,10 @@ fn a_configuration_between_limit_points_is_unstable() {
         before.path().limit_points().is_empty()
             && before.modes(2, &mut || true).unwrap().is_stable()
     );
-    let mut points = 8;
-    let mut between = loop {
-        points += 2;
-        let rest = find(lees_frame(25.0), along(20, points)).unwrap();
-        if !rest.path().limit_points().is_empty() {
-            break rest;
-        }
-    };
+    let paths =
+        (10..60).step_by(2).map(|points| find(lees_frame(25.0), along(20, points)).unwrap());
+    let is_beyond = |rest: &Equilibrium| !rest.path().limit_points().is_empty();
+    let mut between = paths.into_iter().find(is_beyond).unwrap();
     let modes = between.modes(2, &mut || true).unwrap();
     assert!(!modes.is_stable() && modes.all()[0].growth_rate() > 0.0);
     assert_eq!(modes.all()[0].angular_frequency(), 0.0);
@@ -305,6 +301,69 @@ fn reactions_balance_the_loads() {
     assert!((force - at(0.0, -10.0)).norm() < 1e-9, "{force}");
     assert!((moment + 10.0 * tip.x).abs() < 1e-8, "{moment}");
     assert_eq!(rest.reaction(&end), None);
+}
+
+/// Two beams from one clamped corner: whichever is asked, the ground holds both.
+#[test]
+fn a_support_holds_all_that_is_tied_to_it_and_nothing_beside_it() {
+    let mut scene = clamped(straight(), &smooth(8), section(1e4, 1e4));
+    let up = scenes::line(Vec2::zeros(), at(0.0, LENGTH));
+    let up = scenes::add_beam(&mut scene, up, &smooth(8), section(1e4, 1e4));
+    let corner = [0, up].map(|beam| scene.station(beam, 0.0).unwrap());
+    scene.join(JointKind::Rigid, corner[1], Partner::Station(corner[0])).unwrap();
+    let ends = [0, up].map(|beam| scene.station(beam, LENGTH).unwrap());
+    let beside = scene.station(0, 0.05).unwrap();
+    let scene = with_force(with_force(scene, ends[0], at(0.0, 2.0)), ends[1], at(1.0, 0.0));
+    let mut rest = find(scene, Loading { steps: 4, ..Loading::default() }).unwrap();
+    let place = |station: &Station| rest.scene().place(station, rest.model().meshes()).unwrap();
+    let (corner, beside) = (corner.map(|station| place(&station)), place(&beside));
+    for corner in corner {
+        let (force, _) = rest.reaction(&corner).unwrap();
+        assert!((force - at(-1.0, -2.0)).norm() < 1e-9, "{force}");
+    }
+    assert_eq!(rest.reaction(&beside), None);
+}
+
+/// Two shallow bars that meet under a force: beyond the limit load they snap through.
+fn truss(force: f64) -> Scene {
+    let mut scene = Scene::new("truss");
+    // Stiff enough against bending that the bars do not buckle before the truss snaps.
+    let section = Section { bending_stiffness: 1e4, ..section(1e4, 1e4) };
+    let top = at(10.0, 1.0);
+    let bars = [(Vec2::zeros(), top), (top, at(20.0, 0.0))].map(|(from, to)| {
+        scenes::add_beam(&mut scene, scenes::line(from, to), &smooth(4), section)
+    });
+    let length = (top - Vec2::zeros()).norm();
+    let [left, right] = bars.map(|bar| [0.0, length].map(|s| scene.station(bar, s).unwrap()));
+    scene.join(JointKind::Hinge, left[1], Partner::Station(right[0])).unwrap();
+    scene.join(JointKind::Hinge, left[0], Partner::Ground).unwrap();
+    scene.join(JointKind::Hinge, right[1], Partner::Ground).unwrap();
+    with_force(scene, left[1], at(0.0, -force))
+}
+
+#[test]
+fn load_control_never_arrives_snapped_through() {
+    let limit = find(truss(12.0), along(40, 300)).unwrap().path().limit_points()[0];
+    for steps in [1, 4, 10, 40] {
+        let error =
+            find(truss(12.0), Loading { steps, ..Loading::default() }).map(|_| ()).unwrap_err();
+        let StaticsError::Lost { reached, .. } = error else { panic!("{error}") };
+        println!("truss, {steps:2} steps: lost at {reached:.4}, limit point {limit:.4}");
+        assert!(reached <= 1.001 * limit, "{steps}: {reached} {limit}");
+    }
+}
+
+#[test]
+fn the_last_load_factor_is_what_was_asked_for() {
+    for (factor, steps) in [(0.1, 3), (0.11, 10), (0.81, 7), (-0.3, 10)] {
+        let scene = clamped(straight(), &smooth(4), section(1e4, 1e4));
+        let mut scene = scene;
+        let end = scenes::end_of(&mut scene, 0);
+        let scene = with_force(scene, end, at(0.0, 1.0));
+        let rest = find(scene, Loading { steps, factor, ..Loading::default() }).unwrap();
+        assert_eq!(rest.path().load_factor(), factor);
+        assert_eq!(rest.path().points().len(), steps + 1);
+    }
 }
 
 #[test]

@@ -7,7 +7,7 @@ use super::{Basis, Span};
 ///
 /// The spans follow each other and are joined smoothly; `points` holds those of each span, from its start on, and all together
 /// must be one fewer than the run has functions: the derivatives of splines are splines of one degree and one function less. None if
-/// they are more or fewer, or a weight is not finite.
+/// they are more or fewer, lie where no such weights exist, or a weight is not finite.
 ///
 /// Sums of derivatives, `-Σ_(a ≤ b) N'_a`, are positive multiples of the B-splines of the next lower degree, whose collocation matrix is totally
 /// positive. (Auricchio, Calabrò, Hughes, Reali & Sangalli, A simple algorithm for obtaining nearly optimal quadrature rules for NURBS-based
@@ -37,6 +37,12 @@ pub fn derivative_weights(basis: &Basis, run: &[Span], points: &[Vec<f64>]) -> O
             }
             number += 1;
         }
+    }
+    // Every point must lie where its own spline is not zero (Schoenberg & Whitney 1953).
+    let has_own =
+        |(at, row): (usize, &Row<f64>)| (row.first..row.first + row.entries.len()).contains(&at);
+    if !rows.iter().enumerate().all(has_own) {
+        return None;
     }
     // ∫ N'_a dξ is the difference of N_a between both ends.
     let ends = [(first, first.start, 1.0), (last, last.end, -1.0)];

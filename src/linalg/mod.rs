@@ -8,9 +8,11 @@ mod elimination;
 mod error;
 mod ordering;
 mod substitution;
+mod sylvester;
 
 pub use band_rows::BandRows;
 pub use banded::{BandedLu, BandedMatrix};
 pub use bordered::{Border, BorderShape, BorderedLu, BorderedMatrix};
 pub use error::LinearError;
 pub use ordering::{Ordering, reverse_cuthill_mckee};
+pub use sylvester::negative_eigenvalues;

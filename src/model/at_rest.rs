@@ -13,6 +13,9 @@ use crate::joints::Component;
 use crate::linalg::BandedMatrix;
 use crate::loads::LoadError;
 
+/// A function that is smaller than this at a place is zero there.
+const NO_WEIGHT: f64 = 1e-12;
+
 /// The largest of the forces that meet at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StaticForces {
@@ -129,14 +132,16 @@ impl Model {
     }
 
     /// The forces of the supports on the scene at a place, from forces at rest: force and moment; none where nothing is held.
+    ///
+    /// Where several bodies are tied to the place, the supports hold all of them.
     pub fn support_force(&self, place: &Place, forces: &[f64]) -> Option<(Vec2, f64)> {
         let first = self.degrees_of_freedom() - self.supports.len();
-        let (body, point) = (place.body, place.nearest_control_point());
+        let tied = self.tied_nodes(node_of(place)?);
         let mut held = self
             .supports
             .iter()
             .zip(&forces[first..])
-            .filter(|(support, _)| (support.body, support.point) == (body, point))
+            .filter(|(support, _)| tied.contains(&(support.body, support.point)))
             .peekable();
         held.peek()?;
         let mut sum = (Vec2::zeros(), 0.0);
@@ -148,6 +153,24 @@ impl Model {
             }
         }
         Some(sum)
+    }
+
+    /// A node, and all that joints hold there: bodies and control points.
+    fn tied_nodes(&self, node: (usize, usize)) -> Vec<(usize, usize)> {
+        let mut nodes = vec![node];
+        let mut next = 0;
+        while let Some(&at) = nodes.get(next) {
+            next += 1;
+            for (one, other) in &self.joined {
+                for (here, there) in [(one, other), (other, one)] {
+                    let there = node_of(there).filter(|there| !nodes.contains(there));
+                    if node_of(here) == Some(at) {
+                        nodes.extend(there);
+                    }
+                }
+            }
+        }
+        nodes
     }
 
     /// Moves trackers and bodies by the movements that the bodies gathered last.
@@ -181,4 +204,11 @@ impl Model {
             linearise(body, stiffness);
         }
     }
+}
+
+/// The body and the control point of a place, if it is where a control point is.
+fn node_of(place: &Place) -> Option<(usize, usize)> {
+    let point = place.nearest_control_point();
+    let is_node = place.weights().all(|(at, weight)| at == point || weight.abs() < NO_WEIGHT);
+    is_node.then_some((place.body, point))
 }

@@ -6,7 +6,7 @@ use crate::beams::Place;
 use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
 use crate::model::{Model, Scene};
-use crate::vibration::{Modes, VibrationError};
+use crate::vibration::{Modes, VibrationError, loose_movements};
 
 /// A scene at rest under its loads, and the path that led there.
 ///
@@ -28,7 +28,11 @@ impl Equilibrium {
         loading: Loading,
         goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Self, StaticsError> {
-        let model = prepare(&scene, &loading)?;
+        let mut model = prepare(&scene, &loading)?;
+        let movements = loose_movements(&mut model);
+        if movements > 0 {
+            return Err(StaticsError::Loose { scene: scene.name, movements });
+        }
         let mut tracer = Tracer::new(&scene, model, loading);
         match loading.control {
             Control::Load => tracer.load_up(goes_on)?,

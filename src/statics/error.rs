@@ -28,7 +28,7 @@ pub enum StaticsError {
     },
     /// A joint that statics does not know.
     #[error(
-        "slider '{slider}': equilibrium of sliding joints is not built; let a damped motion come to rest instead, scene.start(#{{ integrator: energy_decaying(1), dt: … }})"
+        "slider '{slider}': equilibrium of sliding joints is not built; let a damped motion come to rest instead, scene.start(#{{ integrator: energy_decaying(#{{ chi: 1 }}), dt: … }})"
     )]
     Slider {
         /// Its name.
@@ -46,7 +46,7 @@ pub enum StaticsError {
     },
     /// A scene that moves without resistance.
     #[error(
-        "no equilibrium of '{scene}' was found under any load, because {movements} of its movements meet no resistance; hold it with scene.clamp(…) or scene.hinge(…)"
+        "'{scene}' is not held: {movements} of its movements meet no resistance as it is drawn; hold it with scene.clamp(…) or scene.hinge(…), or let a damped motion come to rest, scene.start(#{{ integrator: energy_decaying(#{{ chi: 1 }}), dt: … }})"
     )]
     Loose {
         /// Its name.
@@ -55,14 +55,14 @@ pub enum StaticsError {
         movements: usize,
     },
     /// No equilibrium near the last one.
-    #[error("no equilibrium of '{scene}' was found beyond load factor {reached}: {reason}")]
+    #[error("no equilibrium of '{scene}' was found near that at load factor {reached}: {reason}")]
     Lost {
         /// Its name.
         scene: String,
         /// The last load factor with an equilibrium [-].
         reached: f64,
-        /// What Newton's method says.
-        reason: Box<NewtonError>,
+        /// Why the next one was missed.
+        reason: Box<Miss>,
     },
     /// Somebody stopped it.
     #[error("stopped at load factor {reached}")]
@@ -70,4 +70,15 @@ pub enum StaticsError {
         /// The last load factor with an equilibrium [-].
         reached: f64,
     },
+}
+
+/// Why a step found no equilibrium.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Miss {
+    /// Newton's method found none.
+    #[error(transparent)]
+    Newton(#[from] NewtonError),
+    /// It found one far away.
+    #[error("the next one is far away, as where a structure snaps through")]
+    Far,
 }

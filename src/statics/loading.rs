@@ -77,6 +77,9 @@ impl Loading {
             Control::ArcLength(ArcLength { longest, .. }) if longest.is_nan() || longest <= 0.0 => {
                 value("longest", longest, "a positive number")
             }
+            Control::ArcLength(ArcLength { points, .. }) if points < 3 => {
+                value("points", points as f64, "at least 3")
+            }
             _ => Ok(()),
         }
     }

@@ -8,6 +8,6 @@ mod path;
 mod tracer;
 
 pub use equilibrium::Equilibrium;
-pub use error::StaticsError;
+pub use error::{Miss, StaticsError};
 pub use loading::{ArcLength, Control, Loading};
 pub use path::{Path, PathPoint};

@@ -9,6 +9,9 @@ pub struct PathPoint {
     pub load_factor: f64,
     /// [energy]
     pub strain_energy: f64,
+    /// How far the scene moved from the point before: root mean square of displacements, relative to the longest beam, and of
+    /// rotations, over all control points [-, rad].
+    pub distance: f64,
     /// Newton iterations that it took from the point before.
     pub iterations: usize,
     /// The configuration.
@@ -46,37 +49,56 @@ impl Path {
     ///
     /// A structure that is loaded further there snaps through.
     pub fn limit_points(&self) -> Vec<f64> {
-        let factors: Vec<f64> = self.points.iter().map(|point| point.load_factor).collect();
-        let turn = |three: &[f64]| {
-            let (before, after) = (three[1] - three[0], three[2] - three[1]);
-            // Where the parabola through the values at -1, 0 and 1 has its vertex.
-            let (slope, curvature) = (0.5 * (before + after), after - before);
-            (before * after < 0.0).then(|| three[1] - 0.5 * slope * slope / curvature)
+        let turn = |three: &[PathPoint]| {
+            let factors = [0, 1, 2].map(|at: usize| three[at].load_factor);
+            Some(vertex(factors, [three[1].distance, three[2].distance])?.load_factor)
         };
-        factors.windows(3).filter_map(turn).collect()
+        self.points.windows(3).filter_map(turn).collect()
     }
+}
+
+/// Where the load factor turns.
+pub(super) struct Vertex {
+    /// The distance from the first of three points.
+    pub(super) way: f64,
+    pub(super) load_factor: f64,
+}
+
+/// The vertex of the parabola through three load factors with these distances between them, if they turn.
+pub(super) fn vertex(
+    [first, second, third]: [f64; 3],
+    [before, after]: [f64; 2],
+) -> Option<Vertex> {
+    let (rise, fall) = ((second - first) / before, (third - second) / after);
+    let curvature = (fall - rise) / (before + after);
+    let at = 0.5 * (before - rise / curvature);
+    let load_factor = first + rise * at + curvature * at * (at - before);
+    (rise * fall < 0.0).then_some(Vertex { way: at, load_factor })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn path(factors: &[f64]) -> Path {
-        let point = |load_factor: &f64| PathPoint {
-            load_factor: *load_factor,
+    /// A path whose load factor is a function of the way along it.
+    fn path(places: &[f64], load_factor: impl Fn(f64) -> f64) -> Path {
+        let before = std::iter::once(&0.0).chain(places);
+        let point = |(at, before): (&f64, &f64)| PathPoint {
+            load_factor: load_factor(*at),
             strain_energy: 0.0,
+            distance: at - before,
             iterations: 0,
             state: ModelState::default(),
         };
-        Path { points: factors.iter().map(point).collect() }
+        Path { points: places.iter().zip(before).map(point).collect() }
     }
 
     #[test]
-    fn limit_points_are_vertices_of_parabolas() {
-        let factors: Vec<f64> = (0..6).map(|i| 2.0 - (f64::from(i) - 2.25).powi(2)).collect();
-        let limits = path(&factors).limit_points();
-        assert!(limits.len() == 1 && (limits[0] - 2.0).abs() < 1e-15, "{limits:?}");
-        assert!(path(&[0.0, 0.5, 1.0]).limit_points().is_empty());
-        assert_eq!(path(&[]).load_factor(), 0.0);
+    fn limit_points_are_vertices_of_parabolas_whatever_the_steps_between() {
+        let limits = path(&[0.0, 0.9, 1.7, 3.0, 3.5, 5.0], |s| 2.0 - (s - 2.25).powi(2));
+        let limits = limits.limit_points();
+        assert!(limits.len() == 1 && (limits[0] - 2.0).abs() < 1e-14, "{limits:?}");
+        assert!(path(&[0.0, 0.5, 1.0], |s| s).limit_points().is_empty());
+        assert_eq!(path(&[], |s| s).load_factor(), 0.0);
     }
 }

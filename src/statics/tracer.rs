@@ -1,15 +1,25 @@
 //! Finding one equilibrium after another.
 
 use super::balance::{AlongPath, Balance, UnderLoad};
-use super::{ArcLength, Loading, Path, PathPoint, StaticsError};
+use super::error::Miss;
+use super::path::vertex;
+use super::{ArcLength, Control, Loading, Path, PathPoint, StaticsError};
 use crate::integrators::Mechanism;
 use crate::linalg::BorderShape;
 use crate::model::{Model, Scene};
 use crate::newton::{Newton, NewtonError};
-use crate::vibration::loose_movements;
 
 /// A step that finds no equilibrium is halved so often.
 const MOST_HALVINGS: u32 = 8;
+
+/// An equilibrium so many times farther than a step along the path was meant to go is on another part of it.
+const FAR: f64 = 2.0;
+
+/// One so many times farther than the last step, load for load, is another one: the structure has snapped through.
+const FAR_UNDER_LOAD: f64 = 4.0;
+
+/// No movement is far that is smaller than this part of the scene.
+const NEARBY: f64 = 1e-3;
 
 /// Steps along the path grow and shrink so that each takes about so many iterations.
 const WANTED_ITERATIONS: f64 = 4.0;
@@ -18,6 +28,8 @@ const WANTED_ITERATIONS: f64 = 4.0;
 pub(super) struct Tracer<'s> {
     scene: &'s Scene,
     length: f64,
+    /// What movements are squared with: relative to a length, as angles, and as means over the control points.
+    metric: Vec<f64>,
     loading: Loading,
     pub(super) model: Model,
     pub(super) path: Path,
@@ -31,11 +43,13 @@ impl<'s> Tracer<'s> {
         let unknowns = model.unknowns();
         let none = BorderShape::default();
         let mut path = Path::default();
-        path.push(point(&mut model, 0.0, 0));
+        path.push(point(&mut model, 0.0, 0.0, 0));
+        // A scene of particles alone has no moments.
+        let length = scene.longest_beam().unwrap_or(1.0);
         Self {
             scene,
-            // A scene of particles alone has no moments.
-            length: scene.longest_beam().unwrap_or(1.0),
+            length,
+            metric: metric(&model, length),
             loading,
             newton: Newton::new(unknowns, model.half_bandwidth(), none, loading.tolerance),
             movements: vec![0.0; unknowns],
@@ -52,7 +66,8 @@ impl<'s> Tracer<'s> {
     ) -> Result<(), StaticsError> {
         let Loading { factor, steps, .. } = self.loading;
         for step in 1..=steps {
-            self.reach(factor * step as f64 / steps as f64, MOST_HALVINGS, goes_on)?;
+            // The last one is the whole to the last digit.
+            self.reach(factor * (step as f64 / steps as f64), MOST_HALVINGS, goes_on)?;
         }
         Ok(())
     }
@@ -65,12 +80,15 @@ impl<'s> Tracer<'s> {
     ) -> Result<(), StaticsError> {
         let Loading { factor: goal, steps, .. } = self.loading;
         self.reach(goal / steps as f64, MOST_HALVINGS, goes_on)?;
-        let metric = self.metric();
         let mut trial = Trial::new(&self.model, &self.loading);
-        let mut distance = norm(&metric, &self.movements).min(arc.longest);
+        let mut distance = norm(&self.metric, &self.movements).min(arc.longest);
+        if distance == 0.0 {
+            // Loads on supports alone move nothing: there is no path to follow.
+            return self.reach(goal, MOST_HALVINGS, goes_on);
+        }
         while self.path.load_factor() != goal && self.path.points().len() < arc.points {
-            trial.look_along(&metric, &self.movements);
-            distance = self.advance(&mut trial, distance, &metric, goes_on)?.min(arc.longest);
+            trial.look_along(&self.metric, &self.movements);
+            distance = self.advance(&mut trial, distance, goes_on)?.min(arc.longest);
         }
         Ok(())
     }
@@ -80,30 +98,44 @@ impl<'s> Tracer<'s> {
         &mut self,
         trial: &mut Trial,
         mut distance: f64,
-        metric: &[f64],
         goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<f64, StaticsError> {
         let (from, goal) = (self.path.load_factor(), self.loading.factor);
-        let mut reason = None;
+        let mut miss = Miss::Far;
         for _ in 0..=MOST_HALVINGS {
             self.ask(goes_on)?;
             match trial.find(&mut self.model, self.length, from, distance) {
-                // A longer way than that has led to another part of the path.
-                Ok(_) if norm(metric, trial.movements()) > 2.0 * distance => {}
+                Ok(_) if norm(&self.metric, trial.movements()) > FAR * distance => miss = Miss::Far,
                 Ok(_) if (from < goal) != (trial.factor() < goal) => {
                     return self.reach(goal, MOST_HALVINGS, goes_on).map(|()| distance);
                 }
                 Ok(iterations) => {
+                    if let Some(way) = self.way_beyond(goal, trial.factor(), distance)
+                        && let Ok(iterations) = self.find(goal)
+                        && norm(&self.metric, &self.movements) <= way
+                    {
+                        self.accept(goal, iterations);
+                        return Ok(distance);
+                    }
                     self.movements.copy_from_slice(trial.movements());
                     self.accept(trial.factor(), iterations);
                     let growth = (WANTED_ITERATIONS / iterations as f64).sqrt();
                     return Ok(distance * growth.clamp(0.5, 1.5));
                 }
-                Err(error) => reason = Some(error),
+                Err(error) => miss = Miss::Newton(error),
             }
             distance *= 0.5;
         }
-        Err(self.lost(reason.unwrap_or(NewtonError::NotConverged { history: Vec::new() })))
+        Err(self.lost(miss))
+    }
+
+    /// How far it is to where the load factor turns, if it passes the goal before that and again after it: the first time counts.
+    fn way_beyond(&self, goal: f64, factor: f64, distance: f64) -> Option<f64> {
+        let [.., before, last] = self.path.points() else { return None };
+        let factors = [before.load_factor, last.load_factor, factor];
+        let vertex = vertex(factors, [last.distance, distance])?;
+        let is_beyond = (vertex.load_factor < goal) != (last.load_factor < goal);
+        is_beyond.then_some(vertex.way - last.distance)
     }
 
     /// Goes to a load factor, in halves where the whole step finds nothing.
@@ -128,18 +160,33 @@ impl<'s> Tracer<'s> {
         }
     }
 
-    fn find(&mut self, factor: f64) -> Result<usize, NewtonError> {
+    /// The iterations that led to an equilibrium near the last one.
+    fn find(&mut self, factor: f64) -> Result<usize, Miss> {
         self.movements.fill(0.0);
         self.model.begin_movement();
         let balance = Balance { model: &mut self.model, length: self.length };
         let mut equations = UnderLoad { balance, factor };
         let report = self.newton.solve(&mut equations, &mut self.movements, &mut self.residual)?;
-        Ok(report.iterations)
+        let moved = norm(&self.metric, &self.movements);
+        if moved <= self.farthest(factor) { Ok(report.iterations) } else { Err(Miss::Far) }
+    }
+
+    /// How far an equilibrium may be: by what the last step has moved for its load, or by a long step along the path.
+    fn farthest(&self, factor: f64) -> f64 {
+        let [.., before, last] = self.path.points() else { return f64::INFINITY };
+        match self.loading.control {
+            Control::ArcLength(arc) => FAR * arc.longest,
+            Control::Load => {
+                let share = (factor - last.load_factor) / (last.load_factor - before.load_factor);
+                FAR_UNDER_LOAD * (last.distance * share.abs()).max(NEARBY)
+            }
+        }
     }
 
     fn accept(&mut self, factor: f64, iterations: usize) {
         self.model.move_by(&self.movements);
-        self.path.push(point(&mut self.model, factor, iterations));
+        let distance = norm(&self.metric, &self.movements);
+        self.path.push(point(&mut self.model, factor, distance, iterations));
     }
 
     fn ask(&self, goes_on: &mut dyn FnMut(f64) -> bool) -> Result<(), StaticsError> {
@@ -147,23 +194,16 @@ impl<'s> Tracer<'s> {
         if goes_on(reached) { Ok(()) } else { Err(StaticsError::Interrupted { reached }) }
     }
 
-    fn lost(&mut self, reason: NewtonError) -> StaticsError {
+    fn lost(&self, reason: Miss) -> StaticsError {
         let (scene, reached) = (self.scene.name.clone(), self.path.load_factor());
-        if self.path.points().len() == 1 {
-            let movements = loose_movements(&mut self.model);
-            if movements > 0 {
-                return StaticsError::Loose { scene, movements };
-            }
-        }
         StaticsError::Lost { scene, reached, reason: Box::new(reason) }
     }
+}
 
-    /// What movements are squared with: relative to a length, as angles, and as means over the control points.
-    fn metric(&self) -> Vec<f64> {
-        let share = 3.0 / self.movements.len() as f64;
-        let weight = |turns: &bool| if *turns { share } else { share / self.length.powi(2) };
-        self.model.rotations().iter().map(weight).collect()
-    }
+fn metric(model: &Model, length: f64) -> Vec<f64> {
+    let share = 3.0 / model.rotations().len() as f64;
+    let weight = |turns: &bool| if *turns { share } else { share / length.powi(2) };
+    model.rotations().iter().map(weight).collect()
 }
 
 /// A step along the path, with its work space.
@@ -226,9 +266,9 @@ impl Trial {
     }
 }
 
-fn point(model: &mut Model, load_factor: f64, iterations: usize) -> PathPoint {
+fn point(model: &mut Model, load_factor: f64, distance: f64, iterations: usize) -> PathPoint {
     let strain_energy = model.measure().energy.strain;
-    PathPoint { load_factor, strain_energy, iterations, state: model.state() }
+    PathPoint { load_factor, strain_energy, distance, iterations, state: model.state() }
 }
 
 fn norm(metric: &[f64], movements: &[f64]) -> f64 {

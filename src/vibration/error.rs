@@ -40,6 +40,11 @@ pub enum VibrationError {
     /// Somebody stopped it.
     #[error("stopped while modes were looked for")]
     Interrupted,
+    /// A stiffness that no inertia makes positive.
+    #[error(
+        "a movement without inertia is unstable in this configuration: it has no modes; give sections a rotary inertia, or take a smaller load"
+    )]
+    Indefinite,
     /// Numbers that are not finite.
     #[error(
         "the stiffness or the inertia of the scene is not finite; check stiffness, masses and units"

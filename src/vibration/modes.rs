@@ -18,6 +18,9 @@ const SMALL: usize = 240;
 /// A squared frequency below so many times its rounding is zero.
 const ROUNDING: f64 = 64.0;
 
+/// A shift is so many times as large as what rounding hides of free movements.
+const HIDDEN_SHIFT: f64 = 100.0;
+
 /// A shift by so many times the rounding keeps a stiffness definite that rigid motions leave singular.
 const FIRST_SHIFT: f64 = 1e4;
 
@@ -27,8 +30,11 @@ const MOST_SHIFTS: usize = 12;
 /// A natural vibration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
-    /// `ω²`: exactly zero for a movement without resistance, negative if the configuration is unstable [1/time²].
+    /// `ω²`: zero for a movement without resistance, and where rounding hides it; negative if the configuration is unstable
+    /// [1/time²].
     pub square: f64,
+    /// What rounding may hide of it [1/time²].
+    pub rounding: f64,
     /// The movements of the unknowns, with `φᵀ M φ = 1`.
     pub shape: Vec<f64>,
 }
@@ -49,7 +55,7 @@ impl Mode {
         1.0 / self.frequency()
     }
 
-    /// Whether the movement meets no resistance.
+    /// Whether the movement meets no resistance that rounding would not hide.
     pub fn is_free(&self) -> bool {
         self.square == 0.0
     }
@@ -134,6 +140,9 @@ impl Modes {
     /// The configuration in a mode, its largest displacement of a control point as long as asked for [length].
     pub fn displaced(&self, mode: usize, amplitude: f64) -> Vec<Vec<Vec2>> {
         let scale = amplitude / self.largest(mode);
+        if self.largest(mode) == 0.0 {
+            return self.points.clone();
+        }
         let moved = |(points, by): (&Vec<Vec2>, &Vec<Vec2>)| {
             points.iter().zip(by).map(|(point, by)| point + by * scale).collect()
         };
@@ -142,12 +151,15 @@ impl Modes {
 
     /// The displacement of a place in a mode, relative to the largest of a control point [-].
     pub fn displacement(&self, mode: usize, place: &Place) -> Vec2 {
-        place.interpolate(&self.displacements[mode][place.body]) / self.largest(mode)
+        match self.largest(mode) {
+            0.0 => Vec2::zeros(),
+            largest => place.interpolate(&self.displacements[mode][place.body]) / largest,
+        }
     }
 
     fn largest(&self, mode: usize) -> f64 {
         let points = self.displacements[mode].iter().flatten();
-        points.map(|by| by.norm()).fold(f64::MIN_POSITIVE, f64::max)
+        points.map(|by| by.norm()).fold(0.0, f64::max)
     }
 }
 
@@ -175,21 +187,25 @@ fn lowest(
             Ok(pairs) => break pairs,
             Err(Refusal::Final(error)) => return Err(error),
             Err(Refusal::NotDefinite) if tries == MOST_SHIFTS => {
-                return Err(VibrationError::NotFinite);
+                return Err(VibrationError::Indefinite);
             }
             Err(Refusal::NotDefinite) => (shift, tries) = (100.0 * shift, tries + 1),
         }
     };
-    let modes = modes_of(pencil, &pairs, shift, count);
+    let found = modes_of(pencil, &pairs, shift);
+    let first = |modes: Vec<Mode>| modes.into_iter().take(count).collect();
     // A shift of the size of the lowest square keeps the digits of the others.
-    let fine = squares(pencil, &pairs, shift).find(|square| *square > shift);
-    let Some(shift) = fine.filter(|_| modes.iter().all(|mode| mode.square >= 0.0)) else {
-        return Ok(modes);
+    let lowest = found.iter().map(|mode| mode.square).find(|square| *square != 0.0);
+    let hidden = found.iter().filter(|mode| mode.is_free()).map(|mode| mode.rounding);
+    let smallest = HIDDEN_SHIFT * hidden.fold(0.0, f64::max);
+    let Some(fine) = lowest.filter(|square| *square > 0.0).map(|square| square.max(smallest))
+    else {
+        return Ok(first(found));
     };
-    match shifted_pairs(pencil, shift, count, goes_on) {
-        Ok(pairs) => Ok(modes_of(pencil, &pairs, shift, count)),
+    match shifted_pairs(pencil, fine, count, goes_on) {
+        Ok(pairs) => Ok(first(modes_of(pencil, &pairs, fine))),
         Err(Refusal::Final(VibrationError::Interrupted)) => Err(VibrationError::Interrupted),
-        Err(_) => Ok(modes),
+        Err(_) => Ok(first(found)),
     }
 }
 
@@ -212,23 +228,17 @@ fn shifted_pairs(
 }
 
 /// `ω² = 1/μ - σ` of each pair, zero where rounding hides it.
-fn squares<'a>(pencil: &Pencil, pairs: &'a Pairs, shift: f64) -> impl Iterator<Item = f64> + 'a {
-    let smallest = ROUNDING * pencil.rounding;
-    pairs.values.iter().map(move |value| {
-        let square = 1.0 / value - shift;
-        if square.abs() <= smallest { 0.0 } else { square }
-    })
-}
-
-fn modes_of(pencil: &Pencil, pairs: &Pairs, shift: f64, count: usize) -> Vec<Mode> {
+fn modes_of(pencil: &Pencil, pairs: &Pairs, shift: f64) -> Vec<Mode> {
     let shapes = pairs.vectors.column_iter().zip(&pairs.values);
-    squares(pencil, pairs, shift)
-        .zip(shapes)
-        .take(count)
-        // `φᵀ M φ = μ` for the vectors of the shifted problem.
-        .map(|(square, (vector, value))| {
+    // `φᵀ M φ = μ` for the vectors of the shifted problem; movements without inertia have none.
+    let with_inertia = shapes.filter(|(_, value)| **value > 0.0);
+    with_inertia
+        .map(|(vector, value)| {
             let scale = 1.0 / value.sqrt();
-            Mode { square, shape: vector.iter().map(|entry| entry * scale).collect() }
+            let shape: Vec<f64> = vector.iter().map(|entry| entry * scale).collect();
+            let (square, rounding) = (1.0 / value - shift, ROUNDING * pencil.rounding_of(&shape));
+            let square = if square.abs() <= rounding { 0.0 } else { square };
+            Mode { square, rounding, shape }
         })
         .collect()
 }

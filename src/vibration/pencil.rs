@@ -4,14 +4,14 @@ use nalgebra::DMatrix;
 
 use super::VibrationError;
 use crate::integrators::Mechanism;
-use crate::linalg::BandedMatrix;
+use crate::linalg::{BandedMatrix, negative_eigenvalues};
 use crate::model::Model;
 
 /// `K φ = ω² M φ`
 pub(super) struct Pencil {
     stiffness: BandedMatrix,
     inertia: BandedMatrix,
-    /// What rounding may add to `ω²`: `ε max K_ii/M_ii` [1/time²].
+    /// The most that rounding may add to any `ω²`: `ε max K_ii/M_ii` [1/time²].
     pub(super) rounding: f64,
     /// Movements with inertia: so many modes have a finite frequency.
     pub(super) finite: usize,
@@ -61,6 +61,18 @@ impl Pencil {
             band.add(row, column, stiffness + shift * inertia);
         }
         band
+    }
+
+    /// What rounding may add to the `ω²` of a shape with `φᵀ M φ = 1`: `ε Σ |φ_i K_ij φ_j|` [1/time²].
+    pub(super) fn rounding_of(&self, shape: &[f64]) -> f64 {
+        let products =
+            self.entries().map(|(row, column, k, _)| (shape[row] * k * shape[column]).abs());
+        f64::EPSILON * products.sum::<f64>()
+    }
+
+    /// `K - σ M` has so many negative eigenvalues: as many modes have squares below `σ` (Sylvester's law of inertia).
+    pub(super) fn modes_below(&self, square: f64) -> usize {
+        negative_eigenvalues(self.shifted_band(-square))
     }
 
     /// `M X`

@@ -36,6 +36,10 @@ pub(super) fn lowest_pairs(
     goes_on: &mut dyn FnMut() -> bool,
 ) -> Result<Pairs, Refusal> {
     let size = pencil.size();
+    // Iteration would pass by an unstable mode far below the shift.
+    if pencil.modes_below(-shift) > 0 {
+        return Err(Refusal::NotDefinite);
+    }
     let width = (2 * count).max(count + 8).min(size);
     let mut matrix = pencil.shifted_band(shift);
     let factors = matrix.factorise().map_err(|_| Refusal::NotDefinite)?;

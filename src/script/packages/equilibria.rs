@@ -175,7 +175,7 @@ const ARC_LENGTH: &[Parameter] = &[
     number("longest").positive().or(Presence::Number(0.05)).doc(
         "the longest step: the root mean square of displacements over the longest beam, and of rotations in rad",
     ),
-    whole("points").positive().or(Presence::Whole(1000)).doc("most points of the path, which then ends where it is"),
+    whole("points").at_least(3.0).or(Presence::Whole(1000)).doc("most points of the path, which then ends where it is"),
 ];
 
 /// An equilibrium that a script holds; clones are the same one.

@@ -128,7 +128,7 @@ impl Scripted for ModesHandle {
         for (number, mode) in self.0.modes.all().iter().enumerate() {
             let shown = |value: f64| Cell::Number(significant(value, 7));
             let (period, remark) = match mode.square {
-                0.0 => (Cell::Text("-".into()), "meets no resistance".to_owned()),
+                0.0 => (Cell::Text("-".into()), "meets no resistance, within rounding".to_owned()),
                 square if square < 0.0 => {
                     let rate = significant(mode.growth_rate(), 4);
                     (Cell::Text("-".into()), format!("unstable: grows like exp({rate} t)"))
