@@ -117,6 +117,11 @@ fn slope(errors: &[f64]) -> f64 {
     (errors[0] / errors[errors.len() - 1]).log2() / (errors.len() - 1) as f64
 }
 
+/// Whether errors fall at an order of at least that much, unless already those of the coarsest mesh are small.
+fn converges(errors: &[f64], order: f64, small: f64) -> bool {
+    slope(errors) > order || errors.iter().all(|error| *error < small)
+}
+
 #[test]
 fn a_sliding_particle_converges_to_the_references_at_first_order_in_space() {
     // The exact tangent jumps at a loaded contact; a mesh that is smooth there smears the jump over its spans.
@@ -124,7 +129,8 @@ fn a_sliding_particle_converges_to_the_references_at_first_order_in_space() {
     for (reference, end) in [("P7b", 0.2), ("P7b", 0.4), ("P7c", 0.4), ("P7c", 1.0), ("P7d", 0.3)] {
         let [length, point, tip] = errors_in_space(reference, end, 0.0005, b, &[8, 16, 32, 64]);
         assert!((0.75..1.35).contains(&slope(&point)), "{reference}: {point:?}");
-        assert!(slope(&length) > 0.6 && slope(&tip) > 0.75, "{reference}: {length:?} {tip:?}");
+        assert!(converges(&length, 0.6, 2e-4), "{reference}: {length:?}");
+        assert!(converges(&tip, 0.75, 0.0), "{reference}: {tip:?}");
         assert!(length[3] < 5e-4 && point[3] < 1e-3 && tip[3] < 3e-3, "{reference}");
     }
 }
@@ -137,7 +143,7 @@ fn two_beams_converge_to_the_references_at_first_order_in_space() {
             let [length, point, mass] =
                 errors_in_space(reference, end, 0.0005, m, &[8, 16, 32, 64]);
             // The contact itself comes nearer more slowly and not evenly, as with the fixed-mesh solver of the references.
-            assert!((0.8..1.3).contains(&slope(&mass)), "{reference}: {mass:?}");
+            assert!(converges(&mass, 0.8, 2e-5), "{reference}: {mass:?}");
             assert!(mass[3] < 2e-3 && length[3] < farthest && point[3] < farthest, "{reference}");
         }
     }
@@ -163,7 +169,7 @@ fn energies_converge_to_those_of_the_references() {
             sci(&share),
             orders(&share)
         );
-        assert!(slope(&share) > 0.6 && share[3] < 1e-3, "{reference}: {share:?}");
+        assert!(converges(&share, 0.6, 1e-5) && share[3] < 1e-3, "{reference}: {share:?}");
     }
 }
 

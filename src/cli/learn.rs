@@ -14,6 +14,7 @@ use super::interrupt::{self, AtStake};
 use super::learn_options::{LearnAction, LearnOptions};
 use super::limits::LimitOptions;
 use super::run::refuse;
+use crate::exercises::attempt;
 use crate::exercises::catalogue::{EXERCISES, TRACKS, find};
 use crate::exercises::error::ExerciseError;
 use crate::exercises::exercise::Exercise;
@@ -23,7 +24,6 @@ use crate::exercises::workbook::{Advice, Workbook};
 use crate::script::context::{Mode, Settings};
 use crate::script::diagnose::{Colours, Diagnostic};
 use crate::script::panics;
-use crate::script::program::Program;
 
 /// Does what was asked for.
 pub fn learn(options: &LearnOptions) -> Exit {
@@ -145,7 +145,7 @@ fn check(
 }
 
 fn judge_file(workbook: &Workbook, exercise: &Exercise, settings: Settings) -> Verdict {
-    match Program::load(&workbook.file(exercise)) {
+    match attempt::load(&workbook.file(exercise), workbook.folder()) {
         Ok(attempt) => judge(exercise, &attempt, settings),
         Err(why) => Verdict::Broken(why),
     }

@@ -1,15 +1,13 @@
 //! Grading submissions: every exercise of a student gets a mark, whatever the files hold.
 
-use std::fs;
-
 use serde_json::{Value, json};
 
+use super::attempt;
 use super::catalogue::EXERCISES;
 use super::exercise::Exercise;
 use super::judging::{Verdict, judge};
 use super::submissions::Submission;
 use crate::script::context::Settings;
-use crate::script::program::Program;
 
 /// What an attempt is worth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,13 +105,13 @@ fn mark(
     let Some(path) = submission.attempt(exercise) else {
         return Some((Mark::Missing, String::new()));
     };
-    if fs::read_to_string(&path).is_ok_and(|text| is_same(&text, exercise.start)) {
-        return Some((Mark::Untouched, String::new()));
-    }
-    let attempt = match Program::load(&path) {
+    let attempt = match attempt::load(&path, &submission.folder) {
         Ok(attempt) => attempt,
         Err(why) => return Some((Mark::Broken, why.message)),
     };
+    if is_same(&attempt.text, exercise.start) {
+        return Some((Mark::Untouched, String::new()));
+    }
     match judge(exercise, &attempt, settings) {
         Verdict::Passed => Some((Mark::Passed, String::new())),
         Verdict::Off(found) => Some((Mark::Off, found.join("\n"))),

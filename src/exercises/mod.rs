@@ -3,6 +3,7 @@
 //! [`catalogue`] is the table of all; [`judging`] runs an attempt and its judge; [`workbook`] is the folder of a student,
 //! [`submissions`] are the folders of a class. Nothing is printed here: `cli` does that.
 
+pub mod attempt;
 pub mod catalogue;
 pub mod error;
 pub mod exercise;

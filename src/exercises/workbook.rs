@@ -35,10 +35,16 @@ pub enum Advice {
 }
 
 impl Workbook {
-    /// The folder of a student who is in `here`: that one, if it is a folder of exercises, else one below. Writes nothing.
+    /// The folder of a student who is in `here`: that one or one above, if it is a folder of exercises, else one below. Writes
+    /// nothing.
     pub fn near(here: &Path) -> Self {
-        let is_inside = here.join(progress::FILE).exists();
-        Self { folder: if is_inside { here.into() } else { here.join(FOLDER) } }
+        let real = here.canonicalize().unwrap_or_else(|_| here.into());
+        let is_workbook = |folder: &&Path| folder.join(progress::FILE).exists();
+        match real.ancestors().find(is_workbook) {
+            Some(folder) if folder == real => Self { folder: here.into() },
+            Some(folder) => Self { folder: folder.into() },
+            None => Self { folder: here.join(FOLDER) },
+        }
     }
 
     /// Makes the folder, and the start files that are not there. Gives how many were written.

@@ -5,6 +5,7 @@ use super::{Control, Loading, Path, PathPoint, StaticsError};
 use crate::beams::Place;
 use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
+use crate::linalg::{BandedMatrix, negative_eigenvalues};
 use crate::model::{Model, Scene};
 use crate::vibration::{Modes, VibrationError, loose_movements};
 
@@ -93,6 +94,17 @@ impl Equilibrium {
         self.model.begin_movement();
         self.model.add_static_forces(&standstill, self.path.load_factor(), &mut forces);
         self.model.support_force(place, &forces)
+    }
+
+    /// Whether every small disturbance meets resistance; none where loads turn with the beam, which have no potential.
+    pub fn is_stable(&mut self) -> Option<bool> {
+        if self.model.follower().is_some() {
+            return None;
+        }
+        let zeros = BandedMatrix::zeros(self.model.unknowns(), self.model.half_bandwidth());
+        let mut stiffness = zeros;
+        self.model.add_stiffness(&mut stiffness);
+        Some(negative_eigenvalues(stiffness) == 0)
     }
 
     /// The lowest natural modes of vibration about the equilibrium.

@@ -12,8 +12,11 @@ use crate::beams::{Mesh, Place};
 use crate::geometry::Vec2;
 use crate::model::Model;
 
-/// Up to so many unknowns all modes are found at once.
+/// Up to so many unknowns all modes are found at once,
 const SMALL: usize = 240;
+
+/// and up to so many where more than an eighth of them is asked for.
+const MEDIUM: usize = 2000;
 
 /// A squared frequency below so many times its rounding is zero.
 const ROUNDING: f64 = 64.0;
@@ -216,7 +219,7 @@ fn shifted_pairs(
     goes_on: &mut dyn FnMut() -> bool,
 ) -> Result<Pairs, Refusal> {
     let size = pencil.size();
-    if size > SMALL {
+    if size > MEDIUM || (size > SMALL && 8 * count < size) {
         return lowest_pairs(pencil, shift, count, goes_on);
     }
     let (mut stiffness, mut inertia) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));

@@ -32,7 +32,7 @@ pub const TABLE: Table = Table {
             .returns("an equilibrium")
             .summary("Finds where the scene rests under its loads and its weight.")
             .doc(
-                "The scene must be held: supports must leave it no movement without resistance. A load step that finds nothing \
+                "Something must act, and nothing may slide. The scene must be held: supports must leave it no movement without resistance. A load step that finds nothing \
                  is halved, eight times at most. Where a structure snaps through, or to follow it under a falling load, take \
                  control: arc_length().",
             )
@@ -99,7 +99,7 @@ pub const TABLE: Table = Table {
         })
         .returns("modes")
         .summary("The lowest natural frequencies and shapes of vibration about the equilibrium.")
-        .doc("A configuration that is not stable has modes that grow instead: see growth_rates.")
+        .doc("A configuration that is not stable has modes that grow instead: see growth_rates. There are none where a load turns with the beam.")
         .example("let rest = scene.equilibrium();\ncheck(rest.modes(2).is_stable);")
         .see(&["modes", "plot_modes"]),
         method(EQUILIBRIUM, "start", &[options("options", START)], |call| {
@@ -112,13 +112,24 @@ pub const TABLE: Table = Table {
         .summary("Puts the scene at t = 0 where it rests, without velocity.")
         .doc(
             "Its loads follow their schedules from there: what was bent by hold_for(1) is let go at t = 1. Options are those of \
-             scene.start.",
+             scene.start. The whole of the loads acts there, whatever load_factor and time led to the equilibrium.",
         )
         .example(
             "let rest = scene.equilibrium();\nlet sim = rest.start(#{ dt: 0.01 });\nsim.run_to(0.1);\n\
              check(norm(sim.position(rod.end) - rest.position(rod.end)) < 1e-9);",
         )
         .see(&["hold_for"]),
+        told("is_stable", "true or false", |call| {
+            let handle = call.receiver::<EquilibriumHandle>()?;
+            let is_stable = handle.0.rest.borrow_mut().is_stable();
+            is_stable.map(Dynamic::from).ok_or_else(|| {
+                call.error("a load turns with the beam: whether it rests stably, its stiffness alone does not tell")
+                    .hint("simulate: rest.start(#{ dt: … }), and disturb it")
+            })
+        })
+        .summary("Whether every small disturbance meets resistance; a structure leaves an equilibrium that is not stable.")
+        .example("check(scene.equilibrium().is_stable);")
+        .see(&["modes", "limit_points"]),
         told("load_factor", "a number [-]", |call| look(call, |of| of.path().load_factor().into()))
             .summary("The part of the loads that acts: what was asked for, unless a path ended before.")
             .example("check(scene.equilibrium().load_factor == 1);"),
@@ -161,7 +172,7 @@ const CONTROL: Type = Type::of::<Control>();
 const AT: Parameter = object("station", STATION);
 const LOADING: &[Parameter] = &[
     whole("load_steps")
-        .positive()
+        .between(1.0, 100_000.0)
         .or(Presence::Whole(10))
         .doc("in how many steps the loads are put on; with arc_length() the part of the first"),
     object("control", CONTROL).doc("load_control() unless given, or arc_length()").optional(),
@@ -175,7 +186,7 @@ const ARC_LENGTH: &[Parameter] = &[
     number("longest").positive().or(Presence::Number(0.05)).doc(
         "the longest step: the root mean square of displacements over the longest beam, and of rotations in rad",
     ),
-    whole("points").at_least(3.0).or(Presence::Whole(1000)).doc("most points of the path, which then ends where it is"),
+    whole("points").between(3.0, 100_000.0).or(Presence::Whole(1000)).doc("most points of the path, which then ends where it is"),
 ];
 
 /// An equilibrium that a script holds; clones are the same one.
@@ -282,7 +293,7 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
             found
         }
     };
-    let rest = match found {
+    let mut rest = match found {
         Err(StaticsError::Interrupted { .. }) => {
             context.proceed()?;
             return Err(ScriptError::bug("an equilibrium was stopped by nobody"));
@@ -299,6 +310,10 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
         }
         found => found?,
     };
+    if context.mode() == Mode::Run && rest.is_stable() == Some(false) {
+        let name = &rest.scene().name;
+        context.tell(&format!("note: the equilibrium of '{name}' is not stable"));
+    }
     let path = rest.path();
     if path.load_factor() != loading.factor {
         let (points, factor) = (path.points().len(), significant(path.load_factor(), 6));

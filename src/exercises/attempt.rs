@@ -1,0 +1,69 @@
+//! The file of an attempt: a person has put it there, and it may be anything.
+
+use std::fs;
+use std::path::Path;
+
+use crate::script::diagnose::Diagnostic;
+use crate::script::program::Program;
+
+/// The largest file that is taken for an attempt [bytes].
+const LARGEST: u64 = 1 << 20;
+
+/// Reads an attempt that lies in a folder.
+///
+/// # Errors
+/// When it is no ordinary file of at most a megabyte, lies outside the folder (a link may lead there), or is no text.
+pub fn load(path: &Path, folder: &Path) -> Result<Program, Diagnostic> {
+    let refused = |why: &str| {
+        let told = format!("cannot read the attempt '{}': {why}", path.display());
+        Diagnostic::general(told).with_hint("an attempt is a text file of its own")
+    };
+    // What is not there, Program tells.
+    if let Ok(about) = fs::metadata(path) {
+        if !about.is_file() {
+            return Err(refused("it is no ordinary file"));
+        }
+        if about.len() > LARGEST {
+            return Err(refused("it is larger than a megabyte"));
+        }
+        let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        if !real(path).starts_with(real(folder)) {
+            return Err(refused("it is a link to a file outside of its folder"));
+        }
+    }
+    Program::load(path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ordinary_files_are_read_and_others_are_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name: &str| folder.path().join(name);
+        fs::write(file("mine.rhai"), "let a = 1;").unwrap();
+        assert!(load(&file("mine.rhai"), folder.path()).is_ok());
+        fs::write(file("large.rhai"), vec![b' '; 2 << 20]).unwrap();
+        fs::create_dir(file("folder.rhai")).unwrap();
+        for name in ["large.rhai", "folder.rhai", "none.rhai"] {
+            assert!(load(&file(name), folder.path()).is_err(), "{name}");
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_and_pipes_to_elsewhere_are_refused() {
+        use std::os::unix::fs::symlink;
+        let (folder, other) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        let theirs = other.path().join("theirs.rhai");
+        fs::write(&theirs, "let a = 1;").unwrap();
+        for (name, target) in
+            [("link.rhai", theirs.as_path()), ("zero.rhai", Path::new("/dev/zero"))]
+        {
+            let link = folder.path().join(name);
+            symlink(target, &link).unwrap();
+            assert!(load(&link, folder.path()).is_err(), "{name}");
+        }
+    }
+}
