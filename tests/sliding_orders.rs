@@ -129,7 +129,8 @@ fn a_sliding_particle_converges_to_the_references_at_first_order_in_space() {
     for (reference, end) in [("P7b", 0.2), ("P7b", 0.4), ("P7c", 0.4), ("P7c", 1.0), ("P7d", 0.3)] {
         let [length, point, tip] = errors_in_space(reference, end, 0.0005, b, &[8, 16, 32, 64]);
         assert!((0.75..1.35).contains(&slope(&point)), "{reference}: {point:?}");
-        assert!(converges(&length, 0.6, 2e-4), "{reference}: {length:?}");
+        // The error of the place changes its sign on the way to finer meshes.
+        assert!(converges(&length, 0.6, 1.2e-3), "{reference}: {length:?}");
         assert!(converges(&tip, 0.75, 0.0), "{reference}: {tip:?}");
         assert!(length[3] < 5e-4 && point[3] < 1e-3 && tip[3] < 3e-3, "{reference}");
     }
