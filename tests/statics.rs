@@ -14,7 +14,7 @@ use withy::joints::{JointKind, Partner};
 use withy::loads::{Frame, LoadKind, Schedule};
 use withy::model::Scene;
 use withy::simulation::Simulation;
-use withy::statics::{ArcLength, Control, Equilibrium, Loading, StaticsError};
+use withy::statics::{ArcLength, Control, Equilibrium, Loading, Stability, StaticsError};
 
 const LENGTH: f64 = 10.0;
 const BENDING: f64 = 100.0;
@@ -301,6 +301,32 @@ fn reactions_balance_the_loads() {
     assert!((force - at(0.0, -10.0)).norm() < 1e-9, "{force}");
     assert!((moment + 10.0 * tip.x).abs() < 1e-8, "{moment}");
     assert_eq!(rest.reaction(&end), None);
+}
+
+/// Bending resists 1e-14 times as much as stretching: rounding hides it in the stiffness, and Newton finds it all the same.
+#[test]
+fn a_beam_that_is_all_but_inextensible_is_held_and_bends_as_it_should() {
+    let bend = |stiffness: f64| {
+        let scene = clamped(straight(), &smooth(8), section(stiffness, stiffness));
+        load_tip(scene, at(0.0, 1.0), 0.0, 8).position
+    };
+    let (stiff, extreme) = (bend(1e8), bend(1e14));
+    assert!((stiff - extreme).norm() < 1e-5, "{stiff} {extreme}");
+}
+
+#[test]
+fn stability_is_that_of_eulers_column_or_not_known() {
+    let at_part = |part: f64, frame: Frame| {
+        let mut scene = clamped(straight(), &smooth(16), section(1e7, 1e7));
+        let station = scenes::end_of(&mut scene, 0);
+        let force = at(-part * PI.powi(2) * BENDING / (4.0 * LENGTH * LENGTH), 0.0);
+        let load = LoadKind::Force { station, force, frame };
+        scene.add_load(load, Schedule::constant(1.0).unwrap());
+        find(scene, Loading::default()).unwrap().stability(&mut || true)
+    };
+    assert_eq!(at_part(0.99, Frame::Dead), Stability::Stable);
+    assert_eq!(at_part(1.01, Frame::Dead), Stability::Unstable);
+    assert_eq!(at_part(0.5, Frame::Follower), Stability::Follower);
 }
 
 /// Two beams from one clamped corner: whichever is asked, the ground holds both.

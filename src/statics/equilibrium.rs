@@ -2,12 +2,25 @@
 
 use super::tracer::Tracer;
 use super::{Control, Loading, Path, PathPoint, StaticsError};
-use crate::beams::Place;
+use crate::beams::{Place, Section};
 use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
 use crate::linalg::{BandedMatrix, negative_eigenvalues};
 use crate::model::{Model, Scene};
 use crate::vibration::{Modes, VibrationError, loose_movements};
+
+/// What becomes of a small disturbance of an equilibrium.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stability {
+    /// Everything resists it.
+    Stable,
+    /// It grows.
+    Unstable,
+    /// Rounding hides whether it grows: stiffnesses differ too much.
+    Hidden,
+    /// A load that turns with the beam has no potential: the stiffness alone does not tell.
+    Follower,
+}
 
 /// A scene at rest under its loads, and the path that led there.
 ///
@@ -29,8 +42,8 @@ impl Equilibrium {
         loading: Loading,
         goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Self, StaticsError> {
-        let mut model = prepare(&scene, &loading)?;
-        let movements = loose_movements(&mut model);
+        let model = prepare(&scene, &loading)?;
+        let movements = loose_movements(&mut Model::assemble(&of_equal_stiffness(&scene))?);
         if movements > 0 {
             return Err(StaticsError::Loose { scene: scene.name, movements });
         }
@@ -96,15 +109,22 @@ impl Equilibrium {
         self.model.support_force(place, &forces)
     }
 
-    /// Whether every small disturbance meets resistance; none where loads turn with the beam, which have no potential.
-    pub fn is_stable(&mut self) -> Option<bool> {
+    /// What becomes of a small disturbance, by the signs of the pivots of the stiffness, and where these are not sure by the lowest mode.
+    pub fn stability(&mut self, goes_on: &mut dyn FnMut() -> bool) -> Stability {
         if self.model.follower().is_some() {
-            return None;
+            return Stability::Follower;
         }
-        let zeros = BandedMatrix::zeros(self.model.unknowns(), self.model.half_bandwidth());
-        let mut stiffness = zeros;
+        let (size, reach) = (self.model.unknowns(), self.model.half_bandwidth());
+        let mut stiffness = BandedMatrix::zeros(size, reach);
         self.model.add_stiffness(&mut stiffness);
-        Some(negative_eigenvalues(stiffness) == 0)
+        if negative_eigenvalues(stiffness) == 0 {
+            return Stability::Stable;
+        }
+        match self.modes(1, goes_on).as_ref().map(Modes::all) {
+            Ok([lowest]) if lowest.square > 0.0 => Stability::Stable,
+            Ok([lowest]) if lowest.square == 0.0 => Stability::Hidden,
+            _ => Stability::Unstable,
+        }
     }
 
     /// The lowest natural modes of vibration about the equilibrium.
@@ -118,6 +138,23 @@ impl Equilibrium {
     ) -> Result<Modes, VibrationError> {
         Modes::of(&mut self.model, count, goes_on)
     }
+}
+
+/// The same scene with beams that resist stretching, shear and bending alike: what can move without any resistance, and nothing
+/// else, has a stiffness of zero there, which no other stiffness hides.
+fn of_equal_stiffness(scene: &Scene) -> Scene {
+    let mut equal = scene.clone();
+    for beam in &mut equal.beams {
+        let square = beam.axis.length().powi(2);
+        beam.section = Section {
+            axial_stiffness: 1.0,
+            shear_stiffness: 1.0,
+            bending_stiffness: square,
+            mass_per_length: 1.0,
+            rotary_inertia: square,
+        };
+    }
+    equal
 }
 
 /// The model at its start, its loads as they will be held.

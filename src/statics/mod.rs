@@ -7,7 +7,7 @@ mod loading;
 mod path;
 mod tracer;
 
-pub use equilibrium::Equilibrium;
+pub use equilibrium::{Equilibrium, Stability};
 pub use error::{Miss, StaticsError};
 pub use loading::{ArcLength, Control, Loading};
 pub use path::{Path, PathPoint};

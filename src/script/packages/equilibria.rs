@@ -17,7 +17,7 @@ use crate::script::kind::{Details, Scripted, Type};
 use crate::script::parameter::{Parameter, Presence, number, object, options, whole};
 use crate::script::table::{Body, Row, Table, function, method, property};
 use crate::simulation::Simulation;
-use crate::statics::{ArcLength, Control, Equilibrium, Loading, StaticsError};
+use crate::statics::{ArcLength, Control, Equilibrium, Loading, Stability, StaticsError};
 
 /// Equilibrium.
 pub const TABLE: Table = Table {
@@ -119,14 +119,7 @@ pub const TABLE: Table = Table {
              check(norm(sim.position(rod.end) - rest.position(rod.end)) < 1e-9);",
         )
         .see(&["hold_for"]),
-        told("is_stable", "true or false", |call| {
-            let handle = call.receiver::<EquilibriumHandle>()?;
-            let is_stable = handle.0.rest.borrow_mut().is_stable();
-            is_stable.map(Dynamic::from).ok_or_else(|| {
-                call.error("a load turns with the beam: whether it rests stably, its stiffness alone does not tell")
-                    .hint("simulate: rest.start(#{ dt: … }), and disturb it")
-            })
-        })
+        told("is_stable", "true or false", is_stable)
         .summary("Whether every small disturbance meets resistance; a structure leaves an equilibrium that is not stable.")
         .example("check(scene.equilibrium().is_stable);")
         .see(&["modes", "limit_points"]),
@@ -310,7 +303,10 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
         }
         found => found?,
     };
-    if context.mode() == Mode::Run && rest.is_stable() == Some(false) {
+    let is_unstable = |rest: &mut Equilibrium| {
+        rest.stability(&mut || !context.is_stopped()) == Stability::Unstable
+    };
+    if context.mode() == Mode::Run && is_unstable(&mut rest) {
         let name = &rest.scene().name;
         context.tell(&format!("note: the equilibrium of '{name}' is not stable"));
     }
@@ -323,6 +319,22 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
         ));
     }
     Ok(Dynamic::from(EquilibriumHandle(Rc::new(Held { scene, rest: RefCell::new(rest) }))))
+}
+
+fn is_stable(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let handle = call.receiver::<EquilibriumHandle>()?;
+    let context = call.context();
+    let stability = handle.0.rest.borrow_mut().stability(&mut || !context.is_stopped());
+    let unknown = |why: &str| {
+        let hint = "simulate: rest.start(#{ dt: … }), and disturb it";
+        Err(call.error(format!("whether it rests stably is not known: {why}")).hint(hint))
+    };
+    match stability {
+        Stability::Stable => Ok(true.into()),
+        Stability::Unstable => Ok(false.into()),
+        Stability::Hidden => unknown("the stiffnesses differ so much that rounding hides it"),
+        Stability::Follower => unknown("a load turns with the beam, and has no potential"),
+    }
 }
 
 /// The equilibrium that is called, and a place of it.
