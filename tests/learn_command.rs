@@ -161,6 +161,10 @@ fn unknown_names_and_damaged_progress_are_told() {
     let (code, text) = said(class.path(), &["next"]);
     assert_eq!(code, 2);
     assert!(text.contains("is damaged"), "{text}");
+    // An attempt is judged all the same.
+    let (code, text) = said(class.path(), &["check", "change_one_number"]);
+    assert_eq!(code, 1);
+    assert!(text.contains("is damaged") && text.contains("not yet: beams/change_one"), "{text}");
 }
 
 /// The lines that a process prints, as they come.

@@ -5,6 +5,7 @@
 //! therefore count for the control points behind it before the parts are worked on, and for those before it afterwards.
 
 use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use super::dynamics::Movement;
@@ -31,15 +32,24 @@ pub(super) struct Parts {
     cuts: Vec<Cut>,
 }
 
-/// Works on all tasks at once: on the first one here, on each other one in a thread of its own.
+/// Works on all tasks at once: on the first one here, on each other one in a thread of its own, or here where the system gives
+/// no thread.
 pub fn at_once<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + Sync) {
+    let mut tasks = tasks.into_iter();
+    let first = tasks.next();
+    let others: Vec<Mutex<Option<T>>> = tasks.map(|task| Mutex::new(Some(task))).collect();
+    let take = |task: &Mutex<Option<T>>| {
+        let taken = task.lock().unwrap_or_else(PoisonError::into_inner).take();
+        taken.into_iter().for_each(&work);
+    };
     thread::scope(|scope| {
-        let (work, mut tasks) = (&work, tasks.into_iter());
-        let first = tasks.next();
-        for task in tasks {
-            scope.spawn(move || work(task));
+        let take = &take;
+        for task in &others {
+            let _ = thread::Builder::new().spawn_scoped(scope, move || take(task));
         }
-        first.map(work)
+        first.into_iter().for_each(&work);
+        // What no thread has taken.
+        others.iter().for_each(take);
     });
 }
 

@@ -123,13 +123,14 @@ fn check(
         ..Settings::silent(Mode::Run)
     };
     let verdict = judge_file(workbook, exercise, settings);
-    if !matches!(verdict, Verdict::Interrupted) {
-        workbook.note(exercise, matches!(verdict, Verdict::Passed))?;
-    }
+    let has_passed = matches!(verdict, Verdict::Passed);
+    let is_noted = matches!(verdict, Verdict::Interrupted) || note(workbook, exercise, has_passed);
     let off = match verdict {
         Verdict::Passed => {
             say(&format!("passed: {}", exercise.id()));
-            show_next(workbook)?;
+            if is_noted {
+                show_next(workbook)?;
+            }
             return Ok(Exit::Good);
         }
         Verdict::Interrupted => {
@@ -142,6 +143,15 @@ fn check(
     say(&format!("{off}\nnot yet: {}", exercise.id()));
     say(&format!("a hint: withy learn hint {}", exercise.name));
     Ok(Exit::CheckFailed)
+}
+
+/// Notes what an attempt is worth; where that cannot be done, says so: the judgement stands.
+fn note(workbook: &Workbook, exercise: &Exercise, has_passed: bool) -> bool {
+    let noted = workbook.note(exercise, has_passed);
+    if let Err(error) = &noted {
+        say(&format!("not noted: {error}"));
+    }
+    noted.is_ok()
 }
 
 fn judge_file(workbook: &Workbook, exercise: &Exercise, settings: Settings) -> Verdict {
@@ -170,7 +180,7 @@ fn check_all(workbook: &Workbook, limits: &LimitOptions) -> Done {
             _ if has_passed => "passed ",
             _ => "not yet",
         };
-        workbook.note(exercise, has_passed)?;
+        note(workbook, exercise, has_passed);
         passed += usize::from(has_passed);
         say(&format!("{word}  {}", exercise.id()));
     }
