@@ -6,7 +6,7 @@ use super::BandedMatrix;
 /// Loan, Matrix Computations, 4th ed., section 4.4).
 ///
 /// Without exchange of rows, an eigenvalue nearer to zero than rounding may be counted either way. Only the upper triangle is read.
-pub fn negative_eigenvalues(matrix: BandedMatrix) -> usize {
+pub fn negative_eigenvalues(matrix: &BandedMatrix) -> usize {
     let (size, reach) = (matrix.size(), matrix.half_bandwidth());
     // The rows of the upper triangle that the elimination of a row may touch, from the diagonal on.
     let row = |at: usize| -> Vec<f64> {
@@ -60,7 +60,7 @@ mod tests {
             let values = dense.symmetric_eigenvalues();
             prop_assume!(values.iter().all(|value| value.abs() > 1e-6));
             let expected = values.iter().filter(|value| **value < 0.0).count();
-            prop_assert_eq!(negative_eigenvalues(matrix), expected);
+            prop_assert_eq!(negative_eigenvalues(&matrix), expected);
         }
     }
 }

@@ -117,7 +117,7 @@ impl Equilibrium {
         let (size, reach) = (self.model.unknowns(), self.model.half_bandwidth());
         let mut stiffness = BandedMatrix::zeros(size, reach);
         self.model.add_stiffness(&mut stiffness);
-        if negative_eigenvalues(stiffness) == 0 {
+        if negative_eigenvalues(&stiffness) == 0 {
             return Stability::Stable;
         }
         match self.modes(1, goes_on).as_ref().map(Modes::all) {
@@ -140,8 +140,8 @@ impl Equilibrium {
     }
 }
 
-/// The same scene with beams that resist stretching, shear and bending alike: what can move without any resistance, and nothing
-/// else, has a stiffness of zero there, which no other stiffness hides.
+/// The same scene with beams that resist stretching, shear and bending alike, and masses like theirs: what can move without any
+/// resistance, and nothing else, has a stiffness of zero there, which no other stiffness or inertia hides.
 fn of_equal_stiffness(scene: &Scene) -> Scene {
     let mut equal = scene.clone();
     for beam in &mut equal.beams {
@@ -153,6 +153,10 @@ fn of_equal_stiffness(scene: &Scene) -> Scene {
             mass_per_length: 1.0,
             rotary_inertia: square,
         };
+    }
+    let length = scene.longest_beam().unwrap_or(1.0);
+    for mass in &mut equal.masses {
+        (mass.mass, mass.rotary_inertia) = (length, 0.0);
     }
     equal
 }

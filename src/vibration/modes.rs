@@ -142,10 +142,11 @@ impl Modes {
 
     /// The configuration in a mode, its largest displacement of a control point as long as asked for [length].
     pub fn displaced(&self, mode: usize, amplitude: f64) -> Vec<Vec<Vec2>> {
-        let scale = amplitude / self.largest(mode);
-        if self.largest(mode) == 0.0 {
+        let largest = self.largest(mode);
+        if largest == 0.0 {
             return self.points.clone();
         }
+        let scale = amplitude / largest;
         let moved = |(points, by): (&Vec<Vec2>, &Vec<Vec2>)| {
             points.iter().zip(by).map(|(point, by)| point + by * scale).collect()
         };
@@ -172,9 +173,7 @@ pub fn loose_movements(model: &mut Model) -> usize {
     if model.rotations().len() > SMALL {
         return 0;
     }
-    let Ok(pencil) = Pencil::of(model) else { return 0 };
-    let modes = lowest(&pencil, pencil.finite, &mut || true).unwrap_or_default();
-    modes.iter().filter(|mode| mode.is_free()).count()
+    Pencil::of(model).map_or(0, |pencil| pencil.modes_below(FIRST_SHIFT * pencil.rounding))
 }
 
 fn lowest(

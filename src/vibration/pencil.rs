@@ -72,7 +72,7 @@ impl Pencil {
 
     /// `K - σ M` has so many negative eigenvalues: as many modes have squares below `σ` (Sylvester's law of inertia).
     pub(super) fn modes_below(&self, square: f64) -> usize {
-        negative_eigenvalues(self.shifted_band(-square))
+        negative_eigenvalues(&self.shifted_band(-square))
     }
 
     /// `M X`
@@ -90,8 +90,7 @@ impl Pencil {
         for (row, column, stiffness, inertia) in self.entries() {
             let value = entry(stiffness, inertia);
             if value != 0.0 {
-                for (of, out) in vectors.column_iter().zip(product.column_iter_mut()) {
-                    let mut out = out;
+                for (of, mut out) in vectors.column_iter().zip(product.column_iter_mut()) {
                     out[row] += value * of[column];
                 }
             }

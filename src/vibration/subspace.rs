@@ -7,6 +7,7 @@ use nalgebra::DMatrix;
 use super::VibrationError;
 use super::pencil::Pencil;
 use super::reduced::{Pairs, pairs};
+use crate::linalg::negative_eigenvalues;
 
 /// Why there are no pairs.
 pub(super) enum Refusal {
@@ -36,12 +37,12 @@ pub(super) fn lowest_pairs(
     goes_on: &mut dyn FnMut() -> bool,
 ) -> Result<Pairs, Refusal> {
     let size = pencil.size();
+    let mut matrix = pencil.shifted_band(shift);
     // Iteration would pass by an unstable mode far below the shift.
-    if pencil.modes_below(-shift) > 0 {
+    if negative_eigenvalues(&matrix) > 0 {
         return Err(Refusal::NotDefinite);
     }
     let width = (2 * count).max(count + 8).min(size);
-    let mut matrix = pencil.shifted_band(shift);
     let factors = matrix.factorise().map_err(|_| Refusal::NotDefinite)?;
     let mut vectors = DMatrix::from_fn(size, width, scattered);
     let mut before = vec![f64::INFINITY; count];
