@@ -6,7 +6,7 @@
 use super::Model;
 use super::applied::{Action, AppliedLoad, collocation};
 use super::body::Body;
-use crate::beams::{ForceSummary, Place, RotationIncrement};
+use crate::beams::{Place, RotationIncrement};
 use crate::geometry::{Vec2, larger};
 use crate::integrators::{Mechanism, Stage};
 use crate::joints::Component;
@@ -62,10 +62,7 @@ impl Model {
         load_factor: f64,
         out: &mut [f64],
     ) -> StaticForces {
-        let mut summary = ForceSummary::default();
-        for body in &mut self.bodies {
-            summary.join(&body.add_forces(collocation(Stage::End), movements, 1.0, out));
-        }
+        let summary = self.add_internal_forces(Stage::End, movements, 1.0, out);
         let (force, moment) = self.subtract_static_loads(movements, load_factor, out);
         StaticForces {
             force: larger(summary.force, load_factor.abs() * force),
@@ -82,14 +79,8 @@ impl Model {
         out: &mut [f64],
         tangent: &mut BandedMatrix,
     ) {
-        for body in &mut self.bodies {
-            body.add_linearised_forces(collocation(Stage::End), movements, 1.0, out, tangent);
-        }
-        self.subtract_static_loads(movements, load_factor, out);
-        for load in &self.loads {
-            let (bodies, unknowns) = (&self.bodies, self.unknowns);
-            load.add_tangent(bodies, Stage::End, movements, load_factor, unknowns, tangent);
-        }
+        self.add_linearised_internal_forces(Stage::End, movements, 1.0, out, tangent);
+        self.subtract_linearised_loads(Stage::End, movements, load_factor, out, tangent);
     }
 
     /// Subtracts `load_factor` times the loads and the weight; returns the largest force and moment of a whole load on a
@@ -100,18 +91,7 @@ impl Model {
         load_factor: f64,
         out: &mut [f64],
     ) -> (f64, f64) {
-        let mut largest = (0.0, 0.0);
-        let mut join = |(force, moment): (f64, f64)| {
-            largest = (larger(largest.0, force), larger(largest.1, moment));
-        };
-        if let Some(gravity) = &self.gravity {
-            gravity.subtract_from(&self.bodies, load_factor, out);
-            join(gravity.largest(1.0));
-        }
-        for load in &mut self.loads {
-            join(load.subtract_from(&self.bodies, Stage::End, movements, load_factor, out));
-        }
-        largest
+        self.subtract_loads(Stage::End, movements, load_factor, out)
     }
 
     /// Moves everything, and leaves it at rest there.

@@ -10,7 +10,7 @@ use super::scales::{StepScales, largest, relative};
 use super::sliders::TrackLimit;
 use super::sliding::{LANDED, Sliding};
 use super::tracker::Tracker;
-use crate::beams::{ForceSummary, Mesh, Place};
+use crate::beams::{Mesh, Place};
 use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Ending, Interval, Mechanism, Overshoot, Solution, Stage, StepError};
 use crate::joints::{CONTACT_UNKNOWNS, Component};
@@ -94,24 +94,6 @@ impl Model {
             gross_angular_impulse: self.exchanged.gross_angular_impulse,
             gap: self.gap(),
         }
-    }
-
-    /// Subtracts loads and weight; returns the largest force and moment of a load on a control point.
-    fn subtract_loads(
-        &mut self,
-        stage: Stage,
-        increments: &[f64],
-        weight: f64,
-        out: &mut [f64],
-    ) -> (f64, f64) {
-        if let Some(gravity) = &self.gravity {
-            gravity.subtract_from(&self.bodies, weight, out);
-        }
-        let weight_scale = self.gravity.as_ref().map_or((0.0, 0.0), |gravity| gravity.largest(1.0));
-        self.loads.iter_mut().fold(weight_scale, |largest: (f64, f64), load| {
-            let (force, moment) = load.subtract_from(&self.bodies, stage, increments, weight, out);
-            (largest.0.max(force), largest.1.max(moment))
-        })
     }
 
     pub(super) fn all_trackers(&self) -> impl Iterator<Item = &Tracker> {
@@ -245,10 +227,7 @@ impl Mechanism for Model {
         weight: f64,
         out: &mut [f64],
     ) -> f64 {
-        let mut summary = ForceSummary::default();
-        for body in &mut self.bodies {
-            summary.join(&body.add_forces(collocation(stage), increments, weight, out));
-        }
+        let summary = self.add_internal_forces(stage, increments, weight, out);
         self.step.loads = self.subtract_loads(stage, increments, weight, out);
         self.step.summary = summary;
         self.step.rotations = collocation(stage).rotations;
@@ -263,13 +242,8 @@ impl Mechanism for Model {
         out: &mut [f64],
         tangent: &mut BandedMatrix,
     ) {
-        for body in &mut self.bodies {
-            body.add_linearised_forces(collocation(stage), increments, weight, out, tangent);
-        }
-        self.subtract_loads(stage, increments, weight, out);
-        for load in &self.loads {
-            load.add_tangent(&self.bodies, stage, increments, weight, self.unknowns, tangent);
-        }
+        self.add_linearised_internal_forces(stage, increments, weight, out, tangent);
+        self.subtract_linearised_loads(stage, increments, weight, out, tangent);
     }
 
     fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]) {

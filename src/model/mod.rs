@@ -8,6 +8,7 @@ mod body;
 mod connection;
 mod error;
 mod explain;
+mod forces;
 mod forecast;
 mod impact;
 mod inertia;

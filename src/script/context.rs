@@ -182,6 +182,15 @@ impl Context {
         self.stopped_by().map_or(Ok(()), |stop| Err(ScriptError::Stopped(stop)))
     }
 
+    /// Why something that is asked again and again whether to go on did not: the limit or the interrupt that stopped it. `what` stopped
+    /// without any would be a mistake of ours.
+    pub fn why_stopped(&self, what: &str) -> ScriptError {
+        match self.proceed() {
+            Err(stopped) => stopped,
+            Ok(()) => ScriptError::bug(format!("{what} was stopped by nobody")),
+        }
+    }
+
     /// Whether the run should end as soon as it can.
     pub fn is_stopped(&self) -> bool {
         self.stopped_by().is_some()

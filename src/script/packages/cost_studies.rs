@@ -101,8 +101,7 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let patience = patience(call, Patience::default().wall.as_secs_f64());
     let costs = step_costs(&cases, patience, repeats, &mut || context.stopped_by().is_none());
     let Some(costs) = costs else {
-        context.proceed()?;
-        return Err(ScriptError::bug("a study of costs was stopped by nobody"));
+        return Err(context.why_stopped("a study of costs"));
     };
     let table = CostTable::new(name, costs);
     context.print(&table.text());

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use rhai::{Array, Dynamic, INT, Map};
 
-use super::modes::{ModesHandle, look as look_for_modes};
+use super::modes::{COUNT, ModesHandle, look as look_for_modes};
 use super::scenes::{SCENE, STATION, SceneHandle, StationHandle};
 use super::simulations::{START, begin, followed};
 use crate::beams::Place;
@@ -90,12 +90,12 @@ pub const TABLE: Table = Table {
             .summary("What the support at a station gives.")
             .doc("The map holds force, a vector, and moment. A joint between beams is no support: only what the ground gives is told.")
             .example("let rest = scene.equilibrium();\ncheck_close(rest.reaction(rod.start).moment, -s.EI * 3.14159265358979 / 4, 1e-6);"),
-        method(EQUILIBRIUM, "modes", &[whole("count").positive().or(Presence::Whole(6))], |call| {
+        method(EQUILIBRIUM, "modes", &[COUNT], |call| {
             let handle = call.receiver::<EquilibriumHandle>()?;
             let modes = look_for_modes(call, |count, goes_on| {
                 handle.0.rest.borrow_mut().modes(count, goes_on)
             })?;
-            Ok(Dynamic::from(ModesHandle::new(handle.0.scene.clone(), &handle.rest().scene().clone(), modes)))
+            Ok(Dynamic::from(ModesHandle::new(handle.0.scene.clone(), handle.rest().scene(), modes)))
         })
         .returns("modes")
         .summary("The lowest natural frequencies and shapes of vibration about the equilibrium.")
@@ -288,8 +288,7 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let mut rest = match found {
         Err(StaticsError::Interrupted { .. }) => {
-            context.proceed()?;
-            return Err(ScriptError::bug("an equilibrium was stopped by nobody"));
+            return Err(context.why_stopped("the search for an equilibrium"));
         }
         Err(error @ StaticsError::Load { .. }) => {
             return Err(match context.take_callback_error() {

@@ -92,7 +92,8 @@ const VIBRATING: &str = "let scene = new_scene(\"example\");\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [4, 0]), basis: bspline(8), section: s });\n\
     scene.clamp(rod.start);";
 
-const COUNT: Parameter = whole("count").positive().or(Presence::Whole(6));
+/// How many modes are looked for.
+pub(super) const COUNT: Parameter = whole("count").positive().or(Presence::Whole(6));
 
 /// The modes type, for other domains.
 pub const MODES: Type = Type::of::<ModesHandle>();
@@ -149,10 +150,7 @@ pub(super) fn look(
 ) -> Result<Modes, ScriptError> {
     let context = call.context();
     match find(call.count("count")?, &mut || !context.is_stopped()) {
-        Err(VibrationError::Interrupted) => {
-            context.proceed()?;
-            Err(ScriptError::bug("a search for modes was stopped by nobody"))
-        }
+        Err(VibrationError::Interrupted) => Err(context.why_stopped("a search for modes")),
         found => Ok(found?),
     }
 }

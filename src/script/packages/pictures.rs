@@ -11,6 +11,7 @@ use super::report::history_table;
 use super::scenes::StationHandle;
 use super::simulations::{SIMULATION, SPINNING};
 use super::windows::HistoryHandle;
+use crate::geometry::Vec2;
 use crate::output::{
     CsvTable, LineChart, MotionPicture, Page, Panel, PictureKind, Scale, Snapshot,
 };
@@ -22,7 +23,7 @@ use crate::script::options::Options;
 use crate::script::parameter::{Parameter, array, boolean, either, number, options, text};
 use crate::script::sight::{drift_lines, line_chart};
 use crate::script::table::{Table, function};
-use crate::simulation::History;
+use crate::simulation::{Configuration, History};
 
 /// Pictures and files.
 pub const TABLE: Table = Table {
@@ -150,6 +151,22 @@ fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
 }
 
+/// A point as it is drawn.
+pub(super) fn plain(point: &Vec2) -> (f64, f64) {
+    (point.x, point.y)
+}
+
+/// A configuration as it is drawn.
+pub(super) fn snapshot(configuration: &Configuration) -> Snapshot {
+    let plain_line = |line: &Vec<Vec2>| line.iter().map(plain).collect();
+    Snapshot {
+        time: configuration.time,
+        lines: configuration.lines.iter().map(plain_line).collect(),
+        marks: configuration.marks.iter().map(plain).collect(),
+        particles: configuration.particles.iter().map(plain).collect(),
+    }
+}
+
 fn motion(
     call: &Call,
     of: &SimulationHandle,
@@ -175,21 +192,11 @@ fn motion(
     let title = options.text("title").map_or_else(|_| of.name().to_owned(), |t| t.to_string());
     let mut picture = MotionPicture::new(title)
         .beams(simulation.scene().beams.iter().map(|beam| beam.name.clone()));
-    let plain = |point: &crate::geometry::Vec2| (point.x, point.y);
     for index in 0..=count.max(0.0) as usize {
         let time = from + index as f64 * every;
         if let Some(configuration) = simulation.configuration_near(time)? {
             expect_near(call, of, (time, configuration.time), every)?;
-            picture = picture.snapshot(Snapshot {
-                time: configuration.time,
-                lines: configuration
-                    .lines
-                    .iter()
-                    .map(|line| line.iter().map(plain).collect())
-                    .collect(),
-                marks: configuration.marks.iter().map(plain).collect(),
-                particles: configuration.particles.iter().map(plain).collect(),
-            });
+            picture = picture.snapshot(snapshot(&configuration));
         }
     }
     for station in if options.has("trace") { options.array("trace")? } else { Array::new() } {

@@ -4,7 +4,7 @@ use rhai::{Array, Dynamic};
 
 use super::equilibria::{BENT, EQUILIBRIUM, EquilibriumHandle};
 use super::modes::{MODES, ModesHandle};
-use super::pictures::{write_csv, write_picture};
+use super::pictures::{plain, snapshot, write_csv, write_picture};
 use super::scenes::{STATION, StationHandle};
 use crate::geometry::Vec2;
 use crate::output::{CsvTable, LineChart, MotionPicture, Page, Series, Snapshot, significant};
@@ -13,7 +13,7 @@ use crate::script::error::{Place, ScriptError};
 use crate::script::kind::Scripted;
 use crate::script::parameter::{Parameter, Presence, array, number, object, options, text, whole};
 use crate::script::table::{Table, function};
-use crate::simulation::{Configuration, Outline};
+use crate::simulation::Outline;
 
 /// Pictures of equilibria and modes.
 pub const TABLE: Table = Table {
@@ -58,20 +58,6 @@ const MODE_SHAPES: &[Parameter] = &[
         .doc("the largest displacement, relative to the size of the scene"),
     whole("columns").positive().or(Presence::Whole(2)).doc("of pictures"),
 ];
-
-fn plain(point: &Vec2) -> (f64, f64) {
-    (point.x, point.y)
-}
-
-fn snapshot(configuration: &Configuration) -> Snapshot {
-    let plain_line = |line: &Vec<Vec2>| line.iter().map(plain).collect();
-    Snapshot {
-        time: configuration.time,
-        lines: configuration.lines.iter().map(plain_line).collect(),
-        marks: configuration.marks.iter().map(plain).collect(),
-        particles: configuration.particles.iter().map(plain).collect(),
-    }
-}
 
 fn plot_equilibrium(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.get::<EquilibriumHandle>("equilibrium")?;
