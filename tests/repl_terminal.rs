@@ -15,6 +15,9 @@ const PATIENCE: u64 = 60_000;
 /// The first two bytes of any braille dot: the terminal is read byte by byte.
 const BRAILLE: &str = "\u{e2}[\u{a0}-\u{a3}]";
 
+/// What the editor sends when it has read a line: pastes are no longer bracketed.
+const NO_LONGER_READING: &str = "\u{1b}[?2004l";
+
 /// `withy` in a folder, as a person would start it; what it says of itself at the start is read.
 fn start(folder: &Path, arguments: &[&str]) -> PtySession {
     let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
@@ -112,7 +115,20 @@ fn what_is_typed_ahead_is_not_lost() {
     session.send("let a = 1\nlet b = 2\nlet c = 4\n").unwrap();
     session.exp_string("withy:4> ").unwrap();
     ask(&mut session, "a + b + c", "7");
+
+    // Keys on which a terminal that assembles lines itself would act, while an input is evaluated.
+    let begin = |session: &mut PtySession, last: &str| {
+        let second = "let t = timestamp(); while t.elapsed < 1.0 {}";
+        session.send_line(&format!("{second}; `${{2 * 300}} {last}`")).unwrap();
+        session.exp_string(NO_LONGER_READING).unwrap();
+    };
+    begin(&mut session, "and search");
+    session.send("\u{12}a + b\n").unwrap();
+    session.exp_string("600 and search").unwrap();
+    session.exp_string("7\r\n").unwrap();
+    begin(&mut session, "and leave");
     session.send_control('d').unwrap();
+    session.exp_string("600 and leave").unwrap();
     session.exp_eof().unwrap();
 }
 

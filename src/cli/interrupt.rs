@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use super::Exit;
+use crate::repl::editor::typed_ahead;
 
 /// What is lost when Ctrl-C ends the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +30,7 @@ pub fn flag(at_stake: AtStake) -> Arc<AtomicBool> {
         if !set.swap(true, Ordering::Relaxed) {
             asked = Instant::now();
         } else if asked.elapsed() >= patience {
+            typed_ahead::give_back();
             process::exit(Exit::Interrupted as i32);
         }
     });

@@ -2,6 +2,7 @@
 
 use std::io;
 
+use super::editor::typed_ahead::TypedAhead;
 use super::editor::{Editor, Typed};
 use super::shell::{Outcome, Shell};
 
@@ -10,6 +11,7 @@ use super::shell::{Outcome, Shell};
 /// # Errors
 /// When the terminal fails.
 pub fn run(shell: &mut Shell, editor: &mut Editor) -> io::Result<()> {
+    let _held = TypedAhead::keep();
     loop {
         if let Some((columns, lines)) = editor.size() {
             shell.resize(columns, lines);

@@ -21,6 +21,7 @@ mod paths;
 mod samples;
 pub mod scanner;
 pub mod surroundings;
+pub mod typed_ahead;
 mod types;
 mod words;
 

@@ -1,0 +1,67 @@
+//! Keys typed while an input is evaluated wait for the next prompt, every one of them.
+//!
+//! Between two prompts a terminal assembles lines itself, and acts on some keys: an early Ctrl-D or Ctrl-R would be gone. So it
+//! is told for the whole session to hand keys on as they are. Ctrl-C and Ctrl-Z keep their meaning.
+
+/// Holds the terminal as long as it lives, and then gives it back as it was.
+pub struct TypedAhead(());
+
+impl TypedAhead {
+    /// Takes the terminal that is typed at. One that cannot be told so is left as it is.
+    pub fn keep() -> Self {
+        terminal::take();
+        Self(())
+    }
+}
+
+impl Drop for TypedAhead {
+    fn drop(&mut self) {
+        give_back();
+    }
+}
+
+/// Gives the terminal back as it was; for whoever ends the process without unwinding.
+pub fn give_back() {
+    terminal::give_back();
+}
+
+#[cfg(unix)]
+mod terminal {
+    use std::io::stdin;
+    use std::sync::{Mutex, PoisonError};
+
+    use nix::sys::termios::{
+        LocalFlags, SetArg, SpecialCharacterIndices, Termios, tcgetattr, tcsetattr,
+    };
+
+    static AS_IT_WAS: Mutex<Option<Termios>> = Mutex::new(None);
+
+    pub fn take() {
+        let Ok(original) = tcgetattr(stdin()) else { return };
+        let mut held = original.clone();
+        // Without echo: keys that wait are shown once, at the prompt that reads them.
+        held.local_flags -= LocalFlags::ICANON | LocalFlags::IEXTEN | LocalFlags::ECHO;
+        held.control_chars[SpecialCharacterIndices::VMIN as usize] = 1;
+        held.control_chars[SpecialCharacterIndices::VTIME as usize] = 0;
+        if tcsetattr(stdin(), SetArg::TCSANOW, &held).is_ok() {
+            *AS_IT_WAS.lock().unwrap_or_else(PoisonError::into_inner) = Some(original);
+        }
+    }
+
+    pub fn give_back() {
+        let original = AS_IT_WAS.lock().unwrap_or_else(PoisonError::into_inner).take();
+        if let Some(original) = original {
+            // A terminal that is gone needs nothing back.
+            let _ = tcsetattr(stdin(), SetArg::TCSANOW, &original);
+        }
+    }
+}
+
+#[cfg(not(unix))]
+mod terminal {
+    //! Keys are events there, and none is lost.
+
+    pub fn take() {}
+
+    pub fn give_back() {}
+}
