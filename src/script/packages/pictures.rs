@@ -199,12 +199,9 @@ fn motion(
             picture = picture.snapshot(snapshot(&configuration));
         }
     }
-    for station in if options.has("trace") { options.array("trace")? } else { Array::new() } {
-        let station: StationHandle = station.try_cast().ok_or_else(|| {
-            call.error("trace must be an array of stations")
-                .hint("for example trace: [rod.end]")
-                .at(Place::Key("trace".into()))
-        })?;
+    for station in
+        stations(call, &options.array("trace").unwrap_or_default(), Place::Key("trace".into()))?
+    {
         let path = simulation.path(&station.on(of)?);
         let inside = path
             .iter()
@@ -213,6 +210,18 @@ fn motion(
         picture = picture.trace(format!("path of {}", station.show()), inside.collect());
     }
     Ok(picture)
+}
+
+/// The stations in an array that stands at a place of the call.
+pub(super) fn stations(
+    call: &Call,
+    array: &Array,
+    at: Place,
+) -> Result<Vec<StationHandle>, ScriptError> {
+    let stations = array.iter().map(|value| value.clone().try_cast::<StationHandle>());
+    stations.collect::<Option<_>>().ok_or_else(|| {
+        call.error("the array must hold stations").hint("for example [rod.end]").at(at)
+    })
 }
 
 /// A chart for each history, side by side where there are several.

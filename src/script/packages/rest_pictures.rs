@@ -1,10 +1,10 @@
 //! Pictures and files of equilibria and modes.
 
-use rhai::{Array, Dynamic};
+use rhai::Dynamic;
 
 use super::equilibria::{BENT, EQUILIBRIUM, EquilibriumHandle};
 use super::modes::{MODES, ModesHandle};
-use super::pictures::{plain, snapshot, write_csv, write_picture};
+use super::pictures::{plain, snapshot, stations, write_csv, write_picture};
 use super::scenes::{STATION, StationHandle};
 use crate::geometry::Vec2;
 use crate::output::{CsvTable, LineChart, MotionPicture, Page, Series, Snapshot, significant};
@@ -166,11 +166,4 @@ fn positions(
 ) -> Result<Vec<Vec2>, ScriptError> {
     let place = handle.place(station)?;
     Ok(handle.rest().along_path(|model| model.position(&place))?)
-}
-
-fn stations(call: &Call, array: &Array, at: Place) -> Result<Vec<StationHandle>, ScriptError> {
-    let stations = array.iter().map(|value| value.clone().try_cast::<StationHandle>());
-    stations.collect::<Option<_>>().ok_or_else(|| {
-        call.error("the array must hold stations").hint("for example [rod.end]").at(at)
-    })
 }
