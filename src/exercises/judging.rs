@@ -8,7 +8,7 @@ use std::panic::{self, AssertUnwindSafe};
 use std::rc::Rc;
 use std::time::Duration;
 
-use rhai::{Engine, OptimizationLevel, Scope};
+use rhai::{Engine, Scope};
 
 use super::exercise::Exercise;
 use super::judge::Need;
@@ -73,8 +73,6 @@ impl Trial {
         let (catalog, context) = (Catalog::standard(), Context::new(settings));
         let mut engine = engine::build(&catalog, &context).map_err(broken_by_us)?;
         engine::import_from(&mut engine, &folder);
-        // The variables of an attempt must be there after it.
-        engine.set_optimization_level(OptimizationLevel::None);
         let engine = Rc::new(engine);
         context.lend(&engine);
         Ok(Self { catalog, context, engine, silence })

@@ -267,8 +267,7 @@ mod tests {
 
     fn script(record: &Record) -> String {
         let context = Context::new(Settings::silent(Mode::Run));
-        let mut engine = build(&Catalog::standard(), &context).expect("an engine");
-        engine.set_optimization_level(rhai::OptimizationLevel::None);
+        let engine = build(&Catalog::standard(), &context).expect("an engine");
         record.script(&engine).lines().skip(2).collect::<Vec<_>>().join("\n")
     }
 

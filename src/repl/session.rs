@@ -7,8 +7,7 @@ use std::rc::Rc;
 use std::sync::atomic::Ordering;
 
 use rhai::{
-    AST, Caches, Dynamic, Engine, EvalAltResult, GlobalRuntimeState, ImmutableString,
-    OptimizationLevel, Scope, Stmt,
+    AST, Caches, Dynamic, Engine, EvalAltResult, GlobalRuntimeState, ImmutableString, Scope, Stmt,
 };
 
 use super::record::{Record, Whereabouts, functions_of, whereabouts};
@@ -79,8 +78,6 @@ impl Session {
         let context = Context::new(settings);
         let mut engine = engine::build(&catalog, &context).map_err(Diagnostic::bug)?;
         engine::import_from(&mut engine, &folder);
-        // Statements are counted, and none may be optimised away.
-        engine.set_optimization_level(OptimizationLevel::None);
         let global = engine.new_global_runtime_state();
         let engine = Rc::new(engine);
         context.lend(&engine);

@@ -53,9 +53,7 @@ mod tests {
 
     fn engine() -> Engine {
         let context = Context::new(Settings::silent(Mode::Run));
-        let mut engine = build(&Catalog::standard(), &context).expect("an engine");
-        engine.set_optimization_level(rhai::OptimizationLevel::None);
-        engine
+        build(&Catalog::standard(), &context).expect("an engine")
     }
 
     #[test]

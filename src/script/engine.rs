@@ -2,7 +2,7 @@
 
 use std::ops::{Range, RangeInclusive};
 
-use rhai::{Dynamic, Engine, FnPtr, INT, ImmutableString, Map};
+use rhai::{Dynamic, Engine, FnPtr, INT, ImmutableString, Map, OptimizationLevel};
 
 use super::catalog::Catalog;
 use super::context::Context;
@@ -11,7 +11,7 @@ use super::limits::DEEPEST;
 use super::numbers::format_number;
 use super::register::register;
 use super::sources::Sources;
-use super::{foundation, operators, sorting, syntax};
+use super::{constants, foundation, operators, sorting, syntax};
 
 /// Nesting of one expression at the top level, and inside a function where it adds up with calls.
 const EXPRESSION_DEPTH: usize = 256;
@@ -25,6 +25,8 @@ const LARGEST_MAP: usize = 1_000_000;
 /// An error means that a token hook of Rhai no longer works as this crate needs it.
 pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     let mut engine = foundation::engine();
+    // Rhai's optimiser puts a constant also where a parameter or a loop variable has its name, and drops statements that count here.
+    engine.set_optimization_level(OptimizationLevel::None);
     limit(&mut engine, context);
     name_types(&mut engine);
     syntax::install(&mut engine)?;
@@ -35,6 +37,7 @@ pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     for table in catalog.tables() {
         register(&mut engine, table, context);
     }
+    constants::install(&mut engine, catalog);
     connect(&mut engine, context);
     Ok(engine)
 }

@@ -11,6 +11,7 @@ pub mod builtins;
 pub mod call;
 pub mod catalog;
 pub mod checks;
+mod constants;
 pub mod context;
 pub mod definitions;
 mod details;

@@ -2,9 +2,7 @@
 
 use std::any::TypeId;
 
-use rhai::{
-    Array, Dynamic, Engine, EvalAltResult, INT, ImmutableString, Module, NativeCallContext,
-};
+use rhai::{Array, Dynamic, Engine, EvalAltResult, INT, ImmutableString, NativeCallContext};
 
 use super::accept::{accept, blame_argument};
 use super::arguments::Arguments;
@@ -16,17 +14,12 @@ use super::parameter::Parameter;
 use super::table::{Body, Form, Row, Table};
 use crate::geometry::Vec2;
 
-/// Registers everything that `table` has.
+/// Registers the types and rows of `table`.
 pub fn register(engine: &mut Engine, table: &'static Table, context: &Context) {
     for of in table.types {
         of.register(engine);
         context.know(*of);
     }
-    let mut constants = Module::new();
-    for constant in table.constants {
-        constants.set_var(constant.name, constant.value);
-    }
-    engine.register_global_module(constants.into());
     for row in table.rows {
         register_row(engine, row, context);
     }
