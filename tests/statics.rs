@@ -329,6 +329,29 @@ fn stability_is_that_of_eulers_column_or_not_known() {
     assert_eq!(at_part(0.5, Frame::Follower), Stability::Follower);
 }
 
+/// A column that is pushed a little to the side buckles to that side, however coarse the steps and small the push: beside the load of
+/// Euler's column there are two more branches, to which a step may lead.
+#[test]
+fn a_pushed_column_buckles_to_the_side_it_is_pushed_to() {
+    let critical = PI.powi(2) * BENDING / (4.0 * LENGTH * LENGTH);
+    let tip = |push: f64, part: f64, loading: Loading| {
+        let mut scene = clamped(straight(), &smooth(8), section(1e7, 1e7));
+        let end = scenes::end_of(&mut scene, 0);
+        let scene = with_force(scene, end, at(-part, push) * critical);
+        let mut rest = find(scene, loading).unwrap();
+        assert_eq!(rest.stability(&mut || true), Stability::Stable, "{push} {part} {loading:?}");
+        let place = rest.scene().place(&end, rest.model().meshes()).unwrap();
+        rest.model().position(&place)
+    };
+    for (push, part) in [(1e-1, 2.0), (3e-2, 1.5), (1e-2, 1.29), (1e-3, 1.29), (1e-3, 1.05)] {
+        let followed = tip(push, part, along(50, 1000));
+        for steps in [10, 15, 20, 30, 50, 70, 100] {
+            let found = tip(push, part, Loading { steps, ..Loading::default() });
+            assert!((found - followed).norm() < 1e-6 * LENGTH, "{push} {part} {steps}: {found}");
+        }
+    }
+}
+
 /// Two beams from one clamped corner: whichever is asked, the ground holds both.
 #[test]
 fn a_support_holds_all_that_is_tied_to_it_and_nothing_beside_it() {

@@ -10,7 +10,7 @@ use crate::beams::{Place, RotationIncrement};
 use crate::geometry::{Vec2, larger};
 use crate::integrators::{Mechanism, Stage};
 use crate::joints::Component;
-use crate::linalg::BandedMatrix;
+use crate::linalg::{BandedMatrix, negative_eigenvalues};
 use crate::loads::LoadError;
 
 /// A function that is smaller than this at a place is zero there.
@@ -183,6 +183,14 @@ impl Model {
             body.correct_section_forces(&standstill);
             linearise(body, stiffness);
         }
+    }
+
+    /// In how many ways a movement from here would release energy if loads keep their directions: the negative eigenvalues of the
+    /// stiffness.
+    pub fn falls(&mut self) -> usize {
+        let mut stiffness = BandedMatrix::zeros(self.unknowns, self.half_bandwidth);
+        self.add_stiffness(&mut stiffness);
+        negative_eigenvalues(&stiffness)
     }
 }
 

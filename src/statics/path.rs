@@ -29,6 +29,10 @@ impl Path {
         self.points.push(point);
     }
 
+    pub(super) fn pop(&mut self) {
+        self.points.pop();
+    }
+
     /// Adds a point at which nothing has moved.
     pub(super) fn pretend(&mut self, load_factor: f64) {
         let last = self.points.last().cloned();

@@ -36,6 +36,25 @@ pub(super) struct Tracer<'s> {
     newton: Newton,
     movements: Vec<f64>,
     residual: Vec<f64>,
+    heading: Heading,
+}
+
+/// How a path goes on.
+struct Heading {
+    /// The last movement.
+    movements: Vec<f64>,
+    /// In how many ways a movement from here would release energy.
+    falls: usize,
+}
+
+impl Heading {
+    /// Whether another one goes on like this. If not, it may have gone over to another branch, as beside the load at which a straight
+    /// column buckles, and smaller steps tell.
+    fn is_kept_by(&self, next: &Self, metric: &[f64]) -> bool {
+        let ways = metric.iter().zip(&self.movements).zip(&next.movements);
+        let along: f64 = ways.map(|((weight, before), now)| weight * before * now).sum();
+        along >= 0.0 && next.falls == self.falls
+    }
 }
 
 impl<'s> Tracer<'s> {
@@ -54,6 +73,7 @@ impl<'s> Tracer<'s> {
             newton: Newton::new(unknowns, model.half_bandwidth(), none, loading.tolerance),
             movements: vec![0.0; unknowns],
             residual: vec![0.0; model.degrees_of_freedom()],
+            heading: Heading { movements: vec![0.0; unknowns], falls: 0 },
             model,
             path,
         }
@@ -138,7 +158,7 @@ impl<'s> Tracer<'s> {
         is_beyond.then_some(vertex.way - last.distance)
     }
 
-    /// Goes to a load factor, in halves where the whole step finds nothing.
+    /// Goes to a load factor, in halves where the whole step finds nothing, or something that does not continue the path.
     fn reach(
         &mut self,
         factor: f64,
@@ -150,14 +170,30 @@ impl<'s> Tracer<'s> {
         match self.find(factor) {
             Ok(iterations) => {
                 self.accept(factor, iterations);
-                Ok(())
+                let heading = self.heading();
+                if halvings == 0 || self.heading.is_kept_by(&heading, &self.metric) {
+                    self.heading = heading;
+                    return Ok(());
+                }
+                self.take_back();
             }
-            Err(error) if halvings == 0 => Err(self.lost(error)),
-            Err(_) => {
-                self.reach(0.5 * (from + factor), halvings - 1, goes_on)?;
-                self.reach(factor, halvings - 1, goes_on)
-            }
+            Err(error) if halvings == 0 => return Err(self.lost(error)),
+            Err(_) => (),
         }
+        self.reach(0.5 * (from + factor), halvings - 1, goes_on)?;
+        self.reach(factor, halvings - 1, goes_on)
+    }
+
+    /// How the path goes on where it has just been continued. Along the path it may turn and become unstable as it likes, and the
+    /// stiffness alone does not tell what loads do that turn with a beam.
+    fn heading(&mut self) -> Heading {
+        let movements = match self.loading.control {
+            Control::Load => self.movements.clone(),
+            Control::ArcLength(_) => vec![0.0; self.movements.len()],
+        };
+        let is_told = self.loading.control == Control::Load && self.model.follower().is_none();
+        let falls = if is_told { self.model.falls() } else { 0 };
+        Heading { movements, falls }
     }
 
     /// The iterations that led to an equilibrium near the last one.
@@ -187,6 +223,14 @@ impl<'s> Tracer<'s> {
         self.model.move_by(&self.movements);
         let distance = norm(&self.metric, &self.movements);
         self.path.push(point(&mut self.model, factor, distance, iterations));
+    }
+
+    /// Goes back to the point of the path before the last one.
+    fn take_back(&mut self) {
+        self.path.pop();
+        if let Some(last) = self.path.points().last() {
+            self.model.restore(&last.state);
+        }
     }
 
     fn ask(&self, goes_on: &mut dyn FnMut(f64) -> bool) -> Result<(), StaticsError> {
