@@ -118,6 +118,16 @@ fn commands_act_on_the_last_simulation() {
 }
 
 #[test]
+fn variables_are_listed_in_a_line_each() {
+    let input = "let parts = #{ one: 1, many: [1, 2, 3], text: \"a b\" };\nimport \"std/mechanisms\" as parts_of;\n:vars\n";
+    let (code, replies, complaints) = piped(input);
+    assert_eq!((code, &*complaints), (0, ""), "{replies}");
+    assert!(replies.contains(r#"map     #{many: [1, 2, 3], one: 1, text: "a b"}"#), "{replies}");
+    assert!(replies.contains("four_bar(_)") && !replies.contains("anon$"), "{replies}");
+    assert!(!replies.contains("triangle_tip"), "private functions stay private: {replies}");
+}
+
+#[test]
 fn watched_expressions_are_shown_after_every_step() {
     let input =
         format!("{SPINNING}:watch sim.steps\n:step 2\n:run 0.35\nsim.step();\n:watch\n:step\n");

@@ -68,6 +68,15 @@ pub fn present(catalog: &Catalog, value: &Dynamic, width: usize) -> String {
     Presenter { catalog, width: width.max(20) }.show(value)
 }
 
+/// The same in one line: collections elided until they fit, of all else the first line.
+pub fn present_in_a_line(catalog: &Catalog, value: &Dynamic, width: usize) -> String {
+    let presenter = Presenter { catalog, width };
+    if is_collection(value) {
+        return presenter.inline(value, width).0;
+    }
+    presenter.show(value).lines().next().unwrap_or_default().to_owned()
+}
+
 impl Presenter<'_> {
     fn show(&self, value: &Dynamic) -> String {
         if value.read_lock::<()>().is_some() {
@@ -84,7 +93,9 @@ impl Presenter<'_> {
         if is_whole {
             return line;
         }
-        if let Some(array) = value.read_lock::<Array>().filter(|array| has_collections(array)) {
+        if let Some(array) =
+            value.read_lock::<Array>().filter(|array| array.iter().any(is_collection))
+        {
             return self.rows(&array);
         }
         match value.read_lock::<Map>() {
@@ -251,10 +262,8 @@ fn elided(array: &Array) -> Vec<Option<&Dynamic>> {
     array[..FIRST_ITEMS].iter().map(Some).chain([None, array.last()]).collect()
 }
 
-fn has_collections(array: &Array) -> bool {
-    let is_collection =
-        |item: &Dynamic| item.read_lock::<Array>().is_some() || item.read_lock::<Map>().is_some();
-    array.iter().any(is_collection)
+fn is_collection(value: &Dynamic) -> bool {
+    value.read_lock::<Array>().is_some() || value.read_lock::<Map>().is_some()
 }
 
 fn written(vector: &Vec2) -> String {

@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 use super::VibrationError;
 use super::pencil::Pencil;
 use super::reduced::{Pairs, pairs};
-use super::subspace::{Refusal, lowest_pairs};
+use super::subspace::{Refusal, lowest_pairs, width};
 use crate::beams::{Mesh, Place};
 use crate::geometry::Vec2;
 use crate::model::Model;
@@ -17,6 +17,12 @@ const SMALL: usize = 240;
 
 /// and up to so many where more than an eighth of them is asked for.
 const MEDIUM: usize = 2000;
+
+/// Matrices of the size of the stiffness that are there at a time where all modes are found.
+const DENSE_COPIES: usize = 6;
+
+/// Sets of vectors that are there at a time where the lowest are.
+const SUBSPACE_COPIES: usize = 5;
 
 /// A squared frequency below so many times its rounding is zero.
 const ROUNDING: f64 = 64.0;
@@ -108,6 +114,15 @@ impl Modes {
             points: model.control_points().map(<[Vec2]>::to_vec).collect(),
             displacements,
         })
+    }
+
+    /// About the memory that looking for so many modes takes at most [bytes].
+    pub fn memory(unknowns: usize, count: usize) -> u64 {
+        let numbers = match Search::of(unknowns, count) {
+            Search::All => DENSE_COPIES * unknowns * unknowns,
+            Search::Lowest => SUBSPACE_COPIES * unknowns * width(unknowns, count),
+        };
+        (numbers * size_of::<f64>()) as u64
     }
 
     /// From the lowest on.
@@ -211,6 +226,22 @@ fn lowest(
     }
 }
 
+/// How modes are looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Search {
+    /// All at once, and the lowest are taken.
+    All,
+    /// The lowest alone.
+    Lowest,
+}
+
+impl Search {
+    fn of(unknowns: usize, count: usize) -> Self {
+        let is_large = unknowns > MEDIUM || (unknowns > SMALL && 8 * count < unknowns);
+        if is_large { Self::Lowest } else { Self::All }
+    }
+}
+
 fn shifted_pairs(
     pencil: &Pencil,
     shift: f64,
@@ -218,7 +249,7 @@ fn shifted_pairs(
     goes_on: &mut dyn FnMut() -> bool,
 ) -> Result<Pairs, Refusal> {
     let size = pencil.size();
-    if size > MEDIUM || (size > SMALL && 8 * count < size) {
+    if Search::of(size, count) == Search::Lowest {
         return lowest_pairs(pencil, shift, count, goes_on);
     }
     let (mut stiffness, mut inertia) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));

@@ -42,7 +42,7 @@ pub(super) fn lowest_pairs(
     if negative_eigenvalues(&matrix) > 0 {
         return Err(Refusal::NotDefinite);
     }
-    let width = (2 * count).max(count + 8).min(size);
+    let width = width(size, count);
     let factors = matrix.factorise().map_err(|_| Refusal::NotDefinite)?;
     let mut vectors = DMatrix::from_fn(size, width, scattered);
     let mut before = vec![f64::INFINITY; count];
@@ -73,6 +73,11 @@ pub(super) fn lowest_pairs(
         before = shifted_squares;
     }
     Err(Refusal::Final(VibrationError::Unsettled { iterations: MOST_ITERATIONS }))
+}
+
+/// How many vectors are iterated for so many modes.
+pub(super) fn width(size: usize, count: usize) -> usize {
+    (2 * count).max(count + 8).min(size)
 }
 
 /// Numbers without pattern, always the same.

@@ -7,7 +7,7 @@ use crate::repl::shell::{Outcome, Screen, Shell, no_simulation};
 use crate::script::diagnose::Diagnostic;
 use crate::script::error::ScriptError;
 use crate::script::numbers::format_number;
-use crate::script::present::present;
+use crate::script::present::present_in_a_line;
 use crate::script::sight;
 use crate::simulation::Simulation;
 
@@ -27,8 +27,7 @@ pub fn variables(shell: &mut Shell, _: &str) -> Outcome {
     for (name, is_constant, value) in variables.into_iter().rev() {
         let of = session.engine().map_type_name(value.type_name());
         let of = if is_constant { format!("constant {of}") } else { of.to_owned() };
-        let shown = present(session.catalog(), value, VALUE_WIDTH);
-        row(name, &of, shown.lines().next().unwrap_or_default().to_owned());
+        row(name, &of, present_in_a_line(session.catalog(), value, VALUE_WIDTH));
     }
     for function in session.functions() {
         row(
@@ -38,7 +37,11 @@ pub fn variables(shell: &mut Shell, _: &str) -> Outcome {
         );
     }
     for (name, module) in session.modules() {
-        let functions = module.gen_fn_signatures_with_mapper(|name| name.into());
+        // What a module keeps to itself and its closures have no place here.
+        let public = |of: &str| !of.starts_with("private ") && !of.starts_with("anon$");
+        let functions = module
+            .gen_fn_signatures_with_mapper(|name| name.into())
+            .filter(|signature| public(signature));
         row(name, "import", functions.collect::<Vec<_>>().join(", "));
     }
     match is_empty {

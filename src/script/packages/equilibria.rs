@@ -92,7 +92,8 @@ pub const TABLE: Table = Table {
             .example("let rest = scene.equilibrium();\ncheck_close(rest.reaction(rod.start).moment, -s.EI * 3.14159265358979 / 4, 1e-6);"),
         method(EQUILIBRIUM, "modes", &[COUNT], |call| {
             let handle = call.receiver::<EquilibriumHandle>()?;
-            let modes = look_for_modes(call, |count, goes_on| {
+            let unknowns = handle.rest().model().rotations().len();
+            let modes = look_for_modes(call, unknowns, |count, goes_on| {
                 handle.0.rest.borrow_mut().modes(count, goes_on)
             })?;
             Ok(Dynamic::from(ModesHandle::new(handle.0.scene.clone(), handle.rest().scene(), modes)))

@@ -29,7 +29,9 @@ pub const TABLE: Table = Table {
             let handle = call.receiver::<SceneHandle>()?;
             let scene = handle.scene().borrow().clone();
             let mut model = Model::assemble(&scene)?;
-            let modes = look(call, |count, goes_on| Modes::of(&mut model, count, goes_on))?;
+            let unknowns = model.rotations().len();
+            let modes =
+                look(call, unknowns, |count, goes_on| Modes::of(&mut model, count, goes_on))?;
             Ok(Dynamic::from(ModesHandle::new(handle, &scene, modes)))
         })
         .returns("modes")
@@ -42,7 +44,8 @@ pub const TABLE: Table = Table {
         .see(&["plot_modes", "equilibrium"]),
         method(SIMULATION, "modes", &[COUNT], |call| {
             let handle = call.receiver::<SimulationHandle>()?;
-            let modes = look(call, |count, goes_on| handle.modes(count, goes_on))?;
+            let unknowns = handle.simulation().model().rotations().len();
+            let modes = look(call, unknowns, |count, goes_on| handle.modes(count, goes_on))?;
             let simulation = handle.simulation();
             Ok(Dynamic::from(ModesHandle::new(handle.scene().clone(), simulation.scene(), modes)))
         })
@@ -129,7 +132,13 @@ impl Scripted for ModesHandle {
         for (number, mode) in self.0.modes.all().iter().enumerate() {
             let shown = |value: f64| Cell::Number(significant(value, 7));
             let (period, remark) = match mode.square {
-                0.0 => (Cell::Text("-".into()), "meets no resistance, within rounding".to_owned()),
+                0.0 => {
+                    let hidden = significant(mode.rounding.sqrt(), 2);
+                    (
+                        Cell::Text("-".into()),
+                        format!("no resistance, or rounding hides it (ω < {hidden})"),
+                    )
+                }
                 square if square < 0.0 => {
                     let rate = significant(mode.growth_rate(), 4);
                     (Cell::Text("-".into()), format!("unstable: grows like exp({rate} t)"))
@@ -146,10 +155,14 @@ impl Scripted for ModesHandle {
 /// Looks for so many modes as the call asks for, until the run is stopped.
 pub(super) fn look(
     call: &Call,
+    unknowns: usize,
     find: impl FnOnce(usize, &mut dyn FnMut() -> bool) -> Result<Modes, VibrationError>,
 ) -> Result<Modes, ScriptError> {
-    let context = call.context();
-    match find(call.count("count")?, &mut || !context.is_stopped()) {
+    let (context, count) = (call.context(), call.count("count")?);
+    context
+        .meter()
+        .expect_room("so many modes of so large a scene", Modes::memory(unknowns, count))?;
+    match find(count, &mut || !context.is_stopped()) {
         Err(VibrationError::Interrupted) => Err(context.why_stopped("a search for modes")),
         found => Ok(found?),
     }

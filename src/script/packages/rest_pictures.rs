@@ -148,13 +148,15 @@ fn plot_modes(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let at_rest = draw(modes.points());
     let size = modes.size() * options.number("amplitude")?;
+    // One line of all beams, with gaps between them.
+    let gap = (f64::NAN, f64::NAN);
+    let at_rest: Vec<(f64, f64)> =
+        at_rest.lines.iter().flat_map(|line| line.iter().map(plain).chain([gap])).collect();
     let pictures = modes.all().iter().enumerate().map(|(number, mode)| {
         let omega = significant(mode.angular_frequency(), 5);
-        let picture = MotionPicture::new(format!("mode {number}: ω = {omega}"))
-            .snapshot(snapshot(&draw(&modes.displaced(number, size))));
-        at_rest.lines.iter().fold(picture, |picture, line| {
-            picture.trace("at rest", line.iter().map(plain).collect())
-        })
+        MotionPicture::new(format!("mode {number}: ω = {omega}"))
+            .snapshot(snapshot(&draw(&modes.displaced(number, size))))
+            .trace("at rest", at_rest.clone())
     });
     let page = Page::grid(options.count("columns")?).title(format!("Modes of {}", scene.name));
     write_picture(call, &pictures.fold(page, Page::panel))
