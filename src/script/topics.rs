@@ -137,7 +137,8 @@ pub const TOPICS: &[Topic] = &[
         words: &["fn", "return", "private", "this", "function"],
         summary: "`fn name(a, b) { … }` defines a function.",
         doc: "It gives the value of its last expression, or of `return`. It sees its arguments, other functions and the built-in \
-              constants, but no variables from outside: pass them, or use a closure. Arguments are copies, but of handles. \
+              constants, but no variables from outside: pass them, or use a closure. A name of its own hides a constant: in |E| 2 * E \
+              it is the argument. Arguments are copies, but of handles. \
               `a.f(b)` calls `f(a, b)` for functions of the language, and a function of the script with `this` = a.",
         example: "fn area(radius) { PI * radius^2 }\ncheck(area(1) == PI);\nfn sign_of(x) {\n    if x < 0 { return -1; }\n    1\n}\ncheck(sign_of(-3) == -1);",
         see: &["closures", "import"],
