@@ -13,11 +13,7 @@ use crate::script::table::{Table, function};
 /// Options and arguments of a script's own functions.
 pub const TABLE: Table = Table {
     name: "options of functions",
-    doc: "What a function of a script needs to take options and arguments as the functions of withy do. Kinds of values are told in \
-          words: \"a number\", \"a positive number\", \"a number of zero or more\", \"any number\" (infinite ones and nan too), \"a whole \
-          number\", \"a positive whole number\", \"a whole number of zero or more\", \"a text\", \"true or false\", \"a point\", \"a vector\", \
-          \"an array\", \"an array of numbers\", \"an array of points\", \"a function\", \"a value\" (anything), \"nothing\", or the name of a type, \
-          such as \"a section\"; two may be joined by \"or\". A unit may stand behind them: \"a positive number [length]\".",
+    doc: "What a function of a script needs to take options and arguments as the functions of withy do.",
     types: &[],
     setup: "",
     constants: &[],
@@ -33,7 +29,10 @@ pub const TABLE: Table = Table {
         )
         .returns("a map")
         .summary("The options of a function, those left out filled in; refused when one is unknown, missing or of the wrong kind.")
-        .doc("Points come as vectors, whatever they were given as. Where the default is `()`, `()` may be given, too.")
+        .doc(
+            "The words for what an option must be are those of read_argument. Points come as vectors, whatever they were given as. \
+             Where the default is (), () may be given, too.",
+        )
         .example(
             "fn mast(options) {\n    let given = read_options(\"mast\", options, #{\n        height: \"a positive number [length]\",\n        \
              spans: [\"a positive whole number\", 8],\n    });\n    \
@@ -52,10 +51,17 @@ pub const TABLE: Table = Table {
         )
         .returns("the value, a point as a vector")
         .summary("An argument of a function, refused when it is of the wrong kind.")
+        .doc(
+            "Kinds are told in words: \"a number\", \"a positive number\", \"a number of zero or more\", \"any number\" (infinite ones \
+             and nan too), \"a whole number\", \"a positive whole number\", \"a whole number of zero or more\", \"a text\", \"true or \
+             false\", \"a point\", \"a vector\", \"an array\", \"an array of numbers\", \"an array of points\", \"a function\", \
+             \"a value\" (anything), \"nothing\", or the name of a type, such as \"a section\". Others are joined by \"or\": \"a number \
+             or a schedule\". A unit may stand behind: \"a positive number [length]\".",
+        )
         .example(
-            "fn half(length) { read_argument(\"half\", \"length\", length, \"a positive number [length]\") / 2 }\n\
-             try { half(-1) } catch (problem) {\n    \
-             check(problem.message == \"half: 'length' must be a positive number [length], got -1\");\n}",
+            "fn half(size) { read_argument(\"half\", \"size\", size, \"a positive number\") / 2 }\n\
+             check(half(3) == 1.5);\n\
+             try { half(-1) } catch (problem) { print(problem.message); }",
         )
         .see(&["read_options"]),
     ],
