@@ -20,8 +20,23 @@ pub fn accept(
 ) -> Result<Dynamic, ScriptError> {
     match convert(engine, owner, &parameter.kind, value)? {
         Ok(accepted) => Ok(accepted),
-        Err(refused) => Err(refusal(engine, owner, parameter, &refused)),
+        Err(refused) => {
+            let Parameter { name, kind, .. } = parameter;
+            Err(refusal(engine, owner, name, kind, &parameter.expectation(), &refused))
+        }
     }
+}
+
+/// As [`accept`], for a parameter that a script describes: `wanted` are its words for what may be given.
+pub fn accept_described(
+    engine: &Engine,
+    owner: &str,
+    name: &str,
+    (kind, wanted): (&Kind, &str),
+    value: Dynamic,
+) -> Result<Dynamic, ScriptError> {
+    convert(engine, owner, kind, value)?
+        .map_err(|refused| refusal(engine, owner, name, kind, wanted, &refused))
 }
 
 /// The outer error is final; the inner one hands the value back for the general refusal.
@@ -84,20 +99,23 @@ fn as_all<T>(value: &Dynamic, read: impl Fn(&Dynamic) -> Option<T>) -> Option<Ve
     value.read_lock::<Array>()?.iter().map(read).collect()
 }
 
-fn refusal(engine: &Engine, owner: &str, parameter: &Parameter, value: &Dynamic) -> ScriptError {
-    let got = match first_wrong_element(&parameter.kind, value) {
+fn refusal(
+    engine: &Engine,
+    owner: &str,
+    name: &str,
+    kind: &Kind,
+    wanted: &str,
+    value: &Dynamic,
+) -> ScriptError {
+    let got = match first_wrong_element(kind, value) {
         Some((index, element)) => format!("{} at index {index}", describe(engine, &element)),
         None if is_infinite_or_nan(value) => {
             format!("{}, which is not finite", describe(engine, value))
         }
         None => describe(engine, value),
     };
-    let error = ScriptError::new(format!(
-        "{owner}: '{}' must be {}, got {got}",
-        parameter.name,
-        parameter.expectation()
-    ));
-    match hint(parameter, value) {
+    let error = ScriptError::new(format!("{owner}: '{name}' must be {wanted}, got {got}"));
+    match hint(kind, value) {
         Some(hint) => error.hint(hint),
         None => error,
     }
@@ -118,8 +136,8 @@ fn first_wrong_element(kind: &Kind, value: &Dynamic) -> Option<(usize, Dynamic)>
         .map(|(index, element)| (index, element.clone()))
 }
 
-fn hint(parameter: &Parameter, value: &Dynamic) -> Option<String> {
-    match &parameter.kind {
+fn hint(kind: &Kind, value: &Dynamic) -> Option<String> {
+    match kind {
         Kind::Number(_) if is_infinite_or_nan(value) => Some(
             "the number comes from an overflow or an undefined operation before this line".into(),
         ),

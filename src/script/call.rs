@@ -4,9 +4,11 @@ use std::ops::Deref;
 
 use rhai::{AST, Dynamic, FnPtr, NativeCallContext};
 
+use super::accept::accept_described;
 use super::arguments::Arguments;
 use super::context::Context;
 use super::error::ScriptError;
+use super::kind::Kind;
 use super::numbers::{as_number, describe};
 use super::sources::Sources;
 use super::stored::StoredFunction;
@@ -140,6 +142,17 @@ impl<'c, 'r> Call<'c, 'r> {
     /// Refuses to go on when the run was interrupted; long native loops ask once in every step.
     pub fn proceed(&self) -> Result<(), ScriptError> {
         self.context.proceed()
+    }
+
+    /// `value` for a parameter of a script's own function: a kind, and the words of the script for it.
+    pub fn accept(
+        &self,
+        owner: &str,
+        name: &str,
+        wanted: (&Kind, &str),
+        value: Dynamic,
+    ) -> Result<Dynamic, ScriptError> {
+        accept_described(self.native.engine(), owner, name, wanted, value)
     }
 
     /// An error that begins with the name of the row, as all errors about a call do.

@@ -1,62 +1,199 @@
-//! Options of functions that a script defines itself, refused as those of the language are.
+//! Options and arguments of functions that a script defines itself, refused as those of the language are.
 
-use rhai::{Dynamic, Map};
+use rhai::{Array, Dynamic, Map};
 
+use crate::geometry::Vec2;
 use crate::script::call::Call;
 use crate::script::error::{Place, ScriptError};
-use crate::script::parameter::{anything, array, text};
+use crate::script::kind::{Kind, Range, with_article};
+use crate::script::parameter::{anything, text};
 use crate::script::suggest::nearest;
 use crate::script::table::{Table, function};
 
-/// Options of a script's own functions.
+/// Options and arguments of a script's own functions.
 pub const TABLE: Table = Table {
     name: "options of functions",
-    doc: "What a function of a script needs to take a map of options as the functions of withy do.",
+    doc: "What a function of a script needs to take options and arguments as the functions of withy do.",
     types: &[],
     setup: "",
     constants: &[],
-    rows: &[function(
-        "read_options",
-        &[
-            text("owner").doc("the name of the function that takes the options, for messages"),
-            anything("options").doc("what it was given: a map"),
-            array("required").doc("the names of those that must be given"),
-            anything("defaults").doc("a map of the others with what holds when they are left out"),
-        ],
-        read_options,
-    )
-    .returns("a map")
-    .summary("The options of a function, those left out filled in; refused when one is unknown or missing.")
-    .doc("An option without a default has the default `()`. Kinds and ranges are checked by the functions that the values are given to.")
-    .example(
-        "fn mast(options) {\n    let given = read_options(\"mast\", options, [\"height\"], #{ spans: 8 });\n    \
-         `${given.height} with ${given.spans} spans`\n}\ncheck(mast(#{ height: 3 }) == \"3 with 8 spans\");",
-    )
-    .see(&["section"])],
+    rows: &[
+        function(
+            "read_options",
+            &[
+                text("owner").doc("the name of the function that takes the options, for messages"),
+                anything("options").doc("what it was given: a map"),
+                anything("known").doc("a map of what each option must be, in words; [words, default] for those that may be left out"),
+            ],
+            read_options,
+        )
+        .returns("a map")
+        .summary("The options of a function, those left out filled in; refused when one is unknown, missing or of the wrong kind.")
+        .doc(
+            "The words for what an option must be are those of read_argument. Points come as vectors, whatever they were given as. \
+             Where the default is (), () may be given, too.",
+        )
+        .example(
+            "fn mast(options) {\n    let given = read_options(\"mast\", options, #{\n        height: \"a positive number [length]\",\n        \
+             spans: [\"a positive whole number\", 8],\n    });\n    \
+             `${given.height} with ${given.spans} spans`\n}\ncheck(mast(#{ height: 3 }) == \"3 with 8 spans\");",
+        )
+        .see(&["read_argument"]),
+        function(
+            "read_argument",
+            &[
+                text("owner").doc("the name of the function that takes the argument, for messages"),
+                text("name").doc("its name"),
+                anything("value").doc("what was given"),
+                text("kind").doc("what it must be, in words"),
+            ],
+            read_argument,
+        )
+        .returns("the value, a point as a vector")
+        .summary("An argument of a function, refused when it is of the wrong kind.")
+        .doc(
+            "Kinds are told in words: \"a number\", \"a positive number\", \"a number of zero or more\", \"any number\" (infinite ones \
+             and nan too), \"a whole number\", \"a positive whole number\", \"a whole number of zero or more\", \"a text\", \"true or \
+             false\", \"a point\", \"a vector\", \"an array\", \"an array of numbers\", \"an array of points\", \"a function\", \
+             \"a value\" (anything), \"nothing\", or the name of a type, such as \"a section\". Others are joined by \"or\": \"a number \
+             or a schedule\". A unit may stand behind: \"a positive number [length]\".",
+        )
+        .example(
+            "fn half(size) { read_argument(\"half\", \"size\", size, \"a positive number\") / 2 }\n\
+             check(half(3) == 1.5);\n\
+             try { half(-1) } catch (problem) { print(problem.message); }",
+        )
+        .see(&["read_options"]),
+    ],
 };
+
+/// The words for kinds; all other words are names of types.
+const KINDS: &[(&str, Kind)] = &[
+    ("a value", Kind::Anything),
+    ("a number", Kind::Number(Range::Finite)),
+    ("a positive number", Kind::Number(Range::Positive)),
+    ("a number of zero or more", Kind::Number(Range::NonNegative)),
+    ("any number", Kind::Number(Range::Unlimited)),
+    ("a whole number", Kind::Whole(Range::Finite)),
+    ("a positive whole number", Kind::Whole(Range::Positive)),
+    ("a whole number of zero or more", Kind::Whole(Range::NonNegative)),
+    ("a text", Kind::Text),
+    ("true or false", Kind::Boolean),
+    ("a point", Kind::Point),
+    ("a vector", Kind::Point),
+    ("an array", Kind::Array),
+    ("an array of numbers", Kind::Numbers),
+    ("an array of points", Kind::Points),
+    ("a function", Kind::Function),
+];
+
+/// An option as a script describes it.
+struct Known {
+    name: String,
+    wanted: String,
+    /// What holds when it is left out; without it, the option must be given.
+    default: Option<Dynamic>,
+}
 
 fn read_options(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let owner = call.text("owner")?;
-    let given = map(call, "options", &owner)?;
-    let mut options = map(call, "defaults", "read_options")?;
-    let required = call.array("required")?;
-    let required: Vec<String> = required.iter().map(ToString::to_string).collect();
-    let optional = options.keys().map(|key| key.to_string());
-    let known: Vec<String> = required.iter().cloned().chain(optional).collect();
-    if let Some(unknown) = given.keys().find(|name| !known.iter().any(|key| key == name.as_str())) {
-        let meant = nearest(unknown, known.iter().map(String::as_str));
-        let meant = meant.map(|name| format!("did you mean '{name}'? ")).unwrap_or_default();
-        return Err(ScriptError::new(format!("{owner}: unknown option '{unknown}'"))
-            .hint(format!("{meant}known options: {}", known.join(", ")))
-            .at(Place::Key(unknown.to_string())));
+    let mut given = map(call, "options", &owner)?;
+    let known = map(call, "known", "read_options")?;
+    let known = known.into_iter().map(|(name, told)| described(call, name.to_string(), &told));
+    let known: Vec<Known> = known.collect::<Result<_, _>>()?;
+    if let Some(unknown) = given.keys().find(|name| !known.iter().any(|key| key.name == **name)) {
+        return Err(unknown_option(&owner, unknown, &known));
     }
-    if let Some(missing) = required.iter().find(|name| !given.contains_key(name.as_str())) {
-        let told = format!("{owner}: the option '{missing}' is missing");
-        let needed = format!("it needs {}", required.join(", "));
-        return Err(ScriptError::new(told).hint(needed));
+    let mut options = Map::new();
+    for Known { name, wanted, default } in known {
+        let value = match (given.remove(name.as_str()), default) {
+            (Some(value), Some(default)) if value.is_unit() && default.is_unit() => value,
+            (Some(value), _) => accept(call, &owner, &name, &wanted, value)
+                .map_err(|error| error.at(Place::Key(name.clone())))?,
+            (None, Some(default)) => default,
+            (None, None) => {
+                let told = format!("{owner}: the option '{name}' is missing");
+                return Err(ScriptError::new(told).hint(format!("add {name}: {wanted}")));
+            }
+        };
+        options.insert(name.into(), value);
     }
-    options.extend(given);
     Ok(options.into())
+}
+
+fn read_argument(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let [owner, name, kind] = [call.text("owner")?, call.text("name")?, call.text("kind")?];
+    accept(call, &owner, &name, &kind, call.value("value")?)
+}
+
+/// Reads `"a number"` and `["a number", default]`.
+fn described(call: &Call, name: String, told: &Dynamic) -> Result<Known, ScriptError> {
+    let parts = told.read_lock::<Array>();
+    let (wanted, default) = match parts.as_deref().map(Vec::as_slice) {
+        Some([wanted, default]) => (wanted, Some(default.clone())),
+        _ => (told, None),
+    };
+    let wanted = wanted.as_immutable_string_ref().map_err(|_| {
+        let got = call.describe(told);
+        call.error(format!("'{name}' must be told in words or as [words, default], got {got}"))
+    })?;
+    Ok(Known { name, wanted: wanted.to_string(), default })
+}
+
+fn unknown_option(owner: &str, unknown: &str, known: &[Known]) -> ScriptError {
+    let meant = nearest(unknown, known.iter().map(|key| key.name.as_str()));
+    let meant = meant.map(|name| format!("did you mean '{name}'? ")).unwrap_or_default();
+    let names = known.iter().map(|key| match key.default {
+        None => format!("{} (required)", key.name),
+        Some(_) => key.name.clone(),
+    });
+    ScriptError::new(format!("{owner}: unknown option '{unknown}'"))
+        .hint(format!("{meant}known options: {}", names.collect::<Vec<_>>().join(", ")))
+        .at(Place::Key(unknown.to_owned()))
+}
+
+/// The value in the form that scripts use, if it is what was `wanted`.
+fn accept(
+    call: &Call,
+    owner: &str,
+    name: &str,
+    wanted: &str,
+    value: Dynamic,
+) -> Result<Dynamic, ScriptError> {
+    let words = wanted.split(" [").next().unwrap_or(wanted);
+    if let Some(kind) = kind_named(words) {
+        return call.accept(owner, name, (kind, wanted), value).map(written);
+    }
+    let type_name = match value.is_unit() {
+        true => "nothing".into(),
+        false => with_article(&call.type_of(&value)),
+    };
+    for words in words.split(" or ") {
+        if words == type_name {
+            return Ok(value);
+        }
+        let accept = |kind| call.accept(owner, name, (kind, wanted), value.clone()).ok();
+        if let Some(accepted) = kind_named(words).and_then(accept) {
+            return Ok(written(accepted));
+        }
+    }
+    let got = call.describe(&value);
+    Err(ScriptError::new(format!("{owner}: '{name}' must be {wanted}, got {got}")))
+}
+
+fn kind_named(words: &str) -> Option<&'static Kind> {
+    KINDS.iter().find(|(known, _)| *known == words).map(|(_, kind)| kind)
+}
+
+/// Lists in the form that scripts use.
+fn written(accepted: Dynamic) -> Dynamic {
+    if let Some(numbers) = accepted.clone().try_cast::<Vec<f64>>() {
+        return numbers.into_iter().map(Dynamic::from).collect::<Array>().into();
+    }
+    match accepted.clone().try_cast::<Vec<Vec2>>() {
+        Some(points) => points.into_iter().map(Dynamic::from).collect::<Array>().into(),
+        None => accepted,
+    }
 }
 
 fn map(call: &Call, name: &str, owner: &str) -> Result<Map, ScriptError> {
