@@ -140,13 +140,12 @@ mod tests {
     use crate::integrators::INTEGRATORS;
 
     fn ladder(errors: &[Option<(f64, f64)>]) -> Ladder {
-        let deviation =
-            |of: &Option<(f64, f64)>| of.map(|(distance, trusted)| Deviation { distance, trusted });
+        let deviation = |(distance, trusted)| Deviation { distance, trusted, is_of_own_run: false };
         Ladder {
             method: Method::EnergyMomentum,
             quantity: "q".into(),
             sizes: (0..errors.len()).map(|rung| 0.5_f64.powi(rung as i32)).collect(),
-            deviations: errors.iter().map(deviation).collect(),
+            deviations: errors.iter().map(|of| of.map(deviation)).collect(),
         }
     }
 
