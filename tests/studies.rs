@@ -235,19 +235,24 @@ fn steps_are_limited_and_each_run_has_patience() {
 
 #[test]
 fn every_study_prints_its_table_once_and_a_check_prints_none() {
-    let options = "meshes: [bspline(2)], dts: [0.2, 0.1], times: [1], repeats: 1";
+    let options = "meshes: [bspline(2)], dts: [0.2, 0.1, adaptive(#{ tolerance: 1e-2 })], times: [1], repeats: 1";
     let others = "study_convergence(#{ name: \"steps\", scene: scene, integrators: [energy_momentum()], \
         meshes: [bspline(2)], dts: [0.2, 0.1], times: [1] });
         study_stability(#{ name: \"map\", scene: |cell| scene.call(bspline(2)).scene, rows: #{ dt: [0.1] }, \
         columns: #{ end: [0.5] } });
         study_cost(#{ name: \"cost\", scene: || scene.call(bspline(2)).scene, dt: 0.1, steps: 2, repeats: 1, features: #{} });";
-    let (_folder, file) = script(options, others);
+    let (folder, file) = script(options, others);
     let output = withy(&["run"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let picture = fs::read_to_string(folder.path().join("out/rod.svg")).unwrap();
+    assert!(picture.contains("energy_momentum, adaptive"), "a series of its own");
     let text = printed(&output);
-    for head in
-        ["study 'rod': error at", "study 'steps': convergence", "in a cell: ", "cost: cost of a step"]
-    {
+    for head in [
+        "study 'rod': error at",
+        "study 'steps': convergence",
+        "in a cell: ",
+        "cost: cost of a step",
+    ] {
         assert_eq!(text.matches(head).count(), 1, "{head}: {text}");
     }
     let quantities = ["position of tip", "angle of tip", "kinetic", "energy"];
@@ -257,9 +262,26 @@ fn every_study_prints_its_table_once_and_a_check_prints_none() {
         let lines = steps.lines().filter(|line| line.split("  ").next() == Some(quantity));
         assert_eq!(lines.count(), 1, "{quantity}: {steps}");
     }
-    let check =
-        Command::new(env!("CARGO_BIN_EXE_withy")).arg("check").arg(&file).output().unwrap();
+    let check = Command::new(env!("CARGO_BIN_EXE_withy")).arg("check").arg(&file).output().unwrap();
     assert_eq!((check.status.code(), printed(&check).as_str()), (Some(0), ""));
+}
+
+#[test]
+fn all_cells_that_did_not_finish_are_listed_in_a_line_each() {
+    let options = "meshes: [bspline(2)], dts: [0.2], times: [1], repeats: 1";
+    let map = "study_stability(#{ name: \"map\", end: 0.5, rows: #{ size: [1, 2, 3, 4, 5] }, columns: #{ dt: [0.1, 0.2, 0.3] }, \
+        scene: |cell| { let scene = new_scene(\"pushed\"); let bead = scene.particle([0, 0], 1); \
+        scene.force(bead, [cell.size, 0], |t| if cell.size > 1 { throw \"MANY\" } else { 1 }); scene } });";
+    let map = map.replace("MANY", &"much too ".repeat(30));
+    let (_folder, file) = script(options, &map);
+    let output = withy(&["run"], &file).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let text = printed(&output);
+    let (_, list) = text.split_once("12 of 15 cells did not come to their end").unwrap();
+    assert!(list.contains("map.csv"), "{list}");
+    let lines: Vec<&str> = list.lines().filter(|line| line.starts_with("size ")).collect();
+    assert_eq!(lines.len(), 12, "{list}");
+    assert!(lines.iter().all(|line| line.chars().count() < 140 && line.ends_with('…')), "{list}");
 }
 
 #[test]

@@ -221,7 +221,7 @@ mod tests {
         let patience = Patience { wall: Duration::from_millis(50), ..Patience::default() };
         let (outcome, _) = case.run(patience, &never(), |_| ());
         let told = outcome.describe();
-        assert!(told.starts_with("ran out of patience at t = 0.4"), "{told}");
+        assert!(told.starts_with("ran out of patience at t = 0.5"), "{told}");
         assert!(told.ends_with(": more than 0.05 s"), "{told}");
         assert!(!is_out_of_patience(), "patience with one case is not that with another");
     }

@@ -20,7 +20,7 @@ pub struct Deviation {
 }
 
 impl Deviation {
-    /// Whether the reference is good enough to tell something of the error, such as an order.
+    /// Whether the reference is good enough to tell the error from none.
     pub fn is_resolved(&self) -> bool {
         self.distance > self.trusted
     }

@@ -55,7 +55,7 @@ pub const TABLE: Table = Table {
             .doc(
                 "Unless told otherwise it is made on the finest mesh of the study, with its integrator of the highest order and a \
                  quarter of its smallest step size; it must be finer than the runs that it judges. It is run with twice its step as well, and the difference is added to all errors: they are bounds, \
-                 marked with ≤ where that changes their digits. No order is told of errors smaller than the difference. There is none where all runs of the study have its very integrator and step size, so that \
+                 marked with ≤ where that changes their digits. No order is told of errors below twice the difference. There is none where all runs of the study have its very integrator and step size, so that \
                  errors in time are the same. Its error of the mesh is not known; errors of meshes need a finer mesh here.",
             )
             .example(

@@ -63,12 +63,9 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
     chart
 }
 
-/// The rungs that tell something, from coarse to fine.
+/// The rungs that tell an order, from coarse to fine.
 fn told(ladder: &Ladder) -> impl DoubleEndedIterator<Item = usize> {
-    (0..ladder.sizes.len()).filter(|rung| {
-        ladder.deviations[*rung].is_some_and(|of| of.is_resolved())
-            && ladder.error(*rung) > Some(0.0)
-    })
+    (0..ladder.sizes.len()).filter(|rung| ladder.tells_an_order(*rung))
 }
 
 /// A line with the slope of an order through the last point that tells one, over all sizes.

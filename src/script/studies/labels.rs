@@ -83,7 +83,7 @@ mod tests {
         assert_eq!(told(3.4e-5, 1e-5, false), "3.4e-5");
         assert_eq!(told(3.4e-5, 4e-5, false), "≤ 7.4e-5");
         assert_eq!((told(0.0, 0.0, true), deviation(None)), ("0".into(), "-".into()));
-        assert_eq!(told(f64::NAN, 1.0, true), "NaN");
+        assert_eq!(told(f64::NAN, 1.0, true), "nan");
     }
 
     #[test]
