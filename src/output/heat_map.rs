@@ -3,9 +3,10 @@
 use super::{
     axis::power_of_ten,
     canvas::{Align, Area, Canvas},
-    colour::{AXIS, Colour, GREY, INK, WHITE, mix, ramp},
+    colour::{Colour, GREY, INK, WHITE, mix, ramp},
     fonts,
     frame::Margins,
+    hatching::{hatch, outline},
     page::Panel,
 };
 
@@ -30,8 +31,6 @@ const WIDEST_CELL: f64 = 200.0;
 /// Free paper around a text in a cell, and around the name of a column.
 const AROUND_TEXT: f64 = 8.0;
 const AROUND_NAME: f64 = 5.0;
-/// Between the lines of a hatching.
-const HATCH: f64 = 6.0;
 /// Lines of the text of a cell are so far apart.
 const LINE: f64 = 14.0;
 
@@ -224,33 +223,6 @@ impl HeatMap {
     }
 }
 
-/// Fills an area with slanted lines.
-fn hatch(canvas: &mut Canvas, area: &Area) {
-    let (width, height) = (area.width(), area.height());
-    let count = ((width + height) / HATCH) as usize;
-    for index in 1..=count {
-        // From the left or lower side to the upper or right one.
-        let along = index as f64 * HATCH;
-        let from = if along <= height {
-            (area.left, area.top + along)
-        } else {
-            (area.left + along - height, area.bottom)
-        };
-        let to = if along <= width {
-            (area.left + along, area.top)
-        } else {
-            (area.right, area.top + along - width)
-        };
-        canvas.line([from, to], 1.0, AXIS);
-    }
-}
-
-fn outline(canvas: &mut Canvas, area: &Area) {
-    let Area { left, top, right, bottom } = *area;
-    let corners = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top)];
-    canvas.line(corners, 1.0, AXIS);
-}
-
 impl Panel for HeatMap {
     fn size(&self) -> (f64, f64) {
         self.with_cells(CELL)
@@ -376,20 +348,6 @@ mod tests {
         match shape {
             Shape::Text(text) => Some(&text.text),
             _ => None,
-        }
-    }
-
-    #[test]
-    fn a_hatching_stays_in_its_area() {
-        let area = Area { left: 10.0, top: 20.0, right: 90.0, bottom: 41.0 };
-        let mut canvas = Canvas::default();
-        hatch(&mut canvas, &area);
-        assert!(canvas.shapes().len() > 10);
-        for shape in canvas.shapes() {
-            let Shape::Line { points, .. } = shape else { panic!("{shape:?}") };
-            for (x, y) in points {
-                assert!((10.0..=90.0).contains(x) && (20.0..=41.0).contains(y), "{points:?}");
-            }
         }
     }
 
