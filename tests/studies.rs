@@ -39,6 +39,7 @@ fn script(options: &str, after: &str) -> (TempDir, PathBuf) {
         {after}"
     );
     fs::write(&file, text).unwrap();
+    fs::write(folder.path().join("turned.csv"), TURNED).unwrap();
     (folder, file)
 }
 
@@ -48,8 +49,7 @@ const TURNED: &str = "# turned by t radians\nt,xtip,ytip,thtip,d_pos\n1,1.0806,1
 #[test]
 fn a_study_is_compared_with_a_table_and_with_rivals() {
     let options = "meshes: [bspline(2)], dts: [0.2, 0.1], times: [1], repeats: 5, reference: \"turned.csv\", rivals: \"rivals.csv\"";
-    let (folder, file) = script(options, "print(study.table); print(study.cheapest([1e9, 1e-9]));");
-    fs::write(folder.path().join("turned.csv"), TURNED).unwrap();
+    let (folder, file) = script(options, "print(study.cheapest([1e9, 1e-9]));");
     let rivals = "series,peer,integrator,run_time_s,t,xtip,ytip,energy_drift,machine\nA implicit,A,euler,4,1,1.0806,9.6829,,an abacus\n";
     fs::write(folder.path().join("rivals.csv"), rivals).unwrap();
     let output = withy(&["study", "--repeats", "2"], &file).output().unwrap();
@@ -74,8 +74,7 @@ fn a_study_is_compared_with_a_table_and_with_rivals() {
 #[test]
 fn a_wrong_reference_is_told_before_anything_runs() {
     let options = "meshes: [bspline(2)], dts: [1e-7], times: [0.5], reference: \"turned.csv\"";
-    let (folder, file) = script(options, "");
-    fs::write(folder.path().join("turned.csv"), TURNED).unwrap();
+    let (_folder, file) = script(options, "");
     for command in ["study", "run"] {
         let output = withy(&[command], &file).output().unwrap();
         assert_eq!(output.status.code(), Some(2));
@@ -96,6 +95,23 @@ fn a_reference_without_a_number_is_told_with_its_place() {
 }
 
 #[test]
+fn a_reference_without_rows_or_with_two_of_one_time_or_a_negative_size_is_told() {
+    let options = "meshes: [bspline(2)], dts: [1e-7], times: [1], reference: \"turned.csv\"";
+    let (folder, file) = script(options, "");
+    let (rows, other) = (TURNED.lines().take(2).collect::<Vec<_>>().join("\n"), "1,1,1,1,0.5\n");
+    for (table, told) in [
+        (rows, "\"turned.csv\": it has no rows"),
+        (format!("{TURNED}{other}"), "lines 3 and 4 are both about t = 1, and they differ"),
+        (TURNED.replace(",0.5\n", ",-0.5\n"), "line 3, column 'd_pos', holds '-0.5'"),
+    ] {
+        fs::write(folder.path().join("turned.csv"), table).unwrap();
+        let output = withy(&["study"], &file).output().unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        assert!(said(&output).contains(told), "{}", said(&output));
+    }
+}
+
+#[test]
 fn wrong_rivals_are_told_before_anything_runs() {
     let options = "meshes: [bspline(2)], dts: [1e-7], times: [1], rivals: \"rivals.csv\"";
     let (folder, file) = script(options, "");
@@ -108,23 +124,23 @@ fn wrong_rivals_are_told_before_anything_runs() {
 
 #[test]
 fn what_ran_out_of_patience_is_tried_again() {
-    let options = "meshes: [bspline(2)], dts: [0.1, 1e-3, 5e-4, 2e-4], times: [1], repeats: 1, reference: finest_run(#{ dt: 0.04 })";
-    let (folder, file) = script(options, "print(study.table);");
+    let options = "meshes: [bspline(2)], dts: [0.1, 1e-3, 5e-4, 2e-4], times: [1], repeats: 1, reference: \"turned.csv\"";
+    let (folder, file) = script(options, "");
     let journal = folder.path().join("out").join("rod.journal");
     let output = withy(&["study", "--max-steps", "300"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(2), "{}", said(&output));
-    // The runs of the reference and the first case are short; the others do not come to their end.
+    // The first case is short; the others do not come to their end.
     let known = Journal::open(&journal).unwrap().len();
-    assert!((1..=3).contains(&known), "{known}");
+    assert_eq!(known, 1);
     let output = withy(&["study"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
-    let told = format!("{known} of 6 runs are known");
-    assert!(said(&output).contains(&told), "{}", said(&output));
-    assert!(!printed(&output).contains("given up"), "{}", printed(&output));
+    let told = "1 of 4 runs are known";
+    assert!(said(&output).contains(told), "{}", said(&output));
+    assert!(!printed(&output).contains("ran out of patience"), "{}", printed(&output));
 }
 
-/// Two short cases, and one that takes for ever; the two runs of the reference are short, too.
-const ENDLESS: &str = "meshes: [bspline(2)], dts: [0.1, 0.05, 1e-8], times: [1], repeats: 1, reference: finest_run(#{ dt: 0.02 })";
+/// Two short cases, and one that takes for ever.
+const ENDLESS: &str = "meshes: [bspline(2)], dts: [0.1, 0.05, 1e-8], times: [1], repeats: 1, reference: \"turned.csv\"";
 
 /// Waits until so many cases are in a journal.
 fn wait_for(journal: &Path, cases: usize) {
@@ -141,20 +157,27 @@ fn an_interrupted_study_goes_on_where_it_was() {
     let (folder, file) = script(ENDLESS, "");
     let journal = folder.path().join("out").join("rod.journal");
     let running = withy(&["study"], &file).spawn().unwrap();
-    wait_for(&journal, 4);
+    wait_for(&journal, 2);
     let id = running.id().to_string();
     Command::new("kill").args(["-INT", &id]).status().unwrap();
     let output = running.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130), "{}", said(&output));
+    let kept = format!(
+        "interrupted: 2 finished cases are kept in '{}': the same command goes on there",
+        journal.parent().unwrap().display()
+    );
+    assert!(said(&output).contains(&kept), "{}", said(&output));
 
     let known = |arguments: &[&str]| {
         let output = withy(arguments, &file).output().unwrap();
         assert_eq!(output.status.code(), Some(2), "{}", said(&output));
         assert!(said(&output).contains("takes longer than 1 s"), "{}", said(&output));
+        assert!(said(&output).contains("\n2 finished cases are kept in"), "{}", said(&output));
+        assert!(!said(&output).contains("loop without an end"), "{}", said(&output));
         said(&output).lines().find(|line| line.contains("are known")).map(str::to_owned)
     };
     let goes_on = known(&["study", "--max-time", "1"]).unwrap();
-    assert_eq!(goes_on, "study 'rod' goes on: 4 of 5 runs are known from an earlier run");
+    assert_eq!(goes_on, "study 'rod' goes on: 2 of 3 runs are known from an earlier run");
     assert_eq!(known(&["study", "--max-time", "1", "--fresh"]), None);
 
     // The same with an end: the endless case is replaced, the others are known, and so are they after a limit.
@@ -162,8 +185,32 @@ fn an_interrupted_study_goes_on_where_it_was() {
     fs::write(&file, text.replace("1e-8", "0.025")).unwrap();
     let output = withy(&["study"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
-    assert!(said(&output).contains("4 of 5 runs are known"), "{}", said(&output));
+    assert!(said(&output).contains("2 of 3 runs are known"), "{}", said(&output));
     assert!(!journal.exists());
+}
+
+#[test]
+fn finished_studies_are_not_repeated_before_the_whole_script_has_ended() {
+    let options = "meshes: [bspline(2)], dts: [0.2, 0.1], times: [1], repeats: 1, reference: finest_run(#{ dt: 0.02 })";
+    let second = "study_convergence(#{ name: \"steps\", scene: scene, integrators: [energy_momentum()], \
+        meshes: [bspline(2)], dts: [0.2, 0.1], times: [1] }); missing();";
+    let (folder, file) = script(options, second);
+    let journals = ["rod", "steps"].map(|name| folder.path().join(format!("out/{name}.journal")));
+    let output = withy(&["study"], &file).output().unwrap();
+    assert_eq!(output.status.code(), Some(2), "{}", said(&output));
+    assert!(said(&output).contains("10 finished cases are kept in"), "{}", said(&output));
+    assert!(journals.iter().all(|journal| journal.exists()));
+
+    let text = fs::read_to_string(&file).unwrap();
+    fs::write(&file, text.replace("missing();", "")).unwrap();
+    let output = withy(&["study"], &file).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    for told in ["'rod' goes on: 4 of 4 runs", "'steps' goes on: 4 of 4 runs"] {
+        assert!(said(&output).contains(told), "{}", said(&output));
+    }
+    assert!(!journals.iter().any(|journal| journal.exists()), "nothing is left to go on with");
+    let output = withy(&["study"], &file).output().unwrap();
+    assert!(!said(&output).contains("goes on"), "{}", said(&output));
 }
 
 #[test]
@@ -177,13 +224,64 @@ fn a_study_of_a_run_keeps_no_journal() {
 #[test]
 fn steps_are_limited_and_each_run_has_patience() {
     let (_folder, file) = script(ENDLESS, "");
-    let output = withy(&["study", "--max-steps", "70"], &file).output().unwrap();
+    let output = withy(&["study", "--max-steps", "25"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
-    let options = "meshes: [bspline(2)], dts: [0.1, 1e-8], times: [1], repeats: 1, patience: 0.2, reference: finest_run(#{ dt: 0.02 })";
-    let (_folder, file) = script(options, "print(study.table);");
+    let options = "meshes: [bspline(2)], dts: [0.1, 1e-8], times: [1], repeats: 1, patience: 0.2, reference: \"turned.csv\"";
+    let (_folder, file) = script(options, "");
     let output = withy(&["study"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     assert!(printed(&output).contains("more than 0.2 s"), "{}", printed(&output));
+}
+
+#[test]
+fn every_study_prints_its_table_once_and_a_check_prints_none() {
+    let options = "meshes: [bspline(2)], dts: [0.2, 0.1, adaptive(#{ tolerance: 1e-2 })], times: [1], repeats: 1";
+    let others = "study_convergence(#{ name: \"steps\", scene: scene, integrators: [energy_momentum()], \
+        meshes: [bspline(2)], dts: [0.2, 0.1], times: [1] });
+        study_stability(#{ name: \"map\", scene: |cell| scene.call(bspline(2)).scene, rows: #{ dt: [0.1] }, \
+        columns: #{ end: [0.5] } });
+        study_cost(#{ name: \"cost\", scene: || scene.call(bspline(2)).scene, dt: 0.1, steps: 2, repeats: 1, features: #{} });";
+    let (folder, file) = script(options, others);
+    let output = withy(&["run"], &file).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let picture = fs::read_to_string(folder.path().join("out/rod.svg")).unwrap();
+    assert!(picture.contains("energy_momentum, adaptive"), "a series of its own");
+    let text = printed(&output);
+    for head in [
+        "study 'rod': error at",
+        "study 'steps': convergence",
+        "in a cell: ",
+        "cost: cost of a step",
+    ] {
+        assert_eq!(text.matches(head).count(), 1, "{head}: {text}");
+    }
+    let quantities = ["position of tip", "angle of tip", "kinetic", "energy"];
+    let steps = &text[text.find("study 'steps'").unwrap()..text.find("in a cell").unwrap()];
+    assert_eq!(steps.lines().filter(|line| line.starts_with("all ")).count(), 1, "{steps}");
+    for quantity in quantities {
+        let lines = steps.lines().filter(|line| line.split("  ").next() == Some(quantity));
+        assert_eq!(lines.count(), 1, "{quantity}: {steps}");
+    }
+    let check = Command::new(env!("CARGO_BIN_EXE_withy")).arg("check").arg(&file).output().unwrap();
+    assert_eq!((check.status.code(), printed(&check).as_str()), (Some(0), ""));
+}
+
+#[test]
+fn all_cells_that_did_not_finish_are_listed_in_a_line_each() {
+    let options = "meshes: [bspline(2)], dts: [0.2], times: [1], repeats: 1";
+    let map = "study_stability(#{ name: \"map\", end: 0.5, rows: #{ size: [1, 2, 3, 4, 5] }, columns: #{ dt: [0.1, 0.2, 0.3] }, \
+        scene: |cell| { let scene = new_scene(\"pushed\"); let bead = scene.particle([0, 0], 1); \
+        scene.force(bead, [cell.size, 0], |t| if cell.size > 1 { throw \"MANY\" } else { 1 }); scene } });";
+    let map = map.replace("MANY", &"much too ".repeat(30));
+    let (_folder, file) = script(options, &map);
+    let output = withy(&["run"], &file).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let text = printed(&output);
+    let (_, list) = text.split_once("12 of 15 cells did not come to their end").unwrap();
+    assert!(list.contains("map.csv"), "{list}");
+    let lines: Vec<&str> = list.lines().filter(|line| line.starts_with("size ")).collect();
+    assert_eq!(lines.len(), 12, "{list}");
+    assert!(lines.iter().all(|line| line.chars().count() < 140 && line.ends_with('…')), "{list}");
 }
 
 #[test]
@@ -192,7 +290,7 @@ fn a_check_builds_a_study_and_runs_nothing() {
     let output =
         Command::new(env!("CARGO_BIN_EXE_withy")).arg("check").arg(&file).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "the script and the table");
 }
 
 #[test]

@@ -2,11 +2,11 @@
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
 use super::Outcome;
+use super::patience::{Patience, Wait};
 use crate::model::Scene;
 use crate::simulation::{Monitor, Recording, Settings, Simulation, SimulationError, StepSize};
 
@@ -24,25 +24,12 @@ pub struct Case {
 /// About as many states of a run are recorded at most, lest long runs on all cores fill the memory.
 const MOST_ROWS: f64 = 1e5;
 
-/// What a case may take.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Patience {
-    /// Steps and failed tries together.
-    pub steps: usize,
-    /// Time by the clock.
-    pub wall: Duration,
-}
-
-impl Default for Patience {
-    fn default() -> Self {
-        Self { steps: 10_000_000, wall: Duration::from_secs(600) }
-    }
-}
+/// A step that would be longer by this part is the same.
+const SAME_STEP: f64 = 1e-9;
 
 /// Watches a run: it ends when nobody wants it any more or patience is at its end.
 struct Watch<'a> {
-    patience: Patience,
-    begun: Instant,
+    wait: Wait,
     steps: usize,
     is_wanted: &'a mut dyn FnMut() -> bool,
     exceeded: Option<String>,
@@ -51,11 +38,7 @@ struct Watch<'a> {
 impl Monitor for Watch<'_> {
     fn goes_on(&mut self, _time: f64) -> bool {
         self.steps += 1;
-        if self.steps > self.patience.steps {
-            self.exceeded = Some(format!("more than {} steps", self.patience.steps));
-        } else if self.begun.elapsed() > self.patience.wall {
-            self.exceeded = Some(format!("more than {} s", self.patience.wall.as_secs_f64()));
-        }
+        self.exceeded = self.wait.exceeded(self.steps);
         self.exceeded.is_none() && (self.is_wanted)()
     }
 }
@@ -80,7 +63,7 @@ impl Case {
         stop: &AtomicBool,
         look: impl FnMut(&Simulation),
     ) -> (Outcome, Option<Simulation>) {
-        let mut simulation = match self.start() {
+        let mut simulation = match self.start(patience) {
             Ok(simulation) => simulation,
             Err(outcome) => return (outcome, None),
         };
@@ -88,6 +71,18 @@ impl Case {
         let mut is_wanted = || !stop.load(Ordering::Relaxed);
         let outcome = self.go(&mut simulation, patience, &mut is_wanted, look);
         (outcome, Some(simulation))
+    }
+
+    /// Whether steps of this size end only where something else ends them, such as a stop or a break of a schedule: then larger ones
+    /// make the same run.
+    pub fn is_one_step_from_stop_to_stop(&self, dt: f64) -> bool {
+        let end = self.stops.last().copied().unwrap_or(0.0);
+        let breaks = self.scene.loads.iter().flat_map(|load| load.schedule.breaks());
+        let mut times: Vec<f64> = breaks.filter(|time| *time > 0.0 && *time < end).collect();
+        times.extend_from_slice(&self.stops);
+        times.sort_by(f64::total_cmp);
+        let starts = std::iter::once(&0.0).chain(&times);
+        starts.zip(&times).all(|(start, stop)| (stop - start) / dt <= 1.0 + SAME_STEP)
     }
 
     /// Every state, but of a run of very many steps only as many as [`MOST_ROWS`].
@@ -102,9 +97,13 @@ impl Case {
 
     /// The simulation at its start, or why there is none. It keeps to one thread: the cores are busy with other cases, or
     /// the time of this one is taken.
-    pub fn start(&self) -> Result<Simulation, Outcome> {
-        let mut simulation = Simulation::start(self.scene.clone(), self.settings)
-            .map_err(|error| Outcome::Failed { time: 0.0, reason: error.to_string() })?;
+    pub fn start(&self, patience: Patience) -> Result<Simulation, Outcome> {
+        let wait = patience.begin();
+        let started = Simulation::start(self.scene.clone(), self.settings);
+        let mut simulation = started.map_err(|error| match wait.exceeded(0) {
+            Some(limit) => Outcome::GaveUp { time: 0.0, limit },
+            None => Outcome::Failed { time: 0.0, reason: error.to_string() },
+        })?;
         simulation.use_threads(1);
         Ok(simulation)
     }
@@ -118,12 +117,16 @@ impl Case {
         is_wanted: &mut dyn FnMut() -> bool,
         mut look: impl FnMut(&Simulation),
     ) -> Outcome {
-        let begun = Instant::now();
-        let mut watch = Watch { patience, begun, steps: 0, is_wanted, exceeded: None };
+        let mut watch = Watch { wait: patience.begin(), steps: 0, is_wanted, exceeded: None };
         for stop in &self.stops {
             let run = simulation.run_to(*stop, &mut watch);
             let time = simulation.time();
-            match (run, watch.exceeded.take()) {
+            // What was stopped within a step, for it took too long, failed for no other reason.
+            let exceeded = match run {
+                Ok(()) => watch.exceeded.take(),
+                Err(_) => watch.exceeded.take().or_else(|| watch.wait.exceeded(watch.steps)),
+            };
+            match (run, exceeded) {
                 (_, Some(limit)) => return Outcome::GaveUp { time, limit },
                 (Err(error), None) => return Outcome::Failed { time, reason: error.to_string() },
                 (Ok(()), None) => match simulation.ending() {
@@ -141,8 +144,13 @@ impl Case {
 
 #[cfg(test)]
 mod tests {
+    use std::rc::Rc;
+    use std::time::Duration;
+
+    use super::super::patience::is_out_of_patience;
     use super::super::samples::{never, spinning};
     use super::*;
+    use crate::loads::{LoadKind, Schedule};
 
     #[test]
     fn a_case_is_looked_at_at_its_stops_in_another_life_too() {
@@ -171,6 +179,20 @@ mod tests {
     }
 
     #[test]
+    fn steps_as_long_as_all_times_between_stops_and_breaks_are_told() {
+        let mut case = spinning(0.1, &[0.5, 2.0]);
+        assert!(
+            case.is_one_step_from_stop_to_stop(1.5) && !case.is_one_step_from_stop_to_stop(1.0)
+        );
+        let station = case.scene.station(0, 0.0).unwrap();
+        let schedule = Schedule::hold_for(1.0).unwrap();
+        case.scene.add_load(LoadKind::Moment { station, moment: 1.0 }, schedule);
+        assert!(
+            case.is_one_step_from_stop_to_stop(1.0) && !case.is_one_step_from_stop_to_stop(0.9)
+        );
+    }
+
+    #[test]
     fn what_ends_a_run_early_is_said() {
         let (outcome, simulation) =
             spinning(-1.0, &[1.0]).run(Patience::default(), &never(), |_| ());
@@ -180,5 +202,27 @@ mod tests {
         let (outcome, simulation) = spinning(0.1, &[1.0]).run(patience, &never(), |_| ());
         assert!(outcome.describe().contains("more than 3 steps"), "{outcome:?}");
         assert_eq!(simulation.unwrap().counts().steps, 4);
+    }
+
+    #[test]
+    fn a_load_that_does_not_come_back_is_given_up() {
+        let mut case = spinning(0.1, &[1.0]);
+        let station = case.scene.station(0, 0.0).unwrap();
+        // As a script does it, whose engine asks before every operation.
+        let function = Rc::new(|t: f64| match t {
+            0.5.. => {
+                while !is_out_of_patience() {}
+                Err("stopped".to_owned())
+            }
+            _ => Ok(0.0),
+        });
+        let schedule = Schedule::Function { function, breaks: Vec::new() };
+        case.scene.add_load(LoadKind::Moment { station, moment: 1.0 }, schedule);
+        let patience = Patience { wall: Duration::from_millis(50), ..Patience::default() };
+        let (outcome, _) = case.run(patience, &never(), |_| ());
+        let told = outcome.describe();
+        assert!(told.starts_with("ran out of patience at t = 0.5"), "{told}");
+        assert!(told.ends_with(": more than 0.05 s"), "{told}");
+        assert!(!is_out_of_patience(), "patience with one case is not that with another");
     }
 }

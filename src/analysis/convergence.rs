@@ -14,6 +14,9 @@ pub enum Refined {
     Mesh,
 }
 
+/// An error that is larger than the doubt of the reference by this factor is its own more than that of the reference.
+const WELL_ABOVE: f64 = 2.0;
+
 /// The errors of one quantity with one integrator, from coarse to fine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ladder {
@@ -33,12 +36,16 @@ impl Ladder {
         self.deviations.get(rung).copied().flatten().map(|of| of.error())
     }
 
-    /// The size and the error of a rung from which an order can be told: one that is not zero, and that the reference is good
-    /// enough to tell.
+    /// Whether an order can be told from a rung: its error is not zero, and well above what the reference is sure of.
+    pub fn tells_an_order(&self, rung: usize) -> bool {
+        let deviation = self.deviations.get(rung).copied().flatten();
+        deviation.is_some_and(|of| of.distance.is_finite() && of.distance > WELL_ABOVE * of.trusted)
+    }
+
+    /// The size and the error of a rung from which an order can be told.
     fn point(&self, rung: usize) -> Option<(f64, f64)> {
         let deviation = (*self.deviations.get(rung)?)?;
-        let is_told = deviation.is_resolved() && deviation.distance.is_finite();
-        is_told.then(|| (self.sizes[rung], deviation.distance))
+        self.tells_an_order(rung).then(|| (self.sizes[rung], deviation.distance))
     }
 
     /// The order observed between a rung and the one before, `ln(e₁/e₂) / ln(h₁/h₂)`.
@@ -140,13 +147,12 @@ mod tests {
     use crate::integrators::INTEGRATORS;
 
     fn ladder(errors: &[Option<(f64, f64)>]) -> Ladder {
-        let deviation =
-            |of: &Option<(f64, f64)>| of.map(|(distance, trusted)| Deviation { distance, trusted });
+        let deviation = |(distance, trusted)| Deviation { distance, trusted, is_of_own_run: false };
         Ladder {
             method: Method::EnergyMomentum,
             quantity: "q".into(),
             sizes: (0..errors.len()).map(|rung| 0.5_f64.powi(rung as i32)).collect(),
-            deviations: errors.iter().map(deviation).collect(),
+            deviations: errors.iter().map(|of| of.map(deviation)).collect(),
         }
     }
 
@@ -159,6 +165,8 @@ mod tests {
         assert_eq!((blurred.order(2), blurred.order(3)), (None, None));
         assert!((blurred.fitted_order().unwrap() - 2.0).abs() < 1e-12);
         assert_eq!(blurred.error(2), Some(0.11));
+        let close = ladder(&[Some((0.3, 0.1)), Some((0.15, 0.1))]);
+        assert_eq!((close.tells_an_order(0), close.tells_an_order(1)), (true, false));
         assert_eq!(ladder(&[Some((1.0, 0.0))]).fitted_order(), None);
         assert_eq!(ladder(&[Some((0.0, 0.0)), Some((1.0, 0.0))]).order(1), None);
     }

@@ -46,8 +46,8 @@ pub struct StepCost {
 }
 
 impl CostCase {
-    fn start(&self) -> Result<Simulation, Outcome> {
-        let mut simulation = self.case.start()?;
+    fn start(&self, patience: Patience) -> Result<Simulation, Outcome> {
+        let mut simulation = self.case.start(patience)?;
         simulation.record(self.recording);
         simulation.keep_snapshots(self.snapshots);
         Ok(simulation)
@@ -108,7 +108,7 @@ fn measure(
     patience: Patience,
     is_wanted: &mut dyn FnMut() -> bool,
 ) -> (StepCost, Duration) {
-    let mut simulation = match case.start() {
+    let mut simulation = match case.start(patience) {
         Ok(simulation) => simulation,
         Err(outcome) => return (StepCost::unmeasured(case, outcome), Duration::ZERO),
     };

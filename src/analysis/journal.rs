@@ -1,7 +1,7 @@
 //! Finished cases on disk, so that a study that was interrupted goes on where it was.
 //!
 //! A journal is a file of records, each with its length and checksum; a record that was cut off by a crash ends it. It is
-//! removed when the study is complete.
+//! removed when the script of the study has come to its end.
 
 use std::collections::HashMap;
 use std::fs::{self, File, OpenOptions};
@@ -144,7 +144,7 @@ impl Journal {
         self.path.with_extension("journal.new")
     }
 
-    /// The study is complete: there is nothing to go on with.
+    /// Everything is complete: there is nothing to go on with.
     ///
     /// # Errors
     /// When the file cannot be removed.

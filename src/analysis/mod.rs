@@ -3,7 +3,7 @@
 //! ```text
 //! stability, cost → features
 //! precision, convergence → combination, truth, rivals → trial, observable, sheet
-//! trial, timing → case, outcome → workers → journal
+//! trial, timing → case, outcome → patience, workers → journal
 //! ```
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
@@ -17,6 +17,7 @@ mod journal;
 mod observable;
 mod outcome;
 mod pareto;
+mod patience;
 mod precision;
 mod rivals;
 mod sheet;
@@ -29,7 +30,7 @@ mod workers;
 #[cfg(test)]
 mod samples;
 
-pub use case::{Case, Patience};
+pub use case::Case;
 pub use combination::{
     Combination, PART_OF_THE_SMALLEST_STEP, Subject, all_combinations, finest_mesh, highest_order,
 };
@@ -40,6 +41,7 @@ pub use journal::{Journal, JournalError};
 pub use observable::{Observable, ObservableKind, SYMBOLS};
 pub use outcome::Outcome;
 pub use pareto::pareto_front;
+pub use patience::{Patience, is_out_of_patience};
 pub use precision::{Precision, PrecisionRow};
 pub use rivals::{Rival, RivalError, machines};
 pub use sheet::{Sheet, SheetError};

@@ -39,7 +39,7 @@ impl Outcome {
         match self {
             Self::Finished => "finished".to_owned(),
             Self::Failed { time, reason } => format!("failed at t = {time}: {reason}"),
-            Self::GaveUp { time, limit } => format!("given up at t = {time}: {limit}"),
+            Self::GaveUp { time, limit } => format!("ran out of patience at t = {time}: {limit}"),
             Self::Panicked { message } => {
                 format!("a bug of withy stopped it, please report it: {message}")
             }

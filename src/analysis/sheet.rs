@@ -29,6 +29,18 @@ pub enum SheetError {
         /// What stands there.
         text: String,
     },
+    /// A cell is a negative number, and means a size.
+    #[error(
+        "line {line}, column '{column}', holds '{text}', and the size of an error is not negative"
+    )]
+    Negative {
+        /// The name of the column.
+        column: String,
+        /// Where, counted from 1.
+        line: u64,
+        /// What stands there.
+        text: String,
+    },
 }
 
 /// A table of texts with named columns.
@@ -87,6 +99,22 @@ impl Sheet {
         self.columns.iter().any(|name| name == column)
     }
 
+    /// What stands in a row, column by column.
+    ///
+    /// # Panics
+    /// When there is no such row.
+    pub fn texts(&self, row: usize) -> &[String] {
+        &self.rows[row].1
+    }
+
+    /// The line where a row stands, counted from 1.
+    ///
+    /// # Panics
+    /// When there is no such row.
+    pub fn line(&self, row: usize) -> u64 {
+        self.rows[row].0
+    }
+
     /// What stands in a row and a column.
     ///
     /// # Errors
@@ -113,6 +141,23 @@ impl Sheet {
             line: self.rows[row].0,
             text: text.to_owned(),
         })
+    }
+
+    /// The size of an error that stands in a row and a column.
+    ///
+    /// # Errors
+    /// When there is no such column, or something else than a finite number that is not negative.
+    pub fn size(&self, row: usize, column: &str) -> Result<f64, SheetError> {
+        let number = self.number(row, column)?;
+        let (column, line) = (column.to_owned(), self.rows[row].0);
+        match number < 0.0 {
+            true => Err(SheetError::Negative {
+                text: self.text(row, &column)?.to_owned(),
+                column,
+                line,
+            }),
+            false => Ok(number),
+        }
     }
 }
 

@@ -50,7 +50,7 @@ impl Timing {
         let (mut setups, mut runs, mut works) = (Vec::new(), Vec::new(), Vec::new());
         while runs.is_empty() || (runs.len() < repeats && begun.elapsed() < ENOUGH) {
             let start = Instant::now();
-            let mut simulation = case.start().ok()?;
+            let mut simulation = case.start(patience).ok()?;
             setups.push(start.elapsed());
             let worked = processor_time();
             let start = Instant::now();

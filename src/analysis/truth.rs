@@ -14,17 +14,23 @@ pub struct Deviation {
     pub distance: f64,
     /// An estimate of the error of the reference itself; zero where it gives none.
     pub trusted: f64,
+    /// Whether the reference is a run of our own. All errors are then told as bounds, so that none seems better than another
+    /// one only because it is closer to the reference than that is to the truth.
+    pub is_of_own_run: bool,
 }
 
 impl Deviation {
-    /// Whether the reference is good enough to tell the error.
+    /// Whether the reference is good enough to tell the error from none.
     pub fn is_resolved(&self) -> bool {
         self.distance > self.trusted
     }
 
-    /// The error, or a bound of it where the reference does not tell.
+    /// The error, by which results are judged: a bound of it where the reference is a run of our own, or does not tell.
     pub fn error(&self) -> f64 {
-        if self.is_resolved() { self.distance } else { self.distance + self.trusted }
+        match self.is_of_own_run || !self.is_resolved() {
+            true => self.distance + self.trusted,
+            false => self.distance,
+        }
     }
 
     /// The larger of both; what is not a number is larger than all.
@@ -38,7 +44,7 @@ impl Deviation {
 
     /// The same by another measure.
     pub fn divided_by(self, scale: f64) -> Self {
-        Self { distance: self.distance / scale, trusted: self.trusted / scale }
+        Self { distance: self.distance / scale, trusted: self.trusted / scale, ..self }
     }
 }
 
@@ -48,6 +54,9 @@ pub enum TruthError {
     /// Its table is wrong.
     #[error(transparent)]
     Sheet(#[from] SheetError),
+    /// There is nothing in it.
+    #[error("it has no rows")]
+    Empty,
     /// It says nothing about a time of the study.
     #[error("it has no row at t = {time}; the nearest rows are at t = {}", nearest.join(" and "))]
     Time {
@@ -55,6 +64,16 @@ pub enum TruthError {
         time: f64,
         /// The rows before and behind it.
         nearest: Vec<String>,
+    },
+    /// It says two things about a time of the study.
+    #[error("lines {first} and {second} are both about t = {time}, and they differ")]
+    Twice {
+        /// The time asked for.
+        time: f64,
+        /// Where the first row stands.
+        first: u64,
+        /// Where the second one stands.
+        second: u64,
     },
     /// It says nothing about any station.
     #[error(
@@ -102,14 +121,26 @@ fn row_at(sheet: &Sheet, time: f64) -> Result<usize, TruthError> {
         let behind = times.iter().copied().filter(|other| *other > time).reduce(f64::min);
         before.into_iter().chain(behind).map(|time| time.to_string()).collect()
     };
-    let found = times.iter().position(|other| near(*other));
-    found.ok_or_else(|| TruthError::Time { time, nearest: nearest() })
+    let mut found = (0..times.len()).filter(|row| near(times[*row]));
+    let Some(first) = found.next() else {
+        return Err(match sheet.is_empty() {
+            true => TruthError::Empty,
+            false => TruthError::Time { time, nearest: nearest() },
+        });
+    };
+    match found.find(|other| sheet.texts(*other) != sheet.texts(first)) {
+        Some(other) => {
+            let (first, second) = (sheet.line(first), sheet.line(other));
+            Err(TruthError::Twice { time, first, second })
+        }
+        None => Ok(first),
+    }
 }
 
 /// The first of these columns that a table has, as numbers of a row; zero where it has none.
 fn estimate(sheet: &Sheet, row: usize, columns: &[String]) -> Result<f64, SheetError> {
     let found = columns.iter().find(|column| sheet.has(column));
-    found.map_or(Ok(0.0), |column| sheet.number(row, column).map(f64::abs))
+    found.map_or(Ok(0.0), |column| sheet.size(row, column))
 }
 
 /// What a table says of an observable.
@@ -125,7 +156,9 @@ fn known_of(sheet: &Sheet, row: usize, of: &Observable) -> Result<Option<Known>,
             }
             let groups = [format!("d_{name}"), "d_pos".to_owned()];
             let trusted = match [&x, &y].map(|column| format!("d_{column}")) {
-                [x, y] if sheet.has(&x) && sheet.has(&y) => number(&x)?.hypot(number(&y)?),
+                [x, y] if sheet.has(&x) && sheet.has(&y) => {
+                    sheet.size(row, &x)?.hypot(sheet.size(row, &y)?)
+                }
                 _ => either(&groups)?,
             };
             Some(Known { value: Vec2::new(number(&x)?, number(&y)?), trusted })
@@ -215,7 +248,8 @@ impl Truth {
         let at = |(known, found): (&Vec<Option<Known>>, &Vec<Vec2>)| {
             let known = (*known.get(observable)?)?;
             let distance = (found.get(observable)? - known.value).norm();
-            Some(Deviation { distance, trusted: known.trusted.max(rounding) })
+            let (trusted, is_of_own_run) = (known.trusted.max(rounding), self.is_own);
+            Some(Deviation { distance, trusted, is_of_own_run })
         };
         self.known.iter().zip(readings).filter_map(at).reduce(Deviation::worst)
     }
@@ -266,9 +300,29 @@ mod tests {
             told.to_string(),
             "it has no row at t = 0.3; the nearest rows are at t = 0 and 0.5"
         );
+        let empty = Sheet::parse("t,xA,yA\n").unwrap();
+        let told = Truth::of_sheet("T.csv", &empty, &observables(), &[0.3]).unwrap_err();
+        assert_eq!(told.to_string(), "it has no rows");
         let other: Vec<_> = Observable::of_station("tip", Station::on_beam(0, 0.0)).collect();
         let told = Truth::of_sheet("T.csv", &sheet, &other, &[0.5]).unwrap_err().to_string();
         assert!(told.contains("xtip and ytip") && told.contains("t, xA, yA"), "{told}");
+    }
+
+    #[test]
+    fn a_table_that_says_two_things_of_one_time_or_a_negative_size_is_refused() {
+        let told = |rows: &str| {
+            let sheet = Sheet::parse(&format!("# two\nt,xA,yA,thA,KE,d_pos\n{rows}")).unwrap();
+            Truth::of_sheet("T.csv", &sheet, &observables(), &[0.5]).map_err(|it| it.to_string())
+        };
+        let row = "0.5,3,4,0.2,2,0\n";
+        assert!(told(&row.repeat(2)).is_ok(), "said twice is said once");
+        let both = told(&format!("0,0,0,0,0,0\n{row}0.5,3,4.1,0.2,2,0\n")).unwrap_err();
+        assert_eq!(both, "lines 4 and 5 are both about t = 0.5, and they differ");
+        let negative = told("0.5,3,4,0.2,2,-0.1\n").unwrap_err();
+        assert_eq!(
+            negative,
+            "line 3, column 'd_pos', holds '-0.1', and the size of an error is not negative"
+        );
     }
 
     #[test]
@@ -280,11 +334,21 @@ mod tests {
         assert!(!deviation(1.0 + 1e-14, 0.5, 0).is_resolved(), "rounding is no error");
         assert!(!deviation(1.0, 0.495, 1).is_resolved() && deviation(1.0, 0.48, 1).is_resolved());
         assert!((deviation(1.0, 0.495, 1).error() - 0.015).abs() < 1e-12);
+        assert!((deviation(1.0, 0.48, 1).error() - 0.03).abs() < 1e-12, "all are bounds");
+    }
+
+    #[test]
+    fn who_is_nearer_to_a_run_of_our_own_has_the_smaller_error() {
+        let readings = |x: f64| vec![vec![Vec2::new(x, 0.0)]];
+        let own = Truth::of_run("own", &readings(1.0)).as_far_as(&readings(1.1));
+        let error = |x| own.deviation(0, &readings(x)).unwrap().error();
+        assert!(error(1.099) < error(1.101), "the one beyond the difference is not the better one");
     }
 
     #[test]
     fn what_is_not_a_number_is_the_largest_deviation() {
-        let deviations = [1.0, f64::NAN, 3.0].map(|distance| Deviation { distance, trusted: 0.0 });
+        let of = |distance| Deviation { distance, trusted: 0.0, is_of_own_run: false };
+        let deviations = [1.0, f64::NAN, 3.0].map(of);
         for order in [[0, 1, 2], [2, 1, 0], [1, 0, 2], [0, 2, 1]] {
             let worst = order.map(|index| deviations[index]).into_iter().reduce(Deviation::worst);
             assert!(worst.unwrap().error().is_nan());

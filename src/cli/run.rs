@@ -11,6 +11,7 @@ use crate::output::write_whole;
 use crate::script::catalog::Catalog;
 use crate::script::context::{JournalWish, Mode, Settings, StudyWishes};
 use crate::script::diagnose::{Colours, Diagnostic};
+use crate::script::limits::Stop;
 use crate::script::panics;
 use crate::script::program::Program;
 use crate::script::runner::{self, Ending, Outcome};
@@ -64,7 +65,7 @@ pub fn study(options: &StudyOptions) -> Exit {
             if wish == Wish::Show {
                 show_summary(&outcome);
             }
-            exit_for(&outcome)
+            exit_for_study(&outcome, &options.out)
         }
         Err(diagnostic) => refuse(&diagnostic),
     }
@@ -104,6 +105,33 @@ fn exit_for(outcome: &Outcome) -> Exit {
         Ending::PipeClosed => Exit::Good,
         Ending::Finished if !outcome.checks.failed().is_empty() => Exit::CheckFailed,
         Ending::Finished => Exit::Good,
+    }
+}
+
+/// The same for a script of studies that can go on: what is kept of them is told.
+fn exit_for_study(outcome: &Outcome, out: &Path) -> Exit {
+    let (cases, are) = match outcome.kept_cases {
+        0 => return exit_for(outcome),
+        1 => ("1 finished case".to_owned(), "is"),
+        many => (format!("{many} finished cases"), "are"),
+    };
+    let kept = format!("{cases} {are} kept in '{}': the same command goes on there", out.display());
+    match &outcome.ending {
+        Ending::Interrupted => {
+            tell(&format!("interrupted: {kept}\n"));
+            Exit::Interrupted
+        }
+        Ending::Failed(diagnostic) => {
+            // Studies take their time: that a limit was reached says nothing of loops without an end.
+            let hint = match outcome.stopped_by {
+                Some(Stop::Time(_)) => Some("--max-time SECONDS allows more".to_owned()),
+                _ => diagnostic.hint.clone(),
+            };
+            let exit = refuse(&Diagnostic { hint, ..diagnostic.clone() });
+            tell(&format!("{kept}\n"));
+            exit
+        }
+        Ending::Finished | Ending::PipeClosed => exit_for(outcome),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{
     canvas::{Align, Area, Canvas},
-    colour::{AXIS, GREY, INK, hue, tint},
+    colour::{AXIS, GREY, INK, WHITE, hue, tint},
     fonts,
     frame::Margins,
     page::Panel,
@@ -78,6 +78,7 @@ impl Panel for BarChart {
         let longest = values.filter(|value| value.is_finite()).fold(0.0, f64::max);
         let place = |value: f64| plot.left + plot.width() * (value / longest).clamp(0.0, 1.0);
         let row = plot.height() / self.bars.len().max(1) as f64;
+        let mut texts = Vec::new();
         for (index, bar) in self.bars.iter().enumerate() {
             let middle = plot.top + row * (index as f64 + 0.5);
             let baseline = middle + 0.36 * TEXT;
@@ -87,12 +88,18 @@ impl Panel for BarChart {
                 if bar.value.is_finite() && longest > 0.0 { place(bar.value) } else { plot.left };
             let (top, bottom) = (middle - ROW.1 / 2.0, middle + ROW.1 / 2.0);
             canvas.fill(Area { left: plot.left, top, right, bottom }, tint(hue(0), 0.7));
-            let text = fonts::fit(&bar.text, TEXT, NAME);
-            canvas.text(&text, (right + 6.0, baseline), TEXT, Align::Start, INK);
+            texts.push((fonts::fit(&bar.text, TEXT, NAME), (right + 6.0, baseline)));
         }
         if let Some(mark) = self.mark.filter(|mark| mark.is_finite() && longest > 0.0) {
             let x = place(mark);
             canvas.line([(x, plot.top), (x, plot.bottom)], 1.0, GREY);
+        }
+        for (text, (left, baseline)) in texts {
+            // The mark passes behind the texts of shorter bars.
+            let (top, bottom) = (baseline - TEXT, baseline + 0.3 * TEXT);
+            let right = left + fonts::width(&text, TEXT);
+            canvas.fill(Area { left: left - 2.0, top, right: right + 2.0, bottom }, WHITE);
+            canvas.text(&text, (left, baseline), TEXT, Align::Start, INK);
         }
         canvas.line([(plot.left, plot.top), (plot.left, plot.bottom)], 1.0, AXIS);
         let below = (plot.left, plot.bottom + 8.0 + TEXT * 0.8);
@@ -103,6 +110,7 @@ impl Panel for BarChart {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::canvas::Shape;
 
     #[test]
     fn bars_have_their_names_and_numbers() {
@@ -118,5 +126,21 @@ mod tests {
         }
         figure.to_png().unwrap();
         BarChart::new("", "").figure().unwrap().to_png().unwrap();
+    }
+
+    #[test]
+    fn the_mark_passes_behind_the_texts_of_shorter_bars() {
+        let chart = BarChart::new("Cost", "µs").bar("short", 20.0, "20 µs").bar("long", 60.0, "60");
+        let chart = chart.mark(21.0);
+        let mut canvas = Canvas::default();
+        let (width, height) = chart.size();
+        let area = Area { left: 0.0, top: 0.0, right: width, bottom: height };
+        chart.draw(&mut canvas, &area, &chart.margins(width, height).inside(&area));
+        let shapes = canvas.shapes();
+        let is_mark = |of: &Shape| matches!(of, Shape::Line { colour, .. } if *colour == GREY);
+        let mark = shapes.iter().position(is_mark).unwrap();
+        let is_text = |of: &Shape| matches!(of, Shape::Text(text) if text.text == "20 µs");
+        let text = shapes.iter().position(is_text).unwrap();
+        assert!(mark < text && matches!(shapes[text - 1], Shape::Fill { .. }), "{shapes:?}");
     }
 }

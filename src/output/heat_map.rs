@@ -3,9 +3,10 @@
 use super::{
     axis::power_of_ten,
     canvas::{Align, Area, Canvas},
-    colour::{AXIS, Colour, GREY, INK, WHITE, mix, ramp},
+    colour::{Colour, GREY, INK, WHITE, mix, ramp},
     fonts,
     frame::Margins,
+    hatching::{hatch, outline},
     page::Panel,
 };
 
@@ -18,11 +19,18 @@ const EDGE: f64 = 14.0;
 const KEY: f64 = 26.0;
 /// Width and height of the bar of colours in it.
 const BAR: (f64, f64) = (110.0, 13.0);
+/// The width of the sample of a hatching in it.
+const SAMPLE: f64 = 24.0;
+/// Between the parts of the strip, and before the hatching.
+const GAP: (f64, f64) = (7.0, 10.0);
 /// A cell when the map is alone on its page, and where it shares one.
 const CELL: (f64, f64) = (104.0, 52.0);
 const CELL_IN_COLUMNS: (f64, f64) = (76.0, 50.0);
-/// Between the lines of a hatching.
-const HATCH: f64 = 6.0;
+/// The most width of a cell.
+const WIDEST_CELL: f64 = 200.0;
+/// Free paper around a text in a cell, and around the name of a column.
+const AROUND_TEXT: f64 = 8.0;
+const AROUND_NAME: f64 = 5.0;
 /// Lines of the text of a cell are so far apart.
 const LINE: f64 = 14.0;
 
@@ -106,11 +114,29 @@ impl HeatMap {
         (format!("≤ {}", power(self.scale.1)), format!("≥ {}", power(self.scale.2)))
     }
 
-    /// The size of a map with cells of a size.
+    /// The size of a map with cells of a size, or larger ones where their texts, their names or the key ask for it.
     fn with_cells(&self, cell: (f64, f64)) -> (f64, f64) {
         let Margins { left, top, right, bottom } = self.margins(0.0, 0.0);
-        let (columns, rows) = (self.columns.1.len().max(4), self.rows.1.len().max(1));
-        (left + right + cell.0 * columns as f64, top + bottom + cell.1 * rows as f64)
+        let lines = self.cells.iter().flatten().flat_map(|cell| cell.text.lines());
+        let texts = lines.map(|line| fonts::width(line, TEXT) + AROUND_TEXT);
+        let names = self.columns.1.iter().map(|name| fonts::width(name, TEXT) + AROUND_NAME);
+        let widest = texts.chain(names).fold(cell.0, f64::max).min(WIDEST_CELL);
+        let (columns, rows) = (self.columns.1.len().max(1), self.rows.1.len().max(1));
+        let width = (widest * columns as f64).max(self.key_width());
+        (left + right + width, top + bottom + cell.1 * rows as f64)
+    }
+
+    /// What the key takes when nothing of it is cut.
+    fn key_width(&self) -> f64 {
+        let (low, high) = self.ends();
+        let written = |text: &str| fonts::width(text, TEXT) + GAP.0;
+        let colours = written(&self.scale.0) + written(&low) + BAR.0 + GAP.0 + written(&high);
+        let hatching = GAP.1 + SAMPLE + GAP.0 + written(&self.hatched);
+        colours + if self.has_hatching() { hatching } else { 0.0 }
+    }
+
+    fn has_hatching(&self) -> bool {
+        self.cells.iter().flatten().any(|cell| cell.value.is_none())
     }
 
     fn colour(&self, part: f64) -> Colour {
@@ -126,10 +152,12 @@ impl HeatMap {
         let write = |canvas: &mut Canvas, text: &str, x: &mut f64, room: f64| {
             let text = fonts::fit(text, TEXT, room);
             canvas.text(&text, (*x, baseline), TEXT, Align::Start, INK);
-            *x += fonts::width(&text, TEXT) + 7.0;
+            *x += fonts::width(&text, TEXT) + GAP.0;
         };
-        write(canvas, &self.scale.0, &mut x, room - BAR.0 - 220.0);
-        write(canvas, &low, &mut x, 60.0);
+        let shows = fonts::width(&self.scale.0, TEXT);
+        // Rounding must not cost a letter.
+        write(canvas, &self.scale.0, &mut x, room - (self.key_width() - shows) + 1.0);
+        write(canvas, &low, &mut x, f64::INFINITY);
         let steps = 22;
         let width = BAR.0 / f64::from(steps);
         for step in 0..steps {
@@ -142,29 +170,32 @@ impl HeatMap {
             };
             canvas.fill(bar, self.colour(f64::from(step) / f64::from(steps - 1)));
         }
-        x += BAR.0 + 7.0;
-        write(canvas, &high, &mut x, 60.0);
-        if self.cells.iter().flatten().all(|cell| cell.value.is_some()) {
+        x += BAR.0 + GAP.0;
+        write(canvas, &high, &mut x, f64::INFINITY);
+        if !self.has_hatching() {
             return;
         }
-        x += 10.0;
+        x += GAP.1;
         let sample = Area {
             left: x,
             top: middle - BAR.1 / 2.0,
-            right: x + 24.0,
+            right: x + SAMPLE,
             bottom: middle + BAR.1 / 2.0,
         };
         hatch(canvas, &sample);
         outline(canvas, &sample);
-        x += 31.0;
-        let rest = plot.left + room - x;
+        x += SAMPLE + GAP.0;
+        let rest = plot.left + room - x + 1.0;
         write(canvas, &self.hatched, &mut x, rest);
     }
 
     fn draw_cell(&self, canvas: &mut Canvas, cell: &HeatCell, area: &Area) {
         let part = cell.value.and_then(|value| self.part(value));
-        let lines: Vec<String> =
-            cell.text.lines().map(|line| fonts::fit(line, TEXT, area.width() - 8.0)).collect();
+        let lines: Vec<String> = cell
+            .text
+            .lines()
+            .map(|line| fonts::fit(line, TEXT, area.width() - AROUND_TEXT + 1.0))
+            .collect();
         let middle = ((area.left + area.right) / 2.0, (area.top + area.bottom) / 2.0);
         let height = LINE * lines.len() as f64;
         let ink = match part {
@@ -190,33 +221,6 @@ impl HeatMap {
             canvas.text(line, (middle.0, baseline), TEXT, Align::Middle, ink);
         }
     }
-}
-
-/// Fills an area with slanted lines.
-fn hatch(canvas: &mut Canvas, area: &Area) {
-    let (width, height) = (area.width(), area.height());
-    let count = ((width + height) / HATCH) as usize;
-    for index in 1..=count {
-        // From the left or lower side to the upper or right one.
-        let along = index as f64 * HATCH;
-        let from = if along <= height {
-            (area.left, area.top + along)
-        } else {
-            (area.left + along - height, area.bottom)
-        };
-        let to = if along <= width {
-            (area.left + along, area.top)
-        } else {
-            (area.right, area.top + along - width)
-        };
-        canvas.line([from, to], 1.0, AXIS);
-    }
-}
-
-fn outline(canvas: &mut Canvas, area: &Area) {
-    let Area { left, top, right, bottom } = *area;
-    let corners = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top)];
-    canvas.line(corners, 1.0, AXIS);
 }
 
 impl Panel for HeatMap {
@@ -268,7 +272,7 @@ impl Panel for HeatMap {
         }
         let baseline = plot.bottom + 8.0 + TEXT * 0.8;
         for (column, name) in self.columns.1.iter().enumerate() {
-            let name = fonts::fit(name, TEXT, width - 4.0);
+            let name = fonts::fit(name, TEXT, width - AROUND_NAME + 1.0);
             let x = plot.left + width * (column as f64 + 0.5);
             canvas.text(&name, (x, baseline), TEXT, Align::Middle, INK);
         }
@@ -285,6 +289,7 @@ impl Panel for HeatMap {
 mod tests {
     use super::*;
     use crate::output::canvas::Shape;
+    use crate::output::page::Page;
 
     fn cell(value: Option<f64>, text: &str) -> HeatCell {
         HeatCell { value, text: text.into() }
@@ -318,16 +323,31 @@ mod tests {
     }
 
     #[test]
-    fn a_hatching_stays_in_its_area() {
-        let area = Area { left: 10.0, top: 20.0, right: 90.0, bottom: 41.0 };
+    fn nothing_is_cut_on_a_page_of_maps() {
+        let narrow = |text: &str| {
+            HeatMap::new("trapezoidal", "Newton iterations a step", (-12, 0))
+                .columns("EA L²/EI", vec!["1e4".into(), "a long name of a column".into()])
+                .rows("basis")
+                .hatched("did not finish")
+                .row("linear", vec![cell(Some(1.0), text), cell(None, "failed")])
+        };
+        let page = Page::grid(2).panel(narrow("3e-1\n12 it.\n203841 halved")).panel(narrow("1"));
         let mut canvas = Canvas::default();
-        hatch(&mut canvas, &area);
-        assert!(canvas.shapes().len() > 10);
-        for shape in canvas.shapes() {
-            let Shape::Line { points, .. } = shape else { panic!("{shape:?}") };
-            for (x, y) in points {
-                assert!((10.0..=90.0).contains(x) && (20.0..=41.0).contains(y), "{points:?}");
-            }
+        let (width, height) = page.size();
+        let area = Area { left: 0.0, top: 0.0, right: width, bottom: height };
+        page.draw(&mut canvas, &area, &page.margins(width, height).inside(&area));
+        let texts: Vec<&str> = canvas.shapes().iter().filter_map(text_of).collect();
+        for whole in ["203841 halved", "did not finish", "≤ 10⁻¹²", "a long name of a column"]
+        {
+            assert!(texts.contains(&whole), "{whole}: {texts:?}");
+        }
+        assert!(!texts.iter().any(|text| text.contains('…')), "{texts:?}");
+    }
+
+    fn text_of(shape: &Shape) -> Option<&str> {
+        match shape {
+            Shape::Text(text) => Some(&text.text),
+            _ => None,
         }
     }
 

@@ -1,7 +1,7 @@
 //! Tables, files and pictures from plain data. Nothing here knows what a simulation is.
 //!
 //! ```text
-//! chart, heat_map, bars, motion → page → frame, legend, timebar → axis, curve, stroke, marker → canvas → figure → svg, png → files
+//! chart, heat_map, bars, motion → page → frame, hatching, legend, timebar → axis, curve, stroke, marker → canvas → figure → svg, png → files
 //! chart, heat_map → terminal → axis, curve
 //! ```
 //!
@@ -21,6 +21,7 @@ mod figure;
 mod files;
 mod fonts;
 mod frame;
+mod hatching;
 mod heat_map;
 mod legend;
 mod marker;

@@ -13,6 +13,7 @@ use rhai::{Dynamic, Engine, EvalAltResult};
 use super::checks::Checks;
 use super::error::ScriptError;
 use super::files::OutputFolder;
+use super::journals::Journals;
 use super::kind::Type;
 use super::limits::{Limits, Meter, Stop};
 use super::progress::{NoProgress, Progress};
@@ -111,12 +112,13 @@ struct Shared {
     pipe_closed: Cell<bool>,
     progress: Box<dyn Progress + Send>,
     studies: StudyWishes,
+    journals: Journals,
     output: OutputFolder,
     checks: RefCell<Checks>,
     reporters: RefCell<Vec<Box<dyn Reporter>>>,
     callback_error: RefCell<Option<Box<EvalAltResult>>>,
     /// The names of studies so far.
-    study_names: RefCell<HashSet<String>>,
+    study_names: RefCell<HashSet<PathBuf>>,
     snapshots: usize,
     latest_simulation: RefCell<Option<Dynamic>>,
     /// Weak, for the engine has this context in all its functions.
@@ -138,6 +140,7 @@ impl Context {
             pipe_closed: Cell::new(false),
             progress: settings.progress,
             studies: settings.studies,
+            journals: Journals::default(),
             output: OutputFolder::new(settings.out, settings.folder, settings.mode),
             checks: RefCell::default(),
             reporters: RefCell::default(),
@@ -172,9 +175,14 @@ impl Context {
         self.0.studies
     }
 
-    /// Takes a name for a study; whether no other one had it.
+    /// What is kept of the studies until the script has come to its end.
+    pub fn journals(&self) -> &Journals {
+        &self.0.journals
+    }
+
+    /// Takes a name for a study; whether no other one had it, however it is written.
     pub fn claim_study(&self, name: &str) -> bool {
-        self.0.study_names.borrow_mut().insert(name.to_owned())
+        self.0.study_names.borrow_mut().insert(PathBuf::from(name))
     }
 
     /// Refuses to go on after an interrupt, beyond a limit, or when nobody reads the output any more.
@@ -264,6 +272,11 @@ impl Context {
     /// The error that was kept last, if there is one.
     pub fn take_callback_error(&self) -> Option<Box<EvalAltResult>> {
         self.0.callback_error.take()
+    }
+
+    /// Forgets errors of script functions that are told otherwise: those in the cases of a study.
+    pub fn forget_callback_errors(&self) {
+        self.0.callback_error.take();
     }
 
     /// The memory that a simulation may take for states to go back to, unless the script says otherwise [bytes].

@@ -12,6 +12,7 @@ use super::numbers::format_number;
 use super::register::register;
 use super::sources::Sources;
 use super::{constants, foundation, operators, sorting, syntax};
+use crate::analysis::is_out_of_patience;
 
 /// Nesting of one expression at the top level, and inside a function where it adds up with calls.
 const EXPRESSION_DEPTH: usize = 256;
@@ -19,6 +20,8 @@ const EXPRESSION_DEPTH_IN_FUNCTION: usize = 64;
 const LONGEST_TEXT: usize = 16 << 20;
 const LARGEST_ARRAY: usize = 10_000_000;
 const LARGEST_MAP: usize = 1_000_000;
+/// After so many operations it is asked whether a case of a study takes too long.
+const PULSE: u64 = 256;
 
 /// An engine that speaks the language of `catalog` and reports to `context`.
 ///
@@ -90,5 +93,9 @@ fn connect(engine: &mut Engine, context: &Context) {
         None => teller.tell(text),
     });
     let watched = context.clone();
-    engine.on_progress(move |_| watched.stopped_by().map(Dynamic::from));
+    engine.on_progress(move |operations| {
+        let late = || operations.is_multiple_of(PULSE) && is_out_of_patience();
+        let stop = watched.stopped_by().map(Dynamic::from);
+        stop.or_else(|| late().then(|| Dynamic::from("the study ran out of patience")))
+    });
 }

@@ -22,6 +22,7 @@ pub mod files;
 pub mod foundation;
 pub mod help;
 pub mod imports;
+pub mod journals;
 pub mod kind;
 pub mod lexing;
 pub mod library;

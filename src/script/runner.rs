@@ -16,7 +16,7 @@ use super::engine;
 use super::error::ScriptError;
 use super::lexing::{open_comment, tokens};
 use super::library::FOLDER;
-use super::limits::{DEFAULT_MEGABYTES, Limits, MEGABYTE};
+use super::limits::{DEFAULT_MEGABYTES, Limits, MEGABYTE, Stop};
 use super::panics;
 use super::program::Program;
 use super::sources::Sources;
@@ -60,6 +60,10 @@ pub struct Outcome {
     pub simulations: Vec<serde_json::Value>,
     /// The files written.
     pub files: Vec<PathBuf>,
+    /// What stopped it before its end, if something from outside or a limit did.
+    pub stopped_by: Option<Stop>,
+    /// Finished cases of studies that another run of the same script will not repeat.
+    pub kept_cases: usize,
 }
 
 /// Runs `program` in the language of `catalog`.
@@ -71,6 +75,8 @@ pub fn run(program: &Program, catalog: &Catalog, settings: Settings) -> Outcome 
         checks: Checks::default(),
         simulations: Vec::new(),
         files: Vec::new(),
+        stopped_by: None,
+        kept_cases: 0,
     })
 }
 
@@ -149,8 +155,9 @@ fn run_here(program: &Program, catalog: &Catalog, settings: Settings) -> Outcome
     let ending = panic::catch_unwind(AssertUnwindSafe(|| evaluate(program, catalog, &context)))
         .unwrap_or_else(|panic| Ending::Failed(Diagnostic::bug(panics::message(&*panic))));
     context.progress().end();
-    if !matches!(ending, Ending::Finished) {
-        context.save_remains();
+    match ending {
+        Ending::Finished => discard_journals(&context),
+        _ => context.save_remains(),
     }
     context.flush();
     Outcome {
@@ -158,6 +165,15 @@ fn run_here(program: &Program, catalog: &Catalog, settings: Settings) -> Outcome
         checks: context.with_checks(|checks| checks.clone()),
         simulations: context.report(),
         files: context.output().written(),
+        stopped_by: context.stopped_by(),
+        kept_cases: context.journals().kept(),
+    }
+}
+
+/// Lets go of what studies have kept; a file that stays is in nobody's way, but is told of.
+fn discard_journals(context: &Context) {
+    if let Err(ScriptError::Failure(failure)) = context.journals().finish() {
+        context.tell(&failure.message);
     }
 }
 

@@ -2,9 +2,12 @@
 
 use rhai::{Dynamic, EvalAltResult, FnPtr, GlobalRuntimeState, NativeCallContext, Position};
 
+use super::catalog::Catalog;
 use super::context::Context;
+use super::diagnose::Explainer;
 use super::error::BUG;
 use super::numbers::{as_number, describe};
+use super::program::Program;
 
 /// A script function with what surrounded it: the functions, imports and constants of its file.
 ///
@@ -60,7 +63,7 @@ impl StoredFunction {
     /// In words; an error of the script itself is also handed to the context, which keeps its place and trace.
     pub fn number_of(&self, argument: f64) -> Result<f64, String> {
         let value = self.call([Dynamic::from(argument)]).map_err(|error| {
-            let words = error.to_string();
+            let words = self.words(&error);
             self.context.keep_callback_error(error);
             words
         })?;
@@ -68,5 +71,13 @@ impl StoredFunction {
             let got = self.context.engine().map(|engine| describe(&engine, &value));
             format!("{} must give a number, got {}", self.role, got.unwrap_or_default())
         })
+    }
+
+    /// An error of the function in one line, as the language tells errors.
+    fn words(&self, error: &EvalAltResult) -> String {
+        let Some(engine) = self.context.engine() else { return error.to_string() };
+        // The error names the file that it arose in; the script itself is not at hand here.
+        let (program, catalog) = (Program::named("", ""), Catalog::standard());
+        Explainer { program: &program, catalog: &catalog, engine: &engine }.explain(error).line()
     }
 }

@@ -104,6 +104,15 @@ impl Diagnostic {
         self
     }
 
+    /// What is wrong and where, in one line: for tables.
+    pub fn line(&self) -> String {
+        let told = self.message.split_whitespace().collect::<Vec<_>>().join(" ");
+        match self.location.as_ref().filter(|at| !at.program.name.is_empty()) {
+            Some(at) => format!("{told} ({}, line {})", at.program.name, at.line),
+            None => told,
+        }
+    }
+
     /// `file:line:column`, for tests and editors.
     pub fn place(&self) -> Option<String> {
         self.location.as_ref().map(|at| format!("{}:{}:{}", at.program.name, at.line, at.column))

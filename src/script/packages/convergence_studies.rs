@@ -14,7 +14,9 @@ use crate::script::call::Call;
 use crate::script::error::ScriptError;
 use crate::script::kind::{Details, Scripted, Type};
 use crate::script::parameter::{Parameter, object, options, text};
-use crate::script::studies::convergence::{chart, expect_quantity, find, map_of, study, table};
+use crate::script::studies::convergence::{expect_quantity, find, map_of, study};
+use crate::script::studies::convergence_chart::chart;
+use crate::script::studies::convergence_table::table;
 use crate::script::table::{Table, function, method, property};
 
 /// Studies of convergence.
@@ -35,9 +37,9 @@ pub const TABLE: Table = Table {
             "scene, stations, reference and columns are as of study_work_precision. With a table as reference the quantities are \
              those it has; with a run of our own, which holds unless given, they are the positions and angles of the stations and all \
              columns of the history that say what happened. Several meshes need a reference that is none of them: \
-             finest_run(#{ mesh: … }) or a table. Orders are told only from errors that the reference is good enough to tell. The size of a mesh is one over the spans of all beams. Writes NAME.csv and NAME.svg.",
+             finest_run(#{ mesh: … }) or a table. Orders are told only from errors that the reference is good enough to tell. The size of a mesh is one over the spans of all beams. The errors of all positions together and the orders of the other quantities are printed; NAME.csv has all of them, NAME.svg shows those of the positions.",
         )
-        .example("print(ladder.table);\ncheck_close(ladder.order(\"positions\", energy_momentum()), 2, 0.1);")
+        .example("check_close(ladder.order(\"positions\", energy_momentum()), 2, 0.1);")
         .see(&["study_work_precision", "finest_run", "order"]),
         property(CONVERGENCE, "table", |call| Ok(table(&call.receiver::<ConvergenceStudy>()?.0).into()))
             .returns("a text")
@@ -101,8 +103,7 @@ impl Scripted for ConvergenceStudy {
 fn order(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let ConvergenceStudy(study) = call.receiver()?;
     let (quantity, method) = (call.text("quantity")?, call.get::<Method>("integrator")?);
-    expect_quantity(call, &study, &quantity)?;
-    let order = find(&study, &quantity, &method).and_then(Ladder::fitted_order);
+    let order = find(call, &study, &quantity, &method)?.and_then(Ladder::fitted_order);
     Ok(order.unwrap_or(f64::NAN).into())
 }
 

@@ -13,6 +13,7 @@ use crate::script::parameter::{
     Parameter, Presence, anything, callback, number, object, options, text, whole,
 };
 use crate::script::studies::cost::{CostTable, Way, cases};
+use crate::script::studies::desk::print_table;
 use crate::script::studies::plan::{patience, study_name};
 use crate::script::table::{Table, function, property};
 
@@ -100,11 +101,12 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let patience = patience(call, Patience::default().wall.as_secs_f64());
     let costs = step_costs(&cases, patience, repeats, &mut || context.stopped_by().is_none());
+    context.forget_callback_errors();
     let Some(costs) = costs else {
         return Err(context.why_stopped("a study of costs"));
     };
     let table = CostTable::new(name, costs);
-    context.print(&table.text());
+    print_table(context, &table.text());
     let output = context.output();
     output.write(&format!("{}.csv", table.name()), table.records().to_text()?.as_bytes())?;
     output.write(&format!("{}.svg", table.name()), table.chart().figure()?.to_svg()?.as_bytes())?;

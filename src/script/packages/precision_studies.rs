@@ -8,9 +8,9 @@ use super::integrators::INTEGRATOR;
 use crate::analysis::Precision;
 use crate::script::call::Call;
 use crate::script::context::Mode;
-use crate::script::error::ScriptError;
+use crate::script::error::{Place, ScriptError};
 use crate::script::kind::{Details, Kind, Range, Scripted, Type};
-use crate::script::numbers::as_number;
+use crate::script::numbers::{as_number, format_number};
 use crate::script::parameter::{
     Parameter, Presence, anything, array, callback, either, number, numbers, object, options, text,
     whole,
@@ -41,12 +41,12 @@ pub const TABLE: Table = Table {
              without stations they are the ends of all beams and all particles. The error is the largest distance of a station \
              from the reference at the times, divided by the length. The reference is the name of a table with the columns t and, \
              for a station called tip, xtip, ytip and thtip, or finest_run(). All cases run in parallel first; then those that came \
-             to their end are timed one by one. Those that fail stay, with the reason. Writes NAME.csv and NAME.svg.",
+             to their end are timed one by one. Those that fail stay, with the reason. The table is printed, written into NAME.csv and drawn into NAME.svg.",
         )
         .example(
             "let study = study_work_precision(#{\n    name: \"spinning\", scene: spinning, meshes: [bspline(2), bspline(4)],\n    \
              integrators: [energy_momentum(), fourth_order()], dts: [0.2, 0.1], times: [1], repeats: 1,\n});\n\
-             print(study.table);\ncheck(study.rows.len() == 8);",
+             check(study.rows.len() == 8);",
         )
         .see(&["finest_run", "study_convergence", "cheapest", "front"]),
         function("finest_run", &[options("options", FINEST_KEYS).optional()], finest_run)
@@ -54,8 +54,8 @@ pub const TABLE: Table = Table {
             .summary("As a reference of a study: a run of our own, marked as such in the results.")
             .doc(
                 "Unless told otherwise it is made on the finest mesh of the study, with its integrator of the highest order and a \
-                 quarter of its smallest step size. It is run with twice its step as well: errors smaller than the difference are marked \
-                 with ≤, and no order is told of them, unless all runs of the study have its very integrator and step size, so that \
+                 quarter of its smallest step size; it must be finer than the runs that it judges. It is run with twice its step as well, and the difference is added to all errors: they are bounds, \
+                 marked with ≤ where that changes their digits. No order is told of errors below twice the difference. There is none where all runs of the study have its very integrator and step size, so that \
                  errors in time are the same. Its error of the mesh is not known; errors of meshes need a finer mesh here.",
             )
             .example(
@@ -199,7 +199,14 @@ fn finest_run(call: &mut Call) -> Result<Dynamic, ScriptError> {
 fn cheapest(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let PrecisionStudy(study) = call.receiver()?;
     let Some(error) = as_number(&call.value("error")?) else {
-        return Ok(comparison(&study, &call.numbers("error")?).into());
+        let errors = call.numbers("error")?;
+        return match errors.iter().find(|error| **error <= 0.0) {
+            Some(wrong) => Err(call
+                .error(format!("error holds {}", format_number(*wrong)))
+                .hint("errors are positive numbers")
+                .at(Place::Argument(0))),
+            None => Ok(comparison(&study, &errors).into()),
+        };
     };
     // A check of a script needs some row, for it has none that ran.
     let pretended = study.rows.first().filter(|_| call.context().mode() == Mode::DryBuild);

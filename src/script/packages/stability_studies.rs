@@ -12,7 +12,7 @@ use crate::script::kind::{Scripted, Type};
 use crate::script::parameter::{
     Parameter, Presence, anything, callback, choice, number, object, options, text,
 };
-use crate::script::studies::desk::{Desk, Task};
+use crate::script::studies::desk::{Desk, Task, print_table};
 use crate::script::studies::plan::patience;
 use crate::script::studies::stability::{Shown, StabilityMap, StabilityPlan};
 use crate::script::table::{Table, function, property};
@@ -101,7 +101,7 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let shown = options.text("show")?;
     let shown = Shown::ALL.iter().find(|(name, _)| *name == shown.as_str());
     let shown = shown.map_or(Shown::EnergyGrowth, |(_, shown)| *shown);
-    let mut desk = Desk::open(context, &plan.name)?;
+    let desk = Desk::open(context, &plan.name)?;
     let verdicts = match context.mode() {
         Mode::DryBuild => vec![Verdict::without_a_run(Outcome::Finished); made.len()],
         Mode::Run => {
@@ -120,12 +120,9 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
         }
     };
     let map = plan.judged(shown, verdicts);
-    if context.mode() == Mode::Run {
-        context.print(&map.text());
-    }
+    print_table(context, &map.text());
     let output = context.output();
     output.write(&format!("{}.csv", map.name()), map.records().to_text()?.as_bytes())?;
     output.write(&format!("{}.svg", map.name()), map.page().figure()?.to_svg()?.as_bytes())?;
-    desk.close()?;
     Ok(Dynamic::from(map))
 }

@@ -2,6 +2,7 @@
 
 use rhai::{Dynamic, EvalAltResult, Map};
 
+use super::parameters::label;
 use super::plan::{STEP_SIZE, step_size};
 use crate::analysis::Case;
 use crate::integrators::Method;
@@ -56,6 +57,7 @@ pub fn case(
     let wrong = |name: &str, value: &Dynamic, hint: &str| {
         call.error(format!("the '{name}' of a cell is {}", call.describe(value))).hint(hint)
     };
+    expect_no_other_value(call, &own, values)?;
     let method = match find("integrator") {
         Some(value) => value
             .clone()
@@ -77,6 +79,31 @@ pub fn case(
     let stops = vec![end];
     let scene = scene.scene().borrow().clone();
     Ok(Case { scene, settings, stops })
+}
+
+/// Whether what a function says of a run is what the label of its cell says: a value of the cell that could be taken as it is, is.
+fn expect_no_other_value(call: &Call, own: &Map, values: &Map) -> Result<(), ScriptError> {
+    let pair = |name| own.get(name).zip(values.get(name));
+    fn differ<T: PartialEq>(
+        read: impl Fn(&Dynamic) -> Option<T>,
+        of: (&Dynamic, &Dynamic),
+    ) -> bool {
+        read(of.0).zip(read(of.1)).is_some_and(|(own, labelled)| own != labelled)
+    }
+    let method = |value: &Dynamic| value.clone().try_cast::<Method>();
+    let other = [
+        pair("dt").filter(|of| differ(step_size, *of)).map(|of| ("dt", of)),
+        pair("end").filter(|of| differ(as_number, *of)).map(|of| ("end", of)),
+        pair("integrator").filter(|of| differ(method, *of)).map(|of| ("integrator", of)),
+    ];
+    let Some((name, (own, labelled))) = other.into_iter().flatten().next() else { return Ok(()) };
+    let (own, labelled) = (label(call, own), label(call, labelled));
+    let told =
+        format!("the function gives {name}: {own} for the cell that is called {name} {labelled}");
+    let hint = format!(
+        "leave '{name}' out of what it gives, or give the values of the cells another name"
+    );
+    Err(call.error(told).hint(hint).at(Place::Key("scene".into())))
 }
 
 /// Whether the map that a function gives says nothing that has no meaning.

@@ -1,8 +1,10 @@
-//! Convergence: the study made, its tables, its file and its picture.
+//! Convergence: the study made, written into the output folder, and as maps for scripts.
 
 use rhai::{Dynamic, Map};
 
-use super::desk::Desk;
+use super::convergence_chart::chart;
+use super::convergence_table::summary;
+use super::desk::{Desk, print_table};
 use super::labels;
 use super::plan::{Plan, at_key};
 use super::reference::{self, Reference};
@@ -10,10 +12,7 @@ use crate::analysis::{
     ALL_POSITIONS, Case, Convergence, Ladder, Outcome, Refined, Trial, Truth, all_combinations,
 };
 use crate::integrators::Method;
-use crate::output::{
-    Cell, CsvRecords, Ink, LineChart, Marker, Panel, Scale, Series, Stroke, Table, format_number,
-    significant,
-};
+use crate::output::{CsvRecords, Panel, format_number};
 use crate::script::call::Call;
 use crate::script::context::Mode;
 use crate::script::error::ScriptError;
@@ -28,7 +27,7 @@ pub fn study(call: &Call, options: &Options) -> Result<Convergence, ScriptError>
     if plan.subjects.len() > 1 {
         reference::expect_finer_than_all_meshes(call, options)?;
     }
-    let mut desk = Desk::open(call.context(), &plan.name)?;
+    let desk = Desk::open(call.context(), &plan.name)?;
     let combinations = all_combinations(&plan.subjects, &plan.all_settings());
     let cases: Vec<Case> =
         combinations.iter().map(|of| of.case(&plan.subjects, &plan.times)).collect();
@@ -38,7 +37,7 @@ pub fn study(call: &Call, options: &Options) -> Result<Convergence, ScriptError>
             let trial = Trial::without_a_run(Outcome::Failed { time: 0.0, reason });
             (vec![trial; cases.len()], Truth::of_run("none", &Vec::new()))
         }
-        Mode::Run => reference.trials(call, &mut desk, &plan, &cases)?,
+        Mode::Run => reference.trials(call, &desk, &plan, &cases)?,
     };
     let size = |subject: usize, settings: &Settings| match refined {
         Refined::Step => match settings.dt {
@@ -66,8 +65,8 @@ pub fn study(call: &Call, options: &Options) -> Result<Convergence, ScriptError>
     };
     let (name, times, length) = (plan.name, plan.times, plan.length);
     let study = Convergence { name, refined, fixed, times, length, truth, ladders, failures };
+    print_table(call.context(), &summary(&study));
     write(call, &study)?;
-    desk.close()?;
     Ok(study)
 }
 
@@ -99,60 +98,11 @@ fn write(call: &Call, study: &Convergence) -> Result<(), ScriptError> {
 }
 
 /// What sizes are sizes of.
-fn size_name(study: &Convergence) -> &'static str {
+pub(super) fn size_name(study: &Convergence) -> &'static str {
     match study.refined {
         Refined::Step => "dt",
         Refined::Mesh => "1 / spans",
     }
-}
-
-/// For every quantity that errs at all: errors and orders of all integrators side by side, the order of all rungs together
-/// below.
-pub fn table(study: &Convergence) -> String {
-    let mut text = format!(
-        "study '{}': convergence at {}, {}\nreference: {}",
-        study.name,
-        labels::at_times(&study.times),
-        study.fixed,
-        study.truth.source
-    );
-    for quantity in study.quantities() {
-        let ladders: Vec<&Ladder> =
-            study.ladders.iter().filter(|ladder| ladder.quantity == quantity).collect();
-        let names =
-            ladders.iter().flat_map(|ladder| [labels::method(&ladder.method), "order".into()]);
-        let heads: Vec<String> =
-            std::iter::once(size_name(study).to_owned()).chain(names).collect();
-        let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
-        let mut table = Table::new(&heads).title(quantity);
-        for (rung, size) in ladders[0].sizes.iter().enumerate() {
-            let shown = match study.refined {
-                Refined::Step => significant(*size, 6),
-                Refined::Mesh => format!("1/{}", significant(1.0 / size, 6)),
-            };
-            let cells = ladders.iter().flat_map(|ladder| {
-                let error = labels::deviation(ladder.deviations[rung]);
-                [error, order(ladder.order(rung))].map(Cell::Number)
-            });
-            table.row(std::iter::once(Cell::Number(shown)).chain(cells));
-        }
-        let fitted = ladders.iter().flat_map(|ladder| {
-            let claimed = study.claimed_order(&ladder.method);
-            let claimed = claimed.map_or_else(String::new, |order| format!("claimed {order}"));
-            [claimed, order(ladder.fitted_order())].map(Cell::Number)
-        });
-        table.row(std::iter::once(Cell::Text("all".to_owned())).chain(fitted));
-        text += &format!("\n\n{}", table.to_string().trim_end());
-    }
-    for (size, method, why) in &study.failures {
-        let (name, size) = (size_name(study), significant(*size, 6));
-        text += &format!("\n{} with {name} = {size}: {why}", labels::method(method));
-    }
-    text
-}
-
-fn order(order: Option<f64>) -> String {
-    order.map_or_else(|| "-".to_owned(), |order| format!("{order:.2}"))
 }
 
 /// All errors for other programs.
@@ -211,74 +161,6 @@ pub fn map_of(study: &Convergence, ladder: &Ladder) -> Map {
     facts.into_iter().map(|(name, value)| (name.into(), value)).collect()
 }
 
-/// Errors of a quantity over the sizes, with the slopes that are claimed, or else the nearest whole ones.
-pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
-    let relative = match quantity.starts_with("position") {
-        true => " / length",
-        false => "",
-    };
-    let mut chart = LineChart::new(format!(
-        "{}: convergence of {quantity} at {}",
-        study.name,
-        labels::at_times(&study.times)
-    ))
-    .caption(study.fixed.clone())
-    .caption(format!("reference: {}", study.truth.source))
-    .x_label(match study.refined {
-        Refined::Step => "dt",
-        Refined::Mesh => "mesh size 1 / spans",
-    })
-    .y_label(format!("error{relative}"))
-    .x_scale(Scale::Logarithmic)
-    .y_scale(Scale::Logarithmic)
-    .sized(900.0, 640.0);
-    let ladders = study.ladders.iter().filter(|ladder| ladder.quantity == quantity);
-    let mut noted: Vec<(u32, f64)> = Vec::new();
-    for (number, ladder) in ladders.enumerate() {
-        let point =
-            |rung| Some((ladder.sizes[rung], ladder.error(rung).filter(|error| *error > 0.0)?));
-        let points: Vec<(f64, f64)> = (0..ladder.sizes.len()).filter_map(point).collect();
-        let slope = slope(study, ladder, &points);
-        let (ink, marker) = (Ink::OfSeries(number), Marker::of_index(number));
-        let name = labels::method(&ladder.method);
-        chart =
-            chart.series(Series::new(name, points).ink(ink).marker(marker).stroke(Stroke::Marked));
-        if let Some((order, line)) = slope {
-            // Lines of the same order that lie one over the other need one word.
-            let is_near = |(other, error): &(u32, f64)| {
-                *other == order && (error / line[0].1).ln().abs() < 0.4
-            };
-            if !noted.iter().any(is_near) {
-                noted.push((order, line[0].1));
-                let [(coarse, large), (fine, small)] = line;
-                let middle = ((coarse * fine).sqrt(), (large * small).sqrt());
-                chart = chart.note(middle, format!("order {order}"));
-            }
-            chart =
-                chart.series(Series::new("", line.to_vec()).ink(ink).stroke(Stroke::Dotted).thin());
-        }
-    }
-    chart
-}
-
-/// A line with the slope of an order through the last point that tells one, over all sizes.
-fn slope(
-    study: &Convergence,
-    ladder: &Ladder,
-    points: &[(f64, f64)],
-) -> Option<(u32, [(f64, f64); 2])> {
-    let fitted = || ladder.fitted_order().map(|order| order.round().max(0.0) as u32);
-    let order = study.claimed_order(&ladder.method).or_else(fitted)?;
-    let first = points.first()?;
-    let told = (0..ladder.sizes.len()).rev().find(|rung| {
-        ladder.deviations[*rung].is_some_and(|of| of.is_resolved())
-            && ladder.error(*rung) > Some(0.0)
-    })?;
-    let (size, error) = (ladder.sizes[told], ladder.error(told)?);
-    let at = |other: f64| (other, error * (other / size).powi(order as i32));
-    Some((order, [at(first.0), at(size)]))
-}
-
 /// Whether a study has a quantity; the names that there are where not.
 pub fn expect_quantity(
     call: &Call,
@@ -293,7 +175,24 @@ pub fn expect_quantity(
     Err(call.error(told).hint(format!("quantities: {}", known.join(", "))))
 }
 
-/// The ladder of a quantity with an integrator.
-pub fn find<'s>(study: &'s Convergence, quantity: &str, method: &Method) -> Option<&'s Ladder> {
-    study.ladders.iter().find(|of| of.quantity == quantity && of.method == *method)
+/// The ladder of a quantity with an integrator; none in a dry build, which has not seen all quantities.
+///
+/// # Errors
+/// When the study has no such quantity or integrator; they name those that there are.
+pub fn find<'s>(
+    call: &Call,
+    study: &'s Convergence,
+    quantity: &str,
+    method: &Method,
+) -> Result<Option<&'s Ladder>, ScriptError> {
+    expect_quantity(call, study, quantity)?;
+    if !study.ladders.iter().any(|of| of.method == *method) {
+        let told =
+            format!("the study '{}' has no runs with {}", study.name, labels::method(method));
+        let mut known: Vec<String> =
+            study.ladders.iter().map(|of| labels::method(&of.method)).collect();
+        known.dedup();
+        return Err(call.error(told).hint(format!("integrators: {}", known.join(", "))));
+    }
+    Ok(study.ladders.iter().find(|of| of.quantity == quantity && of.method == *method))
 }

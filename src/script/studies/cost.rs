@@ -167,7 +167,7 @@ impl CostTable {
         let mut table = Table::new(&heads).title(format!("{}: cost of a step", self.name));
         for cost in &self.costs {
             if !cost.outcome.is_finished() {
-                table.row([cost.name.clone(), cost.outcome.describe()]);
+                table.row([Cell::Text(cost.name.clone()), Cell::Number("-".to_owned())]);
                 continue;
             }
             let number = |value: f64, digits| Cell::Number(significant(value, digits));
@@ -184,11 +184,22 @@ impl CostTable {
             ]);
         }
         let table = table.to_string();
-        [Some(table.trim_end().to_owned()), self.doubt()]
+        [Some(table.trim_end().to_owned()), self.failures(), self.doubt()]
             .into_iter()
             .flatten()
             .collect::<Vec<_>>()
             .join("\n")
+    }
+
+    /// Why some rows have no numbers.
+    fn failures(&self) -> Option<String> {
+        let failed: Vec<&StepCost> =
+            self.costs.iter().filter(|cost| !cost.outcome.is_finished()).collect();
+        let lines =
+            failed.iter().map(|cost| format!("\n{}: {}", cost.name, cost.outcome.describe()));
+        let lines: String = lines.collect();
+        let (some, all) = (failed.len(), self.costs.len());
+        (some > 0).then(|| format!("\n{some} of {all} did not finish:{lines}"))
     }
 
     /// A warning, when the same work took another time.
@@ -272,6 +283,19 @@ mod tests {
         };
         let costs = PLAIN.into_iter().zip(times).map(cost).collect();
         CostTable::new("cost".to_owned(), costs)
+    }
+
+    #[test]
+    fn reasons_stand_below_the_table() {
+        let mut costs = table([100, 100]).costs;
+        let reason =
+            "a reason that is a good deal longer than any column of the table is wide".to_owned();
+        let outcome = Outcome::Failed { time: 0.5, reason: reason.clone() };
+        costs.push(StepCost { name: "slider".into(), outcome, ..costs[0].clone() });
+        let text = CostTable::new("cost".to_owned(), costs).text();
+        let (rows, below) = text.split_once("\n\n1 of 3 did not finish:\n").unwrap();
+        assert!(rows.lines().all(|line| line.chars().count() < 100), "{rows}");
+        assert_eq!(below, format!("slider: failed at t = 0.5: {reason}"));
     }
 
     #[test]

@@ -7,9 +7,10 @@ use std::sync::atomic::AtomicBool;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::analysis::{Case, Journal, JournalError, Outcome, Timing, Trial, Verdict, on_all_cores};
-use crate::script::context::{Context, JournalWish};
+use crate::analysis::{Case, Journal, Outcome, Timing, Trial, Verdict, on_all_cores};
+use crate::script::context::{Context, Mode};
 use crate::script::error::ScriptError;
+use crate::script::journals::JournalNumber;
 
 /// What is found of a case.
 pub trait Finding: Serialize + DeserializeOwned {
@@ -35,11 +36,19 @@ impl Finding for Option<Timing> {
     }
 }
 
+/// Prints the table of a study for the script, and a free line behind it; a dry build has none.
+pub fn print_table(context: &Context, table: &str) {
+    if context.mode() == Mode::Run {
+        context.print(table);
+        context.print("");
+    }
+}
+
 /// A study at work.
 pub struct Desk<'c> {
     context: &'c Context,
     name: String,
-    journal: Option<Journal>,
+    journal: Option<JournalNumber>,
 }
 
 /// A kind of work that is done with each of some cases.
@@ -65,13 +74,7 @@ impl<'c> Desk<'c> {
     /// When the name is not one of a file in the output folder, or the journal cannot be read.
     pub fn open(context: &'c Context, name: &str) -> Result<Self, ScriptError> {
         let path = context.output().path_of(&format!("{name}.journal"))?;
-        let mut journal = match context.studies().journal {
-            JournalWish::Without => None,
-            _ => Some(Journal::open(path).map_err(refused)?),
-        };
-        if let (Some(journal), JournalWish::Anew) = (&mut journal, context.studies().journal) {
-            journal.clear().map_err(refused)?;
-        }
+        let journal = context.journals().open(path, context.studies().journal)?;
         Ok(Self { context, name: name.to_owned(), journal })
     }
 
@@ -81,7 +84,7 @@ impl<'c> Desk<'c> {
     /// # Errors
     /// When the run is stopped: what was finished by then is in the journal.
     pub fn in_parallel<R: Finding + Clone + Send>(
-        &mut self,
+        &self,
         task: Task,
         cases: &[Case],
         steps_of: fn(&R) -> usize,
@@ -116,7 +119,8 @@ impl<'c> Desk<'c> {
             },
         );
         context.progress().end();
-        trouble.map_or(Ok(()), |trouble| Err(refused(trouble)))?;
+        context.forget_callback_errors();
+        trouble.map_or(Ok(()), Err)?;
         for (at, result) in unknown.into_iter().zip(found) {
             results[at] = result;
         }
@@ -133,7 +137,7 @@ impl<'c> Desk<'c> {
     /// # Errors
     /// When the run is stopped: what was finished by then is in the journal.
     pub fn one_by_one<R: Finding>(
-        &mut self,
+        &self,
         task: Task,
         cases: &[Case],
         mut work: impl FnMut(&Case, &mut dyn FnMut() -> bool) -> R,
@@ -147,36 +151,24 @@ impl<'c> Desk<'c> {
             }
             let found = work(case, &mut || context.stopped_by().is_none());
             context.proceed()?;
-            self.write(task, case, &found).map_err(refused)?;
+            self.write(task, case, &found)?;
             Ok(found)
         });
         let results = results.collect();
         // The bar ends before a reason to stop is told.
         context.progress().end();
+        context.forget_callback_errors();
         results
     }
 
-    /// The study is complete: its journal is removed.
-    ///
-    /// # Errors
-    /// When it cannot be.
-    pub fn close(self) -> Result<(), ScriptError> {
-        self.journal.map_or(Ok(()), |journal| journal.finish().map_err(refused))
-    }
-
     fn recall<R: DeserializeOwned>(&self, task: Task, case: &Case) -> Option<R> {
-        self.journal.as_ref()?.find(task.fingerprint(case)?)
+        self.context.journals().find(self.journal?, task.fingerprint(case)?)
     }
 
-    fn write<R: Finding>(
-        &mut self,
-        task: Task,
-        case: &Case,
-        result: &R,
-    ) -> Result<(), JournalError> {
-        match (&mut self.journal, task.fingerprint(case)) {
+    fn write<R: Finding>(&self, task: Task, case: &Case, result: &R) -> Result<(), ScriptError> {
+        match (self.journal, task.fingerprint(case)) {
             (Some(journal), Some(fingerprint)) if result.is_final() => {
-                journal.write(fingerprint, result)
+                self.context.journals().write(journal, fingerprint, result)
             }
             _ => Ok(()),
         }
@@ -192,9 +184,4 @@ impl<'c> Desk<'c> {
             self.context.tell(&told);
         }
     }
-}
-
-fn refused(error: JournalError) -> ScriptError {
-    ScriptError::new(error.to_string())
-        .hint("choose another folder with --out DIR, or begin anew with --fresh")
 }

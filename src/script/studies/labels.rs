@@ -7,6 +7,8 @@ use crate::simulation::{Settings, StepSize};
 
 /// The most digits of a step size.
 const STEP_DIGITS: usize = 6;
+/// Characters of a reason in a table.
+const LONGEST_REASON: usize = 100;
 /// Digits of an error.
 const ERROR_DIGITS: usize = 2;
 
@@ -24,14 +26,13 @@ pub fn step_size(settings: &Settings) -> String {
     }
 }
 
-/// An error: `3.4e-5`, or `≤ 2.1e-6` where the reference is not good enough to tell.
+/// An error: `3.4e-5`, or `≤ 2.1e-6` where the reference is not good enough to tell these digits.
 pub fn deviation(deviation: Option<Deviation>) -> String {
-    match deviation {
-        None => "-".to_owned(),
-        Some(of) if of.is_resolved() || of.distance.is_nan() || of.trusted == 0.0 => {
-            scientific(of.error(), ERROR_DIGITS)
-        }
-        Some(of) => format!("≤ {}", scientific(of.error(), ERROR_DIGITS)),
+    let Some(of) = deviation else { return "-".to_owned() };
+    let told = scientific(of.error(), ERROR_DIGITS);
+    match told == scientific(of.distance, ERROR_DIGITS) {
+        true => told,
+        false => format!("≤ {told}"),
     }
 }
 
@@ -50,8 +51,46 @@ pub fn number(text: String) -> Cell {
     Cell::Number(text)
 }
 
+/// A reason up to the end of its first sentence or half of one, and no longer than a line.
+pub fn first_sentence(text: &str) -> String {
+    let ends = ["; ", ". ", "\n"].iter().filter_map(|end| text.find(end));
+    let sentence = &text[..ends.min().unwrap_or(text.len())];
+    if sentence.chars().count() <= LONGEST_REASON {
+        return sentence.to_owned();
+    }
+    let kept: String = sentence.chars().take(LONGEST_REASON).collect();
+    let whole_words = kept.rsplit_once(' ').map_or(kept.as_str(), |(words, _)| words);
+    format!("{whole_words} …")
+}
+
 /// The times in words: `t = 2.5, 7.5`.
 pub fn at_times(times: &[f64]) -> String {
     let times: Vec<String> = times.iter().map(|time| format_number(*time)).collect();
     format!("t = {}", times.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bounds_are_marked_where_the_reference_does_not_tell_the_digits() {
+        let told = |distance, trusted, is_of_own_run| {
+            deviation(Some(Deviation { distance, trusted, is_of_own_run }))
+        };
+        assert_eq!(told(3.4e-5, 1e-9, true), "3.4e-5");
+        assert_eq!(told(3.4e-5, 1e-5, true), "≤ 4.4e-5");
+        assert_eq!(told(3.4e-5, 1e-5, false), "3.4e-5");
+        assert_eq!(told(3.4e-5, 4e-5, false), "≤ 7.4e-5");
+        assert_eq!((told(0.0, 0.0, true), deviation(None)), ("0".into(), "-".into()));
+        assert_eq!(told(f64::NAN, 1.0, true), "nan");
+    }
+
+    #[test]
+    fn a_reason_is_cut_at_its_first_sentence_or_between_words() {
+        assert_eq!(first_sentence("failed at t = 0.5: lost; try again"), "failed at t = 0.5: lost");
+        assert_eq!(first_sentence("a step. And another"), "a step");
+        let long = first_sentence(&"word ".repeat(60));
+        assert!(long.ends_with("word …") && long.chars().count() <= LONGEST_REASON + 2, "{long}");
+    }
 }

@@ -2,6 +2,8 @@
 
 pub mod cell;
 pub mod convergence;
+pub mod convergence_chart;
+pub mod convergence_table;
 pub mod cost;
 pub mod desk;
 pub mod labels;

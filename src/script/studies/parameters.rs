@@ -38,6 +38,9 @@ impl Swept {
         let (1, Some((name, values))) = (given.len(), given.iter().next()) else {
             return Err(wrong(format!("{key} has {} names, but one is expected", given.len())));
         };
+        if name.trim().is_empty() {
+            return Err(wrong(format!("{key} has an empty name")));
+        }
         let values = values.clone().try_cast::<Array>().filter(|values| !values.is_empty());
         let values = values.ok_or_else(|| wrong(format!("{key}: '{name}' has no values")))?;
         let labels = values.iter().map(|value| label(call, value)).collect();

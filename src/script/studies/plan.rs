@@ -89,7 +89,8 @@ impl Plan {
     pub fn history(&self) -> Result<History, ScriptError> {
         let (scene, stops) = (self.subjects[0].scene.clone(), self.times.clone());
         let case = Case { scene, settings: self.all_settings()[0], stops };
-        let built = case.start().map_err(|outcome| ScriptError::new(outcome.describe()))?;
+        let built =
+            case.start(self.patience).map_err(|outcome| ScriptError::new(outcome.describe()))?;
         Ok(built.history().clone())
     }
 
@@ -141,6 +142,11 @@ fn column_of(
         let hint = "write the name of a column of the history, or that and a factor: [\"slider1.position\", 3.2]";
         return Err(at_key(call, "columns", told, hint));
     };
+    if factor == 0.0 || !factor.is_finite() {
+        let told = format!("columns: the factor of '{name}' is {}", format_number(factor));
+        let hint = "it turns the column of the history into that of the reference: give a number other than zero";
+        return Err(at_key(call, "columns", told, hint));
+    }
     if history.dimension(&column).is_none() {
         let told = format!("columns: the history has no column \"{column}\"");
         let names: Vec<_> = history.columns().map(|(name, _)| name).collect();

@@ -1,9 +1,9 @@
 //! Error against run time: the study made, and written into the output folder.
 
-use super::desk::{Desk, Task};
+use super::desk::{Desk, Task, print_table};
 use super::plan::{Plan, at_key};
 use super::precision_chart::chart;
-use super::precision_rows::records;
+use super::precision_rows::{records, table};
 use super::reference::{Reference, read_sheet};
 use crate::analysis::{
     Case, Outcome, Precision, PrecisionRow, Rival, Timing, Trial, Truth, all_combinations,
@@ -31,7 +31,7 @@ pub fn study(call: &Call, options: &Options) -> Result<Precision, ScriptError> {
     };
     // Wrong rivals are told of before anything runs.
     compared(&reference.foreseen(call, &plan)?)?;
-    let mut desk = Desk::open(call.context(), &plan.name)?;
+    let desk = Desk::open(call.context(), &plan.name)?;
     let combinations = all_combinations(&plan.subjects, &plan.all_settings());
     let cases: Vec<Case> =
         combinations.iter().map(|of| of.case(&plan.subjects, &plan.times)).collect();
@@ -43,8 +43,8 @@ pub fn study(call: &Call, options: &Options) -> Result<Precision, ScriptError> {
             (vec![trial; cases.len()], vec![None; cases.len()], Truth::of_run("none", &Vec::new()))
         }
         Mode::Run => {
-            let (trials, truth) = reference.trials(call, &mut desk, &plan, &cases)?;
-            let timings = timings(&mut desk, &plan, (&cases, &trials), repeats)?;
+            let (trials, truth) = reference.trials(call, &desk, &plan, &cases)?;
+            let timings = timings(&desk, &plan, (&cases, &trials), repeats)?;
             (trials, timings, truth)
         }
     };
@@ -68,14 +68,14 @@ pub fn study(call: &Call, options: &Options) -> Result<Precision, ScriptError> {
         rivals,
     };
     study.mark_front();
+    print_table(call.context(), &table(&study));
     write(call, &study)?;
-    desk.close()?;
     Ok(study)
 }
 
 /// The run times of those that came to their end.
 fn timings(
-    desk: &mut Desk,
+    desk: &Desk,
     plan: &Plan,
     (cases, trials): (&[Case], &[Trial]),
     repeats: usize,

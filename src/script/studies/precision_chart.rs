@@ -3,6 +3,16 @@
 use super::labels;
 use crate::analysis::{Precision, PrecisionRow, machines};
 use crate::output::{Ink, LineChart, Marker, Scale, Series, Stroke};
+use crate::simulation::StepSize;
+
+/// The series that a row belongs to: runs with adaptive steps follow a tolerance and no size, and make a line of their own.
+fn series_of(row: &PrecisionRow) -> String {
+    let method = labels::method(&row.settings.method);
+    match row.settings.dt {
+        StepSize::Fixed(_) => method,
+        StepSize::Adaptive(_) => format!("{method}, adaptive"),
+    }
+}
 
 /// Error over run time, one colour for an integrator or a rival, the front of ours drawn through.
 pub fn chart(study: &Precision) -> LineChart {
@@ -23,13 +33,13 @@ pub fn chart(study: &Precision) -> LineChart {
     let finite = |(price, error): &(f64, f64)| price.is_finite() && error.is_finite();
     let mut methods: Vec<String> = Vec::new();
     for row in &study.rows {
-        let name = labels::method(&row.settings.method);
+        let name = series_of(row);
         if !methods.contains(&name) {
             methods.push(name);
         }
     }
     for (number, name) in methods.iter().enumerate() {
-        let own = study.rows.iter().filter(|row| labels::method(&row.settings.method) == *name);
+        let own = study.rows.iter().filter(|row| series_of(row) == *name);
         let look =
             |series: Series| series.ink(Ink::OfSeries(number)).marker(Marker::of_index(number));
         let mut of_mesh: Vec<(&str, Vec<(f64, f64)>)> = Vec::new();

@@ -101,6 +101,55 @@ pub fn expect_finer_than_all_meshes(call: &Call, options: &Options) -> Result<()
     Err(at_key(call, "meshes", told, hint))
 }
 
+/// Refuses a reference whose steps are no finer than those of a run that it would judge; `is_of_a_mesh` tells whether it is on a mesh
+/// of the study. Adaptive steps have no size to compare.
+fn expect_finer_steps(
+    call: &Call,
+    plan: &Plan,
+    finest: &Case,
+    is_of_a_mesh: bool,
+) -> Result<(), ScriptError> {
+    let size = |dt: &StepSize| match dt {
+        StepSize::Fixed(dt) => Some(*dt),
+        StepSize::Adaptive(_) => None,
+    };
+    let smallest = plan.dts.iter().filter_map(size).reduce(f64::min);
+    let Some((own, smallest)) = size(&finest.settings.dt).zip(smallest) else { return Ok(()) };
+    let order = |method: &Method| method.entry().claims.order;
+    let is_of_higher_order =
+        plan.methods.iter().all(|other| order(other) < order(&finest.settings.method));
+    if own < smallest || (own == smallest && (is_of_higher_order || !is_of_a_mesh)) {
+        return Ok(());
+    }
+    let (own, smallest, usual) = (
+        format_number(own),
+        format_number(smallest),
+        format_number(PART_OF_THE_SMALLEST_STEP * smallest),
+    );
+    let told = format!(
+        "the reference is no finer than the finest run of the study: it has dt = {own}, and the study goes down to {smallest}"
+    );
+    let hint = format!(
+        "leave dt out of finest_run(…), it is then {usual}; or give a smaller one, or the name of a table"
+    );
+    Err(at_key(call, "reference", told, hint))
+}
+
+/// Refuses a reference that takes the same steps when its step size is doubled: nothing would tell how good it is.
+fn expect_other_steps_if_doubled(call: &Call, finest: &Case) -> Result<(), ScriptError> {
+    match finest.settings.dt {
+        StepSize::Fixed(dt) if finest.is_one_step_from_stop_to_stop(dt) => {
+            let dt = format_number(dt);
+            let told = format!(
+                "the reference, dt = {dt}, takes the same steps when its step size is doubled, so that nothing tells how good it is"
+            );
+            let hint = "choose step sizes smaller than the times of the study: reference: finest_run(#{ dt: … }), or smaller dts";
+            Err(at_key(call, "reference", told, hint))
+        }
+        _ => Ok(()),
+    }
+}
+
 impl Reference {
     /// Reads the option `reference`, and looks in the plan at what it can be compared with.
     pub fn read(call: &Call, options: &Options, plan: &mut Plan) -> Result<Self, ScriptError> {
@@ -127,14 +176,19 @@ impl Reference {
             }
         };
         plan.add_columns(call, columns, None)?;
-        let (method_name, mesh) = (labels::method(&method), subject.mesh);
+        let (method_name, mesh) = (labels::method(&method), subject.mesh.clone());
         let told = format!("own finest run ({mesh}, {method_name}, {dt}), no independent solution");
         let case = |dt| {
             let settings = Plan::settings(method, dt);
             Case { scene: subject.scene.clone(), settings, stops: plan.times.clone() }
         };
         let finest = case(dt);
+        let is_of_a_mesh = plan.subjects.iter().any(|of| of.mesh == mesh);
+        expect_finer_steps(call, plan, &finest, is_of_a_mesh)?;
         let is_common = plan.all_settings().iter().all(|other| *other == finest.settings);
+        if !is_common {
+            expect_other_steps_if_doubled(call, &finest)?;
+        }
         let coarser = (!is_common).then(|| case(doubled(dt)));
         Ok(Self::OwnRun(told, [finest].into_iter().chain(coarser).collect()))
     }
@@ -186,7 +240,7 @@ impl Reference {
     pub fn trials(
         &self,
         call: &Call,
-        desk: &mut Desk,
+        desk: &Desk,
         plan: &Plan,
         cases: &[Case],
     ) -> Result<(Vec<Trial>, Truth), ScriptError> {

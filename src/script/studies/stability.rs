@@ -3,8 +3,9 @@
 use rhai::{Dynamic, FnPtr, INT, Map};
 
 use super::cell::{case, thrown};
+use super::labels;
 use super::parameters::Swept;
-use super::plan::study_name;
+use super::plan::{at_key, study_name};
 use crate::analysis::{Case, Outcome, Verdict};
 use crate::output::{
     Colours, CsvRecords, Glyphs, HeatCell, HeatMap, Page, Style, Table, format_number, scientific,
@@ -16,8 +17,9 @@ use crate::script::options::Options;
 
 /// Columns of text that a map on a terminal may take.
 const WIDTH: usize = 160;
-/// Cells that did not come to their end, of which the reason is printed.
-const MOST_REASONS: usize = 12;
+/// What a cell of a script says of its run.
+const RESULTS: [&str; 7] =
+    ["finished", "outcome", "energy_growth", "iterations", "most_iterations", "retries", "steps"];
 /// Maps beside each other on a page.
 const ABREAST: usize = 2;
 
@@ -88,12 +90,22 @@ impl StabilityPlan {
             true => Swept::read(call, options, "maps")?,
             false => Swept::none(),
         };
-        Ok(Self {
-            name: study_name(call, options)?,
-            maps,
-            rows: Swept::read(call, options, "rows")?,
-            columns: Swept::read(call, options, "columns")?,
-        })
+        let rows = Swept::read(call, options, "rows")?;
+        let columns = Swept::read(call, options, "columns")?;
+        let axes = [("maps", &maps), ("rows", &rows), ("columns", &columns)];
+        for (at, (key, axis)) in axes.iter().enumerate() {
+            let name = &axis.name;
+            if RESULTS.contains(&name.as_str()) {
+                let told = format!("{key}: '{name}' is what a cell says of its run");
+                let hint = format!("give it another name; cells have {}", RESULTS.join(", "));
+                return Err(at_key(call, key, told, hint));
+            }
+            if let Some((other, _)) = axes[..at].iter().find(|(_, of)| of.name == *name) {
+                let told = format!("{other} and {key} both have the name '{name}'");
+                return Err(at_key(call, key, told, "a cell has one value under each name"));
+            }
+        }
+        Ok(Self { name: study_name(call, options)?, maps, rows, columns })
     }
 
     /// Numbers of map, row and column of all cells, in order.
@@ -183,16 +195,16 @@ impl StabilityMap {
         let cell = |(at, verdict): ([usize; 3], &Verdict)| {
             let mut cell = self.plan.values(at);
             let whole = |count: usize| Dynamic::from(count as INT);
-            let entries: [(&str, Dynamic); 7] = [
-                ("finished", verdict.outcome.is_finished().into()),
-                ("outcome", verdict.outcome.describe().into()),
-                ("energy_growth", verdict.energy_growth.into()),
-                ("iterations", verdict.mean_iterations.into()),
-                ("most_iterations", whole(verdict.most_iterations)),
-                ("retries", whole(verdict.retries)),
-                ("steps", whole(verdict.steps)),
+            let results: [Dynamic; RESULTS.len()] = [
+                verdict.outcome.is_finished().into(),
+                verdict.outcome.describe().into(),
+                verdict.energy_growth.into(),
+                verdict.mean_iterations.into(),
+                whole(verdict.most_iterations),
+                whole(verdict.retries),
+                whole(verdict.steps),
             ];
-            cell.extend(entries.map(|(name, value)| (name.into(), value)));
+            cell.extend(RESULTS.map(Into::into).into_iter().zip(results));
             cell
         };
         self.judged().map(cell).collect()
@@ -277,26 +289,26 @@ impl StabilityMap {
             Style { glyphs: Glyphs::Braille, colours: Colours::None, width: WIDTH, height: 1 };
         let maps =
             self.heat_maps(Self::in_short).iter().map(|map| map.text(&style)).collect::<Vec<_>>();
-        let mut early: Vec<_> =
+        let early: Vec<_> =
             self.judged().filter(|(_, verdict)| !verdict.outcome.is_finished()).collect();
         let (all, missing) = (self.verdicts.len(), early.len());
         let mut text = maps.join("\n\n");
         let (shows, _) = self.shown.scale();
         text.push_str(&format!("\nin a cell: {shows}, Newton iterations a step, halved steps (h)"));
         if missing > 0 {
-            text.push_str(&format!("\n\n{missing} of {all} cells did not come to their end"));
-            early.truncate(MOST_REASONS);
+            let file = format!("{}.csv", self.plan.name);
+            let told = format!(
+                "{missing} of {all} cells did not come to their end; all that is known of it is in {file}"
+            );
+            text.push_str(&format!("\n\n{told}"));
             let mut table = Table::new(&["cell", "what happened"]);
             for (at, verdict) in early {
                 let labels = self.plan.labels(at);
                 let labels = labels.iter().map(|(name, label)| format!("{name} {label}"));
                 let cell = labels.collect::<Vec<_>>().join(", ");
-                table.row([cell, verdict.outcome.describe()]);
+                table.row([cell, labels::first_sentence(&verdict.outcome.describe())]);
             }
             text.push_str(&format!("\n{}", table.to_string().trim_end()));
-            if missing > MOST_REASONS {
-                text.push_str("\nthe others are in the table");
-            }
         }
         text
     }

@@ -1,0 +1,57 @@
+//! Areas that have no colour: slanted lines, and an edge.
+
+use super::{
+    canvas::{Area, Canvas},
+    colour::AXIS,
+};
+
+/// Between the lines of a hatching.
+const HATCH: f64 = 6.0;
+
+/// Fills an area with slanted lines.
+pub fn hatch(canvas: &mut Canvas, area: &Area) {
+    let (width, height) = (area.width(), area.height());
+    let count = ((width + height) / HATCH) as usize;
+    for index in 1..=count {
+        // From the left or lower side to the upper or right one.
+        let along = index as f64 * HATCH;
+        let from = if along <= height {
+            (area.left, area.top + along)
+        } else {
+            (area.left + along - height, area.bottom)
+        };
+        let to = if along <= width {
+            (area.left + along, area.top)
+        } else {
+            (area.right, area.top + along - width)
+        };
+        canvas.line([from, to], 1.0, AXIS);
+    }
+}
+
+/// Draws the edge of an area.
+pub fn outline(canvas: &mut Canvas, area: &Area) {
+    let Area { left, top, right, bottom } = *area;
+    let corners = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top)];
+    canvas.line(corners, 1.0, AXIS);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::canvas::Shape;
+
+    #[test]
+    fn a_hatching_stays_in_its_area() {
+        let area = Area { left: 10.0, top: 20.0, right: 90.0, bottom: 41.0 };
+        let mut canvas = Canvas::default();
+        hatch(&mut canvas, &area);
+        assert!(canvas.shapes().len() > 10);
+        for shape in canvas.shapes() {
+            let Shape::Line { points, .. } = shape else { panic!("{shape:?}") };
+            for (x, y) in points {
+                assert!((10.0..=90.0).contains(x) && (20.0..=41.0).contains(y), "{points:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! The picture of a convergence study.
+
+use super::labels;
+use crate::analysis::{Convergence, Ladder, Refined};
+use crate::output::{Ink, LineChart, Marker, Scale, Series, Stroke};
+
+/// Orders between neighbours that differ by less are the same one.
+const SAME_ORDER: f64 = 0.3;
+
+/// A line of an order, from its coarse end to its fine one.
+struct Slope {
+    told: String,
+    ends: [(f64, f64); 2],
+}
+
+/// Errors of a quantity over the sizes, with lines of the orders that are claimed, or else of those that are seen.
+pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
+    let relative = match quantity.starts_with("position") {
+        true => " / length",
+        false => "",
+    };
+    let mut chart = LineChart::new(format!(
+        "{}: convergence of {quantity} at {}",
+        study.name,
+        labels::at_times(&study.times)
+    ))
+    .caption(study.fixed.clone())
+    .caption(format!("reference: {}", study.truth.source))
+    .x_label(match study.refined {
+        Refined::Step => "dt",
+        Refined::Mesh => "mesh size 1 / spans",
+    })
+    .y_label(format!("error{relative}"))
+    .x_scale(Scale::Logarithmic)
+    .y_scale(Scale::Logarithmic)
+    .sized(900.0, 640.0);
+    let ladders = study.ladders.iter().filter(|ladder| ladder.quantity == quantity);
+    let mut noted: Vec<(String, f64)> = Vec::new();
+    for (number, ladder) in ladders.enumerate() {
+        let point =
+            |rung| Some((ladder.sizes[rung], ladder.error(rung).filter(|error| *error > 0.0)?));
+        let points: Vec<(f64, f64)> = (0..ladder.sizes.len()).filter_map(point).collect();
+        let slope = match study.claimed_order(&ladder.method) {
+            Some(order) => claimed(ladder, order, &points),
+            None => seen(ladder),
+        };
+        let (ink, marker) = (Ink::OfSeries(number), Marker::of_index(number));
+        let name = labels::method(&ladder.method);
+        chart =
+            chart.series(Series::new(name, points).ink(ink).marker(marker).stroke(Stroke::Marked));
+        let Some(Slope { told, ends }) = slope else { continue };
+        let [(coarse, large), (fine, small)] = ends;
+        // Lines of the same order that lie one over the other need one word.
+        let is_near =
+            |(other, error): &(String, f64)| *other == told && (error / large).ln().abs() < 0.4;
+        if !noted.iter().any(is_near) {
+            noted.push((told.clone(), large));
+            let middle = ((coarse * fine).sqrt(), (large * small).sqrt());
+            chart = chart.note(middle, told);
+        }
+        chart = chart.series(Series::new("", ends.to_vec()).ink(ink).stroke(Stroke::Dotted).thin());
+    }
+    chart
+}
+
+/// The rungs that tell an order, from coarse to fine.
+fn told(ladder: &Ladder) -> impl DoubleEndedIterator<Item = usize> {
+    (0..ladder.sizes.len()).filter(|rung| ladder.tells_an_order(*rung))
+}
+
+/// A line with the slope of an order through the last point that tells one, over all sizes.
+fn claimed(ladder: &Ladder, order: u32, points: &[(f64, f64)]) -> Option<Slope> {
+    let last = told(ladder).next_back()?;
+    let line = through(ladder, last, f64::from(order));
+    Some(Slope {
+        told: format!("order {order}"),
+        ends: [line(points.first()?.0)?, line(ladder.sizes[last])?],
+    })
+}
+
+/// A line with the order at which the finest errors fall, over the sizes where neighbours agree on it; none where the last ones do not:
+/// there errors do not fall at an order yet.
+fn seen(ladder: &Ladder) -> Option<Slope> {
+    let last = told(ladder).next_back()?;
+    let mut orders = vec![ladder.order(last)?];
+    for rung in (1..last).rev() {
+        match ladder.order(rung) {
+            Some(order) if (order - orders[orders.len() - 1]).abs() < SAME_ORDER => {
+                orders.push(order);
+            }
+            _ => break,
+        }
+    }
+    if orders.len() < 2 {
+        return None;
+    }
+    let order = orders.iter().sum::<f64>() / orders.len() as f64;
+    let line = through(ladder, last, order);
+    let coarsest = ladder.sizes[last - orders.len()];
+    Some(Slope {
+        told: format!("order {order:.1}"),
+        ends: [line(coarsest)?, line(ladder.sizes[last])?],
+    })
+}
+
+/// Points on the line of an order through the point of a rung.
+fn through(ladder: &Ladder, rung: usize, order: f64) -> impl Fn(f64) -> Option<(f64, f64)> {
+    let (size, error) = (ladder.sizes[rung], ladder.error(rung));
+    move |other| Some((other, error? * (other / size).powf(order)))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::analysis::Deviation;
+    use crate::integrators::Method;
+
+    fn ladder(orders: &[f64]) -> Ladder {
+        let mut errors = vec![1.0];
+        for order in orders {
+            errors.push(errors[errors.len() - 1] / 2_f64.powf(*order));
+        }
+        let deviation = |distance| Some(Deviation { distance, trusted: 0.0, is_of_own_run: false });
+        Ladder {
+            method: Method::default(),
+            quantity: "positions".into(),
+            sizes: (0..errors.len()).map(|rung| 0.5_f64.powi(rung as i32)).collect(),
+            deviations: errors.into_iter().map(deviation).collect(),
+        }
+    }
+
+    #[test]
+    fn a_line_is_drawn_where_neighbouring_orders_agree() {
+        assert!(seen(&ladder(&[6.8, 4.6, 3.5])).is_none(), "not yet at any order");
+        assert!(seen(&ladder(&[1.0])).is_none(), "a single order agrees with none");
+        let slope = seen(&ladder(&[0.71, 1.08, 0.9])).unwrap();
+        assert_eq!(slope.told, "order 1.0");
+        let [(coarse, large), (fine, small)] = slope.ends;
+        assert_eq!((coarse, fine), (0.5, 0.125));
+        assert!(((large / small).log2() - 2.0 * 0.99).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_claimed_order_is_drawn_over_all_sizes() {
+        let ladder = ladder(&[0.3, 1.9]);
+        let points = [(1.0, 1.0)];
+        let slope = claimed(&ladder, 2, &points).unwrap();
+        assert_eq!((slope.told.as_str(), slope.ends[0].0, slope.ends[1].0), ("order 2", 1.0, 0.25));
+        assert!((slope.ends[0].1 / slope.ends[1].1 - 16.0).abs() < 1e-9);
+    }
+}
