@@ -224,6 +224,7 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
     fn begin_step(&mut self) {
         self.parts.each(&mut self.spans, |span| {
             span.force_points.iter_mut().for_each(ForcePoint::begin_step);
+            span.moment_points.iter_mut().for_each(MomentPoint::begin_step);
         });
     }
 
@@ -344,7 +345,7 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
         }
         for span in &self.spans {
             span.force_points.iter().for_each(|point| point.save(state));
-            state.extend(span.moment_points.iter().map(MomentPoint::curvature));
+            span.moment_points.iter().for_each(|point| point.save(state));
         }
     }
 
@@ -357,7 +358,9 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
             span.force_points
                 .iter_mut()
                 .for_each(|point| point.restore(std::array::from_fn(|_| next())));
-            span.moment_points.iter_mut().for_each(|point| point.set_curvature(next()));
+            span.moment_points
+                .iter_mut()
+                .for_each(|point| point.restore(std::array::from_fn(|_| next())));
         }
     }
 }

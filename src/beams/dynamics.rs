@@ -22,7 +22,8 @@ pub struct Collocation {
 /// What was met while forces were added up.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ForceSummary {
-    /// Largest difference between the strain of a section force and that of the configuration [-].
+    /// Largest difference between the strain of a section force and that of the configuration; of curvatures, times the length
+    /// they stand for [-].
     pub strain_mismatch: f64,
     /// Largest section force [force].
     pub force: f64,

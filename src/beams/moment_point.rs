@@ -1,8 +1,11 @@
-//! A quadrature point for the curvature `κ`.
+//! A quadrature point for the curvature `κ`, and the moment as an unknown of its own.
 //!
 //! ```text
 //! κ1 = κ0 + Δω'/q     1/q = dΔθ/dΔω     M = EI ((1-σ) κ0 + σ κ1)     S_a = w N_a' M/q
 //! ```
+//!
+//! The moment is linear in the curvature, so that Newton's method gains nothing by the unknown; but a moment computed from
+//! increments of a configuration rounds like `EI` times these, which in a stiff beam is more than what is to be balanced.
 
 use pulp::Simd;
 
@@ -16,19 +19,51 @@ pub(super) struct MomentPoint<const N: usize> {
     axis: AxisPoint<N>,
     /// `κ0`
     curvature: f64,
+    /// The moment `M` of the iterate.
+    moment: f64,
+    /// That of the last step, from which the next one starts.
+    last_moment: f64,
+    /// `m = κσ - M/EI`, where forces were taken last.
+    mismatch: f64,
+    linearised_at: Bend,
 }
 
-/// What increments lead to: `M/q` and its derivatives by `Δω'` and `Δω`.
-struct Response {
-    moment: f64,
-    by_slope: f64,
-    by_rotation: f64,
+/// What increments lead to.
+#[derive(Debug, Clone, Copy, Default)]
+struct Bend {
+    /// `κσ`
+    collocated_curvature: f64,
+    /// `σ`
+    stress: f64,
+    /// `Δω'`
+    slope: f64,
+    /// `1/q`, and its derivative by `Δω`.
+    inverse_q: f64,
+    inverse_q_slope: f64,
+}
+
+impl Bend {
+    /// `δκ1 = δω'/q + Δω' δ(1/q)`, by `δω'` and `δω`.
+    fn curvature_by(&self) -> (f64, f64) {
+        (self.inverse_q, self.slope * self.inverse_q_slope)
+    }
 }
 
 impl<const N: usize> MomentPoint<N> {
     /// A point of the undeformed axis.
     pub(super) fn new(axis: AxisPoint<N>) -> Self {
-        Self { axis, curvature: 0.0 }
+        Self {
+            axis,
+            curvature: 0.0,
+            moment: 0.0,
+            last_moment: 0.0,
+            mismatch: 0.0,
+            linearised_at: Bend::default(),
+        }
+    }
+
+    pub(super) fn begin_step(&mut self) {
+        self.moment = self.last_moment;
     }
 
     /// `(Δω', Δω)` of movements.
@@ -45,15 +80,15 @@ impl<const N: usize> MomentPoint<N> {
     }
 
     #[inline(always)]
-    fn response(&self, section: &Section, at: Collocation, moved: &[Movement; N]) -> Response {
+    fn bend(&self, at: Collocation, moved: &[Movement; N]) -> Bend {
         let (slope, rotation) = self.interpolate(moved);
         let turn = at.rotations.turn(rotation);
-        let moment = section.bending_stiffness * (self.curvature + at.stress * slope * turn.rate);
-        let stiffness = section.bending_stiffness * at.stress * turn.rate;
-        Response {
-            moment: moment * turn.rate,
-            by_slope: stiffness * turn.rate,
-            by_rotation: turn.rate_slope * (moment + stiffness * slope),
+        Bend {
+            collocated_curvature: self.curvature + at.stress * slope * turn.rate,
+            stress: at.stress,
+            slope,
+            inverse_q: turn.rate,
+            inverse_q_slope: turn.rate_slope,
         }
     }
 
@@ -66,7 +101,7 @@ impl<const N: usize> MomentPoint<N> {
 
     #[inline]
     pub(super) fn add_forces(
-        &self,
+        &mut self,
         section: &Section,
         at: Collocation,
         moved: &[Movement; N],
@@ -74,14 +109,22 @@ impl<const N: usize> MomentPoint<N> {
         forces: &mut [Movement; N],
         summary: &mut ForceSummary,
     ) {
-        let moment = self.response(section, at, moved).moment;
-        self.distribute(weight * self.axis.weight * moment, forces);
-        summary.join(&ForceSummary { moment: moment.abs(), ..ForceSummary::default() });
+        let now = self.bend(at, moved);
+        // Where the curvature of the start alone counts, the moment is known.
+        let known = section.bending_stiffness * self.curvature;
+        let moment = if at.stress == 0.0 { known } else { self.moment };
+        self.distribute(weight * self.axis.weight * moment * now.inverse_q, forces);
+        self.mismatch = now.collocated_curvature - moment / section.bending_stiffness;
+        summary.join(&ForceSummary {
+            strain_mismatch: self.axis.weight * self.mismatch.abs(),
+            moment: moment.abs(),
+            ..ForceSummary::default()
+        });
     }
 
     #[inline(always)]
     pub(super) fn add_linearised_forces<S: Simd>(
-        &self,
+        &mut self,
         section: &Section,
         at: Collocation,
         moved: &[Movement; N],
@@ -89,22 +132,53 @@ impl<const N: usize> MomentPoint<N> {
         forces: &mut [Movement; N],
         block: &mut Block<S, N>,
     ) {
-        let response = self.response(section, at, moved);
-        let w = weight * self.axis.weight;
-        self.distribute(w * response.moment, forces);
+        let now = self.bend(at, moved);
+        let (w, stiffness) = (weight * self.axis.weight, section.bending_stiffness);
+        self.distribute(w * stiffness * now.collocated_curvature * now.inverse_q, forces);
+
+        // δ(M/q) with the moment of the iterate in the geometric term.
+        let (curvature_by_slope, curvature_by_rotation) = now.curvature_by();
+        let resistance = stiffness * now.stress * now.inverse_q;
+        let moment_by_slope = resistance * curvature_by_slope;
+        let moment_by_rotation =
+            resistance * curvature_by_rotation + self.moment * now.inverse_q_slope;
         for (slope_a, [_, _, row_omega]) in self.axis.slope.iter().zip(&mut block.rows) {
             let (by_slope, by_rotation) =
-                (w * slope_a * response.by_slope, w * slope_a * response.by_rotation);
+                (w * slope_a * moment_by_slope, w * slope_a * moment_by_rotation);
             for ((entry, slope_b), shape_b) in
                 row_omega.iter_mut().zip(&self.axis.slope).zip(&self.axis.shape)
             {
                 entry[2] += by_slope * slope_b + by_rotation * shape_b;
             }
         }
+        self.mismatch = now.collocated_curvature - self.moment / stiffness;
+        self.linearised_at = now;
+    }
+
+    /// The moments `EI m` of the mismatch `m`, in the directions of the last linearisation.
+    #[inline]
+    pub(super) fn add_mismatch_forces(
+        &self,
+        section: &Section,
+        weight: f64,
+        forces: &mut [Movement; N],
+    ) {
+        let moment = section.bending_stiffness * self.mismatch * self.linearised_at.inverse_q;
+        self.distribute(weight * self.axis.weight * moment, forces);
+    }
+
+    /// `M ← M + EI (m + σ δκ1)`
+    #[inline]
+    pub(super) fn correct_moment(&mut self, section: &Section, correction: &[Movement; N]) {
+        let (slope, rotation) = self.interpolate(correction);
+        let (by_slope, by_rotation) = self.linearised_at.curvature_by();
+        let change = self.linearised_at.stress * (by_slope * slope + by_rotation * rotation);
+        self.moment += section.bending_stiffness * (self.mismatch + change);
     }
 
     pub(super) fn advance(&mut self, moved: &[Movement; N], rotations: RotationIncrement) {
         let (slope, rotation) = self.interpolate(moved);
+        self.last_moment = self.moment;
         self.curvature += slope * rotations.turn(rotation).rate;
     }
 
@@ -112,11 +186,11 @@ impl<const N: usize> MomentPoint<N> {
         0.5 * self.axis.weight * section.bending_stiffness * self.curvature * self.curvature
     }
 
-    pub(super) fn curvature(&self) -> f64 {
-        self.curvature
+    pub(super) fn save(&self, state: &mut Vec<f64>) {
+        state.extend([self.curvature, self.last_moment]);
     }
 
-    pub(super) fn set_curvature(&mut self, curvature: f64) {
-        self.curvature = curvature;
+    pub(super) fn restore(&mut self, [curvature, moment]: [f64; 2]) {
+        (self.curvature, self.last_moment) = (curvature, moment);
     }
 }

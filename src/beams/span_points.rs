@@ -51,7 +51,7 @@ impl<const N: usize> SpanPoints<N> {
         for point in &mut self.force_points {
             point.add_forces(section, at, moved, weight, forces, summary);
         }
-        for point in &self.moment_points {
+        for point in &mut self.moment_points {
             point.add_forces(section, at, moved, weight, forces, summary);
         }
     }
@@ -71,7 +71,7 @@ impl<const N: usize> SpanPoints<N> {
         for point in &mut self.force_points {
             point.add_linearised_forces(section, at, moved, weight, forces, block);
         }
-        for point in &self.moment_points {
+        for point in &mut self.moment_points {
             point.add_linearised_forces(section, at, moved, weight, forces, block);
         }
     }
@@ -87,6 +87,9 @@ impl<const N: usize> SpanPoints<N> {
         self.force_points
             .iter()
             .for_each(|point| point.add_mismatch_forces(section, weight, forces));
+        self.moment_points
+            .iter()
+            .for_each(|point| point.add_mismatch_forces(section, weight, forces));
     }
 
     /// Updates its section forces for a correction of the movements of all control points.
@@ -96,6 +99,7 @@ impl<const N: usize> SpanPoints<N> {
         self.force_points
             .iter_mut()
             .for_each(|point| point.correct_section_force(section, correction));
+        self.moment_points.iter_mut().for_each(|point| point.correct_moment(section, correction));
     }
 
     /// Accepts the movements of all control points.

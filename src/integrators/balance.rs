@@ -7,6 +7,10 @@ use crate::newton::{Equations, Imbalance, Newton, NewtonReport, Tolerance};
 /// The largest increment `Δω`, mean rate times step: beyond it a turn cannot be told from one the other way round.
 const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
 
+/// The shortest chord: where the mean configuration folds the way of a slider up, by a turn of about π, the equations of its contact have
+/// no direction, and are solved by what is no solution.
+const SHORTEST_CHORD: f64 = 1e-3;
+
 /// What a method puts into the balance of a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rule {
@@ -178,6 +182,10 @@ impl StepSolver {
         let is_resolved = rotation < LARGEST_INCREMENT;
         if !is_resolved {
             return Err(StepError::Rotation { interval, rotation, iterations: report.iterations });
+        }
+        let chord = balance.mechanism.shortest_chord();
+        if chord < SHORTEST_CHORD {
+            return Err(StepError::Chord { interval, chord, iterations: report.iterations });
         }
         let (_, constraints) = self.unknowns.split_at(self.coasting.len());
         match mechanism.check_constraints(constraints) {

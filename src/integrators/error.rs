@@ -29,6 +29,20 @@ pub enum StepError {
         /// Newton iterations that the refused step took.
         iterations: usize,
     },
+    /// The mean configuration of the step folds up the way of a slider: the beam under it turns by about π.
+    #[error(
+        "in the step of {:.3e} from t = {} the beam under a slider turns so far that its mean has no direction (chord {chord:.1e} of the \
+         way); steps must be smaller",
+        interval.duration(), interval.start
+    )]
+    Chord {
+        /// The step.
+        interval: Interval,
+        /// The chord in the mean configuration, relative to the way [-].
+        chord: f64,
+        /// Newton iterations that the refused step took.
+        iterations: usize,
+    },
     /// A constraint ends within the step, which has to be cut there.
     #[error(
         "limit {} of a constraint is passed within the step of {:.3e} from t = {}",
@@ -59,7 +73,9 @@ impl StepError {
     pub fn factorisations(&self) -> usize {
         match self {
             Self::Newton { source, before, .. } => source.factorisations() + before,
-            Self::Rotation { iterations, .. } | Self::Overshoot { iterations, .. } => *iterations,
+            Self::Rotation { iterations, .. }
+            | Self::Chord { iterations, .. }
+            | Self::Overshoot { iterations, .. } => *iterations,
             Self::Load { .. } => 0,
         }
     }
@@ -70,6 +86,9 @@ impl StepError {
             Self::Newton { source, .. } => Self::Newton { interval, source, before },
             Self::Rotation { rotation, iterations, .. } => {
                 Self::Rotation { interval, rotation, iterations: iterations + before }
+            }
+            Self::Chord { chord, iterations, .. } => {
+                Self::Chord { interval, chord, iterations: iterations + before }
             }
             Self::Overshoot { overshoot, iterations, .. } => {
                 Self::Overshoot { interval, overshoot, iterations: iterations + before }

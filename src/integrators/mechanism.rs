@@ -117,6 +117,10 @@ pub trait Mechanism {
     /// The largest rotation increment `Δω` that the last forces met at any section [rad].
     fn largest_rotation(&self) -> f64;
 
+    /// The shortest chord of a way along a constraint in the mean configuration that the last forces met, relative to the length
+    /// of that way as it is built [-].
+    fn shortest_chord(&self) -> f64;
+
     /// Accepts a step: new configuration and rates, work and impulse of loads and supports.
     fn advance(&mut self, solution: &Solution<'_>);
 

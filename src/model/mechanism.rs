@@ -315,6 +315,10 @@ impl Mechanism for Model {
         self.step.summary.rotation
     }
 
+    fn shortest_chord(&self) -> f64 {
+        self.sliders.iter().map(Sliding::chord).fold(f64::INFINITY, f64::min)
+    }
+
     fn advance(&mut self, solution: &Solution<'_>) {
         let Solution { increments, constraints, rates, residual } = *solution;
         for body in &mut self.bodies {

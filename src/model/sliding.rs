@@ -89,6 +89,8 @@ pub(super) struct Sliding {
     units: [Unit; CONTACT_UNKNOWNS],
     /// The length of the master and the way of the slave in the iterate: what rounding of places is relative to [length].
     size: f64,
+    /// How long the chord of the way is in the mean configuration of the iterate, relative to the master for that way.
+    chord: f64,
 }
 
 impl Sliding {
@@ -117,6 +119,7 @@ impl Sliding {
             moved: Vec::with_capacity(functions),
             units: [Unit::Force; CONTACT_UNKNOWNS],
             size: length,
+            chord: 1.0,
         };
         new.here.go(parameter, parameter);
         new
@@ -290,7 +293,8 @@ impl Sliding {
         let equations = law.equations(&contact);
         connection.add_values(bodies, &contact, &equations, increments.len(), out);
         let force = contact.unknowns.force.norm();
-        self.size = contact.length + contact.slave_moved.norm();
+        let chord = contact.tangent().value.norm() / contact.length;
+        (self.size, self.chord) = (contact.length + contact.slave_moved.norm(), chord);
         self.units = equations.map(|equation| equation.unit);
         force
     }
@@ -318,6 +322,11 @@ impl Sliding {
             Unit::Length => (larger(length, value.abs() / self.size), force),
             Unit::Force => (length, larger(force, value.abs())),
         })
+    }
+
+    /// How long the chord of its way is in the mean configuration, relative to the length of the master for that way.
+    pub(super) fn chord(&self) -> f64 {
+        if self.is_sliding() { self.chord } else { 1.0 }
     }
 
     /// How far beyond an end of the master the unknowns lead, relative to its parameters.

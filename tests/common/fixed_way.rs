@@ -175,6 +175,10 @@ impl Mechanism for FixedWay<'_> {
         self.model.largest_rotation()
     }
 
+    fn shortest_chord(&self) -> f64 {
+        self.model.shortest_chord()
+    }
+
     fn advance(&mut self, solution: &Solution<'_>) {
         let inverse = 0.5;
         let ends = solution.rates.iter().zip(self.model.rates());
