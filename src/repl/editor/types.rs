@@ -177,6 +177,8 @@ fn returned(row: &Row) -> Option<String> {
     let of = match of {
         _ if row.returns.starts_with("an array [") => "array",
         "true or false" => "truth value",
+        // Of whatever type.
+        "value" => return None,
         _ if of.starts_with("map ") => "map",
         _ if of.starts_with("angle ") => "number",
         of => of,

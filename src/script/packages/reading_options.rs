@@ -49,8 +49,8 @@ pub const TABLE: Table = Table {
             ],
             read_argument,
         )
-        .returns("the value, a point as a vector")
-        .summary("An argument of a function, refused when it is of the wrong kind.")
+        .returns("a value")
+        .summary("An argument of a function, a point as a vector, refused when it is of the wrong kind.")
         .doc(
             "Kinds are told in words: \"a number\", \"a positive number\", \"a number of zero or more\", \"any number\" (infinite ones \
              and nan too), \"a whole number\", \"a positive whole number\", \"a whole number of zero or more\", \"a text\", \"true or \
