@@ -6,7 +6,7 @@ use super::rivals::Rival;
 use super::timing::Timing;
 use super::trial::Trial;
 use super::truth::{Deviation, Truth};
-use crate::simulation::Settings;
+use crate::simulation::{Settings, StepSize};
 
 /// A combination, run and timed.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,6 +49,15 @@ impl PrecisionRow {
         let price = self.timing.map_or(f64::INFINITY, |timing| timing.price());
         (price, self.error.map_or(f64::INFINITY, |error| error.error()))
     }
+
+    /// Whether it is the same as another one but for its step size.
+    fn is_with_a_smaller_step_than(&self, other: &Self) -> bool {
+        let (StepSize::Fixed(own), StepSize::Fixed(others)) = (self.settings.dt, other.settings.dt)
+        else {
+            return false;
+        };
+        self.mesh == other.mesh && self.settings.method == other.settings.method && own < others
+    }
 }
 
 /// A study of error against run time.
@@ -89,6 +98,19 @@ impl Precision {
     /// The fastest combination whose error is at most `error`.
     pub fn cheapest(&self, error: f64) -> Option<&PrecisionRow> {
         self.front().into_iter().find(|row| row.price_and_error().1 <= error)
+    }
+
+    /// The fastest combination whose error is at most `error` and of which all smaller steps on its mesh err no more, at least one: where
+    /// errors of mesh and step cancel, they do so by luck.
+    pub fn cheapest_confirmed(&self, error: f64) -> Option<&PrecisionRow> {
+        let is_right = |row: &&PrecisionRow| row.price_and_error().1 <= error;
+        let is_confirmed = |row: &&PrecisionRow| {
+            let mut smaller =
+                self.rows.iter().filter(|other| other.is_with_a_smaller_step_than(row)).peekable();
+            smaller.peek().is_some() && smaller.all(|other| is_right(&other))
+        };
+        let confirmed = self.rows.iter().filter(is_right).filter(is_confirmed);
+        confirmed.min_by(|a, b| a.price_and_error().0.total_cmp(&b.price_and_error().0))
     }
 
     /// The programs of the rivals, each once.
@@ -164,6 +186,18 @@ mod tests {
         assert_eq!(study.cheapest(errors[1]).unwrap(), &study.rows[1]);
         assert_eq!(study.cheapest(0.5 * errors[1]).unwrap(), &study.rows[2]);
         assert!(study.cheapest(0.0).is_none());
+    }
+
+    #[test]
+    fn what_smaller_steps_contradict_is_not_confirmed() {
+        let mut study = study();
+        let error = study.rows[1].price_and_error().1;
+        assert_eq!(study.cheapest_confirmed(error).unwrap(), &study.rows[1]);
+        // Of the smallest step nobody knows whether it is right by luck.
+        assert!(study.cheapest_confirmed(0.5 * error).is_none());
+        study.rows[2].error = study.rows[1].error.map(|error| error.divided_by(0.5));
+        assert!(study.cheapest_confirmed(error).is_none());
+        assert_eq!(study.cheapest(error).unwrap(), &study.rows[1]);
     }
 
     #[test]

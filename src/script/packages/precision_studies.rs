@@ -93,7 +93,17 @@ pub const TABLE: Table = Table {
             .summary("The fastest combination with at most this error; of several errors a table, with rivals beside.")
             .doc("For one error it is a map such as those of rows, or () when no combination is so good.")
             .example("let best = study.cheapest(0.5);\nprint(best.run_time);\nprint(study.cheapest([0.5, 0.01]));")
-            .see(&["front"]),
+            .see(&["front", "cheapest_confirmed"]),
+        method(PRECISION, "cheapest_confirmed", &[ERROR], |call| {
+            let PrecisionStudy(study) = call.receiver()?;
+            let found = study.cheapest_confirmed(call.number("error")?);
+            Ok(found.map_or(Dynamic::UNIT, |row| map_of(&study, row).into()))
+        })
+        .returns("a map or ()")
+        .summary("The fastest combination with at most this error of which all smaller steps on its mesh err no more.")
+        .doc("Errors of mesh and step may cancel; what smaller steps contradict is right by luck. () where there is none.")
+        .example("print(study.cheapest_confirmed(0.5));")
+        .see(&["cheapest"]),
     ],
 };
 
@@ -110,6 +120,8 @@ const SETUP: &str = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho
 
 const ERRORS: Parameter =
     either("error", &[Kind::Number(Range::Positive), Kind::Numbers]).doc("an error, or several");
+
+const ERROR: Parameter = number("error").positive().doc("an error");
 
 /// Of all studies of errors.
 pub(super) const NAME: Parameter = text("name").doc("of the study and of its files");

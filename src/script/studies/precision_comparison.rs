@@ -61,7 +61,20 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
         [] => String::new(),
         machines => format!("\nrivals measured on {}", machines.join("; ")),
     };
-    format!("{}{measured}", table.to_string().trim_end())
+    let confirmed: String = errors.iter().filter_map(|error| confirmation(study, *error)).collect();
+    format!("{}{measured}{confirmed}", table.to_string().trim_end())
+}
+
+/// A line on the fastest combination that smaller steps confirm, where the fastest of all is right by luck.
+fn confirmation(study: &Precision, error: f64) -> Option<String> {
+    let fastest = study.cheapest(error)?;
+    let told = match study.cheapest_confirmed(error) {
+        Some(row) if row == fastest => return None,
+        Some(row) => format!("{} ms, {}", labels::milliseconds(row.price_and_error().0), with(row)),
+        None => "none".to_owned(),
+    };
+    let error = format_number(error);
+    Some(format!("\n{error} at all smaller steps of the mesh, too, and not by luck: {told}"))
 }
 
 /// The programs of rivals that have a run with at most this error, the first of all when none has; nobody without rivals.
