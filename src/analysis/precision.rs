@@ -105,8 +105,9 @@ impl Precision {
     pub fn cheapest_confirmed(&self, error: f64) -> Option<&PrecisionRow> {
         let is_right = |row: &&PrecisionRow| row.price_and_error().1 <= error;
         let is_confirmed = |row: &&PrecisionRow| {
-            let mut smaller =
-                self.rows.iter().filter(|other| other.is_with_a_smaller_step_than(row)).peekable();
+            let smaller = |other: &&PrecisionRow| other.is_with_a_smaller_step_than(row);
+            let finished = self.rows.iter().filter(|other| other.error.is_some());
+            let mut smaller = finished.filter(smaller).peekable();
             smaller.peek().is_some() && smaller.all(|other| is_right(&other))
         };
         let confirmed = self.rows.iter().filter(is_right).filter(is_confirmed);
