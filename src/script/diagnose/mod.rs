@@ -11,8 +11,9 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::program::Program;
+pub use outline::Outline;
 pub use render::Colours;
-pub use translate::{Explainer, is_interrupt};
+pub use translate::{Explainer, is_interrupt, is_waiting};
 
 /// An error as it is shown to people.
 #[derive(Clone, Debug)]
@@ -101,6 +102,13 @@ impl Diagnostic {
     #[must_use]
     pub fn with_hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());
+        self
+    }
+
+    /// Adds something else to do, on a line of its own.
+    #[must_use]
+    pub fn with_another_hint(mut self, hint: &str) -> Self {
+        self.hint = Some(self.hint.map_or_else(|| hint.into(), |first| format!("{first}\n{hint}")));
         self
     }
 
