@@ -10,6 +10,9 @@ use super::error::ScriptError;
 use super::numbers::{as_number, describe};
 use super::register::EngineResult;
 
+/// What makes of an order the one that is sorted by.
+type Turn = fn(Ordering) -> Ordering;
+
 /// Registers `sort` and `order`, with and without a function that compares.
 pub fn install(engine: &mut Engine) {
     let types = [TypeId::of::<Array>(), TypeId::of::<FnPtr>()];
@@ -27,9 +30,10 @@ pub fn install(engine: &mut Engine) {
             sorted(&native, values)
         });
     }
-    let turns: [(_, _, fn(Ordering) -> Ordering); 2] =
-        [("sort", "order", |order| order), ("sort_desc", "order_desc", Ordering::reverse)];
-    for (sort, order, turned) in turns {
+    for (sort, order, turned) in [
+        ("sort", "order", (|order| order) as Turn),
+        ("sort_desc", "order_desc", Ordering::reverse as Turn),
+    ] {
         let types = [TypeId::of::<Array>()];
         engine.register_raw_fn(sort, types, move |native, values| -> EngineResult<()> {
             let sorted = sorted_naturally(&native, values, turned)?;
@@ -47,7 +51,7 @@ pub fn install(engine: &mut Engine) {
 fn sorted_naturally(
     native: &NativeCallContext,
     values: &[&mut Dynamic],
-    turned: fn(Ordering) -> Ordering,
+    turned: Turn,
 ) -> EngineResult<Array> {
     let array = values.first().and_then(|array| array.read_lock::<Array>());
     let array = array.map(|array| array.clone()).unwrap_or_default();
