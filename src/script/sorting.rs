@@ -54,24 +54,26 @@ fn sorted_naturally(
     turned: Turn,
 ) -> EngineResult<Array> {
     let array = values.first().and_then(|array| array.read_lock::<Array>());
-    let array = array.map(|array| array.clone()).unwrap_or_default();
-    merged(array, &mut |x, y| {
-        let order = natural_order(x, y).ok_or_else(|| {
-            let engine = native.engine();
-            let (x, y) = (describe(engine, x), describe(engine, y));
-            let refusal = ScriptError::new(format!("{x} and {y} have no order to be sorted by"));
-            let hint = "say which comes first: sort(|a, b| a.x - b.x)";
-            refusal.hint(hint).into_engine(native.call_position())
-        })?;
-        Ok(turned(order) == Ordering::Greater)
-    })
+    let mut array = array.map(|array| array.clone()).unwrap_or_default();
+    let [first, others @ ..] = array.as_slice() else { return Ok(array) };
+    if let Some(stranger) = others.iter().find(|other| natural_order(first, other).is_none()) {
+        let engine = native.engine();
+        let (first, stranger) = (describe(engine, first), describe(engine, stranger));
+        let told = format!("{first} and {stranger} have no order to be sorted by");
+        let hint = "say which comes first: sort(|a, b| a.x - b.x)";
+        return Err(ScriptError::new(told).hint(hint).into_engine(native.call_position()));
+    }
+    // Beyond 2^53 whole numbers are more exact than others: the two ways to compare must not be mixed.
+    if array.iter().all(Dynamic::is_int) {
+        array.sort_by(|x, y| turned(x.as_int().ok().cmp(&y.as_int().ok())));
+    } else {
+        array.sort_by(|x, y| turned(natural_order(x, y).unwrap_or(Ordering::Equal)));
+    }
+    Ok(array)
 }
 
 /// The order of two numbers, texts, characters or truth values; what is not a number comes behind the numbers.
 fn natural_order(x: &Dynamic, y: &Dynamic) -> Option<Ordering> {
-    if let (Ok(m), Ok(n)) = (x.as_int(), y.as_int()) {
-        return Some(m.cmp(&n));
-    }
     if let (Some(x), Some(y)) = (as_number(x), as_number(y)) {
         return Some(x.partial_cmp(&y).unwrap_or_else(|| x.is_nan().cmp(&y.is_nan())));
     }
