@@ -176,6 +176,30 @@ fn a_script_that_waits_for_an_end_can_be_checked() {
     assert_eq!(code(&output), 0, "{}", said(&output));
 }
 
+/// A simulation that a dry build can pretend to run.
+const FALL: &str = r#"let scene = new_scene("fall"); let p = scene.particle([0, 10], 1); scene.gravity([0, -9.81]);
+let sim = scene.start(#{ dt: 0.01 });
+"#;
+
+#[test]
+fn a_check_ends_where_the_script_waits_for_what_a_simulation_finds() {
+    let (_folder, file) = script(&format!("{FALL}while sim.position(p).y > 5 {{ sim.step(); }}"));
+    let output = withy().arg("check").arg(&file).output().expect("withy starts");
+    assert_eq!(code(&output), 0, "{}", said(&output));
+    assert!(said(&output).contains("it cannot be checked further"), "{}", said(&output));
+}
+
+#[test]
+fn a_check_says_what_it_cannot_see() {
+    let late = script(&format!("{FALL}sim.run_to(2); print([sim.t].filter(|t| t > 9)[0]);"));
+    let output = withy().arg("check").arg(&late.1).output().expect("withy starts");
+    assert_eq!(code(&output), 2, "{}", said(&output));
+    assert!(said(&output).contains("withy check runs no simulation"), "{}", said(&output));
+    let early = script(&format!("{FALL}print([][0]);"));
+    let output = withy().arg("check").arg(&early.1).output().expect("withy starts");
+    assert!(!said(&output).contains("withy check runs no simulation"), "{}", said(&output));
+}
+
 #[test]
 fn a_report_that_cannot_be_written_is_an_error() {
     let (_folder, file) = script("");

@@ -146,16 +146,19 @@ fn every_exercise_has_a_title_hints_and_something_to_look_at() {
 fn tricks_do_not_pass() {
     let exercise = find("keep_the_energy").unwrap();
     let tricks = [
-        "fn check(holds, message) { } fn check(holds) { }",
         "print(\"passed: integrators/keep_the_energy\"); check(true);",
         "let PI = 3; let check = |a, b| true; let flight = 1; let wander = 0; let damped = false;",
-        "fn drift(history, what) { 0 } fn abs(x) { 0 }",
+        "fn drift(history, what) { 0 }",
         "return;",
         "return true;",
     ];
     for trick in tricks {
         let said = told(exercise, &format!("{}\n{trick}\n", exercise.start));
         assert!(said.contains("the energy wanders by"), "{trick}: {said}");
+    }
+    for taken in ["fn check(holds, message) { } fn check(holds) { }", "fn abs(x) { 0 }"] {
+        let said = told(exercise, &format!("{}\n{taken}\n", exercise.solution));
+        assert!(said.contains("the language has a function"), "{taken}: {said}");
     }
     let earlier = |trick: &str| told(exercise, &format!("{trick}\n{}", exercise.start));
     assert!(earlier("return;").contains("no variable 'sim'"));

@@ -80,8 +80,14 @@ pub fn check(options: &CheckOptions) -> Exit {
     };
     match start(&options.file, settings) {
         Ok(outcome) => {
-            if let Ending::Finished = outcome.ending {
-                eprintln!("{}: no errors found", options.file.display());
+            let file = options.file.display();
+            match outcome.ending {
+                Ending::Finished => eprintln!("{file}: no errors found"),
+                Ending::Undecided => eprintln!(
+                    "{file}: no errors found so far\nnote: the script waits for what a simulation finds: it cannot be checked \
+                     further"
+                ),
+                _ => (),
             }
             exit_for(&outcome)
         }
@@ -102,7 +108,7 @@ fn exit_for(outcome: &Outcome) -> Exit {
             tell("interrupted: what ran until here is kept\n");
             Exit::Interrupted
         }
-        Ending::PipeClosed => Exit::Good,
+        Ending::PipeClosed | Ending::Undecided => Exit::Good,
         Ending::Finished if !outcome.checks.failed().is_empty() => Exit::CheckFailed,
         Ending::Finished => Exit::Good,
     }
@@ -131,7 +137,7 @@ fn exit_for_study(outcome: &Outcome, out: &Path) -> Exit {
             tell(&format!("{kept}\n"));
             exit
         }
-        Ending::Finished | Ending::PipeClosed => exit_for(outcome),
+        Ending::Finished | Ending::Undecided | Ending::PipeClosed => exit_for(outcome),
     }
 }
 

@@ -20,10 +20,11 @@ use crate::script::engine;
 use crate::script::error::ScriptError;
 use crate::script::lexing::{open_comment, tokens};
 use crate::script::limits::Watchdog;
+use crate::script::naming;
 use crate::script::panics;
 use crate::script::program::Program;
 use crate::script::sources::Sources;
-use crate::script::syntax::mark_assignments;
+use crate::script::syntax::mark;
 
 /// The name of the value of the last expression.
 pub const ANSWER: &str = "ans";
@@ -263,9 +264,11 @@ impl Session {
 
     /// Parses an input at its lines of the session.
     fn compile(&self, text: &str, before: usize) -> Result<AST, Box<EvalAltResult>> {
-        let padded = format!("{}{}", "\n".repeat(before), mark_assignments(text));
+        let padded = format!("{}{}", "\n".repeat(before), mark(text));
         let ast = self.engine.compile_with_scope(&self.scope, padded)?;
         Sources::of(&self.engine).note(&ast, PROMPT);
+        let placed = format!("{}{text}", "\n".repeat(before));
+        naming::judge(&self.engine, &placed, &self.transcript.whole().text)?;
         match open_comment(text) {
             Some(at) => {
                 let line = (at.line().unwrap_or(1) + before).try_into().unwrap_or(u16::MAX);
@@ -363,7 +366,7 @@ impl Session {
     pub fn script(&self) -> Result<String, Diagnostic> {
         let script = self.record.script(&self.engine);
         let program = Program::named("the saved session", &script);
-        match self.engine.compile(mark_assignments(&script)) {
+        match self.engine.compile(mark(&script)) {
             Ok(_) => Ok(script),
             Err(error) => {
                 let (catalog, engine) = (&self.catalog, &*self.engine);

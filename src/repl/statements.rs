@@ -4,11 +4,11 @@ use rhai::{AST, ASTFlags, ASTNode, Engine, Stmt, Token};
 
 use crate::script::lexing::tokens;
 use crate::script::program::Program;
-use crate::script::syntax::mark_assignments;
+use crate::script::syntax::mark;
 
 /// How many statements a text has, functions apart; none if it is not correct.
 pub fn count(engine: &Engine, text: &str) -> Option<usize> {
-    engine.compile(mark_assignments(text)).ok().map(|ast| ast.statements().len())
+    engine.compile(mark(text)).ok().map(|ast| ast.statements().len())
 }
 
 /// The last place where a text can be cut so that `first` of its statements stand before the cut and the others after it.

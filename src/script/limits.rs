@@ -60,6 +60,9 @@ pub enum Stop {
     Steps(u64),
     /// The process occupied more memory than this [bytes].
     Memory(u64),
+    /// A dry build pretended to go on with simulations so often that the script must wait for something which only a real one
+    /// finds.
+    Waiting,
 }
 
 impl Stop {
@@ -75,6 +78,10 @@ impl Stop {
             Self::Steps(limit) => (
                 format!("the simulations of this run need more than {limit} steps"),
                 Some("--max-steps N allows more".into()),
+            ),
+            Self::Waiting => (
+                "the script waits for what a simulation finds: it cannot be checked further".into(),
+                None,
             ),
             Self::Memory(limit) => (
                 format!("the run needs more than {} MB of memory", limit / MEGABYTE),

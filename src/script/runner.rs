@@ -11,16 +11,17 @@ use rhai::{AST, Engine, EvalAltResult, Token};
 use super::catalog::Catalog;
 use super::checks::Checks;
 use super::context::{Context, Settings};
-use super::diagnose::{Diagnostic, Explainer, is_interrupt};
+use super::diagnose::{Diagnostic, Explainer, is_interrupt, is_waiting};
 use super::engine;
 use super::error::ScriptError;
 use super::lexing::{open_comment, tokens};
 use super::library::FOLDER;
 use super::limits::{DEFAULT_MEGABYTES, Limits, MEGABYTE, Stop};
+use super::naming;
 use super::panics;
 use super::program::Program;
 use super::sources::Sources;
-use super::syntax::mark_assignments;
+use super::syntax::mark;
 
 /// Address space for the stack of a script; memory is used only as deep as the script really goes.
 pub const STACK_BYTES: usize = 256 << 20;
@@ -43,6 +44,8 @@ pub enum Ending {
     Finished,
     /// It is wrong.
     Failed(Diagnostic),
+    /// A dry build came to a loop that waits for what a simulation finds; nothing before it is wrong.
+    Undecided,
     /// It was stopped from outside.
     Interrupted,
     /// The reader of its output went away.
@@ -117,9 +120,10 @@ pub fn compile(engine: &mut Engine, program: &Program) -> Result<AST, Box<EvalAl
 
 /// Parses `program` with an engine that knows where imports are.
 pub fn parse(engine: &Engine, program: &Program) -> Result<AST, Box<EvalAltResult>> {
-    let mut ast = engine.compile(mark_assignments(&program.text))?;
+    let mut ast = engine.compile(mark(&program.text))?;
     ast.set_source(program.name.as_str());
     Sources::of(engine).note(&ast, &program.name);
+    naming::judge(engine, &program.text, &program.text)?;
     match open_comment(&program.text) {
         Some(position) => Err(ScriptError::new("a comment that begins with /* is never closed")
             .hint("write */ where it ends")
@@ -127,6 +131,10 @@ pub fn parse(engine: &Engine, program: &Program) -> Result<AST, Box<EvalAltResul
         None => Ok(ast),
     }
 }
+
+/// What to bear in mind about an error that a dry build meets after it has pretended to run a simulation.
+const ONLY_DRY: &str =
+    "withy check runs no simulation: what depends on results can only be seen by withy run";
 
 /// What a simulation may keep to go back to, in a script that goes back [bytes].
 pub const SNAPSHOTS: usize = 256_000_000;
@@ -196,8 +204,13 @@ fn evaluate(program: &Program, catalog: &Catalog, context: &Context) -> Ending {
     match outcome {
         Ok(()) => Ending::Finished,
         Err(error) if is_interrupt(&error) => Ending::Interrupted,
+        Err(error) if is_waiting(&error) => Ending::Undecided,
         Err(error) => {
-            Ending::Failed(Explainer { program, catalog, engine: &engine }.explain(&error))
+            let diagnostic = Explainer { program, catalog, engine: &engine }.explain(&error);
+            Ending::Failed(match context.has_pretended() {
+                true => diagnostic.with_another_hint(ONLY_DRY),
+                false => diagnostic,
+            })
         }
     }
 }

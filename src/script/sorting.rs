@@ -1,6 +1,8 @@
-//! Sorting by a script function. Rhai's own ignores errors of the function and differences that are not whole.
+//! Sorting, by a script function or as numbers and texts are. Rhai's own ignores errors of the function and differences that
+//! are not whole, and refuses arrays with whole and other numbers in them.
 
 use std::any::TypeId;
+use std::cmp::Ordering;
 
 use rhai::{Array, Dynamic, Engine, EvalAltResult, FnPtr, NativeCallContext};
 
@@ -8,7 +10,10 @@ use super::error::ScriptError;
 use super::numbers::{as_number, describe};
 use super::register::EngineResult;
 
-/// Registers `sort` and `order` with a function that compares.
+/// What makes of an order the one that is sorted by.
+type Turn = fn(Ordering) -> Ordering;
+
+/// Registers `sort` and `order`, with and without a function that compares.
 pub fn install(engine: &mut Engine) {
     let types = [TypeId::of::<Array>(), TypeId::of::<FnPtr>()];
     for name in ["sort", "sort_by"] {
@@ -25,6 +30,58 @@ pub fn install(engine: &mut Engine) {
             sorted(&native, values)
         });
     }
+    for (sort, order, turned) in [
+        ("sort", "order", (|order| order) as Turn),
+        ("sort_desc", "order_desc", Ordering::reverse as Turn),
+    ] {
+        let types = [TypeId::of::<Array>()];
+        engine.register_raw_fn(sort, types, move |native, values| -> EngineResult<()> {
+            let sorted = sorted_naturally(&native, values, turned)?;
+            if let [array] = values {
+                **array = sorted.into();
+            }
+            Ok(())
+        });
+        engine.register_raw_fn(order, types, move |native, values| -> EngineResult<Array> {
+            sorted_naturally(&native, values, turned)
+        });
+    }
+}
+
+fn sorted_naturally(
+    native: &NativeCallContext,
+    values: &[&mut Dynamic],
+    turned: Turn,
+) -> EngineResult<Array> {
+    let array = values.first().and_then(|array| array.read_lock::<Array>());
+    let mut array = array.map(|array| array.clone()).unwrap_or_default();
+    let [first, others @ ..] = array.as_slice() else { return Ok(array) };
+    if let Some(stranger) = others.iter().find(|other| natural_order(first, other).is_none()) {
+        let engine = native.engine();
+        let (first, stranger) = (describe(engine, first), describe(engine, stranger));
+        let told = format!("{first} and {stranger} have no order to be sorted by");
+        let hint = "say which comes first: sort(|a, b| a.x - b.x)";
+        return Err(ScriptError::new(told).hint(hint).into_engine(native.call_position()));
+    }
+    // Beyond 2^53 whole numbers are more exact than others: the two ways to compare must not be mixed.
+    if array.iter().all(Dynamic::is_int) {
+        array.sort_by(|x, y| turned(x.as_int().ok().cmp(&y.as_int().ok())));
+    } else {
+        array.sort_by(|x, y| turned(natural_order(x, y).unwrap_or(Ordering::Equal)));
+    }
+    Ok(array)
+}
+
+/// The order of two numbers, texts, characters or truth values; what is not a number comes behind the numbers.
+fn natural_order(x: &Dynamic, y: &Dynamic) -> Option<Ordering> {
+    if let (Some(x), Some(y)) = (as_number(x), as_number(y)) {
+        return Some(x.partial_cmp(&y).unwrap_or_else(|| x.is_nan().cmp(&y.is_nan())));
+    }
+    if let (Ok(x), Ok(y)) = (x.as_immutable_string_ref(), y.as_immutable_string_ref()) {
+        return Some(x.as_str().cmp(y.as_str()));
+    }
+    let characters = x.as_char().ok().zip(y.as_char().ok()).map(|(x, y)| x.cmp(&y));
+    characters.or_else(|| x.as_bool().ok().zip(y.as_bool().ok()).map(|(x, y)| x.cmp(&y)))
 }
 
 fn sorted(native: &NativeCallContext, values: &[&mut Dynamic]) -> EngineResult<Array> {

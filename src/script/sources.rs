@@ -7,16 +7,18 @@ use std::rc::Rc;
 
 use rhai::{AST, Engine};
 
+use super::catalog::Catalog;
 use super::library::FOLDER;
 
 /// The names of all script functions and closures that an engine has read, with their files, and the line that the standard
 /// library was entered from.
 ///
 /// It travels as the default tag of the engine.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Default)]
 pub struct Sources {
     functions: Rc<RefCell<HashMap<String, HashSet<String>>>>,
     entered_at: Rc<Cell<Option<usize>>>,
+    catalog: Option<Rc<Catalog>>,
 }
 
 /// Lasts as long as a call into the library.
@@ -38,8 +40,14 @@ fn is_library(source: Option<&str>) -> bool {
 
 impl Sources {
     /// Gives an engine a register of its own.
-    pub fn install(engine: &mut Engine) {
-        engine.set_default_tag(rhai::Dynamic::from(Self::default()));
+    pub fn install(engine: &mut Engine, catalog: &Catalog) {
+        let catalog = Some(Rc::new(catalog.clone()));
+        engine.set_default_tag(rhai::Dynamic::from(Self { catalog, ..Self::default() }));
+    }
+
+    /// The names that the language has; none for an engine that does not speak it.
+    pub fn catalog(&self) -> Option<Rc<Catalog>> {
+        self.catalog.clone()
     }
 
     /// The register of an engine.

@@ -7,7 +7,7 @@
 //! - `^` and `**` become `num^0`, `num^1`, … along a chain of powers, each binding tighter than the one before, because
 //!   an operator of ours would otherwise bind to the left and `2^3^2` would be 64;
 //! - `-x^2` is refused, because Rhai's minus binds tighter than any operator and would give the square of `-x`;
-//! - `/=`, `^=` and `**=` are lexed as two tokens, see [`mark_assignments`].
+//! - `/=`, `^=` and `**=` are lexed as two tokens, and loops get a statement of their own ([`rounds`]), see [`mark`].
 //!
 //! All of this uses hooks that Rhai calls volatile; they are used in this file and in `lexing` only.
 
@@ -17,6 +17,7 @@ use std::cell::RefCell;
 use rhai::{Dynamic, Engine, LexError, Position, Token};
 
 use super::lexing::tokens;
+use super::rounds;
 
 /// Prefix of the operators that stand in for Rhai's own.
 pub const OWN: &str = "num";
@@ -65,6 +66,7 @@ pub fn install(engine: &mut Engine) -> Result<(), String> {
             None => Ok(Dynamic::UNIT),
         },
     );
+    rounds::install(engine);
     let nesting = RefCell::new(Nesting::default());
     // "Deprecated" marks the hook as volatile, not as going away.
     #[allow(deprecated)]
@@ -72,32 +74,52 @@ pub fn install(engine: &mut Engine) -> Result<(), String> {
     Ok(())
 }
 
-/// Rewrites `/=`, `^=` and `**=` so that they lex as an operator and a wrapper of what follows; columns do not move.
-pub fn mark_assignments(source: &str) -> Cow<'_, str> {
-    let marked: Vec<_> = tokens(source)
-        .into_iter()
-        .filter_map(|(token, position)| match token {
-            Token::DivideAssign => Some((position, [DIVIDE_HALF, OPERAND_HALF].as_slice())),
-            Token::XOrAssign => Some((position, [POWER_HALF, OPERAND_HALF].as_slice())),
-            Token::PowerOfAssign => Some((position, [POWER_HALF, OPERAND_HALF, ' '].as_slice())),
-            _ => None,
-        })
-        .collect();
-    if marked.is_empty() {
+/// Rewrites `/=`, `^=` and `**=` so that they lex as an operator and a wrapper of what follows, and marks the rounds of loops;
+/// columns do not move.
+pub fn mark(source: &str) -> Cow<'_, str> {
+    let tokens = tokens(source);
+    let halves = |token: &Token| -> &[char] {
+        match token {
+            Token::DivideAssign => &[DIVIDE_HALF, OPERAND_HALF],
+            Token::XOrAssign => &[POWER_HALF, OPERAND_HALF],
+            Token::PowerOfAssign => &[POWER_HALF, OPERAND_HALF, ' '],
+            _ => &[],
+        }
+    };
+    let mut marks: Vec<(Position, Mark)> =
+        rounds::bodies(&tokens).into_iter().map(|(at, letter)| (at, Mark::Round(letter))).collect();
+    let assignments = tokens.iter().map(|(token, at)| (*at, halves(token)));
+    marks.extend(
+        assignments.filter(|(_, halves)| !halves.is_empty()).map(|(at, h)| (at, Mark::Assign(h))),
+    );
+    if marks.is_empty() {
         return Cow::Borrowed(source);
     }
+    // From the end on: a mark may move what stands behind it.
+    marks.sort_by_key(|(at, _)| std::cmp::Reverse((at.line(), at.position())));
     let mut lines: Vec<Vec<char>> = source.split('\n').map(|line| line.chars().collect()).collect();
-    for (position, halves) in marked {
-        let (Some(line), Some(column)) = (position.line(), position.position()) else { continue };
-        let target = lines
-            .get_mut(line - 1)
-            .and_then(|line| line.get_mut(column - 1..column - 1 + halves.len()));
-        if let Some(target) = target {
-            target.copy_from_slice(halves);
+    for (at, mark) in marks {
+        let (Some(line), Some(column)) = (at.line(), at.position()) else { continue };
+        let Some(line) = lines.get_mut(line - 1) else { continue };
+        match mark {
+            Mark::Round(letter) => rounds::put(line, column - 1, letter),
+            Mark::Assign(halves) => {
+                if let Some(target) = line.get_mut(column - 1..column - 1 + halves.len()) {
+                    target.copy_from_slice(halves);
+                }
+            }
         }
     }
     let lines: Vec<String> = lines.into_iter().map(String::from_iter).collect();
     Cow::Owned(lines.join("\n"))
+}
+
+/// What is put into a text.
+enum Mark<'m> {
+    /// In the place of an operator that assigns.
+    Assign(&'m [char]),
+    /// Behind the brace that opens the body of a loop.
+    Round(char),
 }
 
 /// What the mapper remembers of the operands read so far at one depth of brackets.
@@ -208,6 +230,8 @@ fn half(error: &LexError) -> Option<Token> {
         DIVIDE_HALF => Some(Token::DivideAssign),
         POWER_HALF => Some(Token::PowerOfAssign),
         OPERAND_HALF => Some(custom(OPERAND)),
+        rounds::ONE => Some(custom(rounds::ONE_NAME)),
+        rounds::TWO => Some(custom(rounds::TWO_NAME)),
         _ => None,
     }
 }

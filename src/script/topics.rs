@@ -148,7 +148,8 @@ pub const TOPICS: &[Topic] = &[
         words: &["closure", "callback"],
         summary: "`|x| …` is a function that sees the variables around it.",
         doc: "It can be given to functions that take one, such as loads and `map`, or kept in a variable and called with `call`. \
-              Variables that it uses are shared with it: a change on one side is seen on the other.",
+              Variables that it uses are shared with it: a change on one side is seen on the other. Every round of a \
+              for loop has a variable of its own.",
         example: "let k = 3;\nlet line = |x| k * x;\ncheck(line.call(2) == 6);\ncheck([1, 2].map(|x| k * x) == [3, 6]);\n\
                   let count = 0;\nlet tick = || count += 1;\ntick.call();\ncheck(count == 1);",
         see: &["call", "curry", "functions"],

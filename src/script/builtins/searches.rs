@@ -38,8 +38,8 @@ pub const TABLE: BuiltInTable = BuiltInTable {
         .see(&["reduce"]),
         built_in(
             &["array.for_each(function)"],
-            "Calls a function that changes each element, which it sees as this.",
-            "let a = [1, 2];\na.for_each(|| this *= 10);\ncheck(a == [10, 20]);",
+            "Calls a function with each element, which it can change by the name of this.",
+            "let a = [1, 2];\na.for_each(|| this *= 10);\na.for_each(|x, i| check(x == 10 * (i + 1)));",
         )
         .see(&["map"]),
         built_in(

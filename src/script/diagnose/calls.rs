@@ -10,6 +10,7 @@ use crate::script::kind::with_article;
 use crate::script::library::{FOLDER, ModuleFunction, page_of};
 use crate::script::operators;
 use crate::script::program::Program;
+use crate::script::sources::Sources;
 use crate::script::suggest::nearest;
 use crate::script::table::{Form, Row};
 
@@ -18,6 +19,7 @@ pub struct Unknown<'a> {
     pub catalog: &'a Catalog,
     pub program: &'a Program,
     pub outline: &'a Outline,
+    pub sources: &'a Sources,
 }
 
 type Words = (String, Option<String>);
@@ -33,6 +35,13 @@ impl Unknown<'_> {
             .map(type_word)
             .collect();
         if name.starts_with("anon$") {
+            let file = self.sources.find(name, &self.program.name);
+            if let Some(file) = file.filter(|file| *file != self.program.name) {
+                let told = format!("a closure of the file {file} cannot be called from here");
+                let hint = "have a function of that file hand it on in an object, such as schedule(|t| …), or write |x| \
+                            file::function(x) here";
+                return (told, Some(hint.into()));
+            }
             let got = types.len();
             let told = format!(
                 "the function takes another number of arguments than the {got} it is given"
@@ -58,6 +67,11 @@ impl Unknown<'_> {
             return wrong_count(row, types.len());
         }
         if let Some((_, count)) = self.outline.functions.iter().find(|(known, _)| known == name) {
+            if *count == types.len() && self.is_dotted(at) {
+                let owner = types.first().map(|of| with_article(of)).unwrap_or_default();
+                let message = format!("'{name}' is a function, not a method of {owner}");
+                return (message, Some(format!("write {name}({})", self.before_dot(at))));
+            }
             return (format!("{name} takes {}, got {}", arguments(*count), types.len()), None);
         }
         if let Some(words) = self.wrong_built_in(name, &types) {
@@ -190,10 +204,13 @@ impl Unknown<'_> {
         if let Some(row) =
             members.iter().copied().chain(self.catalog.named(name)).find(|row| row.name == name)
         {
-            return (
-                message,
-                Some(format!("'{name}' is called with parentheses: {}", row.signature())),
-            );
+            let hint = match row.form {
+                Form::Property(of) => {
+                    format!("'{name}' belongs to {}: {}", with_article(of.name()), row.signature())
+                }
+                _ => format!("'{name}' is called with parentheses: {}", row.signature()),
+            };
+            return (message, Some(hint));
         }
         if let Some(built_in) = self.catalog.built_ins_named(name).find(|known| known.is_of(of)) {
             return (message, Some(format!("write {}", forms(&[built_in]))));
@@ -222,6 +239,21 @@ impl Unknown<'_> {
             types.contains(&"text") && types.iter().any(|name| name.ends_with("number"));
         let hint = needs_number.then(|| "parse_float(text) makes a number of a text".to_owned());
         (message, hint)
+    }
+
+    /// The value before the dot before this position, as far as it is a name, a number or in parentheses.
+    fn before_dot(&self, at: Position) -> &str {
+        let (Some(line), Some(column)) = (at.line(), at.position()) else { return "…" };
+        let before = self.program.text[..self.program.offset(line, column)].trim_end();
+        let value = before.trim_end_matches('.');
+        let is_part = |letter: char| letter.is_alphanumeric() || matches!(letter, '_' | '.');
+        let in_parentheses =
+            |inside: &'_ str| inside.rfind('(').filter(|open| !inside[..*open].ends_with(is_part));
+        let found = match value.strip_suffix(')') {
+            Some(inside) => in_parentheses(inside).map_or("", |open| &inside[open + 1..]),
+            None => &value[value.trim_end_matches(is_part).len()..],
+        };
+        if found.is_empty() { "…" } else { found }
     }
 
     /// Whether the name at this position stands after a dot.

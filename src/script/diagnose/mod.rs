@@ -11,8 +11,9 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::program::Program;
+pub use outline::Outline;
 pub use render::Colours;
-pub use translate::{Explainer, is_interrupt};
+pub use translate::{Explainer, is_interrupt, is_waiting};
 
 /// An error as it is shown to people.
 #[derive(Clone, Debug)]
@@ -111,6 +112,13 @@ impl Diagnostic {
             Some(at) => format!("{told} ({}, line {})", at.program.name, at.line),
             None => told,
         }
+    }
+
+    /// Adds something else to do, on a line of its own.
+    #[must_use]
+    pub fn with_another_hint(mut self, hint: &str) -> Self {
+        self.hint = Some(self.hint.map_or_else(|| hint.into(), |first| format!("{first}\n{hint}")));
+        self
     }
 
     /// `file:line:column`, for tests and editors.

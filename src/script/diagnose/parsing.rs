@@ -47,6 +47,10 @@ pub fn explain(error: &ParseErrorType, word: &str) -> (String, Option<String>) {
             format!("the constant '{name}' cannot be changed"),
             Some("declare it with let instead of const".into()),
         ),
+        ParseErrorType::MismatchedType(wanted, got) if wanted == "an iterable value" => {
+            let got = got.replace("an object map", "a map");
+            (format!("for cannot go over {got}"), Some(GONE_OVER.into()))
+        }
         ParseErrorType::MismatchedType(wanted, got) => {
             (format!("expected {wanted}, got {got}"), None)
         }
@@ -57,6 +61,9 @@ pub fn explain(error: &ParseErrorType, word: &str) -> (String, Option<String>) {
         other => (lower_first(&other.to_string()), None),
     }
 }
+
+/// What a loop can go over.
+pub const GONE_OVER: &str = "for goes over an array, a text or a range: for i in 0..10 { … }; over a map with for key in map.keys() { … }";
 
 fn reserved(word: &str) -> (String, Option<String>) {
     (

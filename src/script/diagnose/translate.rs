@@ -10,6 +10,7 @@ use crate::script::error::{BUG, Failure, Place};
 use crate::script::kind::with_article;
 use crate::script::library::FOLDER;
 use crate::script::limits::Stop;
+use crate::script::naming::not_visible;
 use crate::script::program::Program;
 use crate::script::sources::Sources;
 use crate::script::suggest::nearest;
@@ -47,6 +48,14 @@ pub fn is_interrupt(error: &EvalAltResult) -> bool {
         EvalAltResult::ErrorTerminated(stop, _) => {
             matches!(stopped_by(stop), Stop::Interrupt | Stop::PipeClosed)
         }
+        _ => false,
+    }
+}
+
+/// Whether a dry build was ended because the script waits for what only a real run finds.
+pub fn is_waiting(error: &EvalAltResult) -> bool {
+    match error.unwrap_inner() {
+        EvalAltResult::ErrorTerminated(stop, _) => matches!(stopped_by(stop), Stop::Waiting),
         _ => false,
     }
 }
@@ -153,7 +162,8 @@ impl Explainer<'_> {
         trace: &[Step],
     ) -> Words {
         use EvalAltResult as Error;
-        let unknown = Unknown { catalog: self.catalog, program, outline };
+        let sources = Sources::of(self.engine);
+        let unknown = Unknown { catalog: self.catalog, program, outline, sources: &sources };
         match error {
             Error::ErrorParsing(kind, at) => parsing::explain(kind, &word_of(program, *at)),
             Error::ErrorFunctionNotFound(signature, at) => unknown.function(signature, *at),
@@ -171,8 +181,7 @@ impl Explainer<'_> {
                 (format!("{} cannot be indexed", with_article(type_word(indexed))), None)
             }
             Error::ErrorFor(_) => {
-                let hint = "for goes over an array, a map or a range: for i in 0..10 { … }";
-                ("this cannot be gone over by for".into(), Some(hint.into()))
+                ("this cannot be gone over by for".into(), Some(parsing::GONE_OVER.into()))
             }
             Error::ErrorAssignmentToConstant(name, _) => (
                 format!("the constant '{name}' cannot be changed"),
@@ -214,10 +223,7 @@ impl Explainer<'_> {
         if let Some((_, line)) = outline.top_level.iter().find(|(known, _)| known == name) {
             let hint = match trace.is_empty() {
                 true => format!("'{name}' is declared later, at line {line}"),
-                false => format!(
-                    "'{name}' of line {line} is not visible inside functions: pass it as an argument, or use a closure \
-                     |x| …, which sees it"
-                ),
+                false => not_visible(name, *line),
             };
             return (message, Some(hint));
         }
@@ -266,6 +272,7 @@ fn mismatch(wanted: &str, got: &str) -> Words {
         ("whole number", "number") => Some(
             "floor(x), round(x) and quotient(n, d) give whole numbers; a / b never does".into(),
         ),
+        ("whole number", "range") => Some("array.extract(1..3) gives a piece of an array".into()),
         _ => None,
     };
     (format!("expected {}, got {}", with_article(wanted), with_article(got)), hint)
@@ -290,7 +297,20 @@ fn too_large(what: &str) -> String {
 }
 
 fn arithmetic(what: &str) -> Words {
-    match what.to_lowercase() {
+    let quoted = what.split('\'').nth(1).unwrap_or_default();
+    let told = what.to_lowercase();
+    if told.starts_with("error parsing integer number") {
+        let hint = "parse_float(text) reads numbers with a point, text.trim() takes blanks off";
+        return (format!("the text \"{quoted}\" is not a whole number"), Some(hint.into()));
+    }
+    if told.starts_with("error parsing floating-point number") {
+        let hint = "text.trim() takes blanks off, text.split(\",\") parts several numbers";
+        return (format!("the text \"{quoted}\" is not a number"), Some(hint.into()));
+    }
+    if told.starts_with("invalid radix") {
+        return (format!("numbers are read to a base from 2 to 36, got {quoted}"), None);
+    }
+    match told {
         what if what.contains("by zero") => ("a remainder by zero has no value".into(), None),
         what if what.contains("overflow") => (
             "the whole number is too large for 64 bits".into(),
@@ -311,6 +331,7 @@ pub fn type_word(name: &str) -> &str {
         "array" => "array",
         "Fn" | "FnPtr" => "function",
         "()" => "nothing",
+        range if range.starts_with("core::ops::range::Range") => "range",
         other => other,
     }
 }
