@@ -126,12 +126,7 @@ struct Shared {
     level: Cell<usize>,
     is_calling_back: Cell<bool>,
     types: RefCell<Vec<Type>>,
-    /// How often a dry build pretended to go on with a simulation.
-    pretended: Cell<u64>,
 }
-
-/// So often may it do that: a loop that waits for a time is long through by then.
-const MOST_PRETENDED: u64 = 100_000;
 
 impl Context {
     /// The state at the start of a run.
@@ -157,7 +152,6 @@ impl Context {
             level: Cell::new(0),
             is_calling_back: Cell::new(false),
             types: RefCell::default(),
-            pretended: Cell::new(0),
         }))
     }
 
@@ -194,22 +188,6 @@ impl Context {
     /// Refuses to go on after an interrupt, beyond a limit, or when nobody reads the output any more.
     pub fn proceed(&self) -> Result<(), ScriptError> {
         self.stopped_by().map_or(Ok(()), |stop| Err(ScriptError::Stopped(stop)))
-    }
-
-    /// Counts that a dry build pretends to go on with a simulation, and ends it when that has no end.
-    pub fn pretend(&self) -> Result<(), ScriptError> {
-        let times = self.0.pretended.get() + 1;
-        self.0.pretended.set(times);
-        if times > MOST_PRETENDED {
-            Err(ScriptError::Stopped(Stop::Waiting))
-        } else {
-            self.proceed()
-        }
-    }
-
-    /// Whether the script has gone by results that a dry build only pretends to have.
-    pub fn has_pretended(&self) -> bool {
-        self.0.pretended.get() > 0
     }
 
     /// Why something that is asked again and again whether to go on did not: the limit or the interrupt that stopped it. `what` stopped

@@ -97,7 +97,12 @@ pub struct Meter {
     alarm: Arc<AtomicU8>,
     steps: Cell<u64>,
     wants_too_many_steps: Cell<bool>,
+    /// How often a dry build pretended to go on with a simulation.
+    pretended: Cell<u64>,
 }
+
+/// So often may it do that: a loop that waits for a time is long through by then.
+const MOST_PRETENDED: u64 = 100_000;
 
 const QUIET: u8 = 0;
 const TOO_LATE: u8 = 1;
@@ -111,6 +116,7 @@ impl Meter {
             alarm: Arc::default(),
             steps: Cell::new(0),
             wants_too_many_steps: Cell::new(false),
+            pretended: Cell::new(0),
         }
     }
 
@@ -125,6 +131,7 @@ impl Meter {
             TOO_LATE => self.limits.time.map(Stop::Time),
             TOO_LARGE => self.limits.memory.map(Stop::Memory),
             _ if self.wants_too_many_steps.get() => self.limits.steps.map(Stop::Steps),
+            _ if self.pretended.get() > MOST_PRETENDED => Some(Stop::Waiting),
             _ => None,
         }
     }
@@ -144,6 +151,16 @@ impl Meter {
                 Err(ScriptError::new(told).hint("ask for less, or allow more with --max-memory MB"))
             }
         }
+    }
+
+    /// Counts that a dry build pretends to go on with a simulation.
+    pub fn count_pretended(&self) {
+        self.pretended.set(self.pretended.get() + 1);
+    }
+
+    /// Whether the script has gone by results that a dry build only pretends to have.
+    pub fn has_pretended(&self) -> bool {
+        self.pretended.get() > 0
     }
 
     /// Counts a step, or a try of one.

@@ -207,7 +207,7 @@ fn evaluate(program: &Program, catalog: &Catalog, context: &Context) -> Ending {
         Err(error) if is_waiting(&error) => Ending::Undecided,
         Err(error) => {
             let diagnostic = Explainer { program, catalog, engine: &engine }.explain(&error);
-            Ending::Failed(match context.has_pretended() {
+            Ending::Failed(match context.meter().has_pretended() {
                 true => diagnostic.with_another_hint(ONLY_DRY),
                 false => diagnostic,
             })

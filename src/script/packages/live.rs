@@ -262,7 +262,8 @@ impl SimulationHandle {
 
     /// What a dry build does instead of running: time passes, and events are called.
     fn pretend(&self, call: &Call, end: f64) -> Result<(), ScriptError> {
-        call.context().pretend()?;
+        call.context().meter().count_pretended();
+        call.context().proceed()?;
         let mut watch = Pretence(call.context());
         let pretended = self.0.simulation.borrow_mut().pretend_to(end, &mut watch);
         pretended.map_err(|error| explain(error, call.context()))?;
