@@ -132,6 +132,11 @@ impl Convergence {
         names
     }
 
+    /// The ladders of a quantity, one for each integrator.
+    pub fn ladders_with<'s>(&'s self, quantity: &'s str) -> impl Iterator<Item = &'s Ladder> {
+        self.ladders.iter().filter(move |ladder| ladder.quantity == quantity)
+    }
+
     /// The order that an integrator claims, where steps are what is refined.
     pub fn claimed_order(&self, method: &Method) -> Option<u32> {
         (self.refined == Refined::Step).then(|| method.entry().claims.order)

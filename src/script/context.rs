@@ -15,7 +15,7 @@ use super::error::ScriptError;
 use super::files::OutputFolder;
 use super::journals::Journals;
 use super::kind::Type;
-use super::limits::{Limits, Meter, Stop};
+use super::limits::{Limits, MEGABYTE, Meter, Stop};
 use super::progress::{NoProgress, Progress};
 
 /// Whether simulations really run.
@@ -188,6 +188,23 @@ impl Context {
     /// Refuses to go on after an interrupt, beyond a limit, or when nobody reads the output any more.
     pub fn proceed(&self) -> Result<(), ScriptError> {
         self.stopped_by().map_or(Ok(()), |stop| Err(ScriptError::Stopped(stop)))
+    }
+
+    /// Sees that there is room for something that takes memory all at once, before anybody could stop it [bytes].
+    ///
+    /// # Errors
+    /// When a run may not use so much.
+    pub fn expect_room(&self, what: &str, bytes: u64) -> Result<(), ScriptError> {
+        match self.meter().limits().memory.filter(|limit| bytes > *limit) {
+            None => Ok(()),
+            Some(limit) => {
+                let (needed, limit) = (bytes / MEGABYTE, limit / MEGABYTE);
+                let told = format!(
+                    "{what} take about {needed} MB of memory, and a run may use {limit} MB"
+                );
+                Err(ScriptError::new(told).hint("ask for less, or allow more with --max-memory MB"))
+            }
+        }
     }
 
     /// Why something that is asked again and again whether to go on did not: the limit or the interrupt that stopped it. `what` stopped

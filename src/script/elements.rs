@@ -56,52 +56,51 @@ fn search(engine: &mut Engine, name: &str, give: fn(&Array, Option<usize>) -> Dy
     let types = [TypeId::of::<Array>(), TypeId::of::<FnPtr>(), TypeId::of::<INT>()];
     let least = if name == "some" { 2 } else { 3 };
     for count in 2..=least {
-        engine.register_raw_fn(name, &types[..count], move |native, values| {
-            let start = values.get(2).and_then(|start| start.as_int().ok()).unwrap_or(0);
-            let (mut array, test) = array_and_test(values)?;
-            let first = match usize::try_from(start) {
-                Ok(start) => start,
-                Err(_) => array.len().saturating_sub(start.unsigned_abs() as usize),
-            };
-            let asked = Asked::new(&native, &test);
-            let mut found = None;
-            for (index, element) in array.iter_mut().enumerate().skip(first) {
-                if asked.whether(index, element)? {
-                    found = Some(index);
-                    break;
+        engine.register_raw_fn(
+            name,
+            &types[..count],
+            move |native, values| -> EngineResult<Dynamic> {
+                let start = values.get(2).and_then(|start| start.as_int().ok()).unwrap_or(0);
+                let (mut array, test) = array_and_test(values)?;
+                let first = match usize::try_from(start) {
+                    Ok(start) => start,
+                    Err(_) => array.len().saturating_sub(start.unsigned_abs() as usize),
+                };
+                let asked = Asked::new(&native, &test);
+                let mut found = None;
+                for (index, element) in array.iter_mut().enumerate().skip(first) {
+                    if asked.whether(index, element)? {
+                        found = Some(index);
+                        break;
+                    }
                 }
-            }
-            Ok::<_, Box<EvalAltResult>>(give(&array, found))
-        });
+                Ok(give(&array, found))
+            },
+        );
     }
 }
 
+/// Parts what a method is called on into what passes its test and the rest.
+type Part = fn(&NativeCallContext, &[&mut Dynamic]) -> EngineResult<(Dynamic, Dynamic)>;
+
 /// What parts the elements of an array or a map into those that pass a test and the others.
 fn install_sieves(engine: &mut Engine) {
-    let of_arrays = [TypeId::of::<Array>(), TypeId::of::<FnPtr>()];
-    let of_maps = [TypeId::of::<Map>(), TypeId::of::<FnPtr>()];
-    engine.register_raw_fn("filter", of_arrays, |native, values| -> EngineResult<Array> {
-        Ok(parted_array(&native, values)?.0)
-    });
-    engine.register_raw_fn("filter", of_maps, |native, values| -> EngineResult<Map> {
-        Ok(parted_map(&native, values)?.0)
-    });
-    engine.register_raw_fn("drain", of_arrays, |native, values| {
-        let (passed, others) = parted_array(&native, values)?;
-        Ok::<_, Box<EvalAltResult>>(replace(values, others.into(), passed.into()))
-    });
-    engine.register_raw_fn("drain", of_maps, |native, values| {
-        let (passed, others) = parted_map(&native, values)?;
-        Ok::<_, Box<EvalAltResult>>(replace(values, others.into(), passed.into()))
-    });
-    engine.register_raw_fn("retain", of_arrays, |native, values| {
-        let (passed, others) = parted_array(&native, values)?;
-        Ok::<_, Box<EvalAltResult>>(replace(values, passed.into(), others.into()))
-    });
-    engine.register_raw_fn("retain", of_maps, |native, values| {
-        let (passed, others) = parted_map(&native, values)?;
-        Ok::<_, Box<EvalAltResult>>(replace(values, passed.into(), others.into()))
-    });
+    let kinds =
+        [(TypeId::of::<Array>(), part_array as Part), (TypeId::of::<Map>(), part_map as Part)];
+    for (of, part) in kinds {
+        let types = [of, TypeId::of::<FnPtr>()];
+        engine.register_raw_fn("filter", types, move |native, values| -> EngineResult<Dynamic> {
+            Ok(part(&native, values)?.0)
+        });
+        engine.register_raw_fn("drain", types, move |native, values| -> EngineResult<Dynamic> {
+            let (passed, others) = part(&native, values)?;
+            Ok(replace(values, others, passed))
+        });
+        engine.register_raw_fn("retain", types, move |native, values| -> EngineResult<Dynamic> {
+            let (passed, others) = part(&native, values)?;
+            Ok(replace(values, passed, others))
+        });
+    }
 }
 
 /// Leaves `kept` in the variable that the method is called on, and hands `given` on.
@@ -112,10 +111,10 @@ fn replace(values: &mut [&mut Dynamic], kept: Dynamic, given: Dynamic) -> Dynami
     given
 }
 
-fn parted_array(
+fn part_array(
     native: &NativeCallContext,
     values: &[&mut Dynamic],
-) -> EngineResult<(Array, Array)> {
+) -> EngineResult<(Dynamic, Dynamic)> {
     let (array, test) = array_and_test(values)?;
     let asked = Asked::new(native, &test);
     let (mut passed, mut others) = (Array::new(), Array::new());
@@ -123,10 +122,13 @@ fn parted_array(
         let is_passed = asked.whether(index, &mut element)?;
         if is_passed { &mut passed } else { &mut others }.push(element);
     }
-    Ok((passed, others))
+    Ok((passed.into(), others.into()))
 }
 
-fn parted_map(native: &NativeCallContext, values: &[&mut Dynamic]) -> EngineResult<(Map, Map)> {
+fn part_map(
+    native: &NativeCallContext,
+    values: &[&mut Dynamic],
+) -> EngineResult<(Dynamic, Dynamic)> {
     let map = values.first().and_then(|map| map.read_lock::<Map>());
     let map = map.map(|map| map.clone()).unwrap_or_default();
     let test = function_of(values)?;
@@ -143,12 +145,17 @@ fn parted_map(native: &NativeCallContext, values: &[&mut Dynamic]) -> EngineResu
         let is_passed = truth(native, &answer)?;
         if is_passed { &mut passed } else { &mut others }.insert(key, value);
     }
-    Ok((passed, others))
+    Ok((passed.into(), others.into()))
+}
+
+/// A copy of the array that a method is called on.
+pub(super) fn array_of(values: &[&mut Dynamic]) -> Array {
+    let array = values.first().and_then(|array| array.read_lock::<Array>());
+    array.map(|array| array.clone()).unwrap_or_default()
 }
 
 fn array_and_test(values: &[&mut Dynamic]) -> EngineResult<(Array, FnPtr)> {
-    let array = values.first().and_then(|array| array.read_lock::<Array>());
-    Ok((array.map(|array| array.clone()).unwrap_or_default(), function_of(values)?))
+    Ok((array_of(values), function_of(values)?))
 }
 
 fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {

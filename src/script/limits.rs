@@ -8,7 +8,6 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use super::error::ScriptError;
 use super::numbers::format_number;
 
 /// Bytes of a megabyte.
@@ -133,23 +132,6 @@ impl Meter {
             _ if self.wants_too_many_steps.get() => self.limits.steps.map(Stop::Steps),
             _ if self.pretended.get() > MOST_PRETENDED => Some(Stop::Waiting),
             _ => None,
-        }
-    }
-
-    /// Sees that there is room for something that takes memory all at once, before anybody could stop it [bytes].
-    ///
-    /// # Errors
-    /// When a run may not use so much.
-    pub fn expect_room(&self, what: &str, bytes: u64) -> Result<(), ScriptError> {
-        match self.limits.memory.filter(|limit| bytes > *limit) {
-            None => Ok(()),
-            Some(limit) => {
-                let (needed, limit) = (bytes / MEGABYTE, limit / MEGABYTE);
-                let told = format!(
-                    "{what} take about {needed} MB of memory, and a run may use {limit} MB"
-                );
-                Err(ScriptError::new(told).hint("ask for less, or allow more with --max-memory MB"))
-            }
         }
     }
 

@@ -6,6 +6,7 @@ use std::cmp::Ordering;
 
 use rhai::{Array, Dynamic, Engine, EvalAltResult, FnPtr, NativeCallContext};
 
+use super::elements::array_of;
 use super::error::ScriptError;
 use super::numbers::{as_number, describe};
 use super::register::EngineResult;
@@ -53,8 +54,7 @@ fn sorted_naturally(
     values: &[&mut Dynamic],
     turned: Turn,
 ) -> EngineResult<Array> {
-    let array = values.first().and_then(|array| array.read_lock::<Array>());
-    let mut array = array.map(|array| array.clone()).unwrap_or_default();
+    let mut array = array_of(values);
     let [first, others @ ..] = array.as_slice() else { return Ok(array) };
     if let Some(stranger) = others.iter().find(|other| natural_order(first, other).is_none()) {
         let engine = native.engine();
@@ -85,8 +85,8 @@ fn natural_order(x: &Dynamic, y: &Dynamic) -> Option<Ordering> {
 }
 
 fn sorted(native: &NativeCallContext, values: &[&mut Dynamic]) -> EngineResult<Array> {
-    let [array, function] = values else { return Ok(Array::new()) };
-    let array = array.read_lock::<Array>().map(|array| array.clone()).unwrap_or_default();
+    let [_, function] = values else { return Ok(Array::new()) };
+    let array = array_of(values);
     let Some(function) = (**function).clone().try_cast::<FnPtr>() else { return Ok(array) };
     merged(array, &mut |x, y| {
         let order = function.call_raw(native, None, [x.clone(), y.clone()])?;

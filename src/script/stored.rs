@@ -2,12 +2,12 @@
 
 use rhai::{Dynamic, EvalAltResult, FnPtr, GlobalRuntimeState, NativeCallContext, Position};
 
-use super::catalog::Catalog;
 use super::context::Context;
 use super::diagnose::Explainer;
 use super::error::BUG;
 use super::numbers::{as_number, describe};
 use super::program::Program;
+use super::sources::Sources;
 
 /// A script function with what surrounded it: the functions, imports and constants of its file.
 ///
@@ -76,8 +76,9 @@ impl StoredFunction {
     /// An error of the function in one line, as the language tells errors.
     fn words(&self, error: &EvalAltResult) -> String {
         let Some(engine) = self.context.engine() else { return error.to_string() };
+        let Some(catalog) = Sources::of(&engine).catalog() else { return error.to_string() };
         // The error names the file that it arose in; the script itself is not at hand here.
-        let (program, catalog) = (Program::named("", ""), Catalog::standard());
+        let program = Program::named("", "");
         Explainer { program: &program, catalog: &catalog, engine: &engine }.explain(error).line()
     }
 }

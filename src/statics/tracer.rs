@@ -170,9 +170,7 @@ impl<'s> Tracer<'s> {
         match self.find(factor) {
             Ok(iterations) => {
                 self.accept(factor, iterations);
-                let heading = self.heading();
-                if halvings == 0 || self.heading.is_kept_by(&heading, &self.metric) {
-                    self.heading = heading;
+                if self.goes_on_as_before(halvings) {
                     return Ok(());
                 }
                 self.take_back();
@@ -184,16 +182,20 @@ impl<'s> Tracer<'s> {
         self.reach(factor, halvings - 1, goes_on)
     }
 
-    /// How the path goes on where it has just been continued. Along the path it may turn and become unstable as it likes, and the
-    /// stiffness alone does not tell what loads do that turn with a beam.
-    fn heading(&mut self) -> Heading {
-        let movements = match self.loading.control {
-            Control::Load => self.movements.clone(),
-            Control::ArcLength(_) => vec![0.0; self.movements.len()],
-        };
-        let is_told = self.loading.control == Control::Load && self.model.follower().is_none();
-        let falls = if is_told { self.model.falls() } else { 0 };
-        Heading { movements, falls }
+    /// Whether the last point continues the path, or no halving is left to tell. Along the path it may turn and become unstable as it
+    /// likes.
+    fn goes_on_as_before(&mut self, halvings: u32) -> bool {
+        if self.loading.control != Control::Load {
+            return true;
+        }
+        // The stiffness alone does not tell what loads do that turn with a beam.
+        let falls = if self.model.follower().is_some() { 0 } else { self.model.falls() };
+        let heading = Heading { movements: self.movements.clone(), falls };
+        let goes_on = halvings == 0 || self.heading.is_kept_by(&heading, &self.metric);
+        if goes_on {
+            self.heading = heading;
+        }
+        goes_on
     }
 
     /// The iterations that led to an equilibrium near the last one.

@@ -116,8 +116,9 @@ impl Modes {
         })
     }
 
-    /// About the memory that looking for so many modes takes at most [bytes].
-    pub fn memory(unknowns: usize, count: usize) -> u64 {
+    /// About the memory that looking for so many modes of a model takes at most [bytes].
+    pub fn memory(model: &Model, count: usize) -> u64 {
+        let unknowns = model.rotations().len();
         let numbers = match Search::of(unknowns, count) {
             Search::All => DENSE_COPIES * unknowns * unknowns,
             Search::Lowest => SUBSPACE_COPIES * unknowns * width(unknowns, count),

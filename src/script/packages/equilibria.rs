@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use rhai::{Array, Dynamic, INT, Map};
 
-use super::modes::{COUNT, ModesHandle, look as look_for_modes};
+use super::modes::{COUNT, ModesHandle, expect_room, look as look_for_modes};
 use super::scenes::{SCENE, STATION, SceneHandle, StationHandle};
 use super::simulations::{START, begin, followed};
 use crate::beams::Place;
@@ -92,8 +92,8 @@ pub const TABLE: Table = Table {
             .example("let rest = scene.equilibrium();\ncheck_close(rest.reaction(rod.start).moment, -s.EI * 3.14159265358979 / 4, 1e-6);"),
         method(EQUILIBRIUM, "modes", &[COUNT], |call| {
             let handle = call.receiver::<EquilibriumHandle>()?;
-            let unknowns = handle.rest().model().rotations().len();
-            let modes = look_for_modes(call, unknowns, |count, goes_on| {
+            expect_room(call, handle.rest().model())?;
+            let modes = look_for_modes(call, |count, goes_on| {
                 handle.0.rest.borrow_mut().modes(count, goes_on)
             })?;
             Ok(Dynamic::from(ModesHandle::new(handle.0.scene.clone(), handle.rest().scene(), modes)))

@@ -29,9 +29,8 @@ pub const TABLE: Table = Table {
             let handle = call.receiver::<SceneHandle>()?;
             let scene = handle.scene().borrow().clone();
             let mut model = Model::assemble(&scene)?;
-            let unknowns = model.rotations().len();
-            let modes =
-                look(call, unknowns, |count, goes_on| Modes::of(&mut model, count, goes_on))?;
+            expect_room(call, &model)?;
+            let modes = look(call, |count, goes_on| Modes::of(&mut model, count, goes_on))?;
             Ok(Dynamic::from(ModesHandle::new(handle, &scene, modes)))
         })
         .returns("modes")
@@ -44,8 +43,8 @@ pub const TABLE: Table = Table {
         .see(&["plot_modes", "equilibrium"]),
         method(SIMULATION, "modes", &[COUNT], |call| {
             let handle = call.receiver::<SimulationHandle>()?;
-            let unknowns = handle.simulation().model().rotations().len();
-            let modes = look(call, unknowns, |count, goes_on| handle.modes(count, goes_on))?;
+            expect_room(call, handle.simulation().model())?;
+            let modes = look(call, |count, goes_on| handle.modes(count, goes_on))?;
             let simulation = handle.simulation();
             Ok(Dynamic::from(ModesHandle::new(handle.scene().clone(), simulation.scene(), modes)))
         })
@@ -152,17 +151,19 @@ impl Scripted for ModesHandle {
     }
 }
 
+/// Sees that there is memory for so many modes as the call asks for.
+pub(super) fn expect_room(call: &Call, model: &Model) -> Result<(), ScriptError> {
+    let needed = Modes::memory(model, call.count("count")?);
+    call.context().expect_room("so many modes of so large a scene", needed)
+}
+
 /// Looks for so many modes as the call asks for, until the run is stopped.
 pub(super) fn look(
     call: &Call,
-    unknowns: usize,
     find: impl FnOnce(usize, &mut dyn FnMut() -> bool) -> Result<Modes, VibrationError>,
 ) -> Result<Modes, ScriptError> {
-    let (context, count) = (call.context(), call.count("count")?);
-    context
-        .meter()
-        .expect_room("so many modes of so large a scene", Modes::memory(unknowns, count))?;
-    match find(count, &mut || !context.is_stopped()) {
+    let context = call.context();
+    match find(call.count("count")?, &mut || !context.is_stopped()) {
         Err(VibrationError::Interrupted) => Err(context.why_stopped("a search for modes")),
         found => Ok(found?),
     }

@@ -3,7 +3,7 @@
 use rhai::{Dynamic, Map};
 
 use super::convergence_chart::chart;
-use super::convergence_table::summary;
+use super::convergence_table::{head, summary};
 use super::desk::{Desk, print_table};
 use super::labels;
 use super::plan::{Plan, at_key};
@@ -122,20 +122,12 @@ fn records(study: &Convergence) -> CsvRecords {
             ]
         })
     });
+    let units = format!(
+        "errors of positions relative to length {}, others in their own unit",
+        study.length
+    );
     CsvRecords {
-        comments: vec![
-            format!(
-                "study '{}': convergence at {}, {}",
-                study.name,
-                labels::at_times(&study.times),
-                study.fixed
-            ),
-            format!("reference: {}", study.truth.source),
-            format!(
-                "errors of positions relative to length {}, others in their own unit",
-                study.length
-            ),
-        ],
+        comments: head(study).lines().map(str::to_owned).chain([units]).collect(),
         names: names.map(str::to_owned).to_vec(),
         rows: rows.collect(),
     }
@@ -182,7 +174,7 @@ pub fn expect_quantity(
 pub fn find<'s>(
     call: &Call,
     study: &'s Convergence,
-    quantity: &str,
+    quantity: &'s str,
     method: &Method,
 ) -> Result<Option<&'s Ladder>, ScriptError> {
     expect_quantity(call, study, quantity)?;
@@ -194,5 +186,5 @@ pub fn find<'s>(
         known.dedup();
         return Err(call.error(told).hint(format!("integrators: {}", known.join(", "))));
     }
-    Ok(study.ladders.iter().find(|of| of.quantity == quantity && of.method == *method))
+    Ok(study.ladders_with(quantity).find(|of| of.method == *method))
 }

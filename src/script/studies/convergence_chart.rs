@@ -34,9 +34,8 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
     .x_scale(Scale::Logarithmic)
     .y_scale(Scale::Logarithmic)
     .sized(900.0, 640.0);
-    let ladders = study.ladders.iter().filter(|ladder| ladder.quantity == quantity);
     let mut noted: Vec<(String, f64)> = Vec::new();
-    for (number, ladder) in ladders.enumerate() {
+    for (number, ladder) in study.ladders_with(quantity).enumerate() {
         let point =
             |rung| Some((ladder.sizes[rung], ladder.error(rung).filter(|error| *error > 0.0)?));
         let points: Vec<(f64, f64)> = (0..ladder.sizes.len()).filter_map(point).collect();

@@ -18,7 +18,7 @@ pub fn summary(study: &Convergence) -> String {
     format!("{}\n\n{positions}{}{}", head(study), other_orders(study), failures(study))
 }
 
-fn head(study: &Convergence) -> String {
+pub(super) fn head(study: &Convergence) -> String {
     format!(
         "study '{}': convergence at {}, {}\nreference: {}",
         study.name,
@@ -29,8 +29,7 @@ fn head(study: &Convergence) -> String {
 }
 
 fn table_of(study: &Convergence, quantity: &str) -> String {
-    let ladders: Vec<&Ladder> =
-        study.ladders.iter().filter(|ladder| ladder.quantity == quantity).collect();
+    let ladders: Vec<&Ladder> = study.ladders_with(quantity).collect();
     let names = ladders.iter().flat_map(|ladder| [labels::method(&ladder.method), "order".into()]);
     let heads: Vec<String> = std::iter::once(size_name(study).to_owned()).chain(names).collect();
     let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
@@ -58,7 +57,7 @@ fn table_of(study: &Convergence, quantity: &str) -> String {
 /// A line for each quantity but the positions together; nothing where there is none.
 fn other_orders(study: &Convergence) -> String {
     let of = |quantity: &str| {
-        let ladders = study.ladders.iter().filter(|ladder| ladder.quantity == quantity);
+        let ladders = study.ladders_with(quantity);
         ladders.map(|ladder| (labels::method(&ladder.method), ladder.fitted_order())).collect()
     };
     let methods: Vec<(String, Option<f64>)> = of(ALL_POSITIONS);
