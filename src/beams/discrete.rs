@@ -8,6 +8,7 @@ use super::axis_point::AxisPoint;
 use super::block::Block;
 use super::dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Movement};
 use super::force_point::ForcePoint;
+use super::mesh::QuadratureSpan;
 use super::moment_point::MomentPoint;
 use super::parts::{MOST_PARTS, Parts};
 use super::span_points::{SpanPoints, window_mut};
@@ -98,10 +99,8 @@ impl<const N: usize> DiscreteBeam<N> {
         let inertia_rule = mesh.inertia_rule()?;
         let mut gram = vec![[0.0; N]; control_points.len()];
         let mut spans = Vec::new();
-        for (quadrature, force_rule) in mesh.quadrature_spans().into_iter().zip(mesh.force_rules()?)
-        {
-            let span = quadrature.span;
-            let moment_rule = GaussRule::new(quadrature.moment_points)?;
+        for QuadratureSpan { span, force_rule, moment_points } in mesh.quadrature_spans()? {
+            let moment_rule = GaussRule::new(moment_points)?;
             spans.push(SpanPoints {
                 first: span.first,
                 force_points: axis

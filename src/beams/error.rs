@@ -47,6 +47,16 @@ pub enum BeamError {
         /// Degree of the basis.
         degree: usize,
     },
+    /// Spans for whose lengths there is no patch rule.
+    #[error(
+        "the longest span of a smooth piece of the mesh is {ratio:.1e} times as long as the shortest: strain points that neither lock nor leave modes \
+         without energy cannot be found in rounded numbers; grade the spans more gently, or make the basis C0 between long and short ones \
+         (repeat the knot as often as the degree says)"
+    )]
+    UnevenSpans {
+        /// Length of the longest over that of the shortest.
+        ratio: f64,
+    },
     /// The geometry cannot be represented.
     #[error(transparent)]
     Geometry(#[from] GeometryError),
