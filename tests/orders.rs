@@ -39,7 +39,12 @@ fn representative(method: Method) -> Method {
 fn every_integrator_converges_in_time_at_the_order_it_claims() {
     for entry in INTEGRATORS {
         for (file, bending) in PULSES {
-            let largest = if entry.claims.order == 1 { 0.0125 } else { 0.05 };
+            // Each method is looked at where it has begun to converge evenly.
+            let largest = match entry.claims.order {
+                1 => 0.0125,
+                4 => 0.025,
+                _ => 0.05,
+            };
             let dts = [1.0, 0.5, 0.25, 0.125, 0.0625].map(|part| part * largest);
             let found = dts.map(|dt| fly(&smooth(14), bending, representative(entry.method), dt));
             let changes: Vec<f64> =
@@ -59,7 +64,7 @@ fn every_integrator_converges_in_time_at_the_order_it_claims() {
 }
 
 #[test]
-fn smooth_cubics_with_the_patch_rule_converge_in_space_at_third_order() {
+fn smooth_cubics_with_the_patch_rule_converge_in_space_at_fourth_order() {
     for (file, bending) in PULSES {
         let reference = Table::read(file).ends(5.0);
         let errors: Vec<f64> = [16, 32, 64]
@@ -68,15 +73,14 @@ fn smooth_cubics_with_the_patch_rule_converge_in_space_at_third_order() {
             .collect();
         let slopes = orders(&errors);
         println!("{file:8} error with 16, 32, 64 spans {} orders {slopes:.2?}", sci(&errors));
-        assert!(errors[2] < 5e-5, "{file}: {}", errors[2]);
-        assert!(slopes.iter().all(|slope| *slope > 2.85), "{file}: {slopes:?}");
+        assert!(errors[2] < 2e-5, "{file}: {}", errors[2]);
+        assert!(slopes[0] > 3.2 && slopes[1] > 3.9, "{file}: {slopes:?}");
     }
 }
 
 #[test]
 fn cubic_lagrange_elements_converge_at_nearly_sixth_order_at_their_nodes() {
-    // Three points an element for strain and curvature. Smooth cubics reach orders above 4 with as many, too: what holds
-    // them at three is both the patch rule for the strain and the rule of two points for the curvature.
+    // Three points an element for strain and curvature.
     let reference = Table::read("P2s.csv").ends(5.0);
     let errors: Vec<f64> = [8, 16]
         .into_iter()

@@ -163,8 +163,7 @@ impl Mesh {
         for run in self.runs() {
             let moment_points = self.moment_points(&run);
             let rules = self.force_rules(&run)?;
-            let with_rule =
-                |(span, force_rule)| QuadratureSpan { span, force_rule, moment_points };
+            let with_rule = |(span, force_rule)| QuadratureSpan { span, force_rule, moment_points };
             spans.extend(run.into_iter().zip(rules).map(with_rule));
         }
         Ok(spans)
@@ -184,8 +183,8 @@ impl Mesh {
             Quadrature::Patch => {
                 let uneven = || {
                     let lengths = run.iter().map(|span| span.end - span.start);
-                    let (shortest, longest) =
-                        lengths.fold((f64::INFINITY, 0.0_f64), |(low, high), length| {
+                    let (shortest, longest) = lengths
+                        .fold((f64::INFINITY, 0.0_f64), |(low, high), length| {
                             (low.min(length), high.max(length))
                         });
                     BeamError::UnevenSpans { ratio: longest / shortest }

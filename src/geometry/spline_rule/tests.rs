@@ -101,7 +101,7 @@ fn derivatives_of_all_functions_are_integrated_exactly() {
 
 #[test]
 fn far_from_the_ends_of_equal_spans_points_are_in_the_middle_for_odd_degrees_and_at_knots_for_even_ones()
-{
+ {
     for degree in [2, 3, 4, 5] {
         let basis = basis(&[1.0; 60], degree, degree - 1);
         let rule = spline_gauss_rule(&basis, &basis.spans()).unwrap();
