@@ -66,11 +66,12 @@ pub const TABLE: Table = Table {
             .doc(
                 "bspline(14) has 14 equal spans. Options: spans, degree (3), continuity (degree - 1), quadrature. The \
                  quadrature says where axial and shear strain are sampled: \"patch\" (the default) neither locks nor leaves \
-                 zero-energy modes; a whole number is so many Gauss points in every span.",
+                 zero-energy modes, whatever degree and continuity are; a whole number is so many Gauss points in every span, for study: \
+                 such a mesh tells when printed whether it has too many (it locks on stiff beams) or too few.",
             )
             .example(
                 "let mesh = bspline(14);\ncheck(mesh.spans == 14);\n\
-                 let paper = bspline(#{ spans: 7, continuity: 1 });\nprint(paper);",
+                 let paper = bspline(#{ spans: 7, continuity: 1, quadrature: 3 });\nprint(paper); // … 3 points for the strain: locks",
             )
             .see(&["lagrange", "knots", "beam"]),
         function("lagrange", &[either("elements", &[COUNT, Kind::Options(LAGRANGE)])], lagrange)
