@@ -135,3 +135,23 @@ fn long_and_uneven_meshes_have_rules_too() {
         assert!(spline_gauss_rule(&uneven, &uneven.spans()).is_some(), "{degree}");
     }
 }
+
+#[test]
+fn lengths_of_any_order_of_magnitude_have_rules() {
+    let mut random = 1_u64;
+    let mut next = || {
+        random =
+            random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (random >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    for degree in 2..=10 {
+        for continuity in 1..degree {
+            for spans in [2, 3, 5, 8, 12, 20] {
+                let sizes: Vec<f64> = (0..spans).map(|_| 10_f64.powf(-11.0 * next())).collect();
+                let basis = basis(&sizes, degree, continuity);
+                let rule = spline_gauss_rule(&basis, &basis.spans());
+                assert!(rule.is_some(), "degree {degree}, C{continuity}, {sizes:?}");
+            }
+        }
+    }
+}
