@@ -8,10 +8,12 @@
 //! ```
 
 #![forbid(unsafe_code)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub mod analysis;
 pub mod beams;
 pub mod cli;
+pub mod elementary;
 pub mod exercises;
 pub mod geometry;
 pub mod integrators;

@@ -1,13 +1,14 @@
 //! Details of curves, knots, meshes and vectors.
 
 use super::{line, number, numbers, pair};
+use crate::elementary::atan2;
 use crate::beams::{Mesh, PointCounts};
 use crate::geometry::{Basis, Curve, KnotVector, Vec2};
 use crate::script::kind::Details;
 
 /// Length and angle.
 pub fn of_vector(vector: &Vec2) -> Details {
-    let angle = vector.y.atan2(vector.x);
+    let angle = atan2(vector.y, vector.x);
     let angle = format!("{} rad = {}°", number(angle), number(angle.to_degrees()));
     vec![line("norm", number(vector.norm())), line("angle", angle)]
 }
