@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use common::sliding::{Support, free_sliding_mass, kicked_sliding_particle};
-use common::{at, meshes, run, scenes, settings, sliding_scenes};
+use common::{at, meshes, scenes, simulate, sliding_scenes};
 use withy::beams::{Mesh, Section, Shape, Solid};
 use withy::elementary;
 use withy::geometry::Vec2;
@@ -46,9 +46,7 @@ fn seen(simulation: &Simulation) -> u64 {
 }
 
 fn moved(scene: Scene, method: Method, dt: impl Into<StepSize>, end: f64) -> u64 {
-    let mut simulation = Simulation::start(scene, settings(method, dt)).unwrap();
-    run(&mut simulation, end).unwrap();
-    seen(&simulation)
+    seen(&simulate(scene, method, dt, end))
 }
 
 fn smooth(spans: usize) -> Mesh {
@@ -119,8 +117,8 @@ fn modes(scene: &Scene, count: usize) -> u64 {
 fn elementary_functions() -> u64 {
     use elementary::*;
     let ofs: [fn(f64) -> f64; 17] = [
-        sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh, atanh, exp, ln, log2, log10,
-        square,
+        sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh, atanh, exp, ln, log2,
+        log10, square,
     ];
     let pairs: [fn(f64, f64) -> f64; 4] = [atan2, hypot, power, log];
     let arguments: Vec<f64> =
@@ -160,8 +158,14 @@ fn all() -> Vec<(String, u64)> {
         ("generalized alpha", alpha),
     ];
     for (name, method) in methods {
-        keep(&format!("spaghetti, {name}"), moved(scenes::spaghetti(&smooth(7), 1e4), method, 0.1, 4.0));
-        keep(&format!("curved pendulum, {name}"), moved(scenes::curved_pendulum(&smooth(4)), method, 0.05, 1.5));
+        keep(
+            &format!("spaghetti, {name}"),
+            moved(scenes::spaghetti(&smooth(7), 1e4), method, 0.1, 4.0),
+        );
+        keep(
+            &format!("curved pendulum, {name}"),
+            moved(scenes::curved_pendulum(&smooth(4)), method, 0.05, 1.5),
+        );
     }
     for scene in scenes::all(&smooth(5)).into_iter().skip(1) {
         keep(&scene.name.clone(), moved(scene, EnergyMomentum, 0.05, 2.0));
@@ -171,26 +175,46 @@ fn all() -> Vec<(String, u64)> {
     keep("spinning tube", moved(spinning_tube(), EnergyMomentum, 0.02, 0.8));
 
     let tolerance = StepControl::to(1e-3);
-    keep("adaptive spaghetti", moved(scenes::spaghetti(&smooth(6), 1e4), EnergyMomentum, tolerance, 4.0));
+    keep(
+        "adaptive spaghetti",
+        moved(scenes::spaghetti(&smooth(6), 1e4), EnergyMomentum, tolerance, 4.0),
+    );
     keep("adaptive pendulum", moved(scenes::curved_pendulum(&smooth(4)), alpha, tolerance, 1.0));
-    let mass = |rule| {
-        free_sliding_mass([&smooth(2), &smooth(4)], 100.0, Support::Hinged, rule)
-    };
+    let mass = |rule| free_sliding_mass([&smooth(2), &smooth(4)], 100.0, Support::Hinged, rule);
     let bouncing = with_ends(mass(Conserving), Bounce);
     keep("adaptive sliding mass", moved(bouncing, EnergyMomentum, tolerance, 0.3));
 
-    for (name, rule) in [("conserving", Conserving), ("exact", Exact), ("relaxed", Relaxed)] {
-        keep(&format!("sliding mass, {name}"), moved(with_ends(mass(rule), Stop), EnergyMomentum, 0.01, 0.5));
+    // With the relaxed rule a step soon has no solution (`sliding_relaxed.rs`).
+    let rules = [("conserving", Conserving, 0.5), ("exact", Exact, 0.5), ("relaxed", Relaxed, 0.1)];
+    for (name, rule, end) in rules {
+        keep(
+            &format!("sliding mass, {name}"),
+            moved(with_ends(mass(rule), Stop), EnergyMomentum, 0.01, end),
+        );
     }
-    keep("sliding mass, released", moved(with_ends(mass(Conserving), Release), EnergyMomentum, 0.01, 0.5));
+    keep(
+        "sliding mass, released",
+        moved(with_ends(mass(Conserving), Release), EnergyMomentum, 0.01, 0.5),
+    );
     for (name, method) in methods {
-        keep(&format!("kicked particle, {name}"), moved(with_ends(kicked_sliding_particle(&smooth(4), Conserving), Bounce), method, 0.02, 0.6));
+        keep(
+            &format!("kicked particle, {name}"),
+            moved(
+                with_ends(kicked_sliding_particle(&smooth(4), Conserving), Bounce),
+                method,
+                0.02,
+                0.6,
+            ),
+        );
     }
     for scene in sliding_scenes::all(&smooth(4), Conserving).into_iter().skip(3) {
         keep(&scene.name.clone(), moved(scene, EnergyMomentum, 0.02, 0.7));
     }
 
-    keep("equilibrium by steps of load", at_rest(loaded(&smooth(8), at(-3.0, 6.0)), Loading { steps: 6, ..Loading::default() }));
+    keep(
+        "equilibrium by steps of load",
+        at_rest(loaded(&smooth(8), at(-3.0, 6.0)), Loading { steps: 6, ..Loading::default() }),
+    );
     keep("equilibrium along the path", snapping_arch());
     keep("all modes", modes(&loaded(&smooth(6), at(0.0, 1.0)), 12));
     keep("lowest modes of many", modes(&scenes::curved_pendulum(&smooth(150)), 5));
@@ -211,8 +235,11 @@ fn the_states_of_scenes_are_those_that_were_pinned() {
         return;
     }
     let pinned = fs::read_to_string(table()).unwrap();
-    let pinned: BTreeMap<&str, &str> =
-        pinned.lines().filter_map(|line| line.split_once(' ')).map(|(hash, name)| (name, hash)).collect();
+    let pinned: BTreeMap<&str, &str> = pinned
+        .lines()
+        .filter_map(|line| line.split_once(' '))
+        .map(|(hash, name)| (name, hash))
+        .collect();
     let is_other = |(name, hash): &&(String, u64)| {
         pinned.get(name.as_str()).copied() != Some(format!("{hash:016x}").as_str())
     };
@@ -245,7 +272,7 @@ let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });
 let scene = new_scene("thrown");
 let rod = scene.beam(#{ name: "rod", axis: arc([0, 0], 4, 0.3, 1.9), basis: bspline(6), section: slender });
 scene.force(rod.end, [8, 3], sine(1, 2, 0.3));
-let f = |x| switch x { 1 => "one", 2 => "two", 7..9 => "some", "a" => "b", 3.5 => "c", _ => sin(x) ^ 1.7 };
+let f = |x| switch x { 1 => "one", 2 => "two", "a" => "b", 3.5 => "c", 7..9 => "some", _ => sin(x) ^ 1.7 };
 let g = |x, y| { let far = 0; for i in 0..3 { far += i * x } far + rod.length + y };
 print(f);
 print(f.name);
@@ -258,7 +285,7 @@ for i in 1..60 {
     print([asin(1 / x - floor(1 / x)), sinh(x / 9), cosh(x / 9), tanh(x), asinh(x), acosh(1 + x), atanh(1 / (1 + x)), log(x, 7)]);
 }
 let sim = scene.start(#{ dt: 0.1 });
-sim.at(0.5, || print(sim.energy));
+sim.at(0.5, |sim| print(sim.energy));
 sim.run_to(3);
 sim.save("thrown.withy");
 write_history(sim, "thrown.csv");
@@ -293,7 +320,14 @@ fn equal_runs_leave_equal_bytes() {
     let names: Vec<&str> = once.keys().map(String::as_str).collect();
     assert_eq!(
         names,
-        ["energies.svg", "motion.png", "motion.svg", "standard output", "thrown.csv", "thrown.withy"]
+        [
+            "energies.svg",
+            "motion.png",
+            "motion.svg",
+            "standard output",
+            "thrown.csv",
+            "thrown.withy"
+        ]
     );
     assert!(String::from_utf8_lossy(&once["standard output"]).contains("anon$"));
     for plain in [false, true] {

@@ -1,7 +1,7 @@
 //! Features that can be added to any scene with a beam, small enough to leave its motion much as it is.
 
-use crate::elementary::square;
 use crate::beams::Station;
+use crate::elementary::square;
 use crate::geometry::Vec2;
 use crate::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
 use crate::loads::{Frame, LoadKind, Schedule};

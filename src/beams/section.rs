@@ -145,7 +145,9 @@ impl Shape {
         match *self {
             Self::Rectangle { width, height } => width * whole_power(height, 3) / 12.0,
             Self::Circle { radius } => PI / 4.0 * whole_power(radius, 4),
-            Self::Tube { outer, inner } => PI / 4.0 * (whole_power(outer, 4) - whole_power(inner, 4)),
+            Self::Tube { outer, inner } => {
+                PI / 4.0 * (whole_power(outer, 4) - whole_power(inner, 4))
+            }
         }
     }
 

@@ -147,7 +147,10 @@ mod tests {
     fn undefined_values_are_nan_and_special_ones_exact() {
         assert!(asin(1.5).is_nan() && ln(-1.0).is_nan() && acosh(0.5).is_nan());
         assert_eq!((exp(f64::NEG_INFINITY), ln(0.0)), (0.0, f64::NEG_INFINITY));
-        assert_eq!((atan2(0.0, -1.0), atan2(-0.0, -1.0)), (std::f64::consts::PI, -std::f64::consts::PI));
+        assert_eq!(
+            (atan2(0.0, -1.0), atan2(-0.0, -1.0)),
+            (std::f64::consts::PI, -std::f64::consts::PI)
+        );
         assert_eq!((hypot(3.0, 4.0), hypot(3e200, 4e200)), (5.0, 5e200));
         assert_eq!((sin(-0.0).to_bits(), cos(0.0)), ((-0.0_f64).to_bits(), 1.0));
     }

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::elementary::power;
 use super::error::{finite, finite_point};
 use super::knots::check_inside;
 use super::{GeometryError, Vec2, perpendicular, unit};
+use crate::elementary::power;
 use std::f64::consts::TAU;
 
 /// A full turn may be exceeded by this fraction of it, for rounding in the angles.

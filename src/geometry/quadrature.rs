@@ -1,8 +1,8 @@
 //! Gauss–Legendre quadrature.
 
 use super::GeometryError;
-use std::f64::consts::PI;
 use crate::elementary::cos;
+use std::f64::consts::PI;
 
 /// The largest number of points of a rule.
 const MOST_POINTS: usize = 64;

@@ -90,10 +90,8 @@ fn clipped(a: Point, b: Point, window: &Area) -> Option<(Point, Point)> {
 
 /// A curve broken into strokes of the lengths in `pattern`, which alternate with gaps: drawn, left out, drawn, …
 pub fn dashes(run: &[Point], pattern: &[f64]) -> Vec<Vec<Point>> {
-    let whole = run
-        .windows(2)
-        .map(|pair| hypot(pair[1].0 - pair[0].0, pair[1].1 - pair[0].1))
-        .sum::<f64>();
+    let whole =
+        run.windows(2).map(|pair| hypot(pair[1].0 - pair[0].0, pair[1].1 - pair[0].1)).sum::<f64>();
     if pattern.iter().any(|&length| length < 0.5) || pattern.is_empty() || whole > 1e5 {
         return vec![run.to_vec()];
     }

@@ -23,7 +23,8 @@ rhai::def_package! {
 
 /// What Rhai hashes names with. It makes the names of functions without one of hashes as well (`anon$…`), which a script can print; left
 /// alone it would draw a seed at random for every process.
-const SEED: [u64; 4] = [0x7769_7468_7920_0001, 0x7769_7468_7920_0002, 0x7769_7468_7920_0003, 0x7769_7468_7920_0004];
+const SEED: [u64; 4] =
+    [0x7769_7468_7920_0001, 0x7769_7468_7920_0002, 0x7769_7468_7920_0003, 0x7769_7468_7920_0004];
 
 /// Texts that are kept once, however often they occur.
 const TEXTS_SHARED: usize = 256;

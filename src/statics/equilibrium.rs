@@ -2,8 +2,8 @@
 
 use super::tracer::Tracer;
 use super::{Control, Loading, Path, PathPoint, StaticsError};
-use crate::elementary::square;
 use crate::beams::{Place, Section};
+use crate::elementary::square;
 use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
 use crate::model::{Model, Scene};

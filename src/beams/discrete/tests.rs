@@ -3,11 +3,8 @@
 use super::*;
 use proptest::prelude::*;
 
-const TANGENT: Collocation = Collocation {
-    configuration: 0.4,
-    stress: 0.6,
-    rotations: RotationIncrement::TangentScaled,
-};
+const TANGENT: Collocation =
+    Collocation { configuration: 0.4, stress: 0.6, rotations: RotationIncrement::TangentScaled };
 
 /// The bits of the tangents and the forces of all spans, by one kind of instructions, and the spans afterwards.
 fn linearised<const N: usize>(

@@ -1,8 +1,8 @@
 //! Details of curves, knots, meshes and vectors.
 
 use super::{line, number, numbers, pair};
-use crate::elementary::atan2;
 use crate::beams::{Mesh, PointCounts};
+use crate::elementary::atan2;
 use crate::geometry::{Basis, Curve, KnotVector, Vec2};
 use crate::script::kind::Details;
 

@@ -13,7 +13,7 @@ use crate::script::table::{Body, Constant, Row, Table, function};
 pub const TABLE: Table = Table {
     name: "numbers",
     doc: "Elementary functions. Whole numbers are welcome everywhere, angles are in radians, and infinite or undefined \
-          numbers pass through as in IEEE 754.",
+          numbers pass through as in IEEE 754. Results have the same bits on every machine.",
     types: &[],
     setup: "",
     constants: &[
@@ -32,7 +32,12 @@ pub const TABLE: Table = Table {
         },
     ],
     rows: &[
-        of_x("sin", |call| map(call, elementary::sin), "The sine.", "check(sin(PI / 6) - 0.5 < 1e-15);"),
+        of_x(
+            "sin",
+            |call| map(call, elementary::sin),
+            "The sine.",
+            "check(sin(PI / 6) - 0.5 < 1e-15);",
+        ),
         of_x("cos", |call| map(call, elementary::cos), "The cosine.", "check(cos(0) == 1);"),
         of_x("tan", |call| map(call, elementary::tan), "The tangent.", "check(tan(0) == 0);"),
         of_x(
@@ -54,8 +59,18 @@ pub const TABLE: Table = Table {
             "check(4 * atan(1) == PI);",
         )
         .see(&["atan2"]),
-        of_x("sinh", |call| map(call, elementary::sinh), "The hyperbolic sine.", "check(sinh(0) == 0);"),
-        of_x("cosh", |call| map(call, elementary::cosh), "The hyperbolic cosine.", "check(cosh(0) == 1);"),
+        of_x(
+            "sinh",
+            |call| map(call, elementary::sinh),
+            "The hyperbolic sine.",
+            "check(sinh(0) == 0);",
+        ),
+        of_x(
+            "cosh",
+            |call| map(call, elementary::cosh),
+            "The hyperbolic cosine.",
+            "check(cosh(0) == 1);",
+        ),
         of_x(
             "tanh",
             |call| map(call, elementary::tanh),
@@ -81,7 +96,12 @@ pub const TABLE: Table = Table {
             "check(atanh(0) == 0);",
         ),
         of_x("exp", |call| map(call, elementary::exp), "The exponential.", "check(exp(0) == 1);"),
-        of_x("ln", |call| map(call, elementary::ln), "The natural logarithm.", "check(ln(E) == 1);"),
+        of_x(
+            "ln",
+            |call| map(call, elementary::ln),
+            "The natural logarithm.",
+            "check(ln(E) == 1);",
+        ),
         of_x(
             "log10",
             |call| map(call, elementary::log10),
@@ -177,16 +197,20 @@ pub const TABLE: Table = Table {
             .returns("a number, whole if x is")
             .summary("The magnitude of a number.")
             .example("check(abs(-3) == 3);"),
-        function("hypot", &[ANY_X, ANY_Y], |call| Ok(elementary::hypot(x(call)?, call.number("y")?).into()))
-            .returns("a number")
-            .summary("The length of the vector with components x and y, without overflow.")
-            .example("check(hypot(3, 4) == 5);")
-            .see(&["norm"]),
-        function("atan2", &[ANY_Y, ANY_X], |call| Ok(elementary::atan2(call.number("y")?, x(call)?).into()))
-            .returns("an angle from -PI to PI")
-            .summary("The angle of the vector with components x and y; y comes first.")
-            .example("check(atan2(1, 0) == PI / 2);")
-            .see(&["angle"]),
+        function("hypot", &[ANY_X, ANY_Y], |call| {
+            Ok(elementary::hypot(x(call)?, call.number("y")?).into())
+        })
+        .returns("a number")
+        .summary("The length of the vector with components x and y, without overflow.")
+        .example("check(hypot(3, 4) == 5);")
+        .see(&["norm"]),
+        function("atan2", &[ANY_Y, ANY_X], |call| {
+            Ok(elementary::atan2(call.number("y")?, x(call)?).into())
+        })
+        .returns("an angle from -PI to PI")
+        .summary("The angle of the vector with components x and y; y comes first.")
+        .example("check(atan2(1, 0) == PI / 2);")
+        .see(&["angle"]),
         function("min", &[numeric("x"), numeric("y")], |call| choose(call, |x, y| x < y))
             .returns("a number")
             .summary("The smaller of two numbers; undefined if one of them is.")

@@ -1,8 +1,8 @@
 //! The picture of a convergence study.
 
 use super::labels;
-use crate::elementary::{ln, power};
 use crate::analysis::{Convergence, Ladder, Refined};
+use crate::elementary::{ln, power};
 use crate::output::{Ink, LineChart, Marker, Scale, Series, Stroke};
 
 /// Orders between neighbours that differ by less are the same one.

@@ -5,10 +5,10 @@ use rhai::Dynamic;
 use super::desk::{Desk, Task};
 use super::labels;
 use super::plan::{Plan, at_key, expect_same_observables, subject_on};
-use crate::elementary::square;
 use crate::analysis::{
     Case, Outcome, PART_OF_THE_SMALLEST_STEP, Sheet, Trial, Truth, finest_mesh, highest_order,
 };
+use crate::elementary::square;
 use crate::geometry::Vec2;
 use crate::integrators::Method;
 use crate::script::call::Call;
