@@ -6,6 +6,8 @@
 //! main → cli → repl, exercises → script → output, analysis → simulation → statics → vibration → model ┬→ joints, loads → beams → geometry
 //!                                                                                                     └→ integrators → newton → linalg
 //! ```
+//!
+//! At the bottom of all stands [`elementary`]: sine, logarithm and power with the same bits on every machine.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]

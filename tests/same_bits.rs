@@ -217,7 +217,10 @@ fn all() -> Vec<(String, u64)> {
     );
     keep("equilibrium along the path", snapping_arch());
     keep("all modes", modes(&loaded(&smooth(6), at(0.0, 1.0)), 12));
-    keep("lowest modes of many", modes(&scenes::curved_pendulum(&smooth(150)), 5));
+    keep(
+        "lowest modes of many",
+        modes(&scenes::cantilever(&smooth(150), scenes::spaghetti_section(1e4, 100.0)), 5),
+    );
     all
 }
 
