@@ -6,12 +6,16 @@
 //! main → cli → repl, exercises → script → output, analysis → simulation → statics → vibration → model ┬→ joints, loads → beams → geometry
 //!                                                                                                     └→ integrators → newton → linalg
 //! ```
+//!
+//! At the bottom of all stands [`elementary`]: sine, logarithm and power with the same bits on every machine.
 
 #![forbid(unsafe_code)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub mod analysis;
 pub mod beams;
 pub mod cli;
+pub mod elementary;
 pub mod exercises;
 pub mod geometry;
 pub mod integrators;

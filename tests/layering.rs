@@ -19,21 +19,23 @@ const CHAIN: &[&[&str]] = &[
 
 /// Below the model, and beside the chain: each layer with those it may use.
 const BRANCHES: &[(&str, &[&str])] = &[
-    ("joints", &["beams", "geometry"]),
-    ("loads", &["beams", "geometry"]),
-    ("beams", &["geometry"]),
-    ("geometry", &[]),
-    ("integrators", &["newton", "linalg"]),
-    ("newton", &["linalg"]),
-    ("linalg", &[]),
+    ("joints", &["beams", "geometry", "elementary"]),
+    ("loads", &["beams", "geometry", "elementary"]),
+    ("beams", &["geometry", "elementary"]),
+    ("geometry", &["elementary"]),
+    ("integrators", &["newton", "linalg", "elementary"]),
+    ("newton", &["linalg", "elementary"]),
+    ("linalg", &["elementary"]),
+    ("elementary", &[]),
 ];
 
 /// What a layer may use; none if it is in no table.
 fn allowed(layer: &str) -> Option<Vec<&'static str>> {
     match layer {
         "main.rs" => return Some(vec!["cli"]),
+        "lib.rs" => return Some(Vec::new()),
         // It draws plain data.
-        "lib.rs" | "output" => return Some(Vec::new()),
+        "output" => return Some(vec!["elementary"]),
         _ => {}
     }
     if let Some((_, uses)) = BRANCHES.iter().find(|(name, _)| *name == layer) {

@@ -3,6 +3,7 @@
 use super::observable::Observable;
 use super::trial::Trial;
 use super::truth::{Deviation, Truth};
+use crate::elementary::{ln, square};
 use crate::integrators::Method;
 
 /// What is refined.
@@ -52,20 +53,20 @@ impl Ladder {
     pub fn order(&self, rung: usize) -> Option<f64> {
         let ((coarse, large), (fine, small)) =
             (self.point(rung.checked_sub(1)?)?, self.point(rung)?);
-        Some((large / small).ln() / (coarse / fine).ln()).filter(|order| order.is_finite())
+        Some(ln(large / small) / ln(coarse / fine)).filter(|order| order.is_finite())
     }
 
     /// The order of all rungs together: the slope of a straight line through the logarithms by least squares.
     pub fn fitted_order(&self) -> Option<f64> {
         let points: Vec<(f64, f64)> = (0..self.sizes.len())
             .filter_map(|rung| self.point(rung))
-            .map(|(size, error)| (size.ln(), error.ln()))
+            .map(|(size, error)| (ln(size), ln(error)))
             .collect();
         let count = points.len() as f64;
         let mean = |part: fn(&(f64, f64)) -> f64| points.iter().map(part).sum::<f64>() / count;
         let (x, y) = (mean(|point| point.0), mean(|point| point.1));
         let covariance: f64 = points.iter().map(|point| (point.0 - x) * (point.1 - y)).sum();
-        let variance: f64 = points.iter().map(|point| (point.0 - x).powi(2)).sum();
+        let variance: f64 = points.iter().map(|point| square(point.0 - x)).sum();
         (points.len() > 1 && variance > 0.0).then(|| covariance / variance)
     }
 }

@@ -1,6 +1,7 @@
 //! Features that can be added to any scene with a beam, small enough to leave its motion much as it is.
 
 use crate::beams::Station;
+use crate::elementary::square;
 use crate::geometry::Vec2;
 use crate::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
 use crate::loads::{Frame, LoadKind, Schedule};
@@ -58,7 +59,7 @@ fn beam_mass(scene: &Scene) -> f64 {
 
 /// A part of the force that bends the beam by its length [force].
 fn small_force(scene: &Scene) -> f64 {
-    SMALL * scene.beams[0].section.bending_stiffness / length(scene).powi(2)
+    SMALL * scene.beams[0].section.bending_stiffness / square(length(scene))
 }
 
 fn end(scene: &mut Scene) -> Result<Station, ModelError> {

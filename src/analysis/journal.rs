@@ -3,7 +3,7 @@
 //! A journal is a file of records, each with its length and checksum; a record that was cut off by a crash ends it. It is
 //! removed when the script of the study has come to its end.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, Write};
@@ -49,7 +49,7 @@ pub struct JournalError {
 pub struct Journal {
     path: PathBuf,
     /// Results as they are stored, by the fingerprint of their case.
-    known: HashMap<u64, Vec<u8>>,
+    known: BTreeMap<u64, Vec<u8>>,
     file: Option<File>,
 }
 

@@ -2,6 +2,7 @@
 
 use super::observable::{Observable, ObservableKind};
 use super::sheet::{Sheet, SheetError};
+use crate::elementary::hypot;
 use crate::geometry::{Vec2, larger};
 
 /// Observables at the times of a study: the first index is the time, the second the observable.
@@ -157,7 +158,7 @@ fn known_of(sheet: &Sheet, row: usize, of: &Observable) -> Result<Option<Known>,
             let groups = [format!("d_{name}"), "d_pos".to_owned()];
             let trusted = match [&x, &y].map(|column| format!("d_{column}")) {
                 [x, y] if sheet.has(&x) && sheet.has(&y) => {
-                    sheet.size(row, &x)?.hypot(sheet.size(row, &y)?)
+                    hypot(sheet.size(row, &x)?, sheet.size(row, &y)?)
                 }
                 _ => either(&groups)?,
             };

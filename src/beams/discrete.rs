@@ -363,3 +363,6 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

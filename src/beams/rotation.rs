@@ -1,5 +1,6 @@
 //! Section rotations as cosine and sine, advanced by tangent-scaled increments without trigonometric functions.
 
+use crate::elementary::{atan, cos, sin};
 use crate::geometry::Vec2;
 
 /// What an interpolated rotation increment `Δω` stands for.
@@ -38,7 +39,7 @@ impl RotationIncrement {
                 }
             }
             Self::Angle => {
-                Turn { cos: increment.cos(), sin: increment.sin(), rate: 1.0, rate_slope: 0.0 }
+                Turn { cos: cos(increment), sin: sin(increment), rate: 1.0, rate_slope: 0.0 }
             }
         }
     }
@@ -46,7 +47,7 @@ impl RotationIncrement {
     /// `Δθ` [rad]
     pub fn angle(self, increment: f64) -> f64 {
         match self {
-            Self::TangentScaled => 2.0 * (0.5 * increment).atan(),
+            Self::TangentScaled => 2.0 * atan(0.5 * increment),
             Self::Angle => increment,
         }
     }
@@ -69,7 +70,7 @@ pub struct Rotation {
 impl Rotation {
     /// The rotation by an angle [rad].
     pub fn by(angle: f64) -> Self {
-        Self { cos: angle.cos(), sin: angle.sin() }
+        Self { cos: cos(angle), sin: sin(angle) }
     }
 
     /// `Λ` times the rotation that an increment stands for.

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 use super::BeamError;
+use crate::elementary::{square, whole_power};
 
 /// A linear elastic, homogeneous cross section.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -142,9 +143,11 @@ impl Shape {
     /// Its second moment of area `I` about the horizontal centroidal axis [length⁴].
     pub fn second_moment(&self) -> f64 {
         match *self {
-            Self::Rectangle { width, height } => width * height.powi(3) / 12.0,
-            Self::Circle { radius } => PI / 4.0 * radius.powi(4),
-            Self::Tube { outer, inner } => PI / 4.0 * (outer.powi(4) - inner.powi(4)),
+            Self::Rectangle { width, height } => width * whole_power(height, 3) / 12.0,
+            Self::Circle { radius } => PI / 4.0 * whole_power(radius, 4),
+            Self::Tube { outer, inner } => {
+                PI / 4.0 * (whole_power(outer, 4) - whole_power(inner, 4))
+            }
         }
     }
 
@@ -155,8 +158,8 @@ impl Shape {
             Self::Rectangle { .. } => 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu),
             Self::Circle { .. } => 6.0 * (1.0 + nu) / (7.0 + 6.0 * nu),
             Self::Tube { outer, inner } => {
-                let m2 = (inner / outer).powi(2);
-                let sum2 = (1.0 + m2).powi(2);
+                let m2 = square(inner / outer);
+                let sum2 = square(1.0 + m2);
                 6.0 * (1.0 + nu) * sum2 / ((7.0 + 6.0 * nu) * sum2 + (20.0 + 12.0 * nu) * m2)
             }
         }

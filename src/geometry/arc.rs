@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::error::{finite, finite_point};
 use super::knots::check_inside;
 use super::{GeometryError, Vec2, perpendicular, unit};
+use crate::elementary::power;
 use std::f64::consts::TAU;
 
 /// A full turn may be exceeded by this fraction of it, for rounding in the angles.
@@ -79,7 +80,7 @@ impl CircularArc {
             _ => -perpendicular(outward),
         };
         let origin = if order == 0 { self.center } else { Vec2::zeros() };
-        Ok(origin + self.radius * self.sweep().powf(order as f64) * turned)
+        Ok(origin + self.radius * power(self.sweep(), order as f64) * turned)
     }
 }
 

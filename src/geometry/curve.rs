@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::knots::check_inside;
 use super::{CircularArc, GeometryError, KnotVector, Line, SplineCurve, Vec2, cross, local_cubic};
+use crate::elementary::{atan2, hypot};
 
 /// Speeds below this fraction of the mean one are zero but for rounding.
 const STANDSTILL: f64 = 1e-12;
@@ -94,7 +95,7 @@ impl Curve {
     /// `xi` outside the domain, or not a number; a curve that stands still there.
     pub fn tangent_angle(&self, xi: f64) -> Result<f64, GeometryError> {
         let velocity = self.velocity(xi)?;
-        Ok(velocity.y.atan2(velocity.x))
+        Ok(atan2(velocity.y, velocity.x))
     }
 
     /// The curvature `(x' × x'') / |x'|³` [1/length], positive where the curve turns counter-clockwise;
@@ -156,7 +157,7 @@ impl Curve {
     fn velocity(&self, xi: f64) -> Result<Vec2, GeometryError> {
         let velocity = self.derivative(xi, 1)?;
         let (start, end) = self.domain();
-        if velocity.x.hypot(velocity.y) * (end - start) > STANDSTILL * self.length() {
+        if hypot(velocity.x, velocity.y) * (end - start) > STANDSTILL * self.length() {
             Ok(velocity)
         } else {
             Err(GeometryError::NoTangent { xi })

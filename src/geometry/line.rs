@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::error::{finite, finite_point};
 use super::knots::check_inside;
 use super::{GeometryError, Vec2};
+use crate::elementary::hypot;
 
 /// The segment from one point to another, `x(ξ) = (1 - ξ) from + ξ to` on `[0, 1]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -37,7 +38,7 @@ impl Line {
 
     pub(super) fn length(&self) -> f64 {
         let chord = self.to - self.from;
-        chord.x.hypot(chord.y)
+        hypot(chord.x, chord.y)
     }
 
     pub(super) fn derivative(&self, xi: f64, order: usize) -> Result<Vec2, GeometryError> {

@@ -1,5 +1,7 @@
 //! Vectors of the plane and the two products that planar mechanics needs.
 
+use crate::elementary::{cos, sin};
+
 /// A vector or point of the plane.
 pub type Vec2 = nalgebra::Vector2<f64>;
 
@@ -18,7 +20,7 @@ pub fn cross(a: Vec2, b: Vec2) -> f64 {
 /// The unit vector at `angle` [rad] from the first axis.
 #[inline]
 pub fn unit(angle: f64) -> Vec2 {
-    Vec2::new(angle.cos(), angle.sin())
+    Vec2::new(cos(angle), sin(angle))
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Gauss–Legendre quadrature.
 
 use super::GeometryError;
+use crate::elementary::cos;
 use std::f64::consts::PI;
 
 /// The largest number of points of a rule.
@@ -33,7 +34,7 @@ impl GaussRule {
     pub(super) fn legendre(n: usize) -> Self {
         let (mut points, mut weights) = (vec![0.0; n], vec![0.0; n]);
         for i in 0..n.div_ceil(2) {
-            let mut x = (PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
+            let mut x = cos(PI * (i as f64 + 0.75) / (n as f64 + 0.5));
             for _ in 0..8 {
                 let (value, slope) = legendre_polynomial(n, x);
                 x -= value / slope;

@@ -1,6 +1,7 @@
 //! The equations of one step, and the work space to solve them: what all integrators here share.
 
 use super::{Interval, Mechanism, Solution, Stage, StepError};
+use crate::elementary::square;
 use crate::linalg::BorderedMatrix;
 use crate::newton::{Equations, Imbalance, Newton, NewtonReport, Tolerance};
 
@@ -59,7 +60,7 @@ impl StepBalance<'_> {
 
     /// `ι/Δt²`
     fn inertia(&self) -> f64 {
-        self.rule.inertia / self.duration.powi(2)
+        self.rule.inertia / square(self.duration)
     }
 }
 

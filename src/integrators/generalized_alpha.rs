@@ -2,6 +2,7 @@
 
 use super::balance::{Rule, StepSolver};
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
+use crate::elementary::square;
 use crate::newton::{NewtonReport, Tolerance};
 
 /// Newmark's formulas with the balance taken at different places for inertia and forces. It damps what vibrates fast, by the
@@ -42,7 +43,7 @@ impl Weights {
         let inertia_before = (2.0 * rho_infinity - 1.0) / (rho_infinity + 1.0);
         let forces_before = rho_infinity / (rho_infinity + 1.0);
         let late = forces_before - inertia_before;
-        let (gamma, beta) = (0.5 + late, 0.25 * (1.0 + late).powi(2));
+        let (gamma, beta) = (0.5 + late, 0.25 * square(1.0 + late));
         Self { inertia_before, forces_before, gamma, beta }
     }
 
@@ -105,7 +106,7 @@ impl GeneralizedAlpha {
         };
         let report = solver.solve(mechanism, interval, rule)?;
         let duration = interval.duration();
-        let scale = 1.0 / (beta * duration.powi(2));
+        let scale = 1.0 / (beta * square(duration));
         solver.accept(mechanism, |at, start, deviation| {
             let before = accelerations[at];
             let after = scale * deviation - carried * before;

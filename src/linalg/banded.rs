@@ -300,4 +300,37 @@ mod tests {
         matrix.add(1, 1, 1.0);
         assert_eq!(matrix.factorise().unwrap_err(), LinearError::NotFinite { unknown: 0, size: 2 });
     }
+
+    /// The bits of factors and solutions, by one kind of instructions; none where there are no factors.
+    fn worked_on(arch: Arch, matrix: &BandedMatrix, right: &[f64]) -> Option<Vec<u64>> {
+        let mut storage = matrix.storage.clone();
+        arch.dispatch(Elimination(&mut storage)).ok()?;
+        let (factors, mut x) = (&storage, right.to_vec());
+        let mut strip: Vec<_> = right.iter().map(|x| [*x, 1.0 - x, 0.3 * x]).collect();
+        arch.dispatch(Substitution { factors, x: &mut x });
+        arch.dispatch(StripSubstitution { factors, x: &mut strip, first: 0 });
+        let all = storage.rows.iter().chain(&x).chain(strip.as_flattened());
+        Some(all.map(|x| x.to_bits()).collect())
+    }
+
+    proptest! {
+        #[test]
+        fn factors_and_solutions_have_the_same_bits_with_and_without_vector_instructions(
+            size in 1_usize..60, half_bandwidth in 0_usize..20, entries in prop::collection::vec(-1.0..1.0_f64, 2000),
+            diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
+        ) {
+            let mut matrix = BandedMatrix::zeros(size, half_bandwidth);
+            let mut entry = entries.iter().cycle();
+            for i in 0..size {
+                for j in i.saturating_sub(half_bandwidth)..(i + half_bandwidth + 1).min(size) {
+                    matrix.add(i, j, *entry.next().unwrap());
+                }
+                matrix.add(i, i, diagonal);
+            }
+            let right: Vec<f64> = entries.iter().cycle().skip(7).copied().take(size).collect();
+            let scalar = worked_on(Arch::Scalar, &matrix, &right);
+            prop_assert!(scalar == worked_on(Arch::new(), &matrix, &right));
+            prop_assert!(scalar.is_some() || diagonal == 0.0);
+        }
+    }
 }

@@ -7,6 +7,7 @@ use std::rc::Rc;
 
 use super::LoadError;
 use super::stored_schedule::StoredTerm;
+use crate::elementary::{sin, whole_power};
 
 /// A function of time from outside, such as a closure of a script.
 pub type ScheduleFunction = Rc<dyn Fn(f64) -> Result<f64, String>>;
@@ -230,12 +231,12 @@ impl Schedule {
         let value = match self {
             Self::Constant(factor) => *factor,
             Self::Table(rows) => table_value(rows, time, side),
-            Self::Sine { amplitude, rate, phase } => amplitude * (rate * time + phase).sin(),
+            Self::Sine { amplitude, rate, phase } => amplitude * sin(rate * time + phase),
             Self::SmoothPulse { duration } => {
                 if time <= 0.0 || time >= *duration {
                     0.0
                 } else {
-                    3.2 * (PI * time / duration).sin().powi(6)
+                    3.2 * whole_power(sin(PI * time / duration), 6)
                 }
             }
             Self::Function { function, breaks } => {

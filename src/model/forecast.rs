@@ -1,5 +1,7 @@
 //! With which rates the next step is best guessed.
 
+use crate::elementary::square;
+
 /// What the next step is best guessed from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Motion {
@@ -46,8 +48,8 @@ impl Forecast {
         let guesses = at_start.iter().zip(&mut self.mean_rates);
         for ((u, (rate, mean)), inertia) in increments.iter().zip(guesses).zip(&self.inertia) {
             let found = u * inverse;
-            missed_by_start += inertia * (found - rate).powi(2);
-            missed_by_mean += inertia * (found - *mean).powi(2);
+            missed_by_start += inertia * square(found - rate);
+            missed_by_mean += inertia * square(found - *mean);
             *mean = found;
         }
         self.motion = match self.motion {

@@ -1,6 +1,7 @@
 //! Where everything is, to be compared with where it is by another way.
 
 use super::Model;
+use crate::elementary::atan2;
 use crate::geometry::{Vec2, cross, larger};
 
 /// Control points of all bodies, and normals of their sections.
@@ -26,7 +27,7 @@ impl Placement {
         let normals = self.normals.iter().zip(&other.normals);
         Distance {
             length: points.map(|(a, b)| (a - b).norm()).fold(0.0, larger),
-            angle: normals.map(|(a, b)| cross(*a, *b).atan2(a.dot(b)).abs()).fold(0.0, larger),
+            angle: normals.map(|(a, b)| atan2(cross(*a, *b), a.dot(b)).abs()).fold(0.0, larger),
         }
     }
 }

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Equations, Imbalance, NewtonError};
+use crate::elementary::whole_power;
 use crate::linalg::{BorderShape, BorderedLu, BorderedMatrix};
 
 /// Imbalances below this are corrected with the factors at hand, as long as that gets on.
@@ -43,7 +44,7 @@ impl Tolerance {
         if self.accepts(imbalance) {
             return largest > self.polish && factor < STANDSTILL;
         }
-        largest <= NEAR && largest * factor.powi(corrections) <= self.polish
+        largest <= NEAR && largest * whole_power(factor, corrections) <= self.polish
     }
 
     fn accepts(&self, imbalance: &Imbalance) -> bool {

@@ -1,6 +1,7 @@
 //! Axes: from numbers to places along a side of a chart, and to the labels beside it.
 
 use super::number::format_number;
+use crate::elementary::{log10, whole_power};
 
 /// How numbers are laid out along an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -78,9 +79,9 @@ impl Axis {
             }
             x > floor
         });
-        let bottom = floor.log10().floor();
+        let bottom = log10(floor).floor();
         let (least, most) = extent(above).unwrap_or((floor, floor));
-        let (mut low, high) = (least.log10().floor(), most.log10().ceil());
+        let (mut low, high) = (log10(least).floor(), log10(most).ceil());
         if cut == Cut::Below {
             low = (low - 1.0).max(bottom);
         }
@@ -93,7 +94,7 @@ impl Axis {
             Scale::Linear => (x.clamp(-LARGEST, LARGEST) - self.low) / (self.high - self.low),
             Scale::Logarithmic if x.is_nan() => x,
             Scale::Logarithmic if x <= 0.0 => 0.0,
-            Scale::Logarithmic => ((x.log10() - self.low) / (self.high - self.low)).max(0.0),
+            Scale::Logarithmic => ((log10(x) - self.low) / (self.high - self.low)).max(0.0),
         }
     }
 
@@ -110,7 +111,7 @@ impl Axis {
         let (lead, power) = round_step((self.high - self.low) / count);
         let step = f64::from(lead) * ten_to(power);
         let size = self.low.abs().max(self.high.abs());
-        let factor = match size.log10().floor() as i32 {
+        let factor = match log10(size).floor() as i32 {
             modest @ -2..=4 if power >= -5 || modest >= 0 => 0,
             other => other,
         };
@@ -176,7 +177,7 @@ pub fn extent(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
 
 /// The step of the form 1, 2 or 5 times a power of ten that is next to `step`, or the next greater one.
 fn round_step(step: f64) -> (u8, i32) {
-    let power = step.log10().floor() as i32;
+    let power = log10(step).floor() as i32;
     match step / ten_to(power) {
         lead if lead <= 1.25 => (1, power),
         lead if lead <= 2.5 => (2, power),
@@ -186,7 +187,7 @@ fn round_step(step: f64) -> (u8, i32) {
 }
 
 fn ten_to(power: i32) -> f64 {
-    10f64.powi(power)
+    whole_power(10.0, power)
 }
 
 /// A number with a fixed count of decimals and a true minus sign.

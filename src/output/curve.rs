@@ -1,6 +1,7 @@
 //! Curves made ready for paper: gaps where there is no number, nothing outside the plot, no more points than pixels.
 
 use super::canvas::{Area, Point};
+use crate::elementary::hypot;
 
 /// Width of the strips in which a long curve is thinned, in pixels.
 const STRIP: f64 = 0.5;
@@ -89,10 +90,8 @@ fn clipped(a: Point, b: Point, window: &Area) -> Option<(Point, Point)> {
 
 /// A curve broken into strokes of the lengths in `pattern`, which alternate with gaps: drawn, left out, drawn, …
 pub fn dashes(run: &[Point], pattern: &[f64]) -> Vec<Vec<Point>> {
-    let whole = run
-        .windows(2)
-        .map(|pair| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1))
-        .sum::<f64>();
+    let whole =
+        run.windows(2).map(|pair| hypot(pair[1].0 - pair[0].0, pair[1].1 - pair[0].1)).sum::<f64>();
     if pattern.iter().any(|&length| length < 0.5) || pattern.is_empty() || whole > 1e5 {
         return vec![run.to_vec()];
     }
@@ -101,7 +100,7 @@ pub fn dashes(run: &[Point], pattern: &[f64]) -> Vec<Vec<Point>> {
     let (mut index, mut left) = (0, pattern[0]);
     for pair in run.windows(2) {
         let (a, b) = (pair[0], pair[1]);
-        let length = (b.0 - a.0).hypot(b.1 - a.1);
+        let length = hypot(b.0 - a.0, b.1 - a.1);
         let mut gone = 0.0;
         while length - gone > left {
             gone += left;

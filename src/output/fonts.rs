@@ -7,6 +7,7 @@ use std::sync::LazyLock;
 use ab_glyph::{Font, FontRef, GlyphId, Outline, OutlineCurve, OutlinedGlyph, PxScale};
 
 use super::canvas::Point;
+use crate::elementary::{hypot, square};
 
 /// Longest text that is set; what follows is dropped. No label of a picture comes near it.
 const LONGEST: usize = 400;
@@ -106,12 +107,12 @@ fn contours(outline: &Outline, place: impl Fn(ab_glyph::Point) -> Point) -> Vec<
 
 /// Adds the points strictly inside the quadratic curve `a b c`. TrueType faces have no cubic ones.
 fn bend(contour: &mut Vec<Point>, a: Point, b: Point, c: Point) {
-    let sag = (a.0 - 2.0 * b.0 + c.0).hypot(a.1 - 2.0 * b.1 + c.1) / 4.0;
+    let sag = hypot(a.0 - 2.0 * b.0 + c.0, a.1 - 2.0 * b.1 + c.1) / 4.0;
     let pieces = (sag / FLATNESS).sqrt().ceil().clamp(1.0, 8.0) as usize;
     for piece in 1..pieces {
         let t = piece as f64 / pieces as f64;
         let blend =
-            |a: f64, b: f64, c: f64| (1.0 - t).powi(2) * a + 2.0 * t * (1.0 - t) * b + t * t * c;
+            |a: f64, b: f64, c: f64| square(1.0 - t) * a + 2.0 * t * (1.0 - t) * b + t * t * c;
         contour.push((blend(a.0, b.0, c.0), blend(a.1, b.1, c.1)));
     }
 }

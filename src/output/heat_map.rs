@@ -9,6 +9,7 @@ use super::{
     hatching::{hatch, outline},
     page::Panel,
 };
+use crate::elementary::log10;
 
 const TITLE: f64 = 16.0;
 const LABEL: f64 = 13.0;
@@ -104,7 +105,7 @@ impl HeatMap {
     /// How far a number is on the scale of colours, from 0 to 1; none for what is no number.
     pub(super) fn part(&self, value: f64) -> Option<f64> {
         let (low, high) = (f64::from(self.scale.1), f64::from(self.scale.2));
-        let place = (value.max(0.0).log10() - low) / (high - low);
+        let place = (log10(value.max(0.0)) - low) / (high - low);
         (!value.is_nan()).then(|| place.clamp(0.0, 1.0))
     }
 

@@ -13,6 +13,7 @@ use super::{
     colour::{Colour, WHITE},
     fonts,
 };
+use crate::elementary::hypot;
 
 /// The PNG file of `canvas`, `width` by `height` pixels.
 pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<Vec<u8>, OutputError> {
@@ -161,7 +162,7 @@ impl Cover {
                 let x = (self.left + column) as f64 + 0.5;
                 let along = ((x - a.0) * dx + (y - a.1) * dy) / square;
                 let along = if along.is_finite() { along.clamp(0.0, 1.0) } else { 0.0 };
-                let distance = (x - a.0 - along * dx).hypot(y - a.1 - along * dy);
+                let distance = hypot(x - a.0 - along * dx, y - a.1 - along * dy);
                 let amount = (reach - distance).clamp(0.0, 1.0).min(2.0 * radius) as f32;
                 let held = &mut self.amounts[row * self.columns + column];
                 *held = held.max(amount);

@@ -21,6 +21,11 @@ rhai::def_package! {
         BasicMathPackage, BasicStringPackage, BasicTimePackage, LogicPackage, MoreStringPackage {}
 }
 
+/// What Rhai hashes names with. It makes the names of functions without one of hashes as well (`anon$…`), which a script can print; left
+/// alone it would draw a seed at random for every process.
+const SEED: [u64; 4] =
+    [0x7769_7468_7920_0001, 0x7769_7468_7920_0002, 0x7769_7468_7920_0003, 0x7769_7468_7920_0004];
+
 /// Texts that are kept once, however often they occur.
 const TEXTS_SHARED: usize = 256;
 
@@ -97,6 +102,8 @@ pub const REFUSED: &[Refused] = &[
 
 /// An engine with what the language takes over from Rhai, and nothing else.
 pub fn engine() -> Engine {
+    // It can be set once in a process: all engines but the first find it set.
+    let _ = rhai::config::hashing::set_hashing_seed(Some(SEED));
     let mut engine = Engine::new_raw();
     engine.set_max_strings_interned(TEXTS_SHARED);
     engine.register_global_module(FromRhai::new().as_shared_module());

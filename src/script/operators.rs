@@ -13,6 +13,7 @@ use rhai::{Dynamic, Engine, EvalAltResult, INT, NativeCallContext};
 
 use super::register::EngineResult;
 use super::syntax::{LONGEST_CHAIN, OWN, Operand, REPLACED, power_name};
+use crate::elementary::power;
 
 /// Registers the operators on numbers, under our own names and where possible under the engine's.
 pub fn install(engine: &mut Engine) {
@@ -29,7 +30,7 @@ pub fn install(engine: &mut Engine) {
         |m, n| (m as f64 / n as f64).into(),
     );
     for chain in 0..LONGEST_CHAIN {
-        register_arithmetic(engine, &power_name(chain), f64::powf, whole_power);
+        register_arithmetic(engine, &power_name(chain), power, whole_power);
     }
     for (symbol, _) in REPLACED {
         hand_over(engine, format!("{OWN}{symbol}"), symbol);
@@ -85,7 +86,7 @@ fn register_arithmetic(
 /// A whole number when the power is one and fits, else the nearest number: `2^3` is 8, `2^-1` is 0.5.
 fn whole_power(base: INT, exponent: INT) -> Dynamic {
     let whole = u32::try_from(exponent).ok().and_then(|exponent| base.checked_pow(exponent));
-    whole.map_or_else(|| (base as f64).powf(exponent as f64).into(), Dynamic::from)
+    whole.map_or_else(|| power(base as f64, exponent as f64).into(), Dynamic::from)
 }
 
 /// Everything that is not two numbers goes to the engine's operator `symbol`.

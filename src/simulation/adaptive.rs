@@ -6,6 +6,7 @@ use super::first_step::{first_step, length_of};
 use super::landing::MOST_ARRIVALS;
 use super::stepping::Halving;
 use super::{Monitor, Simulation, SimulationError, StepControl};
+use crate::elementary::power;
 use crate::integrators::{Interval, Method, StepError};
 use crate::model::{Model, Scene};
 
@@ -44,7 +45,7 @@ impl Adaptive {
         let largest = control.largest.unwrap_or(LARGEST * first);
         let smallest = control.smallest.unwrap_or(SMALLEST * first);
         let controller = Controller { order: f64::from(order + 1), first, smallest, largest };
-        let allowed = control.tolerance.powf(1.0 + 1.0 / f64::from(order));
+        let allowed = power(control.tolerance, 1.0 + 1.0 / f64::from(order));
         let doubling = Doubling::new(order, length_of(scene, model), allowed);
         Self { controller, doubling, tolerance: control.tolerance }
     }

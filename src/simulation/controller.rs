@@ -5,6 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::elementary::power;
+
 /// The part that steps are meant to be of the longest ones that would be accepted.
 const SAFETY: f64 = 0.9;
 
@@ -81,7 +83,7 @@ impl Controller {
         let error = trial.error.max(LEAST_ERROR);
         let growth = match pace.error {
             None => self.room(error),
-            Some(last) => self.room(error).powf(NOW) / self.room(last).powf(BEFORE),
+            Some(last) => power(self.room(error), NOW) / power(self.room(last), BEFORE),
         };
         // What has just failed is not tried again at once.
         let most = if pace.tries > 0 { 1.0 } else { MOST_GROWTH };
@@ -111,7 +113,7 @@ impl Controller {
 
     /// By how much a step with such an error might have been longer.
     fn room(&self, error: f64) -> f64 {
-        SAFETY * error.powf(-1.0 / self.order)
+        SAFETY * power(error, -1.0 / self.order)
     }
 
     fn shorten(&self, pace: &mut Pace, duration: f64, part: f64) {

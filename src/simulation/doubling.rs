@@ -1,6 +1,7 @@
 //! The error of two steps of a method, seen by the side of a single one over the same time.
 
 use super::controller::TriedStep;
+use crate::elementary::whole_power;
 use crate::geometry::larger;
 use crate::integrators::{Integrator, Interval, StepError};
 use crate::model::{Model, ModelState, Placement};
@@ -38,7 +39,7 @@ pub(super) struct Failed {
 impl Doubling {
     /// For methods of an order `p`, a length to compare errors with, and the error allowed.
     pub(super) fn new(order: u32, length: f64, allowed: f64) -> Self {
-        let allowed = (2_f64.powi(order as i32) - 1.0) * allowed;
+        let allowed = (whole_power(2.0, order as i32) - 1.0) * allowed;
         Self { length, allowed, ..Self::default() }
     }
 

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Simulation, SimulationError};
+use crate::elementary::whole_power;
 use crate::integrators::{Interval, Overshoot, StepError};
 use crate::joints::EndAction;
 use crate::model::{SliderState, TrackEnd, TrackLimit};
@@ -205,7 +206,7 @@ impl Simulation {
             if after.1 <= NEAR {
                 break;
             }
-            let duration = interval.duration() * 0.5_f64.powi(halving);
+            let duration = interval.duration() * whole_power(0.5, halving);
             let cut = Interval::lasting(interval.start, duration);
             match self.attempt(cut)? {
                 Ok(report) => {

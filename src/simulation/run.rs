@@ -57,7 +57,8 @@ pub struct WorkCounts {
     pub rejected: usize,
     /// Steps that were tried to find when a slider arrives at the end of its master.
     pub arrival_tries: usize,
-    /// Time spent in steps.
+    /// Time spent in steps, by this program: it is not in files, which would differ from run to run.
+    #[serde(skip)]
     pub wall: Duration,
 }
 

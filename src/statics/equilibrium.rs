@@ -3,6 +3,7 @@
 use super::tracer::Tracer;
 use super::{Control, Loading, Path, PathPoint, StaticsError};
 use crate::beams::{Place, Section};
+use crate::elementary::square;
 use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
 use crate::model::{Model, Scene};
@@ -141,7 +142,7 @@ impl Equilibrium {
 fn of_equal_stiffness(scene: &Scene) -> Scene {
     let mut equal = scene.clone();
     for beam in &mut equal.beams {
-        let square = beam.axis.length().powi(2);
+        let square = square(beam.axis.length());
         beam.section = Section {
             axial_stiffness: 1.0,
             shear_stiffness: 1.0,

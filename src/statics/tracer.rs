@@ -4,6 +4,7 @@ use super::balance::{AlongPath, Balance, UnderLoad};
 use super::error::Miss;
 use super::path::vertex;
 use super::{ArcLength, Control, Loading, Path, PathPoint, StaticsError};
+use crate::elementary::square;
 use crate::integrators::Mechanism;
 use crate::linalg::BorderShape;
 use crate::model::{Model, Scene};
@@ -248,7 +249,7 @@ impl<'s> Tracer<'s> {
 
 fn metric(model: &Model, length: f64) -> Vec<f64> {
     let share = 3.0 / model.rotations().len() as f64;
-    let weight = |turns: &bool| if *turns { share } else { share / length.powi(2) };
+    let weight = |turns: &bool| if *turns { share } else { share / square(length) };
     model.rotations().iter().map(weight).collect()
 }
 

@@ -2,6 +2,7 @@
 
 use super::contact::AXES;
 use super::{CONTACT_UNKNOWNS, Contact, ContactUnknowns, Equation, SlidingLaw, Unit};
+use crate::elementary::square;
 use crate::geometry::{cross, perpendicular};
 
 /// The gap is closed at the end of every step, and energy, linear and angular momentum are kept, for any step.
@@ -27,7 +28,7 @@ impl SlidingLaw for Conserving {
 fn balanced_moment(contact: &Contact<'_>) -> [Equation; 2] {
     let (tangent, swing) = (contact.tangent(), contact.swing());
     let ContactUnknowns { force, couple, .. } = contact.unknowns;
-    let scale = 1.0 / contact.length.powi(2);
+    let scale = 1.0 / square(contact.length);
     let (square, moment) = (tangent.value.norm_squared(), cross(swing.value, force));
     AXES.map(|axis| {
         let (couple, normal) = (couple.dot(&axis), perpendicular(tangent.value).dot(&axis));

@@ -2,12 +2,13 @@
 
 use super::{line, number, numbers, pair};
 use crate::beams::{Mesh, PointCounts};
+use crate::elementary::atan2;
 use crate::geometry::{Basis, Curve, KnotVector, Vec2};
 use crate::script::kind::Details;
 
 /// Length and angle.
 pub fn of_vector(vector: &Vec2) -> Details {
-    let angle = vector.y.atan2(vector.x);
+    let angle = atan2(vector.y, vector.x);
     let angle = format!("{} rad = {}°", number(angle), number(angle.to_degrees()));
     vec![line("norm", number(vector.norm())), line("angle", angle)]
 }

@@ -2,6 +2,7 @@
 
 use rhai::{Dynamic, INT};
 
+use crate::elementary;
 use crate::script::call::Call;
 use crate::script::error::ScriptError;
 use crate::script::numbers::as_number;
@@ -12,7 +13,7 @@ use crate::script::table::{Body, Constant, Row, Table, function};
 pub const TABLE: Table = Table {
     name: "numbers",
     doc: "Elementary functions. Whole numbers are welcome everywhere, angles are in radians, and infinite or undefined \
-          numbers pass through as in IEEE 754.",
+          numbers pass through as in IEEE 754. Results have the same bits on every machine.",
     types: &[],
     setup: "",
     constants: &[
@@ -31,70 +32,90 @@ pub const TABLE: Table = Table {
         },
     ],
     rows: &[
-        of_x("sin", |call| map(call, f64::sin), "The sine.", "check(sin(PI / 6) - 0.5 < 1e-15);"),
-        of_x("cos", |call| map(call, f64::cos), "The cosine.", "check(cos(0) == 1);"),
-        of_x("tan", |call| map(call, f64::tan), "The tangent.", "check(tan(0) == 0);"),
+        of_x(
+            "sin",
+            |call| map(call, elementary::sin),
+            "The sine.",
+            "check(sin(PI / 6) - 0.5 < 1e-15);",
+        ),
+        of_x("cos", |call| map(call, elementary::cos), "The cosine.", "check(cos(0) == 1);"),
+        of_x("tan", |call| map(call, elementary::tan), "The tangent.", "check(tan(0) == 0);"),
         of_x(
             "asin",
-            |call| map(call, f64::asin),
+            |call| map(call, elementary::asin),
             "The angle of this sine.",
             "check(asin(1) == PI / 2);",
         ),
         of_x(
             "acos",
-            |call| map(call, f64::acos),
+            |call| map(call, elementary::acos),
             "The angle of this cosine.",
             "check(acos(1) == 0);",
         ),
         of_x(
             "atan",
-            |call| map(call, f64::atan),
+            |call| map(call, elementary::atan),
             "The angle of this tangent.",
             "check(4 * atan(1) == PI);",
         )
         .see(&["atan2"]),
-        of_x("sinh", |call| map(call, f64::sinh), "The hyperbolic sine.", "check(sinh(0) == 0);"),
-        of_x("cosh", |call| map(call, f64::cosh), "The hyperbolic cosine.", "check(cosh(0) == 1);"),
+        of_x(
+            "sinh",
+            |call| map(call, elementary::sinh),
+            "The hyperbolic sine.",
+            "check(sinh(0) == 0);",
+        ),
+        of_x(
+            "cosh",
+            |call| map(call, elementary::cosh),
+            "The hyperbolic cosine.",
+            "check(cosh(0) == 1);",
+        ),
         of_x(
             "tanh",
-            |call| map(call, f64::tanh),
+            |call| map(call, elementary::tanh),
             "The hyperbolic tangent.",
             "check(tanh(0) == 0);",
         ),
         of_x(
             "asinh",
-            |call| map(call, f64::asinh),
+            |call| map(call, elementary::asinh),
             "The number with this hyperbolic sine.",
             "check(asinh(0) == 0);",
         ),
         of_x(
             "acosh",
-            |call| map(call, f64::acosh),
+            |call| map(call, elementary::acosh),
             "The number of zero or more with this hyperbolic cosine.",
             "check(acosh(1) == 0);",
         ),
         of_x(
             "atanh",
-            |call| map(call, f64::atanh),
+            |call| map(call, elementary::atanh),
             "The number with this hyperbolic tangent.",
             "check(atanh(0) == 0);",
         ),
-        of_x("exp", |call| map(call, f64::exp), "The exponential.", "check(exp(0) == 1);"),
-        of_x("ln", |call| map(call, f64::ln), "The natural logarithm.", "check(ln(E) == 1);"),
+        of_x("exp", |call| map(call, elementary::exp), "The exponential.", "check(exp(0) == 1);"),
+        of_x(
+            "ln",
+            |call| map(call, elementary::ln),
+            "The natural logarithm.",
+            "check(ln(E) == 1);",
+        ),
         of_x(
             "log10",
-            |call| map(call, f64::log10),
+            |call| map(call, elementary::log10),
             "The logarithm to base 10.",
             "check(log10(1000) == 3);",
         ),
         of_x(
             "log2",
-            |call| map(call, f64::log2),
+            |call| map(call, elementary::log2),
             "The logarithm to base 2.",
             "check(log2(8) == 3);",
         ),
         function("log", &[ANY_X, number("base")], |call| {
-            Ok(x(call)?.log(call.number("base")?).into())
+            Ok(elementary::log(x(call)?, call.number("base")?).into())
         })
         .returns("a number")
         .summary("The logarithm to a base of your choice, which must be given.")
@@ -176,16 +197,20 @@ pub const TABLE: Table = Table {
             .returns("a number, whole if x is")
             .summary("The magnitude of a number.")
             .example("check(abs(-3) == 3);"),
-        function("hypot", &[ANY_X, ANY_Y], |call| Ok(x(call)?.hypot(call.number("y")?).into()))
-            .returns("a number")
-            .summary("The length of the vector with components x and y, without overflow.")
-            .example("check(hypot(3, 4) == 5);")
-            .see(&["norm"]),
-        function("atan2", &[ANY_Y, ANY_X], |call| Ok(call.number("y")?.atan2(x(call)?).into()))
-            .returns("an angle from -PI to PI")
-            .summary("The angle of the vector with components x and y; y comes first.")
-            .example("check(atan2(1, 0) == PI / 2);")
-            .see(&["angle"]),
+        function("hypot", &[ANY_X, ANY_Y], |call| {
+            Ok(elementary::hypot(x(call)?, call.number("y")?).into())
+        })
+        .returns("a number")
+        .summary("The length of the vector with components x and y, without overflow.")
+        .example("check(hypot(3, 4) == 5);")
+        .see(&["norm"]),
+        function("atan2", &[ANY_Y, ANY_X], |call| {
+            Ok(elementary::atan2(call.number("y")?, x(call)?).into())
+        })
+        .returns("an angle from -PI to PI")
+        .summary("The angle of the vector with components x and y; y comes first.")
+        .example("check(atan2(1, 0) == PI / 2);")
+        .see(&["angle"]),
         function("min", &[numeric("x"), numeric("y")], |call| choose(call, |x, y| x < y))
             .returns("a number")
             .summary("The smaller of two numbers; undefined if one of them is.")

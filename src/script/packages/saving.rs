@@ -26,7 +26,7 @@ pub const TABLE: Table = Table {
             .summary("Writes the simulation into a file of the output folder, whole or not at all.")
             .doc(
                 "The file holds the scene, the state, the history and the configurations, with versions and a checksum; not the \
-                 states to go back to, nor the functions set with sim.at. A schedule that is a function cannot be saved.",
+                 states to go back to, nor the functions set with sim.at. A schedule that is a function cannot be saved. Equal runs write equal files.",
             )
             .example("sim.run_to(1);\nsim.save(\"spinning.withy\");\nlet again = load_simulation(\"spinning.withy\");\ncheck(again.t == 1 && again.energy == sim.energy);")
             .see(&["load_simulation", "fork"]),

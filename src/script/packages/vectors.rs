@@ -2,6 +2,7 @@
 
 use rhai::Dynamic;
 
+use crate::elementary::atan2;
 use crate::geometry::{Vec2, cross, unit};
 use crate::output::significant;
 use crate::script::call::Call;
@@ -145,7 +146,7 @@ fn polar(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let a = a(call)?;
-    Ok(a.y.atan2(a.x).into())
+    Ok(atan2(a.y, a.x).into())
 }
 
 fn set(call: &mut Call, change: fn(&mut Vec2, f64)) -> Result<Dynamic, ScriptError> {

@@ -2,6 +2,7 @@
 
 use super::labels;
 use crate::analysis::{Convergence, Ladder, Refined};
+use crate::elementary::{ln, power};
 use crate::output::{Ink, LineChart, Marker, Scale, Series, Stroke};
 
 /// Orders between neighbours that differ by less are the same one.
@@ -51,7 +52,7 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
         let [(coarse, large), (fine, small)] = ends;
         // Lines of the same order that lie one over the other need one word.
         let is_near =
-            |(other, error): &(String, f64)| *other == told && (error / large).ln().abs() < 0.4;
+            |(other, error): &(String, f64)| *other == told && ln(error / large).abs() < 0.4;
         if !noted.iter().any(is_near) {
             noted.push((told.clone(), large));
             let middle = ((coarse * fine).sqrt(), (large * small).sqrt());
@@ -105,7 +106,7 @@ fn seen(ladder: &Ladder) -> Option<Slope> {
 /// Points on the line of an order through the point of a rung.
 fn through(ladder: &Ladder, rung: usize, order: f64) -> impl Fn(f64) -> Option<(f64, f64)> {
     let (size, error) = (ladder.sizes[rung], ladder.error(rung));
-    move |other| Some((other, error? * (other / size).powf(order)))
+    move |other| Some((other, error? * power(other / size, order)))
 }
 
 #[cfg(test)]

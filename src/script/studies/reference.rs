@@ -8,6 +8,7 @@ use super::plan::{Plan, at_key, expect_same_observables, subject_on};
 use crate::analysis::{
     Case, Outcome, PART_OF_THE_SMALLEST_STEP, Sheet, Trial, Truth, finest_mesh, highest_order,
 };
+use crate::elementary::square;
 use crate::geometry::Vec2;
 use crate::integrators::Method;
 use crate::script::call::Call;
@@ -53,7 +54,7 @@ fn finer(dts: &[StepSize]) -> StepSize {
     });
     let smallest = controls.fold(f64::INFINITY, f64::min);
     let tolerance =
-        (PART_OF_THE_SMALLEST_STEP.powi(2) * smallest).max(StepControl::LEAST_TOLERANCE);
+        (square(PART_OF_THE_SMALLEST_STEP) * smallest).max(StepControl::LEAST_TOLERANCE);
     let control = StepControl { tolerance, first: None, smallest: None, largest: None };
     fixed
         .reduce(f64::min)

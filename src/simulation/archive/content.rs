@@ -110,7 +110,6 @@ impl Content<'_> {
             counts.retries,
             counts.rejected,
             counts.arrival_tries,
-            counts.wall.as_secs() as usize,
         ];
         let is_counted = numbers.iter().all(|number| *number < MOST_COUNTED);
         let rows = self.samples.len();

@@ -1,0 +1,71 @@
+//! Vector instructions of any width give the same bits.
+
+use super::*;
+use proptest::prelude::*;
+
+const TANGENT: Collocation =
+    Collocation { configuration: 0.4, stress: 0.6, rotations: RotationIncrement::TangentScaled };
+
+/// The bits of the tangents and the forces of all spans, by one kind of instructions, and the spans afterwards.
+fn linearised<const N: usize>(
+    arch: Arch,
+    beam: &DiscreteBeam<N>,
+    moved: &[Movement],
+) -> (Vec<u64>, Vec<SpanPoints<N>>) {
+    let (mut spans, mut forces) = (beam.spans.clone(), vec![[0.0; 3]; moved.len()]);
+    let mut found = Vec::new();
+    let mut tangent = |_: usize, entries: &[f64]| found.extend(entries.iter().map(|x| x.to_bits()));
+    arch.dispatch(Linearisation {
+        section: &beam.section,
+        spans: &mut spans,
+        at: TANGENT,
+        moved,
+        weight: 0.7,
+        first: 0,
+        forces: &mut forces,
+        tangent: &mut tangent,
+    });
+    found.extend(forces.as_flattened().iter().map(|x| x.to_bits()));
+    (found, spans)
+}
+
+/// Moves a curved beam twice, and compares at either place.
+fn assert_same<const N: usize>(mesh: &Mesh, movements: &[f64]) {
+    let section = Section {
+        axial_stiffness: 1e4,
+        shear_stiffness: 3e3,
+        bending_stiffness: 70.0,
+        mass_per_length: 1.0,
+        rotary_inertia: 0.3,
+    };
+    let count = mesh.basis().functions();
+    let points = (0..count).map(|i| Vec2::new(i as f64, 0.05 * (i * i) as f64)).collect();
+    let mut beam = DiscreteBeam::<N>::new(mesh, section, count as f64, points).unwrap();
+    let mut movements = movements.iter().cycle();
+    for _ in 0..2 {
+        let moved: Vec<Movement> =
+            (0..count).map(|_| std::array::from_fn(|_| *movements.next().unwrap())).collect();
+        let (scalar, _) = linearised(Arch::Scalar, &beam, &moved);
+        let (vectors, spans) = linearised(Arch::new(), &beam, &moved);
+        assert!(scalar == vectors, "{N} functions");
+        beam.spans = spans;
+        beam.correct_section_forces(&moved);
+        beam.advance(&moved, RotationIncrement::TangentScaled);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+
+    #[test]
+    fn the_tangent_of_a_beam_has_the_same_bits_with_and_without_vector_instructions(
+        movements in prop::collection::vec(-0.05..0.05_f64, 97),
+    ) {
+        assert_same::<2>(&Mesh::lagrange(5, 1).unwrap(), &movements);
+        assert_same::<3>(&Mesh::bspline(5, 2, 1).unwrap(), &movements);
+        assert_same::<4>(&Mesh::bspline(5, 3, 2).unwrap(), &movements);
+        assert_same::<4>(&Mesh::lagrange(3, 3).unwrap(), &movements);
+        assert_same::<5>(&Mesh::bspline(5, 4, 3).unwrap(), &movements);
+        assert_same::<6>(&Mesh::bspline(5, 5, 4).unwrap(), &movements);
+    }
+}
