@@ -242,7 +242,7 @@ fn start(scene: &Scene, slave: Station, master: usize, at: Option<f64>) -> Resul
 }
 
 /// What one of the words of a choice stands for; a row lets no other words through.
-fn meant<T: Copy + Default>(words: &[(&str, T)], word: &str) -> T {
+pub(super) fn meant<T: Copy + Default>(words: &[(&str, T)], word: &str) -> T {
     let found = words.iter().find(|(other, _)| *other == word);
     found.map(|(_, meaning)| *meaning).unwrap_or_default()
 }
