@@ -6,7 +6,7 @@ use std::fmt;
 use super::Simulation;
 use crate::integrators::Mechanism;
 use crate::model::{Model, Part};
-use crate::vibration::Modes;
+use crate::vibration::{Modes, VibrationError};
 
 /// Steps that leave more than this part of the kinetic energy to vibration that they do not follow are too long: that of a single
 /// vibration with 3.5 steps a period, which takes a fifth longer than it should.
@@ -221,8 +221,13 @@ impl Simulation {
             }
             let mut drawn = Model::assemble(&self.scene).ok()?;
             MODES.iter().find_map(|count| {
-                let count = (*count).min(drawn.unknowns());
-                let modes = Modes::of(&mut drawn, count, &mut || true).ok()?;
+                let modes = match Modes::of(&mut drawn, *count, &mut || true) {
+                    Err(VibrationError::Count { available, .. }) if available > 0 => {
+                        Modes::of(&mut drawn, available, &mut || true)
+                    }
+                    found => found,
+                };
+                let modes = modes.ok()?;
                 let vibrating = modes.all().iter().find(|mode| mode.square > 0.0)?;
                 Some(vibrating.period())
             })
