@@ -2,10 +2,13 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+use common::notepad::Notepad;
 use withy::script::catalog::Catalog;
 use withy::script::context::{Mode, Settings};
 use withy::script::program::Program;
@@ -48,9 +51,16 @@ fn every_block_of_rhai_in_the_documents_runs() {
         for block in blocks(&std::fs::read_to_string(&document).unwrap(), "rhai") {
             let name = format!("{}:{}", document.display(), block.line);
             let out = tempfile::tempdir().unwrap();
-            let settings = Settings { out: out.path().to_owned(), ..Settings::silent(Mode::Run) };
+            let told = Notepad::default();
+            let settings = Settings {
+                out: out.path().to_owned(),
+                told: Box::new(told.clone()),
+                ..Settings::silent(Mode::Run)
+            };
             let outcome = run(&Program::named(&name, &block.text), &Catalog::standard(), settings);
             assert!(matches!(outcome.ending, Ending::Finished), "{name}: {:?}", outcome.ending);
+            let told = told.take();
+            assert!(!told.contains("note: simulation"), "{name}: {told}");
             assert_eq!(outcome.checks.failed(), [], "{name}");
             keep_pictures(&document, out.path());
             count += 1;

@@ -3,17 +3,22 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use common::notepad::Notepad;
 use withy::exercises::catalogue::{EXERCISES, find};
 use withy::exercises::exercise::Exercise;
 use withy::exercises::judging::{Verdict, judge};
+use withy::script::catalog::Catalog;
 use withy::script::context::{Mode, Settings};
 use withy::script::limits::Limits;
 use withy::script::program::Program;
+use withy::script::runner::run;
 
 fn root() -> PathBuf {
     env!("CARGO_MANIFEST_DIR").into()
@@ -55,9 +60,19 @@ fn every_start_file_is_told_what_is_missing() {
 }
 
 #[test]
-fn every_solution_passes() {
+fn every_solution_passes_and_its_steps_resolve_what_happens() {
     for exercise in EXERCISES {
         assert_eq!(told(exercise, exercise.solution), "", "{}", exercise.id());
+        let (notes, out) = (Notepad::default(), tempfile::tempdir().unwrap());
+        let settings = Settings {
+            out: out.path().into(),
+            told: Box::new(notes.clone()),
+            ..Settings::silent(Mode::Run)
+        };
+        let program = Program::named("solution", exercise.solution);
+        run(&program, &Catalog::standard(), settings);
+        let notes = notes.take();
+        assert!(!notes.contains("note: simulation"), "{}: {notes}", exercise.id());
     }
 }
 

@@ -34,6 +34,7 @@ fn every_script_runs_and_writes_its_files() {
             .unwrap();
         let said = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(0), "{}: {said}", script.display());
+        assert!(!said.contains("note: simulation"), "{}: {said}", script.display());
         let text = std::fs::read_to_string(&script).unwrap();
         assert!(!named_files(&text).is_empty(), "{} draws nothing", script.display());
         for file in named_files(&text) {

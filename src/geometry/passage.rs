@@ -141,6 +141,17 @@ impl Passage {
         &self.change[..self.length]
     }
 
+    /// How many spans lie between two parameters, parts of spans as parts: that of a small way is its length over the width of its
+    /// span.
+    pub fn spans_between(&self, from: f64, to: f64) -> f64 {
+        let (from, to) = if from <= to { (from, to) } else { (to, from) };
+        let Way { departure, arrival, .. } = self.way(from, to);
+        let part = |span: &Span| {
+            (to.min(span.end) - from.max(span.start)).max(0.0) / (span.end - span.start)
+        };
+        self.spans[departure..=arrival].iter().map(part).sum()
+    }
+
     /// The way with its spans found.
     fn way(&self, from: f64, to: f64) -> Way {
         let last = self.spans.len() - 1;

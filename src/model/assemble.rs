@@ -11,7 +11,7 @@ use super::scales::StepScales;
 use super::scene::BeamDefinition;
 use super::sliders::contact_unknowns;
 use super::tracker::Tracker;
-use super::{ModelError, Scene};
+use super::{ModelError, Resolution, Scene};
 use crate::beams::{BodyDynamics, BodyIndex, Mesh, Particle, Place, Station, discretise};
 use crate::geometry::{GaussRule, Vec2, interpolate, perpendicular};
 use crate::joints::{Component, Partner};
@@ -89,6 +89,7 @@ impl Model {
             half_bandwidth: numbering.half_bandwidth,
             is_rotation,
             forecast: Forecast::new(&[], Vec::new()),
+            resolution: Resolution::of(scene),
             rates,
             total_mass,
             time: 0.0,
@@ -98,7 +99,7 @@ impl Model {
         if !scene.sliders.is_empty() {
             model.check_determined(scene)?;
         }
-        model.settle_start_velocities(scene.sliders.iter().map(|slider| slider.velocities))?;
+        model.settle_start_velocities(scene)?;
         // What supports gave to make the velocities fit was before the start.
         model.exchanged = Exchange::default();
         model.forecast = Forecast::new(&model.rates, model.diagonal_of_inertia());

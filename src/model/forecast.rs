@@ -1,5 +1,6 @@
 //! With which rates the next step is best guessed.
 
+use super::resolution::Missed;
 use crate::elementary::square;
 
 /// What the next step is best guessed from.
@@ -41,23 +42,25 @@ impl Forecast {
     }
 
     /// Learns from the increments of a step and the rates at its start which guess would have been the better one for it,
-    /// in a norm with the diagonal of the inertia matrix.
-    pub(super) fn learn(&mut self, at_start: &[f64], increments: &[f64], duration: f64) {
+    /// in a norm with the diagonal of the inertia matrix; tells how far both missed.
+    pub(super) fn learn(&mut self, at_start: &[f64], increments: &[f64], duration: f64) -> Missed {
         let inverse = 1.0 / duration;
-        let (mut missed_by_start, mut missed_by_mean) = (0.0, 0.0);
+        let mut missed = Missed::default();
         let guesses = at_start.iter().zip(&mut self.mean_rates);
         for ((u, (rate, mean)), inertia) in increments.iter().zip(guesses).zip(&self.inertia) {
             let found = u * inverse;
-            missed_by_start += inertia * square(found - rate);
-            missed_by_mean += inertia * square(found - *mean);
+            missed.by_start += inertia * square(found - rate);
+            missed.by_mean += inertia * square(found - *mean);
+            missed.moved += inertia * square(found);
             *mean = found;
         }
         self.motion = match self.motion {
             // Start velocities may be those of single nodes; how these go on, the first step has told.
             Motion::Unknown => Motion::Rough,
-            _ if missed_by_mean < CLEARLY_LESS * missed_by_start => Motion::Rough,
+            _ if missed.by_mean < CLEARLY_LESS * missed.by_start => Motion::Rough,
             _ => Motion::Smooth,
         };
+        missed
     }
 
     /// Takes over a sudden change of all rates.

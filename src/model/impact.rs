@@ -7,6 +7,7 @@
 use super::body::Body;
 use super::error::ModelError;
 use super::mechanism::Model;
+use super::scene::Scene;
 use super::slider_error::SliderError;
 use super::sliding::{SliderState, Sliding};
 use crate::geometry::{Vec2, perpendicular};
@@ -14,8 +15,22 @@ use crate::integrators::Mechanism;
 use crate::joints::StartVelocities;
 use crate::linalg::{BandedLu, BandedMatrix, LinearError};
 
-/// Largest start velocity across the master, relative to the velocities there.
+/// Largest start velocity across the master, relative to the fastest point of the scene: where a mechanism has a dead centre, velocities of
+/// that size have left nothing but their rounding.
 const SAME_VELOCITY: f64 = 1e-9;
+
+/// What moves by less than this part of the change of relative velocity is held.
+const GIVES: f64 = 1e-9;
+
+/// What two that strike each other along a master set against the blow: the masses that answer at once, none where it is held, or so
+/// heavy that it does not give way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Blow {
+    /// The slave's [mass].
+    pub(super) slave: Option<f64>,
+    /// The master's [mass].
+    pub(super) master: Option<f64>,
+}
 
 /// The component of a relative velocity on which an impulse acts.
 struct Direction {
@@ -25,14 +40,16 @@ struct Direction {
 
 impl Model {
     /// Deals with start velocities that would leave the masters, as each slider says.
-    pub(super) fn settle_start_velocities(
-        &mut self,
-        choices: impl Iterator<Item = StartVelocities>,
-    ) -> Result<(), ModelError> {
+    ///
+    /// Speeds across a master that strain nothing by more than rounding, as waves go, are none either: `w/c < ε`.
+    pub(super) fn settle_start_velocities(&mut self, scene: &Scene) -> Result<(), ModelError> {
+        let negligible = SAME_VELOCITY * self.fastest_speed() + f64::EPSILON * scene.fastest_wave();
         let mut is_projected = false;
-        for (slider, choice) in self.sliders.iter().zip(choices) {
-            match choice {
-                StartVelocities::Check => slider.check_velocity(&self.bodies, &self.rates)?,
+        for (slider, described) in self.sliders.iter().zip(&scene.sliders) {
+            match described.velocities {
+                StartVelocities::Check => {
+                    slider.check_velocity(&self.bodies, &self.rates, negligible)?;
+                }
                 StartVelocities::Project => is_projected = true,
             }
         }
@@ -40,17 +57,28 @@ impl Model {
             let across: Vec<Direction> =
                 (0..self.sliders.len()).map(|at| self.across(at)).collect();
             // Projection: the impulses take the velocities across away (Gauss's principle of least constraint).
-            self.strike(&across, -1.0).map_err(|_| self.overdetermined())?;
+            _ = self.strike(&across, -1.0).map_err(|_| self.overdetermined())?;
         }
         Ok(())
+    }
+
+    /// The speed of the fastest control point [length/time].
+    fn fastest_speed(&self) -> f64 {
+        let speeds = self.bodies.iter().flat_map(|body| {
+            (0..body.degrees_of_freedom.len())
+                .map(|point| body.vector_at(point, &self.rates).norm())
+        });
+        speeds.fold(0.0, f64::max)
     }
 
     /// A slider bounces off the end of its master, as off an elastic stop: all velocities relative to masters are reversed in
     /// the directions that transmit forces, which keeps the energy (`P·(G v⁺ + G v⁻) = 0`).
     ///
+    /// Tells what the two set against it: waves run from what gave way.
+    ///
     /// # Errors
     /// When the impulse is not determined.
-    pub fn bounce(&mut self, slider: usize) -> Result<(), ModelError> {
+    pub fn bounce(&mut self, slider: usize) -> Result<Blow, ModelError> {
         let directions = self.sliders.iter().enumerate().flat_map(|(at, other)| {
             let along = match other.state {
                 SliderState::Released => return Vec::new(),
@@ -60,7 +88,27 @@ impl Model {
             std::iter::once(self.across(at)).chain(along).collect()
         });
         let directions: Vec<Direction> = directions.collect();
-        self.strike(&directions, -2.0).map_err(|_| self.overdetermined())
+        // Behind that across the master.
+        let of_blow = directions.iter().rposition(|direction| direction.slider == slider);
+        let before = self.speeds_along(slider);
+        let impulses = self.strike(&directions, -2.0).map_err(|_| self.overdetermined())?;
+        let after = self.speeds_along(slider);
+        let impulse = of_blow.map_or(0.0, |at| impulses[at].abs());
+        let changes = [(after.0 - before.0).abs(), (after.1 - before.1).abs()];
+        let least = GIVES * (changes[0] + changes[1]);
+        let [slave, master] = changes.map(|change| (change > least).then(|| impulse / change));
+        Ok(Blow { slave, master })
+    }
+
+    /// How fast a slave and its place on the master move along the master.
+    fn speeds_along(&self, slider: usize) -> (f64, f64) {
+        let unit = self.along(slider).unit;
+        let slider = &self.sliders[slider];
+        let (slave, relative) = (
+            slider.slave_velocity(&self.bodies, &self.rates),
+            slider.relative_velocity(&self.bodies, &self.rates),
+        );
+        (slave.dot(&unit), (slave - relative).dot(&unit))
     }
 
     /// What unit impulses transmit, and how the velocities answer.
@@ -92,8 +140,8 @@ impl Model {
         SliderError::Overdetermined { sliders: names.join("', '") }.into()
     }
 
-    /// Changes the components of the relative velocities by `factor` times themselves, by impulses at the sliders.
-    fn strike(&mut self, directions: &[Direction], factor: f64) -> Result<(), LinearError> {
+    /// Changes the components of the relative velocities by `factor` times themselves, by impulses at the sliders, which it tells.
+    fn strike(&mut self, directions: &[Direction], factor: f64) -> Result<Vec<f64>, LinearError> {
         let (unknowns, count) = (self.unknowns, directions.len());
         let mut inertia = self.inertia();
         let inertia = inertia.factorise()?;
@@ -121,7 +169,7 @@ impl Model {
         self.accelerations.forget();
         let reactions = self.reactions(&residual, 1.0);
         self.exchanged += reactions;
-        Ok(())
+        Ok(impulses)
     }
 
     /// How velocities across the masters answer to unit impulses across them: `G M⁻¹ Gᵀ`.
@@ -175,12 +223,15 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
 }
 
 impl Sliding {
-    fn check_velocity(&self, bodies: &[Body], rates: &[f64]) -> Result<(), ModelError> {
+    fn check_velocity(
+        &self,
+        bodies: &[Body],
+        rates: &[f64],
+        negligible: f64,
+    ) -> Result<(), ModelError> {
         let relative = self.relative_velocity(bodies, rates);
         let across = perpendicular(self.tangent(bodies).normalize()).dot(&relative);
-        let (body, point) = self.connection.slave;
-        let size = bodies[body].vector_at(point, rates).norm() + relative.norm();
-        if across.abs() <= SAME_VELOCITY * size {
+        if across.abs() <= negligible {
             return Ok(());
         }
         Err(SliderError::LeavesMaster { slider: self.name.clone(), speed: across.abs() }.into())

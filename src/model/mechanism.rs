@@ -1,5 +1,6 @@
 //! The model as integrators see it.
 
+use super::Resolution;
 use super::accelerations::Accelerations;
 use super::applied::{AppliedLoad, Exchange, Pattern, collocation};
 use super::body::Body;
@@ -47,6 +48,7 @@ pub struct Model {
     pub(super) rates: Vec<f64>,
     pub(super) accelerations: Accelerations,
     pub(super) forecast: Forecast,
+    pub(super) resolution: Resolution,
     pub(super) total_mass: f64,
     pub(super) time: f64,
     pub(super) exchanged: Exchange,
@@ -332,7 +334,9 @@ impl Mechanism for Model {
         self.sliders.iter_mut().for_each(|slider| {
             slider.advance(&self.bodies, constraints, ending);
         });
-        self.forecast.learn(&self.rates, increments, self.step.interval.duration());
+        let duration = self.step.interval.duration();
+        let missed = self.forecast.learn(&self.rates, increments, duration);
+        self.resolution.add(&missed, duration, self.step.summary.rotation, rotations);
         self.rates.copy_from_slice(rates);
         self.time = self.step.interval.end;
     }

@@ -18,6 +18,7 @@ mod numbering;
 mod placement;
 mod queries;
 mod redundancy;
+mod resolution;
 mod scales;
 mod scene;
 mod slider_error;
@@ -25,14 +26,17 @@ mod sliders;
 mod sliding;
 mod stored;
 mod tracker;
+mod waves;
 
 pub use at_rest::StaticForces;
 pub use error::ModelError;
 pub use explain::{Part, Usage};
+pub use impact::Blow;
 pub use measures::{Energy, Measures};
 pub use mechanism::Model;
 pub use placement::{Distance, Placement};
 pub use queries::ModelState;
+pub use resolution::Resolution;
 pub use scene::{
     BeamDefinition, ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity,
 };

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Model, Scene};
+use super::{Model, Resolution, Scene};
 use crate::beams::{Mesh, Place, Station};
 use crate::geometry::Vec2;
 
@@ -25,6 +25,11 @@ impl Model {
     /// The mass of everything.
     pub fn total_mass(&self) -> f64 {
         self.total_mass
+    }
+
+    /// How far the steps so far resolve the motion.
+    pub fn resolution(&self) -> &Resolution {
+        &self.resolution
     }
 
     /// Where a place is [length].
@@ -77,6 +82,7 @@ impl Model {
         state.extend([sums.angular_impulse, sums.gross_impulse, sums.gross_angular_impulse]);
         state.extend(&self.rates);
         self.forecast.save(state);
+        self.resolution.save(state);
         self.bodies.iter().for_each(|body| body.dynamics.save(state));
         self.all_trackers().for_each(|tracker| tracker.save(state));
         self.accelerations.save(state);
@@ -102,6 +108,7 @@ impl Model {
         self.exchanged.gross_angular_impulse = next();
         self.rates.iter_mut().for_each(|rate| *rate = next());
         self.forecast.restore(next);
+        self.resolution.restore(next);
         self.bodies.iter_mut().for_each(|body| body.dynamics.restore(next));
         self.all_trackers_mut().for_each(|tracker| tracker.restore([next(), next(), next()]));
         self.accelerations.restore(next);

@@ -104,6 +104,15 @@ impl Scene {
         self.beams.iter().map(|beam| beam.axis.length()).reduce(f64::max)
     }
 
+    /// How far strain energies may be off by rounding: `ε Σ (EA L + EI/L)` [energy].
+    pub fn rounding_energy(&self) -> f64 {
+        let stiffness = self.beams.iter().map(|beam| {
+            let length = beam.axis.length();
+            beam.section.axial_stiffness * length + beam.section.bending_stiffness / length
+        });
+        f64::EPSILON * stiffness.sum::<f64>()
+    }
+
     /// An empty scene.
     pub fn new(name: impl Into<String>) -> Self {
         Self {

@@ -154,6 +154,16 @@ impl Model {
         self.sliders[slider].state
     }
 
+    /// The most spans of its master that a slider passed in a step so far [-].
+    pub fn most_spans(&self, slider: usize) -> f64 {
+        self.sliders[slider].most_spans
+    }
+
+    /// How many times as long as its blow a step was, at the bounce of a slider where that is most; zero where nothing gave way [-].
+    pub fn blows_in_a_step(&self, slider: usize) -> f64 {
+        self.sliders[slider].blows_in_a_step
+    }
+
     /// The force that a slider put on its master in the last step, the mean of the step [force]; the slave got the opposite.
     ///
     /// Zero before the first step and after a release.

@@ -76,6 +76,10 @@ pub(super) struct Sliding {
     pub(super) parameter: f64,
     /// Of the last step.
     pub(super) unknowns: ContactUnknowns,
+    /// The most spans that it passed in a step.
+    pub(super) most_spans: f64,
+    /// How many times as long as a blow a step was, at the bounce where that is most.
+    pub(super) blows_in_a_step: f64,
     domain: (f64, f64),
     /// The length of the master for a parameter of one [length].
     length: f64,
@@ -111,6 +115,8 @@ impl Sliding {
             state: SliderState::Sliding,
             parameter,
             unknowns: ContactUnknowns::zeros(),
+            most_spans: 0.0,
+            blows_in_a_step: 0.0,
             domain,
             length: length / (domain.1 - domain.0),
             here: passage.clone(),
@@ -152,6 +158,9 @@ impl Sliding {
         self.unknowns = ContactUnknowns::zeros();
     }
 
+    /// How many numbers it saves.
+    pub(super) const SAVED: usize = 4 + CONTACT_UNKNOWNS;
+
     pub(super) fn save(&self, state: &mut Vec<f64>) {
         let mark = match self.state {
             SliderState::Sliding => 0.0,
@@ -159,7 +168,7 @@ impl Sliding {
             SliderState::Held(TrackEnd::End) => 2.0,
             SliderState::Released => 3.0,
         };
-        state.extend([mark, self.parameter]);
+        state.extend([mark, self.parameter, self.most_spans, self.blows_in_a_step]);
         state.extend(self.unknowns.to_array());
     }
 
@@ -171,6 +180,7 @@ impl Sliding {
         ];
         self.state = marks.get(next() as usize).copied().unwrap_or(SliderState::Released);
         self.parameter = next();
+        (self.most_spans, self.blows_in_a_step) = (next(), next());
         self.unknowns = ContactUnknowns::of(std::array::from_fn(|_| next()));
         self.here.go(self.parameter, self.parameter);
     }
@@ -226,6 +236,12 @@ impl Sliding {
         let Connection { master, slave: (body, point), .. } = self.connection;
         let on_master = |(index, weight)| bodies[master].vector_at(index, rates) * weight;
         bodies[body].vector_at(point, rates) - self.weights().map(on_master).sum::<Vec2>()
+    }
+
+    /// The velocity of the slave [length/time].
+    pub(super) fn slave_velocity(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
+        let (body, point) = self.connection.slave;
+        bodies[body].vector_at(point, rates)
     }
 
     /// `dξ/dt` of the present velocities [1/time].
@@ -345,7 +361,10 @@ impl Sliding {
     /// A stop that had to pull lets go, but not within a step.
     pub(super) fn advance(&mut self, bodies: &[Body], unknowns: &[f64], ending: Ending) {
         self.unknowns = self.read(unknowns);
+        let before = self.parameter;
         self.parameter += self.unknowns.way;
+        let passed = self.passage.spans_between(before, self.parameter);
+        self.most_spans = self.most_spans.max(passed);
         self.here.go(self.parameter, self.parameter);
         if let (SliderState::Held(end), Ending::OfStep) = (self.state, ending) {
             let outward = self.unknowns.force.dot(&self.tangent(bodies)) * end.outward();

@@ -4,13 +4,13 @@ use serde::Deserialize;
 
 use super::numbering::check_ties;
 use super::queries::ModelState;
-use super::sliding::LANDED;
+use super::sliding::{LANDED, Sliding};
 use super::{
     BeamDefinition, Model, ModelError, ParticleDefinition, PointMass, Scene, StationVelocity,
 };
 use crate::beams::{BodyIndex, Station};
 use crate::geometry::Vec2;
-use crate::joints::{CONTACT_UNKNOWNS, Joint, Partner, Slider};
+use crate::joints::{Joint, Partner, Slider};
 use crate::loads::{Load, LoadKind};
 
 /// Most sliders of a stored scene: the matrix of a step grows with their square, and a small file must not make it huge.
@@ -155,8 +155,8 @@ impl Model {
         if !numbers.iter().all(|number| number.is_finite()) {
             return Err(refused("a number of it is not finite"));
         }
-        // A mark, the parameter and the unknowns of each slider stand last.
-        let width = 2 + CONTACT_UNKNOWNS;
+        // The numbers of the sliders stand last, a mark and the parameter first of each.
+        let width = Sliding::SAVED;
         let of_sliders = &numbers[numbers.len() - width * self.sliders.len()..];
         for (slider, own) in self.sliders.iter().zip(of_sliders.chunks_exact(width)) {
             let (first, last) = slider.domain();

@@ -21,6 +21,7 @@ impl Simulation {
         parts.push(Part::steps(&self.settings().dt.to_string(), &ahead));
         parts.push(self.explain_tries());
         parts.extend([self.explain_recording(), self.explain_snapshots()]);
+        parts.extend(self.explain_resolution());
         parts
     }
 

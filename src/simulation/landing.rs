@@ -247,7 +247,9 @@ impl Simulation {
         let kind = match self.model.end_action(limit.slider) {
             EndAction::Stop => ArrivalKind::Stopped,
             EndAction::Bounce if leads_beyond => {
-                self.model.bounce(limit.slider)?;
+                let blow = self.model.bounce(limit.slider)?;
+                let dt = self.dt();
+                self.model.note_blow(&self.scene, limit.slider, blow, dt);
                 ArrivalKind::Bounced
             }
             // It only touched the stop, or its velocity has turned round just there.

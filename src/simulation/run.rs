@@ -104,6 +104,8 @@ pub struct Simulation {
     pub(super) goal: f64,
     /// Made when the first picture asks for them.
     pub(super) outlines: OnceCell<Vec<Outline>>,
+    /// Of the scene as drawn, found when the first note asks for it [time].
+    pub(super) lowest_period: OnceCell<Option<f64>>,
 }
 
 impl Simulation {
@@ -167,6 +169,7 @@ impl Simulation {
             last_step: StepTaken::default(),
             goal: f64::INFINITY,
             outlines: OnceCell::new(),
+            lowest_period: OnceCell::new(),
         })
     }
 
@@ -360,16 +363,12 @@ pub(super) fn coordinates(model: &Model) -> impl Iterator<Item = f64> + '_ {
 /// What a change of an invariant is measured by when the motion itself is small.
 fn scales(scene: &Scene, model: &Model, longest: f64) -> Scales {
     let distances = model.control_points().flatten().map(|point| point.norm());
-    let stiffness = scene.beams.iter().map(|beam| {
-        let length = beam.axis.length();
-        beam.section.axial_stiffness * length + beam.section.bending_stiffness / length
-    });
     Scales {
         mass: model.total_mass(),
         // The radius of gyration of the longest beam, or how far the scene is from the origin.
         length: distances.fold(longest / 12_f64.sqrt(), |length, distance| {
             if distance > 10.0 * longest { length.max(distance) } else { length }
         }),
-        rounding_energy: f64::EPSILON * stiffness.sum::<f64>(),
+        rounding_energy: scene.rounding_energy(),
     }
 }

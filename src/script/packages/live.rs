@@ -6,6 +6,7 @@ use std::rc::Rc;
 use rhai::Dynamic;
 
 use super::events::Events;
+use super::notes::Notes;
 use super::scenes::SceneHandle;
 use crate::script::call::Call;
 use crate::script::context::{Context, Mode};
@@ -31,6 +32,7 @@ struct Live {
     is_firing: Cell<bool>,
     /// Whether the user knows that the run ended earlier than the script wanted.
     is_ending_told: Cell<bool>,
+    notes: Notes,
 }
 
 /// How far a script goes on, or back.
@@ -72,11 +74,13 @@ impl SimulationHandle {
         simulation: Simulation,
         scene: SceneHandle,
         name: String,
+        notes: Notes,
         context: &Context,
     ) -> Self {
         let live = Live {
             name,
             scene,
+            notes,
             is_firing: Cell::new(false),
             is_ending_told: Cell::new(false),
             simulation: RefCell::new(simulation),
@@ -91,7 +95,7 @@ impl SimulationHandle {
     /// A copy that goes its own way from here, with the same functions for times to come.
     pub fn fork(&self, name: String, context: &Context) -> Result<Self, ScriptError> {
         let simulation = self.simulation().fork()?;
-        let fork = Self::new(simulation, self.0.scene.clone(), name, context);
+        let fork = Self::new(simulation, self.0.scene.clone(), name, self.0.notes.clone(), context);
         fork.0.events.replace(self.0.events.borrow().clone());
         fork.0.is_ending_told.set(self.0.is_ending_told.get());
         Ok(fork)
@@ -197,7 +201,11 @@ impl SimulationHandle {
         let outcome = match (context.mode(), goal) {
             (Mode::DryBuild, _) => self.pretend(call, end),
             (Mode::Run, Goal::Steps(steps)) => self.take_steps(call, *steps),
-            (Mode::Run, Goal::Time(_)) => self.run_to(call, end),
+            (Mode::Run, Goal::Time(_)) => {
+                let ran = self.run_to(call, end);
+                self.0.notes.tell(self.name(), &self.simulation(), context);
+                ran
+            }
         };
         context.progress().end();
         outcome

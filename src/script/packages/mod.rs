@@ -15,6 +15,7 @@ mod live;
 mod loads;
 mod math;
 mod modes;
+mod notes;
 mod pictures;
 mod precision_studies;
 mod reading_options;
@@ -58,6 +59,7 @@ pub const TABLES: &[&Table] = &[
     &equilibria::TABLE,
     &modes::TABLE,
     &simulations::TABLE,
+    &notes::TABLE,
     &recording::TABLE,
     &time_travel::TABLE,
     &saving::TABLE,

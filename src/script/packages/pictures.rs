@@ -183,7 +183,8 @@ fn motion(
             format!("the simulation has run from t = 0 to {}", format_number(simulation.time()));
         return Err(call.error(told).hint(hint));
     }
-    let count = ((to - from) / every + 1e-9).floor();
+    let last = to.min(simulation.time());
+    let count = ((last - from) / every + 1e-9).floor().max(0.0);
     if count > MOST_SNAPSHOTS {
         return Err(call
             .error(format!("{count} snapshots are too many for a picture"))
@@ -192,8 +193,10 @@ fn motion(
     let title = options.text("title").map_or_else(|_| of.name().to_owned(), |t| t.to_string());
     let mut picture = MotionPicture::new(title)
         .beams(simulation.scene().beams.iter().map(|beam| beam.name.clone()));
-    for index in 0..=count.max(0.0) as usize {
-        let time = from + index as f64 * every;
+    let times = (0..=count as usize).map(|index| from + index as f64 * every);
+    // The last snapshot is asked for by itself, whether or not `every` meets it.
+    let is_met = last - (from + count * every) <= 1e-9 * every;
+    for time in times.chain((!is_met).then_some(last)) {
         if let Some(configuration) = simulation.configuration_near(time)? {
             expect_near(call, of, (time, configuration.time), every)?;
             picture = picture.snapshot(snapshot(&configuration));

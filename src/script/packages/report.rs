@@ -34,8 +34,16 @@ impl Reporter for SimulationHandle {
                 "speed": model.slider_speed(scene, index),
                 "force": [force.x, force.y],
                 "state": model.slider_state(index).name(),
+                "most_spans_in_a_step": model.most_spans(index),
+                "blows_in_a_step": model.blows_in_a_step(index),
             })
         };
+        let notes: Vec<String> = simulation.notes().iter().map(ToString::to_string).collect();
+        let resolution = json!({
+            "unresolved_share": model.resolution().unresolved_share(),
+            "turn_in_a_step": model.resolution().angular_frequency() * simulation.dt(),
+            "rotation_in_a_step": model.resolution().rotation(),
+        });
         json!({
             "name": self.name(),
             "steps": counts.steps,
@@ -53,6 +61,8 @@ impl Reporter for SimulationHandle {
             "dt": simulation.dt(),
             "step_size": settings.dt.to_string(),
             "t": simulation.time(),
+            "notes": notes,
+            "resolution": resolution,
             "drift": drift,
             "energy": {
                 "kinetic": energy.kinetic, "strain": energy.strain, "potential": energy.potential, "total": energy.total(),

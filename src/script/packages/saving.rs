@@ -3,6 +3,7 @@
 use rhai::Dynamic;
 
 use super::live::SimulationHandle;
+use super::notes::Notes;
 use super::scenes::{BeamHandle, SCENE, SceneHandle, StationHandle};
 use super::simulations::{SIMULATION, SPINNING};
 use super::sliding::SliderHandle;
@@ -107,7 +108,13 @@ fn load(call: &mut Call) -> Result<Dynamic, ScriptError> {
     })?;
     simulation.keep_snapshots(call.context().snapshots());
     let scene = SceneHandle::new(simulation.scene().clone());
-    Ok(Dynamic::from(SimulationHandle::new(simulation, scene, name, call.context())))
+    Ok(Dynamic::from(SimulationHandle::new(
+        simulation,
+        scene,
+        name,
+        Notes::default(),
+        call.context(),
+    )))
 }
 
 /// The index of the thing of the called scene that has the name given.

@@ -4,8 +4,10 @@ use rhai::{Dynamic, INT};
 
 use super::integrators::INTEGRATOR;
 use super::live::{Goal, SimulationHandle};
+use super::notes::{Notes, PRINTING};
 use super::recording::RECORDING;
 use super::scenes::{SCENE, STATION, SceneHandle, StationHandle};
+use super::sliding::meant;
 use super::step_sizes::STEP_CONTROL;
 use super::time_travel::bytes;
 use super::windows::HistoryHandle;
@@ -18,7 +20,7 @@ use crate::script::call::Call;
 use crate::script::error::ScriptError;
 use crate::script::kind::{Kind, Range, Scripted, Type};
 use crate::script::parameter::{
-    Parameter, Presence, callback, either, number, object, options, text, whole,
+    Parameter, Presence, callback, choice, either, number, object, options, text, whole,
 };
 use crate::script::table::{Row, Table, method, property};
 use crate::simulation::{Invariant, Recording, Settings, Simulation, SimulationError, StepControl};
@@ -168,6 +170,9 @@ pub(super) const START: &[Parameter] = &[
         .unit("MB")
         .doc("memory for states to go back to; 256 where the script says back or rewind or imports a file, else 0")
         .optional(),
+    choice("notes", &[PRINTING[0].0, PRINTING[1].0])
+        .doc("what the steps do not resolve: told when a run ends, or only kept in sim.notes")
+        .or(Presence::Text("print")),
 ];
 
 /// How well the invariants were kept.
@@ -257,7 +262,9 @@ pub(super) fn begin(
     let limit = options.number_if_given("snapshots").map(bytes);
     simulation.record(options.get_if::<Recording>("record").unwrap_or_default());
     simulation.keep_snapshots(limit.unwrap_or_else(|| call.context().snapshots()));
-    Ok(Dynamic::from(SimulationHandle::new(simulation, of, name, call.context())))
+    let printing = options.text("notes").map(|word| meant(&PRINTING, &word)).unwrap_or_default();
+    let notes = Notes::new(printing);
+    Ok(Dynamic::from(SimulationHandle::new(simulation, of, name, notes, call.context())))
 }
 
 fn measures(handle: &SimulationHandle) -> Measures {

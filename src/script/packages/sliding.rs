@@ -54,9 +54,10 @@ pub const TABLE: Table = Table {
                  stops, or the slider bounces off, or is released. A station held by the ground is an eyelet through which the \
                  beam slides. On a curved beam, whose mesh is slightly off the curve, the station is moved onto the line of the mesh, and \
                  velocities: \"project\" makes start velocities fit that line. A bounce reverses the velocity against the node \
-                 at the end of the beam, and the beam rings on: it is resolved where steps are shorter than an axial wave takes \
-                 through a span, h √(rho_A/EA). On a stiffer beam the slider strikes the ringing end many times, and may come to \
-                 rest against it; energy and momenta are kept, but how fast it leaves depends on step and mesh. Each slider adds \
+                 at the end of the beam, and the beam rings on and strikes the slider again until it leaves. That is resolved where \
+                 steps are shorter than such a blow lasts: a wave runs through the beam and back, 2 L √(rho_A/EA), or less for a slider \
+                 that is lighter than the beam. In longer steps energy and momenta are kept, but how fast the slider leaves depends on \
+                 the step, and it may come to rest against the end: sim.notes tells. An end that is held is struck without any of this. Each slider adds \
                  five full columns to the matrix of a step: hundreds of them get slow. Sliders are called slider1, slider2, … \
                  unless they get a name.",
             )
@@ -242,7 +243,7 @@ fn start(scene: &Scene, slave: Station, master: usize, at: Option<f64>) -> Resul
 }
 
 /// What one of the words of a choice stands for; a row lets no other words through.
-fn meant<T: Copy + Default>(words: &[(&str, T)], word: &str) -> T {
+pub(super) fn meant<T: Copy + Default>(words: &[(&str, T)], word: &str) -> T {
     let found = words.iter().find(|(other, _)| *other == word);
     found.map(|(_, meaning)| *meaning).unwrap_or_default()
 }

@@ -1,0 +1,83 @@
+//! What a run is told of that its steps do not resolve.
+
+use std::cell::RefCell;
+
+use rhai::{Array, Dynamic};
+
+use super::live::SimulationHandle;
+use super::simulations::{SIMULATION, SPINNING};
+use crate::script::context::Context;
+use crate::script::table::{Table, property};
+use crate::simulation::{Note, Simulation};
+
+/// Notes.
+pub const TABLE: Table = Table {
+    name: "notes",
+    doc: "Steps may keep energy and momenta to rounding and be too long to mean anything. While a simulation runs, it measures how well its \
+          steps resolve what happens: vibration that they do not follow, sections that turn far in a step, sliders that pass many \
+          spans, bounces on stiff beams. What is not resolved is told once, when sim.run_to(…) ends; when all is well, nothing is. \
+          scene.start(#{ …, notes: \"keep\" }) prints none of it. sim.notes, sim.explain() and the report have it in any case.",
+    types: &[],
+    setup: SPINNING,
+    constants: &[],
+    rows: &[property(SIMULATION, "notes", |call| {
+        let handle = call.receiver::<SimulationHandle>()?;
+        let notes = handle.simulation().notes();
+        let texts = notes.iter().map(|note| Dynamic::from(note.to_string()));
+        Ok(texts.collect::<Array>().into())
+    })
+    .returns("an array of texts")
+    .summary("What the steps so far do not resolve; empty when all is well.")
+    .doc(
+        "They are about the steps that led to the present: going back takes the notes on the steps undone away, forks and saved \
+         simulations have those of their past. sim.run_to(…) tells each at its end, and again only when it has become twice as bad.",
+    )
+    .example(
+        "sim.run_to(1);\ncheck(sim.notes.is_empty());\n\
+         let coarse = scene.start(#{ dt: 1, notes: \"keep\" });\ncoarse.run_to(4);\n\
+         check(coarse.notes.len() == 1 && coarse.notes[0].contains(\"rad in a step\"));",
+    )
+    .see(&["start", "explain", "run_to"])],
+};
+
+/// What becomes of notes when a run ends, and the word for it.
+pub(super) const PRINTING: [(&str, Printing); 2] =
+    [("print", Printing::AtTheEnd), ("keep", Printing::Never)];
+
+/// Whether notes are printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Printing {
+    /// When a run ends.
+    #[default]
+    AtTheEnd,
+    /// They are kept for those who ask.
+    Never,
+}
+
+/// What has been told of a simulation.
+#[derive(Debug, Clone, Default)]
+pub struct Notes {
+    printing: Printing,
+    told: RefCell<Vec<Note>>,
+}
+
+impl Notes {
+    /// Nothing so far.
+    pub(super) fn new(printing: Printing) -> Self {
+        Self { printing, told: RefCell::default() }
+    }
+
+    /// Tells what the steps of a simulation do not resolve, each thing once unless it gets worse.
+    pub(super) fn tell(&self, name: &str, simulation: &Simulation, context: &Context) {
+        if self.printing == Printing::Never || context.is_stopped() {
+            return;
+        }
+        let mut told = self.told.borrow_mut();
+        for note in simulation.notes() {
+            if note.is_news_after(&told) {
+                context.tell(&format!("note: simulation '{name}': {note}"));
+                told.push(note);
+            }
+        }
+    }
+}

@@ -1,0 +1,279 @@
+//! What a run should be told of: steps that went well and mean little.
+
+use std::f64::consts::TAU;
+use std::fmt;
+
+use super::Simulation;
+use crate::integrators::Mechanism;
+use crate::model::{Model, Part};
+use crate::vibration::{Modes, VibrationError};
+
+/// Steps that leave more than this part of the kinetic energy to vibration that they do not follow are too long: that of a single
+/// vibration with 3.5 steps a period, which takes a fifth longer than it should.
+const LARGEST_SHARE: f64 = 0.2;
+
+/// Where motion as a whole is followed, a smaller part of its energy may be in vibration that is not,
+const HIDDEN_SHARE: f64 = 0.05;
+
+/// and that takes less than a step, by so many times [rad].
+const HIDDEN_TURN: f64 = 2.0 * TAU;
+
+/// Largest rotation of a section in a step: ten steps a turn [rad].
+const LARGEST_ROTATION: f64 = 0.1 * TAU;
+
+/// Most spans that a slider may pass in a step.
+const MOST_SPANS: f64 = 1.0;
+
+/// How many times as long as a blow a step may be.
+const MOST_BLOWS: f64 = 1.0;
+
+/// A note is told again where its measure has grown by this factor.
+const WORSE: f64 = 2.0;
+
+/// How many steps a period has where nothing is to be told any more.
+const ENOUGH: f64 = 20.0;
+
+/// The modes about a scene as drawn are looked for where there are no more unknowns than this,
+const MOST_UNKNOWNS: usize = 1200;
+
+/// and so many of them at a time, until one is no free movement.
+const MODES: [usize; 3] = [4, 8, 16];
+
+/// Something that steps do not resolve.
+///
+/// A further kind is a variant, its words and its condition in [`Simulation::notes`].
+#[derive(Debug, Clone, PartialEq)]
+pub enum Note {
+    /// Vibration has a good part of the kinetic energy, and steps do not follow it.
+    Motion {
+        /// The step [time].
+        dt: f64,
+        /// That part [-].
+        share: f64,
+        /// The period of what accelerates the scene, in the mean over accelerations [time].
+        period: f64,
+        /// The lowest period of the scene as drawn, where there is one [time].
+        lowest: Option<f64>,
+    },
+    /// Sections turn far in a step.
+    Rotation {
+        /// The step [time].
+        dt: f64,
+        /// How far at most [rad].
+        angle: f64,
+    },
+    /// A slider passes many spans in a step.
+    Way {
+        /// Its name.
+        slider: String,
+        /// The step [time].
+        dt: f64,
+        /// How many at most [-].
+        spans: f64,
+    },
+    /// A slider bounced off what gives way, and steps are longer than such a blow lasts.
+    Bounce {
+        /// Its name.
+        slider: String,
+        /// The step [time].
+        dt: f64,
+        /// How many times as long as a blow a step is [-].
+        blows: f64,
+    },
+}
+
+impl Note {
+    /// How bad it is; only notes of a kind can be compared.
+    fn measure(&self) -> f64 {
+        match self {
+            Self::Motion { share, .. } => *share,
+            Self::Rotation { angle, .. } => *angle,
+            Self::Way { spans, .. } => *spans,
+            Self::Bounce { blows, .. } => *blows,
+        }
+    }
+
+    /// What it is about, if that is one of several.
+    fn about(&self) -> Option<&str> {
+        match self {
+            Self::Motion { .. } | Self::Rotation { .. } => None,
+            Self::Way { slider, .. } | Self::Bounce { slider, .. } => Some(slider),
+        }
+    }
+
+    /// Whether it says something that others have not said, or not as bad.
+    pub fn is_news_after(&self, told: &[Self]) -> bool {
+        !told.iter().any(|other| {
+            std::mem::discriminant(other) == std::mem::discriminant(self)
+                && other.about() == self.about()
+                && self.measure() < WORSE * other.measure()
+        })
+    }
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Motion { dt, share, period, lowest } => {
+                write!(
+                    f,
+                    "steps are too long for the motion: {} % of its kinetic energy is in vibration that they do not follow. A step \
+                     (dt = {}) is ",
+                    short(100.0 * share),
+                    short(*dt)
+                )?;
+                let known = lowest.filter(|lowest| lowest < dt);
+                let shown = known.unwrap_or(*period);
+                match known {
+                    Some(lowest) => write!(
+                        f,
+                        "{} times the lowest period of the scene as drawn ({})",
+                        short(dt / lowest),
+                        short(lowest)
+                    )?,
+                    None => write!(
+                        f,
+                        "{} of the period of what vibrates ({}, in the mean over accelerations)",
+                        short(dt / period),
+                        short(*period)
+                    )?,
+                }
+                write!(
+                    f,
+                    "; take dt below {}, or energy_decaying(…) where that vibration does not matter",
+                    short(shown / ENOUGH)
+                )
+            }
+            Self::Rotation { dt, angle } => write!(
+                f,
+                "sections turn by up to {} rad in a step (dt = {}): {} steps a turn are few; take dt below {}",
+                short(*angle),
+                short(*dt),
+                short(TAU / angle),
+                short(dt * LARGEST_ROTATION / angle)
+            ),
+            Self::Way { slider, dt, spans } => write!(
+                f,
+                "slider '{slider}' passes up to {} spans of its beam in a step (dt = {}), which sees only their mean; take dt below {}, or \
+                 longer spans",
+                short(*spans),
+                short(*dt),
+                short(dt * MOST_SPANS / spans)
+            ),
+            Self::Bounce { slider, dt, blows } => write!(
+                f,
+                "slider '{slider}' bounced off a beam that gives way, and a step (dt = {}) is {} times as long as such a blow may last \
+                 ({}): how fast it leaves depends on the step; take dt below {}, or hold the end that it strikes",
+                short(*dt),
+                short(*blows),
+                short(dt / blows),
+                short(dt / blows)
+            ),
+        }
+    }
+}
+
+/// Three digits.
+fn short(number: f64) -> String {
+    let rounded: f64 = format!("{number:.2e}").parse().unwrap_or(number);
+    let size = rounded.abs();
+    if size == 0.0 || (1e-4..1e7).contains(&size) {
+        format!("{rounded}")
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+impl Simulation {
+    /// What the steps that led to the present do not resolve; empty when all is well. Steps that were taken back do not count.
+    ///
+    /// The lowest period of the scene is found the first time that there is something to tell of it.
+    pub fn notes(&self) -> Vec<Note> {
+        let (dt, resolution) = (self.dt(), self.model.resolution());
+        let mut notes = Vec::new();
+        let share = resolution.unresolved_share();
+        let turn = resolution.angular_frequency() * dt;
+        if share > LARGEST_SHARE || (share > HIDDEN_SHARE && turn > HIDDEN_TURN) {
+            let period = TAU / resolution.angular_frequency();
+            notes.push(Note::Motion { dt, share, period, lowest: self.lowest_period() });
+        }
+        if resolution.rotation() > LARGEST_ROTATION {
+            notes.push(Note::Rotation { dt, angle: resolution.rotation() });
+        }
+        for (index, slider) in self.model.slider_names().enumerate() {
+            let (slider, spans) = (slider.to_owned(), self.model.most_spans(index));
+            if spans > MOST_SPANS {
+                notes.push(Note::Way { slider: slider.clone(), dt, spans });
+            }
+            let blows = self.model.blows_in_a_step(index);
+            if blows > MOST_BLOWS {
+                notes.push(Note::Bounce { slider, dt, blows });
+            }
+        }
+        notes
+    }
+
+    /// The lowest period of the scene as drawn; none where something slides, nothing vibrates, or the scene is large [time].
+    fn lowest_period(&self) -> Option<f64> {
+        *self.lowest_period.get_or_init(|| {
+            if self.model.unknowns() > MOST_UNKNOWNS {
+                return None;
+            }
+            let mut drawn = Model::assemble(&self.scene).ok()?;
+            MODES.iter().find_map(|count| {
+                let modes = match Modes::of(&mut drawn, *count, &mut || true) {
+                    Err(VibrationError::Count { available, .. }) if available > 0 => {
+                        Modes::of(&mut drawn, available, &mut || true)
+                    }
+                    found => found,
+                };
+                let modes = modes.ok()?;
+                let vibrating = modes.all().iter().find(|mode| mode.square > 0.0)?;
+                Some(vibrating.period())
+            })
+        })
+    }
+
+    /// How far the steps so far resolve the motion, in numbers, and what is to be told of it.
+    pub(super) fn explain_resolution(&self) -> Vec<Part> {
+        let resolution = self.model.resolution();
+        let mut how = format!(
+            "{} % of the kinetic energy in vibration that steps do not follow; sections turn by at most {} rad a step",
+            short(100.0 * resolution.unresolved_share()),
+            short(resolution.rotation())
+        );
+        for (index, slider) in self.model.slider_names().enumerate().take(SLIDERS) {
+            how += &format!(
+                "; '{slider}' passes at most {} spans",
+                short(self.model.most_spans(index))
+            );
+        }
+        let notes = self.notes().into_iter().map(|note| Part::used("note", note.to_string()));
+        std::iter::once(Part::used("resolution", how)).chain(notes).collect()
+    }
+}
+
+/// The resolution of no more sliders is explained.
+const SLIDERS: usize = 6;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_told_is_told_again_when_it_is_new_or_twice_as_bad() {
+        let way = |slider: &str, spans| Note::Way { slider: slider.to_owned(), dt: 1.0, spans };
+        let told = [way("ring", 2.0)];
+        assert!(!way("ring", 3.9).is_news_after(&told));
+        assert!(way("ring", 4.0).is_news_after(&told));
+        assert!(way("bead", 1.1).is_news_after(&told));
+        let bounce = Note::Bounce { slider: "ring".to_owned(), dt: 1.0, blows: 1.1 };
+        assert!(bounce.is_news_after(&told) && bounce.is_news_after(&[]));
+    }
+
+    #[test]
+    fn numbers_have_three_digits() {
+        let shown = [0.119_37, 42.04, 5.0, 1.0 / 3.0 * 1e-7, 0.0].map(short);
+        assert_eq!(shown, ["0.119", "42", "5", "3.33e-8", "0"]);
+    }
+}

@@ -1,0 +1,36 @@
+//! What a picture of a motion shows.
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+
+use withy::script::catalog::Catalog;
+use withy::script::context::{Mode, Settings};
+use withy::script::program::Program;
+use withy::script::runner::{Ending, run};
+
+/// How many lines a picture with such options draws for a beam that has run to t = 1.
+fn lines(options: &str) -> usize {
+    let out = tempfile::tempdir().unwrap();
+    let script = format!(
+        "let s = section(#{{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 }});
+let scene = new_scene(\"spin\");
+scene.beam(#{{ axis: line([0, 0], [2, 0]), basis: bspline(4), section: s, spin: 1 }});
+let sim = scene.start(#{{ dt: 0.1 }});
+sim.run_to(1);
+plot_motion(sim, \"spin.svg\", #{{ {options} }});"
+    );
+    let settings = Settings { out: out.path().to_owned(), ..Settings::silent(Mode::Run) };
+    let outcome = run(&Program::named("picture", &script), &Catalog::standard(), settings);
+    assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
+    fs::read_to_string(out.path().join("spin.svg")).unwrap().matches("<polyline").count()
+}
+
+#[test]
+fn the_last_snapshot_is_the_present_whether_or_not_the_others_meet_it() {
+    // 0, 0.3, 0.6, 0.9 and 1 are as many as 0, 0.25, 0.5, 0.75 and 1.
+    assert_eq!(lines("every: 0.3"), lines("every: 0.25"));
+    assert_eq!(lines("every: 0.3, to: 1"), lines("every: 0.25"));
+    assert_eq!(lines("every: 0.3, from: 0.3, to: 0.8"), lines("every: 0.25, to: 0.5"));
+    assert_eq!(lines("every: 0.1"), lines("every: 0.1, to: 1"));
+    assert!(lines("every: 0.3") > lines("every: 0.3, to: 0.9"));
+}
