@@ -52,9 +52,9 @@ FEWEST_REPEATS = 2
 
 # The largest error; EXUDYN's three-node elements, method and steps until the load ends; withy's spans, integrator and dt.
 POINTS = [
-    (1e-2, (8, "trapezoidal", 50), (8, "energy_momentum", "0.05")),
-    (1e-3, (16, "VelocityVerlet", 1740), (12, "fourth_order", "2.5 / 12")),
-    (1e-4, (32, "VelocityVerlet", 3479), (40, "fourth_order", "1.0 / 32")),
+    (1e-2, (8, "trapezoidal", 50), (8, "fourth_order", "0.5")),
+    (1e-3, (16, "VelocityVerlet", 1740), (12, "fourth_order", "2.5 / 11")),
+    (1e-4, (32, "VelocityVerlet", 3479), (44, "fourth_order", "0.025")),
 ]
 
 WITHY_SCRIPT = """
