@@ -170,10 +170,10 @@ const CHI: MethodParameter = MethodParameter {
 const FOURTH_ORDER: IntegratorEntry = IntegratorEntry {
     method: Method::FourthOrder,
     name: "fourth_order",
-    summary: "five energy-momentum steps in one, for accuracy: keeps energy and both momenta to rounding",
+    summary: "seven energy-momentum steps in one, for accuracy: keeps energy and both momenta to rounding",
     claims: Claims { order: 4, energy: EnergyClaim::Kept, momentum: true, angular_momentum: true },
     parameter: None,
-    source: "Suzuki, Phys. Lett. A 146 (1990) 319-323",
+    source: "composition as McLachlan, SIAM J. Sci. Comput. 16 (1995) 151-168",
 };
 
 const GENERALIZED_ALPHA: IntegratorEntry = IntegratorEntry {
