@@ -2,6 +2,7 @@
 
 use super::Scene;
 use crate::beams::RotationIncrement;
+use crate::elementary::square;
 
 /// What the guesses for a step were worth, in the norm of the diagonal of the inertia matrix: twice an energy each [energy].
 #[derive(Debug, Clone, Copy, Default)]
@@ -68,7 +69,7 @@ impl Resolution {
         if is_as_long && kinetic > self.noise {
             self.kinetic += kinetic;
             self.unresolved += missed.by_start - 0.25 * missed.by_mean;
-            self.bent += missed.by_mean * (0.25 * duration).powi(2);
+            self.bent += missed.by_mean * square(0.25 * duration);
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::impact::Blow;
 use super::{Model, Scene};
+use crate::elementary::square;
 use crate::geometry::Vec2;
 
 impl Scene {
@@ -20,7 +21,7 @@ impl Scene {
     /// Along the axis it is an axial wave, across it one of shear: `c² ρA = EA cos²α + GA sin²α`.
     fn answer_time(&self, beam: usize, cosine: f64, mass: Option<f64>) -> f64 {
         let (length, section) = (self.beams[beam].axis.length(), &self.beams[beam].section);
-        let along = cosine.powi(2).min(1.0);
+        let along = square(cosine).min(1.0);
         let stiffness = section.axial_stiffness * along + section.shear_stiffness * (1.0 - along);
         let speed = (stiffness / section.mass_per_length).sqrt();
         mass.map_or(length, |mass| length.min(mass / section.mass_per_length)) / speed

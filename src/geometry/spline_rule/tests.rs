@@ -26,23 +26,24 @@ fn sizes(spans: usize) -> [Vec<f64>; 3] {
 fn least_share(basis: &Basis, run: &[Span], rule: &RunRule) -> f64 {
     let count = lower_count(basis, run).unwrap();
     let exact = GaussRule::new(basis.degree()).unwrap();
-    let gram = |points_of: &dyn Fn(usize, &Span) -> Vec<(f64, f64)>| {
+    let gram = |rule: &RunRule| {
         let mut gram = DMatrix::zeros(count, count);
-        for (at, span) in run.iter().enumerate() {
-            for (xi, weight) in points_of(at, span) {
-                let values = basis.evaluate_in(span, xi);
+        for (span, points) in run.iter().zip(rule) {
+            for (xi, weight) in points {
+                let values = basis.evaluate_in(span, *xi);
                 let lower: Vec<f64> = lower_splines(&values).collect();
                 for (a, left) in lower.iter().enumerate() {
                     for (b, right) in lower.iter().enumerate() {
-                        gram[(span.first + a, span.first + b)] += weight * left * right;
+                        gram[(span.first + a, span.first + b)] += *weight * left * right;
                     }
                 }
             }
         }
         gram
     };
-    let sampled = gram(&|at, _| rule[at].clone());
-    let lower = gram(&|_, span| exact.iter_on(span.start, span.end).collect());
+    let sampled = gram(rule);
+    let lower =
+        gram(&run.iter().map(|span| exact.iter_on(span.start, span.end).collect()).collect());
     let lower = lower.cholesky().unwrap().unpack();
     let half = lower.solve_lower_triangular(&sampled).unwrap();
     let share = lower.solve_lower_triangular(&half.transpose()).unwrap();
