@@ -8,8 +8,8 @@ use withy::script::context::{Mode, Settings};
 use withy::script::program::Program;
 use withy::script::runner::{Ending, run};
 
-/// How many lines a picture with such options draws for a beam that has run to t = 1.
-fn lines(options: &str) -> usize {
+/// How many knots a picture with such options marks on a beam that has run to t = 1.
+fn knots(options: &str) -> usize {
     let out = tempfile::tempdir().unwrap();
     let script = format!(
         "let s = section(#{{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 }});
@@ -22,15 +22,15 @@ plot_motion(sim, \"spin.svg\", #{{ {options} }});"
     let settings = Settings { out: out.path().to_owned(), ..Settings::silent(Mode::Run) };
     let outcome = run(&Program::named("picture", &script), &Catalog::standard(), settings);
     assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
-    fs::read_to_string(out.path().join("spin.svg")).unwrap().matches("<polyline").count()
+    fs::read_to_string(out.path().join("spin.svg")).unwrap().matches("<circle").count()
 }
 
 #[test]
 fn the_last_snapshot_is_the_present_whether_or_not_the_others_meet_it() {
     // 0, 0.3, 0.6, 0.9 and 1 are as many as 0, 0.25, 0.5, 0.75 and 1.
-    assert_eq!(lines("every: 0.3"), lines("every: 0.25"));
-    assert_eq!(lines("every: 0.3, to: 1"), lines("every: 0.25"));
-    assert_eq!(lines("every: 0.3, from: 0.3, to: 0.8"), lines("every: 0.25, to: 0.5"));
-    assert_eq!(lines("every: 0.1"), lines("every: 0.1, to: 1"));
-    assert!(lines("every: 0.3") > lines("every: 0.3, to: 0.9"));
+    assert_eq!(knots("every: 0.3"), knots("every: 0.25"));
+    assert_eq!(knots("every: 0.3, to: 1"), knots("every: 0.25"));
+    assert_eq!(knots("every: 0.3, from: 0.3, to: 0.8"), knots("every: 0.25, to: 0.5"));
+    assert_eq!(knots("every: 0.1"), knots("every: 0.1, to: 1"));
+    assert!(knots("every: 0.3") > knots("every: 0.3, to: 0.9"));
 }

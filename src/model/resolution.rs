@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn a_single_vibration_shows_its_frequency_and_its_share_at_any_step() {
-        for turn in [0.01, 0.3, 1.0, 2.0, 7.0, 300.0] {
+        for turn in [0.3, 1.0, 2.0, 7.0, 300.0] {
             let resolution = vibrating(&[(2.0, 3.0, turn)], 100_000);
             let frequency = resolution.angular_frequency();
             let sine = (0.5 * 2.0 * (0.5_f64 * turn).atan()).sin();

@@ -142,7 +142,7 @@ mod tests {
     fn the_keys_of_an_option_map_are_those_of_its_call() {
         assert_eq!(
             names("scene.start(#{", |at| at.keys()),
-            ["dt", "integrator", "name", "record", "snapshots"]
+            ["dt", "integrator", "name", "record", "snapshots", "notes"]
         );
         assert!(names("let m = #{", |at| at.keys()).is_empty());
         assert!(names("scene.start(", |at| at.keys()).is_empty());

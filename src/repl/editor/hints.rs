@@ -185,7 +185,7 @@ mod tests {
 
     #[test]
     fn option_maps_show_their_keys_and_what_they_may_be() {
-        assert_eq!(shown("scene.start(#{ "), "dt, integrator, name, record, snapshots");
+        assert_eq!(shown("scene.start(#{ "), "dt, integrator, name, notes, record, snapshots");
         assert_eq!(
             shown("scene.start(#{ dt: "),
             "dt: a positive number or a step control [time]; the step size, or adaptive(#{ tolerance: 1e-4 })"

@@ -59,7 +59,7 @@ fn members_follow_from_the_type_of_the_receiver() {
 #[test]
 fn keys_of_options_are_offered_once() {
     assert_eq!(offered("scene.beam(#{ ax"), ["scene.beam(#{ axis: "]);
-    assert_eq!(offered("scene.start(#{ dt: 0.1, ¦ })").len(), 4);
+    assert_eq!(offered("scene.start(#{ dt: 0.1, ¦ })").len(), 5);
     assert_eq!(
         offered("scene.start(#{ in¦: trapezoidal() })"),
         ["scene.start(#{ integrator: trapezoidal() })"]
