@@ -7,6 +7,7 @@
 mod common;
 
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 use std::fmt::Debug;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,7 +17,7 @@ use common::sliding::{Support, free_sliding_mass, kicked_sliding_particle};
 use common::{at, meshes, rails, run, scenes, settings, sliding_scenes};
 use withy::beams::{Mesh, Section, Shape, Solid};
 use withy::elementary;
-use withy::geometry::Vec2;
+use withy::geometry::{Curve, Vec2};
 use withy::integrators::Method;
 use withy::joints::{EndAction, JointKind, Partner, SlidingRule};
 use withy::loads::{Frame, LoadKind, Schedule};
@@ -88,22 +89,21 @@ fn at_rest(scene: Scene, loading: Loading) -> u64 {
     hash(&rest.path().points())
 }
 
-/// A flat arch, hinged at both ends and pushed down at its crown, along its path.
-fn snapping_arch() -> u64 {
-    let mut scene = Scene::new("arch");
-    let axis = withy::geometry::Curve::arc(at(0.0, -10.0), 10.4, 1.9, 1.2).unwrap();
-    let section = scenes::spaghetti_section(1e4, 20.0);
-    let beam = scenes::add_beam(&mut scene, axis, &smooth(10), section);
-    let (start, end) = (scene.station(beam, 0.0).unwrap(), scenes::end_of(&mut scene, beam));
-    for foot in [start, end] {
-        scene.join(JointKind::Hinge, foot, Partner::Ground).unwrap();
-    }
-    let middle = 0.5 * scene.beams[beam].axis.length();
-    let station = scene.station(beam, middle).unwrap();
-    let load = LoadKind::Force { station, force: at(0.0, -30.0), frame: Frame::Dead };
+/// The deep arch of `statics.rs`, clamped at one end and hinged at the other, on the way to where it buckles.
+fn deep_arch() -> u64 {
+    let lean = 17.5_f64.to_radians();
+    let axis = Curve::arc(Vec2::zeros(), 100.0, -lean, PI + lean).unwrap();
+    let (length, section) = (axis.length(), scenes::spaghetti_section(1e8, 1e6));
+    let mut scene = Scene::new("deep arch");
+    let beam = scenes::add_beam(&mut scene, axis, &smooth(40), section);
+    let [start, crown, end] =
+        [0.0, 0.5 * length, length].map(|at| scene.station(beam, at).unwrap());
+    scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
+    scene.join(JointKind::Hinge, end, Partner::Ground).unwrap();
+    let load = LoadKind::Force { station: crown, force: at(0.0, -1000.0), frame: Frame::Dead };
     scene.add_load(load, Schedule::constant(1.0).unwrap());
     let control = Control::ArcLength(ArcLength { longest: 0.05, points: 30 });
-    at_rest(scene, Loading { control, ..Loading::default() })
+    at_rest(scene, Loading { steps: 20, control, ..Loading::default() })
 }
 
 fn modes(scene: &Scene, count: usize) -> u64 {
@@ -215,7 +215,7 @@ fn all() -> Vec<(String, u64)> {
         "equilibrium by steps of load",
         at_rest(loaded(&smooth(8), at(-3.0, 6.0)), Loading { steps: 6, ..Loading::default() }),
     );
-    keep("equilibrium along the path", snapping_arch());
+    keep("equilibrium along the path", deep_arch());
     keep("all modes", modes(&loaded(&smooth(6), at(0.0, 1.0)), 12));
     keep(
         "lowest modes of many",

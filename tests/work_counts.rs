@@ -20,9 +20,9 @@ spaghetti, linear         unknowns  33 band  5 steps  75 iterations 150 most 2 c
 spaghetti, trapezoidal    unknowns  48 band 11 steps  75 iterations 152 most 3 corrections  275 factorised 152 retries 0
 spaghetti, decaying       unknowns  51 band 11 steps  75 iterations 150 most 2 corrections  187 factorised 150 retries 0
 spaghetti, order 4        unknowns  51 band 11 steps  75 iterations 696 most 10 corrections  871 factorised 696 retries 0
-spaghetti, alpha          unknowns  51 band 11 steps  75 iterations 151 most 3 corrections  247 factorised 151 retries 0
+spaghetti, alpha          unknowns  51 band 11 steps  75 iterations 151 most 3 corrections  248 factorised 151 retries 0
 curved pendulum           unknowns  49 band 11 steps 150 iterations 296 most 2 corrections  315 factorised 296 retries 0
-blown cantilever          unknowns  48 band 11 steps 150 iterations 269 most 2 corrections  392 factorised 269 retries 0
+blown cantilever          unknowns  48 band 11 steps 150 iterations 269 most 2 corrections  391 factorised 269 retries 0
 four-bar linkage          unknowns 145 band 11 steps 150 iterations 366 most 3 corrections  477 factorised 366 retries 0
 flying loop               unknowns 196 band 21 steps 150 iterations 300 most 2 corrections  491 factorised 300 retries 0
 hoop                      unknowns  48 band 25 steps 150 iterations 289 most 2 corrections  292 factorised 289 retries 0
@@ -34,10 +34,10 @@ sliding mass, C2          unknowns  41 band 11 steps  34 iterations  72 most 3 c
 sliding mass, Lagrange    unknowns  65 band 11 steps  34 iterations  83 most 3 corrections  117 factorised  98 retries 0 tries 7
 sliding mass, C2, hinged  unknowns  39 band 11 steps  53 iterations 112 most 3 corrections  221 factorised 127 retries 0 tries 7
 sliding mass, C2, exact   unknowns  41 band 11 steps  34 iterations  72 most 3 corrections  138 factorised  80 retries 0 tries 4
-sliding mass, trapezoidal unknowns  41 band 11 steps  29 iterations  65 most 3 corrections  119 factorised  65 retries 0 tries 0
+sliding mass, trapezoidal unknowns  41 band 11 steps  29 iterations  65 most 3 corrections  118 factorised  65 retries 0 tries 0
 sliding mass, decaying    unknowns  41 band 11 steps  35 iterations  70 most 3 corrections  118 factorised  76 retries 0 tries 5
 sliding mass, order 4     unknowns  41 band 11 steps  34 iterations 334 most 10 corrections  443 factorised 394 retries 0 tries 6
-sliding mass, alpha       unknowns  41 band 11 steps  29 iterations  65 most 3 corrections  111 factorised  65 retries 0 tries 0
+sliding mass, alpha       unknowns  41 band 11 steps  29 iterations  65 most 3 corrections  112 factorised  65 retries 0 tries 0
 pushed mass               unknowns 105 band 11 steps 100 iterations 197 most 2 corrections  201 factorised 197 retries 0 tries 0
 abacus                    unknowns  72 band 11 steps  50 iterations  50 most 1 corrections  150 factorised  50 retries 0 tries 0
 eyelet                    unknowns  56 band 11 steps  70 iterations  70 most 1 corrections  213 factorised  70 retries 0 tries 0
