@@ -19,8 +19,8 @@ spaghetti, C1             unknowns  48 band 11 steps  75 iterations 150 most 2 c
 spaghetti, linear         unknowns  33 band  5 steps  75 iterations 150 most 2 corrections  180 factorised 150 retries 0
 spaghetti, trapezoidal    unknowns  48 band 11 steps  75 iterations 152 most 3 corrections  275 factorised 152 retries 0
 spaghetti, decaying       unknowns  51 band 11 steps  75 iterations 150 most 2 corrections  187 factorised 150 retries 0
-spaghetti, order 4        unknowns  51 band 11 steps  75 iterations 696 most 10 corrections  871 factorised 696 retries 0
-spaghetti, alpha          unknowns  51 band 11 steps  75 iterations 151 most 3 corrections  248 factorised 151 retries 0
+spaghetti, order 4        unknowns  51 band 11 steps  75 iterations 736 most 12 corrections 1747 factorised 736 retries 0
+spaghetti, alpha          unknowns  51 band 11 steps  75 iterations 151 most 3 corrections  247 factorised 151 retries 0
 curved pendulum           unknowns  49 band 11 steps 150 iterations 296 most 2 corrections  315 factorised 296 retries 0
 blown cantilever          unknowns  48 band 11 steps 150 iterations 269 most 2 corrections  391 factorised 269 retries 0
 four-bar linkage          unknowns 145 band 11 steps 150 iterations 366 most 3 corrections  477 factorised 366 retries 0

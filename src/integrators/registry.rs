@@ -173,7 +173,7 @@ const FOURTH_ORDER: IntegratorEntry = IntegratorEntry {
     summary: "seven energy-momentum steps in one, for accuracy: keeps energy and both momenta to rounding",
     claims: Claims { order: 4, energy: EnergyClaim::Kept, momentum: true, angular_momentum: true },
     parameter: None,
-    source: "composition as McLachlan, SIAM J. Sci. Comput. 16 (1995) 151-168",
+    source: "composition as in McLachlan, SIAM J. Sci. Comput. 16 (1995) 151-168",
 };
 
 const GENERALIZED_ALPHA: IntegratorEntry = IntegratorEntry {
