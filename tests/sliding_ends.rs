@@ -291,8 +291,14 @@ fn beads_a_million_times_lighter_or_heavier_bounce_and_leave_as_well() {
                     let mut scene = bouncing_bead(&mesh, mass);
                     scene.sliders[0].ends = action;
                     let simulation = simulated(scene, method, 0.02, 2.0);
+                    // Dozens of bounces, each followed by parts of steps that are a thousandth of a step, by whose duration what
+                    // rounding leaves of the gap is divided (theory.md, section 16).
+                    let tolerance = match (method, action) {
+                        (Method::FourthOrder, EndAction::Bounce) => 2e-11,
+                        _ => ROUNDING,
+                    };
                     let drifts =
-                        assert_kept(&format!("{mass:e} {action:?}"), &simulation, ROUNDING);
+                        assert_kept(&format!("{mass:e} {action:?}"), &simulation, tolerance);
                     println!(
                         "mass {mass:7e} {action:8?} {:4} arrivals, {:4.1} tries each, drift {}",
                         simulation.arrivals().len(),
