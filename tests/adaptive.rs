@@ -172,11 +172,11 @@ fn the_work_is_as_it_was() {
         ),
     ];
     let expected = [
-        "644 steps, 67 rejected, 0 failed, 1939 iterations, 2145 factorised",
-        "564 steps, 8 rejected, 0 failed, 1708 iterations, 1736 factorised",
-        "93 steps, 7 rejected, 0 failed, 2520 iterations, 2704 factorised",
-        "404 steps, 26 rejected, 0 failed, 1212 iterations, 1290 factorised",
-        "32 steps, 2 rejected, 0 failed, 96 iterations, 102 factorised",
+        "572 steps, 60 rejected, 0 failed, 1723 iterations, 1907 factorised",
+        "563 steps, 8 rejected, 0 failed, 1703 iterations, 1730 factorised",
+        "93 steps, 7 rejected, 0 failed, 2519 iterations, 2702 factorised",
+        "404 steps, 24 rejected, 0 failed, 1212 iterations, 1284 factorised",
+        "31 steps, 1 rejected, 0 failed, 93 iterations, 96 factorised",
     ];
     assert_eq!(flights, expected);
 }

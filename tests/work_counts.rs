@@ -12,33 +12,33 @@ use withy::model::Scene;
 use withy::simulation::WorkCounts;
 
 const EXPECTED: &str = "\
-spaghetti, C2             unknowns  51 band 11 steps  75 iterations 150 most 2 corrections  244 factorised 150 retries 0
-spaghetti, C2, EA = 1e10  unknowns  51 band 11 steps  75 iterations 150 most 2 corrections  243 factorised 150 retries 0
-spaghetti, C2, dt = 0.2   unknowns  51 band 11 steps  39 iterations  82 most 3 corrections  159 factorised  82 retries 0
+spaghetti, C2             unknowns  51 band 11 steps  75 iterations 150 most 2 corrections  228 factorised 150 retries 0
+spaghetti, C2, EA = 1e10  unknowns  51 band 11 steps  75 iterations 150 most 2 corrections  230 factorised 150 retries 0
+spaghetti, C2, dt = 0.2   unknowns  51 band 11 steps  39 iterations  81 most 3 corrections  158 factorised  81 retries 0
 spaghetti, C1             unknowns  48 band 11 steps  75 iterations 150 most 2 corrections  245 factorised 150 retries 0
 spaghetti, linear         unknowns  33 band  5 steps  75 iterations 150 most 2 corrections  180 factorised 150 retries 0
 spaghetti, trapezoidal    unknowns  48 band 11 steps  75 iterations 151 most 3 corrections  269 factorised 151 retries 0
-spaghetti, decaying       unknowns  51 band 11 steps  75 iterations 150 most 2 corrections  191 factorised 150 retries 0
-spaghetti, order 4        unknowns  51 band 11 steps  75 iterations 751 most 12 corrections 1761 factorised 751 retries 0
-spaghetti, alpha          unknowns  51 band 11 steps  75 iterations 153 most 3 corrections  255 factorised 153 retries 0
-curved pendulum           unknowns  49 band 11 steps 150 iterations 297 most 2 corrections  312 factorised 297 retries 0
-blown cantilever          unknowns  48 band 11 steps 150 iterations 269 most 2 corrections  395 factorised 269 retries 0
-four-bar linkage          unknowns 145 band 11 steps 150 iterations 365 most 3 corrections  481 factorised 365 retries 0
-flying loop               unknowns 196 band 21 steps 150 iterations 300 most 2 corrections  499 factorised 300 retries 0
-hoop                      unknowns  48 band 25 steps 150 iterations 284 most 2 corrections  305 factorised 284 retries 0
+spaghetti, decaying       unknowns  51 band 11 steps  75 iterations 150 most 2 corrections  187 factorised 150 retries 0
+spaghetti, order 4        unknowns  51 band 11 steps  75 iterations 736 most 12 corrections 1746 factorised 736 retries 0
+spaghetti, alpha          unknowns  51 band 11 steps  75 iterations 151 most 3 corrections  248 factorised 151 retries 0
+curved pendulum           unknowns  49 band 11 steps 150 iterations 296 most 2 corrections  315 factorised 296 retries 0
+blown cantilever          unknowns  48 band 11 steps 150 iterations 269 most 2 corrections  391 factorised 269 retries 0
+four-bar linkage          unknowns 145 band 11 steps 150 iterations 366 most 3 corrections  477 factorised 366 retries 0
+flying loop               unknowns 196 band 21 steps 150 iterations 300 most 2 corrections  491 factorised 300 retries 0
+hoop                      unknowns  48 band 25 steps 150 iterations 289 most 2 corrections  292 factorised 289 retries 0
 ";
 
 const EXPECTED_OF_SLIDERS: &str = "\
 sliding mass, C1          unknowns  53 band 11 steps  35 iterations  74 most 3 corrections  141 factorised  83 retries 0 tries 4
-sliding mass, C2          unknowns  41 band 11 steps  34 iterations  70 most 3 corrections  141 factorised  80 retries 0 tries 5
+sliding mass, C2          unknowns  41 band 11 steps  34 iterations  72 most 3 corrections  138 factorised  82 retries 0 tries 5
 sliding mass, Lagrange    unknowns  65 band 11 steps  34 iterations  83 most 3 corrections  117 factorised  98 retries 0 tries 7
-sliding mass, C2, hinged  unknowns  39 band 11 steps  53 iterations 116 most 3 corrections  205 factorised 131 retries 0 tries 7
-sliding mass, C2, exact   unknowns  41 band 11 steps  34 iterations  70 most 3 corrections  141 factorised  80 retries 0 tries 5
-sliding mass, trapezoidal unknowns  41 band 11 steps  29 iterations  66 most 3 corrections  113 factorised  66 retries 0 tries 0
-sliding mass, decaying    unknowns  41 band 11 steps  34 iterations  69 most 3 corrections  112 factorised  79 retries 0 tries 5
-sliding mass, order 4     unknowns  41 band 11 steps  35 iterations 387 most 14 corrections  743 factorised 437 retries 0 tries 9
-sliding mass, alpha       unknowns  41 band 11 steps  29 iterations  62 most 3 corrections  122 factorised  62 retries 0 tries 0
-pushed mass               unknowns 105 band 11 steps 100 iterations 197 most 2 corrections  200 factorised 197 retries 0 tries 0
+sliding mass, C2, hinged  unknowns  39 band 11 steps  53 iterations 113 most 3 corrections  217 factorised 126 retries 0 tries 6
+sliding mass, C2, exact   unknowns  41 band 11 steps  34 iterations  72 most 3 corrections  138 factorised  82 retries 0 tries 5
+sliding mass, trapezoidal unknowns  41 band 11 steps  29 iterations  67 most 3 corrections  113 factorised  67 retries 0 tries 0
+sliding mass, decaying    unknowns  41 band 11 steps  34 iterations  69 most 3 corrections  113 factorised  79 retries 0 tries 5
+sliding mass, order 4     unknowns  41 band 11 steps  35 iterations 367 most 13 corrections  776 factorised 409 retries 0 tries 8
+sliding mass, alpha       unknowns  41 band 11 steps  29 iterations  63 most 3 corrections  119 factorised  63 retries 0 tries 0
+pushed mass               unknowns 105 band 11 steps 100 iterations 197 most 2 corrections  201 factorised 197 retries 0 tries 0
 abacus                    unknowns  72 band 11 steps  50 iterations  50 most 1 corrections  150 factorised  50 retries 0 tries 0
 eyelet                    unknowns  56 band 11 steps  70 iterations  70 most 1 corrections  213 factorised  70 retries 0 tries 0
 pinned cross              unknowns 112 band 11 steps  70 iterations 140 most 2 corrections  159 factorised 140 retries 0 tries 0

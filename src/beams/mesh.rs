@@ -4,14 +4,14 @@ use serde::{Deserialize, Serialize};
 
 use super::BeamError;
 use crate::geometry::{
-    Basis, GaussRule, GeometryError, KnotVector, LagrangeBasis, RunRule, Span, spline_gauss_rule,
+    Basis, GaussRule, GeometryError, KnotVector, LagrangeBasis, RunRule, Span, patch_rule,
 };
 
 /// Where axial and shear strain are sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Quadrature {
     /// The patch rule: on each piece of the mesh that is smooth, one point for each derivative of a function, at the Gauss points of these
-    /// splines ([`spline_gauss_rule`]). That neither locks nor leaves zero-energy modes, and passes the patch test.
+    /// splines ([`patch_rule`]). That neither locks nor leaves zero-energy modes, and passes the patch test.
     #[default]
     Patch,
     /// The same number of Gauss points in every span: too many lock, too few leave modes without energy.
@@ -208,7 +208,7 @@ impl Mesh {
                         });
                     BeamError::UnevenSpans { ratio: longest / shortest }
                 };
-                spline_gauss_rule(&self.basis, run).ok_or_else(uneven)
+                patch_rule(&self.basis, run).ok_or_else(uneven)
             }
             Quadrature::Points(points) => {
                 let gauss = GaussRule::new(points)?;

@@ -37,5 +37,5 @@ pub use passage::Passage;
 pub use planar::{Vec2, cross, perpendicular, unit};
 pub use quadrature::GaussRule;
 pub use spline_curve::SplineCurve;
-pub use spline_rule::{RunRule, spline_gauss_rule};
+pub use spline_rule::{RunRule, patch_rule};
 pub use values::BasisValues;

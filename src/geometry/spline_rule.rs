@@ -6,27 +6,62 @@ use super::{Basis, BasisValues, GaussRule, Span};
 /// The points of each span of a run, in order, with their weights: `∫ f dξ ≈ Σ weight · f(point)`.
 pub type RunRule = Vec<Vec<(f64, f64)>>;
 
-/// The rule with one point for each derivative of a function of a run of spans, which integrates all these derivatives exactly.
+/// Lengths of spans that differ by less than this, as a part of them, are equal.
+const EQUAL: f64 = 1e-9;
+
+/// The patch rule: one point for each derivative of a function of a run of spans, with the weights that integrate all these derivatives
+/// exactly.
 ///
 /// The spans follow each other and are joined at least C¹: their `F` functions of degree `p` have derivatives that span the `P = F - 1` splines `T` of degree
-/// `p - 1`. The points are the zeros of the one spline of degree `p` that is orthogonal to all of `T`, as the points of Gauss are those of the one polynomial of degree
-/// `p` that is orthogonal to all of lower degree, which is what they are for a single span. On equal spans of full continuity, far from the ends, that spline
-/// is the alternating one: its zeros are the middles of spans for odd degrees and the knots for even ones, just where the alternating spline's
-/// derivative is largest. The weights are then determined, and with them the rule is exact for products of that spline and `T`, too.
+/// `p - 1`. The points are Gauss's points of these splines: the zeros of the one spline of degree `p` that is orthogonal to all of `T`, as the points of Gauss are
+/// those of the one polynomial of degree `p` that is orthogonal to all of lower degree, which is what they are for a single span. On equal spans of full continuity, far
+/// from the ends, that spline is the alternating one: its zeros are the middles of spans for odd degrees and the knots for even ones, just where the
+/// alternating spline's derivative is largest.
 ///
-/// That there are `P` zeros follows from total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI); that the weights are positive and that `T`
-/// is seen as it is, `Σ w T² ≥ 0.79 ∫ T² dξ`, is not proven but tested for every degree and continuity (docs/theory.md, section 4). None where rounding leaves fewer
-/// zeros or a weight that is not positive: spans of extremely different lengths.
-pub fn spline_gauss_rule(basis: &Basis, run: &[Span]) -> Option<RunRule> {
+/// For cubics of full continuity on three or more equal spans, the common mesh, the points are two of Gauss in the first and the last span and the middles of the others: there, and
+/// only there, these are better, by a factor of two in the error (docs/theory.md, section 4).
+///
+/// That the orthogonal spline has `P` zeros follows from total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI); that the weights are positive and that `T`
+/// is seen as it is, `Σ w T² ≥ 0.79 ∫ T² dξ`, is not proven but tested for every degree and continuity. None where rounding leaves fewer
+/// zeros or a weight that is not positive; no such spans are known.
+pub fn patch_rule(basis: &Basis, run: &[Span]) -> Option<RunRule> {
     if let [span] = run {
-        let gauss = GaussRule::new(basis.degree()).ok()?;
-        return Some(vec![gauss.iter_on(span.start, span.end).collect()]);
+        return gauss_points(basis.degree(), span).map(|rule| vec![rule]);
     }
-    let points = zeros(basis, run, &orthogonal_spline(basis, run)?)?;
+    let points = if is_equal_and_cubic(basis, run) {
+        middles(run)?
+    } else {
+        zeros(basis, run, &orthogonal_spline(basis, run)?)?
+    };
     let mut weights = derivative_weights(basis, run, &points)?.into_iter();
     let is_positive = weights.as_slice().iter().all(|weight| *weight > 0.0);
     let weigh = |points: Vec<f64>| points.into_iter().zip(&mut weights).collect();
     is_positive.then(|| points.into_iter().map(weigh).collect())
+}
+
+fn gauss_points(count: usize, span: &Span) -> Option<Vec<(f64, f64)>> {
+    Some(GaussRule::new(count).ok()?.iter_on(span.start, span.end).collect())
+}
+
+/// Whether a run consists of three or more equal spans of cubics with full continuity.
+fn is_equal_and_cubic(basis: &Basis, run: &[Span]) -> bool {
+    let length = |span: &Span| span.end - span.start;
+    let is_like_the_first =
+        |span: &Span| (length(span) - length(&run[0])).abs() <= EQUAL * length(&run[0]);
+    basis.degree() == 3
+        && run.len() > 2
+        && run.iter().all(is_like_the_first)
+        && run.windows(2).all(|pair| pair[1].first == pair[0].first + 1)
+}
+
+/// Two points of Gauss in the first and the last span, and the middles of the others.
+fn middles(run: &[Span]) -> Option<Vec<Vec<f64>>> {
+    let last = run.len() - 1;
+    let of = |(at, span): (usize, &Span)| {
+        let count = if at == 0 || at == last { 2 } else { 1 };
+        Some(gauss_points(count, span)?.into_iter().map(|(xi, _)| xi).collect())
+    };
+    run.iter().enumerate().map(of).collect()
 }
 
 /// The splines of one degree less, as sums of derivatives: `T_t = -Σ_(a ≤ t) N'_a` is a positive multiple of a B-spline. Those that are not zero
