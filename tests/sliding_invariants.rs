@@ -162,7 +162,9 @@ type Deed = fn(&mut Model, usize);
 
 const DEEDS: [(&str, Deed); 4] = [
     ("nothing", |_, _| ()),
-    ("bounce", |model, slider| model.bounce(slider).unwrap()),
+    ("bounce", |model, slider| {
+        model.bounce(slider).unwrap();
+    }),
     ("hold", |model, slider| model.hold(TrackLimit { slider, end: TrackEnd::End })),
     ("release", |model, slider| model.release(slider)),
 ];

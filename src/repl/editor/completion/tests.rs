@@ -67,7 +67,7 @@ fn keys_of_options_are_offered_once() {
     assert_eq!(offered("scene.start(#{ in¦, integrator: trapezoidal() })"), Vec::<String>::new());
     assert_eq!(
         names("scene.start(#{ dt: 0.1, name: \"a\", "),
-        ["integrator: ", "record: ", "snapshots: "]
+        ["integrator: ", "notes: ", "record: ", "snapshots: "]
     );
     assert_eq!(names("let m = #{ "), Vec::<String>::new());
     assert_eq!(
