@@ -82,13 +82,13 @@ impl<const N: usize> MomentPoint<N> {
     #[inline(always)]
     fn bend(&self, at: Collocation, moved: &[Movement; N]) -> Bend {
         let (slope, rotation) = self.interpolate(moved);
-        let turn = at.rotations.turn(rotation);
+        let (rate, rate_slope) = at.rotations.rates(rotation);
         Bend {
-            collocated_curvature: self.curvature + at.stress * slope * turn.rate,
+            collocated_curvature: self.curvature + at.stress * slope * rate,
             stress: at.stress,
             slope,
-            inverse_q: turn.rate,
-            inverse_q_slope: turn.rate_slope,
+            inverse_q: rate,
+            inverse_q_slope: rate_slope,
         }
     }
 
@@ -179,7 +179,7 @@ impl<const N: usize> MomentPoint<N> {
     pub(super) fn advance(&mut self, moved: &[Movement; N], rotations: RotationIncrement) {
         let (slope, rotation) = self.interpolate(moved);
         self.last_moment = self.moment;
-        self.curvature += slope * rotations.turn(rotation).rate;
+        self.curvature += slope * rotations.rate(rotation);
     }
 
     pub(super) fn strain_energy(&self, section: &Section) -> f64 {

@@ -1,6 +1,6 @@
 //! Section rotations as cosine and sine, advanced by tangent-scaled increments without trigonometric functions.
 
-use crate::elementary::{atan, cos, sin};
+use crate::elementary::{atan, sin_cos};
 use crate::geometry::Vec2;
 
 /// What an interpolated rotation increment `Δω` stands for.
@@ -19,8 +19,6 @@ pub(super) struct Turn {
     sin: f64,
     /// `dΔθ/dΔω`
     pub(super) rate: f64,
-    /// `d²Δθ/dΔω²`
-    pub(super) rate_slope: f64,
 }
 
 impl RotationIncrement {
@@ -30,17 +28,26 @@ impl RotationIncrement {
         match self {
             Self::TangentScaled => {
                 let half = 0.5 * increment;
-                let rate = 1.0 / (1.0 + half * half);
-                Turn {
-                    cos: (1.0 - half * half) * rate,
-                    sin: increment * rate,
-                    rate,
-                    rate_slope: -half * rate * rate,
-                }
+                let (rate, _) = self.rates(increment);
+                Turn { cos: (1.0 - half * half) * rate, sin: increment * rate, rate }
             }
             Self::Angle => {
-                Turn { cos: cos(increment), sin: sin(increment), rate: 1.0, rate_slope: 0.0 }
+                let (sin, cos) = sin_cos(increment);
+                Turn { cos, sin, rate: 1.0 }
             }
+        }
+    }
+
+    /// `dΔθ/dΔω` and `d²Δθ/dΔω²`, for which no angle needs its sine.
+    #[inline]
+    pub(super) fn rates(self, increment: f64) -> (f64, f64) {
+        match self {
+            Self::TangentScaled => {
+                let half = 0.5 * increment;
+                let rate = 1.0 / (1.0 + half * half);
+                (rate, -half * rate * rate)
+            }
+            Self::Angle => (1.0, 0.0),
         }
     }
 
@@ -54,7 +61,7 @@ impl RotationIncrement {
 
     /// `dΔθ/dΔω`
     pub fn rate(self, increment: f64) -> f64 {
-        self.turn(increment).rate
+        self.rates(increment).0
     }
 }
 
@@ -70,7 +77,8 @@ pub struct Rotation {
 impl Rotation {
     /// The rotation by an angle [rad].
     pub fn by(angle: f64) -> Self {
-        Self { cos: cos(angle), sin: sin(angle) }
+        let (sin, cos) = sin_cos(angle);
+        Self { cos, sin }
     }
 
     /// `Λ` times the rotation that an increment stands for.

@@ -10,6 +10,6 @@ mod powers;
 
 pub use functions::{
     acos, acosh, asin, asinh, atan, atan2, atanh, cos, cosh, exp, hypot, ln, log, log2, log10, sin,
-    sinh, tan, tanh,
+    sin_cos, sinh, tan, tanh,
 };
 pub use powers::{power, square, whole_power};

@@ -1,6 +1,6 @@
 //! Vectors of the plane and the two products that planar mechanics needs.
 
-use crate::elementary::{cos, sin};
+use crate::elementary::sin_cos;
 
 /// A vector or point of the plane.
 pub type Vec2 = nalgebra::Vector2<f64>;
@@ -20,7 +20,8 @@ pub fn cross(a: Vec2, b: Vec2) -> f64 {
 /// The unit vector at `angle` [rad] from the first axis.
 #[inline]
 pub fn unit(angle: f64) -> Vec2 {
-    Vec2::new(cos(angle), sin(angle))
+    let (sin, cos) = sin_cos(angle);
+    Vec2::new(cos, sin)
 }
 
 #[cfg(test)]
