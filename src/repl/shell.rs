@@ -85,6 +85,13 @@ impl Shell {
         if let Some(name) = text.strip_prefix('?') {
             return (commands::HELP.body)(self, name.trim());
         }
+        let is_variable = |name: &str| {
+            self.session.variables().contains(name)
+                || self.session.functions().any(|function| function.name == name)
+        };
+        if let Some((command, operand)) = commands::meant(text, is_variable) {
+            return (command.body)(self, operand);
+        }
         let before = self.latest().map(|latest| latest.time());
         let reply = self.session.eval(input);
         let outcome = self.tell(reply);

@@ -198,7 +198,7 @@ mod tests {
     use crate::script::catalog::Catalog;
     use crate::script::context::{Context, Mode, Settings};
     use crate::script::engine;
-    use crate::script::syntax::mark;
+    use crate::script::reading::read;
 
     #[test]
     fn brackets_texts_and_comments_keep_an_input_open() {
@@ -356,7 +356,7 @@ mod tests {
             let chunks = chunks(&script);
             assert_eq!(chunks.last().map(String::as_str), Some(""), "{file:?} ends open");
             for chunk in chunks {
-                let compiled = engine.compile(mark(&chunk));
+                let compiled = read(&engine, &rhai::Scope::new(), &chunk, 0);
                 compiled.unwrap_or_else(|error| panic!("{file:?}: {error} in\n{chunk}"));
                 count += 1;
             }

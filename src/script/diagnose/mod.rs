@@ -1,7 +1,10 @@
 //! Every error of a script as one message: what is wrong, where, what to do, and the calls that led there.
 
 mod calls;
+mod faults;
+mod habits;
 mod locate;
+mod operands;
 mod outline;
 mod parsing;
 mod render;
