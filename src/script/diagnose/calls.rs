@@ -141,11 +141,16 @@ impl Unknown<'_> {
             Some(receiver) => format!("{} has no method '{name}'", with_article(receiver)),
             None => format!("there is no function '{name}'"),
         };
-        let is_owned =
-            rows.iter().any(|row| row.receiver().map(|of| of.name()) == types.first().copied());
+        let owner = types.first();
+        let is_owned = rows
+            .iter()
+            .any(|row| row.receiver().is_some_and(|of| owner.is_some_and(|own| of.name() == *own)));
+        let own_function =
+            nearest(name, self.outline.functions.iter().map(|(known, _)| known.as_str()));
         let is_variable = self.outline.variables.iter().any(|known| known == name);
         if !is_owned
             && !is_variable
+            && own_function.is_none()
             && let Some(found) = elsewhere::find(name)
         {
             return (message, Some(found.cure.into()));

@@ -259,8 +259,9 @@ impl Explainer<'_> {
             };
             return (message, Some(hint));
         }
-        let is_declared = outline.variables.iter().any(|known| known == name);
-        if let Some(found) = elsewhere::find(name).filter(|_| !is_declared) {
+        let declared = || outline.variables.iter().map(String::as_str);
+        let is_own = declared().any(|known| known == name) || nearest(name, declared()).is_some();
+        if let Some(found) = elsewhere::find(name).filter(|_| !is_own) {
             return (message, Some(found.cure.into()));
         }
         let is_function = |row: &&Row| matches!(row.form, Form::Function);

@@ -74,7 +74,7 @@ pub const WORDS: &[Elsewhere] = &[
         &["force", "moment", "line_load", "schedule"],
     ),
     entry(&["torque", "couple"], "write scene.moment(station, m)", &["moment"]),
-    entry(&["weight", "g", "grav"], "write scene.gravity([0, -9.81])", &["gravity"]),
+    entry(&["weight", "grav"], "write scene.gravity([0, -9.81])", &["gravity"]),
     entry(
         &[
             "material",
@@ -83,7 +83,6 @@ pub const WORDS: &[Elsewhere] = &[
             "modulus",
             "density",
             "poisson",
-            "nu",
             "EIy",
             "inertia",
             "cross_section",

@@ -58,7 +58,7 @@ fn colon(spot: &Spot) -> Option<Cure> {
     }
     let first = (1..20)
         .map(|back: isize| -back)
-        .take_while(|at| !matches!(spot.word(*at), ";" | "}" | ""))
+        .take_while(|at| !matches!(spot.word(*at), ";" | "}" | "{" | "#{" | ""))
         .find(|at| WORDS.contains(&spot.word(*at)))?;
     let head = match spot.word(first) {
         "for" => "for i in 0..10 { … }",

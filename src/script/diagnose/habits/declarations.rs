@@ -54,7 +54,7 @@ fn unnamed_function(spot: &Spot) -> Option<Cure> {
     if spot.word(0) == "fn" && is_value(-1) {
         return spot.cure(0, "fn stands where a function with a name is defined", hint);
     }
-    let back = (-3..0).find(|at| FUNCTION_WORDS.contains(&spot.word(*at)) && is_value(at - 1))?;
+    let back = (-12..0).find(|at| FUNCTION_WORDS.contains(&spot.word(*at)) && is_value(at - 1))?;
     let told = format!("'{}' is not a word of the language", spot.word(back));
     spot.cure(back, told, hint)
 }
@@ -188,7 +188,8 @@ fn misspelt(spot: &Spot) -> Option<Cure> {
     let before = spot.word(spot.first() - 1);
     let starts = !matches!(before, "," | "(" | "[" | "#{" | ":");
     let is_statement = matches!(spot.error, ParseErrorType::MissingToken(token, _) if token == ";");
-    if !(reached && starts && is_statement) || !spot.is_name(spot.first()) {
+    let is_word = word.chars().count() > 2 && spot.is_name(spot.first());
+    if !(reached && starts && is_statement && is_word) {
         return None;
     }
     let near = nearest(word, WORDS.iter().copied())?;

@@ -31,7 +31,7 @@ type Habit = fn(&Spot) -> Option<Cure>;
 
 /// All habits; those that need more of what stands around come first.
 const HABITS: &[&[Habit]] =
-    &[signs::HABITS, declarations::HABITS, blocks::HABITS, expressions::HABITS, brackets::HABITS];
+    &[signs::HABITS, blocks::HABITS, declarations::HABITS, expressions::HABITS, brackets::HABITS];
 
 /// What was meant by a source that the parser gave up at `at`, for the reason `error`.
 pub fn cure(

@@ -54,13 +54,9 @@ fn sign(spot: &Spot) -> Option<Cure> {
             return spot.cure(0, format!("'{sign}' is not part of the language"), *hint);
         }
     }
-    match spot.word(0) {
-        "~" => {
-            spot.cure(0, "'~' is not part of the language", "write ! for not, and != for not equal")
-        }
-        "*" | "/" if spot.word(-1) == spot.word(0) => None,
-        _ => None,
-    }
+    (spot.word(0) == "~").then_some(())?;
+    let hint = "write ! for not, and != for not equal";
+    spot.cure(0, "'~' is not part of the language", hint)
 }
 
 /// What to write for `x => …`.
