@@ -187,7 +187,12 @@ impl Shell {
 
     /// Tells what is wrong.
     pub fn refuse(&self, diagnostic: &Diagnostic) -> Outcome {
-        self.session.context().tell(diagnostic.render(self.colours()).trim_end());
+        let width = match self.screen {
+            Screen::Terminal(style) => style.width,
+            Screen::Pipe => usize::MAX,
+        };
+        let told = diagnostic.render_within(self.colours(), width);
+        self.session.context().tell(told.trim_end());
         Outcome::Failed
     }
 

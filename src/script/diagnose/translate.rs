@@ -14,6 +14,7 @@ use crate::script::library::FOLDER;
 use crate::script::limits::Stop;
 use crate::script::naming::not_visible;
 use crate::script::program::Program;
+use crate::script::register::STEERED;
 use crate::script::sources::Sources;
 use crate::script::suggest::nearest;
 use crate::script::table::{Form, Row};
@@ -205,7 +206,9 @@ impl Explainer<'_> {
                 let indexed = access.split(" [").next().unwrap_or(access);
                 let indexed = type_word(indexed);
                 let hint = match indexed {
-                    "range" => Some("linspace(0, 1, 5) gives an array; a range is for loops and pieces"),
+                    "range" => {
+                        Some("linspace(0, 1, 5) gives an array; a range is for loops and pieces")
+                    }
                     "vector" => Some("the components of a vector are v.x and v.y"),
                     "function" => Some("a function is called by f.call(x)"),
                     _ => None,
@@ -236,7 +239,9 @@ impl Explainer<'_> {
             }
             Error::ErrorDataRace(..) => (
                 "a closure uses the very object whose method it is given to".into(),
-                Some("take the object from the argument of the closure: sim.at(t, |sim| print(sim.t))".into()),
+                Some(format!(
+                    "in sim.at, take it from the argument: sim.at(t, |sim| print(sim.t)); {STEERED}"
+                )),
             ),
             Error::ErrorTerminated(stop, _) => stopped_by(stop).words(),
             Error::ErrorSystem(message, cause) => {
