@@ -128,6 +128,10 @@ impl<'t> Reader<'t> {
                 if written == "|" {
                     self.level.is_between_bars = !self.level.is_between_bars && !self.is_value;
                 }
+                // Blocks of other languages begin with a colon; here it stands in maps only.
+                if written == ":" && self.level.bracket != Some(Bracket::Map) {
+                    return Outcome::Final(Complete);
+                }
                 self.goes_on = GO_ON.contains(&written);
                 if matches!(written, ";" | "=>") {
                     self.level.waiting = None;
@@ -342,6 +346,14 @@ mod tests {
             }
         }
         chunks
+    }
+
+    #[test]
+    fn a_block_that_begins_with_a_colon_is_told_at_once() {
+        for habit in ["def f(x):", "for i in range(3):", "if a == 1:", "let o = {a:"] {
+            assert_eq!(completeness(habit), Complete, "{habit}");
+        }
+        assert_eq!(completeness("let o = #{ a:"), Open(1));
     }
 
     #[test]
