@@ -39,7 +39,16 @@ pub fn help(shell: &mut Shell, operand: &str) -> Outcome {
             }
             Outcome::Good
         }
-        (Err(_), Some(command)) => explain(shell, command),
+        (Err(unknown), Some(command)) => {
+            let outcome = explain(shell, command);
+            if !unknown.is_strange() {
+                let mut page = Page::default();
+                page.gap();
+                page.paragraph(&format!("In a script: {}", unknown.hint()));
+                show(shell, &page);
+            }
+            outcome
+        }
         (Err(_), None) if shell.session().variables().contains(name) => {
             let of = shell.session().variables().get(name).map(rhai::Dynamic::type_name);
             let of = of.map(|of| shell.session().engine().map_type_name(of).to_owned());
