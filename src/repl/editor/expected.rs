@@ -59,7 +59,7 @@ impl<'a, 't> Expected<'a, 't> {
                 modules.iter().find(|module| Some(module.alias.as_str()) == callee.module)?;
             module.functions.iter().find(|function| function.name == callee.name)
         });
-        of.map_or(&[], |function| function.keys.as_slice())
+        of.map(|function| function.keys.as_slice()).unwrap_or_default()
     }
 
     /// The innermost call whose arguments are being written, with what is between it and the cursor left aside.

@@ -39,7 +39,6 @@ fn hint(symbol: &str, types: &[&str]) -> Option<&'static str> {
             "one of the values is nothing: does a function end with a semicolon, or a variable wait for its value?",
         ),
         _ if has("function") => Some("a function in a variable is called by f.call(x)"),
-        "-" | "*" | "/" | "+" if has("schedule") || has("map") => None,
         _ => None,
     }
 }
