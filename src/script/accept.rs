@@ -2,6 +2,7 @@
 
 use rhai::{Array, Dynamic, Engine, FnPtr, Map};
 
+use super::diagnose::type_word;
 use super::error::{Place, ScriptError};
 use super::instead;
 use super::kind::Kind;
@@ -116,7 +117,7 @@ fn refusal(
         None => describe(engine, value),
     };
     let error = ScriptError::new(format!("{owner}: '{name}' must be {wanted}, got {got}"));
-    let given = engine.map_type_name(value.type_name());
+    let given = type_word(engine.map_type_name(value.type_name()));
     match instead::hint(kind, value, given) {
         Some(hint) => error.hint(hint),
         None => error,

@@ -53,6 +53,9 @@ fn of_number(value: &Dynamic, given: &str) -> Option<String> {
 }
 
 fn of_point(value: &Dynamic, given: &str) -> Option<String> {
+    if as_number(value) == Some(0.0) {
+        return Some("give both components: [0, 0]".into());
+    }
     if let Some(x) = as_number(value).filter(|x| x.is_finite()) {
         let (plus, minus) = (format_number(x.abs()), format_number(-x.abs()));
         return Some(format!("give both components: [{plus}, 0], or downwards [0, {minus}]"));

@@ -303,7 +303,7 @@ fn forms(built_ins: &[&BuiltIn]) -> String {
 }
 
 /// Where the library has a function of this name.
-fn of_library(name: &str) -> Option<String> {
+pub fn of_library(name: &str) -> Option<String> {
     let mut found = pages().iter().filter_map(|page| Some((page, page.named(name)?)));
     let (page, function) = found.next()?;
     let module = page.module.name;

@@ -16,7 +16,7 @@ use std::sync::Arc;
 use super::program::Program;
 pub use outline::Outline;
 pub use render::Colours;
-pub use translate::{Explainer, is_interrupt, is_waiting};
+pub use translate::{Explainer, is_interrupt, is_waiting, type_word};
 
 /// An error as it is shown to people.
 #[derive(Clone, Debug)]

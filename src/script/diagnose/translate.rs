@@ -2,7 +2,7 @@
 
 use rhai::{Dynamic, Engine, EvalAltResult, ParseErrorType, Position};
 
-use super::calls::Unknown;
+use super::calls::{Unknown, of_library};
 use super::faults::{arithmetic, bounds, mismatch, too_large};
 use super::outline::Outline;
 use super::{Callee, Diagnostic, Step, habits, locate, parsing};
@@ -279,6 +279,7 @@ impl Explainer<'_> {
         let known = outline.variables.iter().map(String::as_str).chain(self.catalog.constants());
         let hint = match nearest(name, known) {
             Some(near) => format!("did you mean '{near}'?"),
+            None if of_library(name).is_some() => of_library(name).unwrap_or_default(),
             None => format!("declare it first: let {name} = …"),
         };
         (message, Some(hint))

@@ -106,7 +106,7 @@ pub const WORDS: &[Elsewhere] = &[
     entry(&["arctan"], "write atan(x)", &["atan"]),
     entry(&["arctan2"], "write atan2(y, x)", &["atan2"]),
     entry(
-        &["prod", "cumsum", "diff", "median", "std", "var2"],
+        &["prod", "cumsum", "diff", "median"],
         "write array.reduce(|sum, x| sum + x, 0) with what is wanted in it; sum, mean, min and max are there",
         &["reduce", "sum", "mean"],
     ),

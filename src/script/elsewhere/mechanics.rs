@@ -30,7 +30,7 @@ pub const WORDS: &[Elsewhere] = &[
         &["slider", "clamp"],
     ),
     entry(
-        &["damping", "damper", "damp", "dashpot", "viscous", "friction", "rayleigh", "dissipation"],
+        &["damping", "damper", "damp", "dashpot", "viscous", "rayleigh", "dissipation"],
         "scene.start(#{ integrator: energy_decaying(#{ chi: 0.1 }), dt: 0.1 }) damps vibration and keeps both momenta; generalized_alpha damps only what is fast",
         &["energy_decaying", "generalized_alpha"],
     ),

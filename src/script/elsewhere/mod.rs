@@ -16,12 +16,26 @@ pub struct Elsewhere {
 
 /// What is written here for a name; capital letters count only where the two differ in nothing else.
 pub fn find(name: &str) -> Option<&'static Elsewhere> {
-    let exact = all().find(|entry| entry.words.contains(&name));
-    exact.or_else(|| {
+    find_exactly(name).or_else(|| {
         let lower = name.to_lowercase();
         let same = |word: &&str| word.to_lowercase() == lower;
         all().find(|entry| entry.words.iter().any(|word| same(&word)))
     })
+}
+
+/// The same, where capital letters count.
+pub fn find_exactly(name: &str) -> Option<&'static Elsewhere> {
+    all().find(|entry| entry.words.contains(&name))
+}
+
+impl Elsewhere {
+    /// What is written here, and which names have help on it.
+    pub fn told(&self) -> String {
+        match self.see {
+            [] => self.cure.to_owned(),
+            names => format!("{}; see {}", self.cure, names.join(", ")),
+        }
+    }
 }
 
 /// What to write where a function of the language is called with so many values as its namesake elsewhere takes.

@@ -40,13 +40,7 @@ impl Unknown {
 
     /// What to do about it.
     pub fn hint(&self) -> String {
-        let elsewhere = self.elsewhere.map(|found| {
-            let see = match found.see {
-                [] => String::new(),
-                names => format!("; see {}", names.join(", ")),
-            };
-            format!("{}{see}", found.cure)
-        });
+        let elsewhere = self.elsewhere.map(Elsewhere::told);
         let related = (elsewhere.is_none() && !self.related.is_empty())
             .then(|| format!("there is {}", self.related.join(", ")));
         let meant = self.meant.map(|near| format!("did you mean '{near}'?"));

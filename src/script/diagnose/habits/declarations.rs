@@ -9,8 +9,10 @@ use crate::script::suggest::nearest;
 /// Declarations.
 pub const HABITS: &[Habit] = &[
     function,
+    function_body,
     unnamed_function,
     type_first,
+    tuple,
     several_names,
     parts,
     declared_type,
@@ -41,6 +43,26 @@ fn function(spot: &Spot) -> Option<Cure> {
         first,
         format!("'{word}' is not a word of the language"),
         format!("a function is written fn {written} {{ … }}; its last expression is its value"),
+    )
+}
+
+/// `fn f(x) => x`, `fn f(x) = x^2;`, `let f(x) = x^2;`, `f(x) = x^2;`, `fn f x { … }`.
+fn function_body(spot: &Spot) -> Option<Cure> {
+    let is_headed = spot.from_first(0) == "fn"
+        && matches!(
+            spot.error,
+            ParseErrorType::FnMissingBody(_) | ParseErrorType::FnMissingParams(_)
+        );
+    let is_arrow = spot.from_first(0) == "fn" && matches!(spot.word(0), "=>" | "->");
+    let is_let = matches!(spot.word(-2), "let" | "const") && spot.word(0) == "(";
+    let is_assigned = matches!(spot.error, ParseErrorType::AssignmentToInvalidLHS(_))
+        && spot.is_name(0)
+        && spot.word(1) == "(";
+    (is_headed || is_arrow || is_let || is_assigned).then_some(())?;
+    spot.cure(
+        0,
+        "this is not how a function is defined",
+        "write fn f(x) { x^2 }: its body stands in braces, and its last expression is its value",
     )
 }
 
@@ -99,6 +121,15 @@ fn several_names(spot: &Spot) -> Option<Cure> {
         "one statement sets one variable",
         "write a statement for each: let a = 1; let b = 2;",
     )
+}
+
+/// `let t = (1, 2);`, `let t = {1, 2};`
+fn tuple(spot: &Spot) -> Option<Cure> {
+    let is_open = matches!(spot.word(-2), "(" | "{") && matches!(spot.word(-3), "=" | "(" | ",");
+    let is_missing = spot.missing().0 == ")" || spot.word(-2) == "{";
+    (spot.word(0) == "," && is_open && is_missing).then_some(())?;
+    let hint = format!("write [{}, …]", spot.word(-1));
+    spot.cure(-2, "several values together are an array", hint)
 }
 
 /// `let [a, b] = pair;`
