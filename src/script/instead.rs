@@ -31,7 +31,7 @@ pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
         ),
         Kind::Options(keys) => {
             let required = keys.iter().find(|key| key.is_required()).or(keys.first())?;
-            Some(format!("options are written #{{ … }}: #{{ {}: … }}", required.name))
+            Some(format!("write #{{ {}: … }}", required.name))
         }
         Kind::Object(of) => of_object(of.name(), value, given).map(str::to_owned),
         Kind::Either(kinds) => kinds.iter().find_map(|kind| hint(kind, value, given)),

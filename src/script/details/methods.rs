@@ -12,7 +12,7 @@ use crate::simulation::StepControl;
 pub fn of_integrator(method: &Method) -> Details {
     let entry = method.entry();
     let claims = entry.claims;
-    let summary = line("what it does", entry.summary);
+    let summary = line("does", entry.summary);
     let order = line("order", claims.order.to_string());
     let kept = claims.kept().collect::<Vec<_>>().join(", ");
     let keeps = Some(kept).filter(|kept| !kept.is_empty());
