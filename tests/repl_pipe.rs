@@ -59,6 +59,41 @@ fn inputs_of_several_lines_are_one() {
 }
 
 #[test]
+fn words_of_other_prompts_leave_and_help() {
+    for word in ["quit", "exit", "quit()", "exit();"] {
+        let told = piped(&format!("1\n{word}\nnonsense\n"));
+        assert_eq!(told, (0, "1\n".into(), String::new()), "{word}");
+    }
+    let (code, replies, complaints) = piped("let quit = 3;\nquit\n");
+    assert_eq!((code, &*replies, &*complaints), (0, "3\n", ""));
+    let (code, replies, _) = piped("help\n");
+    assert!(code == 0 && replies.starts_with("Commands of the prompt"), "{replies}");
+    assert!(replies.contains(":quit") && replies.lines().count() < 30, "{replies}");
+    let (_, replies, _) = piped(":help topics\n");
+    assert!(replies.starts_with("Help\n") && replies.lines().count() > 50, "{replies}");
+    let (_, replies, _) = piped(&format!("{SPINNING}sim?\n"));
+    assert!(replies.starts_with("sim is a variable: a simulation"), "{replies}");
+    let (_, replies, _) = piped("help sine\n");
+    assert!(replies.contains("sine("), "{replies}");
+    let (code, _, complaints) = piped("clear\n");
+    assert!(code == 2 && complaints.contains(":reset forgets all variables"), "{complaints}");
+}
+
+#[test]
+fn words_of_mechanics_find_what_there_is() {
+    for (word, found) in [
+        ("damping", "energy_decaying"),
+        ("support", "scene.clamp(station)"),
+        ("roller", "scene.slider(station, rail)"),
+        ("plot", "plot_motion(sim, \"name\")"),
+        ("spring", "a thin beam acts as a spring"),
+    ] {
+        let (_, replies, complaints) = piped(&format!("?{word}\n"));
+        assert!(format!("{replies}{complaints}").contains(found), "{word}: {replies}{complaints}");
+    }
+}
+
+#[test]
 fn an_error_ends_the_session_with_2() {
     let (code, replies, complaints) = piped("1\nlet b = nonsense;\n2\n");
     assert_eq!((code, &*replies), (2, "1\n"));

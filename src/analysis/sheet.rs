@@ -11,6 +11,12 @@ pub enum SheetError {
         /// Why.
         reason: String,
     },
+    /// Two columns have the same name.
+    #[error("two of its columns are called '{column}'; give each a name of its own")]
+    Duplicate {
+        /// The name that there is twice.
+        column: String,
+    },
     /// It has no such column.
     #[error("it has no column '{column}'; its columns are {known}")]
     Column {
@@ -55,7 +61,7 @@ impl Sheet {
     /// Reads the text of a file.
     ///
     /// # Errors
-    /// When a row has more or fewer cells than there are columns.
+    /// When two columns have the same name, or a row has more or fewer cells than there are columns.
     pub fn parse(text: &str) -> Result<Self, SheetError> {
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))
@@ -71,7 +77,11 @@ impl Sheet {
             },
         };
         let texts = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
-        let columns = texts(reader.headers().map_err(wrong)?);
+        let columns: Vec<String> = texts(reader.headers().map_err(wrong)?);
+        let twice = (1..columns.len()).find(|later| columns[..*later].contains(&columns[*later]));
+        if let Some(later) = twice {
+            return Err(SheetError::Duplicate { column: columns[later].clone() });
+        }
         let rows = reader.records().map(|record| {
             let record = record.map_err(wrong)?;
             Ok((record.position().map_or(1, csv::Position::line), texts(&record)))
@@ -177,6 +187,8 @@ mod tests {
         }
         let told = sheet.number(0, "y0").unwrap_err().to_string();
         assert_eq!(told, "it has no column 'y0'; its columns are t, x0");
+        let told = Sheet::parse("t, x0, x0\n0,1,2\n").unwrap_err().to_string();
+        assert_eq!(told, "two of its columns are called 'x0'; give each a name of its own");
         let told = Sheet::parse("# made\nt,x0\n0,1\n1\n").unwrap_err().to_string();
         assert_eq!(
             told,

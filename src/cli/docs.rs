@@ -29,9 +29,9 @@ pub fn docs(options: &DocsOptions) -> Exit {
 
 fn page(catalog: &Catalog, name: &str) -> Result<String, Diagnostic> {
     let page = help::page(catalog, name).map_err(|unknown| {
-        Diagnostic::general(unknown.to_string()).with_hint(match unknown.meant {
-            None if unknown.mentions.is_empty() => "withy docs lists what there is".to_owned(),
-            _ => unknown.hint(),
+        Diagnostic::general(unknown.to_string()).with_hint(match unknown.is_strange() {
+            true => "withy docs lists what there is".to_owned(),
+            false => unknown.hint(),
         })
     })?;
     let style = Style::of_environment(|name| std::env::var(name).ok());

@@ -16,12 +16,14 @@ pub enum ModelError {
         scene: String,
     },
     /// A name that nobody could read.
-    #[error("{name:?} is no name for a {kind}; use letters, numbers and spaces")]
+    #[error("{name:?} is no name for a {kind}: {why}; use letters, numbers and spaces")]
     Unnamed {
         /// What should be called that.
         kind: &'static str,
         /// The name.
         name: String,
+        /// Why it cannot be read.
+        why: &'static str,
     },
     /// Two things of the same name.
     #[error("the scene already has a {kind} '{name}'; give this {new} another name")]

@@ -14,6 +14,7 @@ mod impact;
 mod inertia;
 mod measures;
 mod mechanism;
+mod names;
 mod numbering;
 mod placement;
 mod queries;

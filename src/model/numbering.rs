@@ -1,5 +1,6 @@
 //! Which movements are tied to each other or to the ground, and the numbers of the unknowns that are left.
 
+use super::names::rounded;
 use super::{ModelError, Scene};
 use crate::beams::{BodyDynamics, Place, Station};
 use crate::geometry::Vec2;
@@ -126,7 +127,7 @@ fn check_closed(
 
 /// A point as it stands in messages.
 pub(super) fn written(at: Vec2) -> String {
-    format!("({}, {})", at.x, at.y)
+    format!("({}, {})", rounded(at.x), rounded(at.y))
 }
 
 impl Numbering {

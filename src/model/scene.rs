@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::ModelError;
 use super::stored::StoredScene;
+use super::{ModelError, names};
 use crate::beams::{BodyIndex, Mesh, Place, Section, Station};
 use crate::geometry::{Curve, Vec2};
 use crate::joints::{Joint, JointKind, Partner, Slider};
@@ -178,8 +178,8 @@ impl Scene {
 
     pub(super) fn check_name(&self, new: &'static str, name: &str) -> Result<(), ModelError> {
         let name = || name.to_owned();
-        if name().trim().is_empty() || name().chars().any(char::is_control) {
-            return Err(ModelError::Unnamed { kind: new, name: name() });
+        if let Some(why) = names::refusal(&name()) {
+            return Err(ModelError::Unnamed { kind: new, name: name(), why });
         }
         match self.names().find(|(_, other)| **other == name()) {
             Some((kind, _)) => Err(ModelError::DuplicateName { kind, new, name: name() }),
@@ -331,7 +331,7 @@ impl Scene {
             _ if station.beam().is_none() => body,
             0.0 => format!("the start of {body}"),
             s if s == length => format!("the end of {body}"),
-            s => format!("station {s} of {body}"),
+            s => format!("station {} of {body}", names::rounded(s)),
         }
     }
 }

@@ -15,8 +15,8 @@ use crate::geometry::{Passage, Vec2, corresponding, nearest};
 use crate::joints::{CONTACT_UNKNOWNS, EndAction, Slider};
 
 /// Largest distance of a slave from its master when the scene starts, relative to the length of the master and the distance
-/// from the origin.
-const CLOSED: f64 = 1e-9;
+/// from the origin: a scene may be drawn in six digits, and the slave is moved onto its master exactly.
+const CLOSED: f64 = 1e-6;
 
 /// The end of a master at which a slider may arrive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -24,6 +24,15 @@ pub fn width(text: &str, size: f64) -> f64 {
     set(text, size).1
 }
 
+/// The size at which `text` fits into `room`: `size`, or as much smaller as it takes, down to 60 %.
+pub fn shrunk(text: &str, size: f64, room: f64) -> f64 {
+    const SMALLEST: f64 = 0.6;
+    // Rounding must not make a text that fits a little too long.
+    const ROUNDING: f64 = 1.0 - 1e-9;
+    let wanted = width(text, size);
+    if wanted <= room { size } else { size * (ROUNDING * room / wanted).max(SMALLEST) }
+}
+
 /// `text`, shortened with an ellipsis when it is longer than `room`.
 pub fn fit(text: &str, size: f64, room: f64) -> String {
     if text.chars().count() <= LONGEST && width(text, size) <= room {

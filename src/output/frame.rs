@@ -90,8 +90,10 @@ impl Frame {
 
     /// Draws all but the data; `plot` is what the margins leave of `area`.
     pub fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
-        let title = fonts::fit(&self.title, TITLE, area.right - plot.left - EDGE);
-        canvas.text(&title, (plot.left, area.top + EDGE + TITLE * 0.8), TITLE, Align::Start, INK);
+        let room = area.right - plot.left - EDGE;
+        let size = fonts::shrunk(&self.title, TITLE, room);
+        let title = fonts::fit(&self.title, size, room);
+        canvas.text(&title, (plot.left, area.top + EDGE + TITLE * 0.8), size, Align::Start, INK);
         let mut baseline = area.top + EDGE + TITLE * 0.8;
         for caption in &self.captions {
             baseline += CAPTION + 5.0;
@@ -187,6 +189,26 @@ fn crisp((x, y): Point) -> Point {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_long_title_is_set_smaller_before_it_is_cut() {
+        let title = "drift of energy, momenta and gap of the flying spaghetti";
+        let frame = Frame {
+            title: title.into(),
+            captions: Vec::new(),
+            x_label: String::new(),
+            y_label: String::new(),
+            x: Axis::between(0.0, 1.0),
+            y: Axis::between(0.0, 1.0),
+            legend: Vec::new(),
+        };
+        let area = Area { left: 0.0, top: 0.0, right: 500.0, bottom: 300.0 };
+        assert!(fonts::width(title, TITLE) > 440.0);
+        let mut canvas = Canvas::default();
+        frame.draw(&mut canvas, &area, &frame.margins(500.0, 300.0).inside(&area));
+        let is_title = |shape: &super::super::canvas::Shape| matches!(shape, super::super::canvas::Shape::Text(text) if text.text == title);
+        assert!(canvas.shapes().iter().any(is_title), "the whole title is drawn");
+    }
 
     #[test]
     fn nothing_leaves_the_panel() {

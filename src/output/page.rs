@@ -141,11 +141,12 @@ impl Panel for Page {
     fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
         let (widths, heights) = self.tracks();
         let room = area.width() - 28.0;
-        let title = fonts::fit(&self.title, TITLE, room);
+        let size = fonts::shrunk(&self.title, TITLE, room);
+        let title = fonts::fit(&self.title, size, room);
         canvas.text(
             &title,
             ((area.left + area.right) / 2.0, area.top + 16.0 + TITLE * 0.8),
-            TITLE,
+            size,
             Align::Middle,
             INK,
         );

@@ -23,8 +23,8 @@ use crate::script::limits::Watchdog;
 use crate::script::naming;
 use crate::script::panics;
 use crate::script::program::Program;
+use crate::script::reading::read;
 use crate::script::sources::Sources;
-use crate::script::syntax::mark;
 
 /// The name of the value of the last expression.
 pub const ANSWER: &str = "ans";
@@ -264,8 +264,7 @@ impl Session {
 
     /// Parses an input at its lines of the session.
     fn compile(&self, text: &str, before: usize) -> Result<AST, Box<EvalAltResult>> {
-        let padded = format!("{}{}", "\n".repeat(before), mark(text));
-        let ast = self.engine.compile_with_scope(&self.scope, padded)?;
+        let ast = read(&self.engine, &self.scope, text, before)?;
         Sources::of(&self.engine).note(&ast, PROMPT);
         let placed = format!("{}{text}", "\n".repeat(before));
         naming::judge(&self.engine, &placed, &self.transcript.whole().text)?;
@@ -366,11 +365,11 @@ impl Session {
     pub fn script(&self) -> Result<String, Diagnostic> {
         let script = self.record.script(&self.engine);
         let program = Program::named("the saved session", &script);
-        match self.engine.compile(mark(&script)) {
+        match read(&self.engine, &Scope::new(), &script, 0) {
             Ok(_) => Ok(script),
             Err(error) => {
                 let (catalog, engine) = (&self.catalog, &*self.engine);
-                Err(Explainer { program: &program, catalog, engine }.explain(&error.into()))
+                Err(Explainer { program: &program, catalog, engine }.explain(&error))
             }
         }
     }

@@ -85,6 +85,13 @@ impl Shell {
         if let Some(name) = text.strip_prefix('?') {
             return (commands::HELP.body)(self, name.trim());
         }
+        let is_variable = |name: &str| {
+            self.session.variables().contains(name)
+                || self.session.functions().any(|function| function.name == name)
+        };
+        if let Some((command, operand)) = commands::meant(text, is_variable) {
+            return (command.body)(self, operand);
+        }
         let before = self.latest().map(|latest| latest.time());
         let reply = self.session.eval(input);
         let outcome = self.tell(reply);
@@ -180,7 +187,12 @@ impl Shell {
 
     /// Tells what is wrong.
     pub fn refuse(&self, diagnostic: &Diagnostic) -> Outcome {
-        self.session.context().tell(diagnostic.render(self.colours()).trim_end());
+        let width = match self.screen {
+            Screen::Terminal(style) => style.width,
+            Screen::Pipe => usize::MAX,
+        };
+        let told = diagnostic.render_within(self.colours(), width);
+        self.session.context().tell(told.trim_end());
         Outcome::Failed
     }
 

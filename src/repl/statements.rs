@@ -1,14 +1,14 @@
 //! Where the statements of an input begin and end: the engine's syntax tree does not say, but it can be asked again.
 
-use rhai::{AST, ASTFlags, ASTNode, Engine, Stmt, Token};
+use rhai::{AST, ASTFlags, ASTNode, Engine, Scope, Stmt, Token};
 
 use crate::script::lexing::tokens;
 use crate::script::program::Program;
-use crate::script::syntax::mark;
+use crate::script::reading::read;
 
 /// How many statements a text has, functions apart; none if it is not correct.
 pub fn count(engine: &Engine, text: &str) -> Option<usize> {
-    engine.compile(mark(text)).ok().map(|ast| ast.statements().len())
+    read(engine, &Scope::new(), text, 0).ok().map(|ast| ast.statements().len())
 }
 
 /// The last place where a text can be cut so that `first` of its statements stand before the cut and the others after it.

@@ -19,14 +19,20 @@ impl Shell {
         let function = |function: rhai::ScriptFnMetadata| Function {
             name: function.name.to_owned(),
             parameters: function.params.iter().map(|name| (*name).to_owned()).collect(),
+            summary: "a function of this session".into(),
+            ..Function::default()
         };
         let definition = |function: &rhai::Shared<rhai::ScriptFuncDef>| Function {
             name: function.name.to_string(),
             parameters: function.params.iter().map(ToString::to_string).collect(),
+            summary: "a function of an imported file".into(),
+            ..Function::default()
         };
         let of_library = |function: &ModuleFunction| Function {
             name: function.name().to_owned(),
             parameters: function.parameters.clone(),
+            summary: function.summary().replace('`', ""),
+            keys: function.keys(),
         };
         let module = |(alias, module): (&str, &rhai::Module)| Module {
             alias: alias.to_owned(),

@@ -2,8 +2,10 @@
 
 use rhai::{Array, Dynamic, Engine, FnPtr, Map};
 
+use super::diagnose::type_word;
 use super::error::{Place, ScriptError};
-use super::kind::{Kind, Range};
+use super::instead;
+use super::kind::Kind;
 use super::numbers::{as_number, as_whole, describe};
 use super::options::Options;
 use super::parameter::Parameter;
@@ -115,7 +117,8 @@ fn refusal(
         None => describe(engine, value),
     };
     let error = ScriptError::new(format!("{owner}: '{name}' must be {wanted}, got {got}"));
-    match hint(kind, value) {
+    let given = type_word(engine.map_type_name(value.type_name()));
+    match instead::hint(kind, value, given) {
         Some(hint) => error.hint(hint),
         None => error,
     }
@@ -134,27 +137,6 @@ fn first_wrong_element(kind: &Kind, value: &Dynamic) -> Option<(usize, Dynamic)>
         .enumerate()
         .find(|(_, element)| wrong(element))
         .map(|(index, element)| (index, element.clone()))
-}
-
-fn hint(kind: &Kind, value: &Dynamic) -> Option<String> {
-    match kind {
-        Kind::Number(_) if is_infinite_or_nan(value) => Some(
-            "the number comes from an overflow or an undefined operation before this line".into(),
-        ),
-        Kind::Whole(Range::Finite) if value.is_float() => {
-            Some("floor(x) or round(x) makes a whole number".into())
-        }
-        Kind::Choice(allowed) => {
-            let text = value.as_immutable_string_ref().ok()?;
-            let near = super::suggest::nearest(&text, allowed.iter().copied())?;
-            Some(format!("did you mean \"{near}\"?"))
-        }
-        Kind::Options(keys) => {
-            let required = keys.iter().find(|key| key.is_required()).or(keys.first())?;
-            Some(format!("write #{{ {}: … }}", required.name))
-        }
-        _ => None,
-    }
 }
 
 fn is_infinite_or_nan(value: &Dynamic) -> bool {

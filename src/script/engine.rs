@@ -32,12 +32,12 @@ pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     engine.set_optimization_level(OptimizationLevel::None);
     limit(&mut engine, context);
     name_types(&mut engine);
-    syntax::install(&mut engine)?;
+    let reader = syntax::install(&mut engine)?;
     operators::install(&mut engine);
     sorting::install(&mut engine);
     elements::install(&mut engine);
     print_numbers(&mut engine);
-    Sources::install(&mut engine, catalog);
+    Sources::install(&mut engine, catalog, reader);
     for table in catalog.tables() {
         register(&mut engine, table, context);
     }

@@ -177,6 +177,26 @@ impl Range {
     }
 }
 
+impl Kind {
+    /// Whether values of this type can be meant, whatever they hold.
+    pub fn takes(&self, type_name: &str) -> bool {
+        match self {
+            Self::Number(_) | Self::Whole(_) | Self::Numeric => {
+                matches!(type_name, "number" | "whole number")
+            }
+            Self::Text | Self::Choice(_) => type_name == "text",
+            Self::Boolean => type_name == "truth value",
+            Self::Point => matches!(type_name, "vector" | "array"),
+            Self::Array | Self::Numbers | Self::Points => type_name == "array",
+            Self::Function => type_name == "function",
+            Self::Options(_) => type_name == "map",
+            Self::Object(of) => of.name() == type_name,
+            Self::Either(kinds) => kinds.iter().any(|kind| kind.takes(type_name)),
+            Self::Anything => true,
+        }
+    }
+}
+
 impl fmt::Display for Kind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

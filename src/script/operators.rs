@@ -1,7 +1,7 @@
 //! Numbers as in science: what the operators of [`syntax`](super::syntax) do.
 //!
 //! Comparisons are those of IEEE 754 for every mix of whole and other numbers, division is never truncated, and a
-//! power of whole numbers is whole when it is one and fits. Other types keep the engine's own operators, except that
+//! power of whole numbers with an exponent of zero or more is whole; to leave the range of whole numbers is an error. Other types keep the engine's own operators, except that
 //! an order between values of different types is an error and not silently `false`.
 //!
 //! Two limits of the engine remain: `switch` compares by the kind of number as well (`3.0` is not `case 3`), and a
@@ -9,8 +9,9 @@
 
 use std::any::TypeId;
 
-use rhai::{Dynamic, Engine, EvalAltResult, INT, NativeCallContext};
+use rhai::{Dynamic, Engine, EvalAltResult, INT, NativeCallContext, Position};
 
+use super::error::ScriptError;
 use super::register::EngineResult;
 use super::syntax::{LONGEST_CHAIN, OWN, Operand, REPLACED, power_name};
 use crate::elementary::power;
@@ -27,11 +28,13 @@ pub fn install(engine: &mut Engine) {
         engine,
         &format!("{OWN}/"),
         |x, y| x / y,
-        |m, n| (m as f64 / n as f64).into(),
+        |m, n| Ok((m as f64 / n as f64).into()),
     );
     for chain in 0..LONGEST_CHAIN {
         register_arithmetic(engine, &power_name(chain), power, whole_power);
     }
+    engine.register_fn(format!("{OWN}<<"), shifted_up);
+    engine.register_fn(format!("{OWN}>>"), shifted_down);
     for (symbol, _) in REPLACED {
         hand_over(engine, format!("{OWN}{symbol}"), symbol);
     }
@@ -40,6 +43,8 @@ pub fn install(engine: &mut Engine) {
     }
     register_assignment(engine, "/=", format!("{OWN}/"));
     register_assignment(engine, "**=", power_name(0));
+    register_assignment(engine, "<<=", format!("{OWN}<<"));
+    register_assignment(engine, ">>=", format!("{OWN}>>"));
 }
 
 /// The name under which the script wrote `operator`: `num<` is `<`, `num^3` is `^`.
@@ -75,7 +80,7 @@ fn register_arithmetic(
     engine: &mut Engine,
     name: &str,
     numbers: fn(f64, f64) -> f64,
-    wholes: fn(INT, INT) -> Dynamic,
+    wholes: fn(INT, INT) -> EngineResult<Dynamic>,
 ) {
     engine.register_fn(name, numbers);
     engine.register_fn(name, wholes);
@@ -83,10 +88,52 @@ fn register_arithmetic(
     engine.register_fn(name, move |n: INT, x: f64| numbers(n as f64, x));
 }
 
-/// A whole number when the power is one and fits, else the nearest number: `2^3` is 8, `2^-1` is 0.5.
-fn whole_power(base: INT, exponent: INT) -> Dynamic {
-    let whole = u32::try_from(exponent).ok().and_then(|exponent| base.checked_pow(exponent));
-    whole.map_or_else(|| power(base as f64, exponent as f64).into(), Dynamic::from)
+/// A whole number where the exponent is not negative, else the nearest number: `2^3` is 8, `2^-1` is 0.5.
+fn whole_power(base: INT, exponent: INT) -> EngineResult<Dynamic> {
+    if exponent < 0 {
+        return Ok(power(base as f64, exponent as f64).into());
+    }
+    let whole = match (base, u32::try_from(exponent)) {
+        (_, Ok(exponent)) => base.checked_pow(exponent),
+        (0 | 1, Err(_)) => Some(base),
+        (-1, Err(_)) => Some(if exponent % 2 == 0 { 1 } else { -1 }),
+        (_, Err(_)) => None,
+    };
+    whole.map(Dynamic::from).ok_or_else(|| {
+        let written = if base < 0 { format!("({base}.0)") } else { format!("{base}.0") };
+        let told = format!("{base}^{exponent} is too large for a whole number of 64 bits");
+        let hint = format!("write {written}^{exponent} for the nearest number");
+        ScriptError::new(told).hint(hint).into_engine(Position::NONE)
+    })
+}
+
+/// `number << places`, as long as no bit is lost.
+fn shifted_up(number: INT, places: INT) -> EngineResult<INT> {
+    let shifted = number << shift(places)?;
+    match shifted >> places == number {
+        true => Ok(shifted),
+        false => {
+            let told = format!("{number} << {places} is too large for a whole number of 64 bits");
+            let hint = format!("write {number}.0 * 2^{places} for the nearest number");
+            Err(ScriptError::new(told).hint(hint).into_engine(Position::NONE))
+        }
+    }
+}
+
+/// `number >> places`.
+fn shifted_down(number: INT, places: INT) -> EngineResult<INT> {
+    Ok(number >> shift(places)?)
+}
+
+/// By how many places bits can be moved.
+fn shift(places: INT) -> EngineResult<INT> {
+    match places {
+        0..=63 => Ok(places),
+        _ => {
+            let told = format!("bits are moved by 0 to 63 places, got {places}");
+            Err(ScriptError::new(told).into_engine(Position::NONE))
+        }
+    }
 }
 
 /// Everything that is not two numbers goes to the engine's operator `symbol`.

@@ -164,6 +164,10 @@ fn perform(
     body(&mut Call::new(row, context, native, receiver, Arguments::new(parameters, accepted)))
 }
 
+/// What to do in the place of a load that reads a simulation in the middle of a step.
+pub const STEERED: &str = "a load is a function of its argument, the time; one that depends on the motion reads a variable that is set \
+    between steps: let u = 0.0; scene.force(station, [1, 0], |t| u); then u = … before each sim.step()";
+
 /// Refuses values that the native call which has called back is at work on; arrays are looked into.
 fn refuse_busy(row: &Row, context: &Context, values: &[&mut Dynamic]) -> Result<(), ScriptError> {
     let is_ours = |value: &Dynamic| !(value.is_float() || value.is_int() || value.is_string());
@@ -172,7 +176,7 @@ fn refuse_busy(row: &Row, context: &Context, values: &[&mut Dynamic]) -> Result<
         let elements = elements.iter().flat_map(|array| array.iter());
         if let Some(reason) = elements.chain([value]).find_map(|value| context.busy(value)) {
             let refusal = ScriptError::new(format!("{}: {reason}", row.name));
-            return Err(refusal.hint("a load is a function of its argument, the time"));
+            return Err(refusal.hint(STEERED));
         }
     }
     Ok(())

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use std::sync::Mutex;
 use std::thread;
 
-use rhai::{AST, Engine, EvalAltResult, Token};
+use rhai::{AST, Engine, EvalAltResult, Scope, Token};
 
 use super::catalog::Catalog;
 use super::checks::Checks;
@@ -20,8 +20,8 @@ use super::limits::{DEFAULT_MEGABYTES, Limits, MEGABYTE, Stop};
 use super::naming;
 use super::panics;
 use super::program::Program;
+use super::reading::read;
 use super::sources::Sources;
-use super::syntax::mark;
 
 /// Address space for the stack of a script; memory is used only as deep as the script really goes.
 pub const STACK_BYTES: usize = 256 << 20;
@@ -120,7 +120,7 @@ pub fn compile(engine: &mut Engine, program: &Program) -> Result<AST, Box<EvalAl
 
 /// Parses `program` with an engine that knows where imports are.
 pub fn parse(engine: &Engine, program: &Program) -> Result<AST, Box<EvalAltResult>> {
-    let mut ast = engine.compile(mark(&program.text))?;
+    let mut ast = read(engine, &Scope::new(), &program.text, 0)?;
     ast.set_source(program.name.as_str());
     Sources::of(engine).note(&ast, &program.name);
     naming::judge(engine, &program.text, &program.text)?;

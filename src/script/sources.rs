@@ -9,6 +9,7 @@ use rhai::{AST, Engine};
 
 use super::catalog::Catalog;
 use super::library::FOLDER;
+use super::syntax::Reader;
 
 /// The names of all script functions and closures that an engine has read, with their files, and the line that the standard
 /// library was entered from.
@@ -19,6 +20,7 @@ pub struct Sources {
     functions: Rc<RefCell<HashMap<String, HashSet<String>>>>,
     entered_at: Rc<Cell<Option<usize>>>,
     catalog: Option<Rc<Catalog>>,
+    reader: Reader,
 }
 
 /// Lasts as long as a call into the library.
@@ -40,9 +42,9 @@ fn is_library(source: Option<&str>) -> bool {
 
 impl Sources {
     /// Gives an engine a register of its own.
-    pub fn install(engine: &mut Engine, catalog: &Catalog) {
+    pub fn install(engine: &mut Engine, catalog: &Catalog, reader: Reader) {
         let catalog = Some(Rc::new(catalog.clone()));
-        engine.set_default_tag(rhai::Dynamic::from(Self { catalog, ..Self::default() }));
+        engine.set_default_tag(rhai::Dynamic::from(Self { catalog, reader, ..Self::default() }));
     }
 
     /// The names that the language has; none for an engine that does not speak it.
@@ -53,6 +55,11 @@ impl Sources {
     /// The register of an engine.
     pub fn of(engine: &Engine) -> Self {
         engine.default_tag().clone().try_cast().unwrap_or_default()
+    }
+
+    /// Tells the engine that another text begins.
+    pub fn begin_reading(&self) {
+        self.reader.begin();
     }
 
     /// Notes the functions of a file.

@@ -17,6 +17,26 @@ pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -
         .map(|(_, candidate)| candidate)
 }
 
+/// The candidates that have `wrong` as one of their words, or as their beginning: `run_to` for `run`.
+pub fn related<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    const MOST: usize = 5;
+    const SHORTEST: usize = 3;
+    let wrong = wrong.to_lowercase();
+    if wrong.chars().count() < SHORTEST {
+        return Vec::new();
+    }
+    let mut found: Vec<&str> = Vec::new();
+    for candidate in candidates {
+        let mut words = candidate.split('_');
+        let is_related = candidate.starts_with(&wrong) || words.any(|word| word == wrong);
+        if is_related && candidate != wrong && !found.contains(&candidate) {
+            found.push(candidate);
+        }
+    }
+    found.truncate(MOST);
+    found
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -29,5 +49,14 @@ mod tests {
         assert_eq!(nearest("rhoA", known), Some("rho_A"));
         assert_eq!(nearest("temperature", known), None);
         assert_eq!(nearest("x", ["y"]), None);
+    }
+
+    #[test]
+    fn a_part_of_a_name_finds_it() {
+        let known = ["run_to", "plot_motion", "plot_history", "truncate"];
+        assert_eq!(related("run", known), ["run_to"]);
+        assert_eq!(related("plot", known), ["plot_motion", "plot_history"]);
+        assert_eq!(related("motion", known), ["plot_motion"]);
+        assert!(related("to", known).is_empty());
     }
 }

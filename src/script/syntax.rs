@@ -3,16 +3,17 @@
 //! Rhai's built-in comparisons and its whole-number division bypass everything that is registered, so the parser
 //! is given operators of our own instead ([`operators`](super::operators) says what they do):
 //!
-//! - `/ < > <= >= == !=` become `num/`, `num<`, … of the same precedence;
+//! - `/ << >> < > <= >= == !=` become `num/`, `num<`, … of the same precedence;
 //! - `^` and `**` become `num^0`, `num^1`, … along a chain of powers, each binding tighter than the one before, because
 //!   an operator of ours would otherwise bind to the left and `2^3^2` would be 64;
 //! - `-x^2` is refused, because Rhai's minus binds tighter than any operator and would give the square of `-x`;
-//! - `/=`, `^=` and `**=` are lexed as two tokens, and loops get a statement of their own ([`rounds`]), see [`mark`].
+//! - `/=`, `^=`, `**=`, `<<=` and `>>=` are lexed as two tokens, and loops get a statement of their own ([`rounds`]), see [`mark`].
 //!
 //! All of this uses hooks that Rhai calls volatile; they are used in this file and in `lexing` only.
 
 use std::borrow::Cow;
 use std::cell::RefCell;
+use std::rc::Rc;
 
 use rhai::{Dynamic, Engine, LexError, Position, Token};
 
@@ -22,9 +23,18 @@ use super::rounds;
 /// Prefix of the operators that stand in for Rhai's own.
 pub const OWN: &str = "num";
 
-/// Comparison and division operators with their precedences in Rhai.
-pub const REPLACED: [(&str, u8); 7] =
-    [("/", 180), ("<", 110), (">", 110), ("<=", 110), (">=", 110), ("==", 90), ("!=", 90)];
+/// Comparison, division and shifts of bits with their precedences in Rhai.
+pub const REPLACED: [(&str, u8); 9] = [
+    ("<<", 210),
+    (">>", 210),
+    ("/", 180),
+    ("<", 110),
+    (">", 110),
+    ("<=", 110),
+    (">=", 110),
+    ("==", 90),
+    ("!=", 90),
+];
 
 /// How many powers may follow each other: `a^b^c^…`.
 pub const LONGEST_CHAIN: u8 = 16;
@@ -36,6 +46,8 @@ const POWER_PRECEDENCE: u8 = 190;
 const DIVIDE_HALF: char = '\u{E000}';
 const POWER_HALF: char = '\u{E001}';
 const OPERAND_HALF: char = '\u{E002}';
+const UP_HALF: char = '\u{E005}';
+const DOWN_HALF: char = '\u{E006}';
 const OPERAND: &str = "\u{E002}";
 
 /// The right-hand side of `x /= y`: a type of its own, so that Rhai's built-in whole-number `/=` does not apply.
@@ -47,8 +59,19 @@ pub fn power_name(chain: u8) -> String {
     format!("{OWN}^{chain}")
 }
 
-/// Teaches `engine` the tokens of this language.
-pub fn install(engine: &mut Engine) -> Result<(), String> {
+/// What is remembered of the text that is being read.
+#[derive(Clone, Default)]
+pub struct Reader(Rc<RefCell<Nesting>>);
+
+impl Reader {
+    /// Forgets the text before, which may have ended in the middle of an expression.
+    pub fn begin(&self) {
+        *self.0.borrow_mut() = Nesting::default();
+    }
+}
+
+/// Teaches `engine` the tokens of this language; what is given back is told when another text begins.
+pub fn install(engine: &mut Engine) -> Result<Reader, String> {
     for (symbol, precedence) in REPLACED {
         engine.register_custom_operator(format!("{OWN}{symbol}"), precedence)?;
     }
@@ -67,14 +90,15 @@ pub fn install(engine: &mut Engine) -> Result<(), String> {
         },
     );
     rounds::install(engine);
-    let nesting = RefCell::new(Nesting::default());
+    let reader = Reader::default();
+    let nesting = Rc::clone(&reader.0);
     // "Deprecated" marks the hook as volatile, not as going away.
     #[allow(deprecated)]
-    engine.on_parse_token(move |token, position, _| nesting.borrow_mut().map(token, position));
-    Ok(())
+    engine.on_parse_token(move |token, _, _| nesting.borrow_mut().map(token));
+    Ok(reader)
 }
 
-/// Rewrites `/=`, `^=` and `**=` so that they lex as an operator and a wrapper of what follows, and marks the rounds of loops;
+/// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` so that they lex as an operator and a wrapper of what follows, and marks the rounds of loops;
 /// columns do not move.
 pub fn mark(source: &str) -> Cow<'_, str> {
     let tokens = tokens(source);
@@ -83,6 +107,8 @@ pub fn mark(source: &str) -> Cow<'_, str> {
             Token::DivideAssign => &[DIVIDE_HALF, OPERAND_HALF],
             Token::XOrAssign => &[POWER_HALF, OPERAND_HALF],
             Token::PowerOfAssign => &[POWER_HALF, OPERAND_HALF, ' '],
+            Token::LeftShiftAssign => &[UP_HALF, OPERAND_HALF, ' '],
+            Token::RightShiftAssign => &[DOWN_HALF, OPERAND_HALF, ' '],
             _ => &[],
         }
     };
@@ -134,17 +160,10 @@ struct Chain {
 struct Nesting {
     outer: Vec<Chain>,
     current: Chain,
-    last: (usize, usize),
 }
 
 impl Nesting {
-    fn map(&mut self, token: Token, position: Position) -> Token {
-        let place = (position.line().unwrap_or(0), position.position().unwrap_or(0));
-        if place <= self.last {
-            // Another script begins; the one before may have ended in the middle of an expression.
-            *self = Self::default();
-        }
-        self.last = place;
+    fn map(&mut self, token: Token) -> Token {
         match token {
             Token::XOr | Token::PowerOf => self.power(),
             Token::UnaryMinus => {
@@ -154,6 +173,9 @@ impl Nesting {
             Token::IntegerConstant(n) => {
                 self.current.minus |= n < 0;
                 token
+            }
+            Token::FloatConstant(ref literal) if is_too_large(&literal.1) => {
+                refuse("write it with a point: the whole number is too large for 64 bits")
             }
             Token::FloatConstant(ref literal) => {
                 self.current.minus |= literal.0.is_sign_negative();
@@ -203,9 +225,16 @@ impl Nesting {
     }
 }
 
+/// Whether a literal is a whole number that Rhai has made a number of because it has too many digits.
+fn is_too_large(literal: &str) -> bool {
+    !literal.contains(['.', 'e', 'E'])
+}
+
 fn replace(token: Token) -> Token {
     let symbol = match &token {
         Token::Divide => "/",
+        Token::LeftShift => "<<",
+        Token::RightShift => ">>",
         Token::LessThan => "<",
         Token::GreaterThan => ">",
         Token::LessThanEqualsTo => "<=",
@@ -229,6 +258,8 @@ fn half(error: &LexError) -> Option<Token> {
     match text.chars().next()? {
         DIVIDE_HALF => Some(Token::DivideAssign),
         POWER_HALF => Some(Token::PowerOfAssign),
+        UP_HALF => Some(Token::LeftShiftAssign),
+        DOWN_HALF => Some(Token::RightShiftAssign),
         OPERAND_HALF => Some(custom(OPERAND)),
         rounds::ONE => Some(custom(rounds::ONE_NAME)),
         rounds::TWO => Some(custom(rounds::TWO_NAME)),

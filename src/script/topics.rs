@@ -25,7 +25,7 @@ pub const TOPICS: &[Topic] = &[
         doc: "Division is never truncated: `1/20` is 0.05; `quotient(n, d)` divides whole numbers. `^` and `**` are powers, from right to \
               left. Comparisons are those of IEEE 754. A whole number is welcome wherever a number is. A minus before a power \
               must be written `-(x^2)` or `(-x)^2`. `switch` tells 3 from 3.0. Whole numbers have 64 bits, and to leave that range is \
-              an error. Any consistent set of units will do: help names dimensions, such as [force], and no units.",
+              an error, in powers too: 10^20 is refused, 10.0^20 is the nearest number. Any consistent set of units will do: help names dimensions, such as [force], and no units.",
         example: "check(1/20 == 0.05 && 7/2 == 3.5);\ncheck(2^3^2 == 512 && 2^-1 == 0.5);\ncheck(1/0 == inf && nan != nan);\n\
                   let half = 5e-1;\ncheck(half == 0.5 && 1_000_000 == 1e6);",
         see: &["operators", "quotient", "fixed", "sci"],
@@ -62,12 +62,14 @@ pub const TOPICS: &[Topic] = &[
             "/=",
             "^=",
             "**=",
+            "<<=",
+            ">>=",
             "=",
             "precedence",
             "operator",
         ],
         summary: "What stands between two values, from what binds tightest to what binds loosest.",
-        doc: "Powers `^` and `**`; then `*`, `/` and `%` (remainder); then `+` and `-`; then the comparisons `<`, `>`, `<=` and `>=`; then `==` and `!=`; then `&&` (and), whose second half is not asked when the first is false; then `||` (or). `!` means not. `x += 1` stands for `x = x + 1`, and so on for `-=`, `*=`, `/=`, `^=` and `**=`. `+` joins texts, arrays and maps as well. `a in b` asks whether b contains a, `a !in b` the contrary. `a ?? b` is b when a is nothing; `a?.b` is nothing when a is. `<<`, `>>`, `&` and `|` work on the bits of whole numbers.",
+        doc: "Powers `^` and `**`; then `*`, `/` and `%` (remainder); then `+` and `-`; then the comparisons `<`, `>`, `<=` and `>=`; then `==` and `!=`; then `&&` (and), whose second half is not asked when the first is false; then `||` (or). `!` means not. `x += 1` stands for `x = x + 1`, and so on for `-=`, `*=`, `/=`, `^=`, `**=`, `<<=` and `>>=`. `+` joins texts, arrays and maps as well. `a in b` asks whether b contains a, `a !in b` the contrary. `a ?? b` is b when a is nothing; `a?.b` is nothing when a is. `<<`, `>>`, `&` and `|` work on the bits of whole numbers; a bit that would be lost is an error.",
         example: "check(2 + 3 * 2^2 == 14 && 7 % 4 == 3);\nlet x = 1;\nx += 2;\ncheck(x == 3 && !(x > 3 || x == 0));\n\
                   check(\"beam\" + 1 == \"beam1\" && [1] + [2] == [1, 2]);\ncheck(2 in [1, 2] && \"dt\" !in #{ t: 0 });\ncheck((() ?? 5) == 5);",
         see: &["numbers", "contains"],
@@ -99,8 +101,10 @@ pub const TOPICS: &[Topic] = &[
         words: &["point", "[x, y]"],
         summary: "A point or vector of the plane is an array `[x, y]` or a vector.",
         doc: "Every function that takes a point takes both. Vectors come from `vec(x, y)`, `polar` and functions that give points; \
-              they add, subtract and scale, and have components x and y. An array of points is an array of such pairs.",
-        example: "check(distance([0, 0], [3, 4]) == 5);\nlet p = vec(1, 2) + [1, 0];\ncheck(p == [2, 2] && p.x == 2);\ncheck(2 * p == vec(4, 4));",
+              they add, subtract and scale, and have components x and y. An array is a list of anything, of which + makes a longer \
+              one: [1, 2] + [1, 0] has four elements, as texts and maps are joined, and 2 * [1, 2] is refused. So one of the two in \
+              a sum of points has to be a vector. An array of points is an array of such pairs.",
+        example: "check(distance([0, 0], [3, 4]) == 5);\nlet p = vec(1, 2) + [1, 0];\ncheck(p == [2, 2] && p.x == 2);\ncheck(2 * p == vec(4, 4));\ncheck([1, 2] + [1, 0] == [1, 2, 1, 0]);",
         see: &["vec", "polar", "vectors"],
     },
     Topic {

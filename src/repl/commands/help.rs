@@ -12,7 +12,8 @@ use crate::script::kind::with_article;
 pub fn help(shell: &mut Shell, operand: &str) -> Outcome {
     let name = operand.trim_matches('"').trim_end_matches("()").trim();
     match name {
-        "" => return overview(shell),
+        "" => return commands(shell),
+        "topics" | "all" => return topics(shell),
         ANSWER => {
             let mut page = Page::default();
             page.heading(ANSWER);
@@ -38,7 +39,16 @@ pub fn help(shell: &mut Shell, operand: &str) -> Outcome {
             }
             Outcome::Good
         }
-        (Err(_), Some(command)) => explain(shell, command),
+        (Err(unknown), Some(command)) => {
+            let outcome = explain(shell, command);
+            if !unknown.is_strange() {
+                let mut page = Page::default();
+                page.gap();
+                page.paragraph(&format!("In a script: {}", unknown.hint()));
+                show(shell, &page);
+            }
+            outcome
+        }
         (Err(_), None) if shell.session().variables().contains(name) => {
             let of = shell.session().variables().get(name).map(rhai::Dynamic::type_name);
             let of = of.map(|of| shell.session().engine().map_type_name(of).to_owned());
@@ -48,8 +58,8 @@ pub fn help(shell: &mut Shell, operand: &str) -> Outcome {
         }
         (Err(unknown), None) => {
             let told = Diagnostic::general(unknown.to_string());
-            shell.refuse(&match unknown.meant.is_none() && unknown.mentions.is_empty() {
-                true => told.with_hint(":help lists what there is"),
+            shell.refuse(&match unknown.is_strange() {
+                true => told.with_hint(":help topics lists what there is"),
                 false => told.with_hint(unknown.hint()),
             })
         }
@@ -67,15 +77,25 @@ fn explain(shell: &Shell, command: &Command) -> Outcome {
     Outcome::Good
 }
 
-fn overview(shell: &mut Shell) -> Outcome {
+/// The commands, and how to come to the rest: what is asked for must not scroll away.
+fn commands(shell: &mut Shell) -> Outcome {
     let mut page = Page::default();
     page.heading("Commands of the prompt");
     for command in COMMANDS {
         let summary = Span::plain(format!(": {}", command.summary));
         page.words(2, vec![Span::name(command.usage()), summary]);
     }
+    page.gap();
+    page.paragraph(
+        "?NAME explains a function, a type, an option or a topic: ?beam, ?simulation, ?EA, ?loops. :help topics lists them all. \
+         Anything else that is typed is evaluated.",
+    );
     show(shell, &page);
-    shell.print("");
+    Outcome::Good
+}
+
+/// All that has a page.
+fn topics(shell: &mut Shell) -> Outcome {
     match help::page(shell.session().catalog(), "") {
         Ok(page) => show(shell, &page),
         Err(unknown) => return shell.refuse(&Diagnostic::bug(unknown)),

@@ -4,11 +4,13 @@ mod help;
 mod looking;
 mod session;
 mod stepping;
+mod words;
 
 use super::editor::surroundings::Operand;
 use super::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::suggest::nearest;
+pub use words::meant;
 
 /// A command of the prompt.
 pub struct Command {
@@ -32,8 +34,18 @@ pub const HELP: Command = Command {
     operand: Operand::Name,
     placeholder: "[NAME]",
     summary: "explains a function, a type, a topic or a command; ?name does the same",
-    doc: "Without a name it lists what there is.",
+    doc: "Without a name it lists the commands; :help topics lists all that has a page.",
     body: help::help,
+};
+
+/// What leaves the prompt.
+pub const QUIT: Command = Command {
+    name: ":quit",
+    operand: Operand::Nothing,
+    placeholder: "",
+    summary: "leaves; so does Ctrl-D",
+    doc: "The words quit and exit do the same.",
+    body: session::quit,
 };
 
 /// All commands, in the order of the help.
@@ -144,14 +156,7 @@ pub const COMMANDS: &[Command] = &[
         doc: "",
         body: session::reset,
     },
-    Command {
-        name: ":quit",
-        operand: Operand::Nothing,
-        placeholder: "",
-        summary: "leaves; so does Ctrl-D",
-        doc: "",
-        body: session::quit,
-    },
+    QUIT,
 ];
 
 impl Command {

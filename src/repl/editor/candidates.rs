@@ -51,6 +51,15 @@ impl Candidate {
         Self { display: key.name.to_owned(), replacement: format!("{}: ", key.name), summary }
     }
 
+    /// A key of the options of a script function.
+    pub fn told_key(name: &str, about: &str) -> Self {
+        Self {
+            display: name.to_owned(),
+            replacement: format!("{name}: "),
+            summary: about.to_owned(),
+        }
+    }
+
     /// The name of a candidate: what must agree with what is typed.
     fn name(&self) -> &str {
         self.replacement.trim_end_matches(['(', ')', ':', ' '])

@@ -128,6 +128,10 @@ impl<'t> Reader<'t> {
                 if written == "|" {
                     self.level.is_between_bars = !self.level.is_between_bars && !self.is_value;
                 }
+                // Blocks of other languages begin with a colon; here it stands in maps only.
+                if written == ":" && self.level.bracket != Some(Bracket::Map) {
+                    return Outcome::Final(Complete);
+                }
                 self.goes_on = GO_ON.contains(&written);
                 if matches!(written, ";" | "=>") {
                     self.level.waiting = None;
@@ -198,7 +202,7 @@ mod tests {
     use crate::script::catalog::Catalog;
     use crate::script::context::{Context, Mode, Settings};
     use crate::script::engine;
-    use crate::script::syntax::mark;
+    use crate::script::reading::read;
 
     #[test]
     fn brackets_texts_and_comments_keep_an_input_open() {
@@ -345,6 +349,14 @@ mod tests {
     }
 
     #[test]
+    fn a_block_that_begins_with_a_colon_is_told_at_once() {
+        for habit in ["def f(x):", "for i in range(3):", "if a == 1:", "let o = {a:"] {
+            assert_eq!(completeness(habit), Complete, "{habit}");
+        }
+        assert_eq!(completeness("let o = #{ a:"), Open(1));
+    }
+
+    #[test]
     fn the_scripts_of_the_repository_can_be_typed() {
         let context = Context::new(Settings::silent(Mode::DryBuild));
         let engine = engine::build(&Catalog::standard(), &context).expect("an engine");
@@ -356,7 +368,7 @@ mod tests {
             let chunks = chunks(&script);
             assert_eq!(chunks.last().map(String::as_str), Some(""), "{file:?} ends open");
             for chunk in chunks {
-                let compiled = engine.compile(mark(&chunk));
+                let compiled = read(&engine, &rhai::Scope::new(), &chunk, 0);
                 compiled.unwrap_or_else(|error| panic!("{file:?}: {error} in\n{chunk}"));
                 count += 1;
             }

@@ -107,7 +107,7 @@ fn script_function(function: &Function) -> Candidate {
     Candidate::call(
         &function.name,
         &format!("({})", function.parameters.join(", ")),
-        "a function of this session",
+        &function.summary,
     )
 }
 
@@ -126,7 +126,10 @@ fn keys(input: &Input, line: &str, surroundings: &Surroundings) -> Option<Vec<Ca
     let mut given: Vec<&str> = own.map(|index| input.written(index)).collect();
     given.extend(keys_after(&line[input.text.len()..]));
     let free = expected.keys().into_iter().filter(|key| !given.contains(&key.name));
-    Some(free.map(Candidate::key).collect())
+    let of_library = expected.library_keys().iter();
+    let of_library = of_library.filter(|(name, _)| !given.contains(&name.as_str()));
+    let of_library = of_library.map(|(name, about)| Candidate::told_key(name, about));
+    Some(free.map(Candidate::key).chain(of_library).collect())
 }
 
 /// The keys in the rest of a map.

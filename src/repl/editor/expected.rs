@@ -47,6 +47,21 @@ impl<'a, 't> Expected<'a, 't> {
         }
     }
 
+    /// The keys of the options of a function of a module whose bracket is the innermost one.
+    pub fn library_keys(&self) -> &'a [(String, String)] {
+        let [.., call, map] = self.levels.as_slice() else { return &[] };
+        if map.bracket != Bracket::Map || call.bracket != Bracket::Round {
+            return &[];
+        }
+        let modules = &self.types.surroundings.modules;
+        let of = self.types.input.callee(call.opener).and_then(|callee| {
+            let module =
+                modules.iter().find(|module| Some(module.alias.as_str()) == callee.module)?;
+            module.functions.iter().find(|function| function.name == callee.name)
+        });
+        of.map(|function| function.keys.as_slice()).unwrap_or_default()
+    }
+
     /// The innermost call whose arguments are being written, with what is between it and the cursor left aside.
     pub fn call(&self) -> Option<(Level<'t>, Callee<'t>)> {
         let transparent = |level: &&Level| {

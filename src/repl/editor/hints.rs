@@ -72,7 +72,7 @@ fn call_hint(
     line: &str,
     surroundings: &Surroundings,
 ) -> Option<Hint> {
-    if is_key && !expected.keys().is_empty() {
+    if is_key && !(expected.keys().is_empty() && expected.library_keys().is_empty()) {
         let (_, free) = complete(line, line.len(), surroundings);
         let names: Vec<_> = free.into_iter().map(|key| key.display).collect();
         return Hint::note(names.join(", "));

@@ -13,6 +13,7 @@ pub fn surroundings() -> Surroundings {
     let function = |name: &str, parameters: &[&str]| Function {
         name: name.into(),
         parameters: parameters.iter().map(|parameter| (*parameter).to_owned()).collect(),
+        ..Function::default()
     };
     let command = |name, summary, operand| CommandWord { name, summary, operand };
     let columns = ["t", "kinetic", "strain", "energy", "ring.force"];
@@ -28,7 +29,14 @@ pub fn surroundings() -> Surroundings {
         functions: vec![function("swing", &["angle", "speed"])],
         modules: vec![Module {
             alias: "shapes".into(),
-            functions: vec![function("arch", &["rise"]), function("arc_of", &[])],
+            functions: vec![
+                Function {
+                    summary: "An arch.".into(),
+                    keys: vec![("rise".into(), "its height".into()), ("span".into(), "".into())],
+                    ..function("arch", &["rise"])
+                },
+                function("arc_of", &[]),
+            ],
         }],
         commands: vec![
             command(":help", "Shows what a name does.", Operand::Name),

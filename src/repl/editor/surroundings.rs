@@ -36,12 +36,16 @@ pub struct Variable {
 }
 
 /// A script function.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Function {
     /// Its name.
     pub name: String,
     /// The names of its parameters.
     pub parameters: Vec<String>,
+    /// One line on what it does; may be empty.
+    pub summary: String,
+    /// The keys of its options, each with what is said about it.
+    pub keys: Vec<(String, String)>,
 }
 
 /// An imported module.

@@ -12,6 +12,7 @@ use crate::simulation::StepControl;
 pub fn of_integrator(method: &Method) -> Details {
     let entry = method.entry();
     let claims = entry.claims;
+    let summary = line("does", entry.summary);
     let order = line("order", claims.order.to_string());
     let kept = claims.kept().collect::<Vec<_>>().join(", ");
     let keeps = Some(kept).filter(|kept| !kept.is_empty());
@@ -20,7 +21,8 @@ pub fn of_integrator(method: &Method) -> Details {
         line(of.name, format!("{} ({}): {}", number(value), of.range(), of.meaning))
     });
     let optional = [keeps.map(|kept| line("keeps", kept)), damps, parameter];
-    std::iter::once(order)
+    [summary, order]
+        .into_iter()
         .chain(optional.into_iter().flatten())
         .chain(std::iter::once(line("source", entry.source)))
         .collect()

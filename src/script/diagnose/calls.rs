@@ -2,16 +2,18 @@
 
 use rhai::Position;
 
+use super::operands;
 use super::outline::Outline;
 use super::translate::type_word;
 use crate::script::built_in::BuiltIn;
 use crate::script::catalog::Catalog;
+use crate::script::elsewhere;
 use crate::script::kind::with_article;
-use crate::script::library::{FOLDER, ModuleFunction, page_of};
+use crate::script::library::{FOLDER, ModuleFunction, page_of, pages};
 use crate::script::operators;
 use crate::script::program::Program;
 use crate::script::sources::Sources;
-use crate::script::suggest::nearest;
+use crate::script::suggest::{nearest, related};
 use crate::script::table::{Form, Row};
 
 /// What is known, to be held against what was asked for.
@@ -51,7 +53,7 @@ impl Unknown<'_> {
         if !name.starts_with(|c: char| c.is_alphabetic() || c == '_')
             || operators::written(name) != name
         {
-            return self.operator(operators::written(name), &types);
+            return operands::explain(operators::written(name), &types);
         }
         if let Some((module, own)) = name.rsplit_once("::") {
             return self.of_module(module, own, types.len());
@@ -61,10 +63,12 @@ impl Unknown<'_> {
             .iter()
             .find(|row| matches!(row.form, Form::Method(of) if types.first() == Some(&of.name())));
         if let Some(row) = of_receiver {
-            return wrong_count(row, types.len() - 1);
+            return wrong_count(row, &[], types.len() - 1);
         }
-        if let Some(row) = rows.iter().find(|row| matches!(row.form, Form::Function)) {
-            return wrong_count(row, types.len());
+        let functions: Vec<&Row> =
+            rows.iter().copied().filter(|row| matches!(row.form, Form::Function)).collect();
+        if let Some((row, others)) = functions.split_first() {
+            return wrong_count(row, others, types.len());
         }
         if let Some((_, count)) = self.outline.functions.iter().find(|(known, _)| known == name) {
             if *count == types.len() && self.is_dotted(at) {
@@ -124,6 +128,10 @@ impl Unknown<'_> {
             .collect();
         let got = types.iter().map(|name| with_article(name)).collect::<Vec<_>>().join(", ");
         let message = format!("{name} cannot be called with ({got})");
+        if let Some(hint) = elsewhere::called_with(name, types.len()).filter(|_| !meant.is_empty())
+        {
+            return Some((message, Some(hint.into())));
+        }
         (!meant.is_empty()).then(|| (message, Some(format!("write {}", forms(&meant)))))
     }
 
@@ -133,6 +141,20 @@ impl Unknown<'_> {
             Some(receiver) => format!("{} has no method '{name}'", with_article(receiver)),
             None => format!("there is no function '{name}'"),
         };
+        let owner = types.first();
+        let is_owned = rows
+            .iter()
+            .any(|row| row.receiver().is_some_and(|of| owner.is_some_and(|own| of.name() == *own)));
+        let own_function =
+            nearest(name, self.outline.functions.iter().map(|(known, _)| known.as_str()));
+        let is_variable = self.outline.variables.iter().any(|known| known == name);
+        if !is_owned
+            && !is_variable
+            && own_function.is_none()
+            && let Some(found) = elsewhere::find(name)
+        {
+            return (message, Some(found.cure.into()));
+        }
         if let Some(row) = rows.first() {
             let owner = row.receiver().map_or("an operand", |of| of.name());
             return (
@@ -146,24 +168,45 @@ impl Unknown<'_> {
                 format!("'{name}' belongs to {}: {}", with_article(owner), forms(&built_ins));
             return (message, Some(told));
         }
-        if self.outline.variables.iter().any(|known| known == name) {
-            return (
-                message,
-                Some(format!("the function in the variable '{name}' is called by {name}.call(…)")),
+        if is_variable {
+            let hint = format!(
+                "'{name}' is a variable: {name}[0] is the first element of an array, and a function in it is called by \
+                 {name}.call(…)"
             );
+            return (message, Some(hint));
+        }
+        if let Some(hint) = of_library(name).filter(|_| !dotted) {
+            return (message, Some(hint));
         }
         let members = receiver.map(|of| self.catalog.members(of)).unwrap_or_default();
         let mut known: Vec<String> = members.iter().map(|row| row.name.to_owned()).collect();
-        known.extend(self.catalog.function_names().map(str::to_owned));
+        // What takes no such value is not meant behind its dot.
+        let takes = |row: &&Row| {
+            let first = row.parameters.first();
+            matches!(row.form, Form::Function)
+                && receiver.is_none_or(|of| first.is_some_and(|first| first.kind.takes(of)))
+        };
+        known.extend(self.catalog.rows().filter(takes).map(|row| row.name.to_owned()));
         known.extend(self.outline.functions.iter().map(|(name, _)| name.clone()));
+        let is_ours = !members.is_empty();
         let fits = |known: &&BuiltIn| match receiver {
-            Some(of) => known.is_of(of) || known.is_function(),
+            Some(of) => known.is_of(of) || (known.is_function() && !is_ours),
             None => true,
         };
         known.extend(self.catalog.built_ins().filter(fits).map(|known| known.name().to_owned()));
-        let hint = nearest(name, known.iter().map(String::as_str))
-            .map(|near| self.did_you_mean(near, receiver));
-        (message, hint.or_else(|| list(&members)))
+        let names = || known.iter().map(String::as_str);
+        let hint = nearest(name, names()).map(|near| self.did_you_mean(near, receiver));
+        let hint = hint.or_else(|| self.one_of(&related(name, names()), receiver));
+        (message, hint.or_else(|| receiver.and_then(|of| list(&members, of))))
+    }
+
+    /// What names that share a part with the one that was written stand for.
+    fn one_of(&self, names: &[&str], receiver: Option<&&str>) -> Option<String> {
+        match names {
+            [] => None,
+            [one] => Some(self.did_you_mean(one, receiver)),
+            several => Some(format!("did you mean one of {}?", several.join(", "))),
+        }
     }
 
     fn did_you_mean(&self, near: &str, receiver: Option<&&str>) -> String {
@@ -201,6 +244,11 @@ impl Unknown<'_> {
             return (format!("'{name}' of {owner} cannot be assigned"), None);
         }
         let message = format!("{owner} has no property '{name}'");
+        let is_own = members.iter().any(|row| row.name == name)
+            || self.catalog.built_ins_named(name).any(|known| known.is_of(of));
+        if let Some(found) = elsewhere::find(name).filter(|_| !is_own) {
+            return (message, Some(found.cure.into()));
+        }
         if let Some(row) =
             members.iter().copied().chain(self.catalog.named(name)).find(|row| row.name == name)
         {
@@ -215,30 +263,15 @@ impl Unknown<'_> {
         if let Some(built_in) = self.catalog.built_ins_named(name).find(|known| known.is_of(of)) {
             return (message, Some(format!("write {}", forms(&[built_in]))));
         }
-        let near =
-            nearest(name, members.iter().map(|row| row.name).chain(self.built_in_members(of)));
-        (message, near.map(|near| self.did_you_mean(near, Some(&of))).or_else(|| list(&members)))
+        let names = || members.iter().map(|row| row.name).chain(self.built_in_members(of));
+        let hint = nearest(name, names()).map(|near| self.did_you_mean(near, Some(&of)));
+        let hint = hint.or_else(|| self.one_of(&related(name, names()), Some(&of)));
+        (message, hint.or_else(|| list(&members, of)))
     }
 
     /// Names of what Rhai has for values of a type.
     fn built_in_members(&self, of: &str) -> impl Iterator<Item = &'static str> {
         self.catalog.built_ins().filter(move |known| known.is_of(of)).map(BuiltIn::name)
-    }
-
-    fn operator(&self, symbol: &str, types: &[&str]) -> Words {
-        let words: Vec<_> = types.iter().map(|name| with_article(name)).collect();
-        let message = match (symbol, words.as_slice()) {
-            ("<" | ">" | "<=" | ">=" | "==" | "!=", [left, right]) => {
-                format!("cannot compare {left} with {right} using {symbol}")
-            }
-            (_, [left, right]) => format!("{symbol} does not work on {left} and {right}"),
-            (_, [operand]) => format!("{symbol} does not work on {operand}"),
-            _ => format!("{symbol} does not work here"),
-        };
-        let needs_number =
-            types.contains(&"text") && types.iter().any(|name| name.ends_with("number"));
-        let hint = needs_number.then(|| "parse_float(text) makes a number of a text".to_owned());
-        (message, hint)
     }
 
     /// The value before the dot before this position, as far as it is a name, a number or in parentheses.
@@ -269,7 +302,23 @@ fn forms(built_ins: &[&BuiltIn]) -> String {
     forms.join(" or ")
 }
 
-fn wrong_count(row: &Row, got: usize) -> Words {
+/// Where the library has a function of this name.
+pub fn of_library(name: &str) -> Option<String> {
+    let mut found = pages().iter().filter_map(|page| Some((page, page.named(name)?)));
+    let (page, function) = found.next()?;
+    let module = page.module.name;
+    let short = module.rsplit('/').next().unwrap_or(module);
+    let call = format!("{short}::{}({})", function.name(), function.parameters.join(", "));
+    let others: Vec<_> = found.map(|(page, _)| page.module.name).collect();
+    let others = match others.as_slice() {
+        [] => String::new(),
+        names => format!("; {} has one too", names.join(", ")),
+    };
+    Some(format!("it is in the library: import \"{module}\" as {short}; then {call}{others}"))
+}
+
+/// `others` are further functions of the name, which take other values.
+fn wrong_count(row: &Row, others: &[&Row], got: usize) -> Words {
     let (least, most) = (row.required(), row.parameters.len());
     let takes =
         if least == most { arguments(most) } else { format!("{least} to {}", arguments(most)) };
@@ -277,7 +326,11 @@ fn wrong_count(row: &Row, got: usize) -> Words {
         .parameters
         .iter()
         .map(|parameter| format!("\n{}: {}", parameter.name, parameter.expectation()));
-    let hint = format!("write {}{}", row.signature(), parameters.collect::<String>());
+    let others: String = others.iter().map(|row| format!(" or {}", row.signature())).collect();
+    let hint = match elsewhere::called_with(row.name, got) {
+        Some(hint) => hint.to_owned(),
+        None => format!("write {}{others}{}", row.signature(), parameters.collect::<String>()),
+    };
     (format!("{} takes {takes}, got {got}", row.name), Some(hint))
 }
 
@@ -289,7 +342,16 @@ fn arguments(count: usize) -> String {
     }
 }
 
-fn list(members: &[&'static Row]) -> Option<String> {
+/// The names that a value has, or the way to them where they are many.
+fn list(members: &[&'static Row], of: &str) -> Option<String> {
+    const MOST: usize = 12;
     let names: Vec<_> = members.iter().map(|row| row.name).collect();
-    (!names.is_empty()).then(|| format!("it has {}", names.join(", ")))
+    match names.len() {
+        0 => None,
+        1..=MOST => Some(format!("it has {}", names.join(", "))),
+        count => {
+            let first = names[..MOST].join(", ");
+            Some(format!("it has {first}, and {} more: help(\"{of}\") lists them", count - MOST))
+        }
+    }
 }

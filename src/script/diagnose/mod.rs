@@ -1,7 +1,10 @@
 //! Every error of a script as one message: what is wrong, where, what to do, and the calls that led there.
 
 mod calls;
+mod faults;
+mod habits;
 mod locate;
+mod operands;
 mod outline;
 mod parsing;
 mod render;
@@ -13,7 +16,7 @@ use std::sync::Arc;
 use super::program::Program;
 pub use outline::Outline;
 pub use render::Colours;
-pub use translate::{Explainer, is_interrupt, is_waiting};
+pub use translate::{Explainer, is_interrupt, is_waiting, type_word};
 
 /// An error as it is shown to people.
 #[derive(Clone, Debug)]

@@ -52,7 +52,9 @@ pub fn explain(error: &ParseErrorType, word: &str) -> (String, Option<String>) {
             (format!("for cannot go over {got}"), Some(GONE_OVER.into()))
         }
         ParseErrorType::MismatchedType(wanted, got) => {
-            (format!("expected {wanted}, got {got}"), None)
+            let hint = (wanted == "a boolean expression")
+                .then(|| "a condition is true or false: write a comparison, x != 0".to_owned());
+            (format!("expected {wanted}, got {got}"), hint)
         }
         ParseErrorType::WrongDocComment => (
             "a comment with /// stands before something that is not a function".into(),

@@ -13,11 +13,16 @@ pub use crate::output::Colours;
 impl Diagnostic {
     /// The diagnostic as text that ends with a newline.
     pub fn render(&self, colours: Colours) -> String {
+        self.render_within(colours, usize::MAX)
+    }
+
+    /// The same with what to do on lines of `width` characters, for a terminal that would break a word at its edge.
+    pub fn render_within(&self, colours: Colours, width: usize) -> String {
         let drawing = match self.blame {
             Blame::User => Drawing::error(),
             Blame::Us => Drawing::bug(),
         };
-        let drawing = drawing.with_message(&self.message).with_notes(self.notes());
+        let drawing = drawing.with_message(&self.message).with_notes(self.notes(width));
         let (file, drawing) = match &self.location {
             Some(at) => {
                 let file = SimpleFile::new(at.program.name.clone(), at.program.text.to_string());
@@ -36,10 +41,37 @@ impl Diagnostic {
         }
     }
 
-    fn notes(&self) -> Vec<String> {
-        let hint = self.hint.iter().map(|hint| format!("help: {}", hint.replace('\n', "\n      ")));
+    fn notes(&self, width: usize) -> Vec<String> {
+        let room = width.saturating_sub(BESIDE_HINT).max(NARROWEST);
+        let hint = self.hint.iter().map(|hint| {
+            let lines: Vec<String> = hint.lines().flat_map(|line| wrapped(line, room)).collect();
+            format!("help: {}", lines.join("\n      "))
+        });
         hint.chain(shown_steps(&self.trace)).collect()
     }
+}
+
+/// Columns before what to do: `  = help: `.
+const BESIDE_HINT: usize = 10;
+
+/// Hints are not wrapped to less.
+const NARROWEST: usize = 30;
+
+/// A line in lines of at most `width` characters, broken at blanks; a longer word stays whole.
+fn wrapped(line: &str, width: usize) -> Vec<String> {
+    let mut lines = Vec::new();
+    let mut current = String::new();
+    for word in line.split(' ') {
+        if !current.is_empty() && current.chars().count() + 1 + word.chars().count() > width {
+            lines.push(std::mem::take(&mut current));
+        }
+        if !current.is_empty() {
+            current.push(' ');
+        }
+        current.push_str(word);
+    }
+    lines.push(current);
+    lines
 }
 
 /// The calls, with the middle of a long recursion left out.
@@ -90,5 +122,19 @@ impl Location {
     fn bytes(&self) -> Range<usize> {
         let start = self.program.offset(self.line, self.column);
         start..self.program.offset(self.line, self.column + self.length).max(start)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hints_are_broken_between_words() {
+        let told = Diagnostic::general("wrong").with_hint(format!("{}\nend", "word ".repeat(12)));
+        let shown = told.render_within(Colours::None, 40);
+        assert!(shown.lines().all(|line| line.chars().count() <= 40), "{shown}");
+        assert_eq!(shown.matches("word").count(), 12, "{shown}");
+        assert!(told.render(Colours::None).contains(&"word ".repeat(11)));
     }
 }

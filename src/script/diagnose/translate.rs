@@ -2,16 +2,19 @@
 
 use rhai::{Dynamic, Engine, EvalAltResult, ParseErrorType, Position};
 
-use super::calls::Unknown;
+use super::calls::{Unknown, of_library};
+use super::faults::{arithmetic, bounds, mismatch, too_large};
 use super::outline::Outline;
-use super::{Callee, Diagnostic, Step, locate, parsing};
+use super::{Callee, Diagnostic, Step, habits, locate, parsing};
 use crate::script::catalog::Catalog;
+use crate::script::elsewhere;
 use crate::script::error::{BUG, Failure, Place};
 use crate::script::kind::with_article;
 use crate::script::library::FOLDER;
 use crate::script::limits::Stop;
 use crate::script::naming::not_visible;
 use crate::script::program::Program;
+use crate::script::register::STEERED;
 use crate::script::sources::Sources;
 use crate::script::suggest::nearest;
 use crate::script::table::{Form, Row};
@@ -74,6 +77,20 @@ impl Explainer<'_> {
             && mark.to_string() == BUG
         {
             return Diagnostic { trace, ..Diagnostic::bug(message) };
+        }
+        if let EvalAltResult::ErrorParsing(kind, at) = inner
+            && let Some(cure) = habits::cure(&program, self.catalog, kind, *at)
+        {
+            let location = match cure.at.is_none() {
+                true => Some(locate::end_of(&program, &program.text)),
+                false => locate::word_at(&program, cure.at),
+            };
+            return Diagnostic {
+                hint: Some(cure.hint),
+                location,
+                trace,
+                ..Diagnostic::general(cure.message)
+            };
         }
         let outline = Outline::of(&program.text);
         let (message, hint) = self.words(inner, &program, &outline, &trace);
@@ -168,17 +185,35 @@ impl Explainer<'_> {
             Error::ErrorParsing(kind, at) => parsing::explain(kind, &word_of(program, *at)),
             Error::ErrorFunctionNotFound(signature, at) => unknown.function(signature, *at),
             Error::ErrorDotExpr(text, _) => unknown.property(text),
-            Error::ErrorVariableNotFound(name, _) => self.variable(name, outline, trace),
+            Error::ErrorVariableNotFound(name, at) => {
+                let before = locate::text_before(program, *at).trim_end();
+                match before.ends_with("import") {
+                    true => not_imported(name),
+                    false => self.variable(name, outline, trace),
+                }
+            }
             Error::ErrorModuleNotFound(name, _) => unknown.module(name),
             Error::ErrorPropertyNotFound(key, _) => missing_key(key, outline),
             Error::ErrorRuntime(payload, _) => self.thrown(payload),
             Error::ErrorMismatchDataType(wanted, got, _)
             | Error::ErrorMismatchOutputType(wanted, got, _) => mismatch(wanted, got),
-            Error::ErrorArrayBounds(length, index, _) => (bounds("array", *length, *index), None),
+            Error::ErrorArrayBounds(length, index, _) => {
+                let hint = "indices count from 0; array[-1] is the last";
+                (bounds("array", *length, *index), Some(hint.into()))
+            }
             Error::ErrorStringBounds(length, index, _) => (bounds("text", *length, *index), None),
             Error::ErrorIndexingType(access, _) => {
                 let indexed = access.split(" [").next().unwrap_or(access);
-                (format!("{} cannot be indexed", with_article(type_word(indexed))), None)
+                let indexed = type_word(indexed);
+                let hint = match indexed {
+                    "range" => {
+                        Some("linspace(0, 1, 5) gives an array; a range is for loops and pieces")
+                    }
+                    "vector" => Some("the components of a vector are v.x and v.y"),
+                    "function" => Some("a function is called by f.call(x)"),
+                    _ => None,
+                };
+                (format!("{} cannot be indexed", with_article(indexed)), hint.map(str::to_owned))
             }
             Error::ErrorFor(_) => {
                 ("this cannot be gone over by for".into(), Some(parsing::GONE_OVER.into()))
@@ -204,7 +239,9 @@ impl Explainer<'_> {
             }
             Error::ErrorDataRace(..) => (
                 "a closure uses the very object whose method it is given to".into(),
-                Some("take the object from the argument of the closure: sim.at(t, |sim| print(sim.t))".into()),
+                Some(format!(
+                    "in sim.at, take it from the argument: sim.at(t, |sim| print(sim.t)); {STEERED}"
+                )),
             ),
             Error::ErrorTerminated(stop, _) => stopped_by(stop).words(),
             Error::ErrorSystem(message, cause) => {
@@ -227,6 +264,11 @@ impl Explainer<'_> {
             };
             return (message, Some(hint));
         }
+        let declared = || outline.variables.iter().map(String::as_str);
+        let is_own = declared().any(|known| known == name) || nearest(name, declared()).is_some();
+        if let Some(found) = elsewhere::find(name).filter(|_| !is_own) {
+            return (message, Some(found.cure.into()));
+        }
         let is_function = |row: &&Row| matches!(row.form, Form::Function);
         if let Some(row) = self.catalog.named(name).find(is_function) {
             return (
@@ -237,6 +279,7 @@ impl Explainer<'_> {
         let known = outline.variables.iter().map(String::as_str).chain(self.catalog.constants());
         let hint = match nearest(name, known) {
             Some(near) => format!("did you mean '{near}'?"),
+            None if of_library(name).is_some() => of_library(name).unwrap_or_default(),
             None => format!("declare it first: let {name} = …"),
         };
         (message, Some(hint))
@@ -258,66 +301,24 @@ fn word_of(program: &Program, at: Position) -> String {
     locate::word_at(program, at).map(|place| place.text().to_owned()).unwrap_or_default()
 }
 
+/// For `import numpy`, which reads a variable.
+fn not_imported(name: &str) -> Words {
+    let hint = match elsewhere::find(name) {
+        Some(found) => found.cure.to_owned(),
+        None => format!(
+            "the name of a file stands in quotes: import \"{name}\" as {name}; the library is read by import \"std/sections\" as \
+             sections;"
+        ),
+    };
+    (format!("there is no variable '{name}' here"), Some(hint))
+}
+
 fn missing_key(key: &str, outline: &Outline) -> Words {
     let hint = match nearest(key, outline.keys.iter().map(String::as_str)) {
         Some(near) => format!("did you mean '{near}'?"),
         None => format!("ask with \"{key}\" in map before reading it"),
     };
     (format!("the map has no key '{key}'"), Some(hint))
-}
-
-fn mismatch(wanted: &str, got: &str) -> Words {
-    let (wanted, got) = (type_word(wanted), type_word(got));
-    let hint = match (wanted, got) {
-        ("whole number", "number") => Some(
-            "floor(x), round(x) and quotient(n, d) give whole numbers; a / b never does".into(),
-        ),
-        ("whole number", "range") => Some("array.extract(1..3) gives a piece of an array".into()),
-        _ => None,
-    };
-    (format!("expected {}, got {}", with_article(wanted), with_article(got)), hint)
-}
-
-fn bounds(what: &str, length: usize, index: i64) -> String {
-    match length {
-        0 => format!("there is nothing at index {index}: the {what} is empty"),
-        _ => format!(
-            "there is nothing at index {index}: the {what} has {length}, from 0 to {}",
-            length - 1
-        ),
-    }
-}
-
-fn too_large(what: &str) -> String {
-    match what.to_lowercase() {
-        what if what.contains("string") => "the text is too long".into(),
-        what if what.contains("map") => "the map is too large".into(),
-        _ => "the array is too long".into(),
-    }
-}
-
-fn arithmetic(what: &str) -> Words {
-    let quoted = what.split('\'').nth(1).unwrap_or_default();
-    let told = what.to_lowercase();
-    if told.starts_with("error parsing integer number") {
-        let hint = "parse_float(text) reads numbers with a point, text.trim() takes blanks off";
-        return (format!("the text \"{quoted}\" is not a whole number"), Some(hint.into()));
-    }
-    if told.starts_with("error parsing floating-point number") {
-        let hint = "text.trim() takes blanks off, text.split(\",\") parts several numbers";
-        return (format!("the text \"{quoted}\" is not a number"), Some(hint.into()));
-    }
-    if told.starts_with("invalid radix") {
-        return (format!("numbers are read to a base from 2 to 36, got {quoted}"), None);
-    }
-    match told {
-        what if what.contains("by zero") => ("a remainder by zero has no value".into(), None),
-        what if what.contains("overflow") => (
-            "the whole number is too large for 64 bits".into(),
-            Some("write one of the numbers with a point: 2.0".into()),
-        ),
-        what => (what, None),
-    }
 }
 
 /// A type in our words, also where the engine used the Rust name.

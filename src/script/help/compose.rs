@@ -6,6 +6,7 @@ use super::unknown::Unknown;
 use super::{library, rows};
 use crate::script::built_in::BuiltInTable;
 use crate::script::catalog::Catalog;
+use crate::script::elsewhere;
 use crate::script::kind::{Type, with_article};
 use crate::script::library::{Block, pages};
 use crate::script::numbers::format_number;
@@ -49,6 +50,11 @@ pub fn page(catalog: &Catalog, name: &str) -> Result<Page, Unknown> {
     if !options.is_empty() {
         separate(&mut page);
         describe_option(&mut page, &options);
+    }
+    // The word may have been meant as other programs have it.
+    if let Some(found) = elsewhere::find_exactly(name.trim()) {
+        separate(&mut page);
+        page.paragraph(&found.told());
     }
     Ok(page)
 }

@@ -4,7 +4,8 @@ use std::fmt;
 
 use super::find::names;
 use crate::script::catalog::Catalog;
-use crate::script::suggest::nearest;
+use crate::script::elsewhere::{self, Elsewhere};
+use crate::script::suggest::{nearest, related};
 use crate::script::topics::TOPICS;
 
 /// How many places that mention a word are told.
@@ -17,6 +18,10 @@ pub struct Unknown {
     pub name: String,
     /// The nearest name that has help.
     pub meant: Option<&'static str>,
+    /// What is written here for a word of other programs.
+    pub elsewhere: Option<&'static Elsewhere>,
+    /// Names of which the word is a part.
+    pub related: Vec<&'static str>,
     /// Names whose help mentions the word.
     pub mentions: Vec<&'static str>,
 }
@@ -25,21 +30,37 @@ impl Unknown {
     /// Looks for what may have been meant by `name`.
     pub fn new(catalog: &Catalog, name: &str) -> Self {
         let known = names(catalog);
-        let meant = nearest(name, known);
-        Self { name: name.to_owned(), meant, mentions: mentions(catalog, name) }
+        let elsewhere = elsewhere::find(name);
+        let related = related(name, known.iter().copied());
+        // A word that is known is not misspelt.
+        let is_known = elsewhere.is_some() || !related.is_empty();
+        let meant = if is_known { None } else { nearest(name, known) };
+        Self { name: name.to_owned(), meant, elsewhere, related, mentions: mentions(catalog, name) }
     }
 
     /// What to do about it.
     pub fn hint(&self) -> String {
+        let elsewhere = self.elsewhere.map(Elsewhere::told);
+        let related = (elsewhere.is_none() && !self.related.is_empty())
+            .then(|| format!("there is {}", self.related.join(", ")));
         let meant = self.meant.map(|near| format!("did you mean '{near}'?"));
-        let mentions = (!self.mentions.is_empty()).then(|| {
+        let mentions = (elsewhere.is_none() && !self.mentions.is_empty()).then(|| {
             format!("'{}' is mentioned in the help of {}", self.name, self.mentions.join(", "))
         });
-        let told: Vec<String> = [meant, mentions].into_iter().flatten().collect();
+        let told: Vec<String> =
+            [elsewhere, related, meant, mentions].into_iter().flatten().collect();
         match told.is_empty() {
             true => "help() lists what there is".into(),
-            false => told.join(" "),
+            false => told.join("\n"),
         }
+    }
+
+    /// Whether nothing is known that could have been meant.
+    pub fn is_strange(&self) -> bool {
+        self.elsewhere.is_none()
+            && self.related.is_empty()
+            && self.meant.is_none()
+            && self.mentions.is_empty()
     }
 }
 

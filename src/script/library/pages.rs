@@ -109,6 +109,26 @@ impl ModuleFunction {
         }
     }
 
+    /// The keys of its options, each with what is said about it.
+    pub fn keys(&self) -> Vec<(String, String)> {
+        let mut keys: Vec<(String, String)> = Vec::new();
+        let items = self.text.iter().filter_map(|block| match block {
+            Block::Item(text) => text.strip_prefix("`options`:"),
+            _ => None,
+        });
+        for clause in items.flat_map(|item| item.split(';')) {
+            let about = clause.replace('`', "").trim().to_owned();
+            // Every second piece stands between backquotes.
+            for name in clause.split('`').skip(1).step_by(2) {
+                let is_key = name.chars().all(|letter| letter.is_alphanumeric() || letter == '_');
+                if is_key && keys.iter().all(|(known, _)| known != name) {
+                    keys.push((name.to_owned(), about.clone()));
+                }
+            }
+        }
+        keys
+    }
+
     /// Its examples.
     pub fn examples(&self) -> impl Iterator<Item = &str> {
         self.text.iter().filter_map(|block| match block {
@@ -178,6 +198,16 @@ mod tests {
             Block::Example("f(1);".into()),
         ];
         assert_eq!(blocks(&lines), expected);
+    }
+
+    #[test]
+    fn the_keys_of_options_are_read_off() {
+        let page = page_of("std/sections").expect("a module");
+        let keys = page.named("rectangle").expect("a function").keys();
+        let names: Vec<&str> = keys.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["width", "height", "E", "nu", "density"]);
+        assert_eq!(keys[0].1, "width (across the plane) and height (in the plane) [length]");
+        assert!(page.named("steel").expect("a function").keys().is_empty());
     }
 
     #[test]

@@ -50,7 +50,12 @@ fn linspace(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (from, to, count) = (call.number("from")?, call.number("to")?, call.count("count")?);
     let last = (count - 1) as f64;
     // Weighted from both ends, so that the last number is `to` exactly.
-    let at = |i: usize| (from * (last - i as f64) + to * i as f64) / last;
+    let at = |i: usize| {
+        let (before, after) = (last - i as f64, i as f64);
+        let x = (from * before + to * after) / last;
+        // Near the largest number the products are infinite, and the shares are not.
+        if x.is_finite() { x } else { from * (before / last) + to * (after / last) }
+    };
     Ok((0..count).map(|i| Dynamic::from(at(i))).collect::<Array>().into())
 }
 

@@ -21,7 +21,7 @@ pub const TABLE: Table = Table {
             .returns("an integrator")
             .summary("Keeps energy and both momenta to rounding, at any step size; the default.")
             .doc("Second order. Stander & Stein, Eng. Comput. 13 (1996) 60-85.")
-            .example("print(energy_momentum());")
+            .example("print(`thrown with ${energy_momentum()}`);")
             .see(&["fourth_order", "energy_decaying", "trapezoidal", "start"]),
         function("trapezoidal", &[], |_| Ok(Dynamic::from(Method::Trapezoidal)))
             .returns("an integrator")
@@ -83,10 +83,11 @@ impl Scripted for Method {
     const DOC: &'static str = "A way to take steps.";
 
     fn show(&self) -> String {
+        // A name that fits into a sentence; what it does is told by details.
         let entry = self.entry();
         let parameter = entry.parameter.zip(self.parameter());
         let tuned = parameter.map(|(of, value)| format!(" ({} = {value})", of.name));
-        format!("{}{}: {}", entry.name, tuned.unwrap_or_default(), entry.summary)
+        format!("{}{}", entry.name, tuned.unwrap_or_default())
     }
 
     fn details(&self) -> Details {

@@ -28,8 +28,12 @@ pub const TABLE: Table = Table {
             Ok(Dynamic::UNIT)
         })
         .summary("A force at a station; it keeps its direction, or follows the section.")
-        .doc("With #{ frame: \"follower\" } its components are along the beam as drawn and across it, and turn with the section.")
-        .example("scene.force(rod.end, [8, 0], hold_for(2.5));\nscene.force(rod.end, [0, 1], 1, #{ frame: \"follower\" });")
+        .doc("With #{ frame: \"follower\" } its components are along the beam as drawn and across it, and turn with the section. \
+              A load is a function of the time. One that depends on the motion, as a controller does, reads a variable that the script \
+              sets between steps: it holds for a step, so that the feedback is of first order in dt.")
+        .example("scene.force(rod.end, [8, 0], hold_for(2.5));\nscene.force(rod.end, [0, 1], 1, #{ frame: \"follower\" });\n\
+                 let u = 0.0;\nscene.force(rod.end, [0, 1], |t| u);\nlet sim = scene.start(#{ dt: 0.05 });\n\
+                 for step in 0..4 {\n    u = -2 * sim.velocity(rod.end).y;\n    sim.step();\n}")
         .see(&["moment", "line_load", "hold_for"]),
         method(SCENE, "moment", &[AT, number("moment").unit("force·length"), WHEN], |call| {
             let (station, scene) = here(call, "station")?;

@@ -8,15 +8,18 @@ use super::geometry::KNOTS;
 
 use crate::beams::{BeamError, Mesh, Quadrature, Section, Shape, Solid};
 use crate::geometry::{Basis, KnotVector};
+use crate::output::significant;
 use crate::script::arguments::Arguments;
 use crate::script::call::Call;
 use crate::script::details;
 use crate::script::error::{Place, ScriptError};
 use crate::script::kind::{Details, Kind, Range, Scripted, Type};
-use crate::script::numbers::format_number;
 use crate::script::options::Options;
 use crate::script::parameter::{Parameter, Presence, choice, either, number, options, whole};
 use crate::script::table::{Table, function, property};
+
+/// Digits of a stiffness or an inertia where it is shown.
+const DIGITS: usize = 7;
 
 /// Sections and meshes.
 pub const TABLE: Table = Table {
@@ -147,7 +150,7 @@ impl Scripted for Section {
             self.mass_per_length,
             self.rotary_inertia,
         ]
-        .map(format_number);
+        .map(|number| significant(number, DIGITS));
         format!("section with EA {ea}, GA {ga}, EI {ei}, rho_A {mass}, rho_I {rotary}")
     }
 

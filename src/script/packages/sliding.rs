@@ -21,8 +21,8 @@ use crate::simulation::Arrival;
 pub const TABLE: Table = Table {
     name: "sliding joints",
     doc: "A slider keeps a station, the end of a beam or a particle, on the axis of another beam, along which it slides without \
-          friction. Its rule says how a step does that; its history has NAME.position, NAME.speed, NAME.force, NAME.force_x and \
-          NAME.force_y.",
+          friction. Its rule says how a step does that; its history has NAME.position (from 0 to 1 along the beam), NAME.speed (length/time), NAME.force, \
+          NAME.force_x and NAME.force_y.",
     types: &[RULE, SLIDER],
     setup: "let scene = new_scene(\"example\");\n\
             let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 1 });\n\
@@ -50,7 +50,8 @@ pub const TABLE: Table = Table {
             .returns("a slider")
             .summary("Lets a station, the end of another beam or a particle, slide along a beam.")
             .doc(
-                "The joint must close at the start: the station lies on the beam as drawn, at `at`. Where the beam ends, the run \
+                "The joint must close at the start: the station lies on the beam as drawn, at `at`, to six digits, and is moved \
+                 onto it exactly. Where the beam ends, the run \
                  stops, or the slider bounces off, or is released. A station held by the ground is an eyelet through which the \
                  beam slides. On a curved beam, whose mesh is slightly off the curve, the station is moved onto the line of the mesh, and \
                  velocities: \"project\" makes start velocities fit that line. A bounce reverses the velocity against the node \
@@ -88,15 +89,32 @@ pub const TABLE: Table = Table {
         })
         .returns("a number")
         .summary("Where a slider is on its beam: 0 at the start, 1 at the end, by length as drawn.")
+        .doc(
+            "Times the length of the beam as drawn it is slider_arc_length, whose rate is slider_speed: in the history NAME.speed is \
+             the rate of NAME.position times that length.",
+        )
         .example("check_close(sim.slider_position(ring), 0.25, 1e-12);")
-        .see(&["slider_speed"]),
+        .see(&["slider_arc_length", "slider_speed"]),
+        method(SIMULATION, "slider_arc_length", &[WHICH], |call| {
+            asked(call, |model, scene, slider| {
+                let length = scene.beams[scene.sliders[slider].master].axis.length();
+                (model.slider_position(scene, slider) * length).into()
+            })
+        })
+        .returns("a number [length]")
+        .summary("How far a slider is from the start of its beam, by length as drawn; slider_speed is its rate.")
+        .example(
+            "check_close(sim.slider_arc_length(ring), 0.5, 1e-12);\n\
+             check_close(sim.slider_arc_length(ring) / rod.length, sim.slider_position(ring), 1e-12);",
+        )
+        .see(&["slider_speed", "slider_position"]),
         method(SIMULATION, "slider_speed", &[WHICH], |call| {
             asked(call, |model, scene, slider| model.slider_speed(scene, slider).into())
         })
         .returns("a number [length/time]")
         .summary("How fast a slider moves along its beam as drawn, positive towards the end.")
         .example("check_close(sim.slider_speed(ring), 1, 1e-12);")
-        .see(&["slider_position"]),
+        .see(&["slider_arc_length", "slider_position"]),
         property(SIMULATION, "ended", |call| Ok(call.receiver::<SimulationHandle>()?.simulation().has_ended().into()))
             .returns("true or false")
             .summary("Whether a slider has reached the end of its beam and ended the run.")

@@ -70,6 +70,8 @@ fn keys_of_options_are_offered_once() {
         ["integrator: ", "notes: ", "record: ", "snapshots: "]
     );
     assert_eq!(names("let m = #{ "), Vec::<String>::new());
+    assert_eq!(offered("shapes::arch(#{ ri"), ["shapes::arch(#{ rise: "]);
+    assert_eq!(names("shapes::arch(#{ rise: 1, "), ["span: "]);
     assert_eq!(
         names("scene.beam(#{ axis: line([0, 0], [1, 1]), basis: lagrange(#{ elem"),
         ["elements: "]

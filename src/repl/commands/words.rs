@@ -1,0 +1,50 @@
+//! Words that people type to leave or to get help where they are used to it, without the colon of a command.
+
+use super::{Command, HELP, QUIT};
+
+/// The command that a bare word stands for, and what follows it: `quit`, `exit()`, `help`, `help sine`, `sim?`. A name that the
+/// session has, as `is_variable` says, means itself.
+pub fn meant(text: &str, is_variable: impl Fn(&str) -> bool) -> Option<(&'static Command, &str)> {
+    let text = text.trim_end_matches(';').trim_end();
+    let asked = text.trim_end_matches('?').trim_end();
+    if asked.len() < text.len() && is_name(asked) {
+        return Some((&HELP, asked));
+    }
+    let (word, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
+    let bare = word.strip_suffix("()").unwrap_or(word);
+    if is_variable(bare) {
+        return None;
+    }
+    match (bare, rest.trim()) {
+        ("quit" | "exit" | "bye", "") => Some((&QUIT, "")),
+        ("help", name) if word == "help" && (name.is_empty() || is_name(name)) => {
+            Some((&HELP, name))
+        }
+        _ => None,
+    }
+}
+
+/// Whether a text can be the name of something that has help, such as `sim.run_to` or `std/sections`.
+fn is_name(text: &str) -> bool {
+    let begins = text.starts_with(|letter: char| letter.is_alphabetic() || letter == '_');
+    begins && text.chars().all(|letter| letter.is_alphanumeric() || "_.:/".contains(letter))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_of_other_prompts_are_understood() {
+        let name = |text| meant(text, |name| name == "exit").map(|(of, rest)| (of.name, rest));
+        assert_eq!(name("quit"), Some((":quit", "")));
+        assert_eq!(name("quit();"), Some((":quit", "")));
+        assert_eq!(name("help"), Some((":help", "")));
+        assert_eq!(name("help sine"), Some((":help", "sine")));
+        assert_eq!(name("sim.run_to?"), Some((":help", "sim.run_to")));
+        assert_eq!(name("sim??"), Some((":help", "sim")));
+        for own in ["exit", "help(\"sine\")", "1 ?? 2", "quit + 1", "a ? 1 : 2", "help = 3"] {
+            assert_eq!(name(own), None, "{own}");
+        }
+    }
+}
