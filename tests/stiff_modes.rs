@@ -240,7 +240,8 @@ fn check(ratio: f64, rotary: Option<f64>, spans: usize, support: Support) -> Opt
             let zeros = support.zeros();
             assert_eq!(found.all().iter().filter(|mode| mode.is_free()).count(), zeros, "{name}");
             assert!(residual <= 1e-6, "{name} {residual}");
-            for (mode, error) in errors.iter().enumerate() {
+            // A mesh bends in about as many ways as it has spans; its other modes are those of what stretches.
+            for (mode, error) in errors.iter().enumerate().take(spans) {
                 assert!(*error < allowed(mode, spans), "{name}: {}", sci(&errors));
             }
             errors.iter().copied().reduce(f64::max)

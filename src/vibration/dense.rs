@@ -55,17 +55,41 @@ pub(super) fn all_pairs(
             column[row] = column[row] / value * inverse.sqrt() - known;
         }
     }
-    let strip = |lanes: &[usize]| {
+    let mut shapes = columns.select_columns(&order);
+    orthogonalise(pencil, &mut shapes);
+    let strip = |first: usize| {
         let mut strip = pencil.zeros();
-        for (lane, &at) in lanes.iter().enumerate() {
-            for (to, from) in strip.iter_mut().zip(columns.column(at).iter()) {
+        for lane in 0..STRIP_WIDTH.min(order.len() - first) {
+            for (to, from) in strip.iter_mut().zip(shapes.column(first + lane).iter()) {
                 to[lane] = *from;
             }
         }
         strip
     };
-    let strips: Vec<Vec<Lanes>> = order.chunks(STRIP_WIDTH).map(strip).collect();
+    let strips: Vec<Vec<Lanes>> = (0..order.len()).step_by(STRIP_WIDTH).map(strip).collect();
     Ok(Pairs { values: order.iter().map(|at| values[*at]).collect(), strips })
+}
+
+/// Takes lower shapes out of higher ones, and makes `φᵀ M φ = 1`: what rounding of a shape costs little energy may have much inertia.
+fn orthogonalise(pencil: &Pencil, shapes: &mut DMatrix<f64>) {
+    let size = pencil.size();
+    let mut momenta = vec![0.0; size];
+    for at in 0..shapes.ncols() {
+        let (lower, mut rest) = shapes.columns_range_pair_mut(..at, at..);
+        let mut shape = rest.column_mut(0);
+        for _ in 0..2 {
+            for (row, momentum) in momenta.iter_mut().enumerate() {
+                *momentum = pencil.inertia.row(row).map(|(column, mass)| mass * shape[column]).sum();
+            }
+            let square: f64 = shape.iter().zip(&momenta).map(|(x, m)| x * m).sum();
+            let scale = 1.0 / square.sqrt();
+            shape *= scale;
+            for other in lower.column_iter() {
+                let part: f64 = other.iter().zip(&momenta).map(|(x, m)| x * m).sum();
+                shape.axpy(-part * scale, &other, 1.0);
+            }
+        }
+    }
 }
 
 /// `H`, with a column of zeros for each movement that has no inertia of its own.
