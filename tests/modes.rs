@@ -16,9 +16,9 @@ use withy::statics::{Equilibrium, Loading};
 use withy::vibration::{Mode, Modes, VibrationError};
 
 fn frequencies(scene: &Scene) -> Vec<f64> {
-    let mut model = Model::assemble(scene).unwrap();
+    let model = Model::assemble(scene).unwrap();
     let all = model.unknowns();
-    let modes = Modes::of(&mut model, all, &mut || true).unwrap();
+    let modes = Modes::of(&model, all, &mut || true).unwrap();
     modes.all().iter().map(Mode::angular_frequency).collect()
 }
 
@@ -177,8 +177,8 @@ fn the_lowest_modes_of_a_large_scene_are_those_of_a_small_one() {
         let section = scenes::spaghetti_section(1e6, 100.0);
         let of = |spans: usize| {
             let scene = supported(support, &Mesh::bspline(spans, 3, 2).unwrap(), section);
-            let mut model = Model::assemble(&scene).unwrap();
-            (model.unknowns(), squares(&Modes::of(&mut model, 8, &mut || true).unwrap()))
+            let model = Model::assemble(&scene).unwrap();
+            (model.unknowns(), squares(&Modes::of(&model, 8, &mut || true).unwrap()))
         };
         let ((small, dense), (large, sparse)) = (of(76), of(80));
         assert!(small <= 240 && large > 240, "{small} {large}");
@@ -194,13 +194,13 @@ fn the_lowest_modes_of_a_large_scene_are_those_of_a_small_one() {
         &Mesh::bspline(400, 3, 2).unwrap(),
         scenes::spaghetti_section(1e6, 100.0),
     );
-    let modes = Modes::of(&mut Model::assemble(&scene).unwrap(), 4, &mut || true).unwrap();
+    let modes = Modes::of(&Model::assemble(&scene).unwrap(), 4, &mut || true).unwrap();
     let coarse = supported(
         "cantilever",
         &Mesh::bspline(16, 5, 2).unwrap(),
         scenes::spaghetti_section(1e6, 100.0),
     );
-    let exact = Modes::of(&mut Model::assemble(&coarse).unwrap(), 4, &mut || true).unwrap();
+    let exact = Modes::of(&Model::assemble(&coarse).unwrap(), 4, &mut || true).unwrap();
     let difference = largest_difference(&squares(&modes), &squares(&exact));
     assert!(difference < 2e-6, "{difference}");
 }
@@ -223,7 +223,7 @@ fn the_lowest_mode_of_a_thin_strip_is_not_taken_for_a_free_movement() {
     let beam = scenes::add_beam(&mut scene, axis, &Mesh::bspline(16, 3, 2).unwrap(), section);
     let start = scene.station(beam, 0.0).unwrap();
     scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
-    let modes = Modes::of(&mut Model::assemble(&scene).unwrap(), 2, &mut || true).unwrap();
+    let modes = Modes::of(&Model::assemble(&scene).unwrap(), 2, &mut || true).unwrap();
     let wave = (section.bending_stiffness / section.mass_per_length).sqrt() / length.powi(2);
     for (mode, exact) in modes.all().iter().zip([3.516015, 22.03449]) {
         let error = mode.angular_frequency() / (exact * wave) - 1.0;
@@ -250,7 +250,7 @@ fn an_unstable_mode_among_many_soft_ones_is_found_or_the_search_refused() {
         let station = scene.station(column, 1.0).unwrap();
         let load = LoadKind::Force { station, force: at(-400.0, 0.0), frame: Frame::Dead };
         scene.add_load(load, Schedule::constant(1.0).unwrap());
-        let mut rest = Equilibrium::find(scene, Loading::default(), &mut |_| true).unwrap();
+        let rest = Equilibrium::find(scene, Loading::default(), &mut |_| true).unwrap();
         (rest.model().unknowns(), rest.modes(6, &mut || true))
     };
     let ((small, few), (large, many)) = (of(40), of(90));
@@ -271,7 +271,7 @@ fn a_column_loses_its_stiffness_at_eulers_load() {
         let force = at(-part * euler, 0.0);
         let load = LoadKind::Force { station, force, frame: Frame::Dead };
         scene.add_load(load, Schedule::constant(1.0).unwrap());
-        let mut rest = Equilibrium::find(scene, Loading::default(), &mut |_| true).unwrap();
+        let rest = Equilibrium::find(scene, Loading::default(), &mut |_| true).unwrap();
         rest.modes(1, &mut || true).unwrap().all()[0].clone()
     };
     let (below, above) = (lowest(0.999), lowest(1.001));
@@ -310,7 +310,7 @@ fn shapes_are_those_of_the_inertia_and_modes_that_cannot_be_are_told() {
     let scene =
         scenes::cantilever(&Mesh::bspline(8, 3, 2).unwrap(), scenes::spaghetti_section(1e4, 100.0));
     let mut model = Model::assemble(&scene).unwrap();
-    let modes = Modes::of(&mut model, 5, &mut || true).unwrap();
+    let modes = Modes::of(&model, 5, &mut || true).unwrap();
     for (a, first) in modes.all().iter().enumerate() {
         let mut momenta = vec![0.0; model.degrees_of_freedom()];
         model.add_inertia(1.0, &first.shape, &mut momenta);
@@ -321,14 +321,14 @@ fn shapes_are_those_of_the_inertia_and_modes_that_cannot_be_are_told() {
     }
     let available = model.unknowns();
     for asked in [0, available + 1] {
-        let error = Modes::of(&mut model, asked, &mut || true).unwrap_err();
+        let error = Modes::of(&model, asked, &mut || true).unwrap_err();
         assert_eq!(error, VibrationError::Count { asked, available });
     }
     let mut turned = scene;
     let station = scenes::end_of(&mut turned, 0);
     let load = LoadKind::Force { station, force: at(0.0, 3.0), frame: Frame::Follower };
     turned.add_load(load, Schedule::constant(1.0).unwrap());
-    let error = Modes::of(&mut Model::assemble(&turned).unwrap(), 1, &mut || true).unwrap_err();
+    let error = Modes::of(&Model::assemble(&turned).unwrap(), 1, &mut || true).unwrap_err();
     assert!(matches!(error, VibrationError::Follower { .. }), "{error}");
 }
 
@@ -337,13 +337,13 @@ fn shapes_are_those_of_the_inertia_and_modes_that_cannot_be_are_told() {
 fn a_beam_without_rotary_inertia_has_a_mode_for_each_movement_with_inertia() {
     let section = Section { rotary_inertia: 0.0, ..scenes::spaghetti_section(1e6, 100.0) };
     let scene = supported("free-free", &Mesh::bspline(6, 3, 2).unwrap(), section);
-    let mut model = Model::assemble(&scene).unwrap();
+    let model = Model::assemble(&scene).unwrap();
     let finite = model.unknowns() * 2 / 3;
-    let all = Modes::of(&mut model, finite, &mut || true).unwrap();
+    let all = Modes::of(&model, finite, &mut || true).unwrap();
     assert!(all.all().iter().all(|mode| mode.square.is_finite()));
     assert_eq!(all.all().iter().filter(|mode| mode.is_free()).count(), 3);
     assert!(matches!(
-        Modes::of(&mut model, finite + 1, &mut || true),
+        Modes::of(&model, finite + 1, &mut || true),
         Err(VibrationError::Count { .. })
     ));
 }

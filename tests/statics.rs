@@ -253,7 +253,7 @@ fn lees_frame_is_followed_through_both_its_limit_points() {
 
 #[test]
 fn a_configuration_between_limit_points_is_unstable() {
-    let mut before = find(lees_frame(25.0), along(20, 8)).unwrap();
+    let before = find(lees_frame(25.0), along(20, 8)).unwrap();
     assert!(
         before.path().limit_points().is_empty()
             && before.modes(2, &mut || true).unwrap().is_stable()
@@ -261,7 +261,7 @@ fn a_configuration_between_limit_points_is_unstable() {
     let paths =
         (10..60).step_by(2).map(|points| find(lees_frame(25.0), along(20, points)).unwrap());
     let is_beyond = |rest: &Equilibrium| !rest.path().limit_points().is_empty();
-    let mut between = paths.into_iter().find(is_beyond).unwrap();
+    let between = paths.into_iter().find(is_beyond).unwrap();
     let modes = between.modes(2, &mut || true).unwrap();
     assert!(!modes.is_stable() && modes.all()[0].growth_rate() > 0.0);
     assert_eq!(modes.all()[0].angular_frequency(), 0.0);
@@ -338,7 +338,7 @@ fn a_pushed_column_buckles_to_the_side_it_is_pushed_to() {
         let mut scene = clamped(straight(), &smooth(8), section(1e7, 1e7));
         let end = scenes::end_of(&mut scene, 0);
         let scene = with_force(scene, end, at(-part, push) * critical);
-        let mut rest = find(scene, loading).unwrap();
+        let rest = find(scene, loading).unwrap();
         assert_eq!(rest.stability(&mut || true), Stability::Stable, "{push} {part} {loading:?}");
         let place = rest.scene().place(&end, rest.model().meshes()).unwrap();
         rest.model().position(&place)

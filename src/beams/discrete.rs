@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use pulp::{Arch, Simd, WithSimd};
 
+use super::at_rest::SpanAtRest;
 use super::axis_point::AxisPoint;
 use super::block::Block;
 use super::dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Movement};
@@ -314,6 +315,18 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
                 }
             }
         }
+    }
+
+    fn each_span_at_rest(&self, take: &mut dyn FnMut(&SpanAtRest)) {
+        let mut rows = SpanAtRest::default();
+        for span in &self.spans {
+            span.write_at_rest(&self.section, &mut rows);
+            take(&rows);
+        }
+    }
+
+    fn extent(&self) -> Option<(&Section, f64)> {
+        Some((&self.section, self.lumped_lengths().iter().sum()))
     }
 
     fn write_normals(&self, normals: &mut Vec<Vec2>) {

@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use super::RotationIncrement;
+use super::at_rest::SpanAtRest;
+use super::{RotationIncrement, Section};
 use crate::geometry::{Vec2, larger};
 
 /// Components of a control point: x, y and rotation.
@@ -113,6 +114,12 @@ pub trait BodyDynamics: Sync {
         points: Range<usize>,
         tangent: &mut dyn FnMut(usize, usize, Movement),
     );
+
+    /// Gives span by span how it resists small movements of its control points at the start of the step, as at rest there.
+    fn each_span_at_rest(&self, take: &mut dyn FnMut(&SpanAtRest));
+
+    /// The section and the length of the axis as drawn [length]; none for what has no extent.
+    fn extent(&self) -> Option<(&Section, f64)>;
 
     /// Appends the normal of each section at which strains are taken, at the start of the step [-].
     fn write_normals(&self, normals: &mut Vec<Vec2>);

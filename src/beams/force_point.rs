@@ -13,11 +13,15 @@
 
 use pulp::Simd;
 
+use super::at_rest::SpanAtRest;
 use super::axis_point::AxisPoint;
 use super::block::Block;
 use super::dynamics::{Collocation, ForceSummary, Movement};
 use super::{Rotation, RotationIncrement, Section};
 use crate::geometry::{Vec2, cross, larger, perpendicular};
+
+/// Strains that differ by less are the same but for rounding.
+const SAME_STRAIN: f64 = 64.0 * f64::EPSILON;
 
 #[derive(Debug, Clone)]
 pub(super) struct ForcePoint<const N: usize> {
@@ -228,6 +232,35 @@ impl<const N: usize> ForcePoint<N> {
         let turned = perpendicular(end_strain + Vec2::x()) * (rotation * inverse_q);
         let change = end_rotation.to_section(gradient) - turned;
         self.force += force_of(section, self.mismatch + change * stress);
+    }
+
+    /// Adds the rows of axial and shear strain at rest, and those of the section force if there is one.
+    pub(super) fn write_at_rest(&self, section: &Section, span: &mut SpanAtRest) {
+        let w = self.axis.weight;
+        let row = |by_gradient: Vec2, by_rotation: f64| -> [[f64; 3]; N] {
+            std::array::from_fn(|a| {
+                let (slope, shape) = (self.axis.slope[a], self.axis.shape[a]);
+                [by_gradient.x * slope, by_gradient.y * slope, by_rotation * shape]
+            })
+        };
+        let turned = perpendicular(self.strain + Vec2::x());
+        let stiffness = [section.axial_stiffness, section.shear_stiffness];
+        let axes = [(Vec2::x(), turned.x), (Vec2::y(), turned.y)];
+        for (stiffness, (axis, turned)) in stiffness.into_iter().zip(axes) {
+            span.add_strain(w * stiffness, row(self.rotation.to_space(axis), -turned));
+        }
+        // The section force that was an unknown of the last solution is known to its own rounding, that of the strain to the stiffness
+        // times the rounding of a number of size one.
+        let missing = self.strain - strain_from(section, self.last_force);
+        let is_known = larger(missing.x.abs(), missing.y.abs()) <= SAME_STRAIN;
+        let force = if is_known { self.last_force } else { force_of(section, self.strain) };
+        if force != Vec2::zeros() {
+            let rounding = force_of(section, Vec2::new(SAME_STRAIN, SAME_STRAIN)).norm();
+            let doubt = if is_known { 0.0 } else { (rounding / force.norm()).min(1.0) };
+            let force = self.rotation.to_space(force) * w;
+            let p = row(perpendicular(force), -0.5 * self.gradient.dot(&force));
+            span.add_twist(doubt, p, row(Vec2::zeros(), 1.0));
+        }
     }
 
     pub(super) fn advance(&mut self, moved: &[Movement; N], rotations: RotationIncrement) {

@@ -2,6 +2,7 @@
 //!
 //! J. C. Simo & L. Vu-Quoc, ASME J. Appl. Mech. 53 (1986) 849–863; E. Reissner, ZAMP 23 (1972) 795–804.
 
+mod at_rest;
 mod axis_point;
 mod block;
 mod discrete;
@@ -17,6 +18,7 @@ mod section;
 mod span_points;
 mod station;
 
+pub use at_rest::SpanAtRest;
 pub use discrete::discretise;
 pub use dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Movement};
 pub use error::BeamError;

@@ -9,6 +9,7 @@
 
 use pulp::Simd;
 
+use super::at_rest::SpanAtRest;
 use super::axis_point::AxisPoint;
 use super::block::Block;
 use super::dynamics::{Collocation, ForceSummary, Movement};
@@ -174,6 +175,12 @@ impl<const N: usize> MomentPoint<N> {
         let (by_slope, by_rotation) = self.linearised_at.curvature_by();
         let change = self.linearised_at.stress * (by_slope * slope + by_rotation * rotation);
         self.moment += section.bending_stiffness * (self.mismatch + change);
+    }
+
+    /// Adds the row of the curvature at rest.
+    pub(super) fn write_at_rest(&self, section: &Section, span: &mut SpanAtRest) {
+        let row: [[f64; 3]; N] = std::array::from_fn(|a| [0.0, 0.0, self.axis.slope[a]]);
+        span.add_strain(self.axis.weight * section.bending_stiffness, row);
     }
 
     pub(super) fn advance(&mut self, moved: &[Movement; N], rotations: RotationIncrement) {

@@ -2,9 +2,10 @@
 
 use std::ops::Range;
 
-use super::RotationIncrement;
+use super::at_rest::SpanAtRest;
 use super::discrete::move_compensated;
 use super::dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Movement};
+use super::{RotationIncrement, Section};
 use crate::geometry::Vec2;
 
 /// A point that moves by itself.
@@ -81,6 +82,12 @@ impl BodyDynamics for Particle {
         _points: Range<usize>,
         _tangent: &mut dyn FnMut(usize, usize, Movement),
     ) {
+    }
+
+    fn each_span_at_rest(&self, _take: &mut dyn FnMut(&SpanAtRest)) {}
+
+    fn extent(&self) -> Option<(&Section, f64)> {
+        None
     }
 
     fn write_normals(&self, _normals: &mut Vec<Vec2>) {}

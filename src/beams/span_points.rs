@@ -2,6 +2,7 @@
 
 use pulp::Simd;
 
+use super::at_rest::SpanAtRest;
 use super::block::Block;
 use super::dynamics::{Collocation, ForceSummary, Movement};
 use super::force_point::ForcePoint;
@@ -107,6 +108,13 @@ impl<const N: usize> SpanPoints<N> {
         let moved = window(moved, self.first);
         self.force_points.iter_mut().for_each(|point| point.advance(moved, rotations));
         self.moment_points.iter_mut().for_each(|point| point.advance(moved, rotations));
+    }
+
+    /// Writes how it resists small movements at rest.
+    pub(super) fn write_at_rest(&self, section: &Section, span: &mut SpanAtRest) {
+        span.begin(self.first);
+        self.force_points.iter().for_each(|point| point.write_at_rest(section, span));
+        self.moment_points.iter().for_each(|point| point.write_at_rest(section, span));
     }
 
     pub(super) fn strain_energy(&self, section: &Section) -> f64 {

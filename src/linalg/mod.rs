@@ -1,5 +1,5 @@
 //! Matrices of one step: banded storage with a pivoted LU, a border for what reaches further, and the ordering that
-//! keeps the band narrow.
+//! keeps the band narrow. For vibration: symmetric matrices, some of them with 32 digits.
 
 mod band_rows;
 mod banded;
@@ -7,12 +7,19 @@ mod bordered;
 mod elimination;
 mod error;
 mod ordering;
+mod precise_band;
+mod sparse;
+mod strips;
 mod substitution;
-mod sylvester;
+mod symmetric_factors;
+mod twofold;
 
 pub use band_rows::BandRows;
 pub use banded::{BandedLu, BandedMatrix};
 pub use bordered::{Border, BorderShape, BorderedLu, BorderedMatrix};
 pub use error::LinearError;
 pub use ordering::{Ordering, reverse_cuthill_mckee};
-pub use sylvester::negative_eigenvalues;
+pub use precise_band::PreciseBand;
+pub use sparse::SymmetricSparse;
+pub use strips::{STRIP_WIDTH, Square, Strip, combine, products, subtract_combination};
+pub use symmetric_factors::{Pivots, SymmetricFactors};

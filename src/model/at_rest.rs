@@ -4,13 +4,13 @@
 //! is the Hessian of the potential energy.
 
 use super::Model;
-use super::applied::{Action, AppliedLoad, collocation};
+use super::applied::{Action, AppliedLoad};
 use super::body::Body;
 use crate::beams::{Place, RotationIncrement};
 use crate::geometry::{Vec2, larger};
 use crate::integrators::{Mechanism, Stage};
 use crate::joints::Component;
-use crate::linalg::{BandedMatrix, negative_eigenvalues};
+use crate::linalg::BandedMatrix;
 use crate::loads::LoadError;
 
 /// A function that is smaller than this at a place is zero there.
@@ -162,35 +162,6 @@ impl Model {
             tracker.advance(bodies[tracker.place.body].moved(), rotations);
         }
         self.bodies.iter_mut().for_each(|body| body.advance(rotations));
-    }
-
-    /// Adds the stiffness of the present configuration, with the section forces of its strain.
-    ///
-    /// Loads of fixed direction have none; those that turn with a section are left out.
-    pub fn add_stiffness(&mut self, stiffness: &mut BandedMatrix) {
-        let standstill = vec![0.0; self.unknowns];
-        let mut forces = vec![0.0; self.degrees_of_freedom()];
-        let mut aside = BandedMatrix::zeros(self.unknowns, self.half_bandwidth);
-        self.begin_movement();
-        let mut linearise = |body: &mut Body, tangent: &mut BandedMatrix| {
-            let at = collocation(Stage::End);
-            body.add_linearised_forces(at, &standstill, 1.0, &mut forces, tangent);
-        };
-        for body in &mut self.bodies {
-            // A motion leaves the section forces of the middle of its last step. A correction by nothing makes them those of
-            // the strain.
-            linearise(body, &mut aside);
-            body.correct_section_forces(&standstill);
-            linearise(body, stiffness);
-        }
-    }
-
-    /// In how many ways a movement from here would release energy if loads keep their directions: the negative eigenvalues of the
-    /// stiffness.
-    pub fn falls(&mut self) -> usize {
-        let mut stiffness = BandedMatrix::zeros(self.unknowns, self.half_bandwidth);
-        self.add_stiffness(&mut stiffness);
-        negative_eigenvalues(&stiffness)
     }
 }
 

@@ -25,6 +25,7 @@ mod scene;
 mod slider_error;
 mod sliders;
 mod sliding;
+mod stiffness;
 mod stored;
 mod tracker;
 mod waves;

@@ -20,11 +20,11 @@ impl Simulation {
     /// # Errors
     /// When there are not so many, something slides or turns with the beam, or it is stopped.
     pub fn modes(
-        &mut self,
+        &self,
         count: usize,
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<Modes, VibrationError> {
-        Modes::of(&mut self.model, count, goes_on)
+        Modes::of(&self.model, count, goes_on)
     }
 
     /// Where a place was, at all times of the trajectory.

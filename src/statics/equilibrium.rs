@@ -43,7 +43,7 @@ impl Equilibrium {
         goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Self, StaticsError> {
         let model = prepare(&scene, &loading)?;
-        let movements = loose_movements(&mut Model::assemble(&of_equal_stiffness(&scene))?);
+        let movements = loose_movements(&Model::assemble(&of_equal_stiffness(&scene))?);
         if movements > 0 {
             return Err(StaticsError::Loose { scene: scene.name, movements });
         }
@@ -110,7 +110,7 @@ impl Equilibrium {
     }
 
     /// What becomes of a small disturbance, by the signs of the pivots of the stiffness, and where these are not sure by the lowest mode.
-    pub fn stability(&mut self, goes_on: &mut dyn FnMut() -> bool) -> Stability {
+    pub fn stability(&self, goes_on: &mut dyn FnMut() -> bool) -> Stability {
         if self.model.follower().is_some() {
             return Stability::Follower;
         }
@@ -129,11 +129,11 @@ impl Equilibrium {
     /// # Errors
     /// When there are not so many, or a load turns with the beam.
     pub fn modes(
-        &mut self,
+        &self,
         count: usize,
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<Modes, VibrationError> {
-        Modes::of(&mut self.model, count, goes_on)
+        Modes::of(&self.model, count, goes_on)
     }
 }
 

@@ -29,14 +29,29 @@ pub enum VibrationError {
         /// Its name.
         load: String,
     },
-    /// Subspace iteration that went on and on.
+    /// A search that went on and on.
     #[error(
-        "the modes did not settle in {iterations} iterations; ask for a few more or fewer of them, or take a coarser mesh"
+        "the modes did not settle in {restarts} restarts of the search; ask for a few more or fewer of them, or take a coarser mesh"
     )]
     Unsettled {
         /// How many.
-        iterations: usize,
+        restarts: usize,
     },
+    /// Rounding hides some.
+    #[error(
+        "rounding hides mode {modes}, counted from 0: its residual is {residual:.1e}, more than 1e-6; of modes below it there are {modes}: ask for no more, take a coarser mesh, or make the largest stiffness or the smallest inertia less extreme"
+    )]
+    Hidden {
+        /// So many are below the first that is hidden.
+        modes: usize,
+        /// Its residual.
+        residual: f64,
+    },
+    /// A count that rounding makes.
+    #[error(
+        "rounding hides how many modes there are below those that were found; take a coarser mesh, or make the largest stiffness or the smallest inertia less extreme"
+    )]
+    Uncounted,
     /// Somebody stopped it.
     #[error("stopped while modes were looked for")]
     Interrupted,

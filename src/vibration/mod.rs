@@ -1,10 +1,13 @@
 //! Small vibration about a configuration: natural frequencies and their shapes.
 
+mod dense;
+mod elastic;
 mod error;
+mod lanczos;
 mod modes;
 mod pencil;
-mod reduced;
-mod subspace;
+mod refinement;
+mod search;
 
 pub use error::VibrationError;
 pub use modes::{Mode, Modes, loose_movements};

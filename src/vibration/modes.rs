@@ -2,39 +2,16 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::DMatrix;
-
 use super::VibrationError;
 use super::pencil::Pencil;
-use super::reduced::{Pairs, pairs};
-use super::subspace::{Refusal, lowest_pairs, width};
+use super::search::{is_small, lowest, numbers};
 use crate::beams::{Mesh, Place};
 use crate::geometry::Vec2;
+use crate::integrators::Mechanism;
 use crate::model::Model;
 
-/// Up to so many unknowns all modes are found at once,
-const SMALL: usize = 240;
-
-/// and up to so many where more than an eighth of them is asked for.
-const MEDIUM: usize = 2000;
-
-/// Matrices of the size of the stiffness that are there at a time where all modes are found.
-const DENSE_COPIES: usize = 6;
-
-/// Sets of vectors that are there at a time where the lowest are.
-const SUBSPACE_COPIES: usize = 5;
-
-/// A squared frequency below so many times its rounding is zero.
-const ROUNDING: f64 = 64.0;
-
-/// A shift is so many times as large as what rounding hides of free movements.
-const HIDDEN_SHIFT: f64 = 100.0;
-
-/// A shift by so many times the rounding keeps a stiffness definite that rigid motions leave singular.
-const FIRST_SHIFT: f64 = 1e4;
-
-/// An unstable configuration needs a larger shift; after so many tries by a hundred there is none.
-const MOST_SHIFTS: usize = 12;
+/// A movement whose square is below this part of that of the slowest bending meets no resistance.
+const LOOSE: f64 = 1e-10;
 
 /// A natural vibration.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,6 +21,10 @@ pub struct Mode {
     pub square: f64,
     /// What rounding may hide of it [1/time²].
     pub rounding: f64,
+    /// How far the shape and its section forces are from balance, in the energy of `ω² + σ`, `σ` being about the square of the slowest
+    /// bending: the next correction would change so much. `ω² + σ` is not wrong by more than this part of itself, and by its square only,
+    /// over the relative distance of the next mode [-].
+    pub residual: f64,
     /// The movements of the unknowns, with `φᵀ M φ = 1`.
     pub shape: Vec<f64>,
 }
@@ -92,7 +73,7 @@ impl Modes {
     /// # Errors
     /// When there are not so many, something slides or turns with the beam, or it is stopped.
     pub fn of(
-        model: &mut Model,
+        model: &Model,
         count: usize,
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<Self, VibrationError> {
@@ -119,11 +100,8 @@ impl Modes {
     /// About the memory that looking for so many modes of a model takes at most [bytes].
     pub fn memory(model: &Model, count: usize) -> u64 {
         let unknowns = model.rotations().len();
-        let numbers = match Search::of(unknowns, count) {
-            Search::All => DENSE_COPIES * unknowns * unknowns,
-            Search::Lowest => SUBSPACE_COPIES * unknowns * width(unknowns, count),
-        };
-        (numbers * size_of::<f64>()) as u64
+        let numbers = numbers(unknowns, count);
+        (numbers * size_of::<f64>() + Pencil::memory(model)) as u64
     }
 
     /// From the lowest on.
@@ -185,94 +163,10 @@ impl Modes {
 
 /// The number of movements that meet no resistance in the present configuration without loads; 0 where a scene is too
 /// large to find that out at once.
-pub fn loose_movements(model: &mut Model) -> usize {
-    if model.rotations().len() > SMALL {
+pub fn loose_movements(model: &Model) -> usize {
+    if !is_small(model.unknowns()) {
         return 0;
     }
-    Pencil::of(model).map_or(0, |pencil| pencil.modes_below(FIRST_SHIFT * pencil.rounding))
-}
-
-fn lowest(
-    pencil: &Pencil,
-    count: usize,
-    goes_on: &mut dyn FnMut() -> bool,
-) -> Result<Vec<Mode>, VibrationError> {
-    let more = (count + 4).min(pencil.finite);
-    let mut shift = if pencil.rounding > 0.0 { FIRST_SHIFT * pencil.rounding } else { 1.0 };
-    let mut tries = 0;
-    let pairs = loop {
-        match shifted_pairs(pencil, shift, more, goes_on) {
-            Ok(pairs) => break pairs,
-            Err(Refusal::Final(error)) => return Err(error),
-            Err(Refusal::NotDefinite) if tries == MOST_SHIFTS => {
-                return Err(VibrationError::Indefinite);
-            }
-            Err(Refusal::NotDefinite) => (shift, tries) = (100.0 * shift, tries + 1),
-        }
-    };
-    let found = modes_of(pencil, &pairs, shift);
-    let first = |modes: Vec<Mode>| modes.into_iter().take(count).collect();
-    // A shift of the size of the lowest square keeps the digits of the others.
-    let lowest = found.iter().map(|mode| mode.square).find(|square| *square != 0.0);
-    let hidden = found.iter().filter(|mode| mode.is_free()).map(|mode| mode.rounding);
-    let smallest = HIDDEN_SHIFT * hidden.fold(0.0, f64::max);
-    let Some(fine) = lowest.filter(|square| *square > 0.0).map(|square| square.max(smallest))
-    else {
-        return Ok(first(found));
-    };
-    match shifted_pairs(pencil, fine, count, goes_on) {
-        Ok(pairs) => Ok(first(modes_of(pencil, &pairs, fine))),
-        Err(Refusal::Final(VibrationError::Interrupted)) => Err(VibrationError::Interrupted),
-        Err(_) => Ok(first(found)),
-    }
-}
-
-/// How modes are looked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Search {
-    /// All at once, and the lowest are taken.
-    All,
-    /// The lowest alone.
-    Lowest,
-}
-
-impl Search {
-    fn of(unknowns: usize, count: usize) -> Self {
-        let is_large = unknowns > MEDIUM || (unknowns > SMALL && 8 * count < unknowns);
-        if is_large { Self::Lowest } else { Self::All }
-    }
-}
-
-fn shifted_pairs(
-    pencil: &Pencil,
-    shift: f64,
-    count: usize,
-    goes_on: &mut dyn FnMut() -> bool,
-) -> Result<Pairs, Refusal> {
-    let size = pencil.size();
-    if Search::of(size, count) == Search::Lowest {
-        return lowest_pairs(pencil, shift, count, goes_on);
-    }
-    let (mut stiffness, mut inertia) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));
-    for (row, column, resistance, mass) in pencil.entries() {
-        stiffness[(row, column)] = resistance + shift * mass;
-        inertia[(row, column)] = mass;
-    }
-    pairs(stiffness, &inertia).ok_or(Refusal::NotDefinite)
-}
-
-/// `ω² = 1/μ - σ` of each pair, zero where rounding hides it.
-fn modes_of(pencil: &Pencil, pairs: &Pairs, shift: f64) -> Vec<Mode> {
-    let shapes = pairs.vectors.column_iter().zip(&pairs.values);
-    // `φᵀ M φ = μ` for the vectors of the shifted problem; movements without inertia have none.
-    let with_inertia = shapes.filter(|(_, value)| **value > 0.0);
-    with_inertia
-        .map(|(vector, value)| {
-            let scale = 1.0 / value.sqrt();
-            let shape: Vec<f64> = vector.iter().map(|entry| entry * scale).collect();
-            let (square, rounding) = (1.0 / value - shift, ROUNDING * pencil.rounding_of(&shape));
-            let square = if square.abs() <= rounding { 0.0 } else { square };
-            Mode { square, rounding, shape }
-        })
-        .collect()
+    let count = |pencil: Pencil| pencil.modes_below(LOOSE * pencil.scale).unwrap_or(0);
+    Pencil::of(model).map_or(0, count)
 }

@@ -1,40 +1,46 @@
-//! Stiffness and inertia of a configuration, and their combination with a shift.
-
-use nalgebra::DMatrix;
+//! Stiffness and inertia of a configuration.
 
 use super::VibrationError;
+use super::elastic::{Elastic, Lanes};
 use crate::integrators::Mechanism;
-use crate::linalg::{BandedMatrix, negative_eigenvalues};
+use crate::linalg::{LinearError, PreciseBand, STRIP_WIDTH, SymmetricFactors, SymmetricSparse};
 use crate::model::Model;
+
+/// An elimination whose numbers grew by more is not believed: of its 32 digits half are left.
+const MOST_GROWTH: f64 = 1e12;
 
 /// `K φ = ω² M φ`
 pub(super) struct Pencil {
-    stiffness: BandedMatrix,
-    inertia: BandedMatrix,
-    /// The most that rounding may add to any `ω²`: `ε max K_ii/M_ii` [1/time²].
-    pub(super) rounding: f64,
+    stiffness: PreciseBand,
+    pub(super) inertia: SymmetricSparse,
+    pub(super) elastic: Elastic,
+    /// About the square of the slowest bending [1/time²].
+    pub(super) scale: f64,
     /// Movements with inertia: so many modes have a finite frequency.
     pub(super) finite: usize,
 }
 
 impl Pencil {
     /// That of the present configuration of a model.
-    pub(super) fn of(model: &mut Model) -> Result<Self, VibrationError> {
-        let zeros = || BandedMatrix::zeros(model.unknowns(), model.half_bandwidth());
-        let (mut stiffness, mut inertia) = (zeros(), zeros());
-        model.add_stiffness(&mut stiffness);
-        model.add_inertia_tangent(1.0, &mut inertia);
-        let ratios = (0..model.unknowns()).filter_map(|at| {
-            let mass = inertia.get(at, at);
-            (mass > 0.0).then(|| stiffness.get(at, at).abs() / mass)
-        });
-        let (finite, largest) = ratios.fold((0, 0.0_f64), |(count, largest), ratio| {
-            (count + 1, if ratio > largest || ratio.is_nan() { ratio } else { largest })
-        });
-        if !largest.is_finite() {
+    pub(super) fn of(model: &Model) -> Result<Self, VibrationError> {
+        let (stiffness, inertia) = (model.stiffness(), model.sparse_inertia());
+        let size = stiffness.size();
+        let is_finite = (0..size)
+            .all(|at| stiffness.diagonal(at).is_finite() && inertia.diagonal(at).is_finite());
+        let finite = (0..size).filter(|at| inertia.diagonal(*at) > 0.0).count();
+        let scale = model.slowest_bending().unwrap_or(1.0);
+        if !is_finite || !scale.is_normal() {
             return Err(VibrationError::NotFinite);
         }
-        Ok(Self { stiffness, inertia, rounding: f64::EPSILON * largest, finite })
+        let elastic = Elastic::of(model, size);
+        Ok(Self { stiffness, inertia, elastic, scale, finite })
+    }
+
+    /// About the bytes that one takes.
+    pub(super) fn memory(model: &Model) -> usize {
+        let (size, reach) = (model.unknowns(), model.half_bandwidth() + 1);
+        // The stiffness in two parts, its factors, inertia while it is sorted, and about two strains for each movement.
+        size * reach * 8 * size_of::<f64>() + Elastic::memory(2 * size, reach)
     }
 
     /// The number of unknowns.
@@ -42,59 +48,35 @@ impl Pencil {
         self.stiffness.size()
     }
 
-    /// The entries of `K` and `M` in the band: row, column and both values.
-    pub(super) fn entries(&self) -> impl Iterator<Item = (usize, usize, f64, f64)> {
-        let (size, reach) = (self.size(), self.stiffness.half_bandwidth());
-        (0..size).flat_map(move |row| {
-            (row.saturating_sub(reach)..(row + reach + 1).min(size)).map(move |column| {
-                // Rounding differs on both sides of the diagonal.
-                let mean = |of: &BandedMatrix| 0.5 * (of.get(row, column) + of.get(column, row));
-                (row, column, mean(&self.stiffness), mean(&self.inertia))
-            })
-        })
+    /// The length of vectors: unknowns, and the margin that solving needs.
+    pub(super) fn length(&self) -> usize {
+        self.size() + self.stiffness.half_bandwidth().max(1)
     }
 
-    /// `K + σ M`, to be factorised.
-    pub(super) fn shifted_band(&self, shift: f64) -> BandedMatrix {
-        let mut band = BandedMatrix::zeros(self.size(), self.stiffness.half_bandwidth());
-        for (row, column, stiffness, inertia) in self.entries() {
-            band.add(row, column, stiffness + shift * inertia);
+    /// A strip of zeros.
+    pub(super) fn zeros(&self) -> Vec<Lanes> {
+        vec![[0.0; STRIP_WIDTH]; self.length()]
+    }
+
+    /// The factors of `K + σ M`; none if it is not positive definite.
+    pub(super) fn factors(&self, shift: f64) -> Option<SymmetricFactors> {
+        let factors = self.stiffness.factorise(shift, &self.inertia).ok()?;
+        (factors.pivots().negative == 0).then_some(factors)
+    }
+
+    /// So many modes have squares below `σ`: the negative eigenvalues of `K - σ M` (Sylvester's law of inertia). None where the
+    /// elimination is not to be believed.
+    pub(super) fn modes_below(&self, square: f64) -> Option<usize> {
+        match self.stiffness.pivots(-square, &self.inertia) {
+            Ok(pivots) if pivots.growth <= MOST_GROWTH => Some(pivots.negative),
+            Ok(_) | Err(LinearError::Singular { .. } | LinearError::NotFinite { .. }) => None,
         }
-        band
     }
 
-    /// What rounding may add to the `ω²` of a shape with `φᵀ M φ = 1`: `ε Σ |φ_i K_ij φ_j|` [1/time²].
-    pub(super) fn rounding_of(&self, shape: &[f64]) -> f64 {
-        let products =
-            self.entries().map(|(row, column, k, _)| (shape[row] * k * shape[column]).abs());
-        f64::EPSILON * products.sum::<f64>()
-    }
-
-    /// `K - σ M` has so many negative eigenvalues: as many modes have squares below `σ` (Sylvester's law of inertia).
-    pub(super) fn modes_below(&self, square: f64) -> usize {
-        negative_eigenvalues(&self.shifted_band(-square))
-    }
-
-    /// `M X`
-    pub(super) fn inertia_times(&self, vectors: &DMatrix<f64>) -> DMatrix<f64> {
-        self.times(vectors, |_, inertia| inertia)
-    }
-
-    /// `(K + σ M) X`
-    pub(super) fn shifted_times(&self, shift: f64, vectors: &DMatrix<f64>) -> DMatrix<f64> {
-        self.times(vectors, |stiffness, inertia| stiffness + shift * inertia)
-    }
-
-    fn times(&self, vectors: &DMatrix<f64>, entry: impl Fn(f64, f64) -> f64) -> DMatrix<f64> {
-        let mut product = DMatrix::zeros(vectors.nrows(), vectors.ncols());
-        for (row, column, stiffness, inertia) in self.entries() {
-            let value = entry(stiffness, inertia);
-            if value != 0.0 {
-                for (of, mut out) in vectors.column_iter().zip(product.column_iter_mut()) {
-                    out[row] += value * of[column];
-                }
-            }
-        }
+    /// `M x`
+    pub(super) fn inertia_times(&self, x: &[Lanes]) -> Vec<Lanes> {
+        let mut product = self.zeros();
+        self.inertia.times(x, &mut product);
         product
     }
 }

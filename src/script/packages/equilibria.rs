@@ -287,7 +287,7 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
             found
         }
     };
-    let mut rest = match found {
+    let rest = match found {
         Err(StaticsError::Interrupted { .. }) => {
             return Err(context.why_stopped("the search for an equilibrium"));
         }
@@ -303,10 +303,10 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
         }
         found => found?,
     };
-    let is_unstable = |rest: &mut Equilibrium| {
+    let is_unstable = |rest: &Equilibrium| {
         rest.stability(&mut || !context.is_stopped()) == Stability::Unstable
     };
-    if context.mode() == Mode::Run && is_unstable(&mut rest) {
+    if context.mode() == Mode::Run && is_unstable(&rest) {
         let name = &rest.scene().name;
         context.tell(&format!("note: the equilibrium of '{name}' is not stable"));
     }

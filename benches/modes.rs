@@ -1,0 +1,69 @@
+//! What the search for ten modes of a beam with 100 000 unknowns costs, in factorisations of its static stiffness matrix: processor time of
+//! this process, as Linux tells it (`cargo bench --bench modes`).
+#![allow(clippy::unwrap_used)]
+
+use withy::beams::{Mesh, Section};
+use withy::geometry::{Curve, Vec2};
+use withy::integrators::Mechanism;
+use withy::joints::{JointKind, Partner};
+use withy::linalg::BandedMatrix;
+use withy::model::{BeamDefinition, Model, Scene, StartMotion};
+use withy::vibration::Modes;
+
+/// Processor time of this process [s].
+fn processor_time() -> f64 {
+    let told = std::fs::read_to_string("/proc/self/schedstat").unwrap_or_default();
+    told.split(' ').next().and_then(|n| n.parse::<f64>().ok()).unwrap_or(0.0) * 1e-9
+}
+
+fn main() {
+    for (spans, free, ratio) in [(33_333, false, 1e6), (33_333, true, 1e6), (33_333, false, 1e10), (33_333, true, 1e4)] {
+        let mut scene = Scene::new("large");
+        let axis = Curve::line(Vec2::zeros(), Vec2::new(10.0, 0.0)).unwrap();
+        let mesh = Mesh::bspline(spans, 3, 2).unwrap();
+        let section = Section {
+            axial_stiffness: ratio,
+            shear_stiffness: ratio / 3.0,
+            bending_stiffness: 100.0,
+            mass_per_length: 1.0,
+            rotary_inertia: 100.0 / ratio,
+        };
+        let (name, motion) = ("rod".to_owned(), StartMotion::default());
+        let beam = scene.add_beam(BeamDefinition { name, axis, mesh, section, motion }).unwrap();
+        if !free {
+            let start = scene.station(beam, 0.0).unwrap();
+            scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
+        }
+        let mut model = Model::assemble(&scene).unwrap();
+        let still = vec![0.0; model.unknowns()];
+        let mut forces = vec![0.0; model.degrees_of_freedom()];
+        let mut matrix = BandedMatrix::zeros(model.unknowns(), model.half_bandwidth());
+        model.add_linearised_static_forces(&still, 1.0, &mut forces, &mut matrix);
+        let mut times: Vec<f64> = (0..9)
+            .map(|_| {
+                let mut copy = matrix.clone();
+                let start = processor_time();
+                let _ = copy.factorise();
+                processor_time() - start
+            })
+            .collect();
+        times.sort_by(f64::total_cmp);
+        let one = times[4];
+        for _ in 0..3 {
+            let start = processor_time();
+            let modes = Modes::of(&model, 10, &mut || true);
+            let all = processor_time() - start;
+            match modes {
+                Ok(modes) => {
+                    let residual = modes.all().iter().map(|m| m.residual).fold(0.0, f64::max);
+                    println!(
+                        "{} unknowns, free {free}, EA {ratio:.0e}: factorisation {one:.4} s, modes {all:.4} s = {:.1}; residual {residual:.1e}, squares {:?}",
+                        model.unknowns(), all / one,
+                        modes.all().iter().map(|m| m.angular_frequency()).take(5).collect::<Vec<_>>()
+                    );
+                }
+                Err(error) => println!("{error}"),
+            }
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! A symmetric matrix with few entries in a row.
+
+use pulp::{Arch, Simd, WithSimd};
+
+use super::strips::Strip;
+
+/// A symmetric matrix, by rows.
+#[derive(Debug, Clone)]
+pub struct SymmetricSparse {
+    /// Where each row begins among the entries, and where the last ends.
+    starts: Vec<usize>,
+    columns: Vec<u32>,
+    values: Vec<f64>,
+}
+
+impl SymmetricSparse {
+    /// From entries (row, column, value) of both triangles, in any order; several of one place add up.
+    ///
+    /// # Panics
+    /// When it has more than 2³² rows.
+    pub fn new(size: usize, entries: Vec<(usize, usize, f64)>) -> Self {
+        assert!(u32::try_from(size).is_ok(), "{size} rows");
+        // Each row gets room for all of its entries, and closes up where several stand at one place.
+        let mut starts = vec![0; size + 1];
+        entries.iter().for_each(|(row, ..)| starts[row + 1] += 1);
+        (0..size).for_each(|row| starts[row + 1] += starts[row]);
+        let mut next = starts.clone();
+        let mut room = vec![(0, 0.0); entries.len()];
+        for (row, column, value) in entries {
+            room[next[row]] = (column as u32, value);
+            next[row] += 1;
+        }
+        let (mut columns, mut values) = (Vec::new(), Vec::<f64>::new());
+        for row in 0..size {
+            let entries = &mut room[starts[row]..next[row]];
+            entries.sort_by_key(|(column, _)| *column);
+            starts[row] = values.len();
+            for same in entries.chunk_by(|a, b| a.0 == b.0) {
+                columns.push(same[0].0);
+                values.push(same.iter().map(|(_, value)| value).sum());
+            }
+        }
+        starts[size] = values.len();
+        Self { starts, columns, values }
+    }
+
+    /// The number of rows.
+    pub fn size(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// The entries of a row: column and value, from left to right.
+    pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
+        let entries = self.starts[row]..self.starts[row + 1];
+        self.columns[entries.clone()]
+            .iter()
+            .map(|&at| at as usize)
+            .zip(self.values[entries].iter().copied())
+    }
+
+    /// The entry on the diagonal of a row.
+    pub fn diagonal(&self, row: usize) -> f64 {
+        self.row(row).find(|(column, _)| *column == row).map_or(0.0, |(_, value)| value)
+    }
+
+    /// Writes `M x` over `product`, and zeros behind it.
+    pub fn times(&self, x: &Strip, product: &mut Strip) {
+        Arch::new().dispatch(Product { matrix: self, x, product });
+    }
+}
+
+struct Product<'a> {
+    matrix: &'a SymmetricSparse,
+    x: &'a Strip,
+    product: &'a mut Strip,
+}
+
+impl WithSimd for Product<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { matrix, x, product } = self;
+        let size = matrix.size();
+        for (row, out) in product[..size].iter_mut().enumerate() {
+            let mut sum = [0.0; 4];
+            for (column, value) in matrix.row(row) {
+                for (sum, x) in sum.iter_mut().zip(&x[column]) {
+                    *sum += value * x;
+                }
+            }
+            *out = sum;
+        }
+        product[size..].fill([0.0; 4]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entries_of_one_place_add_up() {
+        let entries = vec![(2, 0, 3.0), (0, 0, 1.0), (0, 2, 3.0), (0, 0, 4.0)];
+        let matrix = SymmetricSparse::new(3, entries);
+        assert_eq!(matrix.row(0).collect::<Vec<_>>(), [(0, 5.0), (2, 3.0)]);
+        assert_eq!((matrix.row(1).count(), matrix.diagonal(1)), (0, 0.0));
+        let (x, mut product) = (vec![[1.0, 2.0, 0.0, -1.0]; 4], vec![[9.0; 4]; 4]);
+        matrix.times(&x, &mut product);
+        assert_eq!(product, [[8.0, 16.0, 0.0, -8.0], [0.0; 4], [3.0, 6.0, 0.0, -3.0], [0.0; 4]]);
+    }
+}

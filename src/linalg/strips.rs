@@ -1,0 +1,100 @@
+//! Four vectors side by side, which vector instructions treat at once.
+
+use pulp::{Arch, Simd, WithSimd};
+
+/// The number of vectors of a strip.
+pub const STRIP_WIDTH: usize = 4;
+
+/// Four vectors: entry `i` of all of them, then entry `i + 1`.
+pub type Strip = [[f64; STRIP_WIDTH]];
+
+/// A small matrix: row by row.
+pub type Square = [[f64; STRIP_WIDTH]; STRIP_WIDTH];
+
+/// `Xᵀ Y`
+pub fn products(x: &Strip, y: &Strip) -> Square {
+    Arch::new().dispatch(Products { x, y })
+}
+
+/// `Y ← Y - X G`
+pub fn subtract_combination(x: &Strip, by: &Square, from: &mut Strip) {
+    Arch::new().dispatch(Combination { x, by, from });
+}
+
+/// `X ← X G`
+pub fn combine(x: &mut Strip, by: &Square) {
+    for row in x {
+        let old = *row;
+        *row = [0.0; STRIP_WIDTH];
+        for (entry, by) in old.iter().zip(by) {
+            for (sum, by) in row.iter_mut().zip(by) {
+                *sum += entry * by;
+            }
+        }
+    }
+}
+
+struct Products<'a> {
+    x: &'a Strip,
+    y: &'a Strip,
+}
+
+impl WithSimd for Products<'_> {
+    type Output = Square;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Square {
+        let mut sums = [[0.0; STRIP_WIDTH]; STRIP_WIDTH];
+        for (x, y) in self.x.iter().zip(self.y) {
+            for (sums, x) in sums.iter_mut().zip(x) {
+                for (sum, y) in sums.iter_mut().zip(y) {
+                    *sum += x * y;
+                }
+            }
+        }
+        sums
+    }
+}
+
+struct Combination<'a> {
+    x: &'a Strip,
+    by: &'a Square,
+    from: &'a mut Strip,
+}
+
+impl WithSimd for Combination<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let by = *self.by;
+        for (x, from) in self.x.iter().zip(self.from) {
+            let mut value = *from;
+            for (x, by) in x.iter().zip(&by) {
+                for (value, by) in value.iter_mut().zip(by) {
+                    *value -= x * by;
+                }
+            }
+            *from = value;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_in_others_can_be_taken_out() {
+        let x: Vec<[f64; 4]> =
+            (0..4).map(|i| std::array::from_fn(|k| f64::from(u8::from(i == k)))).collect();
+        let mut y = vec![[1.0, 2.0, 3.0, 4.0]; 4];
+        let products = products(&x, &y);
+        assert_eq!(products[2], [1.0, 2.0, 3.0, 4.0]);
+        subtract_combination(&x, &products, &mut y);
+        assert_eq!(y, vec![[0.0; 4]; 4]);
+        let mut z = x.clone();
+        combine(&mut z, &products);
+        assert_eq!(z, vec![[1.0, 2.0, 3.0, 4.0]; 4]);
+    }
+}

@@ -1,0 +1,326 @@
+//! `L D Lᵀ` of a symmetric banded matrix: eliminated with 32 digits, kept and solved with 16.
+//!
+//! Of a definite matrix that is a sum of squares of very different weight the pivots are graded, and the columns of `L` are not: rounding `L`
+//! and `D` at the end changes the squares by a relative amount each, which is as harmless as rounding the entries of `B` (theory,
+//! section 15).
+
+use pulp::{Arch, Simd, WithSimd};
+
+use super::precise_band::{MARGIN, PreciseBand};
+use super::strips::Strip;
+use super::twofold::{Numbers, NumbersMut, Twofold, subtract_multiple};
+use super::{LinearError, SymmetricSparse};
+
+/// What the pivots of an elimination without row exchanges say.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pivots {
+    /// So many are negative: as many eigenvalues are (Sylvester's law of inertia; Golub & Van Loan, Matrix Computations, 4th ed., section
+    /// 4.4).
+    pub negative: usize,
+    /// The most that was taken off an entry of the diagonal, relative to it; 1 or less for a definite matrix. So many times
+    /// more than by its own rounding the matrix may be wrong.
+    pub growth: f64,
+}
+
+/// `L D Lᵀ`
+#[derive(Debug, Clone)]
+pub struct SymmetricFactors {
+    size: usize,
+    reach: usize,
+    /// By columns of `L`, below the diagonal.
+    multipliers: Vec<f64>,
+    inverse_pivots: Vec<f64>,
+    pivots: Pivots,
+}
+
+impl SymmetricFactors {
+    pub(super) fn of(
+        band: &PreciseBand,
+        shift: f64,
+        other: &SymmetricSparse,
+    ) -> Result<Self, LinearError> {
+        let (size, reach) = (band.size, band.half_bandwidth);
+        let (mut multipliers, mut inverse_pivots) = (vec![0.0; size * reach], vec![0.0; size]);
+        let pivots = eliminate(band, shift, other, Some((&mut multipliers, &mut inverse_pivots)))?;
+        Ok(Self { size, reach, multipliers, inverse_pivots, pivots })
+    }
+
+    /// What the pivots say.
+    pub fn pivots(&self) -> Pivots {
+        self.pivots
+    }
+
+    /// The multipliers below a column of `L`, and the inverse of its pivot.
+    pub fn column(&self, column: usize) -> (&[f64], f64) {
+        (&self.multipliers[column * self.reach..][..self.reach], self.inverse_pivots[column])
+    }
+
+    /// Replaces right-hand sides by their solutions. Behind them there must be zeros, as many as the half-bandwidth.
+    pub fn solve(&self, x: &mut Strip) {
+        assert!(x.len() >= self.size + self.reach, "a strip has a margin");
+        Arch::new().dispatch(Substitution { factors: self, x });
+    }
+}
+
+/// Multipliers and inverse pivots, to be filled.
+type Kept<'a> = (&'a mut [f64], &'a mut [f64]);
+
+/// Eliminates `A + σ M`.
+pub(super) fn eliminate(
+    band: &PreciseBand,
+    shift: f64,
+    other: &SymmetricSparse,
+    kept: Option<Kept<'_>>,
+) -> Result<Pivots, LinearError> {
+    Arch::new().dispatch(Elimination { band, shift, other, kept })
+}
+
+struct Elimination<'a> {
+    band: &'a PreciseBand,
+    shift: f64,
+    other: &'a SymmetricSparse,
+    kept: Option<Kept<'a>>,
+}
+
+impl WithSimd for Elimination<'_> {
+    type Output = Result<Pivots, LinearError>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        // The half-bandwidths of beams of degree 1 to 3 are known to the compiler.
+        match self.band.half_bandwidth {
+            5 => self.run(simd, 5),
+            8 => self.run(simd, 8),
+            11 => self.run(simd, 11),
+            reach => self.run(simd, reach),
+        }
+    }
+}
+
+/// Numbers that vector instructions treat at once.
+const LANES: usize = MARGIN + 1;
+
+impl Elimination<'_> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S, reach: usize) -> Result<Pivots, LinearError> {
+        let Self { band, shift, other, mut kept } = self;
+        let (size, stride) = (band.size, reach + 1 + MARGIN);
+        // Only so many rows are under way at a time; row `i` stands at `i` modulo their number.
+        let rows = reach + 1;
+        let (mut high, mut low) = (vec![0.0; rows * stride], vec![0.0; rows * stride]);
+        // What the diagonal was, and how much was taken off it in all.
+        let (mut start, mut taken) = (vec![0.0_f64; rows], vec![0.0_f64; rows]);
+        let mut pivots = Pivots { negative: 0, growth: 0.0 };
+        let mut loaded = 0;
+        let (mut pivot_high, mut pivot_low) = (vec![0.0; stride], vec![0.0; stride]);
+        for at in 0..size {
+            while loaded < size.min(at + rows) {
+                let place = loaded % rows;
+                let row = place * stride..(place + 1) * stride;
+                high[row.clone()].copy_from_slice(&band.high[loaded * stride..][..stride]);
+                low[row].copy_from_slice(&band.low[loaded * stride..][..stride]);
+                for (column, value) in other.row(loaded) {
+                    if column >= loaded {
+                        let entry = place * stride + column - loaded;
+                        let sum = Twofold { high: high[entry], low: low[entry] }
+                            .plus(Twofold::product(shift, value));
+                        (high[entry], low[entry]) = (sum.high, sum.low);
+                    }
+                }
+                (start[place], taken[place]) = (high[place * stride].abs(), 0.0);
+                loaded += 1;
+            }
+            let place = at % rows;
+            pivot_high.copy_from_slice(&high[place * stride..][..stride]);
+            pivot_low.copy_from_slice(&low[place * stride..][..stride]);
+            let pivot = Twofold { high: pivot_high[0], low: pivot_low[0] };
+            if pivot.high == 0.0 {
+                let is_alone = pivot_high.iter().all(|entry| *entry == 0.0);
+                if kept.is_none() && is_alone {
+                    // A row of nothing but zeros has a sign of its own: none.
+                    continue;
+                }
+                return Err(LinearError::Singular { unknown: at, size });
+            }
+            if !pivot.high.is_finite() {
+                return Err(LinearError::NotFinite { unknown: at, size });
+            }
+            pivots.negative += usize::from(pivot.high < 0.0);
+            if start[place] > 0.0 {
+                pivots.growth = pivots.growth.max(taken[place] / start[place]);
+            }
+            let inverse = pivot.inverse();
+            for below in 1..=reach.min(size - 1 - at) {
+                let entry = Twofold { high: pivot_high[below], low: pivot_low[below] };
+                if entry.high == 0.0 {
+                    continue;
+                }
+                let factor = entry.times_twofold(inverse);
+                let to = (at + below) % rows;
+                taken[to] += (factor.high * entry.high).abs();
+                let width = (reach + 1 - below).next_multiple_of(LANES);
+                let of = Numbers {
+                    high: &pivot_high[below..][..width],
+                    low: &pivot_low[below..][..width],
+                };
+                let from = NumbersMut {
+                    high: &mut high[to * stride..][..width],
+                    low: &mut low[to * stride..][..width],
+                };
+                subtract_multiple(simd, factor, &of, from);
+                if let Some((multipliers, _)) = &mut kept {
+                    multipliers[at * reach + below - 1] = factor.high;
+                }
+            }
+            if let Some((_, inverse_pivots)) = &mut kept {
+                inverse_pivots[at] = inverse.high;
+            }
+        }
+        Ok(pivots)
+    }
+}
+
+struct Substitution<'a> {
+    factors: &'a SymmetricFactors,
+    x: &'a mut Strip,
+}
+
+impl WithSimd for Substitution<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { factors, x } = self;
+        match factors.reach {
+            5 => substitute(factors, 5, x),
+            8 => substitute(factors, 8, x),
+            11 => substitute(factors, 11, x),
+            reach => substitute(factors, reach, x),
+        }
+    }
+}
+
+#[inline(always)]
+fn substitute(factors: &SymmetricFactors, reach: usize, x: &mut Strip) {
+    for column in 0..factors.size {
+        let multipliers = &factors.multipliers[column * reach..][..reach];
+        let (known, below) = x[column..].split_at_mut(1);
+        let known = known[0];
+        for (entry, multiplier) in below[..reach].iter_mut().zip(multipliers) {
+            for (entry, known) in entry.iter_mut().zip(&known) {
+                *entry -= multiplier * known;
+            }
+        }
+    }
+    for column in (0..factors.size).rev() {
+        let multipliers = &factors.multipliers[column * reach..][..reach];
+        let (value, known) = x[column..].split_at_mut(1);
+        // Two sums are under way at the same time.
+        let mut sums = [[0.0; 4]; 2];
+        for (at, (multiplier, known)) in multipliers.iter().zip(&known[..reach]).enumerate() {
+            for (sum, known) in sums[at % 2].iter_mut().zip(known) {
+                *sum += multiplier * known;
+            }
+        }
+        let inverse = factors.inverse_pivots[column];
+        for ((value, even), odd) in value[0].iter_mut().zip(sums[0]).zip(sums[1]) {
+            *value = *value * inverse - (even + odd);
+        }
+    }
+    // What forward elimination has left behind the end.
+    x[factors.size..].fill([0.0; 4]);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{DMatrix, DVector};
+    use proptest::prelude::*;
+
+    /// The sum of squares that these numbers make, and the same as a dense matrix.
+    fn squares(
+        size: usize,
+        width: usize,
+        entries: &[f64],
+        signs: bool,
+    ) -> (PreciseBand, DMatrix<f64>) {
+        let mut band = PreciseBand::zeros(size, width - 1);
+        let mut dense = DMatrix::zeros(size, size);
+        let mut entries = entries.iter().cycle();
+        for first in (0..=size - width).chain(0..=size - width) {
+            let row: Vec<f64> = (0..width).map(|_| *entries.next().unwrap()).collect();
+            let factor = if signs { *entries.next().unwrap() } else { 1.0 };
+            let unknowns: Vec<usize> = (first..first + width).collect();
+            band.add_square(&unknowns, factor, &row);
+            let r = DVector::from_fn(size, |i, _| {
+                i.checked_sub(first).and_then(|k| row.get(k)).copied().unwrap_or(0.0)
+            });
+            dense += factor * &r * r.transpose();
+        }
+        (band, dense)
+    }
+
+    proptest! {
+        #[test]
+        fn solutions_and_signs_are_those_of_the_dense_matrix(
+            size in 12_usize..30, width in 2_usize..12, shift in 0.5..2.0_f64, signs in any::<bool>(),
+            entries in prop::collection::vec(-1.0..1.0_f64, 997),
+        ) {
+            let (band, dense) = squares(size, width, &entries, signs);
+            let unit = SymmetricSparse::new(size, (0..size).map(|i| (i, i, 1.0)).collect());
+            let shift = if signs { 0.0 } else { shift };
+            let dense = dense + DMatrix::identity(size, size) * shift;
+            let values = dense.clone().symmetric_eigenvalues();
+            prop_assume!(values.iter().all(|value| value.abs() > 1e-3));
+            let factors = band.factorise(shift, &unit).unwrap();
+            let negative = values.iter().filter(|value| **value < 0.0).count();
+            prop_assert_eq!(factors.pivots().negative, negative);
+            prop_assert_eq!(band.pivots(shift, &unit).unwrap(), factors.pivots());
+            prop_assume!(factors.pivots().growth < 1e3);
+            let mut x = vec![[0.0; 4]; size + width];
+            for (i, x) in x[..size].iter_mut().enumerate() {
+                *x = std::array::from_fn(|k| ((i + 1) as f64 * (k + 1) as f64).sin());
+            }
+            let right = x.clone();
+            factors.solve(&mut x);
+            for k in 0..4 {
+                let solution = DVector::from_fn(size, |i, _| x[i][k]);
+                let right = DVector::from_fn(size, |i, _| right[i][k]);
+                let error = &dense * &solution - right;
+                prop_assert!(error.amax() < 1e-9 * solution.amax().max(1.0), "{}", error.amax());
+            }
+        }
+
+        #[test]
+        fn entries_of_unknowns_in_any_order_add_up(entries in prop::collection::vec(-1.0..1.0_f64, 8)) {
+            let (mut band, mut dense) = (PreciseBand::zeros(5, 4), DMatrix::<f64>::zeros(5, 5));
+            // One unknown comes twice, one is not there.
+            let unknowns = [3, 1, 3, 7];
+            let (p, q) = entries.split_at(4);
+            band.add_square(&unknowns, 2.0, p);
+            band.add_product(&unknowns, p, q);
+            for a in 0..3 {
+                for b in 0..3 {
+                    dense[(unknowns[a], unknowns[b])] +=
+                        2.0 * p[a] * p[b] + p[a] * q[b] + q[a] * p[b];
+                }
+            }
+            for i in 0..5 {
+                for j in i..5 {
+                    prop_assert!((band.high[i * band.stride() + j - i] - dense[(i, j)]).abs() < 1e-14);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_pivot_of_zero_or_none_is_told() {
+        let unit = SymmetricSparse::new(3, vec![(0, 0, 1.0), (2, 2, 1.0)]);
+        let band = PreciseBand::zeros(3, 1);
+        assert_eq!(band.pivots(-1.0, &unit).unwrap().negative, 2);
+        let error = band.factorise(1.0, &unit).unwrap_err();
+        assert_eq!(error, LinearError::Singular { unknown: 1, size: 3 });
+        let error = band.factorise(f64::NAN, &unit).unwrap_err();
+        assert_eq!(error, LinearError::NotFinite { unknown: 0, size: 3 });
+    }
+}

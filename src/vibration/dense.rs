@@ -1,0 +1,166 @@
+//! All modes of a small scene at once.
+//!
+//! With `K + σ M = L D Lᵀ` and `M = H Hᵀ`, the squares of the singular values of `G = D^-½ L⁻¹ H` are `μ = 1/(ω² + σ)`. The rows of `G` are as
+//! graded as the pivots are, and rotations of its columns leave each row its own rounding: one-sided Jacobi rotations find all values, large
+//! and small, to nearly all digits (J. Demmel & K. Veselić, SIAM J. Matrix Anal. Appl. 13 (1992) 1204–1245).
+
+use nalgebra::DMatrix;
+
+use super::VibrationError;
+use super::elastic::Lanes;
+use super::lanczos::Pairs;
+use super::pencil::Pencil;
+use crate::linalg::{STRIP_WIDTH, SymmetricFactors};
+
+/// Columns are orthogonal when their product is below this part of their sizes.
+const ORTHOGONAL: f64 = 1e-15;
+
+/// Most sweeps over all pairs of columns; a dozen is usual.
+const MOST_SWEEPS: usize = 60;
+
+/// What is left of an inertia below this part of it is rounding.
+const WITHOUT_INERTIA: f64 = 1e-13;
+
+/// All pairs with inertia, the largest `μ` first. Movements without inertia do no harm: theirs is zero.
+///
+/// # Errors
+/// When the search is stopped.
+pub(super) fn all_pairs(
+    pencil: &Pencil,
+    factors: &SymmetricFactors,
+    goes_on: &mut dyn FnMut() -> bool,
+) -> Result<Pairs, VibrationError> {
+    let size = pencil.size();
+    let mut columns = inertia_root(pencil);
+    for mut column in columns.column_iter_mut() {
+        for at in 0..size {
+            let known = column[at];
+            let (multipliers, inverse) = factors.column(at);
+            for (below, multiplier) in (at + 1..size).zip(multipliers) {
+                column[below] -= multiplier * known;
+            }
+            column[at] = known * inverse.sqrt();
+        }
+    }
+    let values = rotate(&mut columns, goes_on)?;
+    let mut order: Vec<usize> = (0..values.len()).filter(|at| values[*at] > 0.0).collect();
+    order.sort_by(|a, b| values[*b].total_cmp(&values[*a]));
+    // `φ = L⁻ᵀ D^-½ u` with the unit vector `u` has `φᵀ M φ = μ`.
+    for (&at, value) in order.iter().zip(order.iter().map(|at| values[*at])) {
+        let mut column = columns.column_mut(at);
+        for row in (0..size).rev() {
+            let (multipliers, inverse) = factors.column(row);
+            let known = column.as_slice()[row + 1..].iter().zip(multipliers);
+            let known: f64 = known.map(|(below, multiplier)| below * multiplier).sum();
+            column[row] = column[row] / value * inverse.sqrt() - known;
+        }
+    }
+    let mut shapes = columns.select_columns(&order);
+    orthogonalise(pencil, &mut shapes);
+    let strip = |first: usize| {
+        let mut strip = pencil.zeros();
+        for lane in 0..STRIP_WIDTH.min(order.len() - first) {
+            for (to, from) in strip.iter_mut().zip(shapes.column(first + lane).iter()) {
+                to[lane] = *from;
+            }
+        }
+        strip
+    };
+    let strips: Vec<Vec<Lanes>> = (0..order.len()).step_by(STRIP_WIDTH).map(strip).collect();
+    Ok(Pairs { values: order.iter().map(|at| values[*at]).collect(), strips })
+}
+
+/// Takes lower shapes out of higher ones, and makes `φᵀ M φ = 1`: what rounding of a shape costs little energy may have much inertia.
+fn orthogonalise(pencil: &Pencil, shapes: &mut DMatrix<f64>) {
+    let size = pencil.size();
+    let mut momenta = vec![0.0; size];
+    for at in 0..shapes.ncols() {
+        let (lower, mut rest) = shapes.columns_range_pair_mut(..at, at..);
+        let mut shape = rest.column_mut(0);
+        for _ in 0..2 {
+            for (row, momentum) in momenta.iter_mut().enumerate() {
+                *momentum = pencil.inertia.row(row).map(|(column, mass)| mass * shape[column]).sum();
+            }
+            let square: f64 = shape.iter().zip(&momenta).map(|(x, m)| x * m).sum();
+            let scale = 1.0 / square.sqrt();
+            shape *= scale;
+            for other in lower.column_iter() {
+                let part: f64 = other.iter().zip(&momenta).map(|(x, m)| x * m).sum();
+                shape.axpy(-part * scale, &other, 1.0);
+            }
+        }
+    }
+}
+
+/// `H`, with a column of zeros for each movement that has no inertia of its own.
+fn inertia_root(pencil: &Pencil) -> DMatrix<f64> {
+    let size = pencil.size();
+    let mut root = DMatrix::zeros(size, size);
+    for row in 0..size {
+        for (column, mass) in pencil.inertia.row(row) {
+            root[(row, column)] = if column <= row { mass } else { 0.0 };
+        }
+    }
+    for column in 0..size {
+        let whole = pencil.inertia.diagonal(column);
+        let left: f64 = root[(column, column)];
+        let pivot = if left > WITHOUT_INERTIA * whole { left.sqrt() } else { 0.0 };
+        for row in column..size {
+            let entry: f64 = root[(row, column)];
+            root[(row, column)] = if pivot > 0.0 { entry / pivot } else { 0.0 };
+        }
+        for to in column + 1..size {
+            let factor: f64 = root[(to, column)];
+            if factor != 0.0 {
+                for row in to..size {
+                    let entry: f64 = root[(row, column)];
+                    root[(row, to)] -= factor * entry;
+                }
+            }
+        }
+    }
+    root
+}
+
+/// Turns columns in pairs until all are orthogonal; the squares of their sizes.
+fn rotate(
+    columns: &mut DMatrix<f64>,
+    goes_on: &mut dyn FnMut() -> bool,
+) -> Result<Vec<f64>, VibrationError> {
+    let (rows, count) = columns.shape();
+    let square = |column: &[f64]| column.iter().map(|entry| entry * entry).sum::<f64>();
+    let mut sizes = Vec::new();
+    for _ in 0..MOST_SWEEPS {
+        // Anew in each sweep: what rotations make of them drifts by rounding.
+        sizes = columns.as_slice().chunks_exact(rows).map(square).collect();
+        let mut is_turned = false;
+        for first in 0..count {
+            if !goes_on() {
+                return Err(VibrationError::Interrupted);
+            }
+            let (before, behind) = columns.as_mut_slice().split_at_mut((first + 1) * rows);
+            let one = &mut before[first * rows..];
+            for (second, other) in (first + 1..count).zip(behind.chunks_exact_mut(rows)) {
+                let product = one.iter().zip(&*other).map(|(a, b)| a * b).sum::<f64>();
+                let (a, b) = (sizes[first], sizes[second]);
+                if a * b == 0.0 || product.abs() <= ORTHOGONAL * (a * b).sqrt() {
+                    continue;
+                }
+                is_turned = true;
+                let cotangent = (b - a) / (2.0 * product);
+                let tangent = cotangent.signum() / (cotangent.abs() + cotangent.hypot(1.0));
+                let cosine = 1.0 / tangent.hypot(1.0);
+                let sine = cosine * tangent;
+                for (x, y) in one.iter_mut().zip(other) {
+                    (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);
+                }
+                sizes[first] = (a - tangent * product).max(0.0);
+                sizes[second] = b + tangent * product;
+            }
+        }
+        if !is_turned {
+            return Ok(sizes);
+        }
+    }
+    Ok(sizes)
+}

@@ -1,0 +1,262 @@
+//! The resistance of a configuration, taken apart: strains by movements, section forces by strains.
+//!
+//! Section forces `n = k s` are unknowns of their own beside the movements `x`: of a strain `s = B x` only what it lacks, `m = B x - n/k`, is
+//! ever multiplied by the stiffness `k` again. What balances is then rounded like section forces, not like stiffnesses.
+
+use pulp::{Arch, Simd, WithSimd};
+
+use crate::linalg::{STRIP_WIDTH, Strip};
+use crate::model::Model;
+
+/// A number for each of four vectors.
+pub(super) type Lanes = [f64; STRIP_WIDTH];
+
+/// The rows of all spans.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Elastic {
+    spans: Vec<Rows>,
+    /// The unknown of each component of each span; supported ones have the first number behind the unknowns.
+    unknowns: Vec<u32>,
+    /// Of each span: strains, then pairs `p` and `q`.
+    rows: Vec<f64>,
+    stiffness: Vec<f64>,
+    doubts: Vec<f64>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Rows {
+    width: usize,
+    strains: usize,
+    twists: usize,
+}
+
+/// Four shapes with their section forces.
+#[derive(Debug, Clone)]
+pub(super) struct Shapes {
+    pub(super) movements: Vec<Lanes>,
+    /// `n`, a row each.
+    forces: Vec<Lanes>,
+    /// `m`
+    missing: Vec<Lanes>,
+    /// `Bᵀ (n + k m) + K_g x`
+    pub(super) resisting: Vec<Lanes>,
+}
+
+impl Shapes {
+    /// Multiplies each by a number.
+    pub(super) fn scale(&mut self, factors: &Lanes) {
+        let Self { movements, forces, missing, resisting } = self;
+        for row in movements.iter_mut().chain(forces).chain(missing).chain(resisting) {
+            row.iter_mut().zip(factors).for_each(|(entry, factor)| *entry *= factor);
+        }
+    }
+}
+
+/// Energies, doubled.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Energies {
+    /// `Σ n²/k + xᵀ K_g x`
+    pub(super) whole: Lanes,
+    /// The same of the last correction.
+    pub(super) correction: Lanes,
+}
+
+impl Elastic {
+    /// That of the present configuration.
+    pub(super) fn of(model: &Model, size: usize) -> Self {
+        let mut all = Self::default();
+        model.each_span_at_rest(&mut |degrees, span| {
+            let rows = Rows {
+                width: degrees.len(),
+                strains: span.stiffness.len(),
+                twists: span.doubts.len(),
+            };
+            all.spans.push(rows);
+            all.unknowns.extend(degrees.iter().map(|&at| at.min(size) as u32));
+            all.rows.extend(&span.strains);
+            all.rows.extend(&span.twists);
+            all.stiffness.extend(&span.stiffness);
+            all.doubts.extend(&span.doubts);
+        });
+        all
+    }
+
+    /// The number of strains.
+    pub(super) fn strains(&self) -> usize {
+        self.stiffness.len()
+    }
+
+    /// The bytes that it takes.
+    pub(super) fn memory(strains: usize, width: usize) -> usize {
+        strains * (width + 1) * size_of::<f64>()
+    }
+
+    /// Shapes with the section forces of their strains, and their energies.
+    pub(super) fn begin(&self, movements: &Strip) -> (Shapes, Energies) {
+        let zeros = vec![[0.0; STRIP_WIDTH]; self.strains()];
+        let length = movements.len();
+        let mut shapes = Shapes {
+            forces: zeros.clone(),
+            missing: zeros,
+            resisting: vec![[0.0; STRIP_WIDTH]; length],
+            movements: vec![[0.0; STRIP_WIDTH]; length],
+        };
+        // From nothing they are corrected by all that they are.
+        let energies = self.correct(&mut shapes, movements);
+        (shapes, energies)
+    }
+
+    /// `x ← x + δ`, `n ← n + k (m + B δ)`, and what resists then.
+    pub(super) fn correct(&self, shapes: &mut Shapes, by: &Strip) -> Energies {
+        Arch::new().dispatch(Correction { elastic: self, shapes, by })
+    }
+
+    /// What rounding of movements may add to the doubled energy: `Σ k (ε Σ |B| |x|)²`, and of section forces in `xᵀ K_g x`.
+    pub(super) fn rounding_of(&self, movements: &Strip) -> Lanes {
+        Arch::new().dispatch(Rounding { elastic: self, movements })
+    }
+
+    /// Gives each span its unknowns, its rows, and the places of its strains and pairs.
+    #[inline(always)]
+    fn each_span(&self, mut take: impl FnMut(&[u32], &[f64], &[f64], usize, usize)) {
+        let (mut unknown, mut entry, mut strain, mut twist) = (0, 0, 0, 0);
+        for &Rows { width, strains, twists } in &self.spans {
+            let unknowns = &self.unknowns[unknown..][..width];
+            let (rows, pairs) =
+                self.rows[entry..][..(strains + 2 * twists) * width].split_at(strains * width);
+            take(unknowns, rows, pairs, strain, twist);
+            unknown += width;
+            entry += rows.len() + pairs.len();
+            strain += strains;
+            twist += twists;
+        }
+    }
+}
+
+/// Most components of the control points of a span: those of degree 10.
+const WIDEST: usize = 33;
+
+#[inline(always)]
+fn gather(unknowns: &[u32], of: &Strip) -> [Lanes; WIDEST] {
+    let mut gathered = [[0.0; STRIP_WIDTH]; WIDEST];
+    for (to, at) in gathered.iter_mut().zip(unknowns) {
+        *to = of[*at as usize];
+    }
+    gathered
+}
+
+#[inline(always)]
+fn along(row: &[f64], of: &[Lanes; WIDEST]) -> Lanes {
+    let mut sum = [0.0; STRIP_WIDTH];
+    for (entry, of) in row.iter().zip(of) {
+        for (sum, of) in sum.iter_mut().zip(of) {
+            *sum += entry * of;
+        }
+    }
+    sum
+}
+
+#[inline(always)]
+fn spread(row: &[f64], value: &Lanes, to: &mut [Lanes; WIDEST]) {
+    for (entry, to) in row.iter().zip(to) {
+        for (to, value) in to.iter_mut().zip(value) {
+            *to += entry * value;
+        }
+    }
+}
+
+struct Correction<'a> {
+    elastic: &'a Elastic,
+    shapes: &'a mut Shapes,
+    by: &'a Strip,
+}
+
+impl WithSimd for Correction<'_> {
+    type Output = Energies;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Energies {
+        let Self { elastic, shapes, by } = self;
+        let Shapes { movements, forces, missing, resisting } = shapes;
+        for (x, by) in movements.iter_mut().zip(by) {
+            x.iter_mut().zip(by).for_each(|(x, by)| *x += by);
+        }
+        resisting.fill([0.0; STRIP_WIDTH]);
+        let mut energies = Energies::default();
+        elastic.each_span(|unknowns, rows, pairs, strain, _| {
+            let width = unknowns.len();
+            let (x, by) = (gather(unknowns, movements), gather(unknowns, by));
+            let mut out = [[0.0; STRIP_WIDTH]; WIDEST];
+            for (at, row) in rows.chunks_exact(width).enumerate() {
+                let stiffness = elastic.stiffness[strain + at];
+                let (force, missing) = (&mut forces[strain + at], &mut missing[strain + at]);
+                let (change, now) = (along(row, &by), along(row, &x));
+                let mut whole = [0.0; STRIP_WIDTH];
+                for lane in 0..STRIP_WIDTH {
+                    let change = stiffness * (missing[lane] + change[lane]);
+                    force[lane] += change;
+                    missing[lane] = now[lane] - force[lane] / stiffness;
+                    whole[lane] = force[lane] + stiffness * missing[lane];
+                    energies.whole[lane] += force[lane] * force[lane] / stiffness;
+                    energies.correction[lane] += change * change / stiffness;
+                }
+                spread(row, &whole, &mut out);
+            }
+            for pair in pairs.chunks_exact(2 * width) {
+                let (p, q) = pair.split_at(width);
+                let (along_p, along_q) = (along(p, &x), along(q, &x));
+                let (by_p, by_q) = (along(p, &by), along(q, &by));
+                for lane in 0..STRIP_WIDTH {
+                    energies.whole[lane] += 2.0 * along_p[lane] * along_q[lane];
+                    energies.correction[lane] += 2.0 * by_p[lane] * by_q[lane];
+                }
+                spread(p, &along_q, &mut out);
+                spread(q, &along_p, &mut out);
+            }
+            for (at, out) in unknowns.iter().zip(&out) {
+                resisting[*at as usize].iter_mut().zip(out).for_each(|(to, out)| *to += out);
+            }
+        });
+        energies
+    }
+}
+
+struct Rounding<'a> {
+    elastic: &'a Elastic,
+    movements: &'a Strip,
+}
+
+impl WithSimd for Rounding<'_> {
+    type Output = Lanes;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Lanes {
+        let Self { elastic, movements } = self;
+        let mut sums = [0.0; STRIP_WIDTH];
+        let sizes = |row: &[f64], x: &[Lanes; WIDEST]| {
+            let mut sizes = [0.0; STRIP_WIDTH];
+            for (entry, x) in row.iter().zip(x) {
+                for (size, x) in sizes.iter_mut().zip(x) {
+                    *size += (entry * x).abs();
+                }
+            }
+            sizes
+        };
+        elastic.each_span(|unknowns, rows, pairs, strain, twist| {
+            let (width, x) = (unknowns.len(), gather(unknowns, movements));
+            for (at, row) in rows.chunks_exact(width).enumerate() {
+                for (sum, size) in sums.iter_mut().zip(sizes(row, &x)) {
+                    *sum += elastic.stiffness[strain + at] * (f64::EPSILON * size).powi(2);
+                }
+            }
+            for (at, pair) in pairs.chunks_exact(2 * width).enumerate() {
+                let (p, q) = pair.split_at(width);
+                let part = f64::EPSILON + elastic.doubts[twist + at];
+                for ((sum, p), q) in sums.iter_mut().zip(sizes(p, &x)).zip(sizes(q, &x)) {
+                    *sum += 2.0 * part * p * q;
+                }
+            }
+        });
+        sums
+    }
+}

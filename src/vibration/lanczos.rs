@@ -1,0 +1,311 @@
+//! The lowest modes, by the block method of Lanczos with a shifted and inverted stiffness.
+//!
+//! Ericsson & Ruhe, Math. Comp. 35 (1980) 1251–1268; R. G. Grimes, J. G. Lewis & H. D. Simon, SIAM J. Matrix Anal. Appl. 15 (1994) 228–272;
+//! K. Wu & H. D. Simon, SIAM J. Matrix Anal. Appl. 22 (2000) 602–616 (thick restarts). All vectors are kept orthogonal in the inertia.
+
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+
+use super::VibrationError;
+use super::elastic::Lanes;
+use super::pencil::Pencil;
+use crate::linalg::{
+    STRIP_WIDTH, Square, SymmetricFactors, combine, products, subtract_combination,
+};
+
+/// A pair has settled when applying the inverted stiffness gives it back but for this part; its value then for the square of that.
+const SETTLED: f64 = 1e-8;
+
+/// A vector that loses so much by orthogonalisation is made of rounding.
+const LOST: f64 = 1e-11;
+
+/// One that loses so much is orthogonalised once more.
+const SHRUNK: f64 = 1e-7;
+
+/// Most restarts.
+const MOST_RESTARTS: usize = 60;
+
+/// Pairs of `M φ = μ (K + σ M) φ`, the largest `μ` first, `φᵀ M φ = 1`.
+pub(super) struct Pairs {
+    pub(super) values: Vec<f64>,
+    /// Four vectors a strip.
+    pub(super) strips: Vec<Vec<Lanes>>,
+}
+
+/// A search under way.
+pub(super) struct Lanczos<'a> {
+    pencil: &'a Pencil,
+    factors: &'a SymmetricFactors,
+    basis: Vec<Vec<Lanes>>,
+    /// `Vᵀ M A⁻¹ M V`
+    projected: DMatrix<f64>,
+    /// The next block, and how it is coupled to the one before.
+    next: Vec<Lanes>,
+    coupling: Square,
+    /// Random numbers so far.
+    seed: u64,
+}
+
+impl<'a> Lanczos<'a> {
+    /// A search that begins with vectors without pattern, always the same.
+    pub(super) fn new(pencil: &'a Pencil, factors: &'a SymmetricFactors) -> Self {
+        let mut search = Self {
+            pencil,
+            factors,
+            basis: Vec::new(),
+            projected: DMatrix::zeros(0, 0),
+            next: Vec::new(),
+            coupling: Square::default(),
+            seed: 0,
+        };
+        search.next = search.fresh();
+        search
+    }
+
+    /// The number of vectors that are kept for so many modes.
+    pub(super) fn width(count: usize) -> usize {
+        (2 * count + 32).next_multiple_of(STRIP_WIDTH)
+    }
+
+    /// Goes on until so many pairs have settled: these, and more if they have.
+    ///
+    /// # Errors
+    /// When they do not settle, or the search is stopped.
+    pub(super) fn settle(
+        &mut self,
+        count: usize,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Pairs, VibrationError> {
+        let most = Self::width(count);
+        for _ in 0..MOST_RESTARTS {
+            // Looking at the values costs the cube of their number.
+            let mut look = count + 1;
+            loop {
+                if !goes_on() {
+                    return Err(VibrationError::Interrupted);
+                }
+                self.step();
+                let width = self.projected.nrows();
+                if width >= look || width >= most {
+                    let (values, vectors) = self.ritz();
+                    let settled = self.settled(&values, &vectors);
+                    if settled >= count.min(width) && width >= count {
+                        return Ok(self.pairs(&values, &vectors, settled));
+                    }
+                    if width >= most {
+                        self.restart(&values, &vectors, count + (most - count) / 2);
+                        break;
+                    }
+                    look = width + 1 + width / 16;
+                }
+            }
+        }
+        Err(VibrationError::Unsettled { restarts: MOST_RESTARTS })
+    }
+
+    /// Goes on with the pairs that were found and new vectors beside them: of equal modes more are found than there are vectors in a block.
+    pub(super) fn look_beside(&mut self, found: Pairs) {
+        self.projected = DMatrix::from_diagonal(&DVector::from_vec(found.values));
+        self.basis = found.strips;
+        let width = STRIP_WIDTH * self.basis.len();
+        self.projected.resize_mut(width, width, 0.0);
+        self.next = self.fresh();
+        self.coupling = Square::default();
+    }
+
+    /// Applies the inverted stiffness to the next block, and takes what it is made of in the basis.
+    fn step(&mut self) {
+        self.basis.push(std::mem::take(&mut self.next));
+        let (old, new) = (self.projected.nrows(), STRIP_WIDTH * self.basis.len());
+        self.projected.resize_mut(new, new, 0.0);
+        let last = &self.basis[self.basis.len() - 1];
+        let mut image = self.pencil.inertia_times(last);
+        self.factors.solve(&mut image);
+        // Twice is enough (Kahan and Parlett), once is not.
+        let size = self.project(&mut image, Some(old));
+        self.project(&mut image, Some(old));
+        self.coupling = orthonormalise(self.pencil, &mut image);
+        let left = (0..STRIP_WIDTH).map(|at| self.coupling[at][at]).fold(f64::INFINITY, f64::min);
+        if left < SHRUNK * size {
+            // What is left is made of what orthogonalisation has rounded.
+            self.project(&mut image, None);
+            orthonormalise(self.pencil, &mut image);
+        }
+        let lost: Vec<usize> =
+            (0..STRIP_WIDTH).filter(|&lane| self.coupling[lane][lane] == 0.0).collect();
+        if !lost.is_empty() {
+            self.replace(&mut image, &lost);
+        }
+        self.next = image;
+    }
+
+    /// Takes out of a block what it has in common with the basis, and notes it in columns of the projection; the size of the largest
+    /// such part.
+    fn project(&mut self, image: &mut [Lanes], columns: Option<usize>) -> f64 {
+        let momenta = self.pencil.inertia_times(image);
+        let mut largest = 0.0_f64;
+        for (at, block) in self.basis.iter().enumerate() {
+            let parts = products(block, &momenta);
+            subtract_combination(block, &parts, image);
+            for (i, row) in parts.iter().enumerate() {
+                for (j, part) in row.iter().enumerate() {
+                    largest = largest.max(part.abs());
+                    if let Some(old) = columns {
+                        let (row, column) = (STRIP_WIDTH * at + i, old + j);
+                        self.projected[(row, column)] += part;
+                        if row < old {
+                            self.projected[(column, row)] += part;
+                        }
+                    }
+                }
+            }
+        }
+        largest
+    }
+
+    /// Puts vectors of no pattern where some have been lost.
+    fn replace(&mut self, block: &mut [Lanes], lost: &[usize]) {
+        let mut fresh = self.scattered();
+        let keep_lost = |strip: &mut [Lanes]| {
+            for row in strip {
+                (0..STRIP_WIDTH).filter(|at| !lost.contains(at)).for_each(|at| row[at] = 0.0);
+            }
+        };
+        keep_lost(&mut fresh);
+        for _ in 0..2 {
+            let momenta = self.pencil.inertia_times(&fresh);
+            for other in self.basis.iter().map(Vec::as_slice).chain([&*block]) {
+                subtract_combination(other, &products(other, &momenta), &mut fresh);
+            }
+            orthonormalise(self.pencil, &mut fresh);
+        }
+        for (row, fresh) in block.iter_mut().zip(&fresh) {
+            lost.iter().for_each(|&at| row[at] = fresh[at]);
+        }
+    }
+
+    /// A block without pattern, orthogonal to the basis.
+    fn fresh(&mut self) -> Vec<Lanes> {
+        let mut block = self.pencil.zeros();
+        self.replace(&mut block, &[0, 1, 2, 3]);
+        block
+    }
+
+    /// Vectors without pattern that inertia can move.
+    fn scattered(&mut self) -> Vec<Lanes> {
+        let size = self.pencil.size();
+        let mut block = self.pencil.zeros();
+        for entry in block[..size].as_flattened_mut() {
+            // Weyl's sequence, scrambled (Steele, Lea & Flood, SplitMix64, OOPSLA 2014).
+            self.seed = self.seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let mut bits = self.seed;
+            bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            *entry = ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64 - 0.5;
+        }
+        let mut block = self.pencil.inertia_times(&block);
+        self.factors.solve(&mut block);
+        block
+    }
+
+    /// The values and vectors of the projection, the largest first.
+    fn ritz(&self) -> (Vec<f64>, DMatrix<f64>) {
+        let symmetric = (&self.projected + self.projected.transpose()) * 0.5;
+        let SymmetricEigen { eigenvalues, eigenvectors } = symmetric.symmetric_eigen();
+        let mut order: Vec<usize> = (0..eigenvalues.len()).collect();
+        order.sort_by(|a, b| eigenvalues[*b].total_cmp(&eigenvalues[*a]));
+        (order.iter().map(|at| eigenvalues[*at]).collect(), eigenvectors.select_columns(&order))
+    }
+
+    /// How many have settled, from the first on.
+    fn settled(&self, values: &[f64], vectors: &DMatrix<f64>) -> usize {
+        let first = vectors.nrows() - STRIP_WIDTH;
+        let rest = |column: usize| {
+            let row = |row: &Lanes| -> f64 {
+                (0..STRIP_WIDTH).map(|lane| row[lane] * vectors[(first + lane, column)]).sum()
+            };
+            self.coupling.iter().map(|of| row(of).powi(2)).sum::<f64>().sqrt()
+        };
+        let is_settled = |(column, value): (usize, &f64)| rest(column) <= SETTLED * value;
+        values.iter().enumerate().take_while(|pair| is_settled(*pair)).count()
+    }
+
+    /// Combinations of the basis, some of them, zeros behind them.
+    fn combined(&self, vectors: &DMatrix<f64>, count: usize) -> Vec<Vec<Lanes>> {
+        let strip = |first: usize| {
+            let mut strip = self.pencil.zeros();
+            for (at, block) in self.basis.iter().enumerate() {
+                let by: Square = std::array::from_fn(|i| {
+                    std::array::from_fn(|j| {
+                        let column = first + j;
+                        if column < count { -vectors[(STRIP_WIDTH * at + i, column)] } else { 0.0 }
+                    })
+                });
+                subtract_combination(block, &by, &mut strip);
+            }
+            strip
+        };
+        (0..count).step_by(STRIP_WIDTH).map(strip).collect()
+    }
+
+    fn pairs(&self, values: &[f64], vectors: &DMatrix<f64>, count: usize) -> Pairs {
+        Pairs { values: values[..count].to_vec(), strips: self.combined(vectors, count) }
+    }
+
+    /// Keeps the best combinations of the basis alone.
+    fn restart(&mut self, values: &[f64], vectors: &DMatrix<f64>, keep: usize) {
+        let keep = keep.next_multiple_of(STRIP_WIDTH).min(values.len());
+        self.basis = self.combined(vectors, keep);
+        self.projected = DMatrix::from_diagonal(&DVector::from_column_slice(&values[..keep]));
+    }
+}
+
+/// Makes vectors orthonormal in the inertia; the upper triangle that makes the old ones of the new. Vectors that are made of rounding become
+/// zero, and so does their entry on the diagonal.
+fn orthonormalise(pencil: &Pencil, block: &mut [Lanes]) -> Square {
+    let mut triangle = Square::default();
+    (0..STRIP_WIDTH).for_each(|at| triangle[at][at] = 1.0);
+    let mut momenta = pencil.zeros();
+    let mut sizes = None;
+    for _ in 0..3 {
+        pencil.inertia.times(block, &mut momenta);
+        let gram = products(block, &momenta);
+        let sizes = sizes.get_or_insert_with(|| std::array::from_fn(|at| gram[at][at]));
+        let (upper, inverse) = cholesky(&gram, sizes);
+        combine(block, &inverse);
+        let old = triangle;
+        for (i, row) in triangle.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry = (0..STRIP_WIDTH).map(|k| upper[i][k] * old[k][j]).sum();
+            }
+        }
+    }
+    triangle
+}
+
+/// `R` with `Rᵀ R = G`, and its inverse; rows and columns that are made of rounding, compared with the first sizes, are zero.
+fn cholesky(gram: &Square, sizes: &Lanes) -> (Square, Square) {
+    let (mut upper, mut inverse) = (Square::default(), Square::default());
+    for j in 0..STRIP_WIDTH {
+        for i in 0..j {
+            let known: f64 = (0..i).map(|k| upper[k][i] * upper[k][j]).sum();
+            if upper[i][i] > 0.0 {
+                upper[i][j] = (gram[i][j] - known) / upper[i][i];
+            }
+        }
+        let left = gram[j][j] - (0..j).map(|k| upper[k][j].powi(2)).sum::<f64>();
+        let is_left = left > 1e-14 * gram[j][j] && left > LOST * LOST * sizes[j];
+        if is_left {
+            upper[j][j] = left.sqrt();
+            inverse[j][j] = 1.0 / upper[j][j];
+            for i in (0..j).rev() {
+                if upper[i][i] > 0.0 {
+                    let known: f64 = (i + 1..=j).map(|k| upper[i][k] * inverse[k][j]).sum();
+                    inverse[i][j] = -known / upper[i][i];
+                }
+            }
+        } else {
+            (0..j).for_each(|i| upper[i][j] = if upper[i][i] > 0.0 { upper[i][j] } else { 0.0 });
+        }
+    }
+    (upper, inverse)
+}

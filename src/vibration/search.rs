@@ -1,0 +1,183 @@
+//! The search for the lowest modes: a shift, pairs, and a count that shows that none is missing.
+
+use super::VibrationError;
+use super::dense::all_pairs;
+use super::lanczos::{Lanczos, Pairs};
+use super::modes::Mode;
+use super::pencil::Pencil;
+use super::refinement::{Refined, assess, refine};
+use crate::linalg::{STRIP_WIDTH, SymmetricFactors};
+
+/// Up to so many unknowns all modes are found at once,
+const SMALL: usize = 240;
+
+/// and up to so many where more than a quarter of them is asked for.
+const MEDIUM: usize = 2000;
+
+/// Matrices of the size of the stiffness that are there at a time where all modes are found.
+const DENSE_COPIES: usize = 5;
+
+/// An unstable configuration needs a larger shift; after so many tries by a hundred there is none.
+const MOST_SHIFTS: usize = 14;
+
+/// A pair whose residual is larger is refused.
+const LARGEST_RESIDUAL: f64 = 1e-6;
+
+/// Modes that differ by less than this part of `ω² + σ` are equal where modes are counted.
+const EQUAL: f64 = 1e-6;
+
+/// A square below so many times its rounding is zero.
+const ROUNDING: f64 = 64.0;
+
+/// A square below this part of the shift is zero: shapes are orthogonal but for their rounding, and that of a rigid motion has so much of
+/// the others.
+const HIDDEN: f64 = 1e-14;
+
+/// A shift is well chosen when the lowest square that is not zero is not smaller than it by more,
+const LARGEST_SHIFT: f64 = 1e4;
+
+/// and, where there are zeros, not larger by more.
+const SMALLEST_SHIFT: f64 = 1e-6;
+
+/// How modes are looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Search {
+    /// All at once, and the lowest are taken.
+    All,
+    /// The lowest alone.
+    Lowest,
+}
+
+impl Search {
+    fn of(unknowns: usize, count: usize) -> Self {
+        let is_large = unknowns > MEDIUM || (unknowns > SMALL && 4 * count < unknowns);
+        if is_large { Self::Lowest } else { Self::All }
+    }
+}
+
+/// Whether a scene is small enough for all its modes to be found at once.
+pub(super) fn is_small(unknowns: usize) -> bool {
+    unknowns <= SMALL
+}
+
+/// About the numbers that looking for so many modes keeps at a time.
+pub(super) fn numbers(unknowns: usize, count: usize) -> usize {
+    match Search::of(unknowns, count) {
+        Search::All => DENSE_COPIES * unknowns * unknowns,
+        // The basis, what becomes of it in a restart, and pairs with their momenta, shapes and section forces.
+        Search::Lowest => unknowns * (2 * Lanczos::width(count) + 3 * count + 16 * STRIP_WIDTH),
+    }
+}
+
+/// The lowest modes.
+pub(super) fn lowest(
+    pencil: &Pencil,
+    count: usize,
+    goes_on: &mut dyn FnMut() -> bool,
+) -> Result<Vec<Mode>, VibrationError> {
+    let (shift, factors) = definite(pencil, pencil.scale)?;
+    let found = with_shift(pencil, shift, &factors, count, goes_on)?;
+    let better = better_shift(&found, shift);
+    let found = match better.and_then(|better| Some((better, pencil.factors(better)?))) {
+        None => found,
+        Some((shift, factors)) => match with_shift(pencil, shift, &factors, count, goes_on) {
+            Err(VibrationError::Interrupted) => return Err(VibrationError::Interrupted),
+            // What was found first is as good as its residuals say.
+            Err(_) => found,
+            Ok(finer) => finer,
+        },
+    };
+    accept(found)
+}
+
+/// A shift from one on that makes the stiffness positive definite, and the factors.
+fn definite(pencil: &Pencil, mut shift: f64) -> Result<(f64, SymmetricFactors), VibrationError> {
+    for _ in 0..=MOST_SHIFTS {
+        if let Some(factors) = pencil.factors(shift) {
+            return Ok((shift, factors));
+        }
+        shift *= 100.0;
+    }
+    Err(VibrationError::Indefinite)
+}
+
+/// The lowest modes, with a residual each.
+fn with_shift(
+    pencil: &Pencil,
+    shift: f64,
+    factors: &SymmetricFactors,
+    count: usize,
+    goes_on: &mut dyn FnMut() -> bool,
+) -> Result<Vec<Mode>, VibrationError> {
+    let sure = match Search::of(pencil.size(), count) {
+        Search::All => {
+            let pairs = all_pairs(pencil, factors, goes_on)?;
+            let available = pairs.values.len();
+            if available < count {
+                return Err(VibrationError::Count { asked: count, available });
+            }
+            assess(pencil, shift, &pairs, count, goes_on)?
+        }
+        Search::Lowest => {
+            let pairs = counted_pairs(pencil, shift, factors, count, goes_on)?;
+            refine(pencil, factors, shift, &pairs, count, goes_on)?
+        }
+    };
+    let mut modes: Vec<Mode> = sure.into_iter().map(|pair| mode_of(pair, shift)).collect();
+    modes.sort_by(|a, b| a.square.total_cmp(&b.square));
+    Ok(modes)
+}
+
+/// Pairs of which a count shows that none is missing.
+fn counted_pairs(
+    pencil: &Pencil,
+    shift: f64,
+    factors: &SymmetricFactors,
+    count: usize,
+    goes_on: &mut dyn FnMut() -> bool,
+) -> Result<Pairs, VibrationError> {
+    let mut search = Lanczos::new(pencil, factors);
+    let mut wanted = count;
+    loop {
+        let pairs = search.settle(wanted, goes_on)?;
+        // Those that equal the last one are as good as it; all below must be there.
+        let below = 1.0 / pairs.values[count - 1] * (1.0 - EQUAL) - shift;
+        let found = pairs.values.iter().filter(|value| 1.0 / *value - shift < below).count();
+        match pencil.modes_below(below) {
+            None => return Err(VibrationError::Uncounted),
+            Some(there) if there <= found => return Ok(pairs),
+            Some(there) => wanted = there.max(count),
+        }
+        search.look_beside(pairs);
+    }
+}
+
+fn mode_of(pair: Refined, shift: f64) -> Mode {
+    let Refined { square, residual, rounding, shape } = pair;
+    let hidden = (residual * residual + HIDDEN) * (square.abs() + shift);
+    let rounding = ROUNDING * rounding + hidden;
+    let square = if square.abs() <= rounding { 0.0 } else { square };
+    Mode { square, rounding, residual, shape }
+}
+
+/// A shift that keeps more digits, if there is one.
+fn better_shift(modes: &[Mode], shift: f64) -> Option<f64> {
+    let lowest = modes.iter().map(|mode| mode.square).find(|square| *square != 0.0)?;
+    let is_large = shift > LARGEST_SHIFT * lowest.abs();
+    let is_small = shift < SMALLEST_SHIFT * lowest && modes[0].is_free();
+    match lowest {
+        lowest if is_large && lowest > 0.0 => Some(lowest),
+        lowest if is_large => Some(-4.0 * lowest),
+        lowest if is_small => Some(0.01 * lowest),
+        _ => None,
+    }
+}
+
+/// Modes whose residual is small.
+fn accept(modes: Vec<Mode>) -> Result<Vec<Mode>, VibrationError> {
+    let bad = |mode: &Mode| !(mode.residual <= LARGEST_RESIDUAL && mode.square.is_finite());
+    match modes.iter().position(bad) {
+        None => Ok(modes),
+        Some(at) => Err(VibrationError::Hidden { modes: at, residual: modes[at].residual }),
+    }
+}
