@@ -17,7 +17,9 @@ fn processor_time() -> f64 {
 }
 
 fn main() {
-    for (spans, free, ratio) in [(33_333, false, 1e6), (33_333, true, 1e6), (33_333, false, 1e10), (33_333, true, 1e4)] {
+    for (spans, free, ratio) in
+        [(33_333, false, 1e6), (33_333, true, 1e6), (33_333, false, 1e10), (33_333, true, 1e4)]
+    {
         let mut scene = Scene::new("large");
         let axis = Curve::line(Vec2::zeros(), Vec2::new(10.0, 0.0)).unwrap();
         let mesh = Mesh::bspline(spans, 3, 2).unwrap();
@@ -58,8 +60,14 @@ fn main() {
                     let residual = modes.all().iter().map(|m| m.residual).fold(0.0, f64::max);
                     println!(
                         "{} unknowns, free {free}, EA {ratio:.0e}: factorisation {one:.4} s, modes {all:.4} s = {:.1}; residual {residual:.1e}, squares {:?}",
-                        model.unknowns(), all / one,
-                        modes.all().iter().map(|m| m.angular_frequency()).take(5).collect::<Vec<_>>()
+                        model.unknowns(),
+                        all / one,
+                        modes
+                            .all()
+                            .iter()
+                            .map(|m| m.angular_frequency())
+                            .take(5)
+                            .collect::<Vec<_>>()
                     );
                 }
                 Err(error) => println!("{error}"),

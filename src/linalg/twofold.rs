@@ -2,6 +2,9 @@
 //!
 //! T. J. Dekker, Numer. Math. 18 (1971) 224–242; Y. Hida, X. S. Li & D. H. Bailey, Algorithms for quad-double precision floating
 //! point arithmetic, ARITH-15 (2001) 155–162. Products are split by fused multiplication and addition, which is exact on every machine.
+//!
+//! The fused product and sum is rounded once, as IEEE 754 says, by whatever computes it: the same bits on every machine.
+#![allow(clippy::disallowed_methods)]
 
 use pulp::Simd;
 

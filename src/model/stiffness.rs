@@ -5,6 +5,7 @@
 
 use super::Model;
 use crate::beams::SpanAtRest;
+use crate::elementary::square;
 use crate::linalg::{PreciseBand, SymmetricSparse};
 
 impl Model {
@@ -42,7 +43,7 @@ impl Model {
         let bending =
             extents().map(|(section, _)| section.bending_stiffness).fold(f64::INFINITY, f64::min);
         let mass = extents().map(|(section, _)| section.mass_per_length).fold(0.0, f64::max);
-        (length > 0.0).then(|| bending / mass / length.powi(4))
+        (length > 0.0).then(|| bending / mass / square(square(length)))
     }
 
     /// In how many ways a movement from here would release energy if loads keep their directions: the negative eigenvalues of the

@@ -219,11 +219,11 @@ impl Simulation {
             if self.model.unknowns() > MOST_UNKNOWNS {
                 return None;
             }
-            let mut drawn = Model::assemble(&self.scene).ok()?;
+            let drawn = Model::assemble(&self.scene).ok()?;
             MODES.iter().find_map(|count| {
-                let modes = match Modes::of(&mut drawn, *count, &mut || true) {
+                let modes = match Modes::of(&drawn, *count, &mut || true) {
                     Err(VibrationError::Count { available, .. }) if available > 0 => {
-                        Modes::of(&mut drawn, available, &mut || true)
+                        Modes::of(&drawn, available, &mut || true)
                     }
                     found => found,
                 };

@@ -10,6 +10,7 @@ use super::VibrationError;
 use super::elastic::Lanes;
 use super::lanczos::Pairs;
 use super::pencil::Pencil;
+use crate::elementary::hypot;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors};
 
 /// Columns are orthogonal when their product is below this part of their sizes.
@@ -79,7 +80,8 @@ fn orthogonalise(pencil: &Pencil, shapes: &mut DMatrix<f64>) {
         let mut shape = rest.column_mut(0);
         for _ in 0..2 {
             for (row, momentum) in momenta.iter_mut().enumerate() {
-                *momentum = pencil.inertia.row(row).map(|(column, mass)| mass * shape[column]).sum();
+                *momentum =
+                    pencil.inertia.row(row).map(|(column, mass)| mass * shape[column]).sum();
             }
             let square: f64 = shape.iter().zip(&momenta).map(|(x, m)| x * m).sum();
             let scale = 1.0 / square.sqrt();
@@ -148,8 +150,8 @@ fn rotate(
                 }
                 is_turned = true;
                 let cotangent = (b - a) / (2.0 * product);
-                let tangent = cotangent.signum() / (cotangent.abs() + cotangent.hypot(1.0));
-                let cosine = 1.0 / tangent.hypot(1.0);
+                let tangent = cotangent.signum() / (cotangent.abs() + hypot(cotangent, 1.0));
+                let cosine = 1.0 / hypot(tangent, 1.0);
                 let sine = cosine * tangent;
                 for (x, y) in one.iter_mut().zip(other) {
                     (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);

@@ -5,6 +5,7 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
+use crate::elementary::square;
 use crate::linalg::{STRIP_WIDTH, Strip};
 use crate::model::Model;
 
@@ -246,7 +247,7 @@ impl WithSimd for Rounding<'_> {
             let (width, x) = (unknowns.len(), gather(unknowns, movements));
             for (at, row) in rows.chunks_exact(width).enumerate() {
                 for (sum, size) in sums.iter_mut().zip(sizes(row, &x)) {
-                    *sum += elastic.stiffness[strain + at] * (f64::EPSILON * size).powi(2);
+                    *sum += elastic.stiffness[strain + at] * square(f64::EPSILON * size);
                 }
             }
             for (at, pair) in pairs.chunks_exact(2 * width).enumerate() {

@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use super::VibrationError;
 use super::elastic::Lanes;
 use super::pencil::Pencil;
+use crate::elementary::square;
 use crate::linalg::{
     STRIP_WIDTH, Square, SymmetricFactors, combine, products, subtract_combination,
 };
@@ -223,7 +224,7 @@ impl<'a> Lanczos<'a> {
             let row = |row: &Lanes| -> f64 {
                 (0..STRIP_WIDTH).map(|lane| row[lane] * vectors[(first + lane, column)]).sum()
             };
-            self.coupling.iter().map(|of| row(of).powi(2)).sum::<f64>().sqrt()
+            self.coupling.iter().map(|of| square(row(of))).sum::<f64>().sqrt()
         };
         let is_settled = |(column, value): (usize, &f64)| rest(column) <= SETTLED * value;
         values.iter().enumerate().take_while(|pair| is_settled(*pair)).count()
@@ -292,7 +293,7 @@ fn cholesky(gram: &Square, sizes: &Lanes) -> (Square, Square) {
                 upper[i][j] = (gram[i][j] - known) / upper[i][i];
             }
         }
-        let left = gram[j][j] - (0..j).map(|k| upper[k][j].powi(2)).sum::<f64>();
+        let left = gram[j][j] - (0..j).map(|k| square(upper[k][j])).sum::<f64>();
         let is_left = left > 1e-14 * gram[j][j] && left > LOST * LOST * sizes[j];
         if is_left {
             upper[j][j] = left.sqrt();
