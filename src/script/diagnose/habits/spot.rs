@@ -75,7 +75,7 @@ impl<'s> Spot<'s> {
     }
 
     /// The word so many places behind the one that the statement begins with.
-    pub fn from_first(&self, index: usize) -> &str {
+    pub fn in_statement(&self, index: usize) -> &str {
         self.words.get(self.first + index).map_or("", |word| word.text.as_str())
     }
 
