@@ -140,8 +140,8 @@ fn cantilever(load: Option<Schedule>) -> Scene {
 fn slow_loads_do_not_shake_up_a_cantilever_much_faster_than_a_step() {
     // What the lowest vibration turns by in a step is 2π or 4π and by 0.3 more or less, as much as the load: the parts of this
     // method, then those of Suzuki (1990), under which the energy grows 25-fold.
-    let mut model = Model::assemble(&cantilever(None)).unwrap();
-    let modes = Modes::of(&mut model, 1, &mut || true).unwrap();
+    let model = Model::assemble(&cantilever(None)).unwrap();
+    let modes = Modes::of(&model, 1, &mut || true).unwrap();
     let lowest = modes.all()[0].angular_frequency();
     for frequency in [6.739, 7.668, 28.46, 34.99, 8.506, 10.674] {
         let dt = frequency / lowest;

@@ -19,7 +19,7 @@ pub fn find(name: &str) -> Option<&'static Elsewhere> {
     find_exactly(name).or_else(|| {
         let lower = name.to_lowercase();
         let same = |word: &&str| word.to_lowercase() == lower;
-        all().find(|entry| entry.words.iter().any(&same))
+        all().find(|entry| entry.words.iter().any(same))
     })
 }
 

@@ -84,7 +84,7 @@ fn body(spot: &Spot) -> Option<Cure> {
         "then" | "do" => format!("'{}' does not begin a block here", spot.word(0)),
         _ => "the body of if, else, for and while stands in braces".into(),
     };
-    let head = match spot.word_of_statement(0) {
+    let head = match spot.in_statement(0) {
         "else" => "else { … }",
         "for" => "for x in array { … }",
         "while" => "while condition { … }",
@@ -96,8 +96,8 @@ fn body(spot: &Spot) -> Option<Cure> {
 
 /// `raise …`, `except …`.
 fn handler(spot: &Spot) -> Option<Cure> {
-    if matches!(spot.word_of_statement(0), "raise" | "error") && spot.count() == 1 {
-        let told = format!("'{}' is not a word of the language", spot.word_of_statement(0));
+    if matches!(spot.in_statement(0), "raise" | "error") && spot.count() == 1 {
+        let told = format!("'{}' is not a word of the language", spot.in_statement(0));
         return spot.cure(spot.first(), told, "write throw \"what is wrong\";");
     }
     let is_handler = matches!(spot.word(0), "except" | "finally" | "rescue" | "otherwise");

@@ -27,7 +27,7 @@ const FUNCTION_WORDS: &[&str] = &["def", "func", "function", "fun", "sub", "proc
 
 /// `def f(x):`, `function y = f(x)`.
 fn function(spot: &Spot) -> Option<Cure> {
-    let word = spot.word_of_statement(0);
+    let word = spot.in_statement(0);
     if !FUNCTION_WORDS.contains(&word) || spot.count() == 0 {
         return None;
     }
@@ -48,12 +48,12 @@ fn function(spot: &Spot) -> Option<Cure> {
 
 /// `fn f(x) => x`, `fn f(x) = x^2;`, `let f(x) = x^2;`, `f(x) = x^2;`, `fn f x { … }`.
 fn function_body(spot: &Spot) -> Option<Cure> {
-    let is_headed = spot.word_of_statement(0) == "fn"
+    let is_headed = spot.in_statement(0) == "fn"
         && matches!(
             spot.error,
             ParseErrorType::FnMissingBody(_) | ParseErrorType::FnMissingParams(_)
         );
-    let is_arrow = spot.word_of_statement(0) == "fn" && matches!(spot.word(0), "=>" | "->");
+    let is_arrow = spot.in_statement(0) == "fn" && matches!(spot.word(0), "=>" | "->");
     let is_let = matches!(spot.word(-2), "let" | "const") && spot.word(0) == "(";
     let is_assigned = matches!(spot.error, ParseErrorType::AssignmentToInvalidLHS(_))
         && spot.is_name(0)
@@ -87,10 +87,9 @@ fn type_first(spot: &Spot) -> Option<Cure> {
         "var", "val", "int", "float", "double", "auto", "bool", "string", "String", "real",
         "local", "global", "static", "my", "dim", "real64", "number",
     ];
-    let word = spot.word_of_statement(0);
-    let name = spot.word_of_statement(1);
-    let is_declaration =
-        WORDS.contains(&word) && matches!(spot.word_of_statement(2), "=" | ";" | "");
+    let word = spot.in_statement(0);
+    let name = spot.in_statement(1);
+    let is_declaration = WORDS.contains(&word) && matches!(spot.in_statement(2), "=" | ";" | "");
     (is_declaration && !name.is_empty() && name.starts_with(char::is_alphabetic)).then_some(())?;
     spot.cure(
         spot.first(),
@@ -106,12 +105,12 @@ fn several_names(spot: &Spot) -> Option<Cure> {
     }
     let is_decimal =
         spot.is_number(-1) && spot.is_number(1) && spot.is_joined(0) && spot.is_joined(1);
-    if is_decimal && !spot.word(-1).contains('.') && spot.word_of_statement(0) != "return" {
+    if is_decimal && !spot.word(-1).contains('.') && spot.in_statement(0) != "return" {
         let (whole, fraction) = (spot.word(-1), spot.word(1));
         let hint = format!("a number has a decimal point: {whole}.{fraction}");
         return spot.cure(0, "a comma stands in a number", hint);
     }
-    if spot.word_of_statement(0) == "return" {
+    if spot.in_statement(0) == "return" {
         let value = spot.piece(spot.first() + 1, 0);
         let hint =
             format!("give an array back: return [{value}, …]; or a map: return #{{ a: …, b: … }}");
@@ -175,8 +174,8 @@ fn compared(spot: &Spot) -> Option<Cure> {
         let hint = format!("write let {} = …", spot.word(-1));
         return spot.cure(0, "== compares; it gives no value to a variable", hint);
     }
-    let is_condition = matches!(spot.word_of_statement(0), "if" | "while" | "until");
-    let else_if = spot.word_of_statement(0) == "else" && spot.word_of_statement(1) == "if";
+    let is_condition = matches!(spot.in_statement(0), "if" | "while" | "until");
+    let else_if = spot.in_statement(0) == "else" && spot.in_statement(1) == "if";
     if spot.word(0) == "=" && (is_condition || else_if) {
         return spot.cure(0, "= gives a value to a variable; it does not compare", "write ==");
     }
@@ -185,7 +184,7 @@ fn compared(spot: &Spot) -> Option<Cure> {
 
 /// `from math import sin`, `using`, `#include`, `require`.
 fn import(spot: &Spot) -> Option<Cure> {
-    let word = spot.word_of_statement(0);
+    let word = spot.in_statement(0);
     let is_import = matches!(word, "from" | "using" | "include" | "require" | "use" | "load")
         && spot.count() >= 1;
     let is_reserved = matches!(word, "use") || matches!(spot.word(0), "use");
@@ -199,7 +198,7 @@ fn import(spot: &Spot) -> Option<Cure> {
 
 /// `class Beam { … }`.
 fn class(spot: &Spot) -> Option<Cure> {
-    let word = spot.word_of_statement(0);
+    let word = spot.in_statement(0);
     let is_class = matches!(word, "class" | "struct" | "interface" | "enum" | "type" | "classdef");
     (is_class && spot.count() == 1).then_some(())?;
     spot.cure(
@@ -215,7 +214,7 @@ fn misspelt(spot: &Spot) -> Option<Cure> {
         "let", "const", "if", "else", "for", "while", "loop", "fn", "return", "import", "export",
         "throw", "try", "switch", "break", "continue",
     ];
-    let word = spot.word_of_statement(0);
+    let word = spot.in_statement(0);
     let reached = spot.count() == 1 && (spot.is_value(0) || matches!(spot.word(0), "(" | "{"));
     let before = spot.word(spot.first() - 1);
     let starts = !matches!(before, "," | "(" | "[" | "#{" | ":");

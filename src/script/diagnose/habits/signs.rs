@@ -50,7 +50,7 @@ fn sign(spot: &Spot) -> Option<Cure> {
             && format!("{}{}", spot.word(0), spot.word(1)).starts_with(sign)
             && spot.is_joined(1);
         let starts = *sign == "@" && spot.word(0).starts_with('@');
-        let is_body = spot.word_of_statement(0) == "fn" && matches!(*sign, "=>" | "->");
+        let is_body = spot.in_statement(0) == "fn" && matches!(*sign, "=>" | "->");
         if (is_here || halves || starts) && !is_body {
             return spot.cure(0, format!("'{sign}' is not part of the language"), *hint);
         }

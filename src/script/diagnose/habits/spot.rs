@@ -63,8 +63,11 @@ impl<'s> Spot<'s> {
             words.push(Word { text, token, at, is_joined });
         }
         let here = found - start;
-        let gap = here.checked_sub(1).map_or("", |last| &program.text[ends[last]..ends[last + 1]]);
-        let gap = gap.to_owned();
+        let gap = here.checked_sub(1).and_then(|last| {
+            // Places within texts that are not closed may go back.
+            program.text.get(ends[last]..ends[last + 1])
+        });
+        let gap = gap.unwrap_or_default().to_owned();
         let first = first_of_statement(&words, here);
         Self { catalog, error, words, here, first, place, gap }
     }
@@ -75,7 +78,7 @@ impl<'s> Spot<'s> {
     }
 
     /// The word so many places behind the one that the statement begins with.
-    pub fn word_of_statement(&self, index: usize) -> &str {
+    pub fn in_statement(&self, index: usize) -> &str {
         self.words.get(self.first + index).map_or("", |word| word.text.as_str())
     }
 
