@@ -107,8 +107,8 @@ fn deep_arch() -> u64 {
 }
 
 fn modes(scene: &Scene, count: usize) -> u64 {
-    let mut model = Model::assemble(scene).unwrap();
-    let modes = Modes::of(&mut model, count, &mut || true).unwrap();
+    let model = Model::assemble(scene).unwrap();
+    let modes = Modes::of(&model, count, &mut || true).unwrap();
     let shapes: Vec<_> = (0..count).map(|mode| modes.displaced(mode, 0.1)).collect();
     hash(&(modes.all(), shapes))
 }
