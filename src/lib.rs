@@ -6,6 +6,8 @@
 //! main → cli → repl, exercises → script → output, analysis → simulation → statics → vibration → model ┬→ joints, loads → beams → geometry
 //!                                                                                                     └→ integrators → newton → linalg
 //! ```
+//!
+//! `folders` opens files for all that touch any.
 
 #![forbid(unsafe_code)]
 
@@ -13,6 +15,7 @@ pub mod analysis;
 pub mod beams;
 pub mod cli;
 pub mod exercises;
+pub mod folders;
 pub mod geometry;
 pub mod integrators;
 pub mod joints;

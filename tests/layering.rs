@@ -26,6 +26,7 @@ const BRANCHES: &[(&str, &[&str])] = &[
     ("integrators", &["newton", "linalg"]),
     ("newton", &["linalg"]),
     ("linalg", &[]),
+    ("folders", &[]),
 ];
 
 /// What a layer may use; none if it is in no table.
@@ -33,7 +34,8 @@ fn allowed(layer: &str) -> Option<Vec<&'static str>> {
     match layer {
         "main.rs" => return Some(vec!["cli"]),
         // It draws plain data.
-        "lib.rs" | "output" => return Some(Vec::new()),
+        "lib.rs" => return Some(Vec::new()),
+        "output" => return Some(vec!["folders"]),
         _ => {}
     }
     if let Some((_, uses)) = BRANCHES.iter().find(|(name, _)| *name == layer) {

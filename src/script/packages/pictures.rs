@@ -136,7 +136,7 @@ pub(super) fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic,
         PictureKind::Svg => figure.to_svg()?.into_bytes(),
         PictureKind::Png => figure.to_png()?,
     };
-    call.context().output().write(&file, &bytes)?;
+    call.context().write_file(&file, &bytes)?;
     Ok(Dynamic::UNIT)
 }
 
@@ -284,7 +284,7 @@ pub(super) fn write_csv(call: &Call, table: CsvTable) -> Result<Dynamic, ScriptE
     if !file.ends_with(".csv") {
         return Err(call.error(format!("\"{file}\" does not end in .csv")));
     }
-    call.context().output().write(&file, table.to_text()?.as_bytes())?;
+    call.context().write_file(&file, table.to_text()?.as_bytes())?;
     Ok(Dynamic::UNIT)
 }
 
