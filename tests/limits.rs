@@ -325,8 +325,7 @@ fn a_text_that_grows_too_long_is_refused_before_it_is_made() {
 
 #[test]
 fn widths_of_any_size_are_printed() {
-    let script =
-        "let s = \"\"; s.pad(70000, 'a'); tabulate([\"a\", \"b\"], [[s, \"x\"], [\"y\", \"z\"]]);";
+    let script = "let s = \"\"; s.pad(70000, 'a'); print(tabulate([\"a\", \"b\"], [[s, \"x\"], [\"y\", \"z\"]]));";
     let output = run(script, &[]);
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
 }
@@ -401,6 +400,18 @@ fn pipes_devices_and_enormous_files_are_refused_at_once() {
             ends_in_time(&home, &[command, file], &[words]);
         }
     }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn input_without_an_end_is_refused() {
+    let home = Home::with(&[]);
+    let begun = Instant::now();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
+    let zero = fs::File::open("/dev/zero").unwrap();
+    let output = command.arg("repl").current_dir(home.0.path()).stdin(zero).output().unwrap();
+    expect(&output, &["cannot read the input: a line of it has no end"]);
+    assert!(begun.elapsed() < Duration::from_secs(20));
 }
 
 #[test]

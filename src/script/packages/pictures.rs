@@ -143,8 +143,11 @@ pub(super) fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic,
 fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let simulations = things(call, as_simulation)?;
     let options = call.options_or_defaults("options")?;
-    let mut pictures =
-        simulations.iter().map(|of| motion(call, of, &options)).collect::<Result<Vec<_>, _>>()?;
+    let picture = |of: &SimulationHandle| {
+        call.proceed()?;
+        motion(call, of, &options)
+    };
+    let mut pictures = simulations.iter().map(picture).collect::<Result<Vec<_>, ScriptError>>()?;
     match pictures.len() {
         1 => write_picture(call, &pictures.remove(0)),
         _ => write_picture(call, &MotionPicture::side_by_side(pictures)),
