@@ -7,7 +7,8 @@
 //!                                                                                                     └→ integrators → newton → linalg
 //! ```
 //!
-//! At the bottom of all stands [`elementary`]: sine, logarithm and power with the same bits on every machine.
+//! At the bottom of all stand [`elementary`]: sine, logarithm and power with the same bits on every machine, and [`folders`], which opens files for all that
+//! touch any.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
@@ -17,6 +18,7 @@ pub mod beams;
 pub mod cli;
 pub mod elementary;
 pub mod exercises;
+pub mod folders;
 pub mod geometry;
 pub mod integrators;
 pub mod joints;

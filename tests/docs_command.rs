@@ -90,6 +90,20 @@ fn definitions_are_written_for_every_table() {
 }
 
 #[test]
+fn files_of_somebody_else_are_not_replaced_by_definitions() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().to_str().expect("a path in UTF-8").to_owned();
+    for _ in 0..2 {
+        assert_eq!(docs(&["--definitions", &path]).status.code(), Some(0));
+    }
+    fs::write(folder.path().join("scenes.d.rhai"), "mine").expect("a file");
+    let output = docs(&["--definitions", &path]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("is no definition file"));
+    assert_eq!(fs::read(folder.path().join("scenes.d.rhai")).expect("the file"), b"mine");
+}
+
+#[test]
 fn a_folder_that_cannot_be_made_is_named() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("taken");

@@ -184,6 +184,122 @@ fn tricks_do_not_pass() {
     assert!(half.contains("let it run to 7.5"), "{half}");
 }
 
+/// Ways to pass without the idea that were found: the exercise, the solution with what stands in it and what the cheat writes there,
+/// and what the cheat is told.
+const CHEATS: &[(&str, &[(&str, &str)], &str)] = &[
+    // Rows that hide what the energy does between them.
+    (
+        "keep_the_energy",
+        &[
+            ("energy_momentum()", "trapezoidal()"),
+            ("dt: 0.1", "dt: 0.1, record: nothing()"),
+            ("plot_history(sim,", "// (sim,"),
+        ],
+        "the energy wanders by",
+    ),
+    (
+        "keep_the_energy",
+        &[("energy_momentum()", "trapezoidal()"), ("dt: 0.1", "dt: 0.1, record: every(75)")],
+        "the energy wanders by",
+    ),
+    // A simulation of somebody else.
+    (
+        "keep_the_energy",
+        &[
+            ("energy_momentum()", "trapezoidal()"),
+            ("integrator: rule", "integrator: energy_momentum()"),
+            ("sim.run_to(7.5);", "sim.run_to(7.5); sim.save(\"a\"); sim = load_simulation(\"a\");"),
+        ],
+        "the energy wanders by",
+    ),
+    (
+        "sliding_rule",
+        &[
+            ("let rule = conserving()", "let rule = relaxed()"),
+            ("rule: rule", "rule: conserving()"),
+        ],
+        "the slider has left its beam",
+    ),
+    // The known error is drawn into the beam.
+    (
+        "budget",
+        &[
+            ("fourth_order()", "energy_momentum()"),
+            ("line([0, 8], [6, 0])", "line([-0.258, 8.665], [5.742, 0.665])"),
+        ],
+        "the end is off by 0.7",
+    ),
+    // A load that knows what the judge looks at.
+    (
+        "change_one_number",
+        &[
+            ("const EI = 28;", "const EI = 5;"),
+            (
+                "let sim =",
+                "scene.force(beam.end, [0, 1], |t| if t < 0.2 { 3 } else { 0 }); let sim =",
+            ),
+        ],
+        "the strip is too soft",
+    ),
+    (
+        "corner",
+        &[(
+            "scene.rigid(leg.end, arm.start);",
+            "scene.hinge(leg.end, arm.start); scene.moment(arm.end, 0.1);",
+        )],
+        "the corner opens",
+    ),
+    // So heavy that nothing moves.
+    (
+        "corner",
+        &[
+            ("scene.rigid(leg.end, arm.start);", "scene.hinge(leg.end, arm.start);"),
+            ("rho_A: 1, rho_I: 0.1", "rho_A: 1e15, rho_I: 1e15"),
+        ],
+        "leave the beams as they are",
+    ),
+    (
+        "pendulum",
+        &[("let sim =", "scene.moment(bar.start, 1e-3, |t| if t < 2 { 1 } else { 0 }); let sim =")],
+        "something besides gravity moves the bar",
+    ),
+    // The right scene with a wrong schedule beside it.
+    (
+        "load_inside_a_step",
+        &[(
+            "let push = hold_for(2.5);",
+            "let push = schedule(|t| if t < 0.4 { 1 } else { 0.75 }, [2.5]);",
+        )],
+        "8 \u{b7} 2.5 is 20",
+    ),
+    // Numbers near those that a measurement finds.
+    (
+        "order",
+        &[
+            (
+                "let of_energy_momentum = order(energy_momentum());",
+                "let of_energy_momentum = 2.01;",
+            ),
+            ("let of_fourth_order = order(fourth_order());", "let of_fourth_order = 3.97;"),
+        ],
+        "these are not the orders that the steps",
+    ),
+];
+
+#[test]
+fn cheats_do_not_pass() {
+    for (name, changes, phrase) in CHEATS {
+        let exercise = find(name).unwrap();
+        let mut text = exercise.solution.to_owned();
+        for (ours, theirs) in *changes {
+            assert!(text.contains(ours), "{name}: {ours}");
+            text = text.replace(ours, theirs);
+        }
+        let said = told(exercise, &text);
+        assert!(said.contains(phrase) && !said.is_empty(), "{name}: {changes:?}: {said}");
+    }
+}
+
 /// Names of the attempt that the judge uses as well do no harm.
 #[test]
 fn names_of_attempts_and_judges_do_not_collide() {

@@ -38,8 +38,14 @@ const WORKERS: usize = 2;
 const TIME: Duration = Duration::from_millis(200);
 /// Longer than this is a hang: the limit of time, and patience with a loaded machine.
 const HANG: Duration = Duration::from_secs(30);
-const LIMITS: Limits =
-    Limits { time: Some(TIME), steps: Some(12), memory: Some(3000 * MEGABYTE), depth: 60 };
+const LIMITS: Limits = Limits {
+    time: Some(TIME),
+    steps: Some(12),
+    memory: Some(3000 * MEGABYTE),
+    depth: 60,
+    written: None,
+    files: None,
+};
 
 /// What a worker is at, for the one who watches for hangs.
 type Present = Mutex<Option<(u64, Instant)>>;

@@ -27,6 +27,7 @@ const BRANCHES: &[(&str, &[&str])] = &[
     ("newton", &["linalg", "elementary"]),
     ("linalg", &["elementary"]),
     ("elementary", &[]),
+    ("folders", &[]),
 ];
 
 /// What a layer may use; none if it is in no table.
@@ -35,7 +36,7 @@ fn allowed(layer: &str) -> Option<Vec<&'static str>> {
         "main.rs" => return Some(vec!["cli"]),
         "lib.rs" => return Some(Vec::new()),
         // It draws plain data.
-        "output" => return Some(vec!["elementary"]),
+        "output" => return Some(vec!["elementary", "folders"]),
         _ => {}
     }
     if let Some((_, uses)) = BRANCHES.iter().find(|(name, _)| *name == layer) {

@@ -333,3 +333,94 @@ fn a_folder_that_holds_no_submissions_is_refused() {
     assert_eq!(code, 2);
     assert!(text.contains("one folder for each student"), "{text}");
 }
+
+/// Attempts that wiped the marks of a class, or went on for ever: each with what it is marked. The exercise is knot_vector.
+#[cfg(target_os = "linux")]
+const POISONS: &[(&str, &str, &str)] = &[
+    ("wide", "let t = \"\"; t.pad(70000, 'x'); throw t;", "broken"),
+    ("long", "let s = \"\"; s.pad(16000000, 'a'); let t = s; s.replace(\"a\", t);", "broken"),
+    ("pipe", "import \"pipe\" as p;", "broken"),
+    ("sparse", "import \"sparse\" as p;", "broken"),
+    ("endless", "loop { try { loop { } } catch { } }", "stopped"),
+    ("large", "let a = []; loop { let b = []; b.pad(1000000, 1); a.push(b); }", "broken"),
+    (
+        "cycle",
+        "let a = []; loop { let big = []; big.pad(100000, 1); let f = || big; big[0] = f; }",
+        "stopped",
+    ),
+    ("prints", "let s = \"\"; s.pad(1000000, 'x'); loop { print(s); }", "stopped"),
+    ("deep", "fn f(n) { f(n + 1) } f(0);", "broken"),
+    (
+        "dedups",
+        "let a = []; a.pad(10000000, 1); for i in 0..1000 { let b = a + []; b.dedup(); }",
+        "stopped",
+    ),
+];
+
+#[cfg(target_os = "linux")]
+fn poisoned_class() -> TempDir {
+    let class = classroom();
+    for (student, attempt, _) in POISONS {
+        let folder = class.path().join(student);
+        fs::create_dir(&folder).unwrap();
+        fs::write(folder.join("knot_vector.rhai"), attempt).unwrap();
+    }
+    let pipe = class.path().join("pipe/pipe.rhai");
+    assert!(Command::new("mkfifo").arg(pipe).status().unwrap().success());
+    let sparse = fs::File::create(class.path().join("sparse/sparse.rhai")).unwrap();
+    sparse.set_len(2 << 30).unwrap();
+    // Behind all of them.
+    let honest = EXERCISES.iter().find(|it| it.name == "knot_vector").unwrap();
+    fs::create_dir(class.path().join("zoe")).unwrap();
+    fs::write(class.path().join("zoe/knot_vector.rhai"), honest.solution).unwrap();
+    class
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn every_poison_costs_its_author_only() {
+    let class = poisoned_class();
+    let limits = ["--max-time", "3", "--max-memory", "400", "--marks", "marks.jsonl", "--json"];
+    let output = learn(class.path(), &[&["grade", "."][..], &limits].concat());
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{text}");
+    let graded: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let marks = fs::read_to_string(class.path().join("marks.jsonl")).unwrap();
+    let marks: Vec<serde_json::Value> =
+        marks.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(marks.len(), (POISONS.len() + 1) * EXERCISES.len());
+    let honest = ("zoe", "", "passed");
+    for (student, _, mark) in POISONS.iter().chain([&honest]) {
+        let of = graded["students"].as_array().unwrap().iter().find(|it| it["student"] == *student);
+        let of = of.unwrap()["exercises"].as_array().unwrap();
+        let found = of.iter().find(|it| it["exercise"] == "splines/knot_vector").unwrap();
+        assert_eq!(found["result"], *mark, "{student}: {}", found["message"]);
+        let noted = marks
+            .iter()
+            .find(|it| it["student"] == *student && it["exercise"] == "splines/knot_vector");
+        assert_eq!(noted.unwrap()["result"], *mark);
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn marks_come_one_by_one_and_outlast_a_kill() {
+    let class = classroom();
+    solve(&class.path().join("ada"), 2);
+    fs::create_dir_all(class.path().join("bea")).unwrap();
+    fs::write(class.path().join("bea/change_one_number.rhai"), "loop { }").unwrap();
+    let mut grading = Command::new(env!("CARGO_BIN_EXE_withy"))
+        .args(["learn", "grade", ".", "--jobs", "1", "--marks", "marks.jsonl"])
+        .current_dir(class.path())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let printed = lines(grading.stdout.take().unwrap());
+    wait_for(&printed, "ada      beams/change_one_number");
+    wait_for(&printed, "ada      sliding/sliding_rule");
+    grading.kill().unwrap();
+    grading.wait().unwrap();
+    let marks = fs::read_to_string(class.path().join("marks.jsonl")).unwrap();
+    assert_eq!(marks.lines().count(), EXERCISES.len(), "{marks}");
+    assert_eq!(marks.matches("\"passed\"").count(), 2, "{marks}");
+}

@@ -279,3 +279,181 @@ fn files_that_import_each_other_for_ever_are_an_error() {
     }
     expect(&home.run(&[]), &["files import each other in a chain"]);
 }
+
+/// Ends within `seconds`, on a machine that may be busy, with exit code 2 and these words.
+#[track_caller]
+fn ends_in_time(home: &Home, arguments: &[&str], words: &[&str]) {
+    let begun = Instant::now();
+    expect(&home.withy(arguments), words);
+    assert!(begun.elapsed() < Duration::from_secs(10), "{arguments:?} took {:?}", begun.elapsed());
+}
+
+#[test]
+fn time_ends_what_does_not_hear_of_it() {
+    let lets: String = (0..200_000).map(|i| format!("let a{i} = {i};\n")).collect();
+    let home = Home::with(&[
+        ("many.rhai", lets.as_str()),
+        (
+            "dedup.rhai",
+            "let a = []; a.pad(10000000, 1); for i in 0..100 { let b = a + []; b.dedup(); }",
+        ),
+    ]);
+    for file in ["many.rhai", "dedup.rhai"] {
+        ends_in_time(&home, &["run", file, "--max-time", "1"], &["takes longer than 1 s"]);
+    }
+    ends_in_time(&home, &["check", "many.rhai", "--max-time", "1"], &["takes longer than 1 s"]);
+}
+
+#[test]
+fn a_check_of_a_run_without_an_end_ends() {
+    let script = format!("{SCENE}let sim = scene.start(#{{ dt: 0.1 }}); sim.run_to(1e10);");
+    let begun = Instant::now();
+    let output = Home::with(&[("main.rhai", &script)]).withy(&["check", "main.rhai"]);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
+}
+
+#[test]
+fn a_text_that_grows_too_long_is_refused_before_it_is_made() {
+    let script =
+        "let s = \"\"; s.pad(1000000, 'a'); let t = s; s.replace(\"a\", t); print(s.len());";
+    expect(&run(script, &["--max-memory", "500"]), &["main.rhai:1:"]);
+    let script = "let s = \"abcabc\"; s.replace(\"bc\", 'x'); print(s); s.replace('x', \"yy\"); print(s);
+        s.replace('y', 'z'); s.replace(\"zz\", \"\"); print(s); let e = \"ab\"; e.replace(\"\", \"-\"); print(e);";
+    assert_eq!(run(script, &[]).stdout, b"axax\nayyayy\naa\n-a-b-\n");
+}
+
+#[test]
+fn widths_of_any_size_are_printed() {
+    let script = "let s = \"\"; s.pad(70000, 'a'); print(tabulate([\"a\", \"b\"], [[s, \"x\"], [\"y\", \"z\"]]));";
+    let output = run(script, &[]);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+}
+
+#[test]
+fn what_is_printed_and_written_is_limited() {
+    let script = "let s = \"\"; s.pad(100000, 'a'); loop { print(s); }";
+    let output = run(script, &["--max-written", "2"]);
+    expect(&output, &["prints and writes more than 2 MB", "--max-written MB"]);
+    assert!(output.stdout.len() <= 2_000_000 && output.stdout.len() > 1_500_000);
+    let script = format!(
+        "{SCENE}let sim = scene.start(#{{ dt: 0.1 }}); sim.step();
+         for i in 0..10 {{ write_history(sim, `${{i}}.csv`); }}"
+    );
+    let home = Home::with(&[("main.rhai", &script)]);
+    expect(&home.run(&["--max-files", "3"]), &["writes more than 3 files", "--max-files N"]);
+    let visible = |entry: &fs::DirEntry| entry.file_name().to_string_lossy().ends_with(".csv");
+    let files = fs::read_dir(home.0.path().join("out")).unwrap().map(Result::unwrap);
+    // What was stopped keeps its history in one file more.
+    assert_eq!(files.filter(visible).count(), 4);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn output_that_cannot_be_written_is_an_error() {
+    let home = Home::with(&[
+        ("main.rhai", "for i in 0..3 { print(i); }"),
+        ("class/ada/kink.rhai", "let a = 1;"),
+    ]);
+    let full = || fs::File::options().write(true).open("/dev/full").unwrap();
+    for arguments in [
+        &["run", "main.rhai"][..],
+        &["repl", "main.rhai", "-e", "1"],
+        &["learn", "grade", "class"],
+        &["learn", "list"],
+        &["docs"],
+    ] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
+        let command = command.args(arguments).current_dir(home.0.path()).stdout(full());
+        let output = command.output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", said(&output));
+        assert!(
+            said(&output).contains("written") || said(&output).contains("write"),
+            "{}",
+            said(&output)
+        );
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn pipes_devices_and_enormous_files_are_refused_at_once() {
+    let home = Home::with(&[
+        ("pipe_main.rhai", "import \"pipe\" as p;"),
+        ("huge_main.rhai", "import \"huge\" as p;"),
+        ("load.rhai", "load_simulation(\"pipe.rhai\");"),
+        ("load_huge.rhai", "load_simulation(\"huge.rhai\");"),
+    ]);
+    let pipe = home.0.path().join("pipe.rhai");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    fs::File::create(home.0.path().join("huge.rhai")).unwrap().set_len(2 << 30).unwrap();
+    for (file, words) in [
+        ("pipe_main.rhai", "no ordinary file"),
+        ("huge_main.rhai", "is the most that is read"),
+        ("load.rhai", "no ordinary file"),
+        ("load_huge.rhai", "is the most that is read"),
+        ("pipe.rhai", "no ordinary file"),
+        ("huge.rhai", "is the most that is read"),
+        ("/dev/zero", "no ordinary file"),
+    ] {
+        for command in ["run", "check"] {
+            ends_in_time(&home, &[command, file], &[words]);
+        }
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn input_without_an_end_is_refused() {
+    let home = Home::with(&[]);
+    let begun = Instant::now();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
+    let zero = fs::File::open("/dev/zero").unwrap();
+    let output = command.arg("repl").current_dir(home.0.path()).stdin(zero).output().unwrap();
+    expect(&output, &["cannot read the input: a line of it has no end"]);
+    assert!(begun.elapsed() < Duration::from_secs(20));
+}
+
+#[test]
+fn a_report_replaces_reports_alone() {
+    let home = Home::with(&[("main.rhai", "print(1);"), ("notes.txt", "mine")]);
+    for file in ["main.rhai", "notes.txt"] {
+        let before = fs::read(home.0.path().join(file)).unwrap();
+        expect(&home.run(&["--report", file]), &["is no report"]);
+        assert_eq!(fs::read(home.0.path().join(file)).unwrap(), before);
+    }
+    for _ in 0..2 {
+        assert_eq!(home.run(&["--report", "report.json"]).status.code(), Some(0));
+    }
+}
+
+#[test]
+fn files_that_withy_did_not_write_are_kept_and_told_of() {
+    let script = format!(
+        "{SCENE}let sim = scene.start(#{{ dt: 0.1 }}); sim.step(); write_history(sim, \"a.csv\");"
+    );
+    let home = Home::with(&[("main.rhai", &script), ("out/a.csv", "mine")]);
+    let output = home.run(&[]);
+    assert!(said(&output).contains("it is kept as 'out/a.csv.kept'"), "{}", said(&output));
+    assert_eq!(fs::read_to_string(home.0.path().join("out/a.csv.kept")).unwrap(), "mine");
+    assert_eq!(said(&home.run(&[])), "", "its own file is replaced");
+}
+
+#[cfg(unix)]
+#[test]
+fn one_signal_ends_what_does_not_hear_of_it_within_a_second() {
+    let busy = "print(\"begun\"); let a = []; a.pad(10000000, 1); for i in 0..1000 { let b = a + []; b.dedup(); }";
+    let home = Home::with(&[("main.rhai", busy)]);
+    for signal in ["-INT", "-TERM"] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
+        let command = command.args(["run", "main.rhai"]).current_dir(home.0.path());
+        let mut running = command.stdout(std::process::Stdio::piped()).spawn().unwrap();
+        let mut word = [0; 5];
+        std::io::Read::read_exact(running.stdout.as_mut().unwrap(), &mut word).unwrap();
+        std::thread::sleep(Duration::from_millis(300));
+        let begun = Instant::now();
+        Command::new("kill").args([signal, &running.id().to_string()]).status().unwrap();
+        assert_eq!(running.wait().unwrap().code(), Some(130));
+        assert!(begun.elapsed() < Duration::from_secs(3), "{:?}", begun.elapsed());
+    }
+}

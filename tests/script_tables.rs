@@ -104,7 +104,7 @@ fn follow(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 fn save(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let path = call.context().output().write(&call.text("file")?, b"saved")?;
+    let path = call.context().write_file(&call.text("file")?, b"saved")?;
     Ok(path.display().to_string().into())
 }
 

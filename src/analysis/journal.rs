@@ -4,7 +4,7 @@
 //! removed when the script of the study has come to its end.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, File};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -14,8 +14,13 @@ use std::time::SystemTime;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use crate::folders::{Folder, read_file};
+
 /// Of one record; more is damage.
 const LONGEST: usize = 1 << 30;
+
+/// Of a journal [bytes].
+const LARGEST: u64 = 1 << 32;
 
 /// How results are stored; it changes whenever that does.
 const FORMAT: u32 = 1;
@@ -60,7 +65,7 @@ impl Journal {
     /// When there is a file that cannot be read.
     pub fn open(path: impl Into<PathBuf>) -> Result<Self, JournalError> {
         let path = path.into();
-        let bytes = match fs::read(&path) {
+        let bytes = match read_file(&path, LARGEST) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
             Err(source) => return Err(JournalError { path, action: "read", source }),
@@ -123,25 +128,27 @@ impl Journal {
             // What is known is written anew: a record that was cut off would hide those behind it.
             let known = self.known.iter().map(|(other, result)| record(*other, result));
             let known = known.collect::<io::Result<Vec<_>>>()?.concat();
-            if let Some(folder) = self.path.parent() {
-                fs::create_dir_all(folder)?;
-            }
+            let (folder, name) = self.place()?;
             // Beside it, and then in its place: at no time is there less on disk than was known.
-            let anew = self.anew();
-            let mut file = File::create(&anew)?;
+            let anew = name.with_extension("journal.new");
+            match folder.remove(&anew) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+                _ => (),
+            }
+            let mut file = folder.create(&anew)?;
             file.write_all(&known)?;
             file.sync_all()?;
-            drop(file);
-            fs::rename(&anew, &self.path)?;
-            self.file = Some(OpenOptions::new().append(true).open(&self.path)?);
+            folder.replace(&anew, &name)?;
+            self.file = Some(file);
         }
         let Some(file) = &mut self.file else { return Ok(()) };
         file.write_all(&record(fingerprint, result)?)
     }
 
-    /// Where what is known is written before it takes the place of the journal.
-    fn anew(&self) -> PathBuf {
-        self.path.with_extension("journal.new")
+    /// The folder of the journal, which is made, and its name there.
+    fn place(&self) -> io::Result<(Folder, PathBuf)> {
+        let name = self.path.file_name().ok_or(io::ErrorKind::InvalidInput)?;
+        Ok((Folder::make(self.path.parent().unwrap_or(Path::new(".")))?, name.into()))
     }
 
     /// Everything is complete: there is nothing to go on with.

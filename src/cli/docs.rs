@@ -6,12 +6,16 @@ use std::path::Path;
 use super::Exit;
 use super::args::DocsOptions;
 use super::run::refuse;
+use crate::folders::read_text;
 use crate::output::{Colours, Style, write_whole};
 use crate::script::catalog::Catalog;
 use crate::script::definitions::definitions;
 use crate::script::diagnose::Diagnostic;
 use crate::script::help::{self, WIDTH};
 use crate::script::reference::reference;
+
+/// The largest definition file that is looked at before it is replaced [bytes].
+const LARGEST_DEFINITION: u64 = 1 << 24;
 
 /// Shows or writes what was asked for.
 pub fn docs(options: &DocsOptions) -> Exit {
@@ -55,10 +59,19 @@ fn write_definitions(catalog: &Catalog, folder: &Path) -> Result<String, Diagnos
     let mut told = String::new();
     for file in definitions(catalog) {
         let path = folder.join(&file.name);
+        if path.symlink_metadata().is_ok() && !is_definition(&path) {
+            return Err(refused(&path, &"it is there already, and is no definition file"));
+        }
         write_whole(&path, file.text.as_bytes()).map_err(|error| refused(&path, &error))?;
         told += &format!("wrote {}\n", path.display());
     }
     Ok(told)
+}
+
+/// Whether a file is one that may be written anew: all definition files begin alike.
+fn is_definition(path: &Path) -> bool {
+    read_text(path, LARGEST_DEFINITION)
+        .is_ok_and(|text| text.lines().any(|line| line == "module static;"))
 }
 
 /// A reader that goes away has read enough.

@@ -1,20 +1,26 @@
 //! `withy learn grade`: the attempts of a class.
 
-use std::env;
+use std::fs::File;
+use std::io::Write;
 use std::path::Path;
-use std::process;
 use std::sync::Arc;
+use std::thread;
+
+use serde_json::json;
 
 use super::Exit;
+use super::attempt_process::mark_apart;
 use super::interrupt::{self, AtStake};
-use super::learn::say;
 use super::limits::LimitOptions;
+use super::say::say;
 use crate::exercises::catalogue::EXERCISES;
+use crate::exercises::class;
 use crate::exercises::error::ExerciseError;
-use crate::exercises::grading::{self, Report};
+use crate::exercises::exercise::Exercise;
+use crate::exercises::grading::{Graded, Report, Task};
 use crate::exercises::submissions::Submission;
+use crate::folders::Folder;
 use crate::output::{Cell, Table};
-use crate::script::context::{Mode, Settings};
 
 /// How marks are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,46 +31,156 @@ pub enum Form {
     Json,
 }
 
-/// Grades all submissions of a folder and prints the marks. What attempts write is thrown away.
-pub fn grade(folder: &Path, form: Form, limits: &LimitOptions) -> Result<Exit, ExerciseError> {
-    let submissions = Submission::all_in(folder)?;
-    let flag = interrupt::flag(AtStake::Run);
-    let out = env::temp_dir().join(format!("withy-grade-{}", process::id()));
-    let settings = || Settings {
-        out: out.clone(),
-        interrupt: Arc::clone(&flag),
-        limits: limits.limits(),
-        ..Settings::silent(Mode::Run)
-    };
-    let reports: Option<Vec<_>> = submissions
-        .iter()
-        .map(|submission| {
-            let report = grading::grade(submission, settings);
-            // There is nothing to throw away where nothing was written.
-            let _ = std::fs::remove_dir_all(&out);
-            report
-        })
-        .collect();
-    let Some(reports) = reports else { return Ok(Exit::Interrupted) };
-    match form {
-        Form::Json => say(&format!("{:#}", grading::json(&reports))),
-        Form::Table => say(&table(&reports)),
-    }
-    Ok(Exit::Good)
+/// What is to be graded, and how.
+pub struct Wishes<'a> {
+    /// The folder of the class.
+    pub folder: &'a Path,
+    /// How marks are shown.
+    pub form: Form,
+    /// A file that gets them as well.
+    pub marks: Option<&'a Path>,
+    /// Attempts judged at the same time.
+    pub jobs: Option<u16>,
+    /// What an attempt may use.
+    pub limits: &'a LimitOptions,
 }
 
-/// A line for each attempt that was begun, and one for each student.
-fn table(reports: &[Report]) -> String {
-    let mut marks = Table::new(&["student", "exercise", "result", "what is off"]);
-    let mut sums = Table::new(&["student", "passed", "of"]);
-    for report in reports {
-        for graded in &report.graded {
-            let off = graded.message.lines().next().unwrap_or_default();
-            let cells = [report.student.clone(), graded.exercise.id(), graded.mark.word().into()];
-            marks.row(cells.into_iter().chain([off.to_owned()]));
-        }
-        let counts = [report.passed(), EXERCISES.len()].map(|count| Cell::from(count as f64));
-        sums.row([Cell::from(report.student.as_str())].into_iter().chain(counts));
+/// Grades all submissions of a folder and prints the marks as they come. What attempts write is thrown away.
+pub fn grade(wishes: &Wishes) -> Result<Exit, ExerciseError> {
+    let submissions = Submission::all_in(wishes.folder)?;
+    let mut marks = wishes.marks.map(|path| (path, open(path)));
+    if let Some((path, Err(source))) = marks.take_if(|(_, file)| file.is_err()) {
+        return Err(ExerciseError::Marks { path: path.into(), source });
     }
-    format!("{marks}\n{}", sums.to_string().trim_end())
+    let stop = interrupt::flag(AtStake::Run);
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    let workers = wishes.jobs.map_or(cores, usize::from);
+    let mut sheet = Sheet::begin(wishes.form, &submissions);
+    let mut trouble = None;
+    let judge = |submission: &Submission, exercise: &Exercise| match Task::of(submission, exercise)
+    {
+        Task::Known(mark, message) => Some((mark, message)),
+        Task::Judge(file) => mark_apart(submission, &file, exercise, wishes.limits, &stop),
+    };
+    let is_whole = class::grade(&submissions, workers, &stop, judge, |submission, graded| {
+        if let Some((path, Ok(file))) = &mut marks
+            && let Err(source) = note(file, submission, &graded)
+            && trouble.is_none()
+        {
+            trouble = Some(ExerciseError::Marks { path: (*path).into(), source });
+            Arc::clone(&stop).store(true, std::sync::atomic::Ordering::Relaxed);
+        }
+        sheet.add(submission, graded);
+    });
+    sheet.end();
+    match trouble {
+        Some(trouble) => Err(trouble),
+        None if is_whole => Ok(Exit::Good),
+        None => Ok(Exit::Interrupted),
+    }
+}
+
+fn open(path: &Path) -> std::io::Result<File> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    Folder::open(folder)?.append(Path::new(path.file_name().unwrap_or_default()))
+}
+
+/// Writes a mark down so that it outlasts whatever comes.
+fn note(file: &mut File, submission: &Submission, graded: &Graded) -> std::io::Result<()> {
+    let Graded { exercise, mark, message } = graded;
+    let line = json!({
+        "student": submission.student,
+        "exercise": exercise.id(),
+        "result": mark.word(),
+        "message": message,
+    });
+    file.write_all(format!("{line}\n").as_bytes())?;
+    file.sync_data()
+}
+
+/// What is shown, line by line for people and student by student for programs.
+struct Sheet {
+    form: Form,
+    student_width: usize,
+    exercise_width: usize,
+    reports: Vec<Report>,
+}
+
+/// Characters of the widest student's name that lines are made for.
+const WIDEST: usize = 40;
+
+impl Sheet {
+    fn begin(form: Form, submissions: &[Submission]) -> Self {
+        let names = submissions.iter().map(|of| of.student.chars().count());
+        let student_width = names.max().unwrap_or(0).clamp("student".len(), WIDEST);
+        let exercise_width = EXERCISES.iter().map(|it| it.id().len()).max().unwrap_or(0);
+        let sheet = Self { form, student_width, exercise_width, reports: Vec::new() };
+        match form {
+            Form::Table => sheet.line("student", "exercise", "result", "what is off"),
+            Form::Json => {
+                say(&format!("{{\n  \"exercises\": {},\n  \"students\": [", EXERCISES.len()))
+            }
+        }
+        sheet
+    }
+
+    fn line(&self, student: &str, exercise: &str, result: &str, off: &str) {
+        let (first, second) = (self.student_width, self.exercise_width);
+        let line = format!("{student:<first$}  {exercise:<second$}  {result:<9}  {off}");
+        say(line.trim_end());
+    }
+
+    fn add(&mut self, submission: &Submission, graded: Graded) {
+        if self.form == Form::Table {
+            let off = graded.message.lines().next().unwrap_or_default();
+            self.line(
+                &shown(&submission.student),
+                &graded.exercise.id(),
+                graded.mark.word(),
+                &shown(off),
+            );
+        }
+        let is_new = self.reports.last().is_none_or(|last| last.graded.len() == EXERCISES.len());
+        if is_new {
+            let student = submission.student.clone();
+            self.reports.push(Report { student, graded: Vec::new() });
+        }
+        if let Some(report) = self.reports.last_mut() {
+            report.graded.push(graded);
+            if self.form == Form::Json && report.graded.len() == EXERCISES.len() {
+                self.tell_student();
+            }
+        }
+    }
+
+    /// Tells of the last student, who is complete; what comes behind him is not known yet.
+    fn tell_student(&self) {
+        let Some(report) = self.reports.last() else { return };
+        let comma = if self.reports.len() > 1 { "    ,\n" } else { "" };
+        let text = format!("{:#}", report.json());
+        let lines: Vec<String> = text.lines().map(|line| format!("    {line}")).collect();
+        say(&format!("{comma}{}", lines.join("\n")));
+    }
+
+    /// What follows the last mark, also when there are fewer than there should be.
+    fn end(&self) {
+        match self.form {
+            Form::Json => say("  ]\n}"),
+            Form::Table => {
+                let mut sums = Table::new(&["student", "passed", "of"]);
+                for report in &self.reports {
+                    let counts =
+                        [report.passed(), EXERCISES.len()].map(|count| Cell::from(count as f64));
+                    let student = Cell::from(shown(&report.student).as_str());
+                    sums.row([student].into_iter().chain(counts));
+                }
+                say(&format!("\n{}", sums.to_string().trim_end()));
+            }
+        }
+    }
+}
+
+/// Text for a line of a terminal: nothing in it moves the cursor.
+fn shown(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { '\u{b7}' } else { c }).collect()
 }

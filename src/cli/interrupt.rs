@@ -1,17 +1,25 @@
-//! Ctrl-C: it asks the run to stop after its current step; when that does not help, the next one leaves at once.
+//! Ctrl-C, and being asked to end: the run is to stop after its current step; where nothing hears of it, the program ends.
 
 use std::process;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use super::Exit;
 use crate::repl::editor::typed_ahead;
+use crate::script::limits::INTERRUPT_HEARD;
+
+/// So long has a run to hear of it,
+const GRACE: Duration = Duration::from_millis(900);
+
+/// and so long one that has heard to write what ran: that takes a moment where much did.
+const TO_WRITE: Duration = Duration::from_secs(20);
 
 /// What is lost when Ctrl-C ends the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AtStake {
-    /// A run: the second Ctrl-C ends it.
+    /// A run: what does not hear of Ctrl-C ends soon after, or with the second one.
     Run,
     /// A session with everything that was built in it: one ends it that comes a while after the first was not heard.
     Session,
@@ -21,7 +29,7 @@ pub enum AtStake {
 pub fn flag(at_stake: AtStake) -> Arc<AtomicBool> {
     let patience = match at_stake {
         AtStake::Run => Duration::ZERO,
-        AtStake::Session => Duration::from_secs(2),
+        AtStake::Session => Duration::from_secs(1),
     };
     let flag = Arc::new(AtomicBool::new(false));
     let set = Arc::clone(&flag);
@@ -29,9 +37,18 @@ pub fn flag(at_stake: AtStake) -> Arc<AtomicBool> {
     let installed = ctrlc::set_handler(move || {
         if !set.swap(true, Ordering::Relaxed) {
             asked = Instant::now();
+            if at_stake == AtStake::Run {
+                // Beside this thread, which waits for the second Ctrl-C.
+                thread::spawn(|| {
+                    thread::sleep(GRACE);
+                    if INTERRUPT_HEARD.load(Ordering::Relaxed) {
+                        thread::sleep(TO_WRITE);
+                    }
+                    end();
+                });
+            }
         } else if asked.elapsed() >= patience {
-            typed_ahead::give_back();
-            process::exit(Exit::Interrupted as i32);
+            end();
         }
     });
     if let Err(error) = installed {
@@ -39,4 +56,29 @@ pub fn flag(at_stake: AtStake) -> Arc<AtomicBool> {
         eprintln!("warning: Ctrl-C will not save what ran: {error}");
     }
     flag
+}
+
+/// Lets a session end within a second when the system asks for it, as when its window is closed: Ctrl-C is for its inputs.
+/// To be called before there are other threads.
+#[cfg(unix)]
+pub fn end_when_asked() {
+    use nix::sys::signal::{SigSet, Signal};
+    let mut asked = SigSet::empty();
+    asked.add(Signal::SIGTERM);
+    asked.add(Signal::SIGHUP);
+    if asked.thread_block().is_ok() {
+        thread::spawn(move || {
+            if asked.wait().is_ok() {
+                end();
+            }
+        });
+    }
+}
+
+#[cfg(not(unix))]
+pub fn end_when_asked() {}
+
+fn end() {
+    typed_ahead::give_back();
+    process::exit(Exit::Interrupted as i32);
 }

@@ -1,19 +1,21 @@
 //! `withy learn`: exercises, for one who learns.
 
 use std::env;
-use std::io::{IsTerminal, Write, stderr, stdout};
+use std::io::{IsTerminal, stderr, stdout};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
 use super::Exit;
+use super::attempt_process;
 use super::bar::{self, Wish};
-use super::grade::{Form, grade};
+use super::grade::{Form, Wishes, grade};
 use super::interrupt::{self, AtStake};
 use super::learn_options::{LearnAction, LearnOptions};
 use super::limits::LimitOptions;
-use super::run::refuse;
+use super::run::{last_resort, refuse};
+use super::say::{is_output_lost, say};
 use crate::exercises::attempt;
 use crate::exercises::catalogue::{EXERCISES, TRACKS, find};
 use crate::exercises::error::ExerciseError;
@@ -41,19 +43,21 @@ pub fn learn(options: &LearnOptions) -> Exit {
         Some(LearnAction::Hint { name }) => hint(&workbook, name.as_deref()),
         Some(LearnAction::Reset { name }) => reset(&workbook, name),
         Some(LearnAction::Watch { limits }) => watch(&workbook, limits),
-        Some(LearnAction::Grade { folder, json, limits }) => {
-            grade(folder, if *json { Form::Json } else { Form::Table }, limits)
+        Some(LearnAction::Grade { folder, json, marks, jobs, limits }) => {
+            let form = if *json { Form::Json } else { Form::Table };
+            grade(&Wishes { folder, form, marks: marks.as_deref(), jobs: *jobs, limits })
+        }
+        Some(LearnAction::Attempt { folder, file, name, limits }) => {
+            find(name).map(|exercise| attempt_process::judge_one(folder, file, exercise, limits))
         }
     };
+    if is_output_lost() {
+        return refuse(&Diagnostic::general("some of the output could not be written"));
+    }
     done.unwrap_or_else(|error| refuse(&Diagnostic::general(error.to_string())))
 }
 
 type Done = Result<Exit, ExerciseError>;
-
-/// Prints a line; one who reads no more has read enough.
-pub(super) fn say(text: &str) {
-    let _ = writeln!(stdout(), "{text}");
-}
 
 /// Makes what is missing of the folder of exercises.
 fn begin(workbook: &Workbook) -> Result<(), ExerciseError> {
@@ -120,6 +124,7 @@ fn check(
         printed: Box::new(stdout()),
         told: Box::new(stderr()),
         progress: bar::progress(Wish::Show),
+        last_resort: Some(last_resort()),
         ..Settings::silent(Mode::Run)
     };
     let verdict = judge_file(workbook, exercise, settings);
@@ -171,6 +176,7 @@ fn check_all(workbook: &Workbook, limits: &LimitOptions) -> Done {
             out: workbook.folder().join("out"),
             interrupt: Arc::clone(&flag),
             limits: limits.limits(),
+            last_resort: Some(last_resort()),
             ..Settings::silent(Mode::Run)
         };
         let verdict = judge_file(workbook, exercise, settings);

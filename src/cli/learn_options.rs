@@ -53,7 +53,26 @@ pub enum LearnAction {
         /// Print JSON, with what is off in each attempt.
         #[arg(long)]
         json: bool,
+        /// Write each mark as a line of JSON behind the end of this file, too, as soon as it is known.
+        #[arg(long, value_name = "FILE")]
+        marks: Option<PathBuf>,
+        /// Attempts judged at the same time; without it, as many as there are cores.
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+        jobs: Option<u16>,
         /// What each attempt may use.
+        #[command(flatten)]
+        limits: LimitOptions,
+    },
+    /// Judge one attempt of a class, in a process of its own: what `grade` starts.
+    #[command(hide = true)]
+    Attempt {
+        /// The folder of the student.
+        folder: PathBuf,
+        /// The file of the attempt.
+        file: PathBuf,
+        /// The exercise.
+        name: String,
+        /// What the attempt may use.
         #[command(flatten)]
         limits: LimitOptions,
     },

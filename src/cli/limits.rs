@@ -4,7 +4,11 @@ use std::time::Duration;
 
 use clap::Args;
 
-use crate::script::limits::{DEEPEST, DEFAULT_DEPTH, DEFAULT_MEGABYTES, Limits, MEGABYTE};
+use crate::exercises::judging::PATIENCE;
+use crate::script::limits::{
+    DEEPEST, DEFAULT_DEPTH, DEFAULT_FILES, DEFAULT_MEGABYTES, DEFAULT_MEGABYTES_WRITTEN, Limits,
+    MEGABYTE,
+};
 
 /// What a script may use.
 #[derive(Args, Clone, Debug)]
@@ -22,7 +26,17 @@ pub struct LimitOptions {
     /// Most calls of script functions within calls.
     #[arg(long, value_name = "N", default_value_t = DEFAULT_DEPTH as u64, value_parser = clap::value_parser!(u64).range(1..=DEEPEST as u64))]
     max_depth: u64,
+    /// Most that is printed and written into files, in megabytes [default: 10000; 100 for an attempt that is graded].
+    #[arg(long, value_name = "MB", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    max_written: Option<u64>,
+    /// Most files that are written [default: 100000; 100 for an attempt that is graded].
+    #[arg(long, value_name = "N")]
+    max_files: Option<u64>,
 }
+
+/// The defaults for an attempt that is graded.
+const MEGABYTES_OF_AN_ATTEMPT: u64 = 100;
+const FILES_OF_AN_ATTEMPT: u64 = 100;
 
 impl LimitOptions {
     /// The same for the run.
@@ -32,7 +46,34 @@ impl LimitOptions {
             steps: self.max_steps,
             memory: Some(self.max_memory * MEGABYTE),
             depth: self.max_depth as usize,
+            written: Some(self.max_written.unwrap_or(DEFAULT_MEGABYTES_WRITTEN) * MEGABYTE),
+            files: Some(self.max_files.unwrap_or(DEFAULT_FILES)),
         }
+    }
+
+    /// The same for an attempt of somebody, which may write less and always has an end.
+    pub fn for_an_attempt(&self) -> Limits {
+        Limits {
+            time: self.max_time.or(Some(PATIENCE)),
+            written: Some(self.max_written.unwrap_or(MEGABYTES_OF_AN_ATTEMPT) * MEGABYTE),
+            files: Some(self.max_files.unwrap_or(FILES_OF_AN_ATTEMPT)),
+            ..self.limits()
+        }
+    }
+
+    /// The options as they are written.
+    pub fn words(&self) -> Vec<String> {
+        let time = self.max_time.map(|time| time.as_secs_f64().to_string());
+        let given = [
+            ("--max-time", time),
+            ("--max-steps", self.max_steps.map(|steps| steps.to_string())),
+            ("--max-memory", Some(self.max_memory.to_string())),
+            ("--max-depth", Some(self.max_depth.to_string())),
+            ("--max-written", self.max_written.map(|megabytes| megabytes.to_string())),
+            ("--max-files", self.max_files.map(|files| files.to_string())),
+        ];
+        let given = given.into_iter().filter_map(|(name, value)| Some((name, value?)));
+        given.flat_map(|(name, value)| [name.to_owned(), value]).collect()
     }
 }
 

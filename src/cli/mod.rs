@@ -1,6 +1,7 @@
 //! The command line: definitions, running, sessions, and the progress bar. What it does is done by `script` and `repl`.
 
 mod args;
+mod attempt_process;
 mod bar;
 mod docs;
 mod grade;
@@ -9,6 +10,7 @@ mod learn;
 mod learn_options;
 mod limits;
 mod run;
+mod say;
 mod session;
 
 use std::process::ExitCode;

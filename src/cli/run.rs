@@ -2,23 +2,33 @@
 
 use std::io::{self, IsTerminal, stderr, stdout};
 use std::path::Path;
+use std::process;
+use std::sync::Arc;
 
 use super::Exit;
 use super::args::{CheckOptions, RunOptions, StudyOptions};
 use super::bar::{self, Wish};
 use super::interrupt::{self, AtStake};
+use crate::folders::read_file;
 use crate::output::write_whole;
+use crate::repl::editor::typed_ahead;
 use crate::script::catalog::Catalog;
 use crate::script::context::{JournalWish, Mode, Settings, StudyWishes};
 use crate::script::diagnose::{Colours, Diagnostic};
-use crate::script::limits::Stop;
+use crate::script::limits::{LastResort, Stop};
 use crate::script::panics;
 use crate::script::program::Program;
 use crate::script::runner::{self, Ending, Outcome};
 
+/// The largest report that is looked at before it is replaced [bytes].
+const LARGEST_REPORT: u64 = 1 << 28;
+
 /// Runs a script.
 pub fn run(options: &RunOptions) -> Exit {
     let wish = if options.quiet { Wish::Hide } else { Wish::Show };
+    if let Some(Err(diagnostic)) = options.report.as_deref().map(expect_report) {
+        return refuse(&diagnostic);
+    }
     let settings = Settings {
         out: options.out.clone(),
         interrupt: interrupt::flag(AtStake::Run),
@@ -26,6 +36,7 @@ pub fn run(options: &RunOptions) -> Exit {
         printed: Box::new(stdout()),
         told: Box::new(stderr()),
         progress: bar::progress(wish),
+        last_resort: Some(last_resort()),
         ..Settings::silent(Mode::Run)
     };
     let outcome = match start(&options.file, settings) {
@@ -58,6 +69,7 @@ pub fn study(options: &StudyOptions) -> Exit {
         told: Box::new(stderr()),
         progress: bar::progress(wish),
         studies,
+        last_resort: Some(last_resort()),
         ..Settings::silent(Mode::Run)
     };
     match start(&options.file, settings) {
@@ -76,6 +88,7 @@ pub fn check(options: &CheckOptions) -> Exit {
     let settings = Settings {
         interrupt: interrupt::flag(AtStake::Run),
         limits: options.limits.limits(),
+        last_resort: Some(last_resort()),
         ..Settings::silent(Mode::DryBuild)
     };
     match start(&options.file, settings) {
@@ -155,6 +168,39 @@ fn show_summary(outcome: &Outcome) {
     }
     if let Some(summary) = outcome.checks.summary() {
         tell(&format!("{summary}\n"));
+    }
+}
+
+/// Ends the program when a limit is passed in the middle of something that does not hear of it.
+pub(super) fn last_resort() -> LastResort {
+    Arc::new(end_at)
+}
+
+fn end_at(stop: Stop) {
+    typed_ahead::give_back();
+    let (told, hint) = stop.words();
+    refuse(&Diagnostic { hint, ..Diagnostic::general(told) });
+    tell(
+        "note: one long operation did not let itself be stopped: files written before it are whole, the rest is lost\n",
+    );
+    process::exit(Exit::Wrong as i32)
+}
+
+/// A report may take the place of another one, and of nothing else.
+fn expect_report(file: &Path) -> Result<(), Diagnostic> {
+    if file.symlink_metadata().is_err() {
+        return Ok(());
+    }
+    let content = read_file(file, LARGEST_REPORT).ok();
+    let content =
+        content.and_then(|bytes| serde_json::from_slice::<serde_json::Value>(&bytes).ok());
+    match content.is_some_and(|content| content.get("simulations").is_some()) {
+        true => Ok(()),
+        false => {
+            let told = format!("'{}' is there already, and is no report", file.display());
+            Err(Diagnostic::general(told)
+                .with_hint("--report takes the name of a new file, or of an older report"))
+        }
     }
 }
 

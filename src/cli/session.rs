@@ -7,7 +7,7 @@ use super::Exit;
 use super::args::{ReplOptions, SessionOptions};
 use super::bar::{self, Wish};
 use super::interrupt::{self, AtStake};
-use super::run::refuse;
+use super::run::{last_resort, refuse};
 use crate::output::{Glyphs, Style};
 use crate::repl::editor::{self, Editor};
 use crate::repl::session::Session;
@@ -16,7 +16,7 @@ use crate::repl::{batch, prompt};
 use crate::script::catalog::Catalog;
 use crate::script::context::{Mode, Settings};
 use crate::script::diagnose::Diagnostic;
-use crate::script::limits::MEGABYTE;
+use crate::script::limits::{MEGABYTE, Stop};
 use crate::script::panics;
 use crate::script::program::Program;
 use crate::script::runner::on_large_stack;
@@ -24,6 +24,9 @@ use crate::script::runner::on_large_stack;
 /// Opens a session in which a file may have been evaluated first.
 pub fn open(options: &ReplOptions) -> Exit {
     panics::silence();
+    if is_conversation(&options.session) {
+        interrupt::end_when_asked();
+    }
     match on_large_stack(&options.session.limits.limits(), || hold(options)) {
         Ok(Ok(exit)) => exit,
         Ok(Err(diagnostic)) | Err(diagnostic) => refuse(&diagnostic),
@@ -35,11 +38,15 @@ pub fn start(options: SessionOptions) -> Exit {
     open(&ReplOptions { file: None, session: options })
 }
 
+/// Whether a person types.
+fn is_conversation(options: &SessionOptions) -> bool {
+    options.inputs.is_empty() && stdin().is_terminal() && stdout().is_terminal()
+}
+
 /// A session from its beginning to its end.
 fn hold(options: &ReplOptions) -> Result<Exit, Diagnostic> {
     let ReplOptions { file, session: options } = options;
-    let is_conversation =
-        options.inputs.is_empty() && stdin().is_terminal() && stdout().is_terminal();
+    let is_conversation = is_conversation(options);
     let settings = Settings { folder: folder_of(file), ..settings(options, is_conversation) };
     let session = Session::new(Catalog::standard(), settings)?;
     let screen = if is_conversation { Screen::Terminal(style(options)) } else { Screen::Pipe };
@@ -83,9 +90,15 @@ fn converse(shell: &mut Shell, options: &SessionOptions) -> Result<(), Diagnosti
 
 fn exit_for(shell: &Shell, outcome: Outcome) -> Exit {
     let has_failed = shell.session().context().with_checks(|checks| !checks.failed().is_empty());
+    let stopped = shell.session().context().stopped_by();
+    let is_lost = matches!(stopped, Some(Stop::OutputLost(_)));
+    if is_lost && outcome != Outcome::Failed {
+        eprintln!("error: some of the output could not be written");
+    }
     match outcome {
         Outcome::Failed => Exit::Wrong,
         Outcome::Interrupted => Exit::Interrupted,
+        Outcome::Good | Outcome::Quit if is_lost => Exit::Wrong,
         Outcome::PipeClosed => Exit::Good,
         Outcome::Good | Outcome::Quit if has_failed => Exit::CheckFailed,
         Outcome::Good | Outcome::Quit => Exit::Good,
@@ -95,12 +108,16 @@ fn exit_for(shell: &Shell, outcome: Outcome) -> Exit {
 fn settings(options: &SessionOptions, is_conversation: bool) -> Settings {
     Settings {
         out: options.out.clone(),
-        interrupt: interrupt::flag(AtStake::Session),
+        interrupt: interrupt::flag(match is_conversation {
+            true => AtStake::Session,
+            false => AtStake::Run,
+        }),
         limits: options.limits.limits(),
         snapshots: (u64::from(options.snapshots) * MEGABYTE) as usize,
         printed: Box::new(stdout()),
         told: Box::new(stderr()),
         progress: bar::progress(if is_conversation { Wish::Show } else { Wish::Hide }),
+        last_resort: Some(last_resort()),
         ..Settings::silent(Mode::Run)
     }
 }

@@ -1,42 +1,37 @@
 //! The file of an attempt: a person has put it there, and it may be anything.
 
-use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 
+use crate::folders::Folder;
 use crate::script::diagnose::Diagnostic;
 use crate::script::program::Program;
 
 /// The largest file that is taken for an attempt [bytes].
-const LARGEST: u64 = 1 << 20;
+pub const LARGEST: u64 = 1 << 20;
 
 /// Reads an attempt that lies in a folder.
 ///
 /// # Errors
-/// When it is no ordinary file of at most a megabyte, lies outside the folder (a link may lead there), or is no text.
+/// When it is no ordinary file of at most a megabyte, or a link leads to it, or it is no text.
 pub fn load(path: &Path, folder: &Path) -> Result<Program, Diagnostic> {
     let refused = |why: &str| {
         let told = format!("cannot read the attempt '{}': {why}", path.display());
         Diagnostic::general(told).with_hint("an attempt is a text file of its own")
     };
-    // What is not there, Program tells.
-    if let Ok(about) = fs::metadata(path) {
-        if !about.is_file() {
-            return Err(refused("it is no ordinary file"));
-        }
-        if about.len() > LARGEST {
-            return Err(refused("it is larger than a megabyte"));
-        }
-        let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
-        if !real(path).starts_with(real(folder)) {
-            return Err(refused("it is a link to a file outside of its folder"));
-        }
-    }
-    Program::load(path)
+    let below = path.strip_prefix(folder).unwrap_or(path);
+    let content = Folder::open(folder).and_then(|folder| folder.read(below, LARGEST));
+    let content = content.map_err(|error| match error.kind() {
+        ErrorKind::NotFound => refused("there is no such file"),
+        _ => refused(&error.to_string()),
+    });
+    Program::from_bytes(path, content?)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     #[test]
     fn ordinary_files_are_read_and_others_are_not() {

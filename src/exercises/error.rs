@@ -27,6 +27,14 @@ pub enum ExerciseError {
         /// What the system said.
         source: io::Error,
     },
+    /// The file of the marks could not be written.
+    #[error("cannot write the marks into '{}': {source}; --marks takes the name of a file that may be written", path.display())]
+    Marks {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
     /// A file could not be renamed.
     #[error("cannot keep '{}' as '{}': {source}; nothing was changed", from.display(), to.display())]
     Keep {

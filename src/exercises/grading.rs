@@ -1,13 +1,13 @@
 //! Grading submissions: every exercise of a student gets a mark, whatever the files hold.
 
+use std::path::PathBuf;
+
 use serde_json::{Value, json};
 
 use super::attempt;
-use super::catalogue::EXERCISES;
 use super::exercise::Exercise;
-use super::judging::{Verdict, judge};
+use super::judging::Verdict;
 use super::submissions::Submission;
-use crate::script::context::Settings;
 
 /// What an attempt is worth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +27,13 @@ pub enum Mark {
 }
 
 impl Mark {
+    /// The mark of that word.
+    pub fn of(word: &str) -> Option<Self> {
+        let all =
+            [Self::Passed, Self::Off, Self::Broken, Self::Stopped, Self::Untouched, Self::Missing];
+        all.into_iter().find(|mark| mark.word() == word)
+    }
+
     /// One word for it.
     pub fn word(self) -> &'static str {
         match self {
@@ -67,7 +74,7 @@ impl Report {
     }
 
     /// The same as JSON.
-    fn json(&self) -> Value {
+    pub fn json(&self) -> Value {
         let exercises: Vec<_> = self
             .graded
             .iter()
@@ -79,49 +86,43 @@ impl Report {
     }
 }
 
-/// The reports of a class as JSON.
-pub fn json(reports: &[Report]) -> Value {
-    let students: Vec<_> = reports.iter().map(Report::json).collect();
-    json!({ "exercises": EXERCISES.len(), "students": students })
+/// What is to be done for the mark of an attempt.
+pub enum Task {
+    /// Nothing: it is known without judging.
+    Known(Mark, String),
+    /// The attempt in this file, which can be read, is to be judged.
+    Judge(PathBuf),
 }
 
-/// Grades what one student has handed in, each attempt with settings of its own. Nothing when it was interrupted.
-pub fn grade(submission: &Submission, settings: impl Fn() -> Settings) -> Option<Report> {
-    let graded: Option<Vec<_>> = EXERCISES
-        .iter()
-        .map(|exercise| {
-            let (mark, message) = mark(submission, exercise, settings())?;
-            Some(Graded { exercise, mark, message })
-        })
-        .collect();
-    Some(Report { student: submission.student.clone(), graded: graded? })
-}
-
-fn mark(
-    submission: &Submission,
-    exercise: &Exercise,
-    settings: Settings,
-) -> Option<(Mark, String)> {
-    let Some(path) = submission.attempt(exercise) else {
-        return Some((Mark::Missing, String::new()));
-    };
-    let attempt = match attempt::load(&path, &submission.folder) {
-        Ok(attempt) => attempt,
-        Err(why) => return Some((Mark::Broken, why.message)),
-    };
-    if is_same(&attempt.text, exercise.start) {
-        return Some((Mark::Untouched, String::new()));
+impl Task {
+    /// Looks at what a student has handed in for an exercise.
+    pub fn of(submission: &Submission, exercise: &Exercise) -> Self {
+        let Some(path) = submission.attempt(exercise) else {
+            return Self::Known(Mark::Missing, String::new());
+        };
+        match attempt::load(&path, &submission.folder) {
+            Ok(attempt) if is_same(&attempt.text, exercise.start) => {
+                Self::Known(Mark::Untouched, String::new())
+            }
+            Ok(_) => Self::Judge(path),
+            Err(why) => Self::Known(Mark::Broken, why.message),
+        }
     }
-    match judge(exercise, &attempt, settings) {
-        Verdict::Passed => Some((Mark::Passed, String::new())),
-        Verdict::Off(found) => Some((Mark::Off, found.join("\n"))),
+}
+
+/// The mark of an attempt, and what is off. Nothing when it was interrupted.
+pub fn mark(verdict: Verdict) -> Option<(Mark, String)> {
+    let (mark, message) = match verdict {
+        Verdict::Passed => (Mark::Passed, String::new()),
+        Verdict::Off(found) => (Mark::Off, found.join("\n")),
         Verdict::Broken(why) => {
             let line = why.location.as_ref().map(|at| format!("line {}: ", at.line));
-            Some((Mark::Broken, format!("{}{}", line.unwrap_or_default(), why.message)))
+            (Mark::Broken, format!("{}{}", line.unwrap_or_default(), why.message))
         }
-        Verdict::Stopped(why) => Some((Mark::Stopped, why.message)),
-        Verdict::Interrupted => None,
-    }
+        Verdict::Stopped(why) => (Mark::Stopped, why.message),
+        Verdict::Interrupted => return None,
+    };
+    Some((mark, message))
 }
 
 /// Whether two texts are the same but for the ends of lines.

@@ -117,7 +117,12 @@ impl Trial {
                 continue;
             };
             let value = value.flatten_clone();
-            match self.engine.map_type_name(value.type_name()) {
+            // The engine has a name of its own for text.
+            let found = match value.is_string() {
+                true => "text",
+                false => self.engine.map_type_name(value.type_name()),
+            };
+            match found {
                 found if found == of => _ = seen.push_dynamic(name.as_str(), value),
                 // A whole number is welcome wherever a number is.
                 "whole number" if of == "number" => {

@@ -5,6 +5,7 @@
 
 pub mod attempt;
 pub mod catalogue;
+pub mod class;
 pub mod error;
 pub mod exercise;
 pub mod grading;

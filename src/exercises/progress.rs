@@ -1,7 +1,6 @@
 //! What a student has passed and which hints were given, in a small file that is written whole or not at all.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
@@ -9,7 +8,11 @@ use serde::{Deserialize, Serialize};
 
 use super::error::ExerciseError;
 use super::exercise::Exercise;
+use crate::folders::read_text;
 use crate::output::write_whole;
+
+/// The largest file of a progress [bytes].
+const LARGEST: u64 = 1 << 20;
 
 /// The name of the file, by which the folder of a student is known.
 pub const FILE: &str = "withy-progress.json";
@@ -31,7 +34,7 @@ impl Progress {
     /// When the file cannot be read, or was damaged.
     pub fn read(folder: &Path) -> Result<Self, ExerciseError> {
         let path = folder.join(FILE);
-        let text = match fs::read_to_string(&path) {
+        let text = match read_text(&path, LARGEST) {
             Ok(text) => text,
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Self::default()),
             Err(source) => return Err(ExerciseError::Read { path, source }),
@@ -82,6 +85,7 @@ impl Progress {
 mod tests {
     use super::*;
     use crate::exercises::catalogue::EXERCISES;
+    use std::fs;
 
     #[test]
     fn exercises_of_another_version_are_kept() {

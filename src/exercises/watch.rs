@@ -4,12 +4,13 @@
 //! editor, also with those that put a new file in the place of the old one, and a file that was saved unchanged is not
 //! judged again.
 
-use std::fs;
 use std::time::Duration;
 
+use super::attempt::LARGEST;
 use super::catalogue::EXERCISES;
 use super::exercise::Exercise;
 use super::workbook::Workbook;
+use crate::folders::read_file;
 
 /// How long to wait between two looks.
 pub const INTERVAL: Duration = Duration::from_millis(200);
@@ -42,12 +43,13 @@ impl<'a> Watcher<'a> {
 }
 
 fn content(workbook: &Workbook, exercise: &Exercise) -> Option<Vec<u8>> {
-    fs::read(workbook.file(exercise)).ok()
+    read_file(&workbook.file(exercise), LARGEST).ok()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     #[test]
     fn each_change_is_seen_once_and_a_file_that_is_away_for_a_moment_is_none() {

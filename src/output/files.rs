@@ -1,59 +1,38 @@
 //! Files are written whole or not at all.
 //!
-//! The bytes go to a hidden file beside the target, which takes the target's name only when it is complete. A reader
+//! The bytes go to a hidden file beside the target, which takes the target's name only when it is complete and on the disk. A reader
 //! never sees half a file, and a failure leaves an older file as it was.
 
-use std::{
-    fs, io,
-    path::{Path, PathBuf},
-    sync::atomic::{AtomicU64, Ordering},
-};
+use std::{fs, path::Path};
 
 use super::OutputError;
+use crate::folders::Folder;
 
-/// Writes `bytes` to `path`, making missing folders on the way.
+/// Writes `bytes` to `path`, a person's own word, making missing folders on the way. What stands there is replaced if it is a
+/// file; a link is replaced too, and not followed.
+///
+/// # Errors
+/// When the folder cannot be made, the file cannot be written, or a folder, a pipe or a device has its name.
 pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), OutputError> {
     let path = path.as_ref();
-    if path.is_dir() {
-        return Err(OutputError::NotAFile { path: path.into() });
+    let not_a_file = || OutputError::NotAFile { path: path.into() };
+    let name = path.file_name().ok_or_else(not_a_file)?;
+    if fs::symlink_metadata(path).is_ok_and(|about| !about.is_file() && !about.is_symlink()) {
+        return Err(not_a_file());
     }
-    let partial = partial_name(path)?;
-    make_folder_of(path)?;
-
-    fs::write(&partial, bytes).and_then(|()| fs::rename(&partial, path)).map_err(|source| {
-        forget(&partial);
-        OutputError::Write { path: path.into(), source }
-    })
-}
-
-/// A hidden name in the folder of `path` that no other writer uses.
-fn partial_name(path: &Path) -> Result<PathBuf, OutputError> {
-    static COUNTER: AtomicU64 = AtomicU64::new(0);
-    let name = path.file_name().ok_or_else(|| OutputError::NotAFile { path: path.into() })?;
-    let count = COUNTER.fetch_add(1, Ordering::Relaxed);
-    Ok(path.with_file_name(format!(
-        ".{}.{}-{count}.part",
-        name.to_string_lossy(),
-        std::process::id()
-    )))
-}
-
-fn make_folder_of(path: &Path) -> Result<(), OutputError> {
-    match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => {
-            fs::create_dir_all(folder).map_err(|source| OutputError::Folder {
-                folder: folder.into(),
-                path: path.into(),
-                source,
-            })
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Removes what is left of a failed write. Its own failure is no news: there may be nothing to remove.
-fn forget(partial: &Path) {
-    let _: io::Result<()> = fs::remove_file(partial);
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let opened = fs::create_dir_all(folder).and_then(|()| Folder::open(folder));
+    let opened = opened.map_err(|source| OutputError::Folder {
+        folder: folder.into(),
+        path: path.into(),
+        source,
+    })?;
+    opened
+        .write_whole(Path::new(name), bytes)
+        .map_err(|source| OutputError::Write { path: path.into(), source })
 }
 
 #[cfg(test)]

@@ -130,7 +130,12 @@ fn write_line<'a>(
 ) -> fmt::Result {
     let padded = cells.zip(widths).map(|((text, right), &width)| {
         let text = one_line(text);
-        if right { format!("{text:>width$}") } else { format!("{text:<width$}") }
+        // Rust's own widths end at 65 535.
+        let blanks = " ".repeat(width.saturating_sub(width_of(&text)));
+        match right {
+            true => format!("{blanks}{text}"),
+            false => format!("{text}{blanks}"),
+        }
     });
     writeln!(f, "{}", padded.collect::<Vec<_>>().join("  ").trim_end())
 }
@@ -159,6 +164,15 @@ mod tests {
                         midpoint           0.05  0.003\n\
                         energy_momentum     0.1  1e-15\n";
         assert_eq!(table.to_string(), expected);
+    }
+
+    #[test]
+    fn cells_of_any_length_are_set() {
+        let mut table = Table::new(&["a", "b"]);
+        table.row(["x".repeat(70_000).as_str(), "y"]).row(["z", "w"]);
+        let text = table.to_string();
+        assert!(text.lines().all(|line| line.chars().count() <= 70_003), "{}", text.len());
+        assert_eq!(text.lines().nth(3).map(|line| line.len()), Some(70_003));
     }
 
     #[test]

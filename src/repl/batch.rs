@@ -1,10 +1,11 @@
 //! A session without a terminal: inputs come from a pipe or from the command line, and the first that fails ends it.
 
-use std::io::BufRead;
+use std::io::{self, BufRead, Read};
 
 use super::editor::completeness::{Completeness, completeness_of_script, is_command};
 use super::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
+use crate::script::program::LARGEST_SCRIPT;
 
 /// Whether a line belongs to the one before, complete as that may be.
 fn continues(line: &str) -> bool {
@@ -19,10 +20,28 @@ fn continues(line: &str) -> bool {
         || is_word("catch")
 }
 
+/// The lines of a reader without their ends; one that does not end is an error, not a flood.
+fn lines_of(mut reader: impl BufRead) -> impl Iterator<Item = io::Result<String>> {
+    std::iter::from_fn(move || {
+        let mut line = String::new();
+        match reader.by_ref().take(LARGEST_SCRIPT).read_line(&mut line) {
+            Ok(0) => None,
+            Ok(count) if count as u64 == LARGEST_SCRIPT && !line.ends_with('\n') => {
+                Some(Err(io::Error::other("a line of it has no end")))
+            }
+            Ok(_) => {
+                let text = line.strip_suffix('\n').unwrap_or(&line);
+                Some(Ok(text.strip_suffix('\r').unwrap_or(text).to_owned()))
+            }
+            Err(error) => Some(Err(error)),
+        }
+    })
+}
+
 /// Reads inputs from `lines` until they end, one fails, or the user leaves.
 pub fn run(shell: &mut Shell, lines: impl BufRead) -> Outcome {
     let mut input = String::new();
-    let mut lines = lines.lines().peekable();
+    let mut lines = lines_of(lines).peekable();
     while let Some(line) = lines.next() {
         match line {
             Ok(line) => {
@@ -33,6 +52,10 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> Outcome {
                 let told = Diagnostic::general(format!("cannot read the input: {error}"));
                 return shell.refuse(&told.with_hint("give UTF-8 text"));
             }
+        }
+        if input.len() as u64 > LARGEST_SCRIPT {
+            let told = Diagnostic::general("an input is longer than 16 megabytes");
+            return shell.refuse(&told.with_hint("is a bracket or a quotation mark never closed?"));
         }
         // Only what is complete looks ahead: a program that talks through the pipe ends what it asks with a semicolon or an
         // empty line.

@@ -19,12 +19,12 @@ use crate::script::diagnose::{Diagnostic, Explainer, is_interrupt};
 use crate::script::engine;
 use crate::script::error::ScriptError;
 use crate::script::lexing::{open_comment, tokens};
-use crate::script::limits::Watchdog;
 use crate::script::naming;
 use crate::script::panics;
 use crate::script::program::Program;
 use crate::script::reading::read;
 use crate::script::sources::Sources;
+use crate::script::watchdog::Watchdog;
 
 /// The name of the value of the last expression.
 pub const ANSWER: &str = "ans";

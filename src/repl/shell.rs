@@ -1,18 +1,18 @@
 //! What a line at the prompt does: an input of the language, or a command. Replies go to where the session prints.
 
 use std::collections::HashMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::commands;
 use super::editor::surroundings::Operand;
 use super::session::{ANSWER, Reply, Session};
+use crate::folders::read_file;
 use crate::output::{Colours, Style, significant};
 use crate::script::diagnose::Diagnostic;
 use crate::script::kind::Scripted;
 use crate::script::packages::SimulationHandle;
 use crate::script::present::present;
-use crate::script::program::Program;
+use crate::script::program::{LARGEST_SCRIPT, Program};
 
 /// What came of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -166,7 +166,8 @@ impl Shell {
     /// Whether a file may be written: it is new, or still as this shell has written it.
     pub fn may_write(&self, path: &Path) -> bool {
         let ours = || self.saved.get(path).map(String::as_bytes);
-        !path.exists() || fs::read(path).is_ok_and(|bytes| Some(&*bytes) == ours())
+        let is_there = path.symlink_metadata().is_ok();
+        !is_there || read_file(path, LARGEST_SCRIPT).is_ok_and(|bytes| Some(&*bytes) == ours())
     }
 
     /// Remembers what was written to a file.

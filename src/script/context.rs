@@ -12,83 +12,12 @@ use rhai::{Dynamic, Engine, EvalAltResult};
 
 use super::checks::Checks;
 use super::error::ScriptError;
-use super::files::OutputFolder;
+use super::files::{OutputFolder, Written};
 use super::journals::Journals;
 use super::kind::Type;
-use super::limits::{Limits, MEGABYTE, Meter, Stop};
-use super::progress::{NoProgress, Progress};
-
-/// Whether simulations really run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mode {
-    /// Everything runs.
-    Run,
-    /// Scenes are built and checked; nothing is stepped, printed, judged or written.
-    DryBuild,
-}
-
-/// How a run talks to the world outside. Made by the command line, the prompt or a test.
-pub struct Settings {
-    /// Whether simulations really run.
-    pub mode: Mode,
-    /// Where files of the script go; made when the first one is written.
-    pub out: PathBuf,
-    /// Where the script is, beside which it may read files.
-    pub folder: PathBuf,
-    /// The memory that each simulation may take for states to go back to, unless the script says otherwise [bytes].
-    pub snapshots: usize,
-    /// Set from outside (Ctrl-C) to stop as soon as possible.
-    pub interrupt: Arc<AtomicBool>,
-    /// What the run may use.
-    pub limits: Limits,
-    /// Where `print` writes.
-    pub printed: Box<dyn Write + Send>,
-    /// Where failed checks and `debug` are told, at once.
-    pub told: Box<dyn Write + Send>,
-    /// What shows how far a simulation is.
-    pub progress: Box<dyn Progress + Send>,
-    /// How studies are made.
-    pub studies: StudyWishes,
-}
-
-/// How the studies of a run are made.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct StudyWishes {
-    /// Whether they can go on where an earlier run of them was interrupted.
-    pub journal: JournalWish,
-    /// How often cases are timed, whatever the script says.
-    pub repeats: Option<usize>,
-}
-
-/// What becomes of finished cases when a study is interrupted.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum JournalWish {
-    /// They are lost.
-    #[default]
-    Without,
-    /// They are kept in the output folder, and those that are there are not run again.
-    GoOn,
-    /// They are kept in the output folder; what is there is forgotten first.
-    Anew,
-}
-
-impl Settings {
-    /// A run that writes to nowhere, for dry builds and as a start for others.
-    pub fn silent(mode: Mode) -> Self {
-        Self {
-            mode,
-            out: PathBuf::from("out"),
-            folder: PathBuf::from("."),
-            snapshots: 0,
-            interrupt: Arc::default(),
-            limits: Limits::default(),
-            printed: Box::new(io::sink()),
-            told: Box::new(io::sink()),
-            progress: Box::new(NoProgress),
-            studies: StudyWishes::default(),
-        }
-    }
-}
+use super::limits::{INTERRUPT_HEARD, MEGABYTE, Meter, Stop};
+use super::progress::Progress;
+pub use super::settings::{JournalWish, Mode, Settings, StudyWishes};
 
 /// Something that has gone through a run and can tell of it, such as a simulation.
 pub trait Reporter {
@@ -98,6 +27,9 @@ pub trait Reporter {
     /// A name and the content of a file that keeps what would be lost when the script does not come to its end.
     fn remains(&self) -> Option<(String, String)>;
 }
+
+/// A file that is read takes a few times its length: the bytes, and what is made of them.
+const TIMES_ITS_LENGTH: u64 = 4;
 
 /// A cheap handle on the state of one run.
 #[derive(Clone)]
@@ -134,7 +66,7 @@ impl Context {
         Self(Rc::new(Shared {
             mode: settings.mode,
             interrupt: settings.interrupt,
-            meter: Meter::new(settings.limits),
+            meter: Meter::guarded(settings.limits, settings.last_resort),
             printed: RefCell::new(settings.printed),
             told: RefCell::new(settings.told),
             pipe_closed: Cell::new(false),
@@ -227,6 +159,7 @@ impl Context {
             return Some(Stop::PipeClosed);
         }
         if self.0.interrupt.load(Ordering::Relaxed) {
+            INTERRUPT_HEARD.store(true, Ordering::Relaxed);
             return Some(Stop::Interrupt);
         }
         self.0.meter.passed()
@@ -250,6 +183,9 @@ impl Context {
 
     /// Prints a line for the script.
     pub fn print(&self, text: &str) {
+        if !self.meter().allows_to_write(text.len() as u64 + 1) {
+            return;
+        }
         self.0.progress.step_aside(&mut || {
             self.notice(writeln!(self.0.printed.borrow_mut(), "{text}"));
         });
@@ -269,11 +205,60 @@ impl Context {
         self.notice(written);
     }
 
-    /// A closed pipe ends the run quietly; other troubles with a terminal are not worth a failure.
+    /// A closed pipe ends the run quietly; that the script prints where there is no room is an error.
     fn notice(&self, written: io::Result<()>) {
-        if written.is_err_and(|error| error.kind() == io::ErrorKind::BrokenPipe) {
-            self.0.pipe_closed.set(true);
+        match written {
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
+                self.0.pipe_closed.set(true);
+            }
+            Err(error) => self.meter().stop(Stop::OutputLost(error.kind())),
+            Ok(()) => (),
         }
+    }
+
+    /// Writes a file of the output folder. What stood there and was not written by this program is kept, and that is told.
+    ///
+    /// # Errors
+    /// When it cannot be written, or the run may write no more.
+    pub fn write_file(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
+        self.account_for(content)?;
+        self.output().write(name, content).map(|written| self.tell_kept(written))
+    }
+
+    /// The same for a file that the script may [read](Self::read_file) again, which a dry build then can too.
+    ///
+    /// # Errors
+    /// When it cannot be written, or the run may write no more.
+    pub fn write_to_read(&self, name: &str, content: Vec<u8>) -> Result<PathBuf, ScriptError> {
+        self.account_for(&content)?;
+        self.output().write_to_read(name, content).map(|written| self.tell_kept(written))
+    }
+
+    /// Reads a file of the output folder or of the script's own folder, as far as there is memory for it.
+    ///
+    /// # Errors
+    /// When there is none, or it is no ordinary file of such a length.
+    pub fn read_file(&self, name: &str) -> Result<Vec<u8>, ScriptError> {
+        let room = self.meter().limits().memory.map(|bytes| bytes / TIMES_ITS_LENGTH);
+        self.output().read(name, room)
+    }
+
+    fn account_for(&self, content: &[u8]) -> Result<(), ScriptError> {
+        match self.mode() == Mode::DryBuild || self.meter().allows_a_file(content.len() as u64) {
+            true => Ok(()),
+            false => self.proceed(),
+        }
+    }
+
+    fn tell_kept(&self, written: Written) -> PathBuf {
+        if let Some(kept) = written.kept {
+            self.tell(&format!(
+                "note: '{}' was there already, and not as withy has written it: it is kept as '{}'",
+                written.path.display(),
+                kept.display()
+            ));
+        }
+        written.path
     }
 
     /// Changes the record of checks.
@@ -374,12 +359,17 @@ impl Context {
         {
             let name = if names.contains(&name) { format!("{}-{name}", number + 1) } else { name };
             if let Err(ScriptError::Failure(failure)) =
-                self.output().write(&name, content.as_bytes())
+                self.write_remains(&name, content.as_bytes())
             {
                 self.tell(&failure.message);
             }
             names.insert(name);
         }
+    }
+
+    /// What would be lost is little, and is written even where the run may write no more.
+    fn write_remains(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
+        self.output().write(name, content).map(|written| self.tell_kept(written))
     }
 
     /// Lets go of the simulations that the report would tell of, and of the names of studies: a session has no report, and the

@@ -11,7 +11,7 @@ use super::limits::DEEPEST;
 use super::numbers::format_number;
 use super::register::register;
 use super::sources::Sources;
-use super::{constants, elements, foundation, operators, sorting, syntax};
+use super::{constants, elements, foundation, operators, replacing, sorting, syntax};
 use crate::analysis::is_out_of_patience;
 
 /// Nesting of one expression at the top level, and inside a function where it adds up with calls.
@@ -35,6 +35,7 @@ pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     let reader = syntax::install(&mut engine)?;
     operators::install(&mut engine);
     sorting::install(&mut engine);
+    replacing::install(&mut engine);
     elements::install(&mut engine);
     print_numbers(&mut engine);
     Sources::install(&mut engine, catalog, reader);

@@ -3,18 +3,16 @@
 
 use std::cell::RefCell;
 use std::collections::HashMap;
-use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 
 use rhai::{
     Engine, EvalAltResult, GlobalRuntimeState, Module, ModuleResolver, Position, Scope, Shared,
 };
 
 use super::error::ScriptError;
-use super::files::InputFolders;
+use super::files::{InputFolder, InputFolders};
 use super::library;
-use super::program::Program;
+use super::program::{LARGEST_SCRIPT, Program};
 use super::runner::parse;
 
 /// Files that import files that import files: so many at most.
@@ -30,7 +28,8 @@ pub struct FolderResolver {
 
 /// A module as its file was when it was read: a session may see a file in several states.
 struct ReadModule {
-    changed: Option<SystemTime>,
+    /// Nothing for modules of the library, which do not change.
+    content: Vec<u8>,
     module: Shared<Module>,
 }
 
@@ -39,21 +38,23 @@ impl FolderResolver {
     pub fn new(folder: &Path) -> Self {
         Self {
             folder: folder.to_owned(),
-            inputs: InputFolders::new([("script's own folder", folder.to_owned())]),
+            inputs: InputFolders::new([InputFolder::beside(folder)]),
             being_read: RefCell::default(),
             read: RefCell::default(),
         }
     }
 
-    /// The file of a module: its name as it is shown, and its real path.
-    fn find(&self, name: &str) -> Result<(PathBuf, PathBuf), ScriptError> {
+    /// The file of a module: its name as it is shown, its path below the folder, and what it holds.
+    fn find(&self, name: &str) -> Result<(PathBuf, PathBuf, Vec<u8>), ScriptError> {
         let file = if name.ends_with(".rhai") { name.to_owned() } else { format!("{name}.rhai") };
-        let real = self.inputs.find(&file).map_err(|error| {
+        let content = self.inputs.read(&file, LARGEST_SCRIPT).map_err(|error| {
             error.hint("import looks for NAME.rhai in the script's own folder and below")
         })?;
+        // One file, however many slashes it is written with.
+        let path: PathBuf = Path::new(&file).components().collect();
         let shown =
             if self.folder == Path::new(".") { file.into() } else { self.folder.join(file) };
-        Ok((shown, real))
+        Ok((shown, path, content))
     }
 
     /// A module of the library, behind its entrances.
@@ -73,7 +74,7 @@ impl FolderResolver {
             |error| Box::new(EvalAltResult::ErrorInModule(of.file.into(), error, position)),
         )?;
         let module = Shared::new(library::behind_entrances(&module, &ast, of.file));
-        let read = ReadModule { changed: None, module: Shared::clone(&module) };
+        let read = ReadModule { content: Vec::new(), module: Shared::clone(&module) };
         self.read.borrow_mut().insert(file, read);
         Ok(module)
     }
@@ -96,9 +97,10 @@ impl FolderResolver {
         engine: &Engine,
         global: &mut GlobalRuntimeState,
         file: &Path,
+        content: Vec<u8>,
         position: Position,
     ) -> Result<Shared<Module>, Box<EvalAltResult>> {
-        let program = Program::load(file).map_err(|refused| {
+        let program = Program::from_bytes(file, content).map_err(|refused| {
             let refusal = ScriptError::new(refused.message);
             refusal.into_engine(position)
         })?;
@@ -135,19 +137,18 @@ impl ModuleResolver for FolderResolver {
         if let Some(module) = library::find(path) {
             return self.load_library(engine, global, module.map_err(refused)?, position);
         }
-        let (shown, file) = self.find(path).map_err(refused)?;
+        let (shown, file, content) = self.find(path).map_err(refused)?;
         self.refuse_chain(path, &file).map_err(refused)?;
-        let changed = fs::metadata(&file).and_then(|about| about.modified()).ok();
         let known = self.read.borrow();
-        if let Some(read) = known.get(&file).filter(|read| read.changed == changed) {
+        if let Some(read) = known.get(&file).filter(|read| read.content == content) {
             return Ok(Shared::clone(&read.module));
         }
         drop(known);
         self.being_read.borrow_mut().push(file.clone());
-        let module = self.load(engine, global, &shown, position);
+        let module = self.load(engine, global, &shown, content.clone(), position);
         self.being_read.borrow_mut().pop();
         let module = module?;
-        self.read.borrow_mut().insert(file, ReadModule { changed, module: Shared::clone(&module) });
+        self.read.borrow_mut().insert(file, ReadModule { content, module: Shared::clone(&module) });
         Ok(module)
     }
 }

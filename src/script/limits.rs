@@ -1,26 +1,26 @@
-//! What a run may use: time, steps, memory, calls within calls; and what stopped a run before its end.
+//! What a run may use: time, steps, memory, calls within calls, what is written; and what stopped a run before its end.
 
 use std::cell::Cell;
 use std::io;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU8, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
-use std::thread::{self, JoinHandle};
-use std::time::{Duration, Instant};
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
+use std::time::Duration;
 
 use super::numbers::format_number;
+use super::watchdog::Watchdog;
 
 /// Bytes of a megabyte.
 pub const MEGABYTE: u64 = 1_000_000;
 /// The default limit of memory, in megabytes.
 pub const DEFAULT_MEGABYTES: u64 = 4096;
+/// The default limit of what is written, in megabytes.
+pub const DEFAULT_MEGABYTES_WRITTEN: u64 = 10_000;
+/// The default limit of files written.
+pub const DEFAULT_FILES: u64 = 100_000;
 /// The default limit of calls within calls.
 pub const DEFAULT_DEPTH: usize = 400;
 /// The most calls within calls that can be allowed: they fit [`STACK_BYTES`](super::runner::STACK_BYTES).
 pub const DEEPEST: usize = 1000;
-
-/// How often the watchdog looks.
-const INTERVAL: Duration = Duration::from_millis(10);
 
 /// What a run may use. `None` is without limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +33,14 @@ pub struct Limits {
     pub memory: Option<u64>,
     /// Calls of script functions within calls, at most [`DEEPEST`].
     pub depth: usize,
+    /// What is printed and written into files, all together [bytes].
+    pub written: Option<u64>,
+    /// Files written; one that is written again counts again.
+    pub files: Option<u64>,
 }
+
+/// Ends the whole program: a limit was passed, and what runs did not hear of it or grows too fast.
+pub type LastResort = Arc<dyn Fn(Stop) + Send + Sync>;
 
 impl Default for Limits {
     fn default() -> Self {
@@ -42,6 +49,8 @@ impl Default for Limits {
             steps: None,
             memory: Some(DEFAULT_MEGABYTES * MEGABYTE),
             depth: DEFAULT_DEPTH,
+            written: Some(DEFAULT_MEGABYTES_WRITTEN * MEGABYTE),
+            files: Some(DEFAULT_FILES),
         }
     }
 }
@@ -59,6 +68,12 @@ pub enum Stop {
     Steps(u64),
     /// The process occupied more memory than this [bytes].
     Memory(u64),
+    /// More was to be printed and written than this [bytes].
+    Written(u64),
+    /// More files were to be written than this.
+    Files(u64),
+    /// What the script prints could not be written.
+    OutputLost(io::ErrorKind),
     /// A dry build pretended to go on with simulations so often that the script must wait for something which only a real one
     /// finds.
     Waiting,
@@ -78,6 +93,20 @@ impl Stop {
                 format!("the simulations of this run need more than {limit} steps"),
                 Some("--max-steps N allows more".into()),
             ),
+            Self::Written(limit) => (
+                format!("the run prints and writes more than {} MB", limit / MEGABYTE),
+                Some(
+                    "--max-written MB allows more; does something print in a loop for ever?".into(),
+                ),
+            ),
+            Self::Files(limit) => (
+                format!("the run writes more than {limit} files"),
+                Some("--max-files N allows more".into()),
+            ),
+            Self::OutputLost(kind) => (
+                format!("what the script prints cannot be written: {kind}"),
+                Some("see that there is room where the output goes".into()),
+            ),
             Self::Waiting => (
                 "the script waits for what a simulation finds: it cannot be checked further".into(),
                 None,
@@ -94,8 +123,13 @@ impl Stop {
 pub struct Meter {
     limits: Limits,
     alarm: Arc<AtomicU8>,
+    resort: Option<LastResort>,
     steps: Cell<u64>,
     wants_too_many_steps: Cell<bool>,
+    written: Cell<u64>,
+    files: Cell<u64>,
+    /// What the run stopped itself by.
+    stopped: Cell<Option<Stop>>,
     /// How often a dry build pretended to go on with a simulation.
     pretended: Cell<u64>,
 }
@@ -103,18 +137,31 @@ pub struct Meter {
 /// So often may it do that: a loop that waits for a time is long through by then.
 const MOST_PRETENDED: u64 = 100_000;
 
-const QUIET: u8 = 0;
-const TOO_LATE: u8 = 1;
-const TOO_LARGE: u8 = 2;
+/// Whether a run of this process has heard that it was interrupted: it is about to stop, and to keep what ran.
+pub static INTERRUPT_HEARD: AtomicBool = AtomicBool::new(false);
+
+/// What a watchdog has to say.
+pub(super) const QUIET: u8 = 0;
+pub(super) const TOO_LATE: u8 = 1;
+pub(super) const TOO_LARGE: u8 = 2;
 
 impl Meter {
     /// Nothing is used yet.
     pub fn new(limits: Limits) -> Self {
+        Self::guarded(limits, None)
+    }
+
+    /// The same, with somebody who ends the program when a limit is passed and nothing hears of it.
+    pub fn guarded(limits: Limits, resort: Option<LastResort>) -> Self {
         Self {
             limits,
+            resort,
             alarm: Arc::default(),
             steps: Cell::new(0),
             wants_too_many_steps: Cell::new(false),
+            written: Cell::new(0),
+            files: Cell::new(0),
+            stopped: Cell::new(None),
             pretended: Cell::new(0),
         }
     }
@@ -129,6 +176,7 @@ impl Meter {
         match self.alarm.load(Ordering::Relaxed) {
             TOO_LATE => self.limits.time.map(Stop::Time),
             TOO_LARGE => self.limits.memory.map(Stop::Memory),
+            _ if self.stopped.get().is_some() => self.stopped.get(),
             _ if self.wants_too_many_steps.get() => self.limits.steps.map(Stop::Steps),
             _ if self.pretended.get() > MOST_PRETENDED => Some(Stop::Waiting),
             _ => None,
@@ -164,6 +212,31 @@ impl Meter {
         allowed
     }
 
+    /// Stops the run.
+    pub fn stop(&self, why: Stop) {
+        self.stopped.set(self.stopped.get().or(Some(why)));
+    }
+
+    /// Counts what is to be printed or written, and whether it may be [bytes]; if not, the limit counts as passed.
+    pub fn allows_to_write(&self, bytes: u64) -> bool {
+        self.written.set(self.written.get().saturating_add(bytes));
+        let beyond = self.limits.written.filter(|limit| self.written.get() > *limit);
+        beyond.into_iter().for_each(|limit| self.stop(Stop::Written(limit)));
+        beyond.is_none()
+    }
+
+    /// The same for a file of so many bytes.
+    pub fn allows_a_file(&self, bytes: u64) -> bool {
+        self.files.set(self.files.get() + 1);
+        match self.limits.files.filter(|limit| self.files.get() > *limit) {
+            Some(limit) => {
+                self.stop(Stop::Files(limit));
+                false
+            }
+            None => self.allows_to_write(bytes),
+        }
+    }
+
     /// Begins to count anew and watches the clock and the memory until the guard is dropped.
     ///
     /// # Errors
@@ -172,57 +245,19 @@ impl Meter {
         self.alarm.store(QUIET, Ordering::Relaxed);
         self.steps.set(0);
         self.wants_too_many_steps.set(false);
-        Watchdog::start(self.limits, Arc::clone(&self.alarm))
+        self.written.set(0);
+        self.files.set(0);
+        // What is lost stays lost.
+        self.stopped.set(self.stopped.get().filter(|stop| matches!(stop, Stop::OutputLost(_))));
+        Watchdog::start(self.limits, Arc::clone(&self.alarm), self.resort.clone())
     }
-}
-
-/// A thread that watches the clock and the memory; it ends when this is dropped.
-pub struct Watchdog {
-    /// The thread ends when this is let go.
-    leash: Option<Sender<()>>,
-    thread: Option<JoinHandle<()>>,
-}
-
-impl Watchdog {
-    fn start(limits: Limits, alarm: Arc<AtomicU8>) -> io::Result<Self> {
-        if limits.time.is_none() && limits.memory.is_none() {
-            return Ok(Self { leash: None, thread: None });
-        }
-        let begun = Instant::now();
-        let (leash, held) = channel::<()>();
-        let watch = move || {
-            while let Err(RecvTimeoutError::Timeout) = held.recv_timeout(INTERVAL) {
-                if limits.time.is_some_and(|limit| begun.elapsed() > limit) {
-                    return alarm.store(TOO_LATE, Ordering::Relaxed);
-                }
-                if limits.memory.is_some_and(|limit| occupied() > limit) {
-                    return alarm.store(TOO_LARGE, Ordering::Relaxed);
-                }
-            }
-        };
-        let thread = thread::Builder::new().name("watchdog".into()).spawn(watch)?;
-        Ok(Self { leash: Some(leash), thread: Some(thread) })
-    }
-}
-
-impl Drop for Watchdog {
-    fn drop(&mut self) {
-        self.leash = None;
-        if let Some(thread) = self.thread.take() {
-            // It has nothing to tell, and a panic of it must not become ours.
-            let _ = thread.join();
-        }
-    }
-}
-
-/// The memory that the process occupies [bytes]; nothing where the system does not tell.
-fn occupied() -> u64 {
-    memory_stats::memory_stats().map_or(0, |stats| stats.physical_mem as u64)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::thread;
+    use std::time::Instant;
 
     fn without_limits() -> Limits {
         Limits { memory: None, ..Limits::default() }
@@ -280,5 +315,31 @@ mod tests {
     fn messages_name_the_limit_and_its_flag() {
         let (message, hint) = Stop::Memory(2_000_000).words();
         assert!(message.contains("2 MB") && hint.unwrap().contains("--max-memory"));
+    }
+
+    #[test]
+    fn what_is_written_is_counted_with_what_is_printed() {
+        let meter = Meter::new(Limits { written: Some(10), files: Some(2), ..without_limits() });
+        assert!(meter.allows_to_write(6) && meter.allows_a_file(4) && meter.passed().is_none());
+        assert!(!meter.allows_to_write(1));
+        assert_eq!(meter.passed(), Some(Stop::Written(10)));
+        let _watchdog = meter.watch().unwrap();
+        assert!(meter.allows_a_file(1) && meter.allows_a_file(1) && !meter.allows_a_file(1));
+        assert_eq!(meter.passed(), Some(Stop::Files(2)));
+        meter.stop(Stop::OutputLost(io::ErrorKind::StorageFull));
+        assert_eq!(meter.passed(), Some(Stop::Files(2)), "the first reason holds");
+    }
+
+    #[test]
+    fn who_does_not_hear_of_a_limit_is_ended() {
+        let (send, ended) = std::sync::mpsc::channel();
+        let resort: LastResort = Arc::new(move |stop| _ = send.send(stop));
+        let limit = Duration::from_millis(20);
+        let begun = Instant::now();
+        let meter = Meter::guarded(Limits { time: Some(limit), ..without_limits() }, Some(resort));
+        let _watchdog = meter.watch().unwrap();
+        let stop = ended.recv_timeout(Duration::from_secs(20)).unwrap();
+        assert_eq!(stop, Stop::Time(limit));
+        assert!(begun.elapsed() > limit * 2, "whoever hears of it has some time");
     }
 }

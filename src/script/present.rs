@@ -120,7 +120,8 @@ impl Presenter<'_> {
         for (label, value) in details {
             for (number, part) in wrapped(value, room).into_iter().enumerate() {
                 let label = if number == 0 { label } else { "" };
-                text.push_str(&format!("\n  {label:<widest$}  {part}"));
+                let blanks = " ".repeat(widest.saturating_sub(label.chars().count()));
+                text.push_str(&format!("\n  {label}{blanks}  {part}"));
             }
         }
         text

@@ -5,6 +5,10 @@ use std::sync::Arc;
 
 use super::diagnose::Diagnostic;
 use super::library;
+use crate::folders::read_file;
+
+/// The largest script, or file that one imports [bytes]: more is data, and takes a lot of memory to be read as a script.
+pub const LARGEST_SCRIPT: u64 = 16 << 20;
 
 /// A script to be run: its name in messages, its text, and the folder that `import` looks in.
 #[derive(Clone, Debug)]
@@ -32,18 +36,28 @@ impl Program {
         if path.is_dir() {
             return Err(refused("it is a folder".into(), "name a file that ends in .rhai"));
         }
-        let bytes = std::fs::read(path).map_err(|error| {
+        let bytes = read_file(path, LARGEST_SCRIPT).map_err(|error| {
             let why = match error.kind() {
                 std::io::ErrorKind::NotFound => "there is no such file".into(),
                 _ => error.to_string(),
             };
             refused(why, "check the path, relative to the folder you are in")
         })?;
+        Self::from_bytes(path, bytes)
+    }
+
+    /// The script that a file holds.
+    ///
+    /// # Errors
+    /// When it is not UTF-8.
+    pub fn from_bytes(path: &Path, bytes: Vec<u8>) -> Result<Self, Diagnostic> {
+        let name = path.display().to_string();
         let text = String::from_utf8(bytes).map_err(|error| {
             let line = error.as_bytes()[..error.utf8_error().valid_up_to()]
                 .split(|byte| *byte == b'\n')
                 .count();
-            refused(format!("line {line} is not UTF-8 text"), "save the file as UTF-8")
+            let told = format!("cannot read the script '{name}': line {line} is not UTF-8 text");
+            Diagnostic::general(told).with_hint("save the file as UTF-8")
         })?;
         let folder =
             path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));

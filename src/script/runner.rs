@@ -28,7 +28,7 @@ pub const STACK_BYTES: usize = 256 << 20;
 
 /// Address space for closures that hold closures that hold closures …: they are let go one within the other. A link of
 /// such a chain takes less stack than twice its memory, so the memory allowed bounds the stack that it may need.
-fn stack_for(limits: &Limits) -> usize {
+pub fn stack_for(limits: &Limits) -> usize {
     let memory = limits.memory.unwrap_or(DEFAULT_MEGABYTES * MEGABYTE);
     let memory = usize::try_from(memory).unwrap_or(LARGEST_STACK).min(LARGEST_STACK);
     STACK_BYTES + 2 * memory
@@ -169,7 +169,14 @@ fn run_here(program: &Program, catalog: &Catalog, settings: Settings) -> Outcome
     }
     context.flush();
     Outcome {
-        ending: if context.is_pipe_closed() { Ending::PipeClosed } else { ending },
+        ending: match (ending, context.meter().passed()) {
+            _ if context.is_pipe_closed() => Ending::PipeClosed,
+            (Ending::Finished, Some(lost @ Stop::OutputLost(_))) => {
+                let (told, hint) = lost.words();
+                Ending::Failed(Diagnostic { hint, ..Diagnostic::general(told) })
+            }
+            (ending, _) => ending,
+        },
         checks: context.with_checks(|checks| checks.clone()),
         simulations: context.report(),
         files: context.output().written(),

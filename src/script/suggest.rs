@@ -1,7 +1,14 @@
 //! "Did you mean": the nearest known name, if it is near enough.
 
+/// The longest name that may be a slip [bytes].
+const LONGEST: usize = 200;
+
 /// The candidate nearest to `wrong`, unless all are too far to be what was meant.
 pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    // The distance takes as long as both names together: nobody means one of ours by such a name.
+    if wrong.len() > LONGEST {
+        return None;
+    }
     let wrong_lower = wrong.to_lowercase();
     let mistakes_allowed = (wrong.chars().count() / 3).clamp(1, 3);
     candidates
@@ -49,6 +56,8 @@ mod tests {
         assert_eq!(nearest("rhoA", known), Some("rho_A"));
         assert_eq!(nearest("temperature", known), None);
         assert_eq!(nearest("x", ["y"]), None);
+        let long = "l".repeat(LONGEST + 2);
+        assert_eq!(nearest(&long, [&long[1..]]), None, "nothing is compared");
     }
 
     #[test]

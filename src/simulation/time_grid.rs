@@ -6,6 +6,9 @@ const SAME: f64 = 1e-9;
 /// and so are those that differ by so many roundings of a time.
 const ROUNDINGS: f64 = 4.0;
 
+/// Nobody counts further than that.
+const MOST_POINTS: u64 = 1 << 60;
+
 /// `t_n = t_0 + n dt`, cut where schedules jump or bend. Times are never accumulated. For steps of varying size there are only cuts.
 #[derive(Debug, Clone, Default)]
 pub struct TimeGrid {
@@ -61,7 +64,7 @@ impl TimeGrid {
     /// `t_0 + n dt`. A step that is one over a whole number is taken as such: n/10 is the number people write, n · 0.1 is
     /// often its neighbour.
     fn point(&self, n: u64) -> f64 {
-        if self.dt == f64::INFINITY {
+        if self.dt == f64::INFINITY || n > MOST_POINTS {
             return f64::INFINITY;
         }
         let rate = (1.0 / self.dt).round();
@@ -79,11 +82,7 @@ impl TimeGrid {
 
     /// The end of the step that begins at `now`: the next grid point or cut, but not beyond `limit`.
     pub fn next(&self, now: f64, limit: f64) -> f64 {
-        let mut passed = self.passed;
-        while self.has_reached(now, self.point(passed + 1)) {
-            passed += 1;
-        }
-        let grid = self.point(passed + 1);
+        let grid = self.point(self.passed_by(now) + 1);
         let cut = self.cuts[self.cuts.partition_point(|cut| self.has_reached(now, *cut))..].first();
         // The cut comes last: where it and the limit are one, the schedule must see its own time.
         [Some(limit), cut.copied()].into_iter().flatten().fold(grid, |end, candidate| {
@@ -104,16 +103,24 @@ impl TimeGrid {
     /// The same grid, begun anew with these cuts, as it is at a time.
     pub fn lay(&mut self, cuts: &[f64], now: f64) {
         *self = std::mem::take(self).with_cuts(cuts.to_vec());
-        // Near enough to get there soon, and never too far.
-        self.passed = (((now - self.start) / self.dt) as u64).saturating_sub(2);
+        self.passed = 0;
         self.reach(now);
     }
 
     /// Remembers that a time has been reached, so that the next search begins there.
     pub fn reach(&mut self, now: f64) {
-        while self.has_reached(now, self.point(self.passed + 1)) {
-            self.passed += 1;
+        self.passed = self.passed_by(now);
+    }
+
+    /// The number of grid points that are passed at a time; those that were passed before stay so.
+    fn passed_by(&self, now: f64) -> u64 {
+        // Near enough to get there soon, however far it is, and never too far.
+        let near = (((now - self.start) / self.dt) as u64).saturating_sub(2).min(MOST_POINTS);
+        let mut passed = self.passed.max(near);
+        while passed < MOST_POINTS && self.has_reached(now, self.point(passed + 1)) {
+            passed += 1;
         }
+        passed
     }
 }
 
@@ -130,6 +137,15 @@ mod tests {
             times.push(now);
         }
         times
+    }
+
+    #[test]
+    fn a_time_far_away_is_reached_at_once() {
+        let mut grid = TimeGrid::new(0.0, 0.1, vec![]);
+        grid.reach(1e10);
+        assert_eq!(grid.passed(), 100_000_000_000);
+        assert_eq!(grid.next(1e10, 2e10), 10_000_000_000.1);
+        assert_eq!(grid.next(1e300, 2e300), 2e300);
     }
 
     #[test]

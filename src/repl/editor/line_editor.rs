@@ -137,6 +137,11 @@ impl Editor {
 
     fn recall(&mut self) {
         let Some(file) = self.history.clone().filter(|file| file.exists()) else { return };
+        // A pipe or a device would make the session wait.
+        if !file.is_file() {
+            let error = ReadlineError::from(io::Error::other("it is no ordinary file"));
+            return self.give_up("read", &file, &error);
+        }
         match self.lines.load_history(&file) {
             Ok(()) => {
                 if let Ok(mut entries) = self.entries.lock() {

@@ -136,15 +136,18 @@ pub(super) fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic,
         PictureKind::Svg => figure.to_svg()?.into_bytes(),
         PictureKind::Png => figure.to_png()?,
     };
-    call.context().output().write(&file, &bytes)?;
+    call.context().write_file(&file, &bytes)?;
     Ok(Dynamic::UNIT)
 }
 
 fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let simulations = things(call, as_simulation)?;
     let options = call.options_or_defaults("options")?;
-    let mut pictures =
-        simulations.iter().map(|of| motion(call, of, &options)).collect::<Result<Vec<_>, _>>()?;
+    let picture = |of: &SimulationHandle| {
+        call.proceed()?;
+        motion(call, of, &options)
+    };
+    let mut pictures = simulations.iter().map(picture).collect::<Result<Vec<_>, ScriptError>>()?;
     match pictures.len() {
         1 => write_picture(call, &pictures.remove(0)),
         _ => write_picture(call, &MotionPicture::side_by_side(pictures)),
@@ -287,7 +290,7 @@ pub(super) fn write_csv(call: &Call, table: CsvTable) -> Result<Dynamic, ScriptE
     if !file.ends_with(".csv") {
         return Err(call.error(format!("\"{file}\" does not end in .csv")));
     }
-    call.context().output().write(&file, table.to_text()?.as_bytes())?;
+    call.context().write_file(&file, table.to_text()?.as_bytes())?;
     Ok(Dynamic::UNIT)
 }
 

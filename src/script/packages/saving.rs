@@ -87,7 +87,7 @@ fn save(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let file = handle.simulation().to_bytes(handle.name());
     let file = file.map_err(|error| call.error(format!("'{}': {error}", handle.name())))?;
-    let written = call.context().output().write_to_read(&call.text("file")?, file);
+    let written = call.context().write_to_read(&call.text("file")?, file);
     written.map_err(|error| error.at(Place::Argument(0)))?;
     let waiting = handle.events_waiting();
     if waiting > 0 {
@@ -101,7 +101,7 @@ fn save(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn load(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let name = call.text("file")?;
-    let file = call.context().output().read(&name).map_err(|error| error.at(Place::Argument(0)))?;
+    let file = call.context().read_file(&name).map_err(|error| error.at(Place::Argument(0)))?;
     let loaded = Simulation::from_bytes(&file);
     let (name, mut simulation) = loaded.map_err(|error| {
         call.error(format!("cannot load \"{name}\": {error}")).at(Place::Argument(0))

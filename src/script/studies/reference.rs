@@ -82,7 +82,7 @@ pub enum Reference {
 
 /// Reads a table of the script's folder or the output folder.
 pub fn read_sheet(call: &Call, key: &str, file: &str) -> Result<Sheet, ScriptError> {
-    let bytes = call.context().output().read(file)?;
+    let bytes = call.context().read_file(file)?;
     let text = String::from_utf8_lossy(&bytes);
     Sheet::parse(&text).map_err(|error| {
         at_key(call, key, format!("\"{file}\": {error}"), "a table is CSV, with # before comments")

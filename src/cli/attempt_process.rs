@@ -1,0 +1,272 @@
+//! One process for each attempt that is graded: nothing that an attempt does to its process reaches the next one or the marks.
+//!
+//! The program starts itself, in a new folder whose name nobody can guess, with limits of the system on time, memory, and
+//! what it writes. The process says its verdict in a line of JSON; one that dies has a mark all the same.
+
+use std::io::Read;
+use std::path::Path;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+use std::{env, io, process};
+
+use serde_json::{Value, json};
+
+use super::Exit;
+use super::limits::LimitOptions;
+use super::say::say;
+use crate::exercises::attempt;
+use crate::exercises::exercise::Exercise;
+use crate::exercises::grading::{self, Mark};
+use crate::exercises::judging::{Verdict, judge};
+use crate::exercises::submissions::Submission;
+use crate::script::context::{Mode, Settings};
+use crate::script::limits::{Limits, Stop};
+
+/// How often a process is looked at.
+const INTERVAL: Duration = Duration::from_millis(5);
+/// What a process may take beside the attempt and its judge.
+const START: Duration = Duration::from_secs(2);
+/// The longest message of a verdict, in characters: a line fits into the pipe, and a person reads it.
+const LONGEST_MESSAGE: usize = 4000;
+/// The most that is read of what a process says [bytes].
+const LONGEST_VERDICT: u64 = 1 << 20;
+
+/// The mark of an attempt from a process of its own. Nothing when `stop` was set before it was known.
+pub(super) fn mark_apart(
+    submission: &Submission,
+    file: &Path,
+    exercise: &Exercise,
+    limits: &LimitOptions,
+    stop: &AtomicBool,
+) -> Option<(Mark, String)> {
+    let bounds = limits.for_an_attempt();
+    match run_apart(submission, file, exercise, limits, stop) {
+        Ok(Said::Line(line)) => {
+            Some(read(&line).unwrap_or_else(|| (Mark::Broken, "its judge said nothing".into())))
+        }
+        Ok(Said::Nothing(status)) => Some(mark_of_death(status, &bounds)),
+        Ok(Said::TooLate) => Some((Mark::Stopped, too_late(&bounds))),
+        Ok(Said::Interrupted) => None,
+        Err(error) => Some((Mark::Broken, format!("cannot start a process for it: {error}"))),
+    }
+}
+
+/// What came of a process.
+enum Said {
+    /// It said its verdict.
+    Line(String),
+    /// It died without a word.
+    Nothing(ExitStatus),
+    /// It had to be ended.
+    TooLate,
+    /// It was ended because the grading was.
+    Interrupted,
+}
+
+fn run_apart(
+    submission: &Submission,
+    file: &Path,
+    exercise: &Exercise,
+    limits: &LimitOptions,
+    stop: &AtomicBool,
+) -> io::Result<Said> {
+    let folder = tempfile::Builder::new().prefix("withy-attempt-").tempdir()?;
+    let begun = Instant::now();
+    let home = submission.folder.canonicalize()?;
+    let below = file.strip_prefix(&submission.folder).map_err(io::Error::other)?;
+    let mut command = Command::new(env::current_exe()?);
+    command
+        .args(["learn", "attempt"])
+        .args(limits.words())
+        .arg("--")
+        .args([&home, &home.join(below)])
+        .arg(exercise.id())
+        .current_dir(folder.path())
+        .env("TMPDIR", folder.path())
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null());
+    let mut process = apart(&mut command).spawn()?;
+    let time = limits.for_an_attempt().time.unwrap_or_default() * 2 + START;
+    let ended = loop {
+        if let Some(status) = process.try_wait()? {
+            break Said::Nothing(status);
+        }
+        if stop.load(Ordering::Relaxed) || begun.elapsed() > time {
+            process.kill()?;
+            process.wait()?;
+            break if stop.load(Ordering::Relaxed) { Said::Interrupted } else { Said::TooLate };
+        }
+        thread::sleep(INTERVAL);
+    };
+    Ok(match (ended, line_of(&mut process)) {
+        (Said::Nothing(status), Some(line)) if status.success() => Said::Line(line),
+        (ended, _) => ended,
+    })
+}
+
+fn line_of(process: &mut Child) -> Option<String> {
+    let mut said = Vec::new();
+    process.stdout.take()?.take(LONGEST_VERDICT).read_to_end(&mut said).ok()?;
+    let said = String::from_utf8(said).ok()?;
+    said.lines().next().map(str::to_owned)
+}
+
+fn read(line: &str) -> Option<(Mark, String)> {
+    let verdict: Value = serde_json::from_str(line).ok()?;
+    let mark = Mark::of(verdict.get("result")?.as_str()?)?;
+    Some((mark, verdict.get("message")?.as_str()?.to_owned()))
+}
+
+fn write((mark, message): &(Mark, String)) -> String {
+    let message: String = message.chars().take(LONGEST_MESSAGE).collect();
+    json!({ "result": mark.word(), "message": message }).to_string()
+}
+
+fn too_late(limits: &Limits) -> String {
+    limits.time.map_or_else(|| "it takes too long".into(), |time| Stop::Time(time).words().0)
+}
+
+/// What the way in which a process died says of its attempt.
+fn mark_of_death(status: ExitStatus, limits: &Limits) -> (Mark, String) {
+    let passed = match cause_of_death(status) {
+        Cause::Time => return (Mark::Stopped, too_late(limits)),
+        Cause::Memory => limits.memory.map(Stop::Memory),
+        Cause::Written => limits.written.map(Stop::Written),
+        Cause::Other => None,
+    };
+    match passed {
+        Some(stop) => (Mark::Stopped, stop.words().0),
+        None => (Mark::Broken, format!("its process ended without a verdict: {status}")),
+    }
+}
+
+/// Which limit of the system ended a process.
+enum Cause {
+    Time,
+    Memory,
+    Written,
+    Other,
+}
+
+#[cfg(unix)]
+fn cause_of_death(status: ExitStatus) -> Cause {
+    use nix::sys::signal::Signal;
+    use std::os::unix::process::ExitStatusExt;
+    match status.signal().and_then(|number| Signal::try_from(number).ok()) {
+        Some(Signal::SIGXCPU) => Cause::Time,
+        Some(Signal::SIGXFSZ) => Cause::Written,
+        // An allocation that is refused aborts; the system ends who takes too much.
+        Some(Signal::SIGABRT | Signal::SIGKILL) => Cause::Memory,
+        _ => Cause::Other,
+    }
+}
+
+#[cfg(not(unix))]
+fn cause_of_death(_: ExitStatus) -> Cause {
+    Cause::Other
+}
+
+/// Keeps Ctrl-C at the terminal from the process: whoever grades decides what becomes of it.
+fn apart(command: &mut Command) -> &mut Command {
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(command, 0);
+    command
+}
+
+/// Says that a limit was passed in the middle of something that does not hear of it.
+fn stopped_hard(stop: Stop) {
+    say(&write(&(Mark::Stopped, stop.words().0)));
+    process::exit(0)
+}
+
+/// Judges one attempt in this process, which is for nothing else, and says the verdict.
+pub(super) fn judge_one(
+    folder: &Path,
+    file: &Path,
+    exercise: &Exercise,
+    limits: &LimitOptions,
+) -> Exit {
+    let limits = limits.for_an_attempt();
+    if let Err(error) = confine(&limits) {
+        eprintln!("error: this process cannot be given limits: {error}");
+        return Exit::Wrong;
+    }
+    let settings = Settings {
+        limits,
+        last_resort: Some(Arc::new(stopped_hard)),
+        ..Settings::silent(Mode::Run)
+    };
+    let verdict = match attempt::load(file, folder) {
+        Ok(attempt) => judge(exercise, &attempt, settings),
+        Err(why) => Verdict::Broken(why),
+    };
+    match grading::mark(verdict) {
+        Some(mark) => say(&write(&mark)),
+        None => return Exit::Interrupted,
+    }
+    // What the attempt has made is not taken apart: that may take as long as making it.
+    process::exit(0)
+}
+
+/// Limits of the system for this process: a net below our own, which are kept first.
+#[cfg(unix)]
+fn confine(limits: &Limits) -> nix::Result<()> {
+    use crate::script::runner::stack_for;
+    use nix::sys::resource::{Resource, getrlimit, setrlimit};
+    let cores = thread::available_parallelism().map_or(1, usize::from) as u64;
+    let set = |resource, most: u64| {
+        let (_, hard) = getrlimit(resource)?;
+        setrlimit(resource, most.min(hard), hard.min(most.saturating_add(1)))
+    };
+    if let Some(time) = limits.time {
+        set(Resource::RLIMIT_CPU, (time * 2 + START).as_secs().saturating_mul(cores) + 1)?;
+    }
+    if let Some(memory) = limits.memory {
+        set(
+            Resource::RLIMIT_AS,
+            memory.saturating_mul(2).saturating_add(stack_for(limits) as u64 + CODE),
+        )?;
+    }
+    if let Some(written) = limits.written {
+        set(Resource::RLIMIT_FSIZE, written)?;
+    }
+    set(Resource::RLIMIT_NOFILE, FILES_OPEN)?;
+    set(Resource::RLIMIT_CORE, 0)?;
+    #[cfg(target_os = "linux")]
+    nix::sys::prctl::set_pdeathsig(nix::sys::signal::Signal::SIGKILL)?;
+    Ok(())
+}
+
+/// Files that may be open at once.
+#[cfg(unix)]
+const FILES_OPEN: u64 = 64;
+/// Address space for the program itself [bytes].
+#[cfg(unix)]
+const CODE: u64 = 1 << 30;
+
+#[cfg(not(unix))]
+fn confine(_: &Limits) -> io::Result<()> {
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn verdicts_come_through_a_line_whatever_they_say() {
+        let said = "two\nlines, \"quotes\" and \u{1b}[2J".to_owned();
+        let line = write(&(Mark::Off, said.clone()));
+        assert!(!line.contains(['\n', '\u{1b}']));
+        assert_eq!(read(&line), Some((Mark::Off, said)));
+        let line = write(&(Mark::Broken, "x".repeat(1 << 20)));
+        assert_eq!(read(&line).unwrap().1.len(), LONGEST_MESSAGE);
+        for wrong in ["", "passed", "{}", r#"{ "result": "great", "message": "" }"#] {
+            assert_eq!(read(wrong), None);
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! The attempts of a class, on all cores: each is judged by itself, and marks are told in the order of the class as soon as they
+//! and all before them are known.
+
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::channel;
+use std::thread;
+
+use super::catalogue::EXERCISES;
+use super::exercise::Exercise;
+use super::grading::{Graded, Mark};
+use super::submissions::Submission;
+
+/// Asks `judge` for every mark of the class, from `workers` threads at once, and hands them to `tell`, student by student in the
+/// order of the exercises. Gives whether it came to the end: `judge` gives nothing when it was interrupted, and `stop` ends it too.
+pub fn grade(
+    submissions: &[Submission],
+    workers: usize,
+    stop: &AtomicBool,
+    judge: impl Fn(&Submission, &Exercise) -> Option<(Mark, String)> + Sync,
+    mut tell: impl FnMut(&Submission, Graded),
+) -> bool {
+    let jobs = || submissions.iter().flat_map(|of| EXERCISES.iter().map(move |it| (of, it)));
+    let jobs: Vec<_> = jobs().collect();
+    let next = AtomicUsize::new(0);
+    let mut told = 0;
+    thread::scope(|scope| {
+        let (send, marks) = channel();
+        for _ in 0..workers.clamp(1, jobs.len().max(1)) {
+            let (send, jobs, next, judge) = (send.clone(), &jobs, &next, &judge);
+            scope.spawn(move || {
+                while !stop.load(Ordering::Relaxed) {
+                    let number = next.fetch_add(1, Ordering::Relaxed);
+                    let Some((submission, exercise)) = jobs.get(number) else { return };
+                    let Some(mark) = judge(submission, exercise) else { return };
+                    if send.send((number, mark)).is_err() {
+                        return;
+                    }
+                }
+            });
+        }
+        drop(send);
+        let mut waiting = BTreeMap::new();
+        for (number, mark) in marks {
+            waiting.insert(number, mark);
+            while let Some((mark, message)) = waiting.remove(&told) {
+                let (submission, exercise) = jobs[told];
+                tell(submission, Graded { exercise, mark, message });
+                told += 1;
+            }
+        }
+    });
+    told == jobs.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    fn class(students: usize) -> Vec<Submission> {
+        let student = |number: usize| format!("student {number}");
+        let of = |number| Submission { student: student(number), folder: student(number).into() };
+        (0..students).map(of).collect()
+    }
+
+    #[test]
+    fn marks_come_in_order_however_long_each_takes() {
+        let class = class(3);
+        let mut told = Vec::new();
+        let judge = |submission: &Submission, exercise: &Exercise| {
+            let length = submission.student.len() + exercise.name.len();
+            thread::sleep(Duration::from_millis(length as u64 * 7 % 5));
+            Some((Mark::Off, exercise.id()))
+        };
+        let stop = AtomicBool::new(false);
+        let whole = grade(&class, 4, &stop, judge, |submission, graded| {
+            assert_eq!(graded.message, graded.exercise.id());
+            told.push((submission.student.clone(), graded.message));
+        });
+        let asked =
+            class.iter().flat_map(|of| EXERCISES.iter().map(|it| (of.student.clone(), it.id())));
+        assert!(whole && told == asked.collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn what_was_marked_before_it_was_stopped_is_told() {
+        let stop = AtomicBool::new(false);
+        let (calls, mut told) = (AtomicUsize::new(0), 0);
+        let judge = |_: &Submission, _: &Exercise| {
+            let number = calls.fetch_add(1, Ordering::Relaxed) + 1;
+            stop.store(number == 5, Ordering::Relaxed);
+            Some((Mark::Passed, String::new()))
+        };
+        let whole = grade(&class(50), 1, &stop, judge, |_, _| told += 1);
+        assert!(!whole && told == 5);
+    }
+}

@@ -1,0 +1,369 @@
+//! An open folder.
+
+use std::ffi::{OsStr, OsString};
+use std::fs;
+use std::io::{self, ErrorKind, Write};
+use std::path::{Component, Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use cap_fs_ext::{DirExt, FollowSymlinks, OpenOptionsFollowExt, OpenOptionsSyncExt};
+use cap_std::ambient_authority;
+use cap_std::fs::{Dir, OpenOptions};
+
+use super::reading;
+
+/// So many names are tried for a file that is not complete yet.
+const TRIES: usize = 100;
+
+/// A folder that is open: whoever renames it or puts a link in its place changes nothing for those who have it.
+#[derive(Debug)]
+pub struct Folder(Dir);
+
+/// Whether `name` goes down only: no root, no `..`.
+pub fn is_plain(name: &Path) -> bool {
+    let mut parts = name.components();
+    name.components().next().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
+}
+
+impl Folder {
+    /// Opens a folder that a person has named; links are followed.
+    ///
+    /// # Errors
+    /// When it is not there, or is none.
+    pub fn open(path: &Path) -> io::Result<Self> {
+        let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+        Dir::open_ambient_dir(path, ambient_authority()).map(Self)
+    }
+
+    /// Opens a folder to write into, and makes it and those above where they are missing. The folder itself may not be a link:
+    /// one could have been laid there to lead elsewhere.
+    ///
+    /// # Errors
+    /// When it cannot be made, or is a link.
+    pub fn make(path: &Path) -> io::Result<Self> {
+        let above = path.parent().filter(|above| !above.as_os_str().is_empty());
+        let above = above.unwrap_or(Path::new("."));
+        match path.components().next_back() {
+            Some(Component::Normal(name)) => {
+                fs::create_dir_all(above)?;
+                Self::open(above)?.enter_or_make(name)
+            }
+            _ => Self::open(path),
+        }
+    }
+
+    /// Opens a folder as [`make`](Self::make) does, but makes nothing.
+    ///
+    /// # Errors
+    /// When it is not there, or is a link.
+    pub fn find(path: &Path) -> io::Result<Self> {
+        match path.components().next_back() {
+            Some(Component::Normal(name)) => {
+                Self::open(path.parent().unwrap_or(Path::new(".")))?.enter(name)
+            }
+            _ => Self::open(path),
+        }
+    }
+
+    fn enter(&self, name: &OsStr) -> io::Result<Self> {
+        self.0.open_dir_nofollow(name).map(Self).map_err(|error| {
+            match self.0.symlink_metadata(name).is_ok_and(|about| about.is_symlink()) {
+                true => io::Error::other(format!(
+                    "'{}' is a link, and links are not followed here; name the folder itself",
+                    name.display()
+                )),
+                false => error,
+            }
+        })
+    }
+
+    fn enter_or_make(&self, name: &OsStr) -> io::Result<Self> {
+        match self.enter(name) {
+            Err(error) if error.kind() == ErrorKind::NotFound => {
+                match self.0.create_dir(name) {
+                    Err(error) if error.kind() != ErrorKind::AlreadyExists => return Err(error),
+                    _ => (),
+                }
+                self.enter(name)
+            }
+            entered => entered,
+        }
+    }
+
+    /// The folder of a file below this one, and the file's own name.
+    fn parent_of<'n>(
+        &self,
+        name: &'n Path,
+        enter: fn(&Self, &OsStr) -> io::Result<Self>,
+    ) -> io::Result<(Self, &'n OsStr)> {
+        let refused = || io::Error::new(ErrorKind::InvalidInput, "it leads out of the folder");
+        if !is_plain(name) {
+            return Err(refused());
+        }
+        let mut folder = Self(self.0.try_clone()?);
+        for part in name.parent().into_iter().flat_map(Path::components) {
+            folder = enter(&folder, part.as_os_str())?;
+        }
+        Ok((folder, name.file_name().ok_or_else(refused)?))
+    }
+
+    /// Reads an ordinary file below this folder, of at most `most` bytes. No link is followed on the way.
+    ///
+    /// # Errors
+    /// When there is none, it is a link, a pipe, a device or a folder, or larger.
+    pub fn read(&self, name: &Path, most: u64) -> io::Result<Vec<u8>> {
+        let (folder, name) = self.parent_of(name, Self::enter)?;
+        let about = folder.0.symlink_metadata(name)?;
+        if about.is_symlink() {
+            return Err(io::Error::other("it is a link, and links are not followed here"));
+        }
+        reading::expect_ordinary(about.is_file())?;
+        reading::read(folder.0.open_with(name, &reading::options(FollowSymlinks::No))?, most)
+    }
+
+    /// Whether there is anything of this name below this folder, a link that leads nowhere included.
+    pub fn has(&self, name: &Path) -> bool {
+        let found = self.parent_of(name, Self::enter);
+        found.is_ok_and(|(folder, name)| folder.0.symlink_metadata(name).is_ok())
+    }
+
+    /// Makes a file that was not there before, and opens it for writing; folders on the way are made.
+    ///
+    /// # Errors
+    /// When there is anything of that name.
+    pub fn create(&self, name: &Path) -> io::Result<fs::File> {
+        let (folder, name) = self.parent_of(name, Self::enter_or_make)?;
+        folder.create_here(name)
+    }
+
+    fn create_here(&self, name: &OsStr) -> io::Result<fs::File> {
+        let mut options = OpenOptions::new();
+        options.write(true).create_new(true).follow(FollowSymlinks::No);
+        self.0.open_with(name, &options).map(|file| file.into_std())
+    }
+
+    /// Opens an ordinary file to write behind its end, and makes it where there is none.
+    ///
+    /// # Errors
+    /// When it is a link, a pipe, a device or a folder.
+    pub fn append(&self, name: &Path) -> io::Result<fs::File> {
+        let (folder, name) = self.parent_of(name, Self::enter_or_make)?;
+        let mut options = OpenOptions::new();
+        options.append(true).create(true).nonblock(true).follow(FollowSymlinks::No);
+        let file = folder.0.open_with(name, &options)?;
+        reading::expect_ordinary(file.metadata()?.is_file())?;
+        Ok(file.into_std())
+    }
+
+    /// Writes a file below this folder: whole, and lasting through a loss of power, or not at all. What has its name is replaced,
+    /// not followed, if it is a file or a link; folders on the way are made.
+    ///
+    /// # Errors
+    /// When it cannot be written, or a folder, a pipe or a device has its name; nothing has changed then.
+    pub fn write_whole(&self, name: &Path, bytes: &[u8]) -> io::Result<()> {
+        let (folder, name) = self.parent_of(name, Self::enter_or_make)?;
+        if let Ok(about) = folder.0.symlink_metadata(name)
+            && !about.is_symlink()
+        {
+            reading::expect_ordinary(about.is_file())?;
+        }
+        let (mut file, partial) = folder.create_partial(name)?;
+        let written = file.write_all(bytes).and_then(|()| file.sync_all());
+        drop(file);
+        let written = written.and_then(|()| folder.0.rename(&partial, &folder.0, name));
+        if written.is_err() {
+            // Its own failure is no news: there may be nothing to remove.
+            let _ = folder.0.remove_file(&partial);
+        }
+        written.and_then(|()| folder.sync())
+    }
+
+    /// A new hidden file beside `name`.
+    fn create_partial(&self, name: &OsStr) -> io::Result<(fs::File, OsString)> {
+        static COUNTER: AtomicU64 = AtomicU64::new(0);
+        let mut tries = TRIES;
+        loop {
+            tries -= 1;
+            let count = COUNTER.fetch_add(1, Ordering::Relaxed);
+            let mut partial = OsString::from(".");
+            partial.push(name);
+            partial.push(format!(".{}-{count}.part", std::process::id()));
+            match self.create_here(&partial) {
+                Ok(file) => return Ok((file, partial)),
+                Err(error) if error.kind() == ErrorKind::AlreadyExists && tries > 0 => (),
+                Err(error) => return Err(error),
+            }
+        }
+    }
+
+    /// Gives a file below this folder a new name, which nothing else may have.
+    ///
+    /// # Errors
+    /// When it cannot be renamed.
+    pub fn keep_as(&self, name: &Path, free: impl Fn(usize) -> PathBuf) -> io::Result<PathBuf> {
+        let (folder, own) = self.parent_of(name, Self::enter)?;
+        for number in 1..TRIES * TRIES {
+            let new = free(number);
+            let Some(kept) = new.file_name() else { break };
+            // Made first, so that nobody's file is replaced.
+            match folder.create_here(kept) {
+                Ok(_) => {
+                    folder.0.rename(own, &folder.0, kept)?;
+                    folder.sync()?;
+                    return Ok(new);
+                }
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => (),
+                Err(error) => return Err(error),
+            }
+        }
+        Err(io::Error::new(ErrorKind::AlreadyExists, "there is no free name to keep it by"))
+    }
+
+    /// Renames one file of this very folder to another name of it, which is replaced.
+    ///
+    /// # Errors
+    /// When it cannot be renamed.
+    pub fn replace(&self, name: &Path, new: &Path) -> io::Result<()> {
+        self.0.rename(name, &self.0, new)?;
+        self.sync()
+    }
+
+    /// Removes a file or link of this very folder.
+    ///
+    /// # Errors
+    /// When it cannot be removed.
+    pub fn remove(&self, name: &Path) -> io::Result<()> {
+        self.0.remove_file_or_symlink(name)
+    }
+
+    /// Makes names last through a loss of power. A system that cannot do that for folders has done what it can.
+    fn sync(&self) -> io::Result<()> {
+        #[cfg(unix)]
+        {
+            let open = self.0.open(".")?.into_std();
+            match open.sync_all() {
+                Err(error) if error.kind() != ErrorKind::InvalidInput => return Err(error),
+                _ => (),
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+#[cfg(unix)]
+mod tests {
+    use super::*;
+    use std::os::unix::fs::symlink;
+    use std::sync::atomic::AtomicBool;
+
+    /// A folder `own` with a file beside it that nobody may reach.
+    fn home() -> (tempfile::TempDir, PathBuf, PathBuf) {
+        let home = tempfile::tempdir().unwrap();
+        let (own, other) = (home.path().join("own"), home.path().join("other"));
+        fs::create_dir(&own).unwrap();
+        fs::create_dir(&other).unwrap();
+        fs::write(other.join("secret"), "secret").unwrap();
+        (home, own, other)
+    }
+
+    #[test]
+    fn no_link_is_followed_anywhere() {
+        let (_home, own, other) = home();
+        symlink(&other, own.join("way")).unwrap();
+        symlink(other.join("secret"), own.join("file")).unwrap();
+        symlink(&own, other.join("out")).unwrap();
+        let folder = Folder::open(&own).unwrap();
+        for name in ["way/secret", "file", "../other/secret", "a/../../other/secret", ""] {
+            assert!(folder.read(Path::new(name), 100).is_err(), "{name}");
+            assert!(folder.append(Path::new(name)).is_err(), "{name}");
+            assert!(folder.create(Path::new(name)).is_err(), "{name}");
+        }
+        assert!(folder.write_whole(Path::new("way/new"), b"x").is_err());
+        folder.write_whole(Path::new("file"), b"mine").unwrap();
+        assert_eq!(fs::read(other.join("secret")).unwrap(), b"secret");
+        assert_eq!(folder.read(Path::new("file"), 100).unwrap(), b"mine");
+        let told = Folder::make(&other.join("out")).unwrap_err().to_string();
+        assert!(told.contains("'out' is a link"), "{told}");
+    }
+
+    #[test]
+    fn prepared_names_of_partial_files_are_neither_followed_nor_written() {
+        let (_home, own, other) = home();
+        for count in 0..TRIES - 2 {
+            let name = format!(".a.{}-{count}.part", std::process::id());
+            symlink(other.join("secret"), own.join(name)).unwrap();
+        }
+        let folder = Folder::open(&own).unwrap();
+        folder.write_whole(Path::new("a"), b"mine").unwrap();
+        assert_eq!(fs::read(own.join("a")).unwrap(), b"mine");
+        assert_eq!(fs::read(other.join("secret")).unwrap(), b"secret");
+    }
+
+    #[test]
+    fn folders_pipes_and_devices_are_not_replaced() {
+        let (_home, own, _) = home();
+        fs::create_dir(own.join("below")).unwrap();
+        let pipe = own.join("pipe");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let folder = Folder::open(&own).unwrap();
+        for name in ["below", "pipe"] {
+            assert!(folder.write_whole(Path::new(name), b"x").is_err(), "{name}");
+            assert!(folder.read(Path::new(name), 100).is_err(), "{name}");
+            assert!(folder.append(Path::new(name)).is_err(), "{name}");
+        }
+        assert_eq!(fs::read_dir(&own).unwrap().count(), 2, "no partial file is left");
+    }
+
+    #[test]
+    fn a_file_is_kept_by_a_name_that_nothing_else_has() {
+        let (_home, own, _) = home();
+        let folder = Folder::open(&own).unwrap();
+        fs::write(own.join("a"), "old").unwrap();
+        fs::write(own.join("a.1"), "older").unwrap();
+        let kept = folder.keep_as(Path::new("a"), |n| format!("a.{n}").into()).unwrap();
+        assert_eq!(kept, Path::new("a.2"));
+        assert!(!own.join("a").exists());
+        assert_eq!(fs::read(own.join("a.2")).unwrap(), b"old");
+    }
+
+    /// Somebody exchanges a folder and a file for links, again and again, while files are read and written.
+    #[test]
+    fn races_do_not_lead_out() {
+        let (home, own, other) = home();
+        fs::create_dir(own.join("way")).unwrap();
+        fs::write(own.join("way/secret"), "mine").unwrap();
+        symlink(&other, home.path().join("link")).unwrap();
+        let stop = AtomicBool::new(false);
+        let (tries, mut read, mut wrong) = (20_000, 0, None);
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                let (way, aside, link) =
+                    (own.join("way"), home.path().join("aside"), home.path().join("link"));
+                while !stop.load(Ordering::Relaxed) {
+                    // The writer may have made a folder between two renamings.
+                    if aside.exists() {
+                        let _ = fs::remove_dir_all(&way).and_then(|()| fs::rename(&aside, &way));
+                    }
+                    let _ = fs::rename(&way, &aside).and_then(|()| fs::rename(&link, &way));
+                    let _ = fs::rename(&way, &link).and_then(|()| fs::rename(&aside, &way));
+                }
+            });
+            let folder = Folder::open(&own).unwrap();
+            for number in 0..tries {
+                if let Ok(found) = folder.read(Path::new("way/secret"), 100) {
+                    read += 1;
+                    wrong = wrong.or((found != b"mine").then_some(number));
+                }
+                if number % 50 == 0 {
+                    let name = PathBuf::from(format!("way/new-{number}"));
+                    let _ = folder.create(&name);
+                }
+            }
+            stop.store(true, Ordering::Relaxed);
+        });
+        assert_eq!(wrong, None, "somebody else's file was read");
+        assert!(read > 0, "the file was never there");
+        assert_eq!(fs::read_dir(&other).unwrap().count(), 1, "something was written outside");
+    }
+}

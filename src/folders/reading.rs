@@ -1,0 +1,96 @@
+//! Reading ordinary files of bounded length.
+
+use std::io::{self, Read};
+use std::path::Path;
+
+use cap_fs_ext::{FollowSymlinks, OpenOptionsFollowExt, OpenOptionsSyncExt};
+use cap_std::ambient_authority;
+use cap_std::fs::{File, Metadata, OpenOptions};
+
+/// Options that open a file for reading without ever waiting for somebody who writes.
+pub(super) fn options(follow: FollowSymlinks) -> OpenOptions {
+    let mut options = OpenOptions::new();
+    options.read(true).nonblock(true).follow(follow);
+    options
+}
+
+/// The whole of a file that a person has named, of at most `most` bytes; links are followed.
+///
+/// # Errors
+/// When it is no ordinary file, is larger, or cannot be read.
+pub fn read_file(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    // Looked at before it is opened: some devices do something when they are.
+    expect_ordinary(std::fs::metadata(path)?.is_file())?;
+    let options = options(FollowSymlinks::Yes);
+    let file = File::open_ambient_with(path, &options, ambient_authority())?;
+    read(file, most)
+}
+
+/// The same for text.
+///
+/// # Errors
+/// When it is not UTF-8, too.
+pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
+    let bytes = read_file(path, most)?;
+    String::from_utf8(bytes).map_err(|_| io::Error::other("it is not UTF-8 text"))
+}
+
+/// The whole of an open file, if it is an ordinary one of at most `most` bytes.
+pub(super) fn read(file: File, most: u64) -> io::Result<Vec<u8>> {
+    let about: Metadata = file.metadata()?;
+    expect_ordinary(about.is_file())?;
+    expect_length(about.len(), most)?;
+    let mut bytes = Vec::new();
+    // The length may be a lie, as that of the files of /proc.
+    file.into_std().take(most.saturating_add(1)).read_to_end(&mut bytes)?;
+    expect_length(bytes.len() as u64, most)?;
+    Ok(bytes)
+}
+
+pub(super) fn expect_ordinary(is_file: bool) -> io::Result<()> {
+    match is_file {
+        true => Ok(()),
+        false => Err(io::Error::new(io::ErrorKind::InvalidInput, "it is no ordinary file")),
+    }
+}
+
+fn expect_length(bytes: u64, most: u64) -> io::Result<()> {
+    match bytes <= most {
+        true => Ok(()),
+        false => {
+            let told = format!("it has more than {most} bytes, which is the most that is read");
+            Err(io::Error::new(io::ErrorKind::FileTooLarge, told))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_read_up_to_a_length() {
+        let home = tempfile::tempdir().unwrap();
+        let path = home.path().join("a");
+        std::fs::write(&path, "12345").unwrap();
+        assert_eq!(read_text(&path, 5).unwrap(), "12345");
+        assert!(read_file(&path, 4).unwrap_err().to_string().contains("more than 4 bytes"));
+        assert!(read_file(home.path(), 4).is_err());
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn pipes_devices_and_files_without_an_end_are_refused_at_once() {
+        use std::time::{Duration, Instant};
+        let home = tempfile::tempdir().unwrap();
+        let pipe = home.path().join("pipe");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let sparse = home.path().join("sparse");
+        std::fs::File::create(&sparse).unwrap().set_len(2 << 30).unwrap();
+        let begun = Instant::now();
+        for path in [pipe.as_path(), &sparse, Path::new("/dev/zero"), Path::new("/dev/tty")] {
+            assert!(read_file(path, 1000).is_err(), "{}", path.display());
+        }
+        assert!(begun.elapsed() < Duration::from_secs(5));
+    }
+}

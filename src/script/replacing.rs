@@ -1,0 +1,52 @@
+//! `text.replace(found, other)`: as in Rhai, but the length is known before room for it is taken.
+
+use rhai::{Engine, EvalAltResult, ImmutableString, NativeCallContext};
+
+/// A piece of a text: text or a character.
+trait Piece {
+    fn as_text(&self) -> String;
+}
+
+impl Piece for char {
+    fn as_text(&self) -> String {
+        self.to_string()
+    }
+}
+
+impl Piece for ImmutableString {
+    fn as_text(&self) -> String {
+        self.to_string()
+    }
+}
+
+/// Takes the place of Rhai's own functions.
+pub fn install(engine: &mut Engine) {
+    engine.register_fn("replace", replace::<ImmutableString, ImmutableString>);
+    engine.register_fn("replace", replace::<ImmutableString, char>);
+    engine.register_fn("replace", replace::<char, ImmutableString>);
+    engine.register_fn("replace", replace::<char, char>);
+}
+
+fn replace<F: Piece, O: Piece>(
+    call: NativeCallContext,
+    text: &mut ImmutableString,
+    found: F,
+    other: O,
+) -> Result<(), Box<EvalAltResult>> {
+    let (found, other) = (found.as_text(), other.as_text());
+    let count = text.matches(&found).count();
+    let length = text.len() - count * found.len();
+    let most = call.engine().max_string_size();
+    let length = other.len().checked_mul(count).and_then(|more| length.checked_add(more));
+    if length.is_none_or(|length| length > most) {
+        return Err(EvalAltResult::ErrorDataTooLarge(
+            "Length of string".into(),
+            call.call_position(),
+        )
+        .into());
+    }
+    if !text.is_empty() {
+        *text = text.replace(&found, &other).into();
+    }
+    Ok(())
+}
