@@ -184,9 +184,12 @@ fn tricks_do_not_pass() {
     assert!(half.contains("let it run to 7.5"), "{half}");
 }
 
+/// What stands in a solution, and what is written there.
+type Changes = &'static [(&'static str, &'static str)];
+
 /// Ways to pass without the idea that were found: the exercise, the solution with what stands in it and what the cheat writes there,
 /// and what the cheat is told.
-const CHEATS: &[(&str, &[(&str, &str)], &str)] = &[
+const CHEATS: &[(&str, Changes, &str)] = &[
     // Rows that hide what the energy does between them.
     (
         "keep_the_energy",
@@ -227,7 +230,7 @@ const CHEATS: &[(&str, &[(&str, &str)], &str)] = &[
             ("fourth_order()", "energy_momentum()"),
             ("line([0, 8], [6, 0])", "line([-0.258, 8.665], [5.742, 0.665])"),
         ],
-        "the end is off by 0.7",
+        "the end is off by",
     ),
     // A load that knows what the judge looks at.
     (
