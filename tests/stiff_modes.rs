@@ -334,9 +334,11 @@ fn a_stiff_column_loses_its_stiffness_at_eulers_load() {
         let section = section(ratio, None);
         let euler = PI.powi(2) * section.bending_stiffness / (4.0 * LENGTH * LENGTH);
         let lowest = |part: f64| {
-            let mut scene = Support::Cantilever.scene(&Mesh::bspline(spans, 3, 2).unwrap(), section);
+            let mut scene =
+                Support::Cantilever.scene(&Mesh::bspline(spans, 3, 2).unwrap(), section);
             let station = scenes::end_of(&mut scene, 0);
-            let load = LoadKind::Force { station, force: at(-part * euler, 0.0), frame: Frame::Dead };
+            let load =
+                LoadKind::Force { station, force: at(-part * euler, 0.0), frame: Frame::Dead };
             scene.add_load(load, Schedule::constant(1.0).unwrap());
             let rest = Equilibrium::find(scene, Loading::default(), &mut |_| true).unwrap();
             rest.modes(1, &mut || true).unwrap().all()[0].square

@@ -82,10 +82,13 @@ impl WithSimd for Product<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { matrix, x, product } = self;
         let size = matrix.size();
-        for (row, out) in product[..size].iter_mut().enumerate() {
+        for (out, ends) in product[..size].iter_mut().zip(matrix.starts.windows(2)) {
+            let entries = ends[0]..ends[1];
             let mut sum = [0.0; 4];
-            for (column, value) in matrix.row(row) {
-                for (sum, x) in sum.iter_mut().zip(&x[column]) {
+            for (column, value) in
+                matrix.columns[entries.clone()].iter().zip(&matrix.values[entries])
+            {
+                for (sum, x) in sum.iter_mut().zip(&x[*column as usize]) {
                     *sum += value * x;
                 }
             }

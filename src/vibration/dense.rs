@@ -79,7 +79,8 @@ fn orthogonalise(pencil: &Pencil, shapes: &mut DMatrix<f64>) {
         let mut shape = rest.column_mut(0);
         for _ in 0..2 {
             for (row, momentum) in momenta.iter_mut().enumerate() {
-                *momentum = pencil.inertia.row(row).map(|(column, mass)| mass * shape[column]).sum();
+                *momentum =
+                    pencil.inertia.row(row).map(|(column, mass)| mass * shape[column]).sum();
             }
             let square: f64 = shape.iter().zip(&momenta).map(|(x, m)| x * m).sum();
             let scale = 1.0 / square.sqrt();

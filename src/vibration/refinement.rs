@@ -146,8 +146,9 @@ impl Others<'_> {
         let mut momenta = self.momenta[at].clone();
         let mut squares = self.squares(at);
         let mut residuals = [f64::INFINITY; STRIP_WIDTH];
+        let (mut correction, mut old) = (momenta.clone(), momenta.clone());
         for pass in 0..MOST_CORRECTIONS {
-            let mut correction = momenta.clone();
+            correction.copy_from_slice(&momenta);
             subtract_resisting(&mut correction, &squares, &shapes);
             let of_others = self.without_others(&mut correction, &squares);
             factors.solve(&mut correction);
@@ -155,7 +156,8 @@ impl Others<'_> {
                 self.clean(&mut correction);
             }
             let energies = pencil.elastic.correct(&mut shapes, &correction);
-            let old = std::mem::replace(&mut momenta, pencil.inertia_times(&shapes.movements));
+            std::mem::swap(&mut old, &mut momenta);
+            pencil.inertia.times(&shapes.movements, &mut momenta);
             let kinetic = self.kinetic(&shapes, &momenta);
             let mut changed = [0.0; STRIP_WIDTH];
             for ((m, old), by) in momenta.iter().zip(&old).zip(&correction) {

@@ -303,9 +303,8 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
         }
         found => found?,
     };
-    let is_unstable = |rest: &Equilibrium| {
-        rest.stability(&mut || !context.is_stopped()) == Stability::Unstable
-    };
+    let is_unstable =
+        |rest: &Equilibrium| rest.stability(&mut || !context.is_stopped()) == Stability::Unstable;
     if context.mode() == Mode::Run && is_unstable(&rest) {
         let name = &rest.scene().name;
         context.tell(&format!("note: the equilibrium of '{name}' is not stable"));
