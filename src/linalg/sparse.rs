@@ -9,39 +9,58 @@ use super::strips::Strip;
 pub struct SymmetricSparse {
     /// Where each row begins among the entries, and where the last ends.
     starts: Vec<usize>,
+    /// From left to right in each row.
     columns: Vec<u32>,
     values: Vec<f64>,
 }
 
 impl SymmetricSparse {
-    /// From entries (row, column, value) of both triangles, in any order; several of one place add up.
+    /// From entries (row, column, value) of both triangles, in any order; several of one place add up. They are given twice, to be
+    /// counted and to be kept.
     ///
     /// # Panics
     /// When it has more than 2³² rows.
-    pub fn new(size: usize, entries: Vec<(usize, usize, f64)>) -> Self {
+    pub fn new(size: usize, give: impl Fn(&mut dyn FnMut(usize, usize, f64))) -> Self {
         assert!(u32::try_from(size).is_ok(), "{size} rows");
-        // Each row gets room for all of its entries, and closes up where several stand at one place.
         let mut starts = vec![0; size + 1];
-        entries.iter().for_each(|(row, ..)| starts[row + 1] += 1);
+        give(&mut |row, _, _| starts[row + 1] += 1);
         (0..size).for_each(|row| starts[row + 1] += starts[row]);
         let mut next = starts.clone();
-        let mut room = vec![(0, 0.0); entries.len()];
-        for (row, column, value) in entries {
-            room[next[row]] = (column as u32, value);
-            next[row] += 1;
-        }
-        let (mut columns, mut values) = (Vec::new(), Vec::<f64>::new());
-        for row in 0..size {
-            let entries = &mut room[starts[row]..next[row]];
-            entries.sort_by_key(|(column, _)| *column);
-            starts[row] = values.len();
-            for same in entries.chunk_by(|a, b| a.0 == b.0) {
-                columns.push(same[0].0);
-                values.push(same.iter().map(|(_, value)| value).sum());
+        let (mut columns, mut values) = (vec![0_u32; starts[size]], vec![0.0; starts[size]]);
+        give(&mut |row, column, value| {
+            // From left to right; most come so.
+            let (first, mut at) = (starts[row], next[row]);
+            while at > first && columns[at - 1] as usize > column {
+                (columns[at], values[at]) = (columns[at - 1], values[at - 1]);
+                at -= 1;
             }
+            (columns[at], values[at]) = (column as u32, value);
+            next[row] += 1;
+        });
+        let mut matrix = Self { starts, columns, values };
+        matrix.close_up();
+        matrix
+    }
+
+    /// Adds up entries that stand at one place.
+    fn close_up(&mut self) {
+        let Self { starts, columns, values } = self;
+        let (mut kept, mut first) = (0, 0);
+        for row in 0..starts.len() - 1 {
+            let last = starts[row + 1];
+            let begin = kept;
+            for at in first..last {
+                if kept > begin && columns[kept - 1] == columns[at] {
+                    values[kept - 1] += values[at];
+                } else {
+                    (columns[kept], values[kept]) = (columns[at], values[at]);
+                    kept += 1;
+                }
+            }
+            (first, starts[row + 1]) = (last, kept);
         }
-        starts[size] = values.len();
-        Self { starts, columns, values }
+        columns.truncate(kept);
+        values.truncate(kept);
     }
 
     /// The number of rows.
@@ -82,10 +101,13 @@ impl WithSimd for Product<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { matrix, x, product } = self;
         let size = matrix.size();
-        for (row, out) in product[..size].iter_mut().enumerate() {
+        for (out, ends) in product[..size].iter_mut().zip(matrix.starts.windows(2)) {
+            let entries = ends[0]..ends[1];
             let mut sum = [0.0; 4];
-            for (column, value) in matrix.row(row) {
-                for (sum, x) in sum.iter_mut().zip(&x[column]) {
+            for (column, value) in
+                matrix.columns[entries.clone()].iter().zip(&matrix.values[entries])
+            {
+                for (sum, x) in sum.iter_mut().zip(&x[*column as usize]) {
                     *sum += value * x;
                 }
             }
@@ -101,8 +123,8 @@ mod tests {
 
     #[test]
     fn entries_of_one_place_add_up() {
-        let entries = vec![(2, 0, 3.0), (0, 0, 1.0), (0, 2, 3.0), (0, 0, 4.0)];
-        let matrix = SymmetricSparse::new(3, entries);
+        let entries = [(2, 0, 3.0), (0, 0, 1.0), (0, 2, 3.0), (0, 0, 4.0)];
+        let matrix = SymmetricSparse::new(3, |add| entries.iter().for_each(|e| add(e.0, e.1, e.2)));
         assert_eq!(matrix.row(0).collect::<Vec<_>>(), [(0, 5.0), (2, 3.0)]);
         assert_eq!((matrix.row(1).count(), matrix.diagonal(1)), (0, 0.0));
         let (x, mut product) = (vec![[1.0, 2.0, 0.0, -1.0]; 4], vec![[9.0; 4]; 4]);

@@ -23,13 +23,28 @@ pub fn subtract_combination(x: &Strip, by: &Square, from: &mut Strip) {
 
 /// `X ← X G`
 pub fn combine(x: &mut Strip, by: &Square) {
-    for row in x {
-        let old = *row;
-        *row = [0.0; STRIP_WIDTH];
-        for (entry, by) in old.iter().zip(by) {
-            for (sum, by) in row.iter_mut().zip(by) {
-                *sum += entry * by;
+    Arch::new().dispatch(Replacement { x, by });
+}
+
+struct Replacement<'a> {
+    x: &'a mut Strip,
+    by: &'a Square,
+}
+
+impl WithSimd for Replacement<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let by = *self.by;
+        for row in self.x {
+            let mut value = [0.0; STRIP_WIDTH];
+            for (entry, by) in row.iter().zip(&by) {
+                for (sum, by) in value.iter_mut().zip(by) {
+                    *sum += entry * by;
+                }
             }
+            *row = value;
         }
     }
 }

@@ -267,7 +267,7 @@ mod tests {
             entries in prop::collection::vec(-1.0..1.0_f64, 997),
         ) {
             let (band, dense) = squares(size, width, &entries, signs);
-            let unit = SymmetricSparse::new(size, (0..size).map(|i| (i, i, 1.0)).collect());
+            let unit = SymmetricSparse::new(size, |add| (0..size).for_each(|i| add(i, i, 1.0)));
             let shift = if signs { 0.0 } else { shift };
             let dense = dense + DMatrix::identity(size, size) * shift;
             let values = dense.clone().symmetric_eigenvalues();
@@ -315,7 +315,7 @@ mod tests {
 
     #[test]
     fn a_pivot_of_zero_or_none_is_told() {
-        let unit = SymmetricSparse::new(3, vec![(0, 0, 1.0), (2, 2, 1.0)]);
+        let unit = SymmetricSparse::new(3, |add| [0, 2].into_iter().for_each(|i| add(i, i, 1.0)));
         let band = PreciseBand::zeros(3, 1);
         assert_eq!(band.pivots(-1.0, &unit).unwrap().negative, 2);
         let error = band.factorise(1.0, &unit).unwrap_err();

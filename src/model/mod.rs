@@ -45,3 +45,4 @@ pub use scene::{
 pub use slider_error::{SliderError, SliderParts};
 pub use sliders::TrackLimit;
 pub use sliding::{SliderState, TrackEnd};
+pub use stiffness::add_resistance;

@@ -21,18 +21,11 @@ impl Model {
         }
     }
 
-    /// The stiffness of the present configuration, with the section forces of its strain.
-    pub fn stiffness(&self) -> PreciseBand {
-        let mut stiffness = PreciseBand::zeros(self.unknowns, self.half_bandwidth);
-        self.each_span_at_rest(&mut |degrees, span| add_span(&mut stiffness, degrees, span));
-        stiffness
-    }
-
     /// The inertia of the unknowns.
     pub fn sparse_inertia(&self) -> SymmetricSparse {
-        let mut entries = Vec::new();
-        self.inertia_entries(1.0, &mut |row, column, value| entries.push((row, column, value)));
-        SymmetricSparse::new(self.unknowns, entries)
+        SymmetricSparse::new(self.unknowns, |add| {
+            self.inertia_entries(1.0, &mut |row, column, value| add(row, column, value));
+        })
     }
 
     /// About the square of the slowest bending, as if all beams were one: the least `EI` over the largest `ρA` and the fourth power of
@@ -49,13 +42,15 @@ impl Model {
     /// In how many ways a movement from here would release energy if loads keep their directions: the negative eigenvalues of the
     /// stiffness.
     pub fn falls(&self) -> usize {
-        let nothing = SymmetricSparse::new(self.unknowns, Vec::new());
-        self.stiffness().pivots(0.0, &nothing).map_or(0, |pivots| pivots.negative)
+        let nothing = SymmetricSparse::new(self.unknowns, |_| {});
+        let mut stiffness = PreciseBand::zeros(self.unknowns, self.half_bandwidth);
+        self.each_span_at_rest(&mut |degrees, span| add_resistance(&mut stiffness, degrees, span));
+        stiffness.pivots(0.0, &nothing).map_or(0, |pivots| pivots.negative)
     }
 }
 
-/// Adds the resistance of a span.
-fn add_span(stiffness: &mut PreciseBand, degrees: &[usize], span: &SpanAtRest) {
+/// Adds to the stiffness of a configuration how a span resists: `Bᵀ k B + K_g`.
+pub fn add_resistance(stiffness: &mut PreciseBand, degrees: &[usize], span: &SpanAtRest) {
     let width = degrees.len();
     for (factor, row) in span.stiffness.iter().zip(span.strains.chunks_exact(width)) {
         stiffness.add_square(degrees, *factor, row);

@@ -5,9 +5,9 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
+use crate::beams::SpanAtRest;
 use crate::elementary::square;
 use crate::linalg::{STRIP_WIDTH, Strip};
-use crate::model::Model;
 
 /// A number for each of four vectors.
 pub(super) type Lanes = [f64; STRIP_WIDTH];
@@ -63,23 +63,15 @@ pub(super) struct Energies {
 }
 
 impl Elastic {
-    /// That of the present configuration.
-    pub(super) fn of(model: &Model, size: usize) -> Self {
-        let mut all = Self::default();
-        model.each_span_at_rest(&mut |degrees, span| {
-            let rows = Rows {
-                width: degrees.len(),
-                strains: span.stiffness.len(),
-                twists: span.doubts.len(),
-            };
-            all.spans.push(rows);
-            all.unknowns.extend(degrees.iter().map(|&at| at.min(size) as u32));
-            all.rows.extend(&span.strains);
-            all.rows.extend(&span.twists);
-            all.stiffness.extend(&span.stiffness);
-            all.doubts.extend(&span.doubts);
-        });
-        all
+    /// Adds the rows of a span; of so many unknowns of all, some may be its.
+    pub(super) fn add(&mut self, size: usize, degrees: &[usize], span: &SpanAtRest) {
+        let (strains, twists) = (span.stiffness.len(), span.doubts.len());
+        self.spans.push(Rows { width: degrees.len(), strains, twists });
+        self.unknowns.extend(degrees.iter().map(|&at| at.min(size) as u32));
+        self.rows.extend(&span.strains);
+        self.rows.extend(&span.twists);
+        self.stiffness.extend(&span.stiffness);
+        self.doubts.extend(&span.doubts);
     }
 
     /// The number of strains.
@@ -92,19 +84,20 @@ impl Elastic {
         strains * (width + 1) * size_of::<f64>()
     }
 
-    /// Shapes with the section forces of their strains, and their energies.
-    pub(super) fn begin(&self, movements: &Strip) -> (Shapes, Energies) {
-        let zeros = vec![[0.0; STRIP_WIDTH]; self.strains()];
-        let length = movements.len();
-        let mut shapes = Shapes {
-            forces: zeros.clone(),
-            missing: zeros,
-            resisting: vec![[0.0; STRIP_WIDTH]; length],
-            movements: vec![[0.0; STRIP_WIDTH]; length],
-        };
+    /// Room for shapes with so many entries.
+    pub(super) fn room(&self, length: usize) -> Shapes {
+        let rows = vec![[0.0; STRIP_WIDTH]; self.strains()];
+        let vector = vec![[0.0; STRIP_WIDTH]; length];
+        Shapes { forces: rows.clone(), missing: rows, resisting: vector.clone(), movements: vector }
+    }
+
+    /// Makes shapes of movements, with the section forces of their strains; their energies.
+    pub(super) fn begin(&self, movements: &Strip, shapes: &mut Shapes) -> Energies {
         // From nothing they are corrected by all that they are.
-        let energies = self.correct(&mut shapes, movements);
-        (shapes, energies)
+        shapes.movements.fill([0.0; STRIP_WIDTH]);
+        shapes.forces.fill([0.0; STRIP_WIDTH]);
+        shapes.missing.fill([0.0; STRIP_WIDTH]);
+        self.correct(shapes, movements)
     }
 
     /// `x ← x + δ`, `n ← n + k (m + B δ)`, and what resists then.
@@ -119,27 +112,36 @@ impl Elastic {
 
     /// Gives each span its unknowns, its rows, and the places of its strains and pairs.
     #[inline(always)]
-    fn each_span(&self, mut take: impl FnMut(&[u32], &[f64], &[f64], usize, usize)) {
+    fn each_span(&self, mut take: impl FnMut(Span<'_>)) {
         let (mut unknown, mut entry, mut strain, mut twist) = (0, 0, 0, 0);
         for &Rows { width, strains, twists } in &self.spans {
-            let unknowns = &self.unknowns[unknown..][..width];
-            let (rows, pairs) =
-                self.rows[entry..][..(strains + 2 * twists) * width].split_at(strains * width);
-            take(unknowns, rows, pairs, strain, twist);
+            let count = (strains + 2 * twists) * width;
+            let (rows, pairs) = self.rows[entry..][..count].split_at(strains * width);
+            take(Span { unknowns: &self.unknowns[unknown..][..width], rows, pairs, strain, twist });
             unknown += width;
-            entry += rows.len() + pairs.len();
+            entry += count;
             strain += strains;
             twist += twists;
         }
     }
 }
 
+/// What is known of a span.
+struct Span<'a> {
+    unknowns: &'a [u32],
+    rows: &'a [f64],
+    pairs: &'a [f64],
+    /// Its first strain, and its first pair.
+    strain: usize,
+    twist: usize,
+}
+
 /// Most components of the control points of a span: those of degree 10.
 const WIDEST: usize = 33;
 
 #[inline(always)]
-fn gather(unknowns: &[u32], of: &Strip) -> [Lanes; WIDEST] {
-    let mut gathered = [[0.0; STRIP_WIDTH]; WIDEST];
+fn gather<const WIDTH: usize>(unknowns: &[u32], of: &Strip) -> [Lanes; WIDTH] {
+    let mut gathered = [[0.0; STRIP_WIDTH]; WIDTH];
     for (to, at) in gathered.iter_mut().zip(unknowns) {
         *to = of[*at as usize];
     }
@@ -147,7 +149,7 @@ fn gather(unknowns: &[u32], of: &Strip) -> [Lanes; WIDEST] {
 }
 
 #[inline(always)]
-fn along(row: &[f64], of: &[Lanes; WIDEST]) -> Lanes {
+fn along<const WIDTH: usize>(row: &[f64], of: &[Lanes; WIDTH]) -> Lanes {
     let mut sum = [0.0; STRIP_WIDTH];
     for (entry, of) in row.iter().zip(of) {
         for (sum, of) in sum.iter_mut().zip(of) {
@@ -158,7 +160,7 @@ fn along(row: &[f64], of: &[Lanes; WIDEST]) -> Lanes {
 }
 
 #[inline(always)]
-fn spread(row: &[f64], value: &Lanes, to: &mut [Lanes; WIDEST]) {
+fn spread<const WIDTH: usize>(row: &[f64], value: &Lanes, to: &mut [Lanes; WIDTH]) {
     for (entry, to) in row.iter().zip(to) {
         for (to, value) in to.iter_mut().zip(value) {
             *to += entry * value;
@@ -178,47 +180,64 @@ impl WithSimd for Correction<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Energies {
         let Self { elastic, shapes, by } = self;
-        let Shapes { movements, forces, missing, resisting } = shapes;
-        for (x, by) in movements.iter_mut().zip(by) {
+        for (x, by) in shapes.movements.iter_mut().zip(by) {
             x.iter_mut().zip(by).for_each(|(x, by)| *x += by);
         }
-        resisting.fill([0.0; STRIP_WIDTH]);
+        shapes.resisting.fill([0.0; STRIP_WIDTH]);
         let mut energies = Energies::default();
-        elastic.each_span(|unknowns, rows, pairs, strain, _| {
-            let width = unknowns.len();
-            let (x, by) = (gather(unknowns, movements), gather(unknowns, by));
-            let mut out = [[0.0; STRIP_WIDTH]; WIDEST];
-            for (at, row) in rows.chunks_exact(width).enumerate() {
-                let stiffness = elastic.stiffness[strain + at];
-                let (force, missing) = (&mut forces[strain + at], &mut missing[strain + at]);
-                let (change, now) = (along(row, &by), along(row, &x));
-                let mut whole = [0.0; STRIP_WIDTH];
-                for lane in 0..STRIP_WIDTH {
-                    let change = stiffness * (missing[lane] + change[lane]);
-                    force[lane] += change;
-                    missing[lane] = now[lane] - force[lane] / stiffness;
-                    whole[lane] = force[lane] + stiffness * missing[lane];
-                    energies.whole[lane] += force[lane] * force[lane] / stiffness;
-                    energies.correction[lane] += change * change / stiffness;
-                }
-                spread(row, &whole, &mut out);
-            }
-            for pair in pairs.chunks_exact(2 * width) {
-                let (p, q) = pair.split_at(width);
-                let (along_p, along_q) = (along(p, &x), along(q, &x));
-                let (by_p, by_q) = (along(p, &by), along(q, &by));
-                for lane in 0..STRIP_WIDTH {
-                    energies.whole[lane] += 2.0 * along_p[lane] * along_q[lane];
-                    energies.correction[lane] += 2.0 * by_p[lane] * by_q[lane];
-                }
-                spread(p, &along_q, &mut out);
-                spread(q, &along_p, &mut out);
-            }
-            for (at, out) in unknowns.iter().zip(&out) {
-                resisting[*at as usize].iter_mut().zip(out).for_each(|(to, out)| *to += out);
-            }
+        // The widths of spans of degree 1 to 3 are known to the compiler.
+        elastic.each_span(|span| match span.unknowns.len() {
+            6 => correct_span::<6>(elastic, &span, shapes, by, &mut energies),
+            9 => correct_span::<9>(elastic, &span, shapes, by, &mut energies),
+            12 => correct_span::<12>(elastic, &span, shapes, by, &mut energies),
+            _ => correct_span::<WIDEST>(elastic, &span, shapes, by, &mut energies),
         });
         energies
+    }
+}
+
+#[inline(always)]
+fn correct_span<const WIDTH: usize>(
+    elastic: &Elastic,
+    &Span { unknowns, rows, pairs, strain, .. }: &Span<'_>,
+    Shapes { movements, forces, missing, resisting }: &mut Shapes,
+    by: &Strip,
+    energies: &mut Energies,
+) {
+    let width = unknowns.len();
+    let x: [Lanes; WIDTH] = gather(unknowns, movements);
+    let by: [Lanes; WIDTH] = gather(unknowns, by);
+    let mut out = [[0.0; STRIP_WIDTH]; WIDTH];
+    for (at, row) in rows.chunks_exact(width).enumerate() {
+        let stiffness = elastic.stiffness[strain + at];
+        let flexibility = 1.0 / stiffness;
+        let (force, missing) = (&mut forces[strain + at], &mut missing[strain + at]);
+        let (change, now) = (along(row, &by), along(row, &x));
+        let mut whole = [0.0; STRIP_WIDTH];
+        for lane in 0..STRIP_WIDTH {
+            let change = stiffness * (missing[lane] + change[lane]);
+            force[lane] += change;
+            let strain = force[lane] * flexibility;
+            missing[lane] = now[lane] - strain;
+            whole[lane] = force[lane] + stiffness * missing[lane];
+            energies.whole[lane] += force[lane] * strain;
+            energies.correction[lane] += change * change * flexibility;
+        }
+        spread(row, &whole, &mut out);
+    }
+    for pair in pairs.chunks_exact(2 * width) {
+        let (p, q) = pair.split_at(width);
+        let (along_p, along_q) = (along(p, &x), along(q, &x));
+        let (by_p, by_q) = (along(p, &by), along(q, &by));
+        for lane in 0..STRIP_WIDTH {
+            energies.whole[lane] += 2.0 * along_p[lane] * along_q[lane];
+            energies.correction[lane] += 2.0 * by_p[lane] * by_q[lane];
+        }
+        spread(p, &along_q, &mut out);
+        spread(q, &along_p, &mut out);
+    }
+    for (at, out) in unknowns.iter().zip(&out) {
+        resisting[*at as usize].iter_mut().zip(out).for_each(|(to, out)| *to += out);
     }
 }
 
@@ -234,7 +253,7 @@ impl WithSimd for Rounding<'_> {
     fn with_simd<S: Simd>(self, _: S) -> Lanes {
         let Self { elastic, movements } = self;
         let mut sums = [0.0; STRIP_WIDTH];
-        let sizes = |row: &[f64], x: &[Lanes; WIDEST]| {
+        let sizes = |row: &[f64], x: &[Lanes; WIDEST]| -> Lanes {
             let mut sizes = [0.0; STRIP_WIDTH];
             for (entry, x) in row.iter().zip(x) {
                 for (size, x) in sizes.iter_mut().zip(x) {
@@ -243,7 +262,7 @@ impl WithSimd for Rounding<'_> {
             }
             sizes
         };
-        elastic.each_span(|unknowns, rows, pairs, strain, twist| {
+        elastic.each_span(|Span { unknowns, rows, pairs, strain, twist }| {
             let (width, x) = (unknowns.len(), gather(unknowns, movements));
             for (at, row) in rows.chunks_exact(width).enumerate() {
                 for (sum, size) in sums.iter_mut().zip(sizes(row, &x)) {

@@ -19,8 +19,14 @@ const SETTLED: f64 = 1e-8;
 /// A vector that loses so much by orthogonalisation is made of rounding.
 const LOST: f64 = 1e-11;
 
-/// One that loses so much is orthogonalised once more.
-const SHRUNK: f64 = 1e-7;
+/// One that loses so much is orthogonalised once more,
+const SHRUNK: f64 = 1e-4;
+
+/// and where that finds more than this trace of the basis, again.
+const TRACE: f64 = 1e-8;
+
+/// Products of vectors that differ by less from those of orthonormal ones are as good as these.
+const ORTHONORMAL: f64 = 1e-14;
 
 /// Most restarts.
 const MOST_RESTARTS: usize = 60;
@@ -39,9 +45,12 @@ pub(super) struct Lanczos<'a> {
     basis: Vec<Vec<Lanes>>,
     /// `Vᵀ M A⁻¹ M V`
     projected: DMatrix<f64>,
-    /// The next block, and how it is coupled to the one before.
+    /// The next block, what inertia makes of it, and how it is coupled to the one before.
     next: Vec<Lanes>,
+    next_momenta: Vec<Lanes>,
     coupling: Square,
+    /// Work space.
+    momenta: Vec<Lanes>,
     /// Random numbers so far.
     seed: u64,
 }
@@ -55,10 +64,12 @@ impl<'a> Lanczos<'a> {
             basis: Vec::new(),
             projected: DMatrix::zeros(0, 0),
             next: Vec::new(),
+            next_momenta: Vec::new(),
             coupling: Square::default(),
+            momenta: pencil.zeros(),
             seed: 0,
         };
-        search.next = search.fresh();
+        search.begin_anew();
         search
     }
 
@@ -109,43 +120,48 @@ impl<'a> Lanczos<'a> {
         self.basis = found.strips;
         let width = STRIP_WIDTH * self.basis.len();
         self.projected.resize_mut(width, width, 0.0);
-        self.next = self.fresh();
-        self.coupling = Square::default();
+        self.begin_anew();
     }
 
     /// Applies the inverted stiffness to the next block, and takes what it is made of in the basis.
     fn step(&mut self) {
+        let old = self.projected.nrows();
         self.basis.push(std::mem::take(&mut self.next));
-        let (old, new) = (self.projected.nrows(), STRIP_WIDTH * self.basis.len());
+        let new = STRIP_WIDTH * self.basis.len();
         self.projected.resize_mut(new, new, 0.0);
-        let last = &self.basis[self.basis.len() - 1];
-        let mut image = self.pencil.inertia_times(last);
+        let mut image = std::mem::take(&mut self.next_momenta);
         self.factors.solve(&mut image);
-        // Twice is enough (Kahan and Parlett), once is not.
         let size = self.project(&mut image, Some(old));
-        self.project(&mut image, Some(old));
-        self.coupling = orthonormalise(self.pencil, &mut image);
+        let mut momenta = self.pencil.inertia_times(&image);
+        self.coupling = orthonormalise(&mut image, &mut momenta);
         let left = (0..STRIP_WIDTH).map(|at| self.coupling[at][at]).fold(f64::INFINITY, f64::min);
         if left < SHRUNK * size {
-            // What is left is made of what orthogonalisation has rounded.
-            self.project(&mut image, None);
-            orthonormalise(self.pencil, &mut image);
+            // What is left is small beside what was taken out, and has a trace of it.
+            let again = self.project(&mut image, None);
+            self.pencil.inertia.times(&image, &mut momenta);
+            let turn = orthonormalise(&mut image, &mut momenta);
+            if again > TRACE {
+                self.project(&mut image, None);
+                self.pencil.inertia.times(&image, &mut momenta);
+                orthonormalise(&mut image, &mut momenta);
+            }
+            self.coupling = product(&turn, &self.coupling);
         }
         let lost: Vec<usize> =
             (0..STRIP_WIDTH).filter(|&lane| self.coupling[lane][lane] == 0.0).collect();
         if !lost.is_empty() {
             self.replace(&mut image, &lost);
+            self.pencil.inertia.times(&image, &mut momenta);
         }
-        self.next = image;
+        (self.next, self.next_momenta) = (image, momenta);
     }
 
-    /// Takes out of a block what it has in common with the basis, and notes it in columns of the projection; the size of the largest
-    /// such part.
+    /// Takes out of a block what it has in common with the basis, and notes it in columns of the projection; the largest such part.
     fn project(&mut self, image: &mut [Lanes], columns: Option<usize>) -> f64 {
-        let momenta = self.pencil.inertia_times(image);
+        self.pencil.inertia.times(image, &mut self.momenta);
         let mut largest = 0.0_f64;
         for (at, block) in self.basis.iter().enumerate() {
-            let parts = products(block, &momenta);
+            let parts = products(block, &self.momenta);
             subtract_combination(block, &parts, image);
             for (i, row) in parts.iter().enumerate() {
                 for (j, part) in row.iter().enumerate() {
@@ -173,22 +189,25 @@ impl<'a> Lanczos<'a> {
         };
         keep_lost(&mut fresh);
         for _ in 0..2 {
-            let momenta = self.pencil.inertia_times(&fresh);
+            let mut momenta = self.pencil.inertia_times(&fresh);
             for other in self.basis.iter().map(Vec::as_slice).chain([&*block]) {
                 subtract_combination(other, &products(other, &momenta), &mut fresh);
             }
-            orthonormalise(self.pencil, &mut fresh);
+            self.pencil.inertia.times(&fresh, &mut momenta);
+            orthonormalise(&mut fresh, &mut momenta);
         }
         for (row, fresh) in block.iter_mut().zip(&fresh) {
             lost.iter().for_each(|&at| row[at] = fresh[at]);
         }
     }
 
-    /// A block without pattern, orthogonal to the basis.
-    fn fresh(&mut self) -> Vec<Lanes> {
+    /// Makes a block without pattern, orthogonal to the basis, the next.
+    fn begin_anew(&mut self) {
         let mut block = self.pencil.zeros();
         self.replace(&mut block, &[0, 1, 2, 3]);
-        block
+        self.next_momenta = self.pencil.inertia_times(&block);
+        self.next = block;
+        self.coupling = Square::default();
     }
 
     /// Vectors without pattern that inertia can move.
@@ -260,27 +279,38 @@ impl<'a> Lanczos<'a> {
     }
 }
 
-/// Makes vectors orthonormal in the inertia; the upper triangle that makes the old ones of the new. Vectors that are made of rounding become
-/// zero, and so does their entry on the diagonal.
-fn orthonormalise(pencil: &Pencil, block: &mut [Lanes]) -> Square {
+/// Makes vectors with these momenta orthonormal in the inertia; the upper triangle that makes the old ones of the new. Vectors that are made of
+/// rounding become zero, and so does their entry on the diagonal.
+fn orthonormalise(block: &mut [Lanes], momenta: &mut [Lanes]) -> Square {
     let mut triangle = Square::default();
     (0..STRIP_WIDTH).for_each(|at| triangle[at][at] = 1.0);
-    let mut momenta = pencil.zeros();
     let mut sizes = None;
-    for _ in 0..3 {
-        pencil.inertia.times(block, &mut momenta);
-        let gram = products(block, &momenta);
+    // The second time takes away what the condition of the first has left; a third is for vectors that are all but parallel.
+    for pass in 0..3 {
+        let gram = products(block, momenta);
         let sizes = sizes.get_or_insert_with(|| std::array::from_fn(|at| gram[at][at]));
+        if pass == 2 && is_orthonormal(&gram) {
+            break;
+        }
         let (upper, inverse) = cholesky(&gram, sizes);
         combine(block, &inverse);
-        let old = triangle;
-        for (i, row) in triangle.iter_mut().enumerate() {
-            for (j, entry) in row.iter_mut().enumerate() {
-                *entry = (0..STRIP_WIDTH).map(|k| upper[i][k] * old[k][j]).sum();
-            }
-        }
+        combine(momenta, &inverse);
+        triangle = product(&upper, &triangle);
     }
     triangle
+}
+
+/// Whether nothing is left to be made orthonormal, vectors of zeros set aside.
+fn is_orthonormal(gram: &Square) -> bool {
+    let expected = |i: usize, j: usize| f64::from(u8::from(i == j && gram[i][i] > 0.0));
+    (0..STRIP_WIDTH)
+        .all(|i| (0..STRIP_WIDTH).all(|j| (gram[i][j] - expected(i, j)).abs() < ORTHONORMAL))
+}
+
+fn product(a: &Square, b: &Square) -> Square {
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| (0..STRIP_WIDTH).map(|k| a[i][k] * b[k][j]).sum())
+    })
 }
 
 /// `R` with `Rᵀ R = G`, and its inverse; rows and columns that are made of rounding, compared with the first sizes, are zero.

@@ -4,7 +4,7 @@ use super::VibrationError;
 use super::elastic::{Elastic, Lanes};
 use crate::integrators::Mechanism;
 use crate::linalg::{LinearError, PreciseBand, STRIP_WIDTH, SymmetricFactors, SymmetricSparse};
-use crate::model::Model;
+use crate::model::{Model, add_resistance};
 
 /// An elimination whose numbers grew by more is not believed: of its 32 digits half are left.
 const MOST_GROWTH: f64 = 1e12;
@@ -23,8 +23,14 @@ pub(super) struct Pencil {
 impl Pencil {
     /// That of the present configuration of a model.
     pub(super) fn of(model: &Model) -> Result<Self, VibrationError> {
-        let (stiffness, inertia) = (model.stiffness(), model.sparse_inertia());
-        let size = stiffness.size();
+        let size = model.unknowns();
+        let mut stiffness = PreciseBand::zeros(size, model.half_bandwidth());
+        let mut elastic = Elastic::default();
+        model.each_span_at_rest(&mut |degrees, span| {
+            add_resistance(&mut stiffness, degrees, span);
+            elastic.add(size, degrees, span);
+        });
+        let inertia = model.sparse_inertia();
         let is_finite = (0..size)
             .all(|at| stiffness.diagonal(at).is_finite() && inertia.diagonal(at).is_finite());
         let finite = (0..size).filter(|at| inertia.diagonal(*at) > 0.0).count();
@@ -32,7 +38,6 @@ impl Pencil {
         if !is_finite || !scale.is_normal() {
             return Err(VibrationError::NotFinite);
         }
-        let elastic = Elastic::of(model, size);
         Ok(Self { stiffness, inertia, elastic, scale, finite })
     }
 

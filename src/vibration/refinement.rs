@@ -7,7 +7,7 @@ use super::pencil::Pencil;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors, products, subtract_combination};
 
 /// A residual that is small enough: the square is then known to all digits.
-const SMALL: f64 = 1e-9;
+const SMALL: f64 = 1e-8;
 
 /// Most corrections.
 const MOST_CORRECTIONS: usize = 8;
@@ -45,8 +45,8 @@ pub(super) fn refine(
     goes_on: &mut dyn FnMut() -> bool,
 ) -> Result<Vec<Refined>, VibrationError> {
     let strips = &pairs.strips[..count.div_ceil(STRIP_WIDTH)];
-    each_strip(pencil, shift, strips, &pairs.values, count, goes_on, |all, at| {
-        all.refine(factors, at)
+    each_strip(pencil, shift, strips, &pairs.values, count, goes_on, |all, at, room| {
+        all.refine(factors, at, room)
     })
 }
 
@@ -61,8 +61,8 @@ pub(super) fn assess(
     count: usize,
     goes_on: &mut dyn FnMut() -> bool,
 ) -> Result<Vec<Refined>, VibrationError> {
-    each_strip(pencil, shift, &pairs.strips, &pairs.values, count, goes_on, |all, at| {
-        all.assess(at)
+    each_strip(pencil, shift, &pairs.strips, &pairs.values, count, goes_on, |all, at, room| {
+        all.assess(at, room)
     })
 }
 
@@ -73,16 +73,17 @@ fn each_strip(
     values: &[f64],
     count: usize,
     goes_on: &mut dyn FnMut() -> bool,
-    make_sure: impl Fn(&Others<'_>, usize) -> [Refined; STRIP_WIDTH],
+    make_sure: impl Fn(&Others<'_>, usize, &mut Shapes) -> [Refined; STRIP_WIDTH],
 ) -> Result<Vec<Refined>, VibrationError> {
     let momenta: Vec<Vec<Lanes>> = strips.iter().map(|strip| pencil.inertia_times(strip)).collect();
     let all = Others { pencil, shift, strips, momenta: &momenta, values };
+    let mut room = pencil.elastic.room(pencil.length());
     let mut sure = Vec::with_capacity(count + STRIP_WIDTH);
     for at in 0..count.div_ceil(STRIP_WIDTH) {
         if !goes_on() {
             return Err(VibrationError::Interrupted);
         }
-        sure.extend(make_sure(&all, at));
+        sure.extend(make_sure(&all, at, &mut room));
     }
     sure.truncate(count);
     Ok(sure)
@@ -106,18 +107,18 @@ impl Others<'_> {
         })
     }
 
-    fn assess(&self, at: usize) -> [Refined; STRIP_WIDTH] {
-        let (mut shapes, energies) = self.pencil.elastic.begin(&self.strips[at]);
+    fn assess(&self, at: usize, shapes: &mut Shapes) -> [Refined; STRIP_WIDTH] {
+        let energies = self.pencil.elastic.begin(&self.strips[at], shapes);
         let mut imbalance = self.momenta[at].clone();
-        let kinetic = self.kinetic(&shapes, &imbalance);
+        let kinetic = self.kinetic(shapes, &imbalance);
         let squares = squares_of(&energies.whole, &kinetic);
-        subtract_resisting(&mut imbalance, &squares, &shapes);
+        subtract_resisting(&mut imbalance, &squares, shapes);
         let of_others = self.without_others(&mut imbalance, &squares);
         let residuals = std::array::from_fn(|lane| {
             (of_others[lane] / (kinetic[lane] * (squares[lane] + self.shift))).sqrt()
         });
         shapes.scale(&scale_of(&kinetic));
-        self.sure(&shapes, &squares, &residuals)
+        self.sure(shapes, &squares, &residuals)
     }
 
     fn kinetic(&self, shapes: &Shapes, momenta: &[Lanes]) -> Lanes {
@@ -140,23 +141,30 @@ impl Others<'_> {
         })
     }
 
-    fn refine(&self, factors: &SymmetricFactors, at: usize) -> [Refined; STRIP_WIDTH] {
+    fn refine(
+        &self,
+        factors: &SymmetricFactors,
+        at: usize,
+        shapes: &mut Shapes,
+    ) -> [Refined; STRIP_WIDTH] {
         let Self { pencil, shift, .. } = *self;
-        let (mut shapes, _) = pencil.elastic.begin(&self.strips[at]);
+        pencil.elastic.begin(&self.strips[at], shapes);
         let mut momenta = self.momenta[at].clone();
         let mut squares = self.squares(at);
         let mut residuals = [f64::INFINITY; STRIP_WIDTH];
+        let (mut correction, mut old) = (momenta.clone(), momenta.clone());
         for pass in 0..MOST_CORRECTIONS {
-            let mut correction = momenta.clone();
-            subtract_resisting(&mut correction, &squares, &shapes);
+            correction.copy_from_slice(&momenta);
+            subtract_resisting(&mut correction, &squares, shapes);
             let of_others = self.without_others(&mut correction, &squares);
             factors.solve(&mut correction);
             if self.is_wide() {
                 self.clean(&mut correction);
             }
-            let energies = pencil.elastic.correct(&mut shapes, &correction);
-            let old = std::mem::replace(&mut momenta, pencil.inertia_times(&shapes.movements));
-            let kinetic = self.kinetic(&shapes, &momenta);
+            let energies = pencil.elastic.correct(shapes, &correction);
+            std::mem::swap(&mut old, &mut momenta);
+            pencil.inertia.times(&shapes.movements, &mut momenta);
+            let kinetic = self.kinetic(shapes, &momenta);
             let mut changed = [0.0; STRIP_WIDTH];
             for ((m, old), by) in momenta.iter().zip(&old).zip(&correction) {
                 for lane in 0..STRIP_WIDTH {
@@ -184,7 +192,7 @@ impl Others<'_> {
                 break;
             }
         }
-        self.sure(&shapes, &squares, &residuals)
+        self.sure(shapes, &squares, &residuals)
     }
 
     /// Takes what all pairs have in imbalances out of them; what that leaves of the residuals, to be compared with `ω² + σ`.
