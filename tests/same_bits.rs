@@ -307,11 +307,12 @@ fn left(script: &Path, plain: bool) -> BTreeMap<String, Vec<u8>> {
     }
     let output = command.output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let mut all = BTreeMap::from([("standard output".to_owned(), output.stdout)]);
-    for entry in fs::read_dir(folder.path()).unwrap().map(Result::unwrap) {
-        all.insert(entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap());
-    }
-    all
+    let entries = fs::read_dir(folder.path()).unwrap().map(Result::unwrap);
+    let files = entries
+        .map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap()));
+    // withy's record of what it has written there begins with a dot.
+    let files = files.filter(|(name, _)| !name.starts_with('.'));
+    files.chain([("standard output".to_owned(), output.stdout)]).collect()
 }
 
 #[test]

@@ -1,0 +1,32 @@
+//! Help, reference, definition files, and the pages of the library.
+
+use withy::script::catalog::Catalog;
+use withy::script::definitions::definitions;
+use withy::script::help::{self, WIDTH};
+use withy::script::library;
+use withy::script::reference::reference;
+
+use crate::book::Book;
+
+/// Names that mean nothing, and what is said about them.
+const UNKNOWN: &[&str] = &["", "bspilne", "sim.rnu_to", "spring.pull", "%", "gravity.x"];
+
+pub fn record(book: &mut Book) {
+    let catalog = Catalog::standard();
+    book.keep("pages/reference.md", reference(&catalog));
+    book.keep("pages/library.md", library::document());
+    for file in definitions(&catalog) {
+        book.keep(format!("pages/definitions/{}", file.name), file.text);
+    }
+    for name in help::names(&catalog) {
+        let page = help::page(&catalog, name).unwrap();
+        book.keep(format!("pages/help/{name}"), page.plain(WIDTH) + &*page.ansi(60));
+    }
+    for name in UNKNOWN {
+        let said = match help::page(&catalog, name) {
+            Ok(page) => page.plain(WIDTH),
+            Err(unknown) => format!("{unknown}\n{}", unknown.hint()),
+        };
+        book.keep(format!("pages/unknown/{name}"), said);
+    }
+}
