@@ -14,7 +14,7 @@ mod impact;
 mod inertia;
 mod measures;
 mod mechanism;
-mod names;
+pub mod names;
 mod numbering;
 mod placement;
 mod queries;

@@ -10,6 +10,7 @@ use super::numbers::{as_number, as_whole, describe};
 use super::options::Options;
 use super::parameter::Parameter;
 use crate::geometry::Vec2;
+use crate::model::names;
 
 /// `value` in the form that bodies read: numbers as `f64`, points as [`Vec2`], option maps as [`Options`].
 ///
@@ -53,6 +54,10 @@ fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Convers
         }
         Kind::Numeric => as_number(&value).is_some().then(|| value.clone()),
         Kind::Text => value.is_string().then(|| value.clone()),
+        Kind::Name => match value.as_immutable_string_ref() {
+            Ok(name) => Some(readable(owner, &name)?.into()),
+            Err(_) => None,
+        },
         Kind::Choice(allowed) => {
             let known =
                 value.as_immutable_string_ref().is_ok_and(|text| allowed.contains(&text.as_str()));
@@ -83,6 +88,15 @@ fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Convers
         }
     };
     Ok(accepted.ok_or(value))
+}
+
+/// A name that stands in tables and is typed.
+pub fn readable(owner: &str, name: &str) -> Result<String, ScriptError> {
+    match names::refusal(name) {
+        None => Ok(name.to_owned()),
+        Some(why) => Err(ScriptError::new(format!("{owner}: {name:?} is no name: {why}"))
+            .hint("use letters, numbers and spaces")),
+    }
 }
 
 /// A vector, or an array of two finite numbers.

@@ -20,7 +20,9 @@ pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
             let near = super::suggest::nearest(&text, allowed.iter().copied())?;
             Some(format!("did you mean \"{near}\"?"))
         }
-        Kind::Text => as_number(value).map(|_| "write x.to_string(), or `${x}`".into()),
+        Kind::Text | Kind::Name => {
+            as_number(value).map(|_| "write x.to_string(), or `${x}`".into())
+        }
         Kind::Boolean => as_number(value).map(|_| "write true or false, without quotes".into()),
         Kind::Point => of_point(value, given),
         Kind::Array | Kind::Numbers => of_array(value),

@@ -110,6 +110,8 @@ pub enum Kind {
     Whole(Range),
     /// A text.
     Text,
+    /// A text that people can read in tables, and type.
+    Name,
     /// One of these texts.
     Choice(&'static [&'static str]),
     /// `true` or `false`.
@@ -184,7 +186,7 @@ impl Kind {
             Self::Number(_) | Self::Whole(_) | Self::Numeric => {
                 matches!(type_name, "number" | "whole number")
             }
-            Self::Text | Self::Choice(_) => type_name == "text",
+            Self::Text | Self::Name | Self::Choice(_) => type_name == "text",
             Self::Boolean => type_name == "truth value",
             Self::Point => matches!(type_name, "vector" | "array"),
             Self::Array | Self::Numbers | Self::Points => type_name == "array",
@@ -203,7 +205,7 @@ impl fmt::Display for Kind {
             Self::Number(range) => f.write_str(&range.phrase("number")),
             Self::Whole(range) => f.write_str(&range.phrase("whole number")),
             Self::Numeric => f.write_str("a number"),
-            Self::Text => f.write_str("a text"),
+            Self::Text | Self::Name => f.write_str("a text"),
             Self::Choice(allowed) => {
                 let quoted: Vec<_> = allowed.iter().map(|text| format!("\"{text}\"")).collect();
                 write!(f, "one of {}", quoted.join(", "))

@@ -56,6 +56,11 @@ pub const fn text(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Text)
 }
 
+/// The name of something, which stands in tables.
+pub const fn name(name: &'static str) -> Parameter {
+    Parameter::new(name, Kind::Name)
+}
+
 /// One text out of a list.
 pub const fn choice(name: &'static str, allowed: &'static [&'static str]) -> Parameter {
     Parameter::new(name, Kind::Choice(allowed))

@@ -103,7 +103,7 @@ fn exact_types(kind: &Kind) -> Vec<TypeId> {
     match kind {
         Kind::Number(_) | Kind::Numeric => vec![TypeId::of::<f64>(), TypeId::of::<INT>()],
         Kind::Whole(_) => vec![TypeId::of::<INT>()],
-        Kind::Text | Kind::Choice(_) => vec![TypeId::of::<ImmutableString>()],
+        Kind::Text | Kind::Name | Kind::Choice(_) => vec![TypeId::of::<ImmutableString>()],
         Kind::Boolean => vec![TypeId::of::<bool>()],
         Kind::Point => vec![TypeId::of::<Vec2>(), TypeId::of::<Array>()],
         Kind::Array | Kind::Numbers | Kind::Points => vec![TypeId::of::<Array>()],

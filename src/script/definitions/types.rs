@@ -42,7 +42,7 @@ pub fn for_kind(kind: &Kind) -> String {
     match kind {
         Kind::Number(_) | Kind::Numeric => "number".into(),
         Kind::Whole(_) => "whole_number".into(),
-        Kind::Text | Kind::Choice(_) => "text".into(),
+        Kind::Text | Kind::Name | Kind::Choice(_) => "text".into(),
         Kind::Boolean => "truth_value".into(),
         Kind::Point => "point".into(),
         Kind::Array | Kind::Numbers | Kind::Points => "array".into(),

@@ -10,7 +10,7 @@ use crate::script::context::Mode;
 use crate::script::error::ScriptError;
 use crate::script::kind::{Scripted, Type};
 use crate::script::parameter::{
-    Parameter, Presence, anything, callback, number, object, options, text, whole,
+    Parameter, Presence, anything, callback, name, number, object, options, whole,
 };
 use crate::script::studies::cost::{CostTable, Way, cases};
 use crate::script::studies::desk::print_table;
@@ -63,7 +63,7 @@ pub const TABLE: Table = Table {
 const COST_TABLE: Type = Type::of::<CostTable>();
 
 const STUDY: &[Parameter] = &[
-    text("name").doc("of the study and its files"),
+    name("name").doc("of the study and its files"),
     callback("scene").doc("|| …, a function that makes the scene"),
     number("dt").positive().unit("time").doc("the step size"),
     anything("features").doc("names and functions: #{ gravity: |scene| … }").optional(),

@@ -12,8 +12,8 @@ use crate::script::error::{Place, ScriptError};
 use crate::script::kind::{Details, Kind, Range, Scripted, Type};
 use crate::script::numbers::{as_number, format_number};
 use crate::script::parameter::{
-    Parameter, Presence, anything, array, callback, either, number, numbers, object, options, text,
-    whole,
+    Parameter, Presence, anything, array, callback, either, name, number, numbers, object, options,
+    text, whole,
 };
 use crate::script::studies::precision::study;
 use crate::script::studies::precision_comparison::comparison;
@@ -124,7 +124,7 @@ const ERRORS: Parameter =
 const ERROR: Parameter = number("error").positive().doc("an error");
 
 /// Of all studies of errors.
-pub(super) const NAME: Parameter = text("name").doc("of the study and of its files");
+pub(super) const NAME: Parameter = name("name").doc("of the study and of its files");
 pub(super) const SCENE_OF: Parameter = callback("scene").doc("|mesh| …, makes the scene on a mesh");
 pub(super) const MESHES: Parameter = array("meshes").doc("what `scene` is called with, one by one");
 pub(super) const METHODS: Parameter = array("integrators").doc("at least one");

@@ -19,7 +19,9 @@ use crate::script::call::Call;
 use crate::script::details;
 use crate::script::error::{Place, ScriptError};
 use crate::script::kind::{Details, Scripted, Type};
-use crate::script::parameter::{Parameter, Presence, either, number, object, options, point, text};
+use crate::script::parameter::{
+    Parameter, Presence, either, name, number, object, options, point, text,
+};
 use crate::script::table::{Table, function, method, property};
 
 /// Scenes and what stands in them.
@@ -30,7 +32,7 @@ pub const TABLE: Table = Table {
     setup: ROD,
     constants: &[],
     rows: &[
-        function("new_scene", &[text("name").or(Presence::Text("scene"))], |call| {
+        function("new_scene", &[name("name").or(Presence::Text("scene"))], |call| {
             Ok(Dynamic::from(SceneHandle::new(Scene::new(call.text("name")?.as_str()))))
         })
         .returns("a scene")

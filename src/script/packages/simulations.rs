@@ -20,7 +20,7 @@ use crate::script::call::Call;
 use crate::script::error::ScriptError;
 use crate::script::kind::{Kind, Range, Scripted, Type};
 use crate::script::parameter::{
-    Parameter, Presence, callback, choice, either, number, object, options, text, whole,
+    Parameter, Presence, callback, choice, either, name, number, object, options, whole,
 };
 use crate::script::table::{Row, Table, method, property};
 use crate::simulation::{Invariant, Recording, Settings, Simulation, SimulationError, StepControl};
@@ -163,7 +163,7 @@ pub(super) const START: &[Parameter] = &[
         .unit("time")
         .doc("the step size, or adaptive(#{ tolerance: 1e-4 })"),
     object("integrator", INTEGRATOR).doc("energy_momentum() unless given").optional(),
-    text("name").doc("the name in the report; that of the scene unless given").optional(),
+    name("name").doc("the name in the report; that of the scene unless given").optional(),
     object("record", RECORDING).doc("every(n) or nothing(); every step unless given").optional(),
     number("snapshots")
         .non_negative()

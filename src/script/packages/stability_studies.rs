@@ -10,7 +10,7 @@ use crate::script::context::Mode;
 use crate::script::error::ScriptError;
 use crate::script::kind::{Scripted, Type};
 use crate::script::parameter::{
-    Parameter, Presence, anything, callback, choice, number, object, options, text,
+    Parameter, Presence, anything, callback, choice, name, number, object, options,
 };
 use crate::script::studies::desk::{Desk, Task, print_table};
 use crate::script::studies::plan::patience;
@@ -62,7 +62,7 @@ pub const TABLE: Table = Table {
 const STABILITY_MAP: Type = Type::of::<StabilityMap>();
 
 const STUDY: &[Parameter] = &[
-    text("name").doc("of the study and its files"),
+    name("name").doc("of the study and its files"),
     callback("scene").doc("|cell| …, a function that makes the scene of a cell"),
     anything("rows").doc("a name and its values: #{ stiffness: [1e4, 1e8] }"),
     anything("columns").doc("a name and its values: #{ dt: [0.1, 0.2] }"),

@@ -6,7 +6,7 @@ use super::live::{Goal, SimulationHandle};
 use super::simulations::{SIMULATION, SPINNING};
 use crate::script::call::Call;
 use crate::script::error::ScriptError;
-use crate::script::parameter::{Presence, number, text, whole};
+use crate::script::parameter::{Presence, name, number, whole};
 use crate::script::table::{Table, method};
 
 /// Going back.
@@ -37,7 +37,7 @@ pub const TABLE: Table = Table {
         .doc("sim.rewind(0) leads to the start, which is kept whatever else was forgotten.")
         .example("sim.run_to(1);\nsim.rewind(0.55);\ncheck(sim.t == 0.5);\nsim.rewind(0);\ncheck(sim.t == 0);")
         .see(&["back", "run_to"]),
-        method(SIMULATION, "fork", &[text("name").optional()], |call| {
+        method(SIMULATION, "fork", &[name("name").optional()], |call| {
             let handle = call.receiver::<SimulationHandle>()?;
             let name = call.text("name").map_or_else(|_| format!("{} fork", handle.name()), |name| name.to_string());
             Ok(Dynamic::from(handle.fork(name, call.context())?))

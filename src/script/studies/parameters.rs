@@ -5,6 +5,7 @@ use rhai::{Array, Dynamic, Map};
 use super::labels;
 use crate::integrators::Method;
 use crate::output::significant;
+use crate::script::accept::readable;
 use crate::script::call::Call;
 use crate::script::error::{Place, ScriptError};
 use crate::script::numbers::{as_number, format_number};
@@ -38,13 +39,11 @@ impl Swept {
         let (1, Some((name, values))) = (given.len(), given.iter().next()) else {
             return Err(wrong(format!("{key} has {} names, but one is expected", given.len())));
         };
-        if name.trim().is_empty() {
-            return Err(wrong(format!("{key} has an empty name")));
-        }
+        let name = readable(key, name).map_err(|error| error.at(Place::Key(key.to_owned())))?;
         let values = values.clone().try_cast::<Array>().filter(|values| !values.is_empty());
         let values = values.ok_or_else(|| wrong(format!("{key}: '{name}' has no values")))?;
         let labels = values.iter().map(|value| label(call, value)).collect();
-        Ok(Self { name: name.to_string(), values, labels })
+        Ok(Self { name, values, labels })
     }
 
     /// A single nameless value, for an option that is left out.

@@ -8,6 +8,7 @@ use crate::beams::{Mesh, Station};
 use crate::integrators::Method;
 use crate::model::Scene;
 use crate::newton::Tolerance;
+use crate::script::accept::readable;
 use crate::script::call::Call;
 use crate::script::error::{Place, ScriptError};
 use crate::script::numbers::{as_number, format_number};
@@ -130,6 +131,8 @@ fn column_of(
     meant: &Dynamic,
     history: &History,
 ) -> Result<Observable, ScriptError> {
+    let name =
+        &readable("columns", name).map_err(|error| error.at(Place::Key("columns".into())))?;
     let parts = meant.clone().into_array().unwrap_or_else(|_| vec![meant.clone()]);
     let text = |value: &Dynamic| value.clone().into_string().ok();
     let (column, factor) = match parts.as_slice() {
@@ -158,10 +161,6 @@ fn column_of(
 /// The name of a study and of its files, which no other study of the run has.
 pub fn study_name(call: &Call, options: &Options) -> Result<String, ScriptError> {
     let name = options.text("name")?.to_string();
-    if name.trim().is_empty() {
-        let hint = "its files are called after it, for example \"precision\"";
-        return Err(at_key(call, "name", "the name of a study is empty", hint));
-    }
     if !call.context().claim_study(&name) {
         let told = format!("there is a study '{name}' in this run already");
         let hint = "give each study a name of its own, for its files would be overwritten";
@@ -301,7 +300,9 @@ fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<Subject, ScriptE
                     let told = format!("station '{name}' is {}", call.describe(station));
                     at_key(call, "scene", told, hint)
                 })?;
-                Ok((name.to_string(), handle.own(&station)?))
+                let name = readable("stations", name)
+                    .map_err(|error| error.at(Place::Key("scene".into())))?;
+                Ok((name, handle.own(&station)?))
             };
             stations.iter().map(own).collect::<Result<_, ScriptError>>()?
         }
