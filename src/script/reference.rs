@@ -11,7 +11,7 @@ use super::topics::{TOPICS, Topic};
 
 const HEAD: &str = "# The language
 
-*Made from the tables in `src/script`; `WITHY_UPDATE=1 cargo test --test documents` makes it again.*
+*Made from the tables in `src/script`; `WITHY_UPDATE=1 cargo test --test house documents` makes it again.*
 
 withy speaks [Rhai](https://rhai.rs/book) with numbers as in science. The same pages are shown by `withy docs NAME`, and by \
 `help(\"NAME\")` in a script. Every example runs, after the lines that its section begins with. Ready-made sections, shapes, schedules, mechanisms, \

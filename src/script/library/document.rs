@@ -6,7 +6,7 @@ use super::pages::{Block, ModulePage, pages};
 
 const HEAD: &str = "# The standard library
 
-*Made from the comments in `stdlib/*.rhai`; `WITHY_UPDATE=1 cargo test --test documents` makes it again.*
+*Made from the comments in `stdlib/*.rhai`; `WITHY_UPDATE=1 cargo test --test house documents` makes it again.*
 
 Modules in the [language](language.md) itself, which are part of the program: `import \"std/sections\" as sections;` works in every script, in \
 files that scripts import, and at the prompt. They are read when they are imported, and not before. Names that begin with `std/` belong to the \

@@ -1,0 +1,64 @@
+//! Large beams are worked on by several threads at once, with the bits of one.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::sliding_scenes::abacus;
+use crate::common::{scenes, settings};
+use withy::beams::Mesh;
+use withy::integrators::Method;
+use withy::joints::SlidingRule;
+use withy::model::{Model, ModelState, Scene};
+use withy::simulation::{Simulation, Unwatched};
+
+/// Takes two steps with up to so many threads; the state at their end, and the iterations.
+fn state(scene: &Scene, method: Method, threads: usize) -> (ModelState, usize) {
+    let mut simulation = Simulation::start(scene.clone(), settings(method, 0.01)).unwrap();
+    simulation.use_threads(threads);
+    for _ in 0..2 {
+        simulation.step(&mut Unwatched).unwrap();
+    }
+    (simulation.model().state(), simulation.counts().newton_iterations)
+}
+
+/// How many threads work on a scene at most.
+fn threads(scene: &Scene, allowed: usize) -> usize {
+    Model::assemble(scene).unwrap().divide(allowed)
+}
+
+#[test]
+fn any_number_of_threads_comes_to_the_same_bits() {
+    let section = scenes::spaghetti_section(1e4, 100.0);
+    let bspline = |spans, degree, continuity| Mesh::bspline(spans, degree, continuity).unwrap();
+    let lagrange = |elements, degree| Mesh::lagrange(elements, degree).unwrap();
+    let cases = [
+        (scenes::spaghetti(&bspline(12_100, 3, 2), 1e4), 3),
+        (scenes::blown_cantilever(&bspline(8001, 3, 1)), 2),
+        (scenes::curved_pendulum(&lagrange(8003, 2)), 2),
+        (scenes::cantilever(&lagrange(8100, 1), section), 2),
+        (scenes::spaghetti(&bspline(8050, 5, 4), 1e4), 2),
+        (abacus(&bspline(8100, 3, 2), SlidingRule::Conserving), 2),
+    ];
+    for (scene, parts) in cases {
+        assert_eq!(threads(&scene, 3), parts, "{}", scene.name);
+        let one = state(&scene, Method::EnergyMomentum, 1);
+        for allowed in [2, 3] {
+            let some = state(&scene, Method::EnergyMomentum, allowed);
+            assert!(some == one, "{}, {allowed}", scene.name);
+        }
+    }
+}
+
+#[test]
+fn a_method_that_keeps_accelerations_comes_to_the_same_bits_too() {
+    let scene = scenes::spaghetti(&Mesh::bspline(8001, 3, 2).unwrap(), 1e4);
+    let method = Method::GeneralizedAlpha { rho_infinity: 0.8 };
+    assert!(state(&scene, method, 1) == state(&scene, method, 2));
+}
+
+#[test]
+fn small_beams_and_closed_ones_are_left_to_one_thread() {
+    let mesh = |spans| Mesh::bspline(spans, 3, 2).unwrap();
+    assert_eq!(threads(&scenes::spaghetti(&mesh(14), 1e4), 8), 1);
+    assert_eq!(threads(&scenes::spaghetti(&mesh(7999), 1e4), 8), 1);
+    // The numbers of a ring go to and fro.
+    assert_eq!(threads(&scenes::hoop(&mesh(9000)), 8), 1);
+}

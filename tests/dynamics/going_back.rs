@@ -1,0 +1,322 @@
+//! Going back and on again gives, bit for bit, what going straight on gives.
+#![allow(clippy::unwrap_used)]
+
+use std::collections::HashMap;
+use std::num::NonZeroUsize;
+use std::rc::Rc;
+
+use crate::common::{Random, meshes, run, scenes, settings, sliding_scenes};
+use withy::beams::Mesh;
+use withy::integrators::{INTEGRATORS, Method};
+use withy::joints::{EndAction, SlidingRule};
+use withy::loads::{LoadKind, Schedule};
+use withy::model::{Scene, StartMotion};
+use withy::simulation::{
+    Monitor, Recording, Settings, Simulation, SimulationError, Unwatched, WorkCounts,
+};
+
+const PLENTY: usize = 1 << 28;
+
+/// Everything that a person could see of a simulation, all digits of it, but the time it took.
+fn fingerprint(simulation: &Simulation) -> String {
+    let history = simulation.history();
+    let columns: Vec<_> = history.columns().map(|(name, _)| history.column(name)).collect();
+    let trajectory = simulation.trajectory();
+    let kept = 0..trajectory.times().len();
+    let configurations: Vec<_> = kept.map(|index| trajectory.configuration(index)).collect();
+    let counts = WorkCounts { wall: std::time::Duration::ZERO, ..*simulation.counts() };
+    let state = simulation.model().state();
+    let arrivals = simulation.arrivals();
+    let seen = (state, history.samples(), columns, trajectory.times(), configurations);
+    format!("{seen:?} {arrivals:?} {counts:?}")
+}
+
+fn steps_of(simulation: &Simulation) -> usize {
+    simulation.counts().steps
+}
+
+fn start(scene: &Scene, settings: Settings) -> Simulation {
+    let mut simulation = Simulation::start(scene.clone(), settings).unwrap();
+    simulation.cut_at(3.3 * simulation.dt());
+    simulation
+}
+
+/// A straight run: what was seen after each step by their number, and at its end.
+fn straight(mut simulation: Simulation, steps: usize) -> (HashMap<usize, String>, String) {
+    let mut seen = HashMap::from([(0, fingerprint(&simulation))]);
+    for _ in 0..steps {
+        simulation.step(&mut Unwatched).unwrap();
+        // A run may end without a step.
+        seen.entry(steps_of(&simulation)).or_insert_with(|| fingerprint(&simulation));
+        if simulation.has_ended() {
+            break;
+        }
+    }
+    (seen, fingerprint(&simulation))
+}
+
+/// Steps, goes back, rewinds and forks at random, and at last goes on to the end of a straight run. What is recorded depends
+/// on the seed.
+fn assert_walk_is_straight(
+    label: &str,
+    scene: &Scene,
+    settings: Settings,
+    steps: usize,
+    seed: u64,
+) {
+    let start = || {
+        let mut simulation = start(scene, settings);
+        let every = |steps| Recording::Every(NonZeroUsize::new(steps).unwrap());
+        simulation.record([every(1), every(3), Recording::Nothing][seed as usize % 3]);
+        simulation
+    };
+    let (seen, end) = straight(start(), steps);
+    let last = *seen.keys().max().unwrap();
+    let mut random = Random(seed);
+    let mut choose = |below: usize| ((random.next() + 1.0) * 0.5 * below as f64) as usize;
+    let mut simulation = start();
+    simulation.keep_snapshots(PLENTY);
+    let mut aside: Option<Simulation> = None;
+    for _ in 0..30 {
+        match choose(6) {
+            0 => simulation.back(choose(steps_of(&simulation) + 1)).unwrap(),
+            1 => {
+                let time = simulation.time() * choose(1000) as f64 / 1000.0;
+                simulation.rewind(time).unwrap();
+                assert!(simulation.time() <= time + simulation.slack(), "{label}");
+            }
+            2 => {
+                let fork = simulation.fork().unwrap();
+                assert_eq!(fingerprint(&fork), fingerprint(&simulation), "{label}: a fork");
+                aside = Some(std::mem::replace(&mut simulation, fork));
+            }
+            3 => {
+                if let Some(other) = aside.as_mut() {
+                    std::mem::swap(other, &mut simulation);
+                }
+            }
+            _ => {
+                for _ in 0..=choose(4) {
+                    if !simulation.has_ended() && steps_of(&simulation) < last {
+                        simulation.step(&mut Unwatched).unwrap();
+                    }
+                }
+            }
+        }
+        if let Some(expected) = seen.get(&steps_of(&simulation)).filter(|_| !simulation.has_ended())
+        {
+            assert!(fingerprint(&simulation) == *expected, "{label}: at {}", simulation.time());
+        }
+    }
+    while !simulation.has_ended() && steps_of(&simulation) < last {
+        simulation.step(&mut Unwatched).unwrap();
+    }
+    // It may have come back to where the straight run ended without a step.
+    if fingerprint(&simulation) != end {
+        simulation.step(&mut Unwatched).unwrap();
+    }
+    assert!(fingerprint(&simulation) == end, "{label}: the end at {}", simulation.time());
+}
+
+#[test]
+fn walks_through_every_scene_are_straight() {
+    for (number, (name, mesh)) in meshes(4).into_iter().enumerate() {
+        for scene in scenes::all(&mesh) {
+            let entry = INTEGRATORS[number % INTEGRATORS.len()];
+            let label = format!("{}, {}, {name}", entry.name, scene.name);
+            assert_walk_is_straight(
+                &label,
+                &scene,
+                settings(entry.method, 0.05),
+                12,
+                number as u64,
+            );
+        }
+    }
+}
+
+#[test]
+fn walks_with_sliders_that_bounce_rest_leave_or_end_the_run_are_straight() {
+    let mesh = Mesh::bspline(4, 3, 2).unwrap();
+    let rule = SlidingRule::Conserving;
+    let mut arrivals = 0;
+    let actions = [EndAction::Bounce, EndAction::Release, EndAction::Stop];
+    for (ends, entry) in
+        actions.into_iter().flat_map(|ends| INTEGRATORS.iter().map(move |entry| (ends, entry)))
+    {
+        for (number, mut scene) in sliding_scenes::all(&mesh, rule).into_iter().enumerate() {
+            scene.sliders.iter_mut().for_each(|slider| slider.ends = ends);
+            let label = format!("{}, {}, {ends:?}", entry.name, scene.name);
+            let settings = settings(entry.method, 0.02);
+            let mut probe = start(&scene, settings);
+            run(&mut probe, 0.6).unwrap();
+            arrivals += probe.arrivals().len();
+            assert_walk_is_straight(&label, &scene, settings, 30, number as u64);
+        }
+    }
+    assert!(arrivals > 20, "only {arrivals} arrivals");
+}
+
+/// A beam that turns so fast that no whole step works.
+fn fast_spinner() -> Scene {
+    let mesh = Mesh::bspline(3, 3, 2).unwrap();
+    let mut scene = scenes::free_beam(&mesh, scenes::spaghetti_section(1e4, 100.0));
+    scene.beams[0].motion = StartMotion { spin: 30.0, ..StartMotion::default() };
+    scene
+}
+
+#[test]
+fn walks_over_halved_steps_are_straight() {
+    for method in INTEGRATORS.iter().map(|entry| entry.method) {
+        let (scene, settings) = (fast_spinner(), settings(method, 0.4));
+        let mut probe = start(&scene, settings);
+        run(&mut probe, 2.0).unwrap();
+        assert!(probe.counts().retries > 3 && probe.counts().steps > 8, "{:?}", probe.counts());
+        for seed in 0..20 {
+            assert_walk_is_straight("fast spinner", &scene, settings, 5, seed);
+        }
+    }
+}
+
+#[test]
+fn walks_under_a_function_of_time_are_straight() {
+    let mut scene = scenes::towed(&Mesh::bspline(3, 3, 2).unwrap());
+    let schedule =
+        Schedule::Function { function: Rc::new(|t| Ok((3.0 * t).cos())), breaks: vec![0.17] };
+    let station = scenes::end_of(&mut scene, 0);
+    scene.add_load(LoadKind::Moment { station, moment: 2.0 }, schedule);
+    assert_walk_is_straight("function", &scene, settings(Method::EnergyMomentum, 0.05), 12, 7);
+}
+
+/// Stops a run at its so many-th question.
+struct StopAt(usize);
+
+impl Monitor for StopAt {
+    fn goes_on(&mut self, _time: f64) -> bool {
+        self.0 = self.0.saturating_sub(1);
+        self.0 > 0
+    }
+}
+
+#[test]
+fn a_run_that_is_interrupted_wherever_it_is_goes_on_as_if_it_were_not() {
+    let (scene, settings) = (fast_spinner(), settings(Method::EnergyMomentum, 0.4));
+    let mut whole = start(&scene, settings);
+    run(&mut whole, 2.0).unwrap();
+    for question in 1..12 {
+        let mut stopped = start(&scene, settings);
+        let ended = stopped.run_to(2.0, &mut StopAt(question));
+        assert!(matches!(ended, Err(SimulationError::Interrupted { .. })));
+        run(&mut stopped, 2.0).unwrap();
+        assert_eq!(fingerprint(&stopped), fingerprint(&whole), "stopped at question {question}");
+    }
+}
+
+#[test]
+fn a_run_that_has_ended_can_be_gone_back_from() {
+    let mesh = Mesh::bspline(4, 3, 2).unwrap();
+    let mut scene = sliding_scenes::abacus(&mesh, SlidingRule::Conserving);
+    scene.sliders.iter_mut().for_each(|slider| slider.ends = EndAction::Stop);
+    let mut simulation = start(&scene, settings(Method::EnergyMomentum, 0.02));
+    simulation.keep_snapshots(PLENTY);
+    run(&mut simulation, 5.0).unwrap();
+    assert!(simulation.has_ended());
+    let (end, time) = (fingerprint(&simulation), simulation.time());
+    simulation.rewind(0.5 * time).unwrap();
+    assert!(!simulation.has_ended() && simulation.arrivals().is_empty());
+    run(&mut simulation, 5.0).unwrap();
+    assert_eq!(fingerprint(&simulation), end);
+}
+
+#[test]
+fn a_cut_of_the_grid_stays_when_time_goes_back() {
+    let scene = scenes::spaghetti(&Mesh::bspline(4, 3, 2).unwrap(), 1e4);
+    let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.1)).unwrap();
+    simulation.keep_snapshots(PLENTY);
+    run(&mut simulation, 0.3).unwrap();
+    simulation.cut_at(0.15);
+    simulation.rewind(0.0).unwrap();
+    run(&mut simulation, 0.3).unwrap();
+    assert_eq!(simulation.history().column("t").unwrap(), [0.0, 0.1, 0.15, 0.2, 0.3]);
+}
+
+#[test]
+fn a_limit_bounds_the_memory_and_forgets_the_oldest_but_the_start() {
+    let scene = scenes::spaghetti(&Mesh::bspline(14, 3, 2).unwrap(), 1e4);
+    let settings = settings(Method::EnergyMomentum, 0.1);
+    let mut simulation = Simulation::start(scene.clone(), settings).unwrap();
+    simulation.keep_snapshots(100_000);
+    let beginning = fingerprint(&simulation);
+    for _ in 0..200 {
+        simulation.step(&mut Unwatched).unwrap();
+        let (_, bytes) = simulation.snapshots_kept();
+        assert!(bytes <= 100_000, "{bytes}");
+    }
+    let (kept, bytes) = simulation.snapshots_kept();
+    println!("{} bytes a snapshot of the flying spaghetti", bytes / kept);
+    assert!(kept > 10 && bytes > 80_000, "{kept} snapshots in {bytes} bytes");
+    let end = fingerprint(&simulation);
+    let refusal = simulation.back(kept).unwrap_err();
+    assert!(
+        matches!(refusal, SimulationError::Forgotten { steps, .. } if steps == kept - 2),
+        "{refusal:?}"
+    );
+    let told = refusal.to_string();
+    for part in
+        ["limit of 0.1 MB", &format!("last {} steps", kept - 2), "sim.rewind(0)", "snapshots: 64"]
+    {
+        assert!(told.contains(part), "{told}");
+    }
+    assert_eq!(fingerprint(&simulation), end, "a refusal changes nothing");
+    simulation.back(kept - 2).unwrap();
+    simulation.rewind(0.0).unwrap();
+    assert_eq!(fingerprint(&simulation), beginning);
+    for _ in 0..200 {
+        simulation.step(&mut Unwatched).unwrap();
+    }
+    assert_eq!(fingerprint(&simulation), end);
+    simulation.keep_snapshots(50_000);
+    let (fewer, bytes) = simulation.snapshots_kept();
+    assert!(fewer < kept && bytes <= 50_000);
+    simulation.back(fewer - 2).unwrap();
+    simulation.keep_snapshots(0);
+    assert_eq!(simulation.snapshots_kept(), (0, 0));
+}
+
+#[test]
+fn ways_back_that_are_none_are_refused_with_a_reason() {
+    let scene = scenes::spaghetti(&Mesh::bspline(4, 3, 2).unwrap(), 1e4);
+    let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.1)).unwrap();
+    run(&mut simulation, 1.0).unwrap();
+    let told = |refused: Result<(), SimulationError>| refused.unwrap_err().to_string();
+    assert!(told(simulation.back(3)).contains("no states are kept; start with"));
+    simulation.keep_snapshots(10);
+    assert!(told(simulation.back(3)).contains("more than the limit of 0.00001 MB"));
+    assert!(told(simulation.back(11)).contains("only 10 were taken"));
+    for time in [-0.5, 1.5, f64::NAN, f64::INFINITY] {
+        assert!(told(simulation.rewind(time)).contains("from t = 0 to 1"));
+    }
+    simulation.keep_snapshots(PLENTY);
+    run(&mut simulation, 2.0).unwrap();
+    assert!(told(simulation.back(15)).contains("states are kept from t = 1 on"));
+    simulation.back(10).unwrap();
+    simulation.back(0).unwrap();
+    simulation.rewind(1.0).unwrap();
+    assert_eq!(simulation.time(), 1.0);
+}
+
+#[test]
+fn a_fork_and_its_original_do_not_touch_each_other() {
+    let scene = scenes::spaghetti(&Mesh::bspline(4, 3, 2).unwrap(), 1e4);
+    let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.1)).unwrap();
+    simulation.keep_snapshots(PLENTY);
+    run(&mut simulation, 1.0).unwrap();
+    let mut fork = simulation.fork().unwrap();
+    let before = fingerprint(&simulation);
+    run(&mut fork, 2.0).unwrap();
+    assert_eq!(fingerprint(&simulation), before);
+    run(&mut simulation, 2.0).unwrap();
+    assert_eq!(fingerprint(&fork), fingerprint(&simulation));
+    fork.back(15).unwrap();
+    assert_eq!((fork.time(), simulation.time()), (0.5, 2.0));
+}

@@ -1,0 +1,20 @@
+//! What moves: steps of every method, their invariants, orders, work and bits; files and ways back.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod adaptive;
+mod archive;
+mod composition;
+mod consistency;
+mod cores;
+mod going_back;
+mod invariants;
+mod literature;
+mod meshes;
+mod notes;
+mod orders;
+mod same_bits;
+mod saving;
+mod unused_features;
+mod work_counts;

@@ -1,0 +1,320 @@
+//! What runs are told of that their steps do not resolve, and that nothing is told where all is well.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::notepad::Notepad;
+use crate::common::scenes::{end_of, line};
+use crate::common::{at, run, settings, simulate};
+use withy::beams::{Mesh, Section, Station};
+use withy::integrators::Method;
+use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
+use withy::model::{BeamDefinition, ParticleDefinition, Scene, StartMotion, StationVelocity};
+use withy::script::catalog::Catalog;
+use withy::script::context::{Mode, Settings};
+use withy::script::program::Program;
+use withy::script::runner::{self, Ending, Outcome};
+use withy::simulation::{Note, Simulation, Unwatched};
+
+const METHODS: [Method; 3] = [Method::EnergyMomentum, Method::Trapezoidal, Method::FourthOrder];
+
+/// `m`, `kg`, `s`: 300 mm long, 25 mm wide, 1 mm thick.
+fn steel() -> Section {
+    let (area, second) = (25e-6, 25e-3 * 1e-9 / 12.0);
+    Section {
+        axial_stiffness: 2.1e11 * area,
+        shear_stiffness: 0.8e11 * area * 5.0 / 6.0,
+        bending_stiffness: 2.1e11 * second,
+        mass_per_length: 7850.0 * area,
+        rotary_inertia: 7850.0 * second,
+    }
+}
+
+fn beam(scene: &mut Scene, to: withy::geometry::Vec2, spans: usize, section: Section) -> usize {
+    let name = scene.free_name("beam");
+    let definition = BeamDefinition {
+        name,
+        axis: line(at(0.0, 0.0), to),
+        mesh: Mesh::bspline(spans, 3, 2).unwrap(),
+        section,
+        motion: StartMotion::default(),
+    };
+    scene.add_beam(definition).unwrap()
+}
+
+/// A steel ruler that is clamped and whose gravity sets in at the start, and its lowest period.
+fn ruler() -> (Scene, f64) {
+    let (mut scene, section, length) = (Scene::new("ruler"), steel(), 0.3);
+    beam(&mut scene, at(length, 0.0), 8, section);
+    let start = Station::on_beam(0, 0.0);
+    scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
+    scene.gravity = at(0.0, -9.81);
+    let first = 1.875_104_068_711_961_f64.powi(2);
+    let angular =
+        first * (section.bending_stiffness / section.mass_per_length).sqrt() / length.powi(2);
+    (scene, std::f64::consts::TAU / angular)
+}
+
+fn motion(notes: &[Note]) -> Option<(f64, f64, Option<f64>)> {
+    notes.iter().find_map(|note| match note {
+        Note::Motion { dt, share, lowest, .. } => Some((*dt, *share, *lowest)),
+        _ => None,
+    })
+}
+
+#[test]
+fn a_ruler_in_steps_of_many_periods_is_told_how_many_and_one_in_fine_steps_is_not() {
+    for method in METHODS {
+        let (scene, period) = ruler();
+        let coarse = simulate(scene, method, 5.0, 500.0);
+        let (dt, share, lowest) = motion(&coarse.notes()).unwrap();
+        let periods = dt / lowest.unwrap();
+        println!("{method:?}: {periods:.3} periods a step, share {share:.3}");
+        assert!((periods * period / 5.0 - 1.0).abs() < 0.01, "{periods} of {}", 5.0 / period);
+        assert!(share > 0.9, "{share}");
+        let (scene, _) = ruler();
+        let fine = simulate(scene, method, period / 20.0, 20.0 * period);
+        assert_eq!(fine.notes(), []);
+    }
+}
+
+#[test]
+fn vibration_that_hides_under_flight_is_told() {
+    // The ruler flies, and bends with a twentieth of the energy of its flight at 40 times the frequency that steps could follow.
+    let spinning = |bending: f64| {
+        let mut scene = Scene::new("flight");
+        beam(&mut scene, at(0.3, 0.0), 8, steel());
+        scene.beams[0].motion.velocity = at(1.0, 0.0);
+        let middle = scene.station(0, 0.15).unwrap();
+        scene.velocities.push(StationVelocity {
+            station: middle,
+            velocity: at(1.0, bending),
+            spin: None,
+        });
+        simulate(scene, Method::EnergyMomentum, 0.5, 50.0)
+    };
+    let (_, share, _) = motion(&spinning(1.0).notes()).unwrap();
+    println!("share {share:.3}");
+    assert!(share < 0.2, "{share}");
+    assert_eq!(spinning(0.0).notes(), []);
+}
+
+#[test]
+fn a_stiff_pendulum_in_long_steps_and_a_scene_at_rest_are_silent() {
+    let pendulum = |start: f64| {
+        let mut scene = Scene::new("pendulum");
+        beam(&mut scene, at(0.3 * start.sin(), -0.3 * start.cos()), 4, steel());
+        scene.join(JointKind::Hinge, Station::on_beam(0, 0.0), Partner::Ground).unwrap();
+        scene.gravity = at(0.0, -9.81);
+        scene
+    };
+    // A period of 0.9: steps are as long as the third of the lowest period of bending, 0.02, and longer.
+    for dt in [0.01, 0.03, 0.05] {
+        let notes = simulate(pendulum(1.0), Method::EnergyMomentum, dt, 10.0).notes();
+        assert_eq!(notes, [], "dt = {dt}");
+    }
+    let mut floating = Scene::new("nothing happens");
+    beam(&mut floating, at(0.3, 0.1), 8, steel());
+    assert_eq!(simulate(floating, Method::EnergyMomentum, 5.0, 500.0).notes(), []);
+    let hanging = format!(
+        "{RULER}let sim = scene.equilibrium().start(#{{ dt: 5 }});\nsim.run_to(500);\ncheck(sim.notes.is_empty());"
+    );
+    assert_eq!(outcome(&hanging).1, "");
+}
+
+#[test]
+fn sections_that_turn_far_in_a_step_are_told() {
+    let spinning = |dt: f64| {
+        let mut scene = Scene::new("spinning");
+        beam(&mut scene, at(0.3, 0.0), 4, steel());
+        scene.beams[0].motion.spin = 1.0;
+        simulate(scene, Method::EnergyMomentum, dt, 10.0).notes()
+    };
+    assert_eq!(spinning(0.5), []);
+    let notes = spinning(1.0);
+    let [Note::Rotation { angle, .. }] = notes.as_slice() else { panic!("{notes:?}") };
+    // tan(φ/2) = ω h/2
+    assert!((angle - 2.0 * 0.5_f64.atan()).abs() < 1e-3, "{angle}");
+}
+
+/// A ring of a mass that slides along a bar clamped at its start, from a fifth before its end at speed 1.
+fn ring(stiffness: f64, mass: f64, speed: f64) -> Scene {
+    let mut scene = Scene::new("bar");
+    let section = Section {
+        axial_stiffness: stiffness,
+        shear_stiffness: stiffness / 3.0,
+        bending_stiffness: 1e-3 * stiffness,
+        mass_per_length: 1.0,
+        rotary_inertia: 1e-3,
+    };
+    beam(&mut scene, at(1.0, 0.0), 10, section);
+    scene.join(JointKind::Rigid, Station::on_beam(0, 0.0), Partner::Ground).unwrap();
+    let bead = ParticleDefinition { name: "bead".into(), position: at(0.8, 0.0) };
+    let slave = scene.add_particle(bead, mass).unwrap();
+    let velocity = at(speed, 0.0);
+    scene.velocities.push(StationVelocity { station: slave, velocity, spin: None });
+    let slider = Slider {
+        name: "ring".into(),
+        slave,
+        master: 0,
+        arc_length: 0.8,
+        rule: SlidingRule::Conserving,
+        ends: EndAction::Bounce,
+        velocities: StartVelocities::Check,
+    };
+    scene.add_slider(slider).unwrap();
+    scene
+}
+
+#[test]
+fn bounces_are_silent_where_they_are_right_and_told_where_they_are_not() {
+    // Saint-Venant's bar, struck by its own mass: the exact rebound is 0.6877 for every EA.
+    for (stiffness, dt) in
+        [(1e4, 0.01), (1e4, 0.003), (1e6, 0.01), (1e6, 0.001), (1e8, 0.01), (1e10, 0.01)]
+    {
+        let bar = simulate(ring(stiffness, 1.0, 1.0), Method::EnergyMomentum, dt, 0.6);
+        let rebound = -bar.model().velocity(&slave(&bar)).x;
+        let told = bar.notes().iter().any(|note| matches!(note, Note::Bounce { .. }));
+        println!("EA = {stiffness:e}, dt = {dt}: rebound {rebound:.4}, told: {told}");
+        let is_right = (rebound / 0.6877 - 1.0).abs() < 0.05;
+        assert_eq!(told, !is_right, "EA = {stiffness:e}, dt = {dt}: {rebound}");
+    }
+    // An end that is held is struck without waves.
+    let mut held = ring(1e10, 1.0, 1.0);
+    let end = end_of(&mut held, 0);
+    held.join(JointKind::Rigid, end, Partner::Ground).unwrap();
+    let held = simulate(held, Method::EnergyMomentum, 0.01, 0.6);
+    assert!(!held.arrivals().is_empty());
+    assert_eq!(held.notes(), []);
+}
+
+fn slave(simulation: &Simulation) -> withy::beams::Place {
+    let scene = simulation.scene();
+    let slave = scene.sliders[0].slave;
+    scene.place(&slave, simulation.model().meshes()).unwrap()
+}
+
+#[test]
+fn a_slider_that_passes_more_than_a_span_in_a_step_is_told() {
+    let passing = |speed: f64| simulate(ring(1e4, 1.0, -speed), Method::EnergyMomentum, 0.01, 0.02);
+    let notes = passing(25.0).notes();
+    let way = notes.iter().find_map(|note| match note {
+        Note::Way { spans, slider, .. } => Some((*spans, slider.clone())),
+        _ => None,
+    });
+    let (spans, slider) = way.unwrap();
+    assert!((spans - 2.5).abs() < 0.01 && slider == "ring", "{spans} {slider}");
+    assert_eq!(passing(9.0).notes(), []);
+}
+
+#[test]
+fn notes_are_those_of_the_steps_behind_the_present() {
+    let mut simulation =
+        Simulation::start(ruler().0, settings(Method::EnergyMomentum, 0.005)).unwrap();
+    simulation.keep_snapshots(10_000_000);
+    run(&mut simulation, 0.1).unwrap();
+    assert_eq!(simulation.notes(), []);
+    let before = *simulation.model().resolution();
+    // From here on steps are as coarse as jumps of the grid make them: another simulation of the same state.
+    let (name, mut again) = Simulation::from_bytes(&simulation.to_bytes("ruler").unwrap()).unwrap();
+    assert_eq!((name.as_str(), *again.model().resolution()), ("ruler", before));
+    run(&mut again, 0.2).unwrap();
+    run(&mut simulation, 0.2).unwrap();
+    assert_eq!(again.model().resolution(), simulation.model().resolution());
+    assert_ne!(*simulation.model().resolution(), before);
+    let fork = simulation.fork().unwrap();
+    assert_eq!(fork.model().resolution(), simulation.model().resolution());
+    simulation.rewind(0.1).unwrap();
+    assert_eq!(*simulation.model().resolution(), before);
+
+    let mut coarse = Simulation::start(ruler().0, settings(Method::EnergyMomentum, 5.0)).unwrap();
+    coarse.keep_snapshots(10_000_000);
+    run(&mut coarse, 50.0).unwrap();
+    assert!(motion(&coarse.notes()).is_some() && motion(&coarse.fork().unwrap().notes()).is_some());
+    let (_, loaded) = Simulation::from_bytes(&coarse.to_bytes("coarse").unwrap()).unwrap();
+    assert_eq!(loaded.notes(), coarse.notes());
+    coarse.back(coarse.counts().steps).unwrap();
+    assert_eq!(coarse.notes(), []);
+    coarse.step(&mut Unwatched).unwrap();
+    assert_eq!(coarse.notes(), []);
+}
+
+fn outcome(script: &str) -> (Outcome, String) {
+    let (told, out) = (Notepad::default(), tempfile::tempdir().unwrap());
+    let settings = Settings {
+        told: Box::new(told.clone()),
+        out: out.path().to_owned(),
+        ..Settings::silent(Mode::Run)
+    };
+    let outcome = runner::run(&Program::named("test", script), &Catalog::standard(), settings);
+    assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
+    assert_eq!(outcome.checks.failed(), []);
+    (outcome, told.take())
+}
+
+const RULER: &str = "let steel = section(#{ E: 2.1e11, nu: 0.3, density: 7850, shape: \"rectangle\", width: 0.025, height: 0.001 });
+let scene = new_scene(\"ruler\");
+let ruler = scene.beam(#{ axis: line([0, 0], [0.3, 0]), basis: bspline(8), section: steel });
+scene.clamp(ruler.start);
+scene.gravity([0, -9.81]);
+";
+
+#[test]
+fn a_note_is_told_once_and_is_in_the_report_and_explained() {
+    let script = format!(
+        "{RULER}let sim = scene.start(#{{ dt: 5 }});\nsim.run_to(100);\nsim.run_to(200);\nsim.step(3);\nsim.run_to(300);\n\
+         check(sim.notes.len() == 1);\ncheck(sim.explain().contains(\"lowest period\"));\n\
+         let fork = sim.fork(\"other\");\nfork.run_to(400);\ncheck(fork.notes.len() == 1);"
+    );
+    let (outcome, told) = outcome(&script);
+    println!("{told}");
+    assert_eq!(told.matches("note: simulation 'ruler': steps are too long").count(), 1, "{told}");
+    assert_eq!(told.lines().count(), 1, "{told}");
+    assert!(told.contains("times the lowest period of the scene as drawn"), "{told}");
+    let report = &outcome.simulations[0];
+    let note = report["notes"][0].as_str().unwrap();
+    assert!(note.starts_with("steps are too long") && note.contains("lowest period"), "{report}");
+    assert!(report["resolution"]["unresolved_share"].as_f64().unwrap() > 0.9, "{report}");
+}
+
+#[test]
+fn notes_can_be_kept_and_fine_steps_have_none() {
+    let kept = format!(
+        "{RULER}let sim = scene.start(#{{ dt: 5, notes: \"keep\" }});\nsim.run_to(100);\ncheck(sim.notes.len() == 1);\n\
+         let other = sim.fork();\nother.run_to(200);"
+    );
+    assert_eq!(outcome(&kept).1, "");
+    let fine = format!(
+        "{RULER}let sim = scene.start(#{{ dt: 0.005 }});\nsim.run_to(1);\ncheck(sim.notes.is_empty());\n\
+         check(!sim.explain().contains(\"lowest period\"));"
+    );
+    let (outcome, told) = outcome(&fine);
+    assert_eq!((told.as_str(), &outcome.simulations[0]["notes"]), ("", &serde_json::json!([])));
+}
+
+#[test]
+fn a_bead_below_a_barrier_is_told_that_its_well_is_not_resolved() {
+    // A double well: the bead starts at rest 6 % below the barrier between.
+    let script = |dt: &str, crosses: bool| {
+        format!(
+            "let s = section(#{{ EA: 1e7, GA: 1e7, EI: 1e6, rho_A: 10, rho_I: 10 }});
+let scene = new_scene(\"wells\");
+let height = |x| (1 - x^2)^2;
+let points = [];
+for n in 0..=40 {{ let x = -1.5 + 0.075 * n; points.push([x, height.call(x)]); }}
+let shape = through(points);
+let track = scene.beam(#{{ axis: shape, basis: bspline(40), section: s }});
+scene.clamp(track.start);
+scene.clamp(track.end);
+let bead = scene.particle(shape.at(0.9), 1);
+let ring = scene.slider(bead, track, #{{ name: \"ring\", ends: \"bounce\" }});
+scene.gravity([0, -1]);
+let sim = scene.start(#{{ dt: {dt} }});
+sim.run_to(60);
+check((min(sim.history.column(\"ring.position\")) < 0.5) == {crosses});"
+        )
+    };
+    let (_, told) = outcome(&script("2.3", true));
+    println!("{told}");
+    assert!(told.contains("steps are too long for the motion"), "{told}");
+    let (_, told) = outcome(&script("0.05", false));
+    assert_eq!(told, "");
+}

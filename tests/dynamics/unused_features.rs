@@ -1,0 +1,102 @@
+//! A feature that is not used costs nothing: the same matrix, the same work, the same numbers, to the last bit.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::{scenes, settings, simulate};
+use withy::analysis::FEATURES;
+use withy::beams::Mesh;
+use withy::geometry::Vec2;
+use withy::integrators::{INTEGRATORS, Mechanism, Method};
+use withy::loads::{Frame, LoadKind, Schedule};
+use withy::model::{Scene, StartMotion};
+use withy::simulation::{Recording, Simulation, Unwatched};
+
+const DT: f64 = 0.05;
+const END: f64 = 1.0;
+
+fn spinning() -> Scene {
+    let mesh = Mesh::bspline(6, 3, 2).unwrap();
+    let mut scene = scenes::free_beam(&mesh, scenes::spaghetti_section(1e4, 100.0));
+    scene.beams[0].motion =
+        StartMotion { spin: 1.0, about: Some(Vec2::zeros()), ..StartMotion::default() };
+    scene
+}
+
+/// What the matrix of a step looks like, what is recorded, and the work: all that costs.
+fn shape(simulation: &Simulation) -> ([usize; 5], [usize; 4]) {
+    let counts = simulation.counts();
+    let matrix = [
+        simulation.unknowns(),
+        simulation.half_bandwidth(),
+        simulation.model().constraint_shape().width,
+        simulation.history().columns().count(),
+        simulation.snapshots_kept().1,
+    ];
+    let work = [counts.steps, counts.newton_iterations, counts.factorisations, counts.retries];
+    (matrix, work)
+}
+
+fn state(simulation: &Simulation) -> String {
+    format!("{:?}", simulation.model().state())
+}
+
+#[test]
+fn a_feature_changes_what_it_must_and_nothing_else() {
+    let plain = simulate(spinning(), Method::default(), DT, END);
+    for feature in FEATURES {
+        let mut scene = spinning();
+        (feature.add)(&mut scene).unwrap();
+        let with = simulate(scene, Method::default(), DT, END);
+        let ([unknowns, band, border, columns, snapshots], _) = shape(&with);
+        let ([plain_unknowns, plain_band, ..], _) = shape(&plain);
+        let (saved, extra) = match feature.name {
+            "hinge" => (2, 0),
+            "slider" => (0, 5),
+            _ => (0, 0),
+        };
+        match feature.name {
+            "slider" => assert!(unknowns > plain_unknowns && border > 0),
+            name => assert_eq!(unknowns, plain_unknowns - saved, "{name}"),
+        }
+        assert_eq!((band, snapshots), (plain_band, 0), "{}", feature.name);
+        assert_eq!(columns, plain.history().columns().count() + extra, "{}", feature.name);
+        assert_eq!(border > 0, feature.name == "slider", "{}", feature.name);
+    }
+}
+
+#[test]
+fn what_is_declared_but_is_nothing_leaves_every_bit_as_it_is() {
+    for entry in INTEGRATORS {
+        let plain = simulate(spinning(), entry.method, DT, END);
+        let mut scene = spinning();
+        scene.gravity = Vec2::zeros();
+        let station = scene.station(0, 5.0).unwrap();
+        let same = simulate(scene.clone(), entry.method, DT, END);
+        assert_eq!(shape(&same), shape(&plain), "{}", entry.name);
+        assert_eq!(
+            format!("{:?}", same.history().samples()),
+            format!("{:?}", plain.history().samples()),
+            "{}",
+            entry.name
+        );
+        let force = LoadKind::Force { station, force: Vec2::new(1.0, 0.0), frame: Frame::Dead };
+        scene.add_load(force, Schedule::constant(0.0).unwrap());
+        let unloaded = simulate(scene, entry.method, DT, END);
+        assert_eq!(shape(&unloaded), shape(&plain), "{}", entry.name);
+    }
+}
+
+#[test]
+fn recording_and_snapshots_change_no_bit_of_the_motion() {
+    for entry in INTEGRATORS {
+        let plain = simulate(spinning(), entry.method, DT, END);
+        let mut quiet = Simulation::start(spinning(), settings(entry.method, DT)).unwrap();
+        quiet.record(Recording::Nothing);
+        quiet.run_to(END, &mut Unwatched).unwrap();
+        let mut kept = Simulation::start(spinning(), settings(entry.method, DT)).unwrap();
+        kept.keep_snapshots(10_000_000);
+        kept.run_to(END, &mut Unwatched).unwrap();
+        assert_eq!((state(&quiet), state(&kept)), (state(&plain), state(&plain)), "{}", entry.name);
+        assert_eq!(quiet.history().samples().len(), 2);
+        assert_eq!(quiet.history().samples().last(), plain.history().samples().last());
+    }
+}

@@ -1,0 +1,263 @@
+//! 100 000 inputs through parser, bindings, editor and prompt: no panic, no mistake of ours, no hang, every error can be shown.
+//!
+//! They all run where `WITHY_LONG` is set, as in `.ci/run`, and the first tenth of them elsewhere. A failure names its seed. `WITHY_SEED=n`
+//! runs that one alone and shows the input; `WITHY_SEEDS=n` runs the first n.
+#![allow(clippy::unwrap_used)]
+
+#[path = "../common/mod.rs"]
+mod common;
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::rc::Rc;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use common::corpus::Corpus;
+use common::notepad::Notepad;
+use rhai::Engine;
+use withy::repl::editor::completeness::completeness;
+use withy::repl::editor::completion::complete;
+use withy::repl::editor::highlight::{Vocabulary, highlight};
+use withy::repl::editor::hints::hint;
+use withy::repl::editor::surroundings::Surroundings;
+use withy::repl::session::Session;
+use withy::repl::shell::{Screen, Shell};
+use withy::script::catalog::Catalog;
+use withy::script::context::{Context, Mode, Settings};
+use withy::script::diagnose::{Blame, Explainer};
+use withy::script::engine;
+use withy::script::limits::{Limits, MEGABYTE, Stop};
+use withy::script::program::Program;
+use withy::script::runner::{on_large_stack, parse};
+
+const SEEDS: u64 = 100_000;
+/// So many are run while somebody waits.
+const SEEDS_IN_SHORT: u64 = 10_000;
+/// An engine serves so many inputs.
+const BATCH: u64 = 200;
+const WORKERS: usize = 2;
+const TIME: Duration = Duration::from_millis(200);
+/// Longer than this is a hang: the limit of time, and patience with a loaded machine.
+const HANG: Duration = Duration::from_secs(30);
+const LIMITS: Limits = Limits {
+    time: Some(TIME),
+    steps: Some(12),
+    memory: Some(3000 * MEGABYTE),
+    depth: 60,
+    written: None,
+    files: None,
+};
+
+/// What a worker is at, for the one who watches for hangs.
+type Present = Mutex<Option<(u64, Instant)>>;
+
+#[derive(Default)]
+struct Report {
+    failures: Vec<String>,
+    longest: (Duration, u64),
+    parsed: u64,
+    stopped: u64,
+}
+
+#[test]
+fn no_input_breaks_the_language() {
+    let corpus = Corpus::load();
+    if let Some(seed) = number_in("WITHY_SEED") {
+        println!("{}\n", corpus.input(seed));
+    }
+    let seeds = match number_in("WITHY_SEED") {
+        Some(seed) => seed..seed + 1,
+        None => 0..number_in("WITHY_SEEDS").unwrap_or_else(usual_seeds),
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let (next, end) = (AtomicU64::new(seeds.start), seeds.end);
+    let report = Mutex::new(Report::default());
+    let present: Vec<Present> = (0..WORKERS).map(|_| Mutex::default()).collect();
+    let begun = Instant::now();
+    thread::scope(|scope| {
+        let (corpus, report, next, folder) = (&corpus, &report, &next, folder.path());
+        let workers: Vec<_> = present
+            .iter()
+            .map(|present| {
+                let work = move || loop {
+                    let from = next.fetch_add(BATCH, Ordering::Relaxed);
+                    if from >= end {
+                        return;
+                    }
+                    run_batch(corpus, from..(from + BATCH).min(end), folder, present, report);
+                };
+                scope.spawn(move || on_large_stack(&LIMITS, work).unwrap())
+            })
+            .collect();
+        while workers.iter().any(|worker| !worker.is_finished()) {
+            thread::sleep(Duration::from_millis(200));
+            for (seed, since) in present.iter().filter_map(|present| *present.lock().unwrap()) {
+                if since.elapsed() > HANG {
+                    eprintln!("seed {seed} hangs:\n{}", corpus.input(seed));
+                    // A thread that hangs cannot be joined.
+                    std::process::exit(101);
+                }
+            }
+        }
+    });
+    let report = report.into_inner().unwrap();
+    println!(
+        "{} inputs in {:.0} s, {} parsed, {} stopped by a limit, the longest {:?} (seed {})",
+        end - seeds.start,
+        begun.elapsed().as_secs_f64(),
+        report.parsed,
+        report.stopped,
+        report.longest.0,
+        report.longest.1
+    );
+    let shown = &report.failures[..report.failures.len().min(10)];
+    assert!(
+        report.failures.is_empty(),
+        "{} inputs failed\n\n{}",
+        report.failures.len(),
+        shown.join("\n\n")
+    );
+}
+
+fn usual_seeds() -> u64 {
+    if std::env::var_os("WITHY_LONG").is_some() { SEEDS } else { SEEDS_IN_SHORT }
+}
+
+fn number_in(variable: &str) -> Option<u64> {
+    std::env::var(variable).ok()?.parse().ok()
+}
+
+fn run_batch(
+    corpus: &Corpus,
+    seeds: std::ops::Range<u64>,
+    folder: &std::path::Path,
+    present: &Present,
+    report: &Mutex<Report>,
+) {
+    let catalog = Catalog::standard();
+    let settings =
+        Settings { out: folder.join("out"), limits: LIMITS, ..Settings::silent(Mode::Run) };
+    let context = Context::new(settings);
+    let mut engine = engine::build(&catalog, &context).unwrap();
+    engine::import_from(&mut engine, folder);
+    let engine = Rc::new(engine);
+    context.lend(&engine);
+    let mut prompt = Prompt::new(&catalog, folder);
+    for seed in seeds {
+        let text = corpus.input(seed);
+        let program = Program { folder: folder.to_owned(), ..Program::named("input", &text) };
+        *present.lock().unwrap() = Some((seed, Instant::now()));
+        let begun = Instant::now();
+        let judged = catch_unwind(AssertUnwindSafe(|| {
+            prompt.judge(seed, &text)?;
+            judge(&program, &catalog, &engine, &context)
+        }));
+        let lasted = begun.elapsed();
+        *present.lock().unwrap() = None;
+        let mut report = report.lock().unwrap();
+        if lasted > report.longest.0 {
+            report.longest = (lasted, seed);
+        }
+        match judged {
+            Ok(Ok(ran)) => {
+                report.parsed += u64::from(ran != Ran::NotAtAll);
+                report.stopped += u64::from(ran == Ran::UntilALimit);
+            }
+            Ok(Err(reason)) => report.failures.push(format!("seed {seed}: {reason}\n{text}")),
+            Err(_) => report.failures.push(format!("seed {seed}: a panic\n{text}")),
+        }
+    }
+}
+
+/// A session that every fourth input goes through too, and an editor that all of them are typed into.
+struct Prompt {
+    shell: Shell,
+    told: Notepad,
+    /// Of the session as it was before it was last reset.
+    vocabulary: Vocabulary,
+}
+
+/// What is written before some of the inputs; `:save` and `:load` would leave the folder.
+const COMMANDS: [&str; 10] =
+    [":watch ", ":time ", ":plot ", ":show ", ":help ", "?", ":step ", ":run ", ":back ", ":"];
+
+impl Prompt {
+    fn new(catalog: &Catalog, folder: &Path) -> Self {
+        let told = Notepad::default();
+        let settings = Settings {
+            out: folder.join("out"),
+            folder: folder.to_owned(),
+            limits: LIMITS,
+            snapshots: MEGABYTE as usize,
+            told: Box::new(told.clone()),
+            ..Settings::silent(Mode::Run)
+        };
+        let session = Session::new(catalog.clone(), settings).unwrap();
+        let vocabulary = Vocabulary::of(Surroundings::of_language(catalog.clone()));
+        Self { shell: Shell::new(session, Screen::Pipe), told, vocabulary }
+    }
+
+    fn judge(&mut self, seed: u64, text: &str) -> Result<(), String> {
+        let _ = completeness(text);
+        if seed.is_multiple_of(4) {
+            let input = match seed % 16 {
+                0 => format!("{}{text}", COMMANDS[(seed / 16) as usize % COMMANDS.len()]),
+                _ => text.to_owned(),
+            };
+            if !input.trim_start().starts_with([':', '?']) || seed.is_multiple_of(16) {
+                self.shell.submit(&input);
+            }
+            let told = self.told.take();
+            if told.contains("a bug in withy") {
+                return Err(format!("at the prompt: {told}"));
+            }
+            if seed.is_multiple_of(64) {
+                self.vocabulary = Vocabulary::of(self.shell.surroundings());
+                self.shell.reset();
+            }
+        }
+        let middle = text.floor_char_boundary(text.len() / 2);
+        let surroundings = self.vocabulary.surroundings();
+        let _ = highlight(text, Some(middle), &self.vocabulary);
+        let _ = hint(&text[..middle], middle, surroundings);
+        let _ = complete(text, middle, surroundings);
+        Ok(())
+    }
+}
+
+#[derive(PartialEq, Eq)]
+enum Ran {
+    NotAtAll,
+    UntilALimit,
+    ToAnEnd,
+}
+
+fn judge(
+    program: &Program,
+    catalog: &Catalog,
+    engine: &Engine,
+    context: &Context,
+) -> Result<Ran, String> {
+    let watchdog = context.meter().watch().map_err(|error| error.to_string())?;
+    let compiled = parse(engine, program);
+    let is_parsed = compiled.is_ok();
+    let ran = compiled.and_then(|ast| engine.run_ast(&ast));
+    let stop = context.stopped_by();
+    context.report();
+    drop(watchdog);
+    if let Err(error) = ran {
+        let diagnostic = Explainer { program, catalog, engine }.explain(&error);
+        let shown = diagnostic.to_string();
+        if diagnostic.blame != Blame::User || !shown.starts_with("error: ") {
+            return Err(shown);
+        }
+    }
+    Ok(match (is_parsed, stop) {
+        (_, Some(Stop::Time(_) | Stop::Memory(_) | Stop::Steps(_))) => Ran::UntilALimit,
+        (true, _) => Ran::ToAnEnd,
+        (false, _) => Ran::NotAtAll,
+    })
+}

@@ -1,0 +1,7 @@
+//! The house itself: walls between layers, and documents that are true.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod documents;
+mod layering;

@@ -1,0 +1,14 @@
+//! The language, run in this process: what scripts say, and what sessions and exercises make of it.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod domains;
+mod exercises;
+mod explain;
+mod motion_pictures;
+mod newcomer;
+mod present;
+mod session;
+mod standard_library;
+mod suite;

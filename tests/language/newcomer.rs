@@ -1,0 +1,77 @@
+//! What newcomers type, and what must be said: the word that is wrong, and what is written instead.
+//!
+//! Rows of `tests/newcomer/*.txt`: what is typed, then `=> ` and a part of the message, then `-> ` and a part of the hint. What is typed
+//! may have several lines. Lines that begin with `== ` are headings.
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+
+use crate::common::notepad::Notepad;
+use withy::script::catalog::Catalog;
+use withy::script::context::{Mode, Settings};
+use withy::script::program::Program;
+use withy::script::runner::{Ending, run};
+
+/// A mistake, and what must be said about it.
+#[derive(Default)]
+struct Row {
+    typed: String,
+    message: String,
+    hint: String,
+}
+
+fn rows(text: &str) -> Vec<Row> {
+    let mut rows = Vec::new();
+    let mut row = Row::default();
+    for line in text.lines().filter(|line| !line.starts_with("== ")) {
+        if let Some(message) = line.strip_prefix("=> ") {
+            row.message = message.into();
+        } else if let Some(hint) = line.strip_prefix("-> ") {
+            row.hint = hint.into();
+            rows.push(std::mem::take(&mut row));
+        } else if !line.is_empty() {
+            row.typed.push_str(line);
+            row.typed.push('\n');
+        }
+    }
+    assert_eq!(row.typed, "", "the last row is whole");
+    rows
+}
+
+/// What is said about a script that must be wrong.
+fn said(typed: &str) -> Result<(String, String), String> {
+    let printed = Notepad::default();
+    let settings = Settings { printed: Box::new(printed.clone()), ..Settings::silent(Mode::Run) };
+    match run(&Program::named("typed", typed), &Catalog::standard(), settings).ending {
+        Ending::Failed(told) => Ok((told.message, told.hint.unwrap_or_default())),
+        other => Err(format!("{other:?}")),
+    }
+}
+
+fn judge(file: &str, least: usize) {
+    let text = fs::read_to_string(format!("tests/newcomer/{file}.txt")).unwrap();
+    let rows = rows(&text);
+    let mut wrong = Vec::new();
+    for row in &rows {
+        match said(&row.typed) {
+            Ok((message, hint)) if message.contains(&row.message) && hint.contains(&row.hint) => (),
+            Ok((message, hint)) => wrong.push(format!(
+                "{}  said   => {message}\n         -> {hint}\n  wanted => {}\n         -> {}",
+                row.typed, row.message, row.hint
+            )),
+            Err(ending) => wrong.push(format!("{}  must be wrong: {ending}", row.typed)),
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {} rows\n\n{}", wrong.len(), rows.len(), wrong.join("\n\n"));
+    assert!(rows.len() >= least, "only {} rows", rows.len());
+}
+
+#[test]
+fn first_steps_are_met_with_what_to_write() {
+    judge("first_steps", 25);
+}
+
+#[test]
+fn habits_of_other_languages_are_met_with_the_cure() {
+    judge("habits", 50);
+}

@@ -1,0 +1,140 @@
+//! Steps allocate nothing: only the room for their rows is taken, before they begin.
+#![allow(unsafe_code, clippy::unwrap_used)]
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+use crate::common::{meshes, run, scenes, settings, sliding_scenes};
+use withy::integrators::{INTEGRATORS, Method};
+use withy::joints::SLIDING_RULES;
+use withy::model::Scene;
+use withy::simulation::{Recording, Simulation, StepControl, Unwatched};
+
+thread_local! {
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+}
+
+/// Counts what each thread asks of the system's allocator.
+struct Counting;
+
+fn count() {
+    // A thread that is going away has nothing left to count in.
+    let _ = ALLOCATIONS.try_with(|allocations| allocations.set(allocations.get() + 1));
+}
+
+// SAFETY: every call is handed on to the system's allocator as it is.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count();
+        // SAFETY: the caller keeps the contract of `alloc`.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: the caller keeps the contract of `dealloc`.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count();
+        // SAFETY: the caller keeps the contract of `realloc`.
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+fn allocations_of(action: impl FnOnce()) -> usize {
+    let before = ALLOCATIONS.get();
+    action();
+    ALLOCATIONS.get() - before
+}
+
+#[test]
+fn the_counter_counts() {
+    assert_eq!(allocations_of(|| drop(std::hint::black_box(vec![1_u8; 100]))), 1);
+}
+
+#[test]
+fn steps_of_varying_size_take_no_allocations() {
+    let scene = scenes::spaghetti(&withy::beams::Mesh::bspline(14, 3, 2).unwrap(), 1e4);
+    let control = StepControl { largest: Some(0.001), ..StepControl::to(1e-3) };
+    let settings = settings(Method::EnergyMomentum, control);
+    let mut simulation = Simulation::start(scene, settings).unwrap();
+    let mut until = |end: f64| allocations_of(|| run(&mut simulation, end).unwrap());
+    until(0.01);
+    let (few, many) = (until(0.02), until(0.17));
+    assert!(few <= 4 && many <= 4, "{few} in 10 steps, {many} in 150");
+}
+
+/// Runs a scene for few and for many steps; both must take no more than `most` allocations.
+fn assert_bounded(label: &str, scene: Scene, method: Method, most: usize) {
+    let mut simulation = Simulation::start(scene, settings(method, 0.001)).unwrap();
+    let mut until = |end: f64| allocations_of(|| run(&mut simulation, end).unwrap());
+    until(0.01);
+    let (few, many) = (until(0.02), until(0.17));
+    assert!(few <= most && many <= most, "{label}: {few} in 10 steps, {many} in 150");
+    assert_eq!(simulation.counts().retries, 0, "{label}");
+}
+
+#[test]
+fn a_full_store_of_snapshots_takes_no_allocations() {
+    let mesh = withy::beams::Mesh::bspline(14, 3, 2).unwrap();
+    let scene = scenes::spaghetti(&mesh, 1e4);
+    let settings = settings(Method::EnergyMomentum, 0.001);
+    let mut simulation = Simulation::start(scene, settings).unwrap();
+    simulation.keep_snapshots(60_000);
+    run(&mut simulation, 0.1).unwrap();
+    let kept = simulation.snapshots_kept();
+    assert!(kept.0 > 5 && kept.0 < 50, "{kept:?}");
+    // Room for the rows of the history, the times and the configurations of the trajectory.
+    assert!(allocations_of(|| run(&mut simulation, 0.2).unwrap()) <= 3);
+    assert_eq!(simulation.snapshots_kept(), kept);
+}
+
+#[test]
+fn fifteen_times_the_steps_take_no_more_allocations() {
+    for entry in INTEGRATORS {
+        for (name, mesh) in meshes(4) {
+            for scene in scenes::all(&mesh) {
+                let label = format!("{}, {}, {name}", entry.name, scene.name);
+                // Room for the rows of the history, the times and the configurations of the trajectory.
+                assert_bounded(&label, scene, entry.method, 3);
+            }
+        }
+    }
+}
+
+#[test]
+fn sliders_take_no_allocations_in_steps_either() {
+    let rules = SLIDING_RULES.iter().filter(|entry| entry.claims.gap);
+    for (entry, of) in rules.flat_map(|rule| INTEGRATORS.iter().map(move |of| (rule, of))) {
+        for (name, mesh) in meshes(4) {
+            for scene in sliding_scenes::all(&mesh, entry.rule) {
+                let label = format!("{}, {}, {}, {name}", of.name, entry.name, scene.name);
+                // One more: room for their columns of the history.
+                assert_bounded(&label, scene, of.method, 4);
+            }
+        }
+    }
+}
+
+#[test]
+fn steps_that_are_not_recorded_take_no_allocations_at_all() {
+    let mesh = withy::beams::Mesh::bspline(14, 3, 2).unwrap();
+    for entry in INTEGRATORS {
+        let scene = scenes::spaghetti(&mesh, 1e4);
+        let mut simulation = Simulation::start(scene, settings(entry.method, 0.001)).unwrap();
+        simulation.record(Recording::Nothing);
+        run(&mut simulation, 0.01).unwrap();
+        simulation.record(Recording::Nothing);
+        let taken = allocations_of(|| {
+            for _ in 0..100 {
+                simulation.step(&mut Unwatched).unwrap();
+            }
+        });
+        // The row of the present is overwritten in its place.
+        assert!(taken <= 3, "{}: {taken}", entry.name);
+    }
+}

@@ -1,0 +1,10 @@
+//! The program as a user has it: commands, exit codes, files, limits, pipes and terminals.
+
+mod cli;
+mod docs_command;
+mod learn_command;
+mod limits;
+mod repl_pipe;
+mod repl_terminal;
+mod scripts;
+mod studies;

@@ -1,0 +1,325 @@
+//! The laws of sliding at states that are no solutions: derivatives, and the identities from which the rules follow.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::probe::{self, STEP, differences};
+use crate::common::{Random, meshes, sliding_scenes};
+use nalgebra::DMatrix;
+use withy::beams::Mesh;
+use withy::geometry::{Passage, Vec2, cross};
+use withy::integrators::{Mechanism, Stage};
+use withy::joints::{
+    Conserving, Contact, ContactUnknowns, Exact, Held, Relaxed, Released, SLIDING_RULES,
+    SlidingLaw, Unit,
+};
+use withy::linalg::BorderedMatrix;
+use withy::model::{Model, TrackEnd, TrackLimit};
+
+const LAWS: [(&str, &dyn SlidingLaw); 5] = [
+    ("conserving", &Conserving),
+    ("exact", &Exact),
+    ("relaxed", &Relaxed),
+    ("held", &Held),
+    ("released", &Released),
+];
+
+/// A random contact: the master before and how it moves, the slave (at the origin) moves, and the unknowns.
+struct State {
+    name: String,
+    before: Vec<Vec2>,
+    moved: Vec<Vec2>,
+    slave_moved: Vec2,
+    unknowns: ContactUnknowns,
+    from: f64,
+    length: f64,
+    mesh: Mesh,
+}
+
+impl State {
+    /// `f` of the contact, with everything that may vary taken from a row of numbers: slave, master, `λ`, `η`, `Δξ`.
+    fn with<T>(&self, numbers: &[f64], f: impl FnOnce(&Contact<'_>, &Passage) -> T) -> T {
+        let vector = |at: usize| Vec2::new(numbers[at], numbers[at + 1]);
+        let last = numbers.len() - 5;
+        let moved: Vec<Vec2> = (2..last).step_by(2).map(vector).collect();
+        let unknowns = ContactUnknowns::of(std::array::from_fn(|k| numbers[last + k]));
+        let mut passage = Passage::new(self.mesh.basis().clone());
+        passage.go(self.from, self.from + unknowns.way);
+        let window = passage.first()..passage.first() + passage.end().len();
+        let (before, moved) = (&self.before[window.clone()], &moved[window]);
+        let contact = Contact {
+            passage: &passage,
+            master: (before, moved),
+            slave_moved: vector(0),
+            unknowns,
+            length: self.length,
+        };
+        f(&contact, &passage)
+    }
+
+    fn numbers(&self) -> Vec<f64> {
+        let vectors = std::iter::once(&self.slave_moved).chain(&self.moved);
+        vectors.flat_map(|v| [v.x, v.y]).chain(self.unknowns.to_array()).collect()
+    }
+}
+
+/// Contacts on every mesh: within a span, across knots, over almost nothing, over nothing, from a knot on.
+fn states() -> Vec<State> {
+    let mut random = Random(31);
+    let mut states = Vec::new();
+    for (name, mesh) in meshes(4) {
+        let functions = mesh.basis().functions();
+        let ways = [(0.30, 0.1), (0.30, 0.55), (0.8, -0.7), (0.4, 1e-7), (0.4, 0.0), (0.5, 0.2)];
+        for (from, way) in ways {
+            let mut vector = |size: f64| Vec2::new(random.next(), random.next()) * size;
+            states.push(State {
+                name: format!("{name}, {from} + {way}"),
+                before: (0..functions).map(|_| vector(3.0)).collect(),
+                moved: (0..functions).map(|_| vector(1.0)).collect(),
+                slave_moved: vector(1.0),
+                unknowns: ContactUnknowns { force: vector(5.0), couple: vector(2.0), way },
+                from,
+                length: 2.5,
+                mesh: mesh.clone(),
+            });
+        }
+    }
+    states
+}
+
+fn assert_close(what: &str, found: &DMatrix<f64>, expected: &DMatrix<f64>, tolerance: f64) {
+    let error = (found - expected).amax() / expected.amax().max(1.0);
+    assert!(error < tolerance, "{what}: off by {error:.1e} of the largest entry");
+}
+
+#[test]
+fn the_derivatives_of_every_law_are_those_of_its_equations() {
+    for state in states() {
+        let numbers = state.numbers();
+        for (law_name, law) in LAWS {
+            // The gap of the start, over a way of nothing, has no direction.
+            if law_name == "relaxed" && state.unknowns.way.abs() < 1e-3 {
+                continue;
+            }
+            let found = state.with(&numbers, |contact, passage| {
+                let rows = law.equations(contact).map(|equation| {
+                    let mut row = vec![0.0; numbers.len()];
+                    let last = numbers.len() - 5;
+                    row[..2].copy_from_slice(equation.by_slave.as_slice());
+                    for (index, weights) in contact.weights().enumerate() {
+                        let at = 2 + 2 * (passage.first() + index);
+                        let slope = equation.by_master(weights);
+                        (row[at], row[at + 1]) = (slope.x, slope.y);
+                    }
+                    row[last..].copy_from_slice(&equation.by_unknowns.to_array());
+                    row
+                });
+                DMatrix::from_fn(5, numbers.len(), |i, j| rows[i][j])
+            });
+            let expected = differences(&numbers, 1e-4, &mut |numbers| {
+                state.with(numbers, |contact, _| law.equations(contact).map(|e| e.value).to_vec())
+            });
+            // Second derivatives of quadratic and linear elements jump at knots: the last column sees both sides there.
+            let smooth = state.from != 0.5 && state.unknowns.way.abs() > 1e-3;
+            let columns = if smooth { numbers.len() } else { numbers.len() - 1 };
+            let label = format!("{law_name}, {}", state.name);
+            let (found, expected) = (found.columns(0, columns), expected.columns(0, columns));
+            assert_close(&label, &found.into_owned(), &expected.into_owned(), 1e-8);
+        }
+    }
+}
+
+#[test]
+fn the_derivatives_by_the_way_hold_where_it_passes_zero() {
+    for state in states().iter().filter(|state| state.unknowns.way.abs() < 1e-3) {
+        let numbers = state.numbers();
+        for (law_name, law) in LAWS.into_iter().filter(|(name, _)| *name != "relaxed") {
+            let found = state.with(&numbers, |c, _| law.equations(c).map(|e| e.by_unknowns.way));
+            let mut only_way = |way: &[f64]| {
+                let mut numbers = numbers.clone();
+                *numbers.last_mut().unwrap() = way[0];
+                state.with(&numbers, |contact, _| law.equations(contact).map(|e| e.value).to_vec())
+            };
+            let expected = differences(&[state.unknowns.way], 1e-3, &mut only_way);
+            let found = DMatrix::from_column_slice(5, 1, &found);
+            assert_close(&format!("{law_name}, {}", state.name), &found, &expected, 1e-8);
+        }
+    }
+}
+
+/// Force, moment and work of what a contact does to slave and master in their mean places, without the gap.
+fn balance(state: &State, contact: &Contact<'_>, passage: &Passage) -> (Vec2, f64, f64) {
+    let force = contact.unknowns.force;
+    let mean_slave = state.slave_moved * 0.5;
+    let mut sum = (-force, -cross(mean_slave, force), -force.dot(&state.slave_moved));
+    for (index, force) in contact.master_forces().enumerate() {
+        let at = passage.first() + index;
+        sum.0 += force;
+        sum.1 += cross(state.before[at] + state.moved[at] * 0.5, force);
+        sum.2 += force.dot(&state.moved[at]);
+    }
+    sum
+}
+
+#[test]
+fn what_a_contact_does_is_what_its_equations_leave() {
+    for state in states() {
+        state.with(&state.numbers(), |contact, passage| {
+            let (force, moment, work) = balance(&state, contact, passage);
+            let ContactUnknowns { force: lambda, couple: eta, way } = contact.unknowns;
+            let (tau, d) = (contact.tangent().value, contact.swing().value);
+            let (gap_before, gap) =
+                (-contact.start_gap(), state.slave_moved - contact.end_point().value);
+            let close = |what: &str, found: f64, expected: f64| {
+                let error = (found - expected).abs();
+                assert!(error < 1e-11, "{what}, {}: {found} is not {expected}", state.name);
+            };
+            close("force along x", force.x, 0.0);
+            close("force along y", force.y, 0.0);
+            let turning =
+                way * (cross(tau, eta) + cross(d, lambda)) + cross(gap_before + gap, lambda) * 0.5;
+            close("moment", moment, -turning);
+            let lost =
+                way * (4.0 * eta.dot(&d) + lambda.dot(&tau)) + lambda.dot(&(gap - gap_before));
+            close("work", work, -lost);
+
+            let length = contact.length;
+            let [x, y, cx, cy, sliding] = Conserving.equations(contact).map(|e| e.value);
+            close("the gap along x", x, gap.x);
+            close("the gap along y", y, gap.y);
+            close("sliding", sliding * length, lambda.dot(&tau) + 4.0 * eta.dot(&d));
+            let couple = Vec2::new(cx, cy) * length.powi(2);
+            close(
+                "couple",
+                cross(tau, couple) / tau.norm_squared(),
+                cross(tau, eta) + cross(d, lambda),
+            );
+            close(
+                "no more couple than needed",
+                couple.dot(&tau),
+                eta.dot(&tau) * tau.norm_squared(),
+            );
+            close("exact sliding", Exact.equations(contact)[4].value * length, lambda.dot(&tau));
+
+            // Without a couple the relaxed rule leaves nothing but its own equations.
+            if way.abs() > 1e-3 {
+                let [x, y, .., sliding] = Relaxed.equations(contact).map(|e| e.value);
+                let mean_gap = Vec2::new(x, y);
+                let no_couple = moment + way * cross(tau, eta);
+                close("relaxed moment", no_couple, -cross(mean_gap, lambda));
+                let no_couple = work + way * 4.0 * eta.dot(&d);
+                close(
+                    "relaxed work",
+                    no_couple,
+                    -2.0 * lambda.dot(&mean_gap) - way * sliding * length,
+                );
+            }
+        });
+    }
+}
+
+#[test]
+fn the_border_of_every_scene_is_the_derivative_of_its_forces_and_equations() {
+    let mut random = Random(77);
+    for entry in SLIDING_RULES {
+        for (mesh_name, mesh) in meshes(4) {
+            for scene in sliding_scenes::all(&mesh, entry.rule) {
+                let mut model = Model::assemble(&scene).unwrap();
+                let first = random.vector(model.unknowns(), 0.05);
+                probe::settle(&mut model, Stage::Midpoint, &first);
+                advance_sliders(&mut model, &first, &mut random);
+                for state in ["sliding", "held", "released"] {
+                    for slider in 0..scene.sliders.len() {
+                        match state {
+                            "held" => model.hold(TrackLimit { slider, end: TrackEnd::Start }),
+                            "released" => model.release(slider),
+                            _ => {}
+                        }
+                    }
+                    let label = format!("{}, {}, {mesh_name}, {state}", entry.name, scene.name);
+                    assert_border(&label, &mut model, &mut random);
+                }
+            }
+        }
+    }
+}
+
+/// Advances with random contact forces and ways.
+fn advance_sliders(model: &mut Model, increments: &[f64], random: &mut Random) {
+    model.begin_step(STEP, &Stage::ALL).unwrap();
+    let contacts = random.vector(model.constraint_shape().width, 0.1);
+    let residual = vec![0.0; model.degrees_of_freedom()];
+    let rates = model.rates().to_vec();
+    model.advance(&withy::integrators::Solution {
+        increments,
+        constraints: &contacts,
+        rates: &rates,
+        residual: &residual,
+    });
+}
+
+fn assert_border(label: &str, model: &mut Model, random: &mut Random) {
+    let (movements, shape) = (model.unknowns(), model.constraint_shape());
+    let mut unknowns = random.vector(movements + shape.width, 0.05);
+    // Ways long enough for differences of the relaxed rule, forces of some size.
+    for (index, value) in unknowns[movements..].iter_mut().enumerate() {
+        *value = if index % 5 == 4 { *value + 0.02 * value.signum() } else { 40.0 * *value };
+    }
+    model.begin_step(STEP, &Stage::ALL).unwrap();
+    let mut tangent = BorderedMatrix::zeros(movements, model.half_bandwidth(), shape);
+    let mut out = vec![0.0; model.degrees_of_freedom()];
+    let (increments, contacts) = unknowns.split_at(movements);
+    model.add_linearised_constraints(increments, contacts, &mut out, tangent.border_mut());
+    let mut plain = vec![0.0; out.len()];
+    model.add_constraints(increments, contacts, &mut plain);
+    assert_eq!(out, plain, "{label}");
+    let size = movements + shape.width;
+    // The derivatives of the forces by the movements are left out, being zero: `λ` and `η` are unknowns.
+    let found = DMatrix::from_fn(size, size, |i, j| tangent.get(i, j));
+    let expected = differences(&unknowns, 1e-5, &mut |unknowns| {
+        let (increments, contacts) = unknowns.split_at(movements);
+        let mut out = vec![0.0; plain.len()];
+        model.add_constraints(increments, contacts, &mut out);
+        out.truncate(size);
+        out
+    });
+    assert_close(label, &found, &expected, 1e-7);
+}
+
+#[test]
+fn the_equations_of_a_law_have_the_units_that_they_say() {
+    // Lengths twice as large: equations of lengths double, those of forces stay. Twice the force: the other way round.
+    for state in states() {
+        for (name, law) in LAWS {
+            if name == "relaxed" && state.unknowns.way == 0.0 {
+                continue;
+            }
+            let values = |lengths: f64, forces: f64| {
+                let scale = |vectors: &[Vec2]| vectors.iter().map(|v| v * lengths).collect();
+                let scaled = State {
+                    name: String::new(),
+                    before: scale(&state.before),
+                    moved: scale(&state.moved),
+                    slave_moved: state.slave_moved * lengths,
+                    unknowns: ContactUnknowns {
+                        force: state.unknowns.force * forces,
+                        couple: state.unknowns.couple * forces,
+                        way: state.unknowns.way,
+                    },
+                    from: state.from,
+                    length: state.length * lengths,
+                    mesh: state.mesh.clone(),
+                };
+                scaled.with(&scaled.numbers(), |contact, _| {
+                    law.equations(contact).map(|equation| (equation.value, equation.unit))
+                })
+            };
+            let one = values(1.0, 1.0);
+            for (lengths, forces) in [(2.0, 1.0), (1.0, 2.0)] {
+                for ((value, unit), (other, _)) in one.iter().zip(values(lengths, forces)) {
+                    let factor = if *unit == Unit::Length { lengths } else { forces };
+                    let error = (other - factor * value).abs();
+                    assert!(error <= 1e-9 * value.abs(), "{name}, {}: {value} {other}", state.name);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! Long ways and long times: a thousand element boundaries, a hundred thousand steps.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::rails::{bead, bouncing_bead};
+use crate::common::scenes::{add_beam, line};
+use crate::common::sliding::paper_section;
+use crate::common::{at, run, sci, settings, simulate};
+use withy::beams::Mesh;
+use withy::geometry::Vec2;
+use withy::integrators::Method;
+use withy::joints::EndAction;
+use withy::model::Scene;
+use withy::simulation::{Invariant, Simulation};
+
+fn drifts(simulation: &Simulation) -> [f64; 4] {
+    Invariant::ALL.map(|(_, invariant)| simulation.history().drift(invariant))
+}
+
+/// A bead runs along a free beam of 1010 spans that turns and bends.
+fn long_way(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("long way");
+    let length = 20.2;
+    add_beam(&mut scene, line(Vec2::zeros(), at(length, 0.0)), mesh, paper_section(1e3));
+    let spin = 0.3;
+    scene.beams[0].motion.spin = spin;
+    let velocity = at(12.0, (0.002 - 0.5) * length * spin);
+    bead(&mut scene, 0.002, 0.2, velocity, EndAction::Stop);
+    scene
+}
+
+#[test]
+fn a_bead_passes_a_thousand_element_boundaries_in_three_or_four_iterations_a_step() {
+    let bspline = |continuity| Mesh::bspline(1010, 3, continuity).unwrap();
+    let cases = [
+        ("cubic C2", bspline(2), 0.01),
+        ("cubic C2", bspline(2), 0.0013),
+        ("cubic C1", bspline(1), 0.01),
+        ("cubic Lagrange", Mesh::lagrange(1010, 3).unwrap(), 0.01),
+        ("linear", Mesh::lagrange(1010, 1).unwrap(), 0.01),
+        ("linear", Mesh::lagrange(1010, 1).unwrap(), 0.0013),
+    ];
+    for (name, mesh, dt) in cases {
+        let flight = simulate(long_way(&mesh), Method::EnergyMomentum, dt, 1.8);
+        let xi = flight.history().column("slider1.position").unwrap();
+        let passed = (1010.0 * (xi.last().unwrap() - xi[0])) as usize;
+        let (counts, drifts) = (flight.counts(), drifts(&flight));
+        println!(
+            "{name:15} dt = {dt}: {} steps, {passed} boundaries, most {} iterations, mean {:.2}, retries {}, drift {}",
+            counts.steps,
+            counts.newton_max,
+            counts.newton_iterations as f64 / counts.steps as f64,
+            counts.retries,
+            sci(&drifts)
+        );
+        assert!(passed >= 1000, "{name}: {passed}");
+        assert!(counts.newton_max <= 4 && counts.retries == 0, "{name}, dt = {dt}");
+        assert!(drifts.iter().all(|drift| *drift < 1e-11), "{name}: {drifts:?}");
+    }
+}
+
+#[test]
+fn a_bead_bounces_for_a_hundred_thousand_steps() {
+    let mesh = Mesh::bspline(2, 3, 2).unwrap();
+    let dt = 0.02;
+    let scene = bouncing_bead(&mesh, 1.0);
+    let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, dt)).unwrap();
+    for steps in [1e2, 1e3, 1e4, 1e5] {
+        run(&mut simulation, steps * dt).unwrap();
+        let (counts, drifts) = (simulation.counts(), drifts(&simulation));
+        println!(
+            "{:6} steps, {:5} bounces, {:.1} tries each, {:.2} iterations a step: drift {}",
+            counts.steps,
+            simulation.arrivals().len(),
+            counts.arrival_tries as f64 / simulation.arrivals().len() as f64,
+            counts.newton_iterations as f64 / counts.steps as f64,
+            sci(&drifts)
+        );
+        assert!(drifts.iter().all(|drift| *drift <= 1e-9), "{drifts:?}");
+    }
+    assert!(simulation.counts().steps >= 100_000 && simulation.arrivals().len() > 1000);
+}

@@ -1,0 +1,11 @@
+//! What slides: laws of sliding joints, their ends, invariants and orders.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod consistency;
+mod ends;
+mod invariants;
+mod long_ways;
+mod orders;
+mod relaxed;

@@ -1,0 +1,71 @@
+//! Where the relaxed rule stops, its steps have no solution: shown by solving them for every way `Δξ` instead.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::fixed_way::FixedWay;
+use crate::common::points;
+use crate::common::sliding::{PAPER_STEP, Support, free_sliding_mass, paper_meshes};
+use withy::integrators::{Interval, Method};
+use withy::joints::SlidingRule;
+use withy::model::Model;
+use withy::newton::Tolerance;
+
+fn interval(step: u32) -> Interval {
+    Interval::between(f64::from(step) * PAPER_STEP, f64::from(step + 1) * PAPER_STEP)
+}
+
+/// How often the sliding equation changes its sign along all ways from 1e-7 to 0.3, in both directions.
+fn solutions(model: &mut Model, interval: Interval) -> usize {
+    let mut found = 0;
+    for direction in [-1.0, 1.0] {
+        let mut fixed = FixedWay::new(model);
+        let left: Vec<f64> = (0..650)
+            .map(|index| {
+                let way = direction * 1e-7 * 10_f64.powf(f64::from(index) / 100.0);
+                fixed.left(interval, way).expect("with a given way every step has a solution")
+            })
+            .collect();
+        found += left.windows(2).filter(|pair| pair[0].signum() != pair[1].signum()).count();
+    }
+    found
+}
+
+#[test]
+fn where_the_relaxed_rule_stops_its_step_has_no_solution() {
+    let mut ends = Vec::new();
+    for support in [Support::Free, Support::Hinged] {
+        for (name, meshes) in paper_meshes() {
+            // The quadrature of the paper.
+            let [ab, cm] = meshes.map(|mesh| points(mesh, 3));
+            let scene = free_sliding_mass([&ab, &cm], 1e2, support, SlidingRule::Relaxed);
+            let mut model = Model::assemble(&scene).unwrap();
+            let mut integrator = Method::EnergyMomentum.build(&mut model, Tolerance::default());
+            let (mut step, mut before) = (0, model.state());
+            let error = loop {
+                let state = model.state();
+                match integrator.step(&mut model, interval(step)) {
+                    Ok(_) => (step, before) = (step + 1, state),
+                    Err(error) => break error,
+                }
+            };
+            let (xi, gap) = (model.slider_position(&scene, 0), model.measure().gap);
+            let failing = solutions(&mut model, interval(step));
+            let state = model.state();
+            model.restore(&before);
+            let working = solutions(&mut model, interval(step - 1));
+            model.restore(&state);
+            println!(
+                "A {support:6?} {name:14} {step} whole steps to t = {:.4}, ξ = {xi:.4}, gap {gap:.1e}: solutions of the last step {working}, of the next one {failing}",
+                model.time()
+            );
+            assert!(working > 0, "the step that was taken has a solution");
+            let at_the_end = error.to_string().contains("limit");
+            assert_eq!(failing > 0, at_the_end, "{error}");
+            ends.push(if at_the_end { None } else { Some(xi) });
+        }
+    }
+    // With A free both splines come to the end of AB; cubic Lagrange does not, nor anything with A hinged.
+    let [free_c1, free_c2, free_lagrange, hinged @ ..] = ends.as_slice() else { unreachable!() };
+    assert!(free_c1.is_none() && free_c2.is_none());
+    assert!((free_lagrange.unwrap() - 0.656).abs() < 1e-3);
+    assert!(hinged.iter().all(|xi| (xi.unwrap() - 0.655).abs() < 0.01), "{hinged:?}");
+}

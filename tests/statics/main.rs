@@ -1,0 +1,8 @@
+//! What is at rest: equilibria, paths, and vibration about them.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod equilibria;
+mod modes;
+mod stiff_modes;
