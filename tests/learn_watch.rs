@@ -121,13 +121,23 @@ fn keys_answer_while_an_attempt_runs_for_ever_and_saving_begins_anew() {
 }
 
 #[test]
-fn limits_stop_what_runs_for_ever_or_grows() {
-    let mut student = Student::watches("rows 40 cols 100", "--max-time 1 --max-memory 300");
+fn limits_stop_what_runs_for_ever() {
+    let mut student = Student::watches("rows 40 cols 100", "--max-time 1");
     student.sees("(run 1)");
     student.saves(&EXERCISES[0], "loop { }");
     student.sees("it was stopped");
     student.sees("the run takes longer than 1 s");
-    student.saves(&EXERCISES[0], "let a = []; loop { let b = []; b.pad(100000, 1); a.push(b); }");
+    student.presses("q");
+    student.has_left();
+}
+
+#[test]
+fn limits_stop_what_eats_memory() {
+    let mut student = Student::watches("rows 40 cols 100", "--max-memory 300");
+    student.sees("(run 1)");
+    let eater =
+        "let a = []; loop { let big = []; big.pad(100000, 1); let f = || big; big[0] = f; }";
+    student.saves(&EXERCISES[0], eater);
     student.sees("it was stopped");
     student.sees("the run needs more than 300 MB of memory");
     student.presses("q");

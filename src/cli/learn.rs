@@ -113,9 +113,8 @@ fn show_next(workbook: &Workbook) -> Done {
             say(&format!("  then           withy learn check {}", exercise.name));
             say(&format!("  if it is hard  withy learn hint {}", exercise.name));
         }
-        None => say(
-            "All exercises are passed. Congratulations! withy learn solution NAME shows a solution to compare with.",
-        ),
+        None => say("All exercises are passed. Congratulations!\n\
+             withy learn solution NAME shows a solution to compare with."),
     }
     Ok(Exit::Good)
 }

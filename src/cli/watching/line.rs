@@ -73,32 +73,60 @@ impl Line {
         if self.width() <= columns {
             return self;
         }
-        let mut kept =
-            self.broken(columns.saturating_sub(1)).into_iter().next().unwrap_or_default();
-        kept.0.push(("…".into(), FAINT));
-        kept
+        let characters = self.characters();
+        let kept = fitting(&characters, columns.saturating_sub(1));
+        Self::from_characters(&characters[..kept]).and("…", FAINT)
     }
 
-    /// The same as lines of so many columns, broken anywhere: for code.
+    /// The same as lines of so many columns, broken behind a blank where there is one: for code.
     pub fn broken(self, columns: usize) -> Vec<Self> {
-        let mut lines = vec![Self::default()];
-        let mut taken = 0;
-        for (text, style) in self.0 {
-            let mut piece = String::new();
-            for character in text.chars() {
-                let width = textwrap::core::display_width(character.encode_utf8(&mut [0; 4]));
-                if taken + width > columns && taken > 0 {
-                    push(&mut lines, std::mem::take(&mut piece), &style);
-                    lines.push(Self::default());
-                    taken = 0;
-                }
-                piece.push(character);
-                taken += width;
-            }
-            push(&mut lines, piece, &style);
+        let characters = self.characters();
+        let margin = characters.iter().take_while(|(character, _)| !character.is_alphanumeric());
+        let indent = margin.count() + 4;
+        let indent = " ".repeat(if indent * 2 < columns { indent } else { 0 });
+        let mut lines: Vec<Self> = Vec::new();
+        let mut rest = characters.as_slice();
+        while lines.is_empty() || !rest.is_empty() {
+            let before = if lines.is_empty() { "" } else { &indent };
+            let (line, behind) = rest.split_at(end_of_line(rest, columns - before.len()));
+            lines.push(Self::of(before, PLAIN).before(&Self::from_characters(line)));
+            rest = behind;
         }
         lines
     }
+
+    fn characters(&self) -> Vec<(char, &Style)> {
+        let of_piece = |(text, style)| str::chars(text).map(move |character| (character, style));
+        self.0.iter().map(|(text, style)| (text.as_str(), style)).flat_map(of_piece).collect()
+    }
+
+    fn from_characters(characters: &[(char, &Style)]) -> Self {
+        let runs = characters.chunk_by(|(_, a), (_, b)| a == b);
+        let piece = |run: &[(char, &Style)]| {
+            (run.iter().map(|(character, _)| character).collect(), run[0].1.clone())
+        };
+        Self(runs.map(piece).collect())
+    }
+}
+
+/// How many of the characters fit into so many columns.
+fn fitting(characters: &[(char, &Style)], columns: usize) -> usize {
+    let mut taken = 0;
+    let is_beyond = |(character, _): &(char, &Style)| {
+        taken += display_width(character.encode_utf8(&mut [0; 4]));
+        taken > columns
+    };
+    characters.iter().position(is_beyond).unwrap_or(characters.len())
+}
+
+/// How many of the characters stand in the first line: at least one, if there is one.
+fn end_of_line(characters: &[(char, &Style)], columns: usize) -> usize {
+    let most = fitting(characters, columns);
+    if most == characters.len() {
+        return most;
+    }
+    let blank = characters[..most].iter().rposition(|(character, _)| *character == ' ');
+    blank.filter(|at| *at * 2 > most).map_or(most, |at| at + 1).max(1)
 }
 
 fn push(lines: &mut [Line], piece: String, style: &Style) {
@@ -175,12 +203,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn text_is_broken_between_words_and_code_anywhere() {
+    fn text_and_code_are_broken_between_words() {
         let text = "A strip of length 1 is clamped at its left end.";
         let lines = wrapped(text, "  ", 20);
         assert_eq!(lines, ["A strip of length 1", "  is clamped at its", "  left end."]);
-        let code = Line::of("let a", LOOK).and(" = 12345;", PLAIN).broken(6);
-        assert_eq!(code.iter().map(Line::text).collect::<Vec<_>>(), ["let a ", "= 1234", "5;"]);
+        let code = Line::of("  let", LOOK).and(" a = f(123, 456789012345678901234567890);", PLAIN);
+        let code: Vec<String> = code.broken(20).iter().map(Line::text).collect();
+        let expected = ["  let a = f(123, ", "      45678901234567", "      8901234567890);"];
+        assert_eq!(code, expected);
+        assert_eq!(Line::default().broken(20), [Line::default()]);
         assert_eq!(wrapped("", "", 20), Vec::<String>::new());
     }
 

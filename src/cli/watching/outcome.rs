@@ -111,7 +111,7 @@ fn printed(state: &State, printed: &Overheard, columns: usize) -> Vec<Line> {
     if heard.is_empty() {
         return Vec::new();
     }
-    let mut lines = vec![Line::of("It prints:", FAINT)];
+    let mut lines = vec![Line::default(), Line::of("It prints:", FAINT)];
     for line in heard.iter().take(PRINTED) {
         lines.extend(paragraph(&format!("  {line}"), "    ", columns, &PLAIN));
     }
