@@ -24,31 +24,30 @@ pub fn outcome(state: &State, columns: usize) -> Vec<Line> {
 }
 
 fn judged(state: &State, report: &Report, columns: usize) -> Vec<Line> {
-    let run = format!(" (run {})", state.runs);
-    let headed = |word: &str, style| vec![Line::of(word, style).and(&run, FAINT)];
+    let not_yet = |what: &str| {
+        let told = format!("(run {}): {what}", state.runs);
+        labelled(("Not yet", BAD), &told, "  ", columns)
+    };
     let mut lines;
     match &report.outcome {
         Outcome::Passed => {
-            lines = headed("Passed.", GOOD);
+            lines = vec![Line::of("Passed.", GOOD).and(&format!(" (run {})", state.runs), FAINT)];
             lines.extend(paragraph(&what_next(state), "", columns, &PLAIN));
         }
         Outcome::Off(found) => {
-            lines = headed("Not yet: it runs, and this is off.", BAD);
-            lines.extend(
-                found
-                    .iter()
-                    .flat_map(|found| paragraph(&format!("- {found}"), "  ", columns, &PLAIN)),
-            );
+            lines = not_yet("it runs, and this is off.");
+            let finding = |found| paragraph(&format!("- {found}"), "  ", columns, &PLAIN);
+            lines.extend(found.iter().flat_map(finding));
         }
         Outcome::Broken(why) => {
-            lines = headed("Not yet: it does not run to its end.", BAD);
+            lines = not_yet("it does not run to its end.");
             lines.extend(trouble(state, why, columns));
         }
         Outcome::Stopped(why) => {
-            lines = headed("Not yet: it was stopped.", BAD);
+            lines = not_yet("it was stopped.");
             lines.extend(trouble(state, why, columns));
         }
-        Outcome::Interrupted => lines = headed("It was interrupted, and not judged.", WARM),
+        Outcome::Interrupted => lines = not_yet("it was interrupted, and not judged."),
     }
     lines.extend(printed(state, &report.printed, columns));
     lines

@@ -70,8 +70,9 @@ pub fn screen(state: &State, (columns, rows): (usize, usize), solution: &[Line])
         (_, Some(chosen)) => chosen.saturating_sub(room / 2),
         (Top::Line(line), _) => line,
         (Top::Part(Part::Beginning), _) => 0,
-        (Top::Part(Part::Result), _) => body.result,
-        (Top::Part(Part::Hint), _) => body.hint,
+        // The line before says how many are above.
+        (Top::Part(Part::Result), _) => body.result.saturating_sub(1),
+        (Top::Part(Part::Hint), _) => body.hint.saturating_sub(1),
     };
     let window = Window { top: top.min(last), last, rows: room };
     let mut lines = head;
