@@ -207,9 +207,9 @@ mod tests {
         let text = "A strip of length 1 is clamped at its left end.";
         let lines = wrapped(text, "  ", 20);
         assert_eq!(lines, ["A strip of length 1", "  is clamped at its", "  left end."]);
-        let code = Line::of("  let", LOOK).and(" a = f(123, 456789012345678901234567890);", PLAIN);
+        let code = Line::of("  let", LOOK).and(" a = f(123, 45678901234567890123456789);", PLAIN);
         let code: Vec<String> = code.broken(20).iter().map(Line::text).collect();
-        let expected = ["  let a = f(123, ", "      45678901234567", "      8901234567890);"];
+        let expected = ["  let a = f(123, ", "      45678901234567", "      890123456789);"];
         assert_eq!(code, expected);
         assert_eq!(Line::default().broken(20), [Line::default()]);
         assert_eq!(wrapped("", "", 20), Vec::<String>::new());
