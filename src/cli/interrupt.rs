@@ -7,6 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::Exit;
+use super::watching::terminal;
 use crate::repl::editor::typed_ahead;
 use crate::script::limits::INTERRUPT_HEARD;
 
@@ -80,5 +81,6 @@ pub fn end_when_asked() {}
 
 fn end() {
     typed_ahead::give_back();
+    terminal::give_back();
     process::exit(Exit::Interrupted as i32);
 }

@@ -16,6 +16,7 @@ use super::learn_options::{LearnAction, LearnOptions};
 use super::limits::LimitOptions;
 use super::run::{last_resort, refuse};
 use super::say::{is_output_lost, say};
+use super::watching::{self, Painter, terminal, trial};
 use crate::exercises::attempt;
 use crate::exercises::catalogue::{EXERCISES, TRACKS, find};
 use crate::exercises::error::ExerciseError;
@@ -35,14 +36,21 @@ pub fn learn(options: &LearnOptions) -> Exit {
         None => welcome(&workbook),
         Some(LearnAction::List) => list(&workbook),
         Some(LearnAction::Next) => begin(&workbook).and_then(|()| show_next(&workbook)),
-        Some(LearnAction::Check { name: Some(name), limits }) => {
+        Some(LearnAction::Check { name: Some(name), limits, .. }) => {
             let flag = interrupt::flag(AtStake::Run);
             begin(&workbook).and_then(|()| check(&workbook, find(name)?, limits, &flag))
         }
-        Some(LearnAction::Check { name: None, limits }) => check_all(&workbook, limits),
+        Some(LearnAction::Check { name: None, all, limits }) => {
+            let detail = if *all { Detail::Each } else { Detail::Summary };
+            check_all(&workbook, detail, limits)
+        }
         Some(LearnAction::Hint { name }) => hint(&workbook, name.as_deref()),
+        Some(LearnAction::Solution { name }) => solution(&workbook, name),
         Some(LearnAction::Reset { name }) => reset(&workbook, name),
         Some(LearnAction::Watch { limits }) => watch(&workbook, limits),
+        Some(LearnAction::Try { name, limits }) => {
+            find(name).map(|exercise| trial::try_here(&workbook, exercise, limits))
+        }
         Some(LearnAction::Grade { folder, json, marks, jobs, limits }) => {
             let form = if *json { Form::Json } else { Form::Table };
             grade(&Wishes { folder, form, marks: marks.as_deref(), jobs: *jobs, limits })
@@ -105,7 +113,8 @@ fn show_next(workbook: &Workbook) -> Done {
             say(&format!("  then           withy learn check {}", exercise.name));
             say(&format!("  if it is hard  withy learn hint {}", exercise.name));
         }
-        None => say("All exercises are passed. Congratulations!"),
+        None => say("All exercises are passed. Congratulations!\n\
+             withy learn solution NAME shows a solution to compare with."),
     }
     Ok(Exit::Good)
 }
@@ -166,12 +175,24 @@ fn judge_file(workbook: &Workbook, exercise: &Exercise, settings: Settings) -> V
     }
 }
 
-/// Judges all attempts, in a line each.
-fn check_all(workbook: &Workbook, limits: &LimitOptions) -> Done {
+/// What is said when all attempts are judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Detail {
+    /// How many are passed, and what comes next.
+    Summary,
+    /// A line for each, before.
+    Each,
+}
+
+/// Judges all attempts.
+fn check_all(workbook: &Workbook, detail: Detail, limits: &LimitOptions) -> Done {
     begin(workbook)?;
     let flag = interrupt::flag(AtStake::Run);
-    let mut passed = 0;
-    for exercise in EXERCISES {
+    let bar = bar::progress(Wish::Show);
+    bar.begin_cases("judging", EXERCISES.len());
+    let (mut passed, mut begun) = (0, Vec::new());
+    for (done, exercise) in EXERCISES.iter().enumerate() {
+        bar.reach_case(done);
         let settings = Settings {
             out: workbook.folder().join("out"),
             interrupt: Arc::clone(&flag),
@@ -182,16 +203,52 @@ fn check_all(workbook: &Workbook, limits: &LimitOptions) -> Done {
         let verdict = judge_file(workbook, exercise, settings);
         let has_passed = matches!(verdict, Verdict::Passed);
         let word = match verdict {
-            Verdict::Interrupted => return Ok(Exit::Interrupted),
+            Verdict::Interrupted => {
+                bar.end();
+                return Ok(Exit::Interrupted);
+            }
             _ if has_passed => "passed ",
             _ => "not yet",
         };
         note(workbook, exercise, has_passed);
         passed += usize::from(has_passed);
-        say(&format!("{word}  {}", exercise.id()));
+        if !has_passed && workbook.is_begun(exercise) {
+            begun.push(exercise.id());
+        }
+        if detail == Detail::Each {
+            bar.step_aside(&mut || say(&format!("{word}  {}", exercise.id())));
+        }
+    }
+    bar.end();
+    if !begun.is_empty() {
+        say(&format!("Begun, and not passed yet: {}", begun.join(", ")));
+    }
+    if detail == Detail::Summary {
+        show_next(workbook)?;
     }
     say(&format!("\n{passed} of {} exercises are passed.", EXERCISES.len()));
     Ok(if passed == EXERCISES.len() { Exit::Good } else { Exit::CheckFailed })
+}
+
+/// Shows the model solution of what is passed.
+fn solution(workbook: &Workbook, name: &str) -> Done {
+    begin(workbook)?;
+    let exercise = find(name)?;
+    if !workbook.progress()?.has_passed(exercise) {
+        say(&format!(
+            "{} is not passed yet: try it first, and then compare.\n\
+             A hint: withy learn hint {} gives one more each time, and after the last one a solution.",
+            exercise.id(),
+            exercise.name
+        ));
+        return Ok(Exit::CheckFailed);
+    }
+    let solution = exercise.solution.trim_end();
+    match colours() {
+        Colours::Ansi => say(&Painter::new().paint(solution)),
+        Colours::None => say(solution),
+    }
+    Ok(Exit::Good)
 }
 
 fn hint(workbook: &Workbook, name: Option<&str>) -> Done {
@@ -227,14 +284,26 @@ fn reset(workbook: &Workbook, name: &str) -> Done {
     Ok(Exit::Good)
 }
 
-/// Judges what is saved, until all is passed or Ctrl-C comes.
+/// Judges what is saved: on a screen where there is one, else in lines.
 fn watch(workbook: &Workbook, limits: &LimitOptions) -> Done {
     begin(workbook)?;
     let flag = interrupt::flag(AtStake::Run);
+    if !terminal::is_there() {
+        return watch_in_lines(workbook, limits, &flag);
+    }
+    watching::watch(workbook, limits, &flag)?;
+    let progress = workbook.progress()?;
+    let passed = EXERCISES.iter().filter(|exercise| progress.has_passed(exercise)).count();
+    say(&format!("{passed} of {} exercises are passed.", EXERCISES.len()));
+    show_next(workbook)
+}
+
+/// Judges what is saved, until all is passed or Ctrl-C comes.
+fn watch_in_lines(workbook: &Workbook, limits: &LimitOptions, flag: &Arc<AtomicBool>) -> Done {
     let mut watcher = Watcher::new(workbook);
     let mut current = workbook.next()?;
     while let Some(exercise) = current {
-        let exit = check(workbook, exercise, limits, &flag)?;
+        let exit = check(workbook, exercise, limits, flag)?;
         let next = workbook.next()?;
         if next.is_none() || flag.load(Ordering::Relaxed) {
             return Ok(Exit::Good);
@@ -260,7 +329,7 @@ fn watch(workbook: &Workbook, limits: &LimitOptions) -> Done {
 }
 
 /// A path as one would type it here.
-fn shown(path: &Path) -> String {
+pub(super) fn shown(path: &Path) -> String {
     let path: PathBuf = path.strip_prefix(".").unwrap_or(path).into();
     if path.as_os_str().is_empty() { "this folder".into() } else { path.display().to_string() }
 }

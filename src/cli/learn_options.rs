@@ -24,8 +24,11 @@ pub enum LearnAction {
     Next,
     /// Judge an attempt, or all of them; each may take 20 seconds unless --max-time says otherwise.
     Check {
-        /// The exercise; without it, all.
+        /// The exercise; without it, all, and how many are passed is told.
         name: Option<String>,
+        /// Tell the result of each exercise.
+        #[arg(long, conflicts_with = "name")]
+        all: bool,
         /// What an attempt may use.
         #[command(flatten)]
         limits: LimitOptions,
@@ -35,12 +38,21 @@ pub enum LearnAction {
         /// The exercise; without it, the next one.
         name: Option<String>,
     },
+    /// Show the model solution of an exercise that you have passed.
+    Solution {
+        /// The exercise.
+        name: String,
+    },
     /// Begin an exercise anew; the old attempt is kept beside it.
     Reset {
         /// The exercise.
         name: String,
     },
-    /// Judge an attempt each time it is saved, and go on to the next; Ctrl-C leaves.
+    /// Task, result and hints on one screen: judges an attempt each time it is saved; q leaves.
+    ///
+    /// Keys: h hint, l list of all exercises, r run again, n next, p previous, s a solution after passing, arrows and PageUp
+    /// and PageDown scroll, q quit. Without a terminal it writes lines.
+    #[command(verbatim_doc_comment)]
     Watch {
         /// What an attempt may use.
         #[command(flatten)]
@@ -63,6 +75,15 @@ pub enum LearnAction {
         #[command(flatten)]
         limits: LimitOptions,
     },
+    /// Judge an attempt of one's own, in a process of its own: what `watch` starts.
+    #[command(hide = true)]
+    Try {
+        /// The exercise.
+        name: String,
+        /// What the attempt may use.
+        #[command(flatten)]
+        limits: LimitOptions,
+    },
     /// Judge one attempt of a class, in a process of its own: what `grade` starts.
     #[command(hide = true)]
     Attempt {
@@ -79,4 +100,4 @@ pub enum LearnAction {
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 what was checked is passed, 1 it is not, 2 an argument or a folder is wrong, 130 \
-                          stopped by Ctrl-C. To grade exits with 0 whatever the marks are; so does Ctrl-C while watching.";
+                          stopped by Ctrl-C. To grade exits with 0 whatever the marks are; so do q and Ctrl-C while watching.";

@@ -12,6 +12,7 @@ mod limits;
 mod run;
 mod say;
 mod session;
+mod watching;
 
 use std::process::ExitCode;
 

@@ -35,6 +35,11 @@ pub enum ExerciseError {
         /// What the system said.
         source: io::Error,
     },
+    /// The terminal cannot be drawn on.
+    #[error(
+        "cannot go on with this terminal: {0}; 'withy learn watch | cat' tells the same in lines"
+    )]
+    Terminal(io::Error),
     /// A file could not be renamed.
     #[error("cannot keep '{}' as '{}': {source}; nothing was changed", from.display(), to.display())]
     Keep {

@@ -18,26 +18,35 @@ pub const INTERVAL: Duration = Duration::from_millis(200);
 /// The attempts as they were when one looked last.
 pub struct Watcher<'a> {
     workbook: &'a Workbook,
-    seen: Vec<Option<Vec<u8>>>,
+    seen: Vec<Seen>,
+}
+
+/// What stood in a file.
+struct Seen {
+    content: Option<Vec<u8>>,
+    /// Whether it was found empty since: some editors empty a file before they write it.
+    is_emptied: bool,
 }
 
 impl<'a> Watcher<'a> {
     /// Looks for the first time.
     pub fn new(workbook: &'a Workbook) -> Self {
-        let seen = EXERCISES.iter().map(|exercise| content(workbook, exercise)).collect();
-        Self { workbook, seen }
+        let look = |exercise| Seen { content: content(workbook, exercise), is_emptied: false };
+        Self { workbook, seen: EXERCISES.iter().map(look).collect() }
     }
 
     /// The first exercise, in the order of the table, whose file has another content than before. A file that is not
-    /// there, as between the two halves of saving, has not changed.
+    /// there, or empty for the first time, as between the two halves of saving, has not changed.
     pub fn changed(&mut self) -> Option<&'static Exercise> {
         EXERCISES.iter().zip(&mut self.seen).find_map(|(exercise, seen)| {
-            let now = content(self.workbook, exercise);
-            let has_changed = now.is_some() && now != *seen;
-            has_changed.then(|| {
-                *seen = now;
-                exercise
-            })
+            let now = content(self.workbook, exercise)?;
+            let was_emptied = std::mem::replace(&mut seen.is_emptied, now.is_empty());
+            let is_half_saved = now.is_empty() && !was_emptied;
+            if is_half_saved || seen.content.as_ref() == Some(&now) {
+                return None;
+            }
+            seen.content = Some(now);
+            Some(exercise)
         })
     }
 }
@@ -64,6 +73,23 @@ mod tests {
         fs::write(&file, "new").unwrap();
         assert_eq!(watcher.changed(), Some(&EXERCISES[1]));
         fs::write(&file, "new").unwrap();
+        assert_eq!(watcher.changed(), None);
+    }
+
+    #[test]
+    fn a_file_that_is_empty_for_a_moment_is_being_saved() {
+        let folder = tempfile::tempdir().unwrap();
+        let workbook = Workbook::near(folder.path());
+        workbook.fill().unwrap();
+        let mut watcher = Watcher::new(&workbook);
+        let file = workbook.file(&EXERCISES[1]);
+        fs::write(&file, "").unwrap();
+        assert_eq!(watcher.changed(), None);
+        fs::write(&file, "new").unwrap();
+        assert_eq!(watcher.changed(), Some(&EXERCISES[1]));
+        fs::write(&file, "").unwrap();
+        assert_eq!(watcher.changed(), None);
+        assert_eq!(watcher.changed(), Some(&EXERCISES[1]), "it stays empty");
         assert_eq!(watcher.changed(), None);
     }
 }

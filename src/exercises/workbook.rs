@@ -3,10 +3,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::attempt::LARGEST;
 use super::catalogue::EXERCISES;
 use super::error::ExerciseError;
 use super::exercise::Exercise;
 use super::progress::{self, Progress};
+use crate::folders::read_file;
 use crate::output::write_whole;
 
 /// The folder that is made where there is none yet.
@@ -71,6 +73,11 @@ impl Workbook {
     /// The file of an attempt.
     pub fn file(&self, exercise: &Exercise) -> PathBuf {
         self.folder.join(exercise.track).join(format!("{}.rhai", exercise.name))
+    }
+
+    /// Whether the student has written anything into a file.
+    pub fn is_begun(&self, exercise: &Exercise) -> bool {
+        read_file(&self.file(exercise), LARGEST).is_ok_and(|text| text != exercise.start.as_bytes())
     }
 
     /// How far the student is.

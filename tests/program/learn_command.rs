@@ -99,6 +99,41 @@ fn mistakes_are_shown_at_their_line_and_column() {
 }
 
 #[test]
+fn a_check_of_all_is_a_summary_and_each_is_told_when_that_is_asked_for() {
+    let class = classroom();
+    said(class.path(), &[]);
+    let folder = class.path().join("withy-exercises");
+    solve(&folder, 2);
+    fs::write(folder.join(EXERCISES[4].file()), "let a = 1;").unwrap();
+    let (_, text) = said(&folder, &["check"]);
+    assert!(text.lines().count() < 10 && !text.contains("not yet "), "{text}");
+    assert!(text.contains(&format!("Next: {}", EXERCISES[2].id())), "{text}");
+    let begun = format!("Begun, and not passed yet: {}\n", EXERCISES[4].id());
+    assert!(text.contains(&begun), "{text}");
+    let (code, text) = said(&folder, &["check", "--all"]);
+    assert_eq!(code, 1);
+    assert!(text.contains(&format!("passed   {}\n", EXERCISES[1].id())), "{text}");
+    assert_eq!(text.matches("not yet  ").count(), EXERCISES.len() - 2, "{text}");
+    assert_eq!(said(&folder, &["check", "kink", "--all"]).0, 2);
+}
+
+#[test]
+fn the_solution_is_shown_after_passing_and_kindly_refused_before() {
+    let class = classroom();
+    let name = EXERCISES[0].name;
+    let (code, text) = said(class.path(), &["solution", name]);
+    assert_eq!(code, 1);
+    assert!(text.contains("is not passed yet") && text.contains("withy learn hint"), "{text}");
+    assert!(!text.contains(EXERCISES[0].solution.trim_end()), "{text}");
+    let folder = class.path().join("withy-exercises");
+    solve(&folder, 1);
+    said(&folder, &["check", name]);
+    let (code, text) = said(&folder, &["solution", name]);
+    assert_eq!((code, text.as_str()), (0, EXERCISES[0].solution));
+    assert_eq!(said(&folder, &["solution", "knik"]).0, 2);
+}
+
+#[test]
 fn all_are_checked_without_a_name() {
     let class = classroom();
     said(class.path(), &[]);

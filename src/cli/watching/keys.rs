@@ -1,0 +1,71 @@
+//! Keys, as far as the screen knows any.
+
+use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
+
+/// A key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Key {
+    /// A letter, a digit, or another character; letters are small.
+    Letter(char),
+    /// An arrow.
+    Up,
+    /// An arrow.
+    Down,
+    /// A page back.
+    PageUp,
+    /// A page on.
+    PageDown,
+    /// To the beginning.
+    Home,
+    /// To the end.
+    End,
+    /// Return.
+    Enter,
+    /// Escape.
+    Escape,
+    /// Ctrl-C, and Ctrl-D.
+    Interrupt,
+    /// Ctrl-Z.
+    Suspend,
+    /// Any other.
+    Other,
+}
+
+/// The key of an event; none where one is let go.
+pub fn key(event: KeyEvent) -> Option<Key> {
+    if event.kind == KeyEventKind::Release {
+        return None;
+    }
+    let is_control = event.modifiers.contains(KeyModifiers::CONTROL);
+    Some(match event.code {
+        KeyCode::Char('c' | 'd') if is_control => Key::Interrupt,
+        KeyCode::Char('z') if is_control => Key::Suspend,
+        KeyCode::Char(_) if is_control => Key::Other,
+        KeyCode::Char(letter) => Key::Letter(letter.to_ascii_lowercase()),
+        KeyCode::Up => Key::Up,
+        KeyCode::Down => Key::Down,
+        KeyCode::PageUp => Key::PageUp,
+        KeyCode::PageDown => Key::PageDown,
+        KeyCode::Home => Key::Home,
+        KeyCode::End => Key::End,
+        KeyCode::Enter => Key::Enter,
+        KeyCode::Esc => Key::Escape,
+        _ => Key::Other,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn control_keys_leave_and_letters_may_be_large() {
+        let typed = |code, modifiers| key(KeyEvent::new(code, modifiers));
+        assert_eq!(typed(KeyCode::Char('c'), KeyModifiers::CONTROL), Some(Key::Interrupt));
+        assert_eq!(typed(KeyCode::Char('h'), KeyModifiers::CONTROL), Some(Key::Other));
+        assert_eq!(typed(KeyCode::Char('H'), KeyModifiers::SHIFT), Some(Key::Letter('h')));
+        let released = KeyEventKind::Release;
+        let released = KeyEvent { kind: released, ..KeyEvent::from(KeyCode::Enter) };
+        assert_eq!(key(released), None);
+    }
+}

@@ -1,0 +1,240 @@
+//! A line of the screen: pieces of text, each in a style. What is wider than the screen is broken between words, or cut.
+
+use std::borrow::Cow;
+use std::fmt::Write;
+
+use textwrap::core::display_width;
+use textwrap::{Options, WordSplitter};
+
+use crate::output::Colours;
+
+/// How a piece is drawn, as numbers of an ANSI sequence.
+pub type Style = Cow<'static, str>;
+
+pub const PLAIN: Style = Cow::Borrowed("");
+pub const STRONG: Style = Cow::Borrowed("1");
+pub const FAINT: Style = Cow::Borrowed("2");
+pub const GOOD: Style = Cow::Borrowed("1;32");
+pub const BAD: Style = Cow::Borrowed("1;31");
+pub const LOOK: Style = Cow::Borrowed("1;36");
+pub const WARM: Style = Cow::Borrowed("33");
+
+/// A line, with nothing in it that moves the cursor.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Line(Vec<(String, Style)>);
+
+impl Line {
+    /// A piece of text in a style.
+    pub fn of(text: &str, style: Style) -> Self {
+        Self::default().and(text, style)
+    }
+
+    /// The line with one more piece.
+    #[must_use]
+    pub fn and(mut self, text: &str, style: Style) -> Self {
+        self.0.push((clean(text), style));
+        self
+    }
+
+    /// The line with the pieces of another one behind it.
+    #[must_use]
+    pub fn before(mut self, other: &Self) -> Self {
+        self.0.extend(other.0.iter().cloned());
+        self
+    }
+
+    /// What can be read.
+    pub fn text(&self) -> String {
+        self.0.iter().map(|(text, _)| text.as_str()).collect()
+    }
+
+    /// Columns that it takes.
+    pub fn width(&self) -> usize {
+        self.0.iter().map(|(text, _)| display_width(text)).sum()
+    }
+
+    /// As it is written to a terminal.
+    pub fn drawn(&self, colours: Colours) -> String {
+        let mut drawn = String::new();
+        for (text, style) in &self.0 {
+            match colours {
+                Colours::Ansi if !style.is_empty() => {
+                    // Writing to a string does not fail.
+                    let _ = write!(drawn, "\x1b[{style}m{text}\x1b[0m");
+                }
+                _ => drawn.push_str(text),
+            }
+        }
+        drawn
+    }
+
+    /// The same within so many columns; what is beyond them is left out, with a mark.
+    pub fn cut(self, columns: usize) -> Self {
+        if self.width() <= columns {
+            return self;
+        }
+        let characters = self.characters();
+        let kept = fitting(&characters, columns.saturating_sub(1));
+        Self::from_characters(&characters[..kept]).and("…", FAINT)
+    }
+
+    /// The same as lines of so many columns, broken behind a blank where there is one: for code.
+    pub fn broken(self, columns: usize) -> Vec<Self> {
+        let characters = self.characters();
+        let margin = characters.iter().take_while(|(character, _)| !character.is_alphanumeric());
+        let indent = margin.count() + 4;
+        let indent = " ".repeat(if indent * 2 < columns { indent } else { 0 });
+        let mut lines: Vec<Self> = Vec::new();
+        let mut rest = characters.as_slice();
+        while lines.is_empty() || !rest.is_empty() {
+            let before = if lines.is_empty() { "" } else { &indent };
+            let (line, behind) = rest.split_at(end_of_line(rest, columns - before.len()));
+            lines.push(Self::of(before, PLAIN).before(&Self::from_characters(line)));
+            rest = behind;
+        }
+        lines
+    }
+
+    fn characters(&self) -> Vec<(char, &Style)> {
+        let of_piece = |(text, style)| str::chars(text).map(move |character| (character, style));
+        self.0.iter().map(|(text, style)| (text.as_str(), style)).flat_map(of_piece).collect()
+    }
+
+    fn from_characters(characters: &[(char, &Style)]) -> Self {
+        let runs = characters.chunk_by(|(_, a), (_, b)| a == b);
+        let piece = |run: &[(char, &Style)]| {
+            (run.iter().map(|(character, _)| character).collect(), run[0].1.clone())
+        };
+        Self(runs.map(piece).collect())
+    }
+}
+
+/// How many of the characters fit into so many columns.
+fn fitting(characters: &[(char, &Style)], columns: usize) -> usize {
+    let mut taken = 0;
+    let is_beyond = |(character, _): &(char, &Style)| {
+        taken += display_width(character.encode_utf8(&mut [0; 4]));
+        taken > columns
+    };
+    characters.iter().position(is_beyond).unwrap_or(characters.len())
+}
+
+/// How many of the characters stand in the first line: at least one, if there is one.
+fn end_of_line(characters: &[(char, &Style)], columns: usize) -> usize {
+    let most = fitting(characters, columns);
+    if most == characters.len() {
+        return most;
+    }
+    let blank = characters[..most].iter().rposition(|(character, _)| *character == ' ');
+    blank.filter(|at| *at * 2 > most).map_or(most, |at| at + 1).max(1)
+}
+
+fn push(lines: &mut [Line], piece: String, style: &Style) {
+    if let Some(Line(pieces)) = lines.last_mut().filter(|_| !piece.is_empty()) {
+        pieces.push((piece, style.clone()));
+    }
+}
+
+/// Text as lines of at most so many columns, broken between words; all but the first begin with `indent`.
+pub fn wrapped(text: &str, indent: &str, columns: usize) -> Vec<String> {
+    let options = Options::new(columns.max(1))
+        .subsequent_indent(if display_width(indent) * 2 < columns { indent } else { "" })
+        .word_splitter(WordSplitter::NoHyphenation);
+    let wrap = |line: &str| {
+        let line = clean(line);
+        textwrap::wrap(&line, &options).into_iter().map(Cow::into_owned).collect::<Vec<_>>()
+    };
+    text.lines().flat_map(wrap).collect()
+}
+
+/// The same in one style.
+pub fn paragraph(text: &str, indent: &str, columns: usize, style: &Style) -> Vec<Line> {
+    wrapped(text, indent, columns).iter().map(|line| Line::of(line, style.clone())).collect()
+}
+
+/// Text behind a label of a style of its own, wrapped below itself.
+pub fn labelled(label: (&str, Style), text: &str, indent: &str, columns: usize) -> Vec<Line> {
+    let (word, style) = label;
+    let whole = format!("{word} {text}");
+    let mut lines = paragraph(&whole, indent, columns, &PLAIN);
+    if let Some(first) = lines.first_mut()
+        && let Some(rest) = first.text().strip_prefix(word)
+    {
+        *first = Line::of(word, style).and(rest, PLAIN);
+    }
+    lines
+}
+
+/// Coloured text as lines: what `\x1b[…m` says of colours is kept, and nothing else that begins so.
+pub fn coloured(text: &str) -> Vec<Line> {
+    let mut style = PLAIN;
+    let mut lines = vec![Line::default()];
+    let mut pieces = text.split("\x1b[");
+    let mut write = |piece: &str, style: &Style| {
+        for (index, part) in piece.split('\n').enumerate() {
+            if index > 0 {
+                lines.push(Line::default());
+            }
+            push(&mut lines, clean(part), style);
+        }
+    };
+    write(pieces.next().unwrap_or_default(), &style);
+    for piece in pieces {
+        let is_of_colour = |numbers: &str| numbers.chars().all(|c| c.is_ascii_digit() || c == ';');
+        match piece.split_once('m').filter(|(numbers, _)| is_of_colour(numbers)) {
+            Some((numbers, piece)) => {
+                style = if numbers == "0" { PLAIN } else { Cow::Owned(numbers.to_owned()) };
+                write(piece, &style);
+            }
+            None => write(piece, &style),
+        }
+    }
+    lines
+}
+
+/// Nothing in it moves the cursor.
+fn clean(text: &str) -> String {
+    let text = text.replace('\t', "    ");
+    text.chars().map(|c| if c.is_control() { '\u{b7}' } else { c }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_and_code_are_broken_between_words() {
+        let text = "A strip of length 1 is clamped at its left end.";
+        let lines = wrapped(text, "  ", 20);
+        assert_eq!(lines, ["A strip of length 1", "  is clamped at its", "  left end."]);
+        let code = Line::of("  let", LOOK).and(" a = f(123, 45678901234567890123456789);", PLAIN);
+        let code: Vec<String> = code.broken(20).iter().map(Line::text).collect();
+        let expected = ["  let a = f(123, ", "      45678901234567", "      890123456789);"];
+        assert_eq!(code, expected);
+        assert_eq!(Line::default().broken(20), [Line::default()]);
+        assert_eq!(wrapped("", "", 20), Vec::<String>::new());
+    }
+
+    #[test]
+    fn what_is_cut_is_marked_and_what_fits_is_not() {
+        assert_eq!(Line::of("abcdef", PLAIN).cut(4).text(), "abc…");
+        assert_eq!(Line::of("abcd", PLAIN).cut(4).text(), "abcd");
+        assert_eq!(Line::of("日本語", PLAIN).cut(5).width(), 5);
+    }
+
+    #[test]
+    fn colours_are_kept_or_left_out_and_nothing_moves_the_cursor() {
+        let lines = coloured("\x1b[35mlet\x1b[0m a\n\x1b[2J// \x07b");
+        assert_eq!(lines[0].text(), "let a");
+        assert_eq!(lines[0].drawn(Colours::Ansi), "\x1b[35mlet\x1b[0m a");
+        assert_eq!(lines[0].drawn(Colours::None), "let a");
+        assert_eq!(lines[1].text(), "2J// \u{b7}b");
+    }
+
+    #[test]
+    fn a_label_has_its_own_style() {
+        let lines = labelled(("Hint 1:", LOOK), "look twice at it", "  ", 16);
+        assert_eq!(lines[0].drawn(Colours::Ansi), "\x1b[1;36mHint 1:\x1b[0m look");
+        assert_eq!(lines[1].text(), "  twice at it");
+    }
+}

@@ -1,0 +1,276 @@
+//! From what is known to the lines of the screen: a pure function.
+//!
+//! ```text
+//! Exercise 2 of 21: title                 the head stays
+//! [##----------------] 1 of 21 passed
+//! Edit beams/rectangle.rhai
+//! ───────────────────────────────────
+//! the task, what came of it, hints        the page scrolls where it is longer than the screen
+//! ───────────────────────────────────
+//! a word to who pressed a key
+//! h hint   l list   …                     the keys
+//! ```
+
+use super::line::{
+    FAINT, GOOD, LOOK, Line, PLAIN, STRONG, Style, WARM, labelled, paragraph, wrapped,
+};
+use super::outcome::outcome;
+use super::state::{Page, Part, State, Top, Window};
+use crate::exercises::catalogue::{EXERCISES, TRACKS};
+use crate::exercises::task::{Paragraph, TO_DO};
+
+/// What is on the screen.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Screen {
+    /// Its lines, from the top.
+    pub lines: Vec<Line>,
+    /// Which part of the page they show.
+    pub window: Window,
+}
+
+/// A page, and where its parts begin.
+struct Body {
+    lines: Vec<Line>,
+    result: usize,
+    hint: usize,
+    chosen: Option<usize>,
+}
+
+impl Body {
+    fn of(lines: Vec<Line>) -> Self {
+        Self { lines, result: 0, hint: 0, chosen: None }
+    }
+}
+
+/// Wider text is harder to read.
+const WIDEST: usize = 100;
+
+/// The screen of so many columns and rows; `solution` are the lines of the model solution.
+pub fn screen(state: &State, (columns, rows): (usize, usize), solution: &[Line]) -> Screen {
+    // The last column stays free: some terminals break the line there, and others do not.
+    let columns = columns.saturating_sub(1).max(10);
+    let mut head = head(state, columns);
+    let mut body = body(state, columns, solution);
+    let draw = |window: Window| foot(state, window, columns);
+    let is_long = |foot: &[Line], head: &[Line]| head.len() + body.lines.len() + foot.len() > rows;
+    let mut foot = draw(Window::default());
+    if is_long(&foot, &head) {
+        foot = draw(Window { last: 1, ..Window::default() });
+    }
+    // Of a low screen the page gets a few lines all the same.
+    while rows < head.len() + foot.len() + 3 && head.len() > 1 {
+        head.pop();
+    }
+    while rows < head.len() + foot.len() + 1 && !foot.is_empty() {
+        foot.remove(0);
+    }
+    let room = rows.saturating_sub(head.len() + foot.len());
+    let last = body.lines.len().saturating_sub(room);
+    let top = match (state.top, body.chosen) {
+        (_, Some(chosen)) => chosen.saturating_sub(room / 2),
+        (Top::Line(line), _) => line,
+        (Top::Part(Part::Beginning), _) => 0,
+        // The line before says how many are above.
+        (Top::Part(Part::Result), _) => body.result.saturating_sub(1),
+        (Top::Part(Part::Hint), _) => body.hint.saturating_sub(1),
+    };
+    let window = Window { top: top.min(last), last, rows: room };
+    let mut lines = head;
+    lines.extend(seen(&mut body.lines, window));
+    if foot.len() + lines.len() < rows {
+        lines.resize(rows - foot.len(), Line::default());
+    }
+    lines.extend(foot);
+    lines.truncate(rows);
+    Screen { lines: lines.into_iter().map(|line| line.cut(columns)).collect(), window }
+}
+
+/// The part of a page that fits, with a word on what is above and below.
+fn seen(lines: &mut Vec<Line>, window: Window) -> Vec<Line> {
+    let Window { top, last, rows } = window;
+    let mut shown: Vec<Line> = lines.drain(..).skip(top).take(rows).collect();
+    let above = if top > 0 { top + 1 } else { 0 };
+    let below = if top < last { last - top + 1 } else { 0 };
+    if rows >= 3
+        && above > 0
+        && let Some(first) = shown.first_mut()
+    {
+        *first = Line::of(&format!("↑ {above} lines above"), FAINT);
+    }
+    if rows >= 3
+        && below > 0
+        && let Some(last) = shown.last_mut()
+    {
+        *last = Line::of(&format!("↓ {below} lines below"), WARM);
+    }
+    shown
+}
+
+fn rule(columns: usize) -> Line {
+    Line::of(&"─".repeat(columns), FAINT)
+}
+
+fn head(state: &State, columns: usize) -> Vec<Line> {
+    let count = EXERCISES.len();
+    let title = match state.page {
+        Page::Task => format!("Exercise {} of {count}: {}", state.number(), state.exercise.title()),
+        Page::List(_) => format!("All {count} exercises"),
+        Page::Solution => {
+            format!(
+                "A solution of exercise {} of {count}: {}",
+                state.number(),
+                state.exercise.title()
+            )
+        }
+    };
+    let mut lines = paragraph(&title, "  ", columns, &STRONG);
+    lines.push(progress(state, columns));
+    match state.page {
+        Page::Task => {
+            let tail = " and save: it is judged here";
+            let whole = format!("Edit {}{tail}", state.file);
+            let whole = if whole.chars().count() <= columns {
+                whole
+            } else {
+                format!("Edit {}", state.file)
+            };
+            lines.extend(labelled(("Edit", LOOK), whole.trim_start_matches("Edit "), "", columns));
+        }
+        Page::List(_) => {}
+        Page::Solution => {
+            let word = "Other right answers pass as well. » marks what differs from the start.";
+            lines.extend(paragraph(word, "", columns, &PLAIN));
+        }
+    }
+    lines.push(rule(columns));
+    lines
+}
+
+/// Columns of the bar.
+const BAR: usize = 32;
+
+fn progress(state: &State, columns: usize) -> Line {
+    let (passed, count) = (state.passed(), EXERCISES.len());
+    let word = format!(" {passed} of {count} passed");
+    let room = columns.saturating_sub(word.len() + 2).clamp(4, BAR);
+    // The bar is full when all is passed, and not before.
+    let full = room * passed / count;
+    let bar =
+        Line::of("[", PLAIN).and(&"#".repeat(full), GOOD).and(&"-".repeat(room - full), FAINT);
+    bar.and("]", PLAIN).and(&word, STRONG)
+}
+
+fn body(state: &State, columns: usize, solution: &[Line]) -> Body {
+    match state.page {
+        Page::Task => task(state, columns.min(WIDEST)),
+        Page::List(chosen) => list(state, chosen, columns),
+        Page::Solution => {
+            Body::of(solution.iter().flat_map(|line| line.clone().broken(columns)).collect())
+        }
+    }
+}
+
+fn task(state: &State, columns: usize) -> Body {
+    let mut lines = Vec::new();
+    for paragraph in state.exercise.task() {
+        if !lines.is_empty() {
+            lines.push(Line::default());
+        }
+        lines.extend(set(&paragraph, columns));
+    }
+    lines.push(Line::default());
+    let result = lines.len();
+    lines.extend(outcome(state, columns));
+    let hints = state.exercise.judge().hints;
+    let mut hint = result;
+    for (index, text) in hints.iter().take(state.hints).enumerate() {
+        if index == 0 {
+            lines.push(Line::default());
+        }
+        hint = lines.len();
+        let label = format!("Hint {} of {}:", index + 1, hints.len());
+        lines.extend(labelled((&label, LOOK), text, "  ", columns));
+    }
+    Body { result, hint, ..Body::of(lines) }
+}
+
+fn set(paragraph: &Paragraph, columns: usize) -> Vec<Line> {
+    match paragraph {
+        Paragraph::Words(words) => match words.strip_prefix(TO_DO) {
+            Some(rest) => labelled((TO_DO, LOOK), rest.trim_start(), "", columns),
+            None => super::line::paragraph(words, "", columns, &PLAIN),
+        },
+        Paragraph::Set(lines) => {
+            let wrap = |line: &String| {
+                let indent = line.len() - line.trim_start().len() + 2;
+                wrapped(line, &" ".repeat(indent), columns)
+            };
+            lines.iter().flat_map(wrap).map(|line| Line::of(&line, PLAIN)).collect()
+        }
+    }
+}
+
+fn list(state: &State, chosen: usize, columns: usize) -> Body {
+    let longest = EXERCISES.iter().map(|exercise| exercise.name.len()).max().unwrap_or(0);
+    let mut lines = Vec::new();
+    let mut at = None;
+    let numbered = |track: &'static str| {
+        EXERCISES.iter().enumerate().filter(move |(_, exercise)| exercise.track == track)
+    };
+    for track in TRACKS {
+        lines.push(Line::of(track.title, STRONG));
+        for (index, exercise) in numbered(track.name) {
+            let (mark, style): (_, Style) = match state.progress.has_passed(exercise) {
+                true => ("passed", GOOD),
+                false => ("", PLAIN),
+            };
+            let is_chosen = index == chosen;
+            if is_chosen {
+                at = Some(lines.len());
+            }
+            let name = format!(" {:>2}  {:<longest$}", index + 1, exercise.name);
+            let (arrow, look) = if is_chosen { ("> ", "1;7".into()) } else { ("  ", PLAIN) };
+            let line = Line::of(arrow, LOOK).and(&format!("{mark:<6}"), style).and(&name, look);
+            lines.push(line.and("  ", PLAIN).and(exercise.title(), FAINT).cut(columns));
+        }
+    }
+    Body { chosen: at, ..Body::of(lines) }
+}
+
+fn foot(state: &State, window: Window, columns: usize) -> Vec<Line> {
+    let mut keys = match state.page {
+        Page::Task => {
+            vec![("h", "hint"), ("l", "list"), ("r", "run again"), ("n", "next"), ("p", "previous")]
+        }
+        Page::List(_) => vec![("↑↓ 1-9", "choose"), ("Enter", "open"), ("l", "back")],
+        Page::Solution => vec![("s", "back"), ("n", "next"), ("l", "list")],
+    };
+    if state.page == Page::Task && state.has_passed() {
+        keys.insert(0, ("s", "solution"));
+        keys.rotate_left(1);
+    }
+    if window.last > 0 && !matches!(state.page, Page::List(_)) {
+        keys.push(("↑↓", "scroll"));
+    }
+    keys.push(("q", "quit"));
+    let mut lines = vec![rule(columns)];
+    if let Some(notice) = &state.notice {
+        lines.extend(paragraph(notice, "", columns, &WARM));
+    }
+    let mut line = Line::default();
+    for (key, does) in keys {
+        let between = if line.width() > 0 { "   " } else { "" };
+        let wide = line.width() + between.len() + key.chars().count() + 1 + does.len();
+        if wide > columns && line.width() > 0 {
+            lines.push(std::mem::take(&mut line).and("", PLAIN));
+            line = Line::of(key, LOOK).and(&format!(" {does}"), PLAIN);
+        } else {
+            line = line.and(between, PLAIN).and(key, LOOK).and(&format!(" {does}"), PLAIN);
+        }
+    }
+    lines.push(line);
+    lines
+}
+
+#[cfg(test)]
+mod tests;

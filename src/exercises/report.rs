@@ -1,0 +1,144 @@
+//! A verdict as plain data, which goes from the process of an attempt to whoever shows it.
+
+use serde::{Deserialize, Serialize};
+
+use super::judging::Verdict;
+use super::overheard::Overheard;
+use crate::script::diagnose::{Diagnostic, Location};
+
+/// The longest message that is passed on, in characters: nobody reads more.
+const LONGEST: usize = 4000;
+/// Characters of a source line that are passed on, and how many of them stand before the place.
+const EXCERPT: (usize, usize) = (400, 150);
+
+/// What came of an attempt, and what it has printed.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Report {
+    /// What came of it.
+    pub outcome: Outcome,
+    /// What it has printed.
+    pub printed: Overheard,
+}
+
+/// What came of an attempt.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Outcome {
+    /// It does what the exercise asks for.
+    Passed,
+    /// It runs, and this is off, in the judge's words.
+    Off(Vec<String>),
+    /// It does not run to its end.
+    Broken(Trouble),
+    /// A limit stopped it.
+    Stopped(Trouble),
+    /// It was stopped from outside.
+    Interrupted,
+}
+
+/// An error of an attempt.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Trouble {
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub help: Option<String>,
+    /// Where, if it is known.
+    pub place: Option<Place>,
+    /// The calls that led there.
+    pub calls: Vec<String>,
+}
+
+/// A place in a script.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Place {
+    /// The file.
+    pub file: String,
+    /// The line, from 1.
+    pub line: usize,
+    /// What stands in that line, or a part of it about the place.
+    pub text: String,
+    /// Where the place begins in this text, in characters from 0.
+    pub at: usize,
+    /// Its length in characters.
+    pub length: usize,
+}
+
+impl From<Verdict> for Outcome {
+    fn from(verdict: Verdict) -> Self {
+        match verdict {
+            Verdict::Passed => Self::Passed,
+            Verdict::Off(found) => Self::Off(found.iter().map(|found| shortened(found)).collect()),
+            Verdict::Broken(why) => Self::Broken(Trouble::from(why)),
+            Verdict::Stopped(why) => Self::Stopped(Trouble::from(why)),
+            Verdict::Interrupted => Self::Interrupted,
+        }
+    }
+}
+
+impl From<Diagnostic> for Trouble {
+    fn from(why: Diagnostic) -> Self {
+        Self {
+            message: shortened(&why.message),
+            help: why.hint.as_deref().map(shortened),
+            place: why.location.as_ref().map(Place::from),
+            calls: why.trace.iter().take(3).map(|step| shortened(&step.to_string())).collect(),
+        }
+    }
+}
+
+impl From<&Location> for Place {
+    fn from(location: &Location) -> Self {
+        let line = location.program.text.lines().nth(location.line.saturating_sub(1));
+        let column = location.column.saturating_sub(1);
+        let (longest, before) = EXCERPT;
+        let skipped = column.saturating_sub(before);
+        let text = line.unwrap_or_default().chars().skip(skipped).take(longest).collect();
+        Self {
+            file: location.program.name.clone(),
+            line: location.line,
+            text,
+            at: column - skipped,
+            length: location.length,
+        }
+    }
+}
+
+fn shortened(text: &str) -> String {
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{} …", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::script::program::Program;
+
+    fn place(text: &str, line: usize, column: usize) -> Place {
+        let program = Arc::new(Program::named("mine.rhai", text));
+        Place::from(&Location { program, line, column, length: 4 })
+    }
+
+    #[test]
+    fn a_place_has_its_line_or_what_stands_about_it() {
+        let near = place("let a = 1;\nlet b = todo(\"b\");", 2, 9);
+        assert_eq!((near.text.as_str(), near.at, near.line), ("let b = todo(\"b\");", 8, 2));
+        let far = place(&format!("{}here", " ".repeat(100_000)), 1, 100_001);
+        assert_eq!(far.text.chars().skip(far.at).collect::<String>(), "here");
+        assert!(far.text.len() <= EXCERPT.0);
+        assert_eq!(place("", 7, 1).text, "");
+    }
+
+    #[test]
+    fn a_report_comes_through_a_line_whatever_it_says() {
+        let why = Diagnostic::general("x".repeat(1 << 20)).with_hint("two\nlines \u{1b}[2J");
+        let printed = Overheard { lines: vec!["\u{7}".into()], more: 3 };
+        let report = Report { outcome: Verdict::Broken(why).into(), printed };
+        let line = serde_json::to_string(&report).unwrap();
+        assert!(!line.contains(['\n', '\u{1b}']) && line.len() < 3 * LONGEST);
+        assert_eq!(serde_json::from_str::<Report>(&line).unwrap(), report);
+    }
+}
