@@ -28,10 +28,19 @@ pub fn complete_command(text: &str, surroundings: &Surroundings) -> (usize, Vec<
             let (offset, found) = complete_path(operand, &surroundings.folder, Files::Any);
             (start + offset, found)
         }
-        Some(Operand::Column) => {
+        Some(Operand::Curves) => {
             let last = operand.rfind([' ', ',']).map_or(0, |gap| gap + 1);
             let columns = surroundings.columns.iter().map(|column| Candidate::word(column, ""));
-            (start + last, fitting(&operand[last..], columns))
+            let columns = fitting(&operand[last..], columns);
+            let (offset, found) = complete(operand, operand.len(), surroundings);
+            match (columns.is_empty(), offset == last) {
+                // Where a column is named, an expression may stand as well.
+                (false, true) if last < operand.len() => {
+                    (start + last, fitting(&operand[last..], columns.into_iter().chain(found)))
+                }
+                (false, _) => (start + last, columns),
+                (true, _) => (start + offset, found),
+            }
         }
         Some(Operand::Expression) => {
             let (offset, found) = complete(operand, operand.len(), surroundings);
