@@ -129,7 +129,7 @@ pub const COMMANDS: &[Command] = &[
         operand: Operand::Expression,
         placeholder: "INPUT",
         summary: "evaluates an input and says how long it takes, the first time and again",
-        doc: "It is done again, each time from the same variables, until the median is known to a hundredth, or for two seconds. What it \
+        doc: "It is done again, each time from the same variables, which are then as the first time left them, until the median is known to a hundredth, or for two seconds. What it \
               prints is printed once. An input that moves a simulation, changes a scene, writes files or takes more than a second is timed \
               once. The least time is that of the work itself; reading the text counts the first time only.",
         body: timing::time,

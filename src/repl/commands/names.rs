@@ -53,7 +53,14 @@ pub fn known(shell: &mut Shell, name: &str) -> Option<Known> {
     } else if let Some((_, module)) = shell.session().modules().find(|(known, _)| *known == name) {
         describe_module(&mut page, name, module);
     }
-    (!page.parts.is_empty()).then_some(Known { shown: None, page })
+    (!page.parts.is_empty()).then(|| Known { shown: text_of(shell, name), page })
+}
+
+/// How a function of the session was typed, without the comments that are told already.
+fn text_of(shell: &Shell, name: &str) -> Option<String> {
+    let text = shell.session().record().definition(name)?;
+    let lines = text.lines().skip_while(|line| line.trim_start().starts_with("///"));
+    Some(lines.collect::<Vec<_>>().join("\n"))
 }
 
 /// The name under which the language has help on it: that of a member of what a variable holds, or of a function of the library that

@@ -78,7 +78,7 @@ fn told(first: &str, figures: &Figures) -> String {
     };
     format!(
         "took {first} the first time\n\
-         again: least {least}, median {median}, half of {runs} from {low} to {high}; variables are as after the first"
+         again: least {least}, median {median}, half of {runs} from {low} to {high}"
     )
 }
 
