@@ -326,7 +326,7 @@ fn what_has_effects_is_timed_once_and_that_is_told() {
         ("sim.at(9, |s| ())", "it moves simulation 'spin'"),
         ("scene.force(rod.end, [1, 0])", "it changes scene 'spin'"),
         ("[scene].map(|s| s.gravity([0, -1]))", "it changes scene 'spin'"),
-        ("sim.plot_history([\"energy\"], \"energies\")", "it writes files"),
+        ("sim.plot_history([\"energy\"], \"energies.svg\")", "it writes files"),
         ("count.call()", "it changes a variable that functions share"),
         (":step", "it is a command"),
     ] {
@@ -409,7 +409,7 @@ fn names_of_the_session_are_explained_with_their_values() {
         ("EA?", &["An option of"]),
         ("sqrt?", &["sqrt("]),
         (":plot?", &[":plot [CURVE, …]", "separated by commas"]),
-        ("plot?", &[":plot [CURVE, …]", "In a script"]),
+        ("plot?", &[":plot [CURVE, …]", "plot_motion"]),
         ("?:time", &[":time INPUT"]),
         ("let?", &["let"]),
     ] {

@@ -194,6 +194,12 @@ fn start_sized(folder: &Path, variables: &[(&str, &str)]) -> PtySession {
     session
 }
 
+/// Presses a key.
+fn press(session: &mut PtySession, key: &str) {
+    session.send(key).unwrap();
+    session.flush().unwrap();
+}
+
 #[test]
 fn long_help_comes_in_pages_and_every_way_out_leads_to_the_prompt() {
     let folder = tempfile::tempdir().unwrap();
@@ -207,7 +213,7 @@ fn long_help_comes_in_pages_and_every_way_out_leads_to_the_prompt() {
     s.send("/from rhai\n").unwrap();
     s.exp_string("From Rhai").unwrap();
     s.exp_string(STATUS).unwrap();
-    s.send("q").unwrap();
+    press(s, "q");
     s.exp_string("withy:1> ").unwrap();
     ask(s, "6 * 7", "42");
     // Ctrl-C.
@@ -221,11 +227,12 @@ fn long_help_comes_in_pages_and_every_way_out_leads_to_the_prompt() {
     // The end of the text.
     s.send_line(":help topics").unwrap();
     s.exp_string(STATUS).unwrap();
-    s.send("G").unwrap();
+    press(s, "G");
     s.exp_string("withy:3> ").unwrap();
     ask(s, "6 * 9", "54");
     // What is short is printed, and so is what was asked for ahead.
     s.send_line("?sine").unwrap();
+    s.exp_string(NO_LONGER_READING).unwrap();
     assert!(!s.exp_string("withy:4> ").unwrap().contains(STATUS));
     s.send("let t = timestamp(); while t.elapsed < 0.5 {}\n:help topics\n70 + 7\n").unwrap();
     assert!(!s.exp_string("77\r\n").unwrap().contains(STATUS), "keys were waiting");
@@ -236,6 +243,7 @@ fn the_pager_of_the_environment_is_asked() {
     let folder = tempfile::tempdir().unwrap();
     let mut session = start_sized(folder.path(), &[("NO_COLOR", "1"), ("PAGER", "head -n 1")]);
     session.send_line(":help topics").unwrap();
+    session.exp_string(NO_LONGER_READING).unwrap();
     let shown = session.exp_string("withy:1> ").unwrap();
     assert!(shown.contains("Help\r\n") && !shown.contains("The language"), "{shown}");
     ask(&mut session, "6 * 7", "42");
@@ -243,7 +251,7 @@ fn the_pager_of_the_environment_is_asked() {
     session.send_line(":help topics").unwrap();
     session.exp_string("cannot start the pager 'no-such-pager'").unwrap();
     session.exp_string("space: more").unwrap();
-    session.send("q").unwrap();
+    press(&mut session, "q");
     session.exp_string("withy:1> ").unwrap();
 }
 

@@ -156,7 +156,8 @@ fn describe(page: &mut Page, alias: &str, function: &ScriptFnMetadata, what: &st
 }
 
 fn describe_module(page: &mut Page, alias: &str, module: &Module) {
-    let from = module.id().map(|id| format!(" of \"{id}\"")).unwrap_or_default();
+    let from = module.id().map(|id| id.trim_end_matches(".rhai"));
+    let from = from.map(|id| format!(" of \"{id}\"")).unwrap_or_default();
     page.words(0, vec![Span::name(alias), Span::plain(format!(" is an import{from}."))]);
     // The page of the library follows.
     if module.id().and_then(page_of).is_some() {
