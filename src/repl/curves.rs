@@ -152,7 +152,7 @@ pub fn parts(operand: &str) -> Vec<&str> {
 pub fn summary(curve: &Curve) -> String {
     let values = curve.points.iter().map(|(_, value)| *value);
     let shown = |value: Option<f64>| value.map_or_else(String::new, |x| significant(x, DIGITS));
-    let [first, last] = [values.clone().next(), values.clone().last()].map(shown);
+    let [first, last] = [values.clone().next(), values.clone().next_back()].map(shown);
     let [least, most] = [values.clone().reduce(f64::min), values.reduce(f64::max)].map(shown);
     let count = curve.points.len();
     let (begin, end, what) = match curve.over {

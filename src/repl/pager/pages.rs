@@ -152,7 +152,10 @@ fn ask(
                 text.pop();
                 typed = text.into_bytes();
             }
-            Pressed::Byte(27) => return Ok(Some(word.clear())),
+            Pressed::Byte(27) => {
+                word.clear();
+                return Ok(Some(()));
+            }
             Pressed::Byte(byte) => typed.push(byte),
             Pressed::Interrupt => return Ok(None),
             Pressed::End => break,
