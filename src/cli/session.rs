@@ -10,6 +10,7 @@ use super::interrupt::{self, AtStake};
 use super::run::{last_resort, refuse};
 use crate::output::{Glyphs, Style};
 use crate::repl::editor::{self, Editor};
+use crate::repl::pager::TerminalPager;
 use crate::repl::session::Session;
 use crate::repl::shell::{Outcome, Screen, Shell};
 use crate::repl::{batch, prompt};
@@ -75,6 +76,9 @@ fn converse(shell: &mut Shell, options: &SessionOptions) -> Result<(), Diagnosti
         Diagnostic::general(format!("cannot read from the terminal: {error}"))
             .with_hint("inputs can also be piped in: withy repl < FILE")
     };
+    if let Some(pager) = TerminalPager::of_environment(|name| std::env::var(name).ok()) {
+        shell.page_with(Box::new(pager));
+    }
     let mut editing = editor::Options::from_environment(shell.colours());
     if let Some(keys) = options.keys {
         editing.keys = keys.into();

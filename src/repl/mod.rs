@@ -2,10 +2,16 @@
 //! [`editor`] is how lines are typed at one.
 
 pub mod batch;
+pub mod clock;
 pub mod commands;
+mod curves;
 pub mod editor;
+mod effects;
+mod following;
+pub mod pager;
 pub mod prompt;
 pub mod record;
+mod sampling;
 mod scope;
 pub mod session;
 pub mod shell;

@@ -121,6 +121,15 @@ impl Record {
         twice
     }
 
+    /// The text of the function that was defined last under a name.
+    pub fn definition(&self, name: &str) -> Option<String> {
+        self.entries.iter().rev().find_map(|entry| {
+            let text = entry.text();
+            let found = definitions(text).into_iter().rev();
+            found.filter(|one| one.name.0 == name).map(|one| text[one.bytes].to_owned()).next()
+        })
+    }
+
     /// Whether an input returned, and so is not done again.
     pub fn has_returned(&self) -> bool {
         self.entries.iter().any(|entry| matches!(entry, Entry::Returning(_)))

@@ -1,5 +1,7 @@
 //! A session of the language without a terminal: inputs are evaluated one after another and see what the earlier ones left.
 
+mod peek;
+
 use std::collections::BTreeMap;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
@@ -25,6 +27,8 @@ use crate::script::program::Program;
 use crate::script::reading::read;
 use crate::script::sources::Sources;
 use crate::script::watchdog::Watchdog;
+
+pub use peek::Rounds;
 
 /// The name of the value of the last expression.
 pub const ANSWER: &str = "ans";
@@ -167,22 +171,6 @@ impl Session {
         let functions: String =
             functions_of(after).map(|function| format!("\n{function}")).collect();
         self.record.worked(&format!("{before}{functions}"));
-    }
-
-    /// Evaluates an expression that leaves nothing behind but what it does to scenes and simulations.
-    pub fn peek(&mut self, text: &str) -> Reply {
-        let before = self.transcript.add(self.transcript.typed(text));
-        let (checkpoint, library) = (self.checkpoint(), self.library.clone());
-        let outcome =
-            self.begin(text, before).and_then(|(ast, _watchdog)| self.run(ast.statements()));
-        self.restore(checkpoint);
-        self.library = library;
-        self.transcript.forget_last();
-        match outcome {
-            Ok(value) if value.is_unit() => Reply::Done,
-            Ok(value) => Reply::Value(value),
-            Err(failed) => failed,
-        }
     }
 
     /// Writes into the record that an input worked which was evaluated in another way.

@@ -1,10 +1,16 @@
 //! What a line at the prompt does: an input of the language, or a command. Replies go to where the session prints.
 
+mod watching;
+
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
+use std::sync::atomic::Ordering;
 
+use super::clock::{Clock, Stopwatch};
 use super::commands;
 use super::editor::surroundings::Operand;
+use super::pager::{Pager, Shown};
 use super::session::{ANSWER, Reply, Session};
 use crate::folders::read_file;
 use crate::output::{Colours, Style, significant};
@@ -50,17 +56,50 @@ pub struct Shell {
     told_files: usize,
     /// What was saved under which name.
     saved: HashMap<PathBuf, String>,
+    /// What times are taken with.
+    clock: Rc<dyn Clock>,
+    /// What shows replies that are longer than the terminal.
+    pager: Option<Box<dyn Pager>>,
 }
 
 impl Shell {
     /// A shell around a session.
     pub fn new(session: Session, screen: Screen) -> Self {
-        Self { session, screen, watched: Vec::new(), told_files: 0, saved: HashMap::new() }
+        Self {
+            session,
+            screen,
+            watched: Vec::new(),
+            told_files: 0,
+            saved: HashMap::new(),
+            clock: Rc::new(Stopwatch::default()),
+            pager: None,
+        }
+    }
+
+    /// Takes times with another clock.
+    #[must_use]
+    pub fn with_clock(self, clock: Rc<dyn Clock>) -> Self {
+        Self { clock, ..self }
+    }
+
+    /// Shows long help in pages from now on.
+    pub fn page_with(&mut self, pager: Box<dyn Pager>) {
+        self.pager = Some(pager);
+    }
+
+    /// What times are taken with.
+    pub fn clock(&self) -> Rc<dyn Clock> {
+        Rc::clone(&self.clock)
     }
 
     /// The session.
     pub fn session(&self) -> &Session {
         &self.session
+    }
+
+    /// The session, to look at something in it.
+    pub fn session_mut(&mut self) -> &mut Session {
+        &mut self.session
     }
 
     /// Who sees the replies.
@@ -73,6 +112,9 @@ impl Shell {
         if let Screen::Terminal(style) = self.screen {
             self.screen = Screen::Terminal(style.on_terminal(columns, lines));
         }
+        if let Some(pager) = &mut self.pager {
+            pager.resize(columns, lines);
+        }
     }
 
     /// Does what a complete input says.
@@ -80,7 +122,10 @@ impl Shell {
         self.session.forget_interrupt();
         let text = input.trim();
         if text.starts_with(':') {
-            return self.command(text);
+            return match text.strip_suffix('?').filter(|name| !name.contains(char::is_whitespace)) {
+                Some(command) => (commands::HELP.body)(self, command),
+                None => self.command(text),
+            };
         }
         if let Some(name) = text.strip_prefix('?') {
             return (commands::HELP.body)(self, name.trim());
@@ -127,7 +172,7 @@ impl Shell {
     }
 
     /// Shows what came of an input.
-    fn tell(&mut self, reply: Reply) -> Outcome {
+    pub fn tell(&mut self, reply: Reply) -> Outcome {
         let outcome = match reply {
             Reply::Done => Outcome::Good,
             Reply::Value(value) => {
@@ -179,6 +224,23 @@ impl Shell {
     pub fn print(&self, text: &str) {
         self.session.context().print(text);
         self.session.context().flush();
+    }
+
+    /// Prints a reply that may be long: where there is a pager, by it.
+    pub fn print_in_pages(&mut self, text: &str) -> Outcome {
+        let interrupt = self.session.context().interrupt_flag();
+        let shown = match &mut self.pager {
+            Some(pager) => pager.show(text, &|| interrupt.swap(false, Ordering::Relaxed)),
+            None => Shown::NotByThis,
+        };
+        match shown {
+            Shown::Seen => Outcome::Good,
+            Shown::Interrupted => Outcome::Interrupted,
+            Shown::NotByThis => {
+                self.print(text);
+                Outcome::Good
+            }
+        }
     }
 
     /// Tells something beside the replies.
@@ -305,65 +367,6 @@ impl Shell {
         let simulation = latest.simulation();
         let is_there = simulation.has_reached(end) || simulation.has_ended();
         (!is_there).then(|| simulation.next_stop(end))
-    }
-}
-
-/// Watched expressions.
-impl Shell {
-    /// Whether anything is watched.
-    pub fn is_watching(&self) -> bool {
-        !self.watched.is_empty()
-    }
-
-    /// Watches one more expression, and shows it.
-    pub fn watch(&mut self, expression: &str) -> Outcome {
-        let expression = expression.trim_end_matches(';').to_owned();
-        if !self.watched.contains(&expression) {
-            self.watched.push(expression);
-        }
-        self.show_watched()
-    }
-
-    /// Watches nothing any more.
-    pub fn watch_nothing(&mut self) {
-        self.watched.clear();
-    }
-
-    /// Shows the watched expressions in a line.
-    pub fn show_watched(&mut self) -> Outcome {
-        let mut parts = Vec::new();
-        if let Some(latest) = self.latest() {
-            parts.push(format!("t = {}", significant(latest.time(), 10)));
-        }
-        for expression in self.watched.clone() {
-            let before = self.session.whereabouts();
-            let reply = self.session.peek(&expression);
-            let has_moved = self.session.note_moved(&before);
-            let told = match reply {
-                Reply::Value(_) | Reply::Done if has_moved => {
-                    let told = format!("the watched expression '{expression}' moves a simulation");
-                    Diagnostic::general(told)
-                        .with_hint("it is watched no more; watch what only looks")
-                }
-                Reply::Value(value) => {
-                    let shown = present(self.session.catalog(), &value, self.width());
-                    parts.push(format!("{expression} = {}", shown.lines().next().unwrap_or("")));
-                    continue;
-                }
-                Reply::Done => {
-                    parts.push(format!("{expression} = nothing"));
-                    continue;
-                }
-                Reply::Failed(diagnostic) => diagnostic,
-                other => return self.tell(other),
-            };
-            self.watched.retain(|other| *other != expression);
-            return self.refuse(&told);
-        }
-        if !self.watched.is_empty() {
-            self.print(&parts.join("   "));
-        }
-        Outcome::Good
     }
 }
 

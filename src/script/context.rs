@@ -57,6 +57,7 @@ struct Shared {
     engine: RefCell<Weak<Engine>>,
     level: Cell<usize>,
     is_calling_back: Cell<bool>,
+    is_silent: Cell<bool>,
     types: RefCell<Vec<Type>>,
 }
 
@@ -83,6 +84,7 @@ impl Context {
             engine: RefCell::default(),
             level: Cell::new(0),
             is_calling_back: Cell::new(false),
+            is_silent: Cell::new(false),
             types: RefCell::default(),
         }))
     }
@@ -183,7 +185,7 @@ impl Context {
 
     /// Prints a line for the script.
     pub fn print(&self, text: &str) {
-        if !self.meter().allows_to_write(text.len() as u64 + 1) {
+        if self.0.is_silent.get() || !self.meter().allows_to_write(text.len() as u64 + 1) {
             return;
         }
         self.0.progress.step_aside(&mut || {
@@ -193,10 +195,21 @@ impl Context {
 
     /// Tells the user something that is not the script's own output.
     pub fn tell(&self, text: &str) {
+        if self.0.is_silent.get() {
+            return;
+        }
         self.0.progress.step_aside(&mut || {
             // When nobody listens, the exit code still tells.
             let _ = writeln!(self.0.told.borrow_mut(), "{text}");
         });
+    }
+
+    /// Does something of which nothing is printed or told.
+    pub fn silently<T>(&self, work: impl FnOnce() -> T) -> T {
+        let was_silent = self.0.is_silent.replace(true);
+        let result = work();
+        self.0.is_silent.set(was_silent);
+        result
     }
 
     /// Writes out what is buffered.

@@ -91,13 +91,23 @@ impl Simulation {
         if back == 0 {
             return Ok(());
         }
-        let Some(snapshot) = self.snapshots.find(steps) else {
+        let snapshots = std::mem::take(&mut self.snapshots);
+        let found = snapshots.find(steps).map(|snapshot| self.stand_at(snapshot)).is_some();
+        self.snapshots = snapshots;
+        if !found {
             let target = match self.has_all_rows() {
                 true => format!("t = {}", self.history.samples()[steps].measures.time),
                 false => format!("where it was {back} steps ago"),
             };
             return Err(self.forgotten(target, steps));
-        };
+        }
+        self.snapshots.truncate(steps);
+        self.show_present();
+        Ok(())
+    }
+
+    /// Takes a state that it has been in, or a copy of it has; rows of the history that came later are gone.
+    pub(super) fn stand_at(&mut self, snapshot: &Snapshot) {
         self.model.restore(&snapshot.state);
         self.grid.go_back(snapshot.passed);
         self.rows_kept = snapshot.rows;
@@ -108,9 +118,6 @@ impl Simulation {
         self.counts = WorkCounts { wall: self.counts.wall, ..snapshot.counts };
         self.under_way = snapshot.under_way;
         self.pace = snapshot.pace;
-        self.snapshots.truncate(steps);
-        self.show_present();
-        Ok(())
     }
 
     /// The error of a state that is not kept: in words, and the fewest steps that may have led there.
@@ -142,7 +149,7 @@ impl Simulation {
     }
 
     /// The present, written into a state that may have held another.
-    fn snapshot(&self, mut state: ModelState) -> Snapshot {
+    pub(super) fn snapshot(&self, mut state: ModelState) -> Snapshot {
         self.model.write_state(&mut state);
         Snapshot {
             state,
@@ -162,6 +169,16 @@ impl Simulation {
     /// # Errors
     /// When the scene cannot be built, which it could before.
     pub fn fork(&self) -> Result<Self, SimulationError> {
+        let mut fork = self.fork_without_snapshots()?;
+        fork.snapshots = self.snapshots.clone();
+        Ok(fork)
+    }
+
+    /// The same, without states to go back to.
+    ///
+    /// # Errors
+    /// When the scene cannot be built, which it could before.
+    pub(super) fn fork_without_snapshots(&self) -> Result<Self, SimulationError> {
         let mut fork = Self::start(self.scene.clone(), self.settings)?;
         fork.model.restore(&self.model.state());
         fork.grid = self.grid.clone();
@@ -171,7 +188,6 @@ impl Simulation {
         fork.arrivals = self.arrivals.clone();
         fork.under_way = self.under_way;
         fork.pace = self.pace;
-        fork.snapshots = self.snapshots.clone();
         fork.recording = self.recording;
         fork.rows_kept = self.rows_kept;
         fork.last_step = self.last_step;

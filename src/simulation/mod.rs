@@ -15,6 +15,7 @@ mod landing;
 mod notes;
 mod outline;
 mod recording;
+mod revisit;
 mod run;
 mod snapshots;
 mod step_size;

@@ -80,6 +80,11 @@ impl Snapshots {
         self.first.as_ref()
     }
 
+    /// Steps and times of the states that are kept.
+    pub(super) fn places(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.all().map(|snapshot| (snapshot.steps(), snapshot.time))
+    }
+
     fn all(&self) -> impl Iterator<Item = &Snapshot> {
         self.first.iter().chain(&self.recent)
     }

@@ -177,3 +177,119 @@ fn a_script_may_come_first_and_pictures_are_drawn() {
     session.send_line(":quit").unwrap();
     session.exp_eof().unwrap();
 }
+
+/// `withy` on a terminal of 80 columns and 20 lines, with other variables of the environment.
+fn start_sized(folder: &Path, variables: &[(&str, &str)]) -> PtySession {
+    let mut command = Command::new("sh");
+    let start = format!("stty rows 20 cols 80; exec {}", env!("CARGO_BIN_EXE_withy"));
+    command.current_dir(folder).args(["-c", &start]);
+    command.env("TERM", "xterm").env("LANG", "C.UTF-8").env_remove("LC_ALL").env_remove("LC_CTYPE");
+    command.env("WITHY_HISTORY", "").env_remove("WITHY_KEYS").env_remove("NO_COLOR");
+    command.env_remove("PAGER").env_remove("LINES").env_remove("COLUMNS").env_remove("LESS");
+    for (name, value) in variables {
+        command.env(name, value);
+    }
+    let mut session = spawn_command(command, Some(PATIENCE)).unwrap();
+    session.exp_string("withy:1> ").unwrap();
+    session
+}
+
+/// Presses a key.
+fn press(session: &mut PtySession, key: &str) {
+    session.send(key).unwrap();
+    session.flush().unwrap();
+}
+
+#[test]
+fn long_help_comes_in_pages_and_every_way_out_leads_to_the_prompt() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut session = start_sized(folder.path(), &[("NO_COLOR", "1")]);
+    let s = &mut session;
+    const STATUS: &str = "space: more";
+    // On to a word, and out.
+    s.send_line(":help topics").unwrap();
+    let first = s.exp_string(STATUS).unwrap();
+    assert!(first.contains("The language") && !first.contains("From Rhai"), "{first}");
+    s.send("/from rhai\n").unwrap();
+    s.exp_string("From Rhai").unwrap();
+    s.exp_string(STATUS).unwrap();
+    press(s, "q");
+    s.exp_string("withy:1> ").unwrap();
+    ask(s, "6 * 7", "42");
+    // Ctrl-C.
+    s.send_line("sim?").unwrap();
+    s.exp_string("there is no help on 'sim'").unwrap();
+    s.send_line(":help topics").unwrap();
+    s.exp_string(STATUS).unwrap();
+    s.send_control('c').unwrap();
+    s.exp_string("withy:2> ").unwrap();
+    ask(s, "6 * 8", "48");
+    // The end of the text.
+    s.send_line(":help topics").unwrap();
+    s.exp_string(STATUS).unwrap();
+    press(s, "G");
+    s.exp_string("withy:3> ").unwrap();
+    ask(s, "6 * 9", "54");
+    // What is short is printed, and so is what was asked for ahead.
+    s.send_line("?TAU").unwrap();
+    s.exp_string(NO_LONGER_READING).unwrap();
+    assert!(!s.exp_string("withy:4> ").unwrap().contains(STATUS));
+    s.send("let t = timestamp(); while t.elapsed < 0.5 {}\n:help topics\n70 + 7\n").unwrap();
+    assert!(!s.exp_string("77\r\n").unwrap().contains(STATUS), "keys were waiting");
+}
+
+#[test]
+fn the_pager_of_the_environment_is_asked() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut session = start_sized(folder.path(), &[("NO_COLOR", "1"), ("PAGER", "head -n 1")]);
+    session.send_line(":help topics").unwrap();
+    session.exp_string(NO_LONGER_READING).unwrap();
+    let shown = session.exp_string("withy:1> ").unwrap();
+    assert!(shown.contains("Help\r\n") && !shown.contains("The language"), "{shown}");
+    ask(&mut session, "6 * 7", "42");
+    let mut session = start_sized(folder.path(), &[("NO_COLOR", "1"), ("PAGER", "no-such-pager")]);
+    session.send_line(":help topics").unwrap();
+    session.exp_string("cannot start the pager 'no-such-pager'").unwrap();
+    session.exp_string("space: more").unwrap();
+    press(&mut session, "q");
+    session.exp_string("withy:1> ").unwrap();
+}
+
+#[test]
+fn what_is_typed_has_colours_unless_nobody_wants_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut coloured = start_sized(folder.path(), &[]);
+    coloured.send_line("let a = sqrt(4); // two").unwrap();
+    let drawn = coloured.exp_string("withy:2> ").unwrap();
+    for piece in ["\u{1b}[35mlet", "\u{1b}[34msqrt", "\u{1b}[36m4", "\u{1b}[2m// two"] {
+        assert!(drawn.contains(piece), "{piece:?}: {drawn:?}");
+    }
+    coloured.send_line(":nonsense").unwrap();
+    coloured.exp_string("\u{1b}[31m:nonsense").unwrap();
+    let is_coloured = |drawn: &str| {
+        ["\u{1b}[3", "\u{1b}[1m", "\u{1b}[2m"].iter().any(|code| drawn.contains(code))
+    };
+    for plain in [("NO_COLOR", "1"), ("TERM", "dumb")] {
+        let mut session = start_sized(folder.path(), &[plain]);
+        session.send_line("let a = sqrt(4); // two").unwrap();
+        let drawn = session.exp_string("withy:2> ").unwrap();
+        assert!(!is_coloured(&drawn), "{plain:?}: {drawn:?}");
+        ask(&mut session, "a + 40", "42");
+    }
+}
+
+#[test]
+fn timings_and_plots_that_take_long_are_stopped() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut session = start_sized(folder.path(), &[("NO_COLOR", "1")]);
+    let s = &mut session;
+    s.send_line(":time while true {}").unwrap();
+    s.exp_string(NO_LONGER_READING).unwrap();
+    sleep(Duration::from_millis(300));
+    s.send_control('c').unwrap();
+    s.exp_string("interrupted").unwrap();
+    s.send_line(":plot [0, 1, 4, 9]").unwrap();
+    s.exp_regex(BRAILLE).unwrap();
+    s.exp_string("index").unwrap();
+    ask(s, "6 * 7", "42");
+}

@@ -1,80 +1,74 @@
 //! `:help` and `?`: what a name means.
 
+use super::names::{Known, in_language, known};
 use super::{COMMANDS, Command, find};
 use crate::output::Colours;
-use crate::repl::session::ANSWER;
 use crate::repl::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::help::{self, Page, Span};
-use crate::script::kind::with_article;
 
 /// `:help [name]`
 pub fn help(shell: &mut Shell, operand: &str) -> Outcome {
-    let name = operand.trim_matches('"').trim_end_matches("()").trim();
+    let name = operand.trim_matches('"').trim_end_matches('?').trim_end_matches("()").trim();
     match name {
         "" => return commands(shell),
         "topics" | "all" => return topics(shell),
-        ANSWER => {
-            let mut page = Page::default();
-            page.heading(ANSWER);
-            page.paragraph("At the prompt, the value of the last input that had one.");
-            show(shell, &page);
-            return Outcome::Good;
-        }
         _ => (),
     }
     if name.starts_with(':') {
         return match find(name) {
-            Ok(command) => explain(shell, command),
+            Ok(command) => {
+                let page = explained(command);
+                show(shell, &[drawn(shell, &page)])
+            }
             Err(refusal) => shell.refuse(&refusal),
         };
     }
-    let named = COMMANDS.iter().find(|command| command.name[1..] == *name);
-    match (help::page(shell.session().catalog(), name), named) {
-        (Ok(page), command) => {
-            show(shell, &page);
-            if let Some(command) = command {
-                shell.print("");
-                return explain(shell, command);
-            }
-            Outcome::Good
-        }
-        (Err(unknown), Some(command)) => {
-            let outcome = explain(shell, command);
-            if !unknown.is_strange() {
-                let mut page = Page::default();
-                page.gap();
-                page.paragraph(&format!("In a script: {}", unknown.hint()));
-                show(shell, &page);
-            }
-            outcome
-        }
-        (Err(_), None) if shell.session().variables().contains(name) => {
-            let of = shell.session().variables().get(name).map(rhai::Dynamic::type_name);
-            let of = of.map(|of| shell.session().engine().map_type_name(of).to_owned());
-            let of = of.unwrap_or_default();
-            shell.print(&format!("{name} is a variable: {}", with_article(&of)));
-            help(shell, &of)
-        }
-        (Err(unknown), None) => {
-            let told = Diagnostic::general(unknown.to_string());
-            shell.refuse(&match unknown.is_strange() {
-                true => told.with_hint(":help topics lists what there is"),
-                false => told.with_hint(unknown.hint()),
-            })
+    let mut texts = Vec::new();
+    let mut name_of_page = in_language(shell, name);
+    if let Some(Known { page, shown }) = known(shell, name) {
+        let text = format!("{}{}", drawn(shell, &page), shown.unwrap_or_default());
+        texts.push(text);
+        // What is known of the type, where the name itself means nothing to the language.
+        let is_plain = help::find(shell.session().catalog(), &name_of_page).is_empty();
+        let value = shell.session().variables().get(name).filter(|_| is_plain);
+        if let Some(value) = value {
+            name_of_page = shell.session().engine().map_type_name(value.type_name()).to_owned();
         }
     }
+    let command = COMMANDS.iter().find(|command| command.name[1..] == *name);
+    match help::page(shell.session().catalog(), &name_of_page) {
+        Ok(page) => {
+            texts.push(drawn(shell, &page));
+            texts.extend(command.map(|command| drawn(shell, &explained(command))));
+        }
+        Err(unknown) => {
+            texts.extend(command.map(|command| drawn(shell, &explained(command))));
+            if texts.is_empty() {
+                let told = Diagnostic::general(unknown.to_string());
+                return shell.refuse(&match unknown.is_strange() {
+                    true => told.with_hint(":help topics lists what there is"),
+                    false => told.with_hint(unknown.hint()),
+                });
+            }
+            if command.is_some() && !unknown.is_strange() {
+                let mut page = Page::default();
+                page.paragraph(&format!("In a script: {}", unknown.hint()));
+                texts.push(drawn(shell, &page));
+            }
+        }
+    }
+    show(shell, &texts)
 }
 
-fn explain(shell: &Shell, command: &Command) -> Outcome {
+fn explained(command: &Command) -> Page {
     let mut page = Page::default();
     page.heading(command.usage());
     page.paragraph(&format!("At the prompt, it {}.", command.summary));
     if !command.doc.is_empty() {
         page.paragraph(command.doc);
     }
-    show(shell, &page);
-    Outcome::Good
+    page
 }
 
 /// The commands, and how to come to the rest: what is asked for must not scroll away.
@@ -87,26 +81,29 @@ fn commands(shell: &mut Shell) -> Outcome {
     }
     page.gap();
     page.paragraph(
-        "?NAME explains a function, a type, an option or a topic: ?beam, ?simulation, ?EA, ?loops. :help topics lists them all. \
-         Anything else that is typed is evaluated.",
+        "NAME? or ?NAME explains a variable, a function, a type, an option or a topic: sim?, beam?, EA?, loops?. :help topics lists \
+         them all. Anything else that is typed is evaluated.",
     );
-    show(shell, &page);
-    Outcome::Good
+    show(shell, &[drawn(shell, &page)])
 }
 
 /// All that has a page.
 fn topics(shell: &mut Shell) -> Outcome {
     match help::page(shell.session().catalog(), "") {
-        Ok(page) => show(shell, &page),
-        Err(unknown) => return shell.refuse(&Diagnostic::bug(unknown)),
+        Ok(page) => show(shell, &[drawn(shell, &page)]),
+        Err(unknown) => shell.refuse(&Diagnostic::bug(unknown)),
     }
-    Outcome::Good
 }
 
-fn show(shell: &Shell, page: &Page) {
-    let text = match shell.colours() {
+fn drawn(shell: &Shell, page: &Page) -> String {
+    match shell.colours() {
         Colours::Ansi => page.ansi(shell.width()),
         Colours::None => page.plain(shell.width()),
-    };
-    shell.print(text.trim_end());
+    }
+}
+
+/// Shows texts one below the other.
+fn show(shell: &mut Shell, texts: &[String]) -> Outcome {
+    let texts: Vec<&str> = texts.iter().map(|text| text.trim_end()).collect();
+    shell.print_in_pages(&texts.join("\n\n"))
 }

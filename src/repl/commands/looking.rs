@@ -1,7 +1,5 @@
 //! Commands that only look.
 
-use std::time::{Duration, Instant};
-
 use crate::output::{Cell, Table};
 use crate::repl::shell::{Outcome, Screen, Shell, no_simulation};
 use crate::script::diagnose::Diagnostic;
@@ -61,27 +59,6 @@ pub fn explain(shell: &mut Shell, _: &str) -> Outcome {
     shell.show_of_latest("explain()")
 }
 
-/// `:plot [columns]`
-pub fn plot(shell: &mut Shell, operand: &str) -> Outcome {
-    let is_between = |letter: char| letter.is_whitespace() || letter == ',';
-    let named = operand.split(is_between).filter(|name| !name.is_empty());
-    let mut columns: Vec<String> = named.map(|name| name.trim_matches('"').to_owned()).collect();
-    if columns.is_empty() {
-        columns = ["kinetic", "strain", "energy"].map(str::to_owned).to_vec();
-    }
-    draw(shell, |simulation, screen| match screen {
-        Screen::Terminal(style) if columns == ["drift"] => {
-            Ok(sight::drift_chart(simulation.history(), &style))
-        }
-        Screen::Terminal(style) => sight::history_chart(simulation.history(), &columns, &style),
-        Screen::Pipe if columns == ["drift"] => Ok(sight::drift_summary(simulation.history())),
-        Screen::Pipe => {
-            let line = |column: &String| sight::column_summary(simulation.history(), column);
-            Ok(columns.iter().map(line).collect::<Result<Vec<_>, _>>()?.join("\n"))
-        }
-    })
-}
-
 /// `:show [time]`
 pub fn show(shell: &mut Shell, operand: &str) -> Outcome {
     let time = match (operand, operand.parse::<f64>()) {
@@ -105,7 +82,7 @@ pub fn show(shell: &mut Shell, operand: &str) -> Outcome {
 }
 
 /// Shows what is made of the last simulation for the screen.
-fn draw(
+pub(super) fn draw(
     shell: &mut Shell,
     picture: impl FnOnce(&Simulation, Screen) -> Result<String, ScriptError>,
 ) -> Outcome {
@@ -124,50 +101,5 @@ fn draw(
             shell.refuse(&Diagnostic { hint, ..Diagnostic::general(failure.message) })
         }
         Err(other) => shell.refuse(&Diagnostic::bug(format!("{other:?}"))),
-    }
-}
-
-/// `:time input`
-pub fn time(shell: &mut Shell, operand: &str) -> Outcome {
-    if operand.is_empty() {
-        let told = Diagnostic::general("there is nothing to time");
-        return shell.refuse(&told.with_hint("write :time followed by an input"));
-    }
-    let begun = Instant::now();
-    let outcome = shell.submit(operand);
-    let took = begun.elapsed();
-    if outcome == Outcome::Good {
-        shell.print(&format!("took {}", in_words(took)));
-    }
-    outcome
-}
-
-/// Three digits with the unit that suits them.
-fn in_words(time: Duration) -> String {
-    let seconds = time.as_secs_f64();
-    let (value, unit) = match seconds {
-        s if s < 1e-3 => (s * 1e6, "µs"),
-        s if s < 1.0 => (s * 1e3, "ms"),
-        s => (s, "s"),
-    };
-    let digits = if value < 10.0 {
-        2
-    } else if value < 100.0 {
-        1
-    } else {
-        0
-    };
-    format!("{value:.digits$} {unit}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn times_have_three_digits() {
-        assert_eq!(in_words(Duration::from_nanos(1234)), "1.23 µs");
-        assert_eq!(in_words(Duration::from_micros(45678)), "45.7 ms");
-        assert_eq!(in_words(Duration::from_secs(321)), "321 s");
     }
 }

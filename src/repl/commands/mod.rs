@@ -2,14 +2,18 @@
 
 mod help;
 mod looking;
+mod names;
+mod plotting;
 mod session;
 mod stepping;
+mod timing;
 mod words;
 
 use super::editor::surroundings::Operand;
 use super::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::suggest::nearest;
+pub use plotting::{moves, refuse};
 pub use words::meant;
 
 /// A command of the prompt.
@@ -93,11 +97,16 @@ pub const COMMANDS: &[Command] = &[
     },
     Command {
         name: ":plot",
-        operand: Operand::Column,
-        placeholder: "[COLUMN …]",
-        summary: "draws columns of the history over time; the energies unless columns are named",
-        doc: "For example `:plot kinetic strain`; `:plot drift` shows how well the invariants are kept. Pictures for files are drawn by plot_history.",
-        body: looking::plot,
+        operand: Operand::Curves,
+        placeholder: "[CURVE, …]",
+        summary: "draws columns of the history, or any expression, over time; the energies unless given",
+        doc: "Curves are separated by commas. Each is a column, such as `energy`, or an expression. One that is a number or a vector, such as \
+              `sim.position(rod.end).x`, is evaluated in every state in which the simulation was: the one that it names, or else the last. \
+              The states are those that are kept to go back to; where some are forgotten the run is made again in a copy, \
+              without functions set by sim.at, and it is said whether it is the same run. The simulation itself stays where it is. \
+              An array of numbers is drawn over its index, a pair of arrays [x, y] and an array of points as they are. \
+              `:plot drift` shows how well the invariants are kept. Pictures for files are drawn by plot_history.",
+        body: plotting::plot,
     },
     Command {
         name: ":show",
@@ -119,9 +128,11 @@ pub const COMMANDS: &[Command] = &[
         name: ":time",
         operand: Operand::Expression,
         placeholder: "INPUT",
-        summary: "evaluates an input and says how long it took",
-        doc: "",
-        body: looking::time,
+        summary: "evaluates an input and says how long it takes, the first time and again",
+        doc: "It is done again, each time from the same variables, which are then as the first time left them, until the median is known to a hundredth, or for two seconds. What it \
+              prints is printed once. An input that moves a simulation, changes a scene, writes files or takes more than a second is timed \
+              once. The least time is that of the work itself; reading the text counts the first time only.",
+        body: timing::time,
     },
     Command {
         name: ":explain",

@@ -7,7 +7,7 @@ use super::{Command, HELP, QUIT};
 pub fn meant(text: &str, is_variable: impl Fn(&str) -> bool) -> Option<(&'static Command, &str)> {
     let text = text.trim_end_matches(';').trim_end();
     let asked = text.trim_end_matches('?').trim_end();
-    if asked.len() < text.len() && is_name(asked) {
+    if asked.len() < text.len() && is_name(asked.strip_suffix("()").unwrap_or(asked)) {
         return Some((&HELP, asked));
     }
     let (word, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
@@ -43,6 +43,7 @@ mod tests {
         assert_eq!(name("help sine"), Some((":help", "sine")));
         assert_eq!(name("sim.run_to?"), Some((":help", "sim.run_to")));
         assert_eq!(name("sim??"), Some((":help", "sim")));
+        assert_eq!(name("half()?"), Some((":help", "half()")));
         for own in ["exit", "help(\"sine\")", "1 ?? 2", "quit + 1", "a ? 1 : 2", "help = 3"] {
             assert_eq!(name(own), None, "{own}");
         }

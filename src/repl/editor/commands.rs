@@ -28,10 +28,20 @@ pub fn complete_command(text: &str, surroundings: &Surroundings) -> (usize, Vec<
             let (offset, found) = complete_path(operand, &surroundings.folder, Files::Any);
             (start + offset, found)
         }
-        Some(Operand::Column) => {
+        Some(Operand::Curves) => {
             let last = operand.rfind([' ', ',']).map_or(0, |gap| gap + 1);
             let columns = surroundings.columns.iter().map(|column| Candidate::word(column, ""));
-            (start + last, fitting(&operand[last..], columns))
+            let columns = fitting(&operand[last..], columns);
+            let (offset, found) = complete(operand, operand.len(), surroundings);
+            match columns.is_empty() {
+                // Where a column is named, a variable may stand as well; functions that nobody asked for would only hide it.
+                false => {
+                    let variables = surroundings.variables.iter();
+                    let variables = variables.map(|known| Candidate::word(&known.name, ""));
+                    (start + last, fitting(&operand[last..], columns.into_iter().chain(variables)))
+                }
+                true => (start + offset, found),
+            }
         }
         Some(Operand::Expression) => {
             let (offset, found) = complete(operand, operand.len(), surroundings);
@@ -48,7 +58,7 @@ pub fn command_named<'s>(name: &str, surroundings: &'s Surroundings) -> Option<&
     exact.or_else(|| beginning.next().filter(|_| beginning.next().is_none()))
 }
 
-/// What help can be asked for: names of the language, of session functions and of commands.
+/// What help can be asked for: names of the language, of the session, and of commands.
 fn topics(surroundings: &Surroundings) -> Vec<Candidate> {
     let catalog = &surroundings.catalog;
     let is_name = |name: &str| name.starts_with(|letter: char| letter.is_alphabetic());
@@ -61,6 +71,10 @@ fn topics(surroundings: &Surroundings) -> Vec<Candidate> {
                 .functions
                 .iter()
                 .map(|function| Candidate::word(&function.name, "a function of this session")),
+        )
+        .chain(surroundings.variables.iter().map(|known| Candidate::word(&known.name, &known.of)))
+        .chain(
+            surroundings.modules.iter().map(|module| Candidate::word(&module.alias, "an import")),
         )
         .chain(surroundings.commands.iter().map(|word| Candidate::word(word.name, word.summary)))
         .collect()

@@ -1,6 +1,6 @@
 //! Whether an input can be run, or goes on in the next line.
 
-use super::scanner::{Bracket, Kind, Token, scan};
+use crate::script::scanner::{Bracket, Kind, Token, scan};
 
 /// Whether an input is complete.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,12 +7,12 @@ use super::expected::{Expected, kinds};
 use super::input::Input;
 use super::members::members;
 use super::paths::{Files, complete_path};
-use super::scanner::{Bracket, Kind, Token, scan};
 use super::surroundings::{Function, Surroundings};
 use super::types::Types;
-use super::words::{FUNCTIONS, KEYWORDS};
 use crate::script::kind;
+use crate::script::scanner::{Bracket, Kind, Token, scan};
 use crate::script::table::Form;
+use crate::script::words::{FUNCTIONS, KEYWORDS};
 
 /// What may stand in `line` at `position`: where the word that is typed begins, and what it may become.
 pub fn complete(

@@ -1,11 +1,11 @@
 //! What a call expects at the cursor: the parameters that the value being written may stand for.
 
 use super::input::{Callee, Input, Level};
-use super::scanner::Bracket;
 use super::surroundings::Surroundings;
 use super::types::Types;
 use crate::script::kind::Kind;
 use crate::script::parameter::Parameter;
+use crate::script::scanner::Bracket;
 use crate::script::table::{Form, Row};
 
 /// The parameters of what stands in brackets.

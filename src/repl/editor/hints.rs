@@ -6,10 +6,10 @@ use super::completeness::is_command;
 use super::completion::complete;
 use super::expected::{Called, Expected};
 use super::input::{Callee, Input, Level};
-use super::scanner::{Bracket, Kind};
-use super::surroundings::{Function, Surroundings};
+use super::surroundings::{Function, Operand, Surroundings};
 use crate::script::numbers::format_number;
 use crate::script::parameter::{Parameter, Presence};
+use crate::script::scanner::{Bracket, Kind};
 
 /// What is shown behind the cursor.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,6 +41,13 @@ pub fn hint(line: &str, position: usize, surroundings: &Surroundings) -> Option<
     }
     if is_command(line) {
         let name = line.trim();
+        // An expression after a command has its hints too.
+        if let Some((word, operand)) = line.trim_start().split_once(char::is_whitespace)
+            && let Some(command) = command_named(word, surroundings)
+            && matches!(command.operand, Operand::Expression | Operand::Curves)
+        {
+            return hint(operand, operand.len(), surroundings);
+        }
         let command = command_named(name, surroundings).filter(|command| command.name == name)?;
         return Hint::note(command.summary.to_owned());
     }
@@ -200,6 +207,8 @@ mod tests {
         assert_eq!(shown("rod.st"), "art");
         assert_eq!(shown("sim."), "");
         assert_eq!(shown(":step"), "Takes steps.");
+        assert!(shown(":plot energy, sim.position(").starts_with("position(‹station›)"));
+        assert_eq!(shown(":time rod.e"), "nd");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! An input up to the cursor: its tokens, which brackets are open there, and whose they are.
 
-use super::scanner::{Bracket, Kind, Token, scan};
+use crate::script::scanner::{Bracket, Kind, Token, pair, scan};
 
 /// Open brackets that are looked at: what stands further outside does not matter at the cursor.
 const MOST_LEVELS: usize = 64;
@@ -124,7 +124,7 @@ impl<'t> Input<'t> {
         let at = opener.checked_sub(1)?;
         let is_call = self.kind(opener) == Some(Kind::Open(Bracket::Round))
             && self.kind(at) == Some(Kind::Word)
-            && !super::words::is_keyword(self.written(at));
+            && !crate::script::words::is_keyword(self.written(at));
         if !is_call {
             return None;
         }
@@ -139,26 +139,6 @@ impl<'t> Input<'t> {
 /// A key without its quotes.
 fn unquoted(key: &str) -> &str {
     key.trim_matches('"')
-}
-
-/// The partners of brackets, and the brackets that stay open.
-pub fn pair(tokens: &[Token]) -> (Vec<Option<usize>>, Vec<usize>) {
-    let mut partners = vec![None; tokens.len()];
-    let mut open: Vec<(usize, Bracket)> = Vec::new();
-    for (index, token) in tokens.iter().enumerate() {
-        match token.kind {
-            Kind::Open(bracket) => open.push((index, bracket)),
-            Kind::Close(bracket) => {
-                if open.last().is_some_and(|(_, opened)| opened.is_closed_by(bracket))
-                    && let Some((opener, _)) = open.pop()
-                {
-                    (partners[index], partners[opener]) = (Some(opener), Some(index));
-                }
-            }
-            _ => (),
-        }
-    }
-    (partners, open.into_iter().map(|(index, _)| index).collect())
 }
 
 #[cfg(test)]

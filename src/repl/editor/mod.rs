@@ -1,6 +1,6 @@
 //! Typing at the prompt: whether an input is complete, completion, hints, colours and history.
 //!
-//! All that knows the language is pure and works on the tokens of [`scanner`]; the terminal is left to rustyline, which
+//! All that knows the language is pure and works on the tokens of [`scanner`](crate::script::scanner); the terminal is left to rustyline, which
 //! [`line_editor`] sets up.
 
 mod assistant;
@@ -19,10 +19,9 @@ mod members;
 mod paths;
 #[cfg(test)]
 mod samples;
-pub mod scanner;
 pub mod surroundings;
 pub mod typed_ahead;
 mod types;
-mod words;
 
 pub use line_editor::{Editor, Keys, Options, Typed};
+pub use types::type_before;

@@ -43,7 +43,7 @@ pub fn surroundings() -> Surroundings {
             command(":step", "Takes steps.", Operand::Number),
             command(":save", "Writes the session as a script.", Operand::File),
             command(":show", "Draws the beam.", Operand::Nothing),
-            command(":plot", "Draws columns.", Operand::Column),
+            command(":plot", "Draws columns.", Operand::Curves),
             command(":time", "Measures an expression.", Operand::Expression),
         ],
         columns: columns.map(str::to_owned).into(),

@@ -79,8 +79,8 @@ pub enum Operand {
     File,
     /// An expression.
     Expression,
-    /// A column of the history.
-    Column,
+    /// Columns of the history, or expressions that make curves.
+    Curves,
     /// A number.
     Number,
 }

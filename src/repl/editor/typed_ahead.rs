@@ -12,6 +12,22 @@ impl TypedAhead {
         terminal::take();
         Self(())
     }
+
+    /// Gives the terminal to another program as it was, for as long as the result lives, if it is held at all.
+    pub fn lend() -> Lent {
+        Lent(terminal::give_back())
+    }
+}
+
+/// The terminal while another program has it.
+pub struct Lent(bool);
+
+impl Drop for Lent {
+    fn drop(&mut self) {
+        if self.0 {
+            terminal::take();
+        }
+    }
 }
 
 impl Drop for TypedAhead {
@@ -48,12 +64,14 @@ mod terminal {
         }
     }
 
-    pub fn give_back() {
+    /// Whether it was held.
+    pub fn give_back() -> bool {
         let original = AS_IT_WAS.lock().unwrap_or_else(PoisonError::into_inner).take();
-        if let Some(original) = original {
+        if let Some(original) = &original {
             // A terminal that is gone needs nothing back.
-            let _ = tcsetattr(stdin(), SetArg::TCSANOW, &original);
+            let _ = tcsetattr(stdin(), SetArg::TCSANOW, original);
         }
+        original.is_some()
     }
 }
 
@@ -63,5 +81,7 @@ mod terminal {
 
     pub fn take() {}
 
-    pub fn give_back() {}
+    pub fn give_back() -> bool {
+        false
+    }
 }

@@ -1,10 +1,10 @@
 //! Of which type the value before a dot is, as far as can be told without running anything.
 
 use super::input::Input;
-use super::scanner::{Bracket, Kind};
 use super::surroundings::Surroundings;
-use super::words;
+use crate::script::scanner::{Bracket, Kind};
 use crate::script::table::{Form, Row};
+use crate::script::words;
 
 /// Members and calls that are followed in `a.b().c[0].d`.
 const LONGEST_CHAIN: usize = 32;
@@ -25,6 +25,13 @@ pub struct Types<'a, 't> {
 struct Typed {
     of: Option<String>,
     start: usize,
+}
+
+/// The type of the value that `text` ends with, in the words of the language.
+pub fn type_before(text: &str, surroundings: &Surroundings) -> Option<String> {
+    let input = Input::before(text, text.len());
+    let last = input.tokens.len().checked_sub(1)?;
+    Types { input: &input, surroundings }.of(last)
 }
 
 enum Step<'t> {
@@ -203,8 +210,7 @@ mod tests {
     use super::*;
 
     fn type_of(text: &str) -> Option<String> {
-        let input = Input::before(text, text.len());
-        Types { input: &input, surroundings: &surroundings() }.of(input.tokens.len() - 1)
+        type_before(text, &surroundings())
     }
 
     #[test]

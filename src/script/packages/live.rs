@@ -1,5 +1,7 @@
 //! A simulation that a script holds: steps, events, progress and interrupts.
 
+mod revisit;
+
 use std::cell::{Cell, Ref, RefCell};
 use std::rc::Rc;
 
@@ -18,6 +20,8 @@ use crate::script::numbers::format_number;
 use crate::script::stored::StoredFunction;
 use crate::simulation::{Monitor, Simulation, SimulationError, StepSize};
 use crate::vibration::{Modes, VibrationError};
+
+pub use revisit::Revisit;
 
 /// A running simulation; clones are the same one.
 #[derive(Clone)]

@@ -35,7 +35,7 @@ mod time_travel;
 mod vectors;
 mod windows;
 
-pub use live::SimulationHandle;
+pub use live::{Revisit, SimulationHandle};
 pub use scenes::{SceneHandle, StationHandle};
 
 use super::table::Table;

@@ -113,8 +113,15 @@ fn commands_and_their_operands_are_completed() {
     assert_eq!(offered(":"), [":help", ":plot", ":save", ":show", ":step", ":time"]);
     assert_eq!(offered(":help plot_h"), [":help plot_history"]);
     assert_eq!(offered("?plot_h"), ["?plot_history"]);
+    assert_eq!(offered("?settin"), ["?settings"]);
+    assert_eq!(offered(":help shap"), [":help shapes"]);
     assert_eq!(offered(":plot kin"), [":plot kinetic"]);
     assert_eq!(offered(":plot t, kin"), [":plot t, kinetic"]);
+    assert_eq!(offered(":plot kinetic, sim.pos"), [":plot kinetic, sim.position("]);
+    assert_eq!(offered(":plot sim.position(rod.e"), [":plot sim.position(rod.end"]);
+    assert_eq!(offered(":plot st"), [":plot strain"]);
+    assert_eq!(offered(":plot s"), [":plot scene", ":plot settings", ":plot sim", ":plot strain"]);
+    assert_eq!(offered(":plot ene"), [":plot energy"]);
     assert_eq!(offered(":time rod.e"), [":time rod.end"]);
     assert_eq!(offered(":step "), Vec::<String>::new());
 }

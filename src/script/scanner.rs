@@ -98,6 +98,26 @@ pub fn scan(text: &str) -> Vec<Token> {
     tokens
 }
 
+/// The partners of brackets, and the brackets that stay open.
+pub fn pair(tokens: &[Token]) -> (Vec<Option<usize>>, Vec<usize>) {
+    let mut partners = vec![None; tokens.len()];
+    let mut open: Vec<(usize, Bracket)> = Vec::new();
+    for (index, token) in tokens.iter().enumerate() {
+        match token.kind {
+            Kind::Open(bracket) => open.push((index, bracket)),
+            Kind::Close(bracket) => {
+                if open.last().is_some_and(|(_, opened)| opened.is_closed_by(bracket))
+                    && let Some((opener, _)) = open.pop()
+                {
+                    (partners[index], partners[opener]) = (Some(opener), Some(index));
+                }
+            }
+            _ => (),
+        }
+    }
+    (partners, open.into_iter().map(|(index, _)| index).collect())
+}
+
 struct Scanner<'t> {
     text: &'t str,
     at: usize,

@@ -1,0 +1,176 @@
+//! Names of the session in the help: variables with their values, functions, modules, members of what a variable holds.
+
+use rhai::{Array, Dynamic, FnAccess, Map, Module, ScriptFnMetadata};
+
+use crate::output::significant;
+use crate::repl::editor::type_before;
+use crate::repl::session::{ANSWER, Reply};
+use crate::repl::shell::Shell;
+use crate::script::help::{Page, Span};
+use crate::script::kind::with_article;
+use crate::script::library::page_of;
+use crate::script::present::present;
+
+/// Digits of a number.
+const DIGITS: usize = 6;
+
+/// What the session knows of a name: lines to be shown as they are, and a page.
+pub struct Known {
+    /// What a value looks like.
+    pub shown: Option<String>,
+    /// What there is to say besides.
+    pub page: Page,
+}
+
+/// What a name stands for in the session, if anything.
+pub fn known(shell: &mut Shell, name: &str) -> Option<Known> {
+    if name.contains('.') {
+        return member(shell, name);
+    }
+    if let Some(value) = shell.session().variables().get(name).cloned() {
+        return Some(variable(shell, name, &value));
+    }
+    let mut page = Page::default();
+    if name == ANSWER {
+        page.heading(ANSWER);
+        page.paragraph("At the prompt, the value of the last input that had one.");
+        return Some(Known { shown: None, page });
+    }
+    for function in shell.session().functions().filter(|function| function.name == name) {
+        describe(&mut page, "", &function, "a function of this session");
+    }
+    if let Some((alias, within)) = name.split_once("::") {
+        let module = shell.session().modules().find(|(known, _)| *known == alias)?.1;
+        // Those of the library have pages of their own.
+        if module.id().and_then(page_of).is_none() {
+            for (.., function) in module.iter_script_fn_info() {
+                let metadata: ScriptFnMetadata = (&**function).into();
+                if metadata.name == within && metadata.access == FnAccess::Public {
+                    describe(&mut page, alias, &metadata, "a function of an imported file");
+                }
+            }
+        }
+    } else if let Some((_, module)) = shell.session().modules().find(|(known, _)| *known == name) {
+        describe_module(&mut page, name, module);
+    }
+    (!page.parts.is_empty()).then(|| Known { shown: text_of(shell, name), page })
+}
+
+/// How a function of the session was typed, without the comments that are told already.
+fn text_of(shell: &Shell, name: &str) -> Option<String> {
+    let text = shell.session().record().definition(name)?;
+    let lines = text.lines().skip_while(|line| line.trim_start().starts_with("///"));
+    Some(lines.collect::<Vec<_>>().join("\n"))
+}
+
+/// The name under which the language has help on it: that of a member of what a variable holds, or of a function of the library that
+/// was imported under another name.
+pub fn in_language(shell: &Shell, name: &str) -> String {
+    let surroundings = shell.surroundings();
+    if let Some((owner, member)) = name.rsplit_once('.')
+        && let Some(of) = type_before(owner, &surroundings)
+    {
+        return format!("{of}.{member}");
+    }
+    let (alias, within) = name.split_once("::").unwrap_or((name, ""));
+    let imported = shell.session().modules().find(|(known, _)| *known == alias);
+    let Some(page) = imported.and_then(|(_, module)| module.id()).and_then(page_of) else {
+        return name.to_owned();
+    };
+    match within {
+        "" => page.module.name.to_owned(),
+        _ => page.named(within).map_or_else(|| name.to_owned(), |of| of.full_name.clone()),
+    }
+}
+
+fn variable(shell: &Shell, name: &str, value: &Dynamic) -> Known {
+    let session = shell.session();
+    let kind = match (name, session.variables().is_constant(name)) {
+        (ANSWER, Some(false)) => "the value of the last input that had one",
+        (_, Some(true)) => "a constant",
+        _ => "a variable",
+    };
+    let of = with_article(session.engine().map_type_name(value.type_name()));
+    let mut page = Page::default();
+    page.words(
+        0,
+        vec![Span::name(name), Span::plain(format!(" is {kind}: {of}{}", extent(value)))],
+    );
+    Known { shown: Some(present(session.catalog(), value, shell.width())), page }
+}
+
+/// How much an array or a map holds.
+fn extent(value: &Dynamic) -> String {
+    let count = |count: usize, what: &str| match count {
+        1 => format!(" of 1 {what}"),
+        count => format!(" of {count} {what}s"),
+    };
+    if let Some(map) = value.read_lock::<Map>() {
+        return count(map.len(), "key");
+    }
+    let Some(array) = value.read_lock::<Array>() else { return String::new() };
+    let number = |item: &Dynamic| {
+        item.as_float().ok().or_else(|| item.as_int().ok().map(|whole| whole as f64))
+    };
+    let numbers: Option<Vec<f64>> = array.iter().map(number).collect();
+    let of = count(array.len(), "element");
+    let least = numbers.iter().flatten().copied().reduce(f64::min);
+    let most = numbers.iter().flatten().copied().reduce(f64::max);
+    match least.zip(most) {
+        Some((least, most)) => {
+            format!(
+                "{of}, numbers from {} to {}",
+                significant(least, DIGITS),
+                significant(most, DIGITS)
+            )
+        }
+        None => of,
+    }
+}
+
+/// The value of a property of what a variable holds; asking for one changes nothing.
+fn member(shell: &mut Shell, path: &str) -> Option<Known> {
+    let (first, _) = path.split_once('.')?;
+    if !shell.session().variables().contains(first) || path.contains(['(', '[', '/', ':']) {
+        return None;
+    }
+    let Reply::Value(value) = shell.session_mut().peek(path) else { return None };
+    let of = with_article(shell.session().engine().map_type_name(value.type_name()));
+    let mut page = Page::default();
+    page.words(0, vec![Span::name(path), Span::plain(format!(" is {of}{}", extent(&value)))]);
+    let shown = present(shell.session().catalog(), &value, shell.width());
+    Some(Known { shown: Some(shown), page })
+}
+
+fn describe(page: &mut Page, alias: &str, function: &ScriptFnMetadata, what: &str) {
+    if !page.parts.is_empty() {
+        page.gap();
+    }
+    let path = if alias.is_empty() { String::new() } else { format!("{alias}::") };
+    let of = function.this_type.map(|of| format!("{of}.")).unwrap_or_default();
+    let signature = format!("{path}{of}{}({})", function.name, function.params.join(", "));
+    page.words(0, vec![Span::name(signature), Span::plain(format!(" is {what}."))]);
+    for line in function.comments.iter().flat_map(|comment| comment.lines()) {
+        page.paragraph(line.trim_start().trim_start_matches('/').trim());
+    }
+}
+
+fn describe_module(page: &mut Page, alias: &str, module: &Module) {
+    let from = module.id().map(|id| id.trim_end_matches(".rhai"));
+    let from = from.map(|id| format!(" of \"{id}\"")).unwrap_or_default();
+    page.words(0, vec![Span::name(alias), Span::plain(format!(" is an import{from}."))]);
+    // The page of the library follows.
+    if module.id().and_then(page_of).is_some() {
+        return;
+    }
+    for (.., function) in module.iter_script_fn_info() {
+        let metadata: ScriptFnMetadata = (&**function).into();
+        if metadata.access == FnAccess::Public && !metadata.name.starts_with("anon$") {
+            let signature = format!("{alias}::{}({})", metadata.name, metadata.params.join(", "));
+            let first = metadata.comments.iter().flat_map(|comment| comment.lines()).next();
+            let first = first.map(|line| line.trim_start().trim_start_matches('/').trim());
+            let about = first.map(|line| format!(": {line}")).unwrap_or_default();
+            page.words(2, vec![Span::name(signature), Span::plain(about)]);
+        }
+    }
+}

@@ -1,0 +1,282 @@
+//! `:plot`: columns of the history, and any expression.
+
+use std::collections::BTreeSet;
+
+use super::looking::draw;
+use crate::output::{LineChart, Series};
+use crate::repl::curves::{Curve, Over, Shape, parts, shape, summary};
+use crate::repl::following::{Followed, follow};
+use crate::repl::session::Reply;
+use crate::repl::shell::{Outcome, Screen, Shell};
+use crate::script::diagnose::Diagnostic;
+use crate::script::error::ScriptError;
+use crate::script::kind::with_article;
+use crate::script::limits::Stop;
+use crate::script::packages::{Revisit, SimulationHandle};
+use crate::script::scanner::{Kind, scan};
+use crate::script::sight;
+
+/// What is drawn when nothing is named.
+const ENERGIES: [&str; 3] = ["kinetic", "strain", "energy"];
+
+/// What was found about a part of what is to be drawn.
+enum Part {
+    Columns(Vec<String>),
+    Expression(String),
+}
+
+/// `:plot [curves]`
+pub fn plot(shell: &mut Shell, operand: &str) -> Outcome {
+    let found: Vec<Part> = parts(operand).into_iter().map(|part| read(shell, part)).collect();
+    let mut columns = Vec::new();
+    for part in &found {
+        match part {
+            Part::Columns(names) => columns.extend(names.iter().cloned()),
+            Part::Expression(_) => return plot_expressions(shell, found),
+        }
+    }
+    if columns.is_empty() {
+        columns = ENERGIES.map(str::to_owned).to_vec();
+    }
+    plot_columns(shell, &columns)
+}
+
+fn plot_columns(shell: &mut Shell, columns: &[String]) -> Outcome {
+    for name in columns.iter().filter(|name| shell.session().variables().contains(name)) {
+        shell.note(&format!(
+            "note: '{name}' is a column of the history here; write ({name}) for the variable"
+        ));
+    }
+    draw(shell, |simulation, screen| match screen {
+        Screen::Terminal(style) if columns == ["drift"] => {
+            Ok(sight::drift_chart(simulation.history(), &style))
+        }
+        Screen::Terminal(style) => sight::history_chart(simulation.history(), columns, &style),
+        Screen::Pipe if columns == ["drift"] => Ok(sight::drift_summary(simulation.history())),
+        Screen::Pipe => {
+            let line = |column: &String| sight::column_summary(simulation.history(), column);
+            Ok(columns.iter().map(line).collect::<Result<Vec<_>, _>>()?.join("\n"))
+        }
+    })
+}
+
+/// Columns are names, as they stand or in quotes; so are words that can be nothing else.
+fn read(shell: &Shell, part: &str) -> Part {
+    let words: Vec<String> =
+        part.split_whitespace().map(|word| word.trim_matches('"').to_owned()).collect();
+    let expression = Part::Expression(part.to_owned());
+    let Some(latest) = shell.latest() else { return expression };
+    let is_column =
+        |name: &String| name == "drift" || latest.simulation().history().dimension(name).is_some();
+    let is_known = |name: &String| {
+        shell.session().variables().contains(name)
+            || shell.session().catalog().constants().any(|constant| constant == name.as_str())
+    };
+    let is_word = |name: &String| {
+        matches!(scan(name).as_slice(), [token] if token.kind == Kind::Word) && !is_known(name)
+    };
+    match words.iter().all(|word| is_column(word) || is_word(word)) {
+        true => Part::Columns(words),
+        false => expression,
+    }
+}
+
+fn plot_expressions(shell: &mut Shell, found: Vec<Part>) -> Outcome {
+    let mut curves = Vec::new();
+    let mut said = BTreeSet::new();
+    for part in found {
+        let outcome = match part {
+            Part::Columns(names) => columns(shell, &names),
+            Part::Expression(text) => expression(shell, &text),
+        };
+        match outcome {
+            Ok((more, words)) => {
+                curves.extend(more);
+                said.extend(words);
+            }
+            Err(outcome) => return outcome,
+        }
+    }
+    let Some(first) = curves.first().map(|curve: &Curve| curve.over) else { return Outcome::Good };
+    if let Some(other) = curves.iter().find(|curve| curve.over != first) {
+        let (one, two) = (first.in_words(), other.over.in_words());
+        let told = format!("'{}' goes over {one} and '{}' over {two}", curves[0].name, other.name);
+        return shell.refuse(&Diagnostic::general(told).with_hint("plot them one after the other"));
+    }
+    match shell.screen() {
+        Screen::Pipe => {
+            curves.iter().for_each(|curve| shell.print(&summary(curve)));
+        }
+        Screen::Terminal(style) => {
+            let names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).collect();
+            let mut chart = LineChart::new(names.join(", ")).x_label(first.label());
+            for curve in curves {
+                chart = chart.series(Series::new(curve.name, curve.points));
+            }
+            shell.print(chart.text(&style).trim_end());
+        }
+    }
+    said.iter().for_each(|words| shell.note(words));
+    Outcome::Good
+}
+
+/// Curves, and what is to be said of them.
+type Drawn = Result<(Vec<Curve>, Option<String>), Outcome>;
+
+fn columns(shell: &mut Shell, names: &[String]) -> Drawn {
+    let Some(latest) = shell.latest() else { return Err(Outcome::Failed) };
+    let simulation = latest.simulation();
+    let history = simulation.history();
+    let mut curves = Vec::new();
+    for name in names {
+        let Some(values) = history.column(name) else {
+            let told = format!("the history has no column {name:?}");
+            let hint = sight::column_hint(history, name);
+            return Err(shell.refuse(&Diagnostic::general(told).with_hint(hint)));
+        };
+        let times = history.samples().iter().map(|row| row.measures.time);
+        let points = times.zip(values).collect();
+        curves.push(Curve { name: name.clone(), over: Over::Time, points });
+    }
+    Ok((curves, None))
+}
+
+/// An expression is looked at in the present, and then, if it is a point, wherever the simulation has been.
+fn expression(shell: &mut Shell, text: &str) -> Drawn {
+    let subject = match subject(shell, text) {
+        Ok(subject) => subject,
+        Err(refusal) => return Err(shell.refuse(&refusal)),
+    };
+    let before = shell.session().whereabouts();
+    // Even what goes on by mistake moves a copy only.
+    let present = subject.as_ref().map(Revisit::at_present).transpose();
+    let present = present.map_err(|error| refuse(shell, error))?;
+    let place = present.as_ref().map(Revisit::place);
+    let reply = shell.session_mut().peek(text);
+    let has_moved = present.as_ref().map(Revisit::place) != place;
+    drop(present);
+    if shell.session_mut().note_moved(&before) || has_moved {
+        return Err(shell.refuse(&moves(text)));
+    }
+    let value = match reply {
+        Reply::Value(value) => value,
+        Reply::Done => {
+            let told = format!("'{text}' has no value");
+            let hint = "write it without a semicolon, and as an expression";
+            return Err(shell.refuse(&Diagnostic::general(told).with_hint(hint)));
+        }
+        failed => return Err(shell.tell(failed)),
+    };
+    let of = with_article(shell.session().engine().map_type_name(value.type_name()));
+    let is_point = match shape(&value, &of) {
+        Shape::Whole(over, points) => {
+            return Ok((vec![Curve { name: text.to_owned(), over, points }], None));
+        }
+        Shape::None(why) => {
+            let told = format!("'{text}' cannot be drawn: {why}");
+            let hint = match value.is_bool() {
+                true => "write if … { 1 } else { 0 }",
+                false => {
+                    "draw a number or a vector over time, an array of numbers, a pair of arrays [x, y], or columns: :plot energy"
+                }
+            };
+            return Err(shell.refuse(&Diagnostic::general(told).with_hint(hint)));
+        }
+        point => point,
+    };
+    let alone =
+        |shell: &Shell| {
+            let told = format!("'{text}' is one number, and no curve");
+            shell.refuse(&Diagnostic::general(told).with_hint(
+                "give an array of numbers, or ask a simulation: it is followed over time",
+            ))
+        };
+    let Some(subject) = subject else { return Err(alone(shell)) };
+    let Followed { points, words } = follow(shell, &subject, text)?;
+    let asks = mentions(shell, text).next().is_some();
+    let is_flat = points.windows(2).all(|pair| pair[0].1 == pair[1].1);
+    if is_flat && !asks && points.len() > 1 {
+        return Err(alone(shell));
+    }
+    let curve = |name: String, read: fn(&Shape) -> f64| Curve {
+        name,
+        over: Over::Time,
+        points: points.iter().map(|(time, point)| (*time, read(point))).collect(),
+    };
+    let x = |point: &Shape| match point {
+        Shape::Number(value) => *value,
+        Shape::Vector(vector) => vector.x,
+        _ => f64::NAN,
+    };
+    let y = |point: &Shape| match point {
+        Shape::Vector(vector) => vector.y,
+        _ => f64::NAN,
+    };
+    let curves = match is_point {
+        Shape::Vector(_) => vec![curve(format!("{text}.x"), x), curve(format!("{text}.y"), y)],
+        _ => vec![curve(text.to_owned(), x)],
+    };
+    Ok((curves, Some(words)))
+}
+
+/// The simulations that an expression names.
+fn mentions<'s>(shell: &'s Shell, text: &str) -> impl Iterator<Item = SimulationHandle> + 's {
+    let tokens: Vec<_> = scan(text).into_iter().filter(|token| token.is_significant()).collect();
+    let mut named: Vec<SimulationHandle> = Vec::new();
+    for (index, token) in tokens.iter().enumerate().filter(|(_, token)| token.kind == Kind::Word) {
+        let is_member = index > 0 && matches!(tokens[index - 1].of(text), "." | "?." | "::");
+        let name = token.of(text);
+        let held = match name {
+            "latest_simulation" => shell.latest(),
+            _ => shell
+                .session()
+                .variables()
+                .get(name)
+                .and_then(|value| Some(value.read_lock::<SimulationHandle>()?.clone())),
+        };
+        if let Some(handle) = held.filter(|_| !is_member)
+            && !named.iter().any(|other| other.is_same(&handle))
+        {
+            named.push(handle);
+        }
+    }
+    named.into_iter()
+}
+
+/// The simulation that an expression is about: the one that it names, or the last.
+fn subject(shell: &Shell, text: &str) -> Result<Option<SimulationHandle>, Diagnostic> {
+    let mut named = mentions(shell, text);
+    match (named.next(), named.next()) {
+        (Some(one), Some(other)) => {
+            let told = format!(
+                "'{text}' asks two simulations, '{}' and '{}', whose states need not be at the same times",
+                one.name(),
+                other.name()
+            );
+            Err(Diagnostic::general(told).with_hint(
+                "separate them by a comma, :plot a.energy, b.energy, or subtract columns of their histories, which are arrays",
+            ))
+        }
+        (Some(one), None) => Ok(Some(one)),
+        _ => Ok(shell.latest()),
+    }
+}
+
+/// What an expression is told that goes on.
+pub fn moves(text: &str) -> Diagnostic {
+    Diagnostic::general(format!("'{text}' moves a simulation"))
+        .with_hint("draw what only looks; the simulation that it names stayed where it was")
+}
+
+/// Tells an error that came from no script.
+pub fn refuse(shell: &mut Shell, error: ScriptError) -> Outcome {
+    match error {
+        ScriptError::Failure(failure) => {
+            let hint = failure.hint.clone();
+            shell.refuse(&Diagnostic { hint, ..Diagnostic::general(failure.message) })
+        }
+        ScriptError::Stopped(Stop::Interrupt) => shell.tell(Reply::Interrupted),
+        ScriptError::Stopped(stop) => shell.refuse(&Diagnostic::general(stop.words().0)),
+        other => shell.refuse(&Diagnostic::bug(format!("{other:?}"))),
+    }
+}

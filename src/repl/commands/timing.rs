@@ -1,0 +1,113 @@
+//! `:time`: how long an input takes, the first time and again.
+
+use std::time::Duration;
+
+use crate::repl::effects::Footprint;
+use crate::repl::sampling::{Figures, LONGEST, Sampling};
+use crate::repl::session::Reply;
+use crate::repl::shell::{Outcome, Shell};
+use crate::script::diagnose::Diagnostic;
+
+/// `:time input`
+pub fn time(shell: &mut Shell, operand: &str) -> Outcome {
+    if operand.is_empty() {
+        let told = Diagnostic::general("there is nothing to time");
+        return shell.refuse(&told.with_hint("write :time followed by an input"));
+    }
+    let before = Footprint::of(shell.session());
+    let clock = shell.clock();
+    let begun = clock.now();
+    let outcome = shell.submit(operand);
+    let took = clock.now().saturating_sub(begun);
+    if outcome != Outcome::Good {
+        return outcome;
+    }
+    let change = match operand.starts_with([':', '?']) {
+        true => Some("is a command".into()),
+        false => before.change(shell.session()),
+    };
+    let once = |why: &str| format!("took {}, timed once: {why}", in_words(took));
+    match change {
+        Some(change) => {
+            shell.print(&once(&format!("it {change}, and must not do so again unasked")))
+        }
+        None if took >= LONGEST => shell.print(&once("it takes long")),
+        None => return repeat(shell, operand, took),
+    }
+    Outcome::Good
+}
+
+/// Does it again, without a word of what it prints, until the figure is known.
+fn repeat(shell: &mut Shell, operand: &str, first: Duration) -> Outcome {
+    let first = in_words(first);
+    let (before, places) = (Footprint::of(shell.session()), shell.session().whereabouts());
+    let context = shell.session().context().clone();
+    let (checks, latest) =
+        (context.with_checks(|checks| checks.clone()), context.latest_simulation());
+    let mut sampling = Sampling::new(shell.clock());
+    let outcome = context.silently(|| shell.session_mut().peek_in_rounds(operand, &mut sampling));
+    context.with_checks(|now| *now = checks);
+    match latest {
+        Some(latest) => context.note_simulation(latest),
+        None => context.forget_simulations(),
+    }
+    shell.session_mut().note_moved(&places);
+    shell.print(&match (sampling.figures(), &outcome) {
+        (Some(figures), Ok(()) | Err(Reply::Interrupted)) => told(&first, &figures),
+        (_, Err(Reply::Failed(why))) => {
+            format!("took {first}, timed once: done again, it fails: {}", why.message)
+        }
+        _ => format!("took {first}, timed once"),
+    });
+    if let Some(change) = before.change(shell.session()) {
+        shell.note(&format!("note: done again, it {change}"));
+    }
+    match outcome {
+        Ok(()) | Err(Reply::Failed(_)) => Outcome::Good,
+        Err(stopped) => shell.tell(stopped),
+    }
+}
+
+/// The first time stands alone: it is with all that is read and made ready once.
+fn told(first: &str, figures: &Figures) -> String {
+    let [least, median, low, high] =
+        [figures.least, figures.median, figures.quartiles.0, figures.quartiles.1].map(in_words);
+    let runs = match figures.runs {
+        1 => "1 run".to_owned(),
+        runs => format!("{runs} runs"),
+    };
+    format!(
+        "took {first} the first time\n\
+         again: least {least}, median {median}, half of {runs} from {low} to {high}"
+    )
+}
+
+/// Three digits with the unit that suits them.
+fn in_words(time: Duration) -> String {
+    let seconds = time.as_secs_f64();
+    let (value, unit) = match seconds {
+        s if s < 1e-3 => (s * 1e6, "µs"),
+        s if s < 1.0 => (s * 1e3, "ms"),
+        s => (s, "s"),
+    };
+    let digits = if value < 10.0 {
+        2
+    } else if value < 100.0 {
+        1
+    } else {
+        0
+    };
+    format!("{value:.digits$} {unit}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_have_three_digits() {
+        assert_eq!(in_words(Duration::from_nanos(1234)), "1.23 µs");
+        assert_eq!(in_words(Duration::from_micros(45678)), "45.7 ms");
+        assert_eq!(in_words(Duration::from_secs(321)), "321 s");
+    }
+}

@@ -1,0 +1,223 @@
+//! Curves that values make: which numbers are to be drawn over which.
+
+use rhai::{Array, Dynamic};
+
+use super::editor::completeness::is_command;
+use crate::geometry::Vec2;
+use crate::output::{Point, significant};
+use crate::script::scanner::{Kind, scan};
+
+/// Digits of the numbers in a summary.
+const DIGITS: usize = 6;
+
+/// What a curve is drawn over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Over {
+    /// Time.
+    Time,
+    /// The places in an array, from 0.
+    Index,
+    /// Numbers that were given too.
+    Numbers,
+}
+
+impl Over {
+    /// What the axis is called.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Time => "t",
+            Self::Index => "index",
+            Self::Numbers => "x",
+        }
+    }
+
+    /// The same in a sentence.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Time => "time",
+            Self::Index => "the index of an array",
+            Self::Numbers => "numbers of their own",
+        }
+    }
+}
+
+/// A curve with its name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// What the legend calls it.
+    pub name: String,
+    /// What it is drawn over.
+    pub over: Over,
+    /// Its points.
+    pub points: Vec<Point>,
+}
+
+/// What a value is for somebody who wants to draw it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// All points of a curve, and what they are over.
+    Whole(Over, Vec<Point>),
+    /// A number: one point of a curve.
+    Number(f64),
+    /// A vector: one point of each of two curves.
+    Vector(Vec2),
+    /// Nothing that can be drawn; why.
+    None(String),
+}
+
+/// The shape of a value of this type: an array of numbers, two arrays of as many numbers, points, a number, a vector.
+pub fn shape(value: &Dynamic, of: &str) -> Shape {
+    if let Some(number) = number(value) {
+        return Shape::Number(number);
+    }
+    if let Some(vector) = value.read_lock::<Vec2>() {
+        return Shape::Vector(*vector);
+    }
+    match value.read_lock::<Array>() {
+        Some(array) => shape_of_array(&array),
+        None => Shape::None(format!("it is {of}")),
+    }
+}
+
+fn shape_of_array(array: &Array) -> Shape {
+    if array.is_empty() {
+        return Shape::None("it is an empty array".into());
+    }
+    if let Some(values) = numbers(array) {
+        let points = values.into_iter().enumerate().map(|(index, value)| (index as f64, value));
+        return Shape::Whole(Over::Index, points.collect());
+    }
+    let inner = |value: &Dynamic| value.read_lock::<Array>().and_then(|array| numbers(&array));
+    let rows: Option<Vec<Vec<f64>>> = array.iter().map(inner).collect();
+    match rows.as_deref() {
+        Some([x, y]) if x.len() == y.len() => {
+            return Shape::Whole(Over::Numbers, x.iter().copied().zip(y.iter().copied()).collect());
+        }
+        Some([x, y]) => {
+            let told = format!("its two arrays have {} and {} numbers", x.len(), y.len());
+            return Shape::None(told);
+        }
+        Some(rows) if rows.iter().all(|row| row.len() == 2) => {
+            return Shape::Whole(Over::Numbers, rows.iter().map(|row| (row[0], row[1])).collect());
+        }
+        _ => (),
+    }
+    let vectors: Option<Vec<Point>> =
+        array.iter().map(|value| value.read_lock::<Vec2>().map(|at| (at.x, at.y))).collect();
+    match vectors {
+        Some(points) => Shape::Whole(Over::Numbers, points),
+        None => Shape::None("it is an array, and not of numbers alone".into()),
+    }
+}
+
+fn number(value: &Dynamic) -> Option<f64> {
+    // What a closure has captured is behind a lock.
+    let value = value.flatten_clone();
+    value.as_float().ok().or_else(|| value.as_int().ok().map(|whole| whole as f64))
+}
+
+fn numbers(array: &Array) -> Option<Vec<f64>> {
+    array.iter().map(|value| if value.is_array() { None } else { number(value) }).collect()
+}
+
+/// The parts of what follows a command that are separated by commas outside of brackets and texts.
+pub fn parts(operand: &str) -> Vec<&str> {
+    let mut parts = Vec::new();
+    let (mut depth, mut begin, mut is_between_bars, mut before) = (0_usize, 0, false, Kind::Symbol);
+    for token in scan(operand) {
+        match (token.kind, token.of(operand)) {
+            (Kind::Open(_), _) => depth += 1,
+            (Kind::Close(_), _) => depth = depth.saturating_sub(1),
+            // The parameters of a function; after a value a bar is an operator.
+            (Kind::Symbol, "|") => {
+                let is_operator = matches!(before, Kind::Word | Kind::Number | Kind::Close(_));
+                is_between_bars = !is_between_bars && !is_operator;
+            }
+            (Kind::Symbol, ",") if depth == 0 && !is_between_bars => {
+                parts.push(operand[begin..token.start].trim());
+                begin = token.end;
+            }
+            _ => (),
+        }
+        if token.is_significant() {
+            before = token.kind;
+        }
+    }
+    parts.push(operand[begin..].trim().trim_end_matches(';').trim_end());
+    parts.retain(|part| !part.is_empty() && !is_command(part));
+    parts
+}
+
+/// What a chart of a curve would show, in a line.
+pub fn summary(curve: &Curve) -> String {
+    let values = curve.points.iter().map(|(_, value)| *value);
+    let shown = |value: Option<f64>| value.map_or_else(String::new, |x| significant(x, DIGITS));
+    let [first, last] = [values.clone().next(), values.clone().next_back()].map(shown);
+    let [least, most] = [values.clone().reduce(f64::min), values.reduce(f64::max)].map(shown);
+    let count = curve.points.len();
+    let (begin, end, what) = match curve.over {
+        Over::Time => ("at the start", "now", "state"),
+        Over::Index | Over::Numbers => ("at the first", "at the last", "point"),
+    };
+    let plural = if count == 1 { "" } else { "s" };
+    let end = match curve.over {
+        Over::Time => format!("{end} {last}"),
+        _ => format!("{last} {end}"),
+    };
+    format!(
+        "{}: {first} {begin}, least {least}, most {most}, {end} ({count} {what}{plural})",
+        curve.name
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn array(values: &[f64]) -> Dynamic {
+        Dynamic::from_array(values.iter().map(|value| Dynamic::from_float(*value)).collect())
+    }
+
+    #[test]
+    fn values_have_shapes() {
+        let of = |value: Dynamic| shape(&value, "a text");
+        assert_eq!(of(2.into()), Shape::Number(2.0));
+        assert_eq!(of(array(&[3.0, 5.0])), Shape::Whole(Over::Index, vec![(0.0, 3.0), (1.0, 5.0)]));
+        let pair = Dynamic::from_array(vec![array(&[1.0, 2.0, 3.0]), array(&[4.0, 5.0, 6.0])]);
+        let points = vec![(1.0, 4.0), (2.0, 5.0), (3.0, 6.0)];
+        assert_eq!(of(pair), Shape::Whole(Over::Numbers, points.clone()));
+        let listed: Vec<Dynamic> = points.iter().map(|(x, y)| array(&[*x, *y])).collect();
+        assert_eq!(of(Dynamic::from_array(listed)), Shape::Whole(Over::Numbers, points.clone()));
+        let vectors = points.iter().map(|(x, y)| Dynamic::from(Vec2::new(*x, *y))).collect();
+        assert_eq!(of(Dynamic::from_array(vectors)), Shape::Whole(Over::Numbers, points));
+        assert_eq!(of(Dynamic::from(Vec2::new(1.0, 2.0))), Shape::Vector(Vec2::new(1.0, 2.0)));
+        let uneven = Dynamic::from_array(vec![array(&[1.0]), array(&[1.0, 2.0])]);
+        for (value, why) in [
+            (uneven, "1 and 2 numbers"),
+            (Dynamic::from_array(vec![]), "empty"),
+            (Dynamic::from_array(vec![1.into(), "x".into()]), "not of numbers alone"),
+            ("x".into(), "it is a text"),
+            (true.into(), "it is a text"),
+        ] {
+            assert!(matches!(&of(value), Shape::None(told) if told.contains(why)), "{why}");
+        }
+    }
+
+    #[test]
+    fn commas_inside_of_an_expression_separate_nothing() {
+        assert_eq!(parts("energy, f(a, b), [1, 2]"), ["energy", "f(a, b)", "[1, 2]"]);
+        assert_eq!(parts("a.map(|x, y| x), \"a,b\","), ["a.map(|x, y| x)", "\"a,b\""]);
+        assert_eq!(parts("a | b, c | d;"), ["a | b", "c | d"]);
+        assert_eq!(parts(" , "), Vec::<&str>::new());
+    }
+
+    #[test]
+    fn a_curve_has_a_summary() {
+        let points = vec![(0.0, 2.0), (0.1, -1.0), (0.2, 1.5)];
+        let curve = |over| Curve { name: "f".into(), over, points: points.clone() };
+        let told = "f: 2 at the start, least -1, most 2, now 1.5 (3 states)";
+        assert_eq!(summary(&curve(Over::Time)), told);
+        let told = "f: 2 at the first, least -1, most 2, 1.5 at the last (3 points)";
+        assert_eq!(summary(&curve(Over::Index)), told);
+    }
+}

@@ -1,0 +1,108 @@
+//! Long replies in pages: by the program that the environment names, or by a few keys.
+
+mod keyboard;
+mod pages;
+mod program;
+
+use std::io::stdout;
+
+pub use keyboard::{Keyboard, Pressed};
+pub use pages::walk;
+
+/// What came of showing a text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shown {
+    /// It was seen, as far as the person wanted.
+    Seen,
+    /// It was stopped by Ctrl-C.
+    Interrupted,
+    /// It is to be printed like any other: it is short, or nobody wants pages.
+    NotByThis,
+}
+
+/// Something that shows long texts.
+pub trait Pager {
+    /// The terminal is so large now.
+    fn resize(&mut self, columns: usize, lines: usize);
+
+    /// Shows a text, if it is long. `was_interrupted` tells of each Ctrl-C once.
+    fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> Shown;
+}
+
+/// Pages at a terminal.
+pub struct TerminalPager {
+    program: Option<String>,
+    size: (usize, usize),
+}
+
+impl TerminalPager {
+    /// With the program of the variable `PAGER`, if it is set; `cat` and an empty one mean no pages. None for a terminal that cannot
+    /// move its cursor.
+    pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Option<Self> {
+        let program = variable("PAGER");
+        let is_unwanted = program.as_deref().is_some_and(|name| matches!(name.trim(), "" | "cat"));
+        let is_dumb = matches!(variable("TERM").as_deref(), None | Some("" | "dumb"));
+        // How large it is, is told before the first input.
+        (!is_unwanted && !is_dumb).then_some(Self { program, size: (0, 0) })
+    }
+
+    /// Whether a text does not fit on the terminal together with the next prompt.
+    fn is_long(&self, text: &str) -> bool {
+        let (columns, lines) = self.size;
+        columns > 0 && lines > 1 && pages::rows(text, columns) >= lines
+    }
+}
+
+impl Pager for TerminalPager {
+    fn resize(&mut self, columns: usize, lines: usize) {
+        self.size = (columns, lines);
+    }
+
+    fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> Shown {
+        // Keys that were typed ahead are for the prompt.
+        if !self.is_long(text) || keyboard::keys_wait() {
+            return Shown::NotByThis;
+        }
+        if let Some(name) = &self.program {
+            match program::show(name, text, was_interrupted) {
+                Ok(()) => return Shown::Seen,
+                Err(error) => eprintln!("note: cannot start the pager '{name}': {error}"),
+            }
+        }
+        let Some(mut keys) = keyboard::Terminal::open() else { return Shown::NotByThis };
+        let walked = walk(text, self.size.1, &mut keys, was_interrupted, &mut stdout());
+        // A terminal that is gone is told by the next prompt.
+        walked.unwrap_or(Shown::Seen)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pager(variables: &[(&str, &str)]) -> Option<TerminalPager> {
+        let value = |name: &str| variables.iter().find(|(other, _)| *other == name);
+        TerminalPager::of_environment(|name| value(name).map(|(_, value)| (*value).to_owned()))
+    }
+
+    #[test]
+    fn the_environment_says_whether_there_are_pages() {
+        let xterm = ("TERM", "xterm");
+        assert!(pager(&[xterm]).is_some_and(|pager| pager.program.is_none()));
+        assert!(pager(&[xterm, ("PAGER", "less -S")]).is_some_and(|pager| pager.program.is_some()));
+        for without in
+            [&[xterm, ("PAGER", "cat")][..], &[xterm, ("PAGER", "")], &[("TERM", "dumb")], &[]]
+        {
+            assert!(pager(without).is_none(), "{without:?}");
+        }
+    }
+
+    #[test]
+    fn what_fits_on_the_terminal_is_not_long() {
+        let mut pager = pager(&[("TERM", "xterm")]).expect("a pager");
+        assert!(!pager.is_long(&"a\n".repeat(1000)), "of unknown size");
+        pager.resize(20, 10);
+        assert!(!pager.is_long(&["a"; 9].join("\n")) && pager.is_long(&["a"; 10].join("\n")));
+        assert!(!pager.is_long(&"a".repeat(180)) && pager.is_long(&"a".repeat(181)));
+    }
+}

@@ -1,0 +1,266 @@
+//! A text in pages that stay above the prompt: forward, back, and to a word.
+
+use std::io::{self, Write};
+use std::ops::Range;
+
+use super::{Keyboard, Pressed, Shown};
+
+/// To the beginning of the line, which is cleared.
+const CLEAR: &str = "\r\x1b[K";
+const KEYS: &str = "space: more, b: back, /: search, q: leave";
+
+/// What a key wants.
+enum Wish {
+    Page,
+    Line,
+    PageBack,
+    LineBack,
+    Start,
+    End,
+    Search,
+    SearchOn,
+    Leave,
+    Nothing,
+}
+
+/// Lines of a terminal of so many columns that a text takes.
+pub fn rows(text: &str, columns: usize) -> usize {
+    text.lines().map(|line| letters(line).chars().count().div_ceil(columns).max(1)).sum()
+}
+
+/// A line without its colours.
+fn letters(line: &str) -> String {
+    let mut pieces = line.split("\x1b[");
+    let first = pieces.next().unwrap_or_default().to_owned();
+    pieces.fold(first, |text, piece| text + piece.split_once('m').map_or("", |(_, rest)| rest))
+}
+
+struct Pages<'t> {
+    lines: Vec<&'t str>,
+    height: usize,
+    /// What stands on the terminal.
+    shown: Range<usize>,
+    word: String,
+}
+
+impl Pages<'_> {
+    /// The lines to write for a wish that goes somewhere.
+    fn go(&mut self, wish: &Wish) -> Range<usize> {
+        let Range { start, end } = self.shown;
+        match wish {
+            Wish::Page => self.forward(end + self.height),
+            Wish::Line => self.forward(end + 1),
+            Wish::PageBack => self.from(start.saturating_sub(self.height)),
+            Wish::LineBack => self.from(start.saturating_sub(1)),
+            Wish::Start => self.from(0),
+            Wish::End => self.from(self.lines.len().saturating_sub(self.height)),
+            Wish::Search | Wish::SearchOn | Wish::Leave | Wish::Nothing => end..end,
+        }
+    }
+
+    /// On to a line: what stands on the terminal goes up.
+    fn forward(&mut self, to: usize) -> Range<usize> {
+        let new = self.shown.end..to.min(self.lines.len());
+        self.shown = new.end.saturating_sub(self.height)..new.end;
+        new
+    }
+
+    /// The page that begins with a line, written anew.
+    fn from(&mut self, start: usize) -> Range<usize> {
+        self.shown = start..(start + self.height).min(self.lines.len());
+        self.shown.clone()
+    }
+
+    /// The page that begins with the next line in which the word stands.
+    fn search(&mut self) -> Option<Range<usize>> {
+        let word = self.word.to_lowercase();
+        let mut later = (self.shown.start + 1)..self.lines.len();
+        let found = later.find(|at| letters(self.lines[*at]).to_lowercase().contains(&word))?;
+        Some(self.from(found))
+    }
+
+    fn is_at_end(&self) -> bool {
+        self.shown.end >= self.lines.len()
+    }
+}
+
+/// Shows a text on a terminal of so many lines, as far as the keys say; the end of the text is the end.
+///
+/// # Errors
+/// When the terminal fails.
+pub fn walk(
+    text: &str,
+    lines: usize,
+    keys: &mut dyn Keyboard,
+    was_interrupted: &dyn Fn() -> bool,
+    out: &mut dyn Write,
+) -> io::Result<Shown> {
+    let height = lines.saturating_sub(1).max(1);
+    let mut pages =
+        Pages { lines: text.lines().collect(), height, shown: 0..0, word: String::new() };
+    let mut new = pages.forward(height);
+    let mut note = KEYS.to_owned();
+    loop {
+        for line in &pages.lines[new] {
+            writeln!(out, "{line}")?;
+        }
+        if pages.is_at_end() {
+            return Ok(Shown::Seen);
+        }
+        let percent = 100 * pages.shown.end / pages.lines.len();
+        write!(out, "-- {percent} % -- {note}")?;
+        out.flush()?;
+        let wish = wish(keys, was_interrupted)?;
+        let searched = match wish {
+            Ok(Wish::Search) => ask(&mut pages.word, keys, was_interrupted, out)?,
+            _ => Some(()),
+        };
+        write!(out, "{CLEAR}")?;
+        out.flush()?;
+        note = KEYS.to_owned();
+        new = match (wish, searched) {
+            (Err(end), _) => return Ok(end),
+            (Ok(Wish::Leave), _) => return Ok(Shown::Seen),
+            (Ok(_), None) => return Ok(Shown::Interrupted),
+            (Ok(Wish::Search | Wish::SearchOn), _) if !pages.word.is_empty() => {
+                pages.search().unwrap_or_else(|| {
+                    note = format!("'{}' is nowhere below", pages.word);
+                    pages.shown.end..pages.shown.end
+                })
+            }
+            (Ok(wish), _) => pages.go(&wish),
+        };
+    }
+}
+
+/// Reads a word on the line of the status; nothing after Ctrl-C.
+fn ask(
+    word: &mut String,
+    keys: &mut dyn Keyboard,
+    was_interrupted: &dyn Fn() -> bool,
+    out: &mut dyn Write,
+) -> io::Result<Option<()>> {
+    let mut typed = Vec::new();
+    loop {
+        write!(out, "{CLEAR}/{}", String::from_utf8_lossy(&typed))?;
+        out.flush()?;
+        match keys.read(was_interrupted)? {
+            Pressed::Byte(b'\r' | b'\n') => break,
+            Pressed::Byte(8 | 127) => {
+                // A letter may be of several bytes.
+                let mut text = String::from_utf8_lossy(&typed).into_owned();
+                text.pop();
+                typed = text.into_bytes();
+            }
+            Pressed::Byte(27) => {
+                word.clear();
+                return Ok(Some(()));
+            }
+            Pressed::Byte(byte) => typed.push(byte),
+            Pressed::Interrupt => return Ok(None),
+            Pressed::End => break,
+        }
+    }
+    // Nothing typed means the word before.
+    if !typed.is_empty() {
+        *word = String::from_utf8_lossy(&typed).into_owned();
+    }
+    Ok(Some(()))
+}
+
+/// What the next key wants, or how it ends.
+fn wish(
+    keys: &mut dyn Keyboard,
+    was_interrupted: &dyn Fn() -> bool,
+) -> io::Result<Result<Wish, Shown>> {
+    let wish = match keys.read(was_interrupted)? {
+        Pressed::Interrupt => return Ok(Err(Shown::Interrupted)),
+        Pressed::End => Wish::Leave,
+        Pressed::Byte(b' ' | b'f' | 6) => Wish::Page,
+        Pressed::Byte(b'\r' | b'\n' | b'j') => Wish::Line,
+        Pressed::Byte(b'b' | 2) => Wish::PageBack,
+        Pressed::Byte(b'k' | b'y') => Wish::LineBack,
+        Pressed::Byte(b'g' | b'<') => Wish::Start,
+        Pressed::Byte(b'G' | b'>') => Wish::End,
+        Pressed::Byte(b'/') => Wish::Search,
+        Pressed::Byte(b'n') => Wish::SearchOn,
+        Pressed::Byte(b'q' | b'Q' | 4) => Wish::Leave,
+        Pressed::Byte(27) => of_sequence(&keys.rest_of_sequence()?),
+        Pressed::Byte(_) => Wish::Nothing,
+    };
+    Ok(Ok(wish))
+}
+
+/// What a key wants that sends a sequence after an escape character.
+fn of_sequence(rest: &[u8]) -> Wish {
+    match rest {
+        [] => Wish::Leave,
+        b"[A" | b"OA" => Wish::LineBack,
+        b"[B" | b"OB" => Wish::Line,
+        b"[5~" => Wish::PageBack,
+        b"[6~" => Wish::Page,
+        b"[H" | b"OH" | b"[1~" => Wish::Start,
+        b"[F" | b"OF" | b"[4~" => Wish::End,
+        _ => Wish::Nothing,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::VecDeque;
+
+    use super::*;
+
+    /// Keys that were decided upon beforehand; `^` is Ctrl-C.
+    struct Decided(VecDeque<u8>);
+
+    impl Keyboard for Decided {
+        fn read(&mut self, _: &dyn Fn() -> bool) -> io::Result<Pressed> {
+            Ok(match self.0.pop_front() {
+                Some(b'^') => Pressed::Interrupt,
+                Some(byte) => Pressed::Byte(byte),
+                None => Pressed::End,
+            })
+        }
+
+        fn rest_of_sequence(&mut self) -> io::Result<Vec<u8>> {
+            Ok(self.0.drain(..2.min(self.0.len())).collect())
+        }
+    }
+
+    /// The lines that are written for a text of ten lines on a terminal of four, and how it ends.
+    fn walked(keys: &str) -> (String, Shown) {
+        let text: Vec<String> = (0..10).map(|line| format!("\x1b[1mline\x1b[0m {line}")).collect();
+        let mut out = Vec::new();
+        let mut keys = Decided(keys.bytes().collect());
+        let shown = walk(&text.join("\n"), 4, &mut keys, &|| false, &mut out).expect("a terminal");
+        let written = String::from_utf8(out).expect("text");
+        let lines = written.lines().filter_map(|line| line.rsplit_once("line\x1b[0m "));
+        (lines.map(|(_, number)| number).collect(), shown)
+    }
+
+    #[test]
+    fn pages_go_on_and_back_and_end_with_the_text() {
+        assert_eq!(walked("q"), ("012".into(), Shown::Seen));
+        assert_eq!(walked("   q"), ("0123456789".into(), Shown::Seen));
+        assert_eq!(walked(" \rbq"), ("0123456123".into(), Shown::Seen));
+        assert_eq!(walked("\x1b[B\x1b[Aq"), ("0123012".into(), Shown::Seen));
+        assert_eq!(walked("G"), ("012789".into(), Shown::Seen));
+        assert_eq!(walked(""), ("012".into(), Shown::Seen));
+        assert_eq!(walked("xq"), ("012".into(), Shown::Seen));
+    }
+
+    #[test]
+    fn a_word_is_found_in_what_can_be_read() {
+        assert_eq!(walked("/LINE 4\rq"), ("012456".into(), Shown::Seen));
+        assert_eq!(walked("/line\rnnq"), ("012123234345".into(), Shown::Seen));
+        assert_eq!(walked("/1m\rq"), ("012".into(), Shown::Seen), "colours are no letters");
+        assert_eq!(walked("/5x\x7f\rq"), ("012567".into(), Shown::Seen));
+    }
+
+    #[test]
+    fn an_interrupt_leaves_at_once() {
+        assert_eq!(walked(" ^  "), ("012345".into(), Shown::Interrupted));
+        assert_eq!(walked("/a^"), ("012".into(), Shown::Interrupted));
+    }
+}

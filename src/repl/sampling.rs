@@ -1,0 +1,167 @@
+//! How long something takes that can be done again: how often it is done, and what the times say.
+
+use std::rc::Rc;
+use std::time::Duration;
+
+use rhai::Dynamic;
+
+use super::clock::Clock;
+use super::session::Rounds;
+
+/// What takes longer is not done again.
+pub const LONGEST: Duration = Duration::from_secs(1);
+/// So long is it done again at most,
+const PATIENCE: Duration = Duration::from_secs(2);
+/// and so long at least, as long as the median is not known to [`KNOWN`].
+const LEAST_TIME: Duration = Duration::from_millis(200);
+const LEAST_RUNS: usize = 7;
+const MOST_RUNS: usize = 10_000;
+/// The relative error of the median with which it is known.
+const KNOWN: f64 = 0.01;
+
+/// Runs that are timed one by one.
+pub struct Sampling {
+    clock: Rc<dyn Clock>,
+    begun: Option<Duration>,
+    round_begun: Duration,
+    taken: Vec<Duration>,
+    /// After how many runs it is looked at again whether they are enough.
+    next_look: usize,
+}
+
+/// What the times of many runs say.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Figures {
+    /// How many runs there were.
+    pub runs: usize,
+    /// The shortest time: the work itself, with the least that the machine did beside it.
+    pub least: Duration,
+    /// Half of the runs took less.
+    pub median: Duration,
+    /// A quarter of the runs took less than the first, and a quarter more than the second.
+    pub quartiles: (Duration, Duration),
+}
+
+impl Sampling {
+    /// No runs so far.
+    pub fn new(clock: Rc<dyn Clock>) -> Self {
+        Self {
+            clock,
+            begun: None,
+            round_begun: Duration::ZERO,
+            taken: Vec::new(),
+            next_look: LEAST_RUNS,
+        }
+    }
+
+    /// What the runs so far say; nothing before there is one.
+    pub fn figures(&self) -> Option<Figures> {
+        let mut sorted = self.taken.clone();
+        sorted.sort_unstable();
+        let at = |quarters: usize| sorted.get((sorted.len().checked_sub(1)?) * quarters / 4);
+        Some(Figures {
+            runs: sorted.len(),
+            least: *sorted.first()?,
+            median: *at(2)?,
+            quartiles: (*at(1)?, *at(3)?),
+        })
+    }
+
+    fn is_enough(&mut self, now: Duration) -> bool {
+        let spent = now.saturating_sub(self.begun.unwrap_or(now));
+        if spent >= PATIENCE || self.taken.len() >= MOST_RUNS {
+            return true;
+        }
+        if spent < LEAST_TIME || self.taken.len() < self.next_look {
+            return false;
+        }
+        self.next_look += self.next_look.div_ceil(4);
+        self.figures().is_some_and(|figures| figures.error() <= KNOWN)
+    }
+}
+
+impl Figures {
+    /// The standard error of the median relative to it, as that of normal deviates with these quartiles.
+    fn error(&self) -> f64 {
+        let (low, high) = self.quartiles;
+        let deviation = (high - low).as_secs_f64() / 1.349;
+        let median = self.median.as_secs_f64();
+        if median > 0.0 { 1.2533 * deviation / (self.runs as f64).sqrt() / median } else { 0.0 }
+    }
+}
+
+impl Rounds for Sampling {
+    fn begin(&mut self) -> bool {
+        let now = self.clock.now();
+        self.begun.get_or_insert(now);
+        if self.is_enough(now) {
+            return false;
+        }
+        self.round_begun = self.clock.now();
+        true
+    }
+
+    fn end(&mut self, _: Dynamic) {
+        self.taken.push(self.clock.now().saturating_sub(self.round_begun));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::{Cell, RefCell};
+    use std::collections::VecDeque;
+
+    use super::*;
+
+    /// A clock on which runs take times that are known beforehand, over and over.
+    struct Known {
+        now: Cell<Duration>,
+        runs: RefCell<VecDeque<u64>>,
+    }
+
+    impl Clock for Known {
+        fn now(&self) -> Duration {
+            self.now.get()
+        }
+    }
+
+    /// The figures of runs that take so many microseconds in turn.
+    fn figures(micros: &[u64]) -> Figures {
+        let runs = RefCell::new(micros.iter().copied().collect());
+        let clock = Rc::new(Known { now: Cell::default(), runs });
+        let mut sampling = Sampling::new(clock.clone());
+        while sampling.begin() {
+            let mut runs = clock.runs.borrow_mut();
+            runs.rotate_left(1);
+            let took = Duration::from_micros(*runs.back().expect("a time"));
+            clock.now.set(clock.now.get() + took);
+            drop(runs);
+            sampling.end(Dynamic::UNIT);
+        }
+        sampling.figures().expect("runs")
+    }
+
+    #[test]
+    fn equal_runs_are_enough_after_a_fifth_of_a_second() {
+        let told = figures(&[10_000]);
+        let ten = Duration::from_millis(10);
+        assert_eq!(told, Figures { runs: 20, least: ten, median: ten, quartiles: (ten, ten) });
+        assert_eq!(figures(&[1]).runs, MOST_RUNS);
+    }
+
+    #[test]
+    fn the_more_runs_differ_the_more_are_made() {
+        let (calm, wild) = (figures(&[10_000, 10_100, 10_200]), figures(&[5_000, 10_000, 15_000]));
+        assert!(calm.runs < 40 && wild.runs > 100, "{calm:?} {wild:?}");
+        assert_eq!(
+            (wild.least, wild.median),
+            (Duration::from_millis(5), Duration::from_millis(10))
+        );
+        assert_eq!(wild.quartiles, (Duration::from_millis(5), Duration::from_millis(15)));
+    }
+
+    #[test]
+    fn patience_ends() {
+        assert_eq!(figures(&[400_000, 900_000]).runs, 4);
+    }
+}

@@ -1,0 +1,480 @@
+//! The commands of the prompt that look: what `:plot`, `:time` and `name?` say, and that they leave the session as it was.
+#![allow(clippy::unwrap_used)]
+
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use withy::output::{Colours, Glyphs, Style};
+use withy::repl::clock::Clock;
+use withy::repl::pager::{Pager, Shown};
+use withy::repl::session::Session;
+use withy::repl::shell::{Outcome, Screen, Shell};
+use withy::script::catalog::Catalog;
+use withy::script::context::{Mode, Settings};
+
+#[path = "common/notepad.rs"]
+mod notepad;
+use notepad::Notepad;
+
+/// A shell, and what it has printed and told.
+struct Prompt {
+    shell: Shell,
+    printed: Notepad,
+    told: Notepad,
+    interrupt: Arc<AtomicBool>,
+}
+
+const SPINNING: &str = "let scene = new_scene(\"spin\");
+let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });
+let rod = scene.beam(#{ axis: line([0, 0], [2, 0]), basis: bspline(4), section: s, spin: 1 });
+let sim = scene.start(#{ dt: 0.1 });";
+
+const MEGABYTE: usize = 1_000_000;
+
+impl Prompt {
+    fn with(snapshots: usize, screen: Screen) -> Self {
+        let (printed, told) = (Notepad::default(), Notepad::default());
+        let interrupt = Arc::new(AtomicBool::new(false));
+        let folder = tempfile::tempdir().unwrap();
+        let settings = Settings {
+            printed: Box::new(printed.clone()),
+            told: Box::new(told.clone()),
+            interrupt: interrupt.clone(),
+            out: folder.keep(),
+            snapshots,
+            ..Settings::silent(Mode::Run)
+        };
+        let session = Session::new(Catalog::standard(), settings).unwrap();
+        let clock = Ticks { now: Cell::new(Duration::ZERO) };
+        let shell = Shell::new(session, screen).with_clock(Rc::new(clock));
+        Self { shell, printed, told, interrupt }
+    }
+
+    fn new() -> Self {
+        Self::with(MEGABYTE, Screen::Pipe)
+    }
+
+    fn spinning() -> Self {
+        let mut prompt = Self::new();
+        prompt.ask(SPINNING);
+        prompt
+    }
+
+    /// What is printed and what is told for an input that works.
+    fn ask_both(&mut self, input: &str) -> (String, String) {
+        let outcome = self.shell.submit(input);
+        let (printed, told) = (self.printed.take(), self.told.take());
+        assert_eq!(outcome, Outcome::Good, "{input}: {printed}{told}");
+        (printed, told)
+    }
+
+    fn ask(&mut self, input: &str) -> String {
+        self.ask_both(input).0
+    }
+
+    /// What is told for an input that does not work.
+    fn refusal(&mut self, input: &str) -> String {
+        let outcome = self.shell.submit(input);
+        assert_eq!(outcome, Outcome::Failed, "{input}: {}", self.printed.take());
+        self.printed.take();
+        self.told.take()
+    }
+}
+
+/// A clock that is a millisecond later each time it is looked at: work is counted, not timed.
+struct Ticks {
+    now: Cell<Duration>,
+}
+
+impl Clock for Ticks {
+    fn now(&self) -> Duration {
+        self.now.set(self.now.get() + Duration::from_millis(1));
+        self.now.get()
+    }
+}
+
+#[test]
+fn an_expression_is_drawn_in_all_states_and_the_simulation_stays() {
+    let mut prompt = Prompt::spinning();
+    prompt.ask(":step 10");
+    let path: Vec<String> = (0..=10)
+        .map(|step| {
+            let at = prompt.ask(&format!(
+                "{{ let f = sim.fork(); f.back({}); f.position(rod.end).x }}",
+                10 - step
+            ));
+            at.trim().to_owned()
+        })
+        .collect();
+    prompt.ask("sim.step(0)");
+    let before = prompt.ask("`${sim.t} ${sim.steps} ${sim.energy} ${sim.history.rows}`");
+    let (reply, told) = prompt.ask_both(":plot sim.position(rod.end).x");
+    assert!(reply.starts_with("sim.position(rod.end).x: 2 at the start, least "), "{reply}");
+    assert!(reply.contains("(11 states)"), "{reply}");
+    let now: f64 = path.last().unwrap().parse().unwrap();
+    assert!(reply.contains(&format!("now {:.5}", now)[..9]), "{reply} {now}");
+    assert_eq!(told, "in all 11 states in which simulation 'spin' was, t = 0 to 1\n");
+    assert_eq!(prompt.ask("`${sim.t} ${sim.steps} ${sim.energy} ${sim.history.rows}`"), before);
+    // What was can still be gone back to, and goes on as it would have.
+    prompt.ask(":back 3");
+    assert!(prompt.ask(":plot sim.steps").contains("now 7 (8 states)"));
+}
+
+#[test]
+fn the_history_is_in_each_state_what_it_was() {
+    let mut prompt = Prompt::spinning();
+    prompt.ask(":step 4");
+    let rows = prompt.ask(":plot sim.history.rows");
+    assert!(rows.contains("1 at the start, least 1, most 5, now 5 (5 states)"), "{rows}");
+    // By another name, and by a function.
+    prompt.ask("let other = sim; fn tip() { latest_simulation().t }");
+    for same in [
+        "other.t",
+        "tip()",
+        "latest_simulation().t",
+        "if true { sim.t } else { 0 }",
+        "[sim].map(|s| s.t)[0]",
+    ] {
+        let reply = prompt.ask(&format!(":plot {same}"));
+        assert!(reply.contains("0 at the start, least 0, most 0.4, now 0.4"), "{same}: {reply}");
+    }
+}
+
+#[test]
+fn a_vector_makes_two_curves_and_commas_separate_more() {
+    let mut prompt = Prompt::spinning();
+    prompt.ask(":step 3");
+    let reply = prompt.ask(":plot energy, sim.position(rod.end), 2 * sim.t");
+    let names: Vec<&str> = reply.lines().map(|line| line.split(": ").next().unwrap()).collect();
+    assert_eq!(
+        names,
+        ["energy", "sim.position(rod.end).x", "sim.position(rod.end).y", "2 * sim.t"]
+    );
+    // Names of columns need no commas, as ever.
+    assert_eq!(prompt.ask(":plot kinetic strain").lines().count(), 2);
+    assert_eq!(prompt.ask(":plot \"kinetic\", strain").lines().count(), 2);
+    assert_eq!(prompt.ask(":plot").lines().count(), 3);
+}
+
+#[test]
+fn arrays_are_drawn_as_they_are_without_any_simulation() {
+    let mut prompt = Prompt::new();
+    let of = |prompt: &mut Prompt, text: &str| prompt.ask(&format!(":plot {text}"));
+    let squares = of(&mut prompt, "[0, 1, 2, 3].map(|x| x ^ 2)");
+    assert!(
+        squares.ends_with("0 at the first, least 0, most 9, 9 at the last (4 points)\n"),
+        "{squares}"
+    );
+    prompt.ask("let x = [1, 2]; let y = [3, 4];");
+    assert!(of(&mut prompt, "[x, y]").contains("3 at the first, least 3, most 4"));
+    assert_eq!(of(&mut prompt, "x, y").lines().count(), 2);
+    assert!(of(&mut prompt, "[vec(0, 1), vec(1, 5)]").contains("most 5"));
+    let told = prompt.refusal(":plot x, [x, y]");
+    assert!(
+        told.contains("the index of an array") && told.contains("one after the other"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_terminal_gets_a_chart_and_the_words() {
+    let style = Style { glyphs: Glyphs::Ascii, colours: Colours::None, width: 60, height: 12 };
+    let mut prompt = Prompt::with(MEGABYTE, Screen::Terminal(style));
+    prompt.ask(SPINNING);
+    prompt.ask(":step 5");
+    let (chart, told) = prompt.ask_both(":plot 10 * sim.t, energy");
+    assert!(chart.starts_with("10 * sim.t, energy\na 10 * sim.t   b energy\n"), "{chart}");
+    assert!(told.contains("in all 6 states"), "{told}");
+}
+
+#[test]
+fn what_cannot_be_drawn_is_refused_with_what_to_do() {
+    let mut prompt = Prompt::spinning();
+    prompt.ask(":step 2");
+    prompt.ask("let twin = scene.start(#{ dt: 0.2 }); sim.step(0);");
+    for (text, why, hint) in [
+        ("2 + 3", "is one number, and no curve", "ask a simulation"),
+        ("rod", "it is a beam", "draw a number or a vector"),
+        ("sim.t > 0", "it is a truth value", "{ 1 } else { 0 }"),
+        ("sim.enrgy", "enrgy", "did you mean"),
+        ("enrgy", "the history has no column \"enrgy\"", "did you mean \"energy\"?"),
+        ("sim.step()", "moves a simulation", "what only looks"),
+        ("{ sim.step(); sim.t }", "moves a simulation", "what only looks"),
+        ("sim.t - twin.t", "asks two simulations", "comma"),
+        ("[1, \"a\"]", "not of numbers alone", "array of numbers"),
+        ("[]", "empty array", "array of numbers"),
+        ("let a = 1;", "has no value", "expression"),
+        ("sim.t, [1, 2]", "over the index of an array", "one after the other"),
+        ("if sim.t < 0.15 { \"a\" } else { 1 }", "cannot be drawn at t = 0.1", "at all times"),
+        ("1 / if sim.t < 0.15 { throw \"early\" } else { 1 }", "fails at t = 0.1", ""),
+    ] {
+        let told = prompt.refusal(&format!(":plot {text}"));
+        assert!(told.contains(why) && told.contains(hint), "{text}: {told}");
+    }
+    assert_eq!(prompt.ask("`${sim.steps} ${twin.steps}`"), "\"2 0\"\n");
+    let told = Prompt::new().refusal(":plot nothing_there");
+    assert!(told.contains("there is no variable 'nothing_there'"), "{told}");
+}
+
+#[test]
+fn a_column_is_preferred_to_a_variable_of_its_name_and_that_is_told() {
+    let mut prompt = Prompt::spinning();
+    prompt.ask(":step 2; let energy = [1, 2, 3];".strip_prefix(":step 2; ").unwrap());
+    let (reply, told) = prompt.ask_both(":plot energy");
+    assert!(reply.starts_with("energy [energy]: ") && told.contains("write (energy)"), "{told}");
+    assert!(prompt.ask(":plot (energy)").contains("(3 points)"));
+}
+
+#[test]
+fn where_states_are_forgotten_the_run_is_made_again_and_compared() {
+    let mut prompt = Prompt::with(0, Screen::Pipe);
+    prompt.ask(SPINNING);
+    prompt.ask(":step 10");
+    prompt.ask("sim.run_to(1.55);");
+    let (reply, told) = prompt.ask_both(":plot sim.position(rod.end).x");
+    assert!(reply.contains("2 at the start") && reply.contains("(17 states)"), "{reply}");
+    assert!(told.contains("made again in a copy, with the same energies"), "{told}");
+    let mut kept = Prompt::spinning();
+    kept.ask(":step 10");
+    kept.ask("sim.run_to(1.55);");
+    assert_eq!(kept.ask(":plot sim.position(rod.end).x"), reply, "both ways see the same states");
+
+    // A function of a load that is another one now: not the same run, and that is told.
+    let mut changed = Prompt::with(0, Screen::Pipe);
+    changed.ask(SPINNING);
+    changed.ask("let f = 1; scene.force(rod.end, [1, 0], schedule(|t| f)); let sim = scene.start(#{ dt: 0.1 });");
+    changed.ask(":step 4");
+    changed.ask("f = 2;");
+    let (reply, told) = changed.ask_both(":plot sim.t");
+    assert!(told.contains("the run made again from its start is another one at t = 0.1"), "{told}");
+    assert!(told.contains("in the last 1 states") && reply.contains("(1 state)"), "{told}{reply}");
+}
+
+#[test]
+fn functions_that_wait_for_a_time_are_called_by_the_simulation_alone() {
+    let mut prompt = Prompt::with(0, Screen::Pipe);
+    prompt.ask(SPINNING);
+    prompt.ask(
+        "sim.at(0.25, |s| print(`event at ${s.t}`)); sim.at(0.6, |s| print(`late at ${s.t}`));",
+    );
+    assert_eq!(prompt.ask("sim.run_to(0.5);"), "event at 0.25\n");
+    let reply = prompt.ask(":plot sim.t");
+    assert!(!reply.contains("event") && reply.contains("now 0.5 (7 states)"), "{reply}");
+    prompt.refusal(":plot { sim.run_to(0.9); sim.t }");
+    assert_eq!(prompt.ask("sim.run_to(0.7);"), "late at 0.6\n", "it still waits");
+}
+
+#[test]
+fn many_states_are_thinned_out_and_that_is_told() {
+    let mut prompt = Prompt::with(100 * MEGABYTE, Screen::Pipe);
+    prompt.ask(SPINNING);
+    prompt.ask("sim.step(2500);");
+    let (reply, told) = prompt.ask_both(":plot sim.steps");
+    assert!(reply.contains("0 at the start") && reply.contains("now 2500 (835 states)"), "{reply}");
+    assert!(told.contains("in 835 of the 2501 states"), "{told}");
+}
+
+#[test]
+fn an_interrupt_while_drawing_gives_the_simulation_back() {
+    let mut prompt = Prompt::spinning();
+    prompt.ask(":step 5");
+    let flag = prompt.interrupt.clone();
+    // Ctrl-C comes while an expression is evaluated.
+    let setter = std::thread::spawn(move || {
+        std::thread::sleep(Duration::from_millis(300));
+        flag.store(true, Ordering::Relaxed);
+    });
+    let outcome = prompt.shell.submit(":plot { let i = 0; while true { i += 1 } sim.t }");
+    setter.join().unwrap();
+    assert_eq!(outcome, Outcome::Interrupted);
+    assert_eq!(prompt.ask("sim.steps"), "5\n");
+}
+
+#[test]
+fn a_pure_input_is_timed_until_the_figure_is_known() {
+    let mut prompt = Prompt::new();
+    prompt.ask("let x = 1;");
+    let (reply, told) = prompt.ask_both(":time { x += 1; x }");
+    // The value, the first time, and the rest; each look at the clock takes a millisecond.
+    let expected = "2\ntook 1.00 ms the first time\nagain: least 1.00 ms, median 1.00 ms, half of 67 runs from 1.00 ms to 1.00 ms\n";
+    assert_eq!((&*reply, &*told), (expected, ""));
+    assert_eq!(prompt.ask("x"), "2\n", "done again from the same variables, and taken back");
+    let reply = prompt.ask(":time let fresh = 3;");
+    assert!(reply.contains("again: least"), "{reply}");
+    assert_eq!(prompt.ask("fresh"), "3\n", "the first time counts");
+}
+
+#[test]
+fn what_is_printed_is_printed_once() {
+    let mut prompt = Prompt::new();
+    let reply = prompt.ask(":time print(\"seen\")");
+    assert_eq!(reply.matches("seen").count(), 1, "{reply}");
+    assert!(reply.contains("again: least"), "{reply}");
+    assert_eq!(prompt.ask("print(\"still\")"), "still\n");
+}
+
+#[test]
+fn what_has_effects_is_timed_once_and_that_is_told() {
+    let mut prompt = Prompt::spinning();
+    prompt.ask("let n = 0; let count = || n += 1;");
+    for (input, why) in [
+        ("sim.step()", "it moves simulation 'spin'"),
+        ("sim.back()", "it moves simulation 'spin'"),
+        ("sim.at(9, |s| ())", "it moves simulation 'spin'"),
+        ("scene.force(rod.end, [1, 0])", "it changes scene 'spin'"),
+        ("[scene].map(|s| s.gravity([0, -1]))", "it changes scene 'spin'"),
+        ("sim.plot_history([\"energy\"], \"energies.svg\")", "it writes files"),
+        ("count.call()", "it changes a variable that functions share"),
+        (":step", "it is a command"),
+    ] {
+        let reply = prompt.ask(&format!(":time {input}"));
+        assert!(reply.contains(&format!("timed once: {why}")), "{input}: {reply}");
+        assert!(!reply.contains("again: least"), "{input}: {reply}");
+    }
+    assert_eq!(prompt.ask("`${n} ${sim.steps}`"), "\"1 1\"\n");
+}
+
+#[test]
+fn a_run_of_its_own_is_timed_again_and_the_last_simulation_stays() {
+    let mut prompt = Prompt::spinning();
+    let reply = prompt.ask(":time { let own = scene.start(#{ dt: 0.1 }); own.step(3); own.t }");
+    // The first run was the user's: it is the last simulation now, and stays it.
+    assert!(reply.starts_with("0.3\n") && reply.contains("again: least"), "{reply}");
+    assert_eq!(prompt.ask("latest_simulation().t"), "0.3\n");
+    assert_eq!(prompt.ask("sim.steps"), "0\n");
+}
+
+#[test]
+fn checks_that_fail_are_counted_once() {
+    let mut prompt = Prompt::new();
+    prompt.ask(":time check(1 > 2)");
+    let made = prompt.shell.session().context().with_checks(|checks| checks.made());
+    assert_eq!(made, 1);
+}
+
+#[test]
+fn a_repetition_that_fails_is_told() {
+    let mut prompt = Prompt::new();
+    prompt.ask("let a = [1];");
+    let (reply, _) = prompt.ask_both(":time if a.len() == 0 { throw \"gone\" } else { a.pop() }");
+    assert!(
+        reply.contains("timed once: done again, it fails: ") && reply.contains("gone"),
+        "{reply}"
+    );
+    assert!(prompt.refusal(":time").contains("nothing to time"));
+    assert!(prompt.refusal(":time nonsense").contains("there is no variable"));
+}
+
+#[test]
+fn names_of_the_session_are_explained_with_their_values() {
+    let mut prompt = Prompt::spinning();
+    prompt.ask("/// Half of it.\n/// Really.\nfn half(x) { x / 2 }");
+    prompt.ask("let values = [3, 1, 2]; let map = #{ a: 1, b: \"x\" }; const G = 9.81; 6 * 7");
+    prompt.ask("import \"std/sections\" as shapes;");
+    for (question, expected) in [
+        (
+            "sim?",
+            &[
+                "sim is a variable: a simulation\n",
+                "simulation 'spin' at t = 0",
+                "The type simulation",
+                "run_to(t)",
+            ][..],
+        ),
+        ("?sim", &["sim is a variable: a simulation\n"]),
+        (":help sim", &["sim is a variable: a simulation\n"]),
+        (
+            "values?",
+            &["values is a variable: an array of 3 elements, numbers from 1 to 3\n[3, 1, 2]"],
+        ),
+        ("map?", &["map is a variable: a map of 2 keys", "#{a: 1, b: \"x\"}"]),
+        ("G?", &["G is a constant: a number\n9.81"]),
+        ("ans?", &["ans is the value of the last input that had one: a whole number\n42"]),
+        (
+            "half?",
+            &["half(x) is a function of this session.\nHalf of it.\nReally.\nfn half(x) { x / 2 }"],
+        ),
+        ("half()?", &["half(x) is a function"]),
+        ("rod.end?", &["rod.end is a station\nthe end of beam", "beam.end"]),
+        ("sim.energy?", &["sim.energy is a number\n10", "simulation.energy"]),
+        ("sim.history.drift?", &["drift(invariant)"]),
+        (
+            "shapes?",
+            &["shapes is an import of \"std/sections\"", "The library: std/sections", "rectangle"],
+        ),
+        ("shapes::rectangle?", &["sections::rectangle("]),
+        ("EA?", &["An option of"]),
+        ("sqrt?", &["sqrt("]),
+        (":plot?", &[":plot [CURVE, …]", "separated by commas"]),
+        ("plot?", &[":plot [CURVE, …]", "plot_motion"]),
+        ("?:time", &[":time INPUT"]),
+        ("let?", &["let"]),
+    ] {
+        let reply = prompt.ask(question);
+        for part in expected {
+            assert!(reply.contains(part), "{question}: {part}\n{reply}");
+        }
+    }
+    // A variable hides nothing that the language has under its name.
+    prompt.ask("let line = 3;");
+    let reply = prompt.ask("line?");
+    assert!(
+        reply.contains("line is a variable: a whole number\n3") && reply.contains("line(from, to)"),
+        "{reply}"
+    );
+    assert!(prompt.refusal("nowhere_to_be_found?").contains("there is no help on"));
+}
+
+#[test]
+fn functions_of_imported_files_are_explained() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(
+        folder.path().join("parts.rhai"),
+        "/// A third.\nfn third(x) { x / 3 }\nprivate fn own() { 1 }",
+    )
+    .unwrap();
+    let settings = Settings { folder: folder.path().into(), ..Settings::silent(Mode::Run) };
+    let printed = Notepad::default();
+    let settings = Settings { printed: Box::new(printed.clone()), ..settings };
+    let session = Session::new(Catalog::standard(), settings).unwrap();
+    let mut shell = Shell::new(session, Screen::Pipe);
+    shell.submit("import \"parts\" as parts;");
+    shell.submit("parts?");
+    let reply = printed.take();
+    assert!(
+        reply.contains("parts is an import") && reply.contains("parts::third(x): A third."),
+        "{reply}"
+    );
+    assert!(!reply.contains("own"), "private functions stay private: {reply}");
+    shell.submit("parts::third?");
+    assert_eq!(printed.take(), "parts::third(x) is a function of an imported file.\nA third.\n");
+}
+
+/// A pager that remembers what it was given.
+#[derive(Clone, Default)]
+struct Reader(Rc<RefCell<Vec<String>>>);
+
+impl Pager for Reader {
+    fn resize(&mut self, _: usize, _: usize) {}
+
+    fn show(&mut self, text: &str, _: &dyn Fn() -> bool) -> Shown {
+        self.0.borrow_mut().push(text.to_owned());
+        if text.lines().count() > 40 { Shown::Interrupted } else { Shown::NotByThis }
+    }
+}
+
+#[test]
+fn help_goes_through_the_pager_and_short_help_is_printed() {
+    let mut prompt = Prompt::new();
+    let reader = Reader::default();
+    prompt.shell.page_with(Box::new(reader.clone()));
+    assert_eq!(prompt.shell.submit(":help topics"), Outcome::Interrupted);
+    assert_eq!(prompt.printed.take(), "");
+    assert!(prompt.ask("?sqrt").contains("sqrt("));
+    assert_eq!(reader.0.borrow().len(), 2);
+    assert_eq!(prompt.ask("1 + 1"), "2\n");
+    assert_eq!(reader.0.borrow().len(), 2, "only help is paged");
+}
