@@ -104,7 +104,7 @@ impl Journal {
         postcard::from_bytes(self.known.get(&fingerprint)?).ok()
     }
 
-    /// Writes the result of a case down, at once.
+    /// Writes the result of a case down, at once; gives the bytes that were written.
     ///
     /// # Errors
     /// When the file cannot be written.
@@ -112,18 +112,19 @@ impl Journal {
         &mut self,
         fingerprint: u64,
         result: &T,
-    ) -> Result<(), JournalError> {
+    ) -> Result<u64, JournalError> {
         let path = self.path.clone();
         let cannot = |source| JournalError { path, action: "written", source };
         let Ok(result) = postcard::to_stdvec(result) else {
             return Err(cannot(io::Error::other("the result has no form in a file")));
         };
-        self.append(fingerprint, &result).map_err(cannot)?;
+        let bytes = self.append(fingerprint, &result).map_err(cannot)?;
         self.known.insert(fingerprint, result);
-        Ok(())
+        Ok(bytes)
     }
 
-    fn append(&mut self, fingerprint: u64, result: &[u8]) -> io::Result<()> {
+    fn append(&mut self, fingerprint: u64, result: &[u8]) -> io::Result<u64> {
+        let mut bytes = 0;
         if self.file.is_none() {
             // What is known is written anew: a record that was cut off would hide those behind it.
             let known = self.known.iter().map(|(other, result)| record(*other, result));
@@ -137,12 +138,17 @@ impl Journal {
             }
             let mut file = folder.create(&anew)?;
             file.write_all(&known)?;
+            bytes += known.len() as u64;
             file.sync_all()?;
             folder.replace(&anew, &name)?;
             self.file = Some(file);
         }
-        let Some(file) = &mut self.file else { return Ok(()) };
-        file.write_all(&record(fingerprint, result)?)
+        if let Some(file) = &mut self.file {
+            let record = record(fingerprint, result)?;
+            file.write_all(&record)?;
+            bytes += record.len() as u64;
+        }
+        Ok(bytes)
     }
 
     /// The folder of the journal, which is made, and its name there.

@@ -35,6 +35,9 @@ pub enum ExerciseError {
         /// What the system said.
         source: io::Error,
     },
+    /// There is no folder for what attempts write.
+    #[error("cannot make a folder for what attempts write: {0}; TMPDIR says where it goes")]
+    Scratch(io::Error),
     /// A file could not be renamed.
     #[error("cannot keep '{}' as '{}': {source}; nothing was changed", from.display(), to.display())]
     Keep {
