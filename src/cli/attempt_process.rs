@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 
 use super::Exit;
 use super::limits::LimitOptions;
-use super::say::say;
+use super::say::{say, tell};
 use crate::exercises::attempt;
 use crate::exercises::exercise::Exercise;
 use crate::exercises::grading::{self, Mark};
@@ -203,7 +203,7 @@ pub(super) fn judge_one(
 ) -> Exit {
     let limits = limits.for_an_attempt();
     if let Err(error) = confine(&limits) {
-        eprintln!("error: this process cannot be given limits: {error}");
+        tell(&format!("error: this process cannot be given limits: {error}\n"));
         return Exit::Wrong;
     }
     let settings = Settings {

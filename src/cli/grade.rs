@@ -9,7 +9,7 @@ use super::Exit;
 use super::attempt_process::{Room, mark_apart};
 use super::interrupt::{self, AtStake};
 use super::limits::LimitOptions;
-use super::say::say;
+use super::say::{say, tell};
 use crate::exercises::catalogue::EXERCISES;
 use crate::exercises::class;
 use crate::exercises::error::ExerciseError;
@@ -91,9 +91,9 @@ pub fn grade(wishes: &Wishes) -> Result<Exit, ExerciseError> {
     sheet.end();
     if let (Some((path, _)), true) = (&file, kept > 0) {
         let path = path.display();
-        eprintln!(
-            "note: {kept} marks are those of '{path}': what they depend on has not changed since"
-        );
+        tell(&format!(
+            "note: {kept} marks are those of '{path}': what they depend on has not changed since\n"
+        ));
     }
     match trouble {
         Some(trouble) => Err(trouble),

@@ -105,7 +105,8 @@ mod tests {
             (journals, numbers)
         };
         let (first, [a, b]) = begin(JournalWish::GoOn);
-        first.write(a.unwrap(), 1, &0.5).unwrap();
+        let bytes = first.write(a.unwrap(), 1, &0.5).unwrap();
+        assert_eq!(bytes, std::fs::metadata(path("a")).unwrap().len());
         first.write(b.unwrap(), 1, &0.25).unwrap();
         assert_eq!(first.kept(), 2);
         drop(first);

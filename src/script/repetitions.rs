@@ -7,6 +7,7 @@ use rhai::{Array, Dynamic, Engine, FnPtr, NativeCallContext};
 use super::context::Context;
 use super::elements::{array_of, truth};
 use super::register::EngineResult;
+use super::syntax::OWN;
 
 /// After so many elements it is asked whether to go on.
 pub(super) const PULSE: usize = 4096;
@@ -15,7 +16,7 @@ pub(super) const PULSE: usize = 4096;
 pub fn install(engine: &mut Engine, context: &Context) {
     let types = [TypeId::of::<Array>(), TypeId::of::<FnPtr>()];
     for count in 1..=2 {
-        let context = context.clone();
+        let (context, equal) = (context.clone(), format!("{OWN}=="));
         engine.register_raw_fn("dedup", &types[..count], move |native, values| {
             let kept = match values.get(1).and_then(|same| (**same).clone().try_cast::<FnPtr>()) {
                 Some(same) => without_repetitions(&native, &context, values, |earlier, later| {
@@ -23,9 +24,9 @@ pub fn install(engine: &mut Engine, context: &Context) {
                 })?,
                 // What has no "==" is not the same.
                 None => {
-                    let same = FnPtr::new("==")?;
-                    without_repetitions(&native, &context, values, |earlier, later| {
-                        let answer = same.call_raw(&native, None, [earlier, later]);
+                    without_repetitions(&native, &context, values, |mut earlier, mut later| {
+                        let both = &mut [&mut earlier, &mut later];
+                        let answer = native.call_native_fn_raw(&equal, false, both);
                         Ok(answer.is_ok_and(|answer| answer.as_bool().unwrap_or(false)))
                     })?
                 }
