@@ -14,7 +14,7 @@ use std::time::SystemTime;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::folders::{Folder, read_file};
+use crate::folders::Folder;
 
 /// Of one record; more is damage.
 const LONGEST: usize = 1 << 30;
@@ -65,7 +65,8 @@ impl Journal {
     /// When there is a file that cannot be read.
     pub fn open(path: impl Into<PathBuf>) -> Result<Self, JournalError> {
         let path = path.into();
-        let bytes = match read_file(&path, LARGEST) {
+        let read = |(folder, name): (Folder, PathBuf)| folder.read(&name, LARGEST);
+        let bytes = match found(&path).and_then(read) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
             Err(source) => return Err(JournalError { path, action: "read", source }),
@@ -104,7 +105,7 @@ impl Journal {
         postcard::from_bytes(self.known.get(&fingerprint)?).ok()
     }
 
-    /// Writes the result of a case down, at once.
+    /// Writes the result of a case down, at once; gives the bytes that were written.
     ///
     /// # Errors
     /// When the file cannot be written.
@@ -112,18 +113,19 @@ impl Journal {
         &mut self,
         fingerprint: u64,
         result: &T,
-    ) -> Result<(), JournalError> {
+    ) -> Result<u64, JournalError> {
         let path = self.path.clone();
         let cannot = |source| JournalError { path, action: "written", source };
         let Ok(result) = postcard::to_stdvec(result) else {
             return Err(cannot(io::Error::other("the result has no form in a file")));
         };
-        self.append(fingerprint, &result).map_err(cannot)?;
+        let bytes = self.append(fingerprint, &result).map_err(cannot)?;
         self.known.insert(fingerprint, result);
-        Ok(())
+        Ok(bytes)
     }
 
-    fn append(&mut self, fingerprint: u64, result: &[u8]) -> io::Result<()> {
+    fn append(&mut self, fingerprint: u64, result: &[u8]) -> io::Result<u64> {
+        let mut bytes = 0;
         if self.file.is_none() {
             // What is known is written anew: a record that was cut off would hide those behind it.
             let known = self.known.iter().map(|(other, result)| record(*other, result));
@@ -137,12 +139,17 @@ impl Journal {
             }
             let mut file = folder.create(&anew)?;
             file.write_all(&known)?;
+            bytes += known.len() as u64;
             file.sync_all()?;
             folder.replace(&anew, &name)?;
             self.file = Some(file);
         }
-        let Some(file) = &mut self.file else { return Ok(()) };
-        file.write_all(&record(fingerprint, result)?)
+        if let Some(file) = &mut self.file {
+            let record = record(fingerprint, result)?;
+            file.write_all(&record)?;
+            bytes += record.len() as u64;
+        }
+        Ok(bytes)
     }
 
     /// The folder of the journal, which is made, and its name there.
@@ -172,8 +179,14 @@ impl Journal {
     }
 }
 
+/// The folder of a journal, where there is one, and its name there.
+fn found(path: &Path) -> io::Result<(Folder, PathBuf)> {
+    let name = path.file_name().ok_or(io::ErrorKind::InvalidInput)?;
+    Ok((Folder::find(path.parent().unwrap_or(Path::new(".")))?, name.into()))
+}
+
 fn remove(path: &Path) -> Result<(), JournalError> {
-    match fs::remove_file(path) {
+    match found(path).and_then(|(folder, name)| folder.remove(&name)) {
         Err(source) if source.kind() != io::ErrorKind::NotFound => {
             Err(JournalError { path: path.to_owned(), action: "removed", source })
         }
@@ -208,7 +221,7 @@ mod tests {
         }
     }
 
-    fn found(path: &Path) -> Vec<u64> {
+    fn found_cases(path: &Path) -> Vec<u64> {
         let journal = Journal::open(path).unwrap();
         let known = |case: &u64| {
             let result: Option<(f64, f64, String)> = journal.find(*case);
@@ -228,11 +241,11 @@ mod tests {
         assert!(!path.exists(), "a journal without records needs no file");
         written(&path, 0..3);
         written(&path, 3..5);
-        assert_eq!(found(&path), [0, 1, 2, 3, 4]);
+        assert_eq!(found_cases(&path), [0, 1, 2, 3, 4]);
         assert_eq!(Journal::open(&path).unwrap().find::<Vec<String>>(7), None);
         let mut journal = Journal::open(&path).unwrap();
         journal.clear().unwrap();
-        assert!(found(&path).is_empty());
+        assert!(found_cases(&path).is_empty());
         written(&path, 8..9);
         Journal::open(&path).unwrap().finish().unwrap();
         assert!(!path.exists());
@@ -246,15 +259,15 @@ mod tests {
         let whole = fs::read(&path).unwrap();
         for at in 0..whole.len() {
             fs::write(&path, &whole[..at]).unwrap();
-            let kept = found(&path).len();
-            assert_eq!(kept as u64, found(&path).last().map_or(0, |last| last + 1));
+            let kept = found_cases(&path).len();
+            assert_eq!(kept as u64, found_cases(&path).last().map_or(0, |last| last + 1));
             assert!(kept < 4, "{at}");
             let mut damaged = whole.clone();
             damaged[at] ^= 4;
             fs::write(&path, &damaged).unwrap();
-            assert!(found(&path).len() < 4, "{at}");
+            assert!(found_cases(&path).len() < 4, "{at}");
             written(&path, 10..11);
-            assert_eq!(found(&path).last(), Some(&10));
+            assert_eq!(found_cases(&path).last(), Some(&10));
         }
     }
 
@@ -268,13 +281,30 @@ mod tests {
         fs::create_dir(&anew).unwrap();
         let mut journal = Journal::open(&path).unwrap();
         assert!(journal.write(3, &0.0).unwrap_err().to_string().contains("cannot be written"));
-        assert_eq!(found(&path), [0, 1, 2]);
+        assert_eq!(found_cases(&path), [0, 1, 2]);
         // Half a file from a crash is in nobody's way.
         fs::remove_dir(&anew).unwrap();
         fs::write(&anew, b"half").unwrap();
         written(&path, 3..5);
-        assert_eq!(found(&path), [0, 1, 2, 3, 4]);
+        assert_eq!(found_cases(&path), [0, 1, 2, 3, 4]);
         assert!(!anew.exists());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_in_the_place_of_a_journal_or_its_folder_are_not_followed() {
+        use std::os::unix::fs::symlink;
+        let home = tempfile::tempdir().unwrap();
+        let theirs = home.path().join("theirs");
+        fs::create_dir(&theirs).unwrap();
+        written(&theirs.join("study.journal"), 0..3);
+        symlink(&theirs, home.path().join("out")).unwrap();
+        assert!(Journal::open(home.path().join("out/study.journal")).is_err());
+        let own = home.path().join("own.journal");
+        symlink(theirs.join("study.journal"), &own).unwrap();
+        assert!(Journal::open(&own).is_err());
+        assert!(remove(&home.path().join("out/study.journal")).is_err());
+        assert_eq!(found_cases(&theirs.join("study.journal")), [0, 1, 2]);
     }
 
     #[test]

@@ -16,12 +16,13 @@ use serde_json::{Value, json};
 
 use super::Exit;
 use super::limits::LimitOptions;
-use super::say::say;
+use super::say::{say, tell};
 use crate::exercises::attempt;
 use crate::exercises::exercise::Exercise;
 use crate::exercises::grading::{self, Mark};
 use crate::exercises::judging::{Verdict, judge};
 use crate::exercises::submissions::Submission;
+use crate::folders::Scratch;
 use crate::script::context::{Mode, Settings};
 use crate::script::limits::{Limits, Stop};
 
@@ -34,24 +35,35 @@ const LONGEST_MESSAGE: usize = 4000;
 /// The most that is read of what a process says [bytes].
 const LONGEST_VERDICT: u64 = 1 << 20;
 
-/// The mark of an attempt from a process of its own. Nothing when `stop` was set before it was known.
+/// What the processes of a class have in common.
+pub(super) struct Room<'a> {
+    /// Each gets a folder in it.
+    pub scratch: &'a Scratch,
+    /// What each may use.
+    pub limits: &'a LimitOptions,
+    /// Ends them all.
+    pub stop: &'a AtomicBool,
+}
+
+/// The mark of an attempt from a process of its own. Nothing when the room was told to stop before it was known.
+///
+/// # Errors
+/// When no process can be started, which is not the student's fault.
 pub(super) fn mark_apart(
     submission: &Submission,
     file: &Path,
     exercise: &Exercise,
-    limits: &LimitOptions,
-    stop: &AtomicBool,
-) -> Option<(Mark, String)> {
-    let bounds = limits.for_an_attempt();
-    match run_apart(submission, file, exercise, limits, stop) {
-        Ok(Said::Line(line)) => {
+    room: &Room,
+) -> io::Result<Option<(Mark, String)>> {
+    let bounds = room.limits.for_an_attempt();
+    Ok(match run_apart(submission, file, exercise, room)? {
+        Said::Line(line) => {
             Some(read(&line).unwrap_or_else(|| (Mark::Broken, "its judge said nothing".into())))
         }
-        Ok(Said::Nothing(status)) => Some(mark_of_death(status, &bounds)),
-        Ok(Said::TooLate) => Some((Mark::Stopped, too_late(&bounds))),
-        Ok(Said::Interrupted) => None,
-        Err(error) => Some((Mark::Broken, format!("cannot start a process for it: {error}"))),
-    }
+        Said::Nothing(status) => Some(mark_of_death(status, &bounds)),
+        Said::TooLate => Some((Mark::Stopped, too_late(&bounds))),
+        Said::Interrupted => None,
+    })
 }
 
 /// What came of a process.
@@ -70,10 +82,9 @@ fn run_apart(
     submission: &Submission,
     file: &Path,
     exercise: &Exercise,
-    limits: &LimitOptions,
-    stop: &AtomicBool,
+    Room { scratch, limits, stop }: &Room,
 ) -> io::Result<Said> {
-    let folder = tempfile::Builder::new().prefix("withy-attempt-").tempdir()?;
+    let folder = scratch.part()?;
     let begun = Instant::now();
     let home = submission.folder.canonicalize()?;
     let below = file.strip_prefix(&submission.folder).map_err(io::Error::other)?;
@@ -192,7 +203,7 @@ pub(super) fn judge_one(
 ) -> Exit {
     let limits = limits.for_an_attempt();
     if let Err(error) = confine(&limits) {
-        eprintln!("error: this process cannot be given limits: {error}");
+        tell(&format!("error: this process cannot be given limits: {error}\n"));
         return Exit::Wrong;
     }
     let settings = Settings {

@@ -1,25 +1,23 @@
 //! `withy learn grade`: the attempts of a class.
 
-use std::fs::File;
-use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 use std::thread;
 
-use serde_json::json;
-
 use super::Exit;
-use super::attempt_process::mark_apart;
+use super::attempt_process::{Room, mark_apart};
 use super::interrupt::{self, AtStake};
 use super::limits::LimitOptions;
-use super::say::say;
+use super::say::{say, tell};
 use crate::exercises::catalogue::EXERCISES;
 use crate::exercises::class;
 use crate::exercises::error::ExerciseError;
 use crate::exercises::exercise::Exercise;
-use crate::exercises::grading::{Graded, Report, Task};
+use crate::exercises::grading::{Graded, Mark, Report, Task};
+use crate::exercises::marks::{self, KnownMarks};
 use crate::exercises::submissions::Submission;
-use crate::folders::Folder;
+use crate::folders::Scratch;
 use crate::output::{Cell, Table};
 
 /// How marks are shown.
@@ -48,31 +46,55 @@ pub struct Wishes<'a> {
 /// Grades all submissions of a folder and prints the marks as they come. What attempts write is thrown away.
 pub fn grade(wishes: &Wishes) -> Result<Exit, ExerciseError> {
     let submissions = Submission::all_in(wishes.folder)?;
-    let mut marks = wishes.marks.map(|path| (path, open(path)));
-    if let Some((path, Err(source))) = marks.take_if(|(_, file)| file.is_err()) {
-        return Err(ExerciseError::Marks { path: path.into(), source });
-    }
+    let refused = |path: &Path, source| ExerciseError::Marks { path: path.into(), source };
+    let (known, mut file) = match wishes.marks {
+        Some(path) => {
+            let (known, file) = marks::open(path).map_err(|source| refused(path, source))?;
+            (known, Some((path, file)))
+        }
+        None => (KnownMarks::default(), None),
+    };
+    let scratch = Scratch::new().map_err(ExerciseError::Scratch)?;
     let stop = interrupt::flag(AtStake::Run);
     let cores = thread::available_parallelism().map_or(1, usize::from);
     let workers = wishes.jobs.map_or(cores, usize::from);
     let mut sheet = Sheet::begin(wishes.form, &submissions);
-    let mut trouble = None;
-    let judge = |submission: &Submission, exercise: &Exercise| match Task::of(submission, exercise)
-    {
-        Task::Known(mark, message) => Some((mark, message)),
-        Task::Judge(file) => mark_apart(submission, &file, exercise, wishes.limits, &stop),
+    let (mut trouble, mut kept) = (None, 0);
+    let room = Room { scratch: &scratch, limits: wishes.limits, stop: &stop };
+    let judge = |submission: &Submission, exercise: &'static Exercise| {
+        Judged::find(submission, exercise, &known, &room)
     };
-    let is_whole = class::grade(&submissions, workers, &stop, judge, |submission, graded| {
-        if let Some((path, Ok(file))) = &mut marks
-            && let Err(source) = note(file, submission, &graded)
-            && trouble.is_none()
-        {
-            trouble = Some(ExerciseError::Marks { path: (*path).into(), source });
-            Arc::clone(&stop).store(true, std::sync::atomic::Ordering::Relaxed);
+    let note = |submission: &Submission, exercise: &'static Exercise, judged: &Judged| {
+        if judged.origin == Origin::EarlierRun {
+            kept += 1;
+        } else if let Some((path, file)) = &mut file {
+            let mark = (judged.mark, judged.message.as_str());
+            let noted = file.note(submission, exercise, mark, judged.fingerprint.as_deref());
+            if let Err(source) = noted
+                && trouble.is_none()
+            {
+                trouble = Some(refused(path, source));
+                Arc::clone(&stop).store(true, Ordering::Relaxed);
+            }
         }
-        sheet.add(submission, graded);
-    });
+    };
+    let is_whole = class::grade(
+        &submissions,
+        workers,
+        &stop,
+        judge,
+        note,
+        |submission, exercise, Judged { mark, message, .. }| {
+            sheet.add(submission, Graded { exercise, mark, message });
+        },
+    );
     sheet.end();
+    if let (Some((path, _)), true) = (&file, kept > 0) {
+        let path = path.display();
+        tell(&format!(
+            "note: {kept} marks are those of '{path}': what they depend on has not changed since\n"
+        ));
+    }
     match trouble {
         Some(trouble) => Err(trouble),
         None if is_whole => Ok(Exit::Good),
@@ -80,22 +102,48 @@ pub fn grade(wishes: &Wishes) -> Result<Exit, ExerciseError> {
     }
 }
 
-fn open(path: &Path) -> std::io::Result<File> {
-    let folder = path.parent().unwrap_or(Path::new("."));
-    Folder::open(folder)?.append(Path::new(path.file_name().unwrap_or_default()))
+/// A mark, and what it is known from.
+struct Judged {
+    mark: Mark,
+    message: String,
+    /// None where the same attempt may get another mark the next time.
+    fingerprint: Option<String>,
+    origin: Origin,
 }
 
-/// Writes a mark down so that it outlasts whatever comes.
-fn note(file: &mut File, submission: &Submission, graded: &Graded) -> std::io::Result<()> {
-    let Graded { exercise, mark, message } = graded;
-    let line = json!({
-        "student": submission.student,
-        "exercise": exercise.id(),
-        "result": mark.word(),
-        "message": message,
-    });
-    file.write_all(format!("{line}\n").as_bytes())?;
-    file.sync_data()
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Origin {
+    ThisRun,
+    EarlierRun,
+}
+
+impl Judged {
+    /// Looks for the mark of an attempt, and judges it where there is none. Nothing when that was interrupted.
+    fn find(
+        submission: &Submission,
+        exercise: &'static Exercise,
+        known: &KnownMarks,
+        room: &Room,
+    ) -> Option<Self> {
+        let limits = room.limits.words();
+        let fingerprint = || marks::fingerprint(submission, exercise, &limits);
+        let before = fingerprint();
+        if let Some((mark, message)) = known.find(submission, exercise, &before) {
+            let origin = Origin::EarlierRun;
+            return Some(Self { mark, message, fingerprint: Some(before), origin });
+        }
+        let marked = match Task::of(submission, exercise) {
+            Task::Known(mark, message) => Ok(Some((mark, message))),
+            Task::Judge(file) => mark_apart(submission, &file, exercise, room),
+        };
+        let (is_ours, (mark, message)) = match marked {
+            Ok(marked) => (false, marked?),
+            Err(error) => (true, (Mark::Broken, format!("cannot start a process for it: {error}"))),
+        };
+        // What was changed in the meantime may not be what was judged.
+        let fingerprint = (!is_ours && fingerprint() == before).then_some(before);
+        Some(Self { mark, message, fingerprint, origin: Origin::ThisRun })
+    }
 }
 
 /// What is shown, line by line for people and student by student for programs.

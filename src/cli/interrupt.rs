@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::Exit;
 use super::watching::terminal;
+use super::say::tell;
 use crate::repl::editor::typed_ahead;
 use crate::script::limits::INTERRUPT_HEARD;
 
@@ -54,7 +55,7 @@ pub fn flag(at_stake: AtStake) -> Arc<AtomicBool> {
     });
     if let Err(error) = installed {
         // Without a handler Ctrl-C ends the process as usual: worth a word, not a failure.
-        eprintln!("warning: Ctrl-C will not save what ran: {error}");
+        tell(&format!("warning: Ctrl-C will not save what ran: {error}\n"));
     }
     flag
 }

@@ -65,7 +65,8 @@ pub enum LearnAction {
         /// Print JSON, with what is off in each attempt.
         #[arg(long)]
         json: bool,
-        /// Write each mark as a line of JSON behind the end of this file, too, as soon as it is known.
+        /// Write each mark as a line of JSON behind the end of this file, too, as soon as it is known; marks of attempts that have not
+        /// changed since are kept.
         #[arg(long, value_name = "FILE")]
         marks: Option<PathBuf>,
         /// Attempts judged at the same time; without it, as many as there are cores.

@@ -14,6 +14,7 @@ mod say;
 mod session;
 mod watching;
 
+use std::io::{ErrorKind, Write, stdout};
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -41,7 +42,10 @@ impl From<Exit> for ExitCode {
 
 /// Reads the command line and does what it says.
 pub fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(answer) => return answered(&answer).into(),
+    };
     let exit = match arguments.command {
         Some(Command::Run(options)) => run::run(&options),
         Some(Command::Study(options)) => run::study(&options),
@@ -51,5 +55,15 @@ pub fn main() -> ExitCode {
         Some(Command::Learn(options)) => learn::learn(&options),
         None => session::start(arguments.session),
     };
-    exit.into()
+    match exit {
+        Exit::Good if say::is_output_lost() => Exit::Wrong.into(),
+        exit => exit.into(),
+    }
+}
+
+/// Prints what the command line itself asks for, such as its help, or what is wrong with it.
+fn answered(answer: &clap::Error) -> Exit {
+    let printed = answer.print().and_then(|()| stdout().flush());
+    let is_lost = printed.is_err_and(|error| error.kind() != ErrorKind::BrokenPipe);
+    if is_lost || answer.exit_code() != 0 { Exit::Wrong } else { Exit::Good }
 }

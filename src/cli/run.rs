@@ -1,6 +1,6 @@
 //! `withy run`, `withy study` and `withy check`.
 
-use std::io::{self, IsTerminal, stderr, stdout};
+use std::io::{IsTerminal, stderr, stdout};
 use std::path::Path;
 use std::process;
 use std::sync::Arc;
@@ -9,6 +9,7 @@ use super::Exit;
 use super::args::{CheckOptions, RunOptions, StudyOptions};
 use super::bar::{self, Wish};
 use super::interrupt::{self, AtStake};
+use super::say::tell;
 use crate::folders::read_file;
 use crate::output::write_whole;
 use crate::repl::editor::typed_ahead;
@@ -95,11 +96,11 @@ pub fn check(options: &CheckOptions) -> Exit {
         Ok(outcome) => {
             let file = options.file.display();
             match outcome.ending {
-                Ending::Finished => eprintln!("{file}: no errors found"),
-                Ending::Undecided => eprintln!(
+                Ending::Finished => tell(&format!("{file}: no errors found\n")),
+                Ending::Undecided => tell(&format!(
                     "{file}: no errors found so far\nnote: the script waits for what a simulation finds: it cannot be checked \
-                     further"
-                ),
+                     further\n"
+                )),
                 _ => (),
             }
             exit_for(&outcome)
@@ -210,9 +211,4 @@ fn write_report(file: &Path, outcome: &Outcome) -> Result<(), Diagnostic> {
         Diagnostic::general(format!("cannot write the report '{}': {error}", file.display()))
             .with_hint("--report takes the path of a file in a folder that exists")
     })
-}
-
-/// Writes to the terminal's error side; nobody is left to tell when that fails.
-fn tell(text: &str) {
-    let _ = io::Write::write_all(&mut stderr(), text.as_bytes());
 }

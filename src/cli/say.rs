@@ -1,6 +1,6 @@
 //! Lines for the reader of the output.
 
-use std::io::{ErrorKind, Write, stdout};
+use std::io::{self, ErrorKind, Write, stderr, stdout};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Whether something could not be written.
@@ -9,7 +9,15 @@ static LOST: AtomicBool = AtomicBool::new(false);
 /// Prints a line, at once; one who reads no more has read enough.
 pub(super) fn say(text: &str) {
     let mut out = stdout();
-    let written = out.write_all(format!("{text}\n").as_bytes()).and_then(|()| out.flush());
+    notice(out.write_all(format!("{text}\n").as_bytes()).and_then(|()| out.flush()));
+}
+
+/// Tells a person what is not the output, as it stands.
+pub(super) fn tell(text: &str) {
+    notice(stderr().write_all(text.as_bytes()));
+}
+
+fn notice(written: io::Result<()>) {
     if written.is_err_and(|error| error.kind() != ErrorKind::BrokenPipe) {
         LOST.store(true, Ordering::Relaxed);
     }

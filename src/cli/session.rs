@@ -8,6 +8,7 @@ use super::args::{ReplOptions, SessionOptions};
 use super::bar::{self, Wish};
 use super::interrupt::{self, AtStake};
 use super::run::{last_resort, refuse};
+use super::say::tell;
 use crate::output::{Glyphs, Style};
 use crate::repl::editor::{self, Editor};
 use crate::repl::pager::TerminalPager;
@@ -97,7 +98,7 @@ fn exit_for(shell: &Shell, outcome: Outcome) -> Exit {
     let stopped = shell.session().context().stopped_by();
     let is_lost = matches!(stopped, Some(Stop::OutputLost(_)));
     if is_lost && outcome != Outcome::Failed {
-        eprintln!("error: some of the output could not be written");
+        tell("error: some of the output could not be written\n");
     }
     match outcome {
         Outcome::Failed => Exit::Wrong,

@@ -8,17 +8,18 @@ use std::thread;
 
 use super::catalogue::EXERCISES;
 use super::exercise::Exercise;
-use super::grading::{Graded, Mark};
 use super::submissions::Submission;
 
-/// Asks `judge` for every mark of the class, from `workers` threads at once, and hands them to `tell`, student by student in the
-/// order of the exercises. Gives whether it came to the end: `judge` gives nothing when it was interrupted, and `stop` ends it too.
-pub fn grade(
+/// Asks `judge` for every mark of the class, from `workers` threads at once. Each is handed to `note` as soon as it is known, and to `tell`
+/// student by student in the order of the exercises. Gives whether it came to the end: `judge` gives nothing when it was
+/// interrupted, and `stop` ends it too.
+pub fn grade<M: Send>(
     submissions: &[Submission],
     workers: usize,
     stop: &AtomicBool,
-    judge: impl Fn(&Submission, &Exercise) -> Option<(Mark, String)> + Sync,
-    mut tell: impl FnMut(&Submission, Graded),
+    judge: impl Fn(&Submission, &'static Exercise) -> Option<M> + Sync,
+    mut note: impl FnMut(&Submission, &'static Exercise, &M),
+    mut tell: impl FnMut(&Submission, &'static Exercise, M),
 ) -> bool {
     let jobs = || submissions.iter().flat_map(|of| EXERCISES.iter().map(move |it| (of, it)));
     let jobs: Vec<_> = jobs().collect();
@@ -42,10 +43,12 @@ pub fn grade(
         drop(send);
         let mut waiting = BTreeMap::new();
         for (number, mark) in marks {
+            let (submission, exercise) = jobs[number];
+            note(submission, exercise, &mark);
             waiting.insert(number, mark);
-            while let Some((mark, message)) = waiting.remove(&told) {
+            while let Some(mark) = waiting.remove(&told) {
                 let (submission, exercise) = jobs[told];
-                tell(submission, Graded { exercise, mark, message });
+                tell(submission, exercise, mark);
                 told += 1;
             }
         }
@@ -71,16 +74,39 @@ mod tests {
         let judge = |submission: &Submission, exercise: &Exercise| {
             let length = submission.student.len() + exercise.name.len();
             thread::sleep(Duration::from_millis(length as u64 * 7 % 5));
-            Some((Mark::Off, exercise.id()))
+            Some(exercise.id())
         };
         let stop = AtomicBool::new(false);
-        let whole = grade(&class, 4, &stop, judge, |submission, graded| {
-            assert_eq!(graded.message, graded.exercise.id());
-            told.push((submission.student.clone(), graded.message));
+        let mut noted = Vec::new();
+        let note = |submission: &Submission, exercise: &Exercise, mark: &String| {
+            assert_eq!(*mark, exercise.id());
+            noted.push((submission.student.clone(), mark.clone()));
+        };
+        let whole = grade(&class, 4, &stop, judge, note, |submission, exercise, mark| {
+            assert_eq!(mark, exercise.id());
+            told.push((submission.student.clone(), mark));
         });
+        noted.sort();
+        let mut sorted = told.clone();
+        sorted.sort();
+        assert_eq!(noted, sorted);
         let asked =
             class.iter().flat_map(|of| EXERCISES.iter().map(|it| (of.student.clone(), it.id())));
         assert!(whole && told == asked.collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn what_is_known_is_noted_though_another_attempt_takes_its_time() {
+        let (stop, noted) = (AtomicBool::new(false), AtomicUsize::new(0));
+        let judge = |submission: &Submission, exercise: &Exercise| {
+            let is_first = submission.student.ends_with('0') && exercise == &EXERCISES[0];
+            while is_first && noted.load(Ordering::Relaxed) < EXERCISES.len() - 1 {
+                thread::sleep(Duration::from_millis(1));
+            }
+            Some(())
+        };
+        let note = |_: &Submission, _: &Exercise, _: &()| _ = noted.fetch_add(1, Ordering::Relaxed);
+        assert!(grade(&class(1), 2, &stop, judge, note, |_, _, ()| ()));
     }
 
     #[test]
@@ -90,9 +116,9 @@ mod tests {
         let judge = |_: &Submission, _: &Exercise| {
             let number = calls.fetch_add(1, Ordering::Relaxed) + 1;
             stop.store(number == 5, Ordering::Relaxed);
-            Some((Mark::Passed, String::new()))
+            Some(())
         };
-        let whole = grade(&class(50), 1, &stop, judge, |_, _| told += 1);
+        let whole = grade(&class(50), 1, &stop, judge, |_, _, _| (), |_, _, ()| told += 1);
         assert!(!whole && told == 5);
     }
 }

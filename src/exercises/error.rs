@@ -40,6 +40,9 @@ pub enum ExerciseError {
         "cannot go on with this terminal: {0}; 'withy learn watch | cat' tells the same in lines"
     )]
     Terminal(io::Error),
+    /// There is no folder for what attempts write.
+    #[error("cannot make a folder for what attempts write: {0}; TMPDIR says where it goes")]
+    Scratch(io::Error),
     /// A file could not be renamed.
     #[error("cannot keep '{}' as '{}': {source}; nothing was changed", from.display(), to.display())]
     Keep {

@@ -97,6 +97,13 @@ pub enum Task {
 impl Task {
     /// Looks at what a student has handed in for an exercise.
     pub fn of(submission: &Submission, exercise: &Exercise) -> Self {
+        if submission.is_link() {
+            let told = format!("the folder '{}' is a link", submission.folder.display());
+            return Self::Known(
+                Mark::Broken,
+                format!("{told}: an attempt lies in a folder of its own"),
+            );
+        }
         let Some(path) = submission.attempt(exercise) else {
             return Self::Known(Mark::Missing, String::new());
         };

@@ -3,12 +3,13 @@
 //! The judge sees the variables that it names in its head, and nothing else of the attempt: functions, constants and
 //! names of the attempt cannot take the place of what the judge calls. Only checks of the judge count.
 
+use std::any::TypeId;
 use std::io;
 use std::panic::{self, AssertUnwindSafe};
 use std::rc::Rc;
 use std::time::Duration;
 
-use rhai::{Engine, Scope};
+use rhai::{AST, Dynamic, Engine, FnPtr, NativeCallContext, Scope};
 
 use super::exercise::Exercise;
 use super::judge::Need;
@@ -80,10 +81,23 @@ impl Trial {
 
     fn hold(&self, exercise: &Exercise, attempt: &Program) -> Result<(), Verdict> {
         let mut scope = Scope::new();
-        self.run(attempt, &mut scope)?;
+        let held = self.hold_within(&mut scope, exercise, attempt);
+        // Letting go of what the attempt has made may take time and memory as well.
+        let _watchdog = self.context.meter().watch().map_err(no_watchdog)?;
+        drop(scope);
+        held
+    }
+
+    fn hold_within(
+        &self,
+        scope: &mut Scope<'static>,
+        exercise: &Exercise,
+        attempt: &Program,
+    ) -> Result<(), Verdict> {
+        let functions = self.run(attempt, scope)?.clone_functions_only();
         self.silence.begin();
         let judge = exercise.judge();
-        let mut seen = self.show(&judge.needs, &scope).map_err(Verdict::Off)?;
+        let mut seen = self.show(&judge.needs, scope, &functions).map_err(Verdict::Off)?;
         let (made, failed) =
             self.context.with_checks(|checks| (checks.made(), checks.failed().len()));
         let program = Program::named(&format!("the judge of {}", exercise.id()), exercise.judge);
@@ -105,7 +119,12 @@ impl Trial {
     }
 
     /// The variables that a judge needs, or what is wrong with them.
-    fn show(&self, needs: &[Need], attempt: &Scope) -> Result<Scope<'static>, Vec<String>> {
+    fn show(
+        &self,
+        needs: &[Need],
+        attempt: &Scope,
+        functions: &AST,
+    ) -> Result<Scope<'static>, Vec<String>> {
         let mut seen = Scope::new();
         let mut wrong = Vec::new();
         for Need { name, of } in needs {
@@ -117,13 +136,17 @@ impl Trial {
                 continue;
             };
             let value = value.flatten_clone();
-            // The engine has a name of its own for text.
-            let found = match value.is_string() {
-                true => "text",
-                false => self.engine.map_type_name(value.type_name()),
+            // The engine has names of its own for text and functions.
+            let found = match value.type_id() {
+                _ if value.is_string() => "text",
+                function if function == TypeId::of::<FnPtr>() => "function",
+                _ => self.engine.map_type_name(value.type_name()),
             };
             match found {
-                found if found == of => _ = seen.push_dynamic(name.as_str(), value),
+                found if found == of => {
+                    let value = callable(value, functions);
+                    _ = seen.push_dynamic(name.as_str(), value);
+                }
                 // A whole number is welcome wherever a number is.
                 "whole number" if of == "number" => {
                     let number = value.as_int().unwrap_or_default() as f64;
@@ -140,18 +163,18 @@ impl Trial {
     }
 
     /// Runs a script; its variables stay in the scope.
-    fn run(&self, program: &Program, scope: &mut Scope<'static>) -> Result<(), Verdict> {
+    fn run(&self, program: &Program, scope: &mut Scope<'static>) -> Result<AST, Verdict> {
         let _watchdog = self.context.meter().watch().map_err(no_watchdog)?;
         // A panic in a native body is our mistake: the next attempt must still be judged.
         let run = AssertUnwindSafe(|| {
             let ast = runner::parse(&self.engine, program)?;
-            self.engine.run_ast_with_scope(scope, &ast)
+            self.engine.run_ast_with_scope(scope, &ast).map(|()| ast)
         });
         let outcome = panic::catch_unwind(run);
         self.context.progress().end();
         self.context.flush();
         match outcome {
-            Ok(Ok(())) => Ok(()),
+            Ok(Ok(ast)) => Ok(ast),
             Ok(Err(error)) if is_interrupt(&error) => Err(Verdict::Interrupted),
             Ok(Err(error)) => {
                 let (catalog, engine) = (&self.catalog, &*self.engine);
@@ -162,6 +185,25 @@ impl Trial {
             Err(panic) => Err(broken_by_us(panics::message(&*panic))),
         }
     }
+}
+
+/// The same value; a function of the attempt takes the functions of its file with it, and can be called by the judge. It sees nothing of
+/// the judge.
+fn callable(value: Dynamic, functions: &AST) -> Dynamic {
+    let Some(function) = value.clone().try_cast::<FnPtr>() else { return value };
+    let functions = functions.clone();
+    let call = move |native: NativeCallContext, arguments: &mut [&mut Dynamic]| {
+        let mut surroundings = native.global_runtime_state().clone();
+        surroundings.lib = [functions.shared_lib().clone()].into_iter().collect();
+        let (engine, name) = (native.engine(), function.fn_name());
+        let inner = (engine, name, None, &surroundings, native.call_position()).into();
+        let arguments: Vec<Dynamic> =
+            arguments.iter_mut().map(|argument| std::mem::take(*argument)).collect();
+        function.call_raw(&inner, None, arguments)
+    };
+    // "Deprecated" marks it as volatile, not as going away.
+    #[allow(deprecated)]
+    FnPtr::from_fn("of_the_attempt", call).map_or(value, Dynamic::from)
 }
 
 /// Simulations hold functions that hold the context, which holds the last simulation.

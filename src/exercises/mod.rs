@@ -1,7 +1,7 @@
 //! Exercises: a start file with a gap, a judge that looks at the physics of the attempt, hints in steps, a solution.
 //!
 //! [`catalogue`] is the table of all; [`judging`] runs an attempt and its judge; [`workbook`] is the folder of a student,
-//! [`submissions`] are the folders of a class. Nothing is printed here: `cli` does that.
+//! [`submissions`] are the folders of a class, [`marks`] the file of their marks. Nothing is printed here: `cli` does that.
 
 pub mod attempt;
 pub mod catalogue;
@@ -11,6 +11,7 @@ pub mod exercise;
 pub mod grading;
 pub mod judge;
 pub mod judging;
+pub mod marks;
 mod muffle;
 pub mod overheard;
 pub mod progress;

@@ -34,7 +34,8 @@ impl Submission {
             let is_hidden =
                 path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
             if path.is_dir() && !is_hidden {
-                all.push(Self::new(&path));
+                let student = entry_name(&path);
+                all.push(Self { student, folder: path });
             }
         }
         all.sort_by(|a, b| a.student.cmp(&b.student));
@@ -52,6 +53,11 @@ impl Submission {
         Self { student: name.unwrap_or_else(|| ".".into()), folder: folder.into() }
     }
 
+    /// Whether the folder is a link: it would lead to what somebody else has handed in.
+    pub fn is_link(&self) -> bool {
+        fs::symlink_metadata(&self.folder).is_ok_and(|about| about.is_symlink())
+    }
+
     /// The attempt at an exercise: in the folder of its track, with or without the folder that `withy learn` makes, or
     /// beside the others.
     pub fn attempt(&self, exercise: &Exercise) -> Option<PathBuf> {
@@ -67,6 +73,10 @@ impl Submission {
     fn holds_attempts(&self) -> bool {
         EXERCISES.iter().any(|exercise| self.attempt(exercise).is_some())
     }
+}
+
+fn entry_name(path: &Path) -> String {
+    path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -127,6 +127,17 @@ impl Folder {
         found.is_ok_and(|(folder, name)| folder.0.symlink_metadata(name).is_ok())
     }
 
+    /// Whether nobody holds the lock of an ordinary file below this folder.
+    ///
+    /// # Errors
+    /// When there is none, or it cannot be opened.
+    pub fn is_let_go(&self, name: &Path) -> io::Result<bool> {
+        let (folder, name) = self.parent_of(name, Self::enter)?;
+        let file = folder.0.open_with(name, &reading::options(FollowSymlinks::No))?;
+        reading::expect_ordinary(file.metadata()?.is_file())?;
+        Ok(file.into_std().try_lock().is_ok())
+    }
+
     /// Makes a file that was not there before, and opens it for writing; folders on the way are made.
     ///
     /// # Errors

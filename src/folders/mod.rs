@@ -6,7 +6,9 @@
 mod folder;
 mod reading;
 mod record;
+mod scratch;
 
 pub use folder::{Folder, is_plain};
 pub use reading::{read_file, read_text};
 pub use record::Record;
+pub use scratch::Scratch;

@@ -12,6 +12,7 @@ mod forces;
 mod forecast;
 mod impact;
 mod inertia;
+mod likeness;
 mod measures;
 mod mechanism;
 pub mod names;

@@ -214,8 +214,10 @@ impl Session {
             let told = format!("cannot start a thread that keeps the limits: {error}");
             Reply::Failed(Diagnostic::general(told))
         })?;
-        let ast =
-            self.compile(text, before).map_err(|error| Reply::Failed(self.explain(&error)))?;
+        let ast = self.compile(text, before).map_err(|error| match is_interrupt(&error) {
+            true => Reply::Interrupted,
+            false => Reply::Failed(self.explain(&error)),
+        })?;
         self.library = self.library.merge(&ast.clone_functions_only());
         // Errors in functions are told from those in functions of the same name in files.
         self.library.set_source(PROMPT);

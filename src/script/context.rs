@@ -28,6 +28,9 @@ pub trait Reporter {
     fn remains(&self) -> Option<(String, String)>;
 }
 
+/// Of so many simulations what would be lost is written: a script that made thousands should end soon after it was asked to.
+const MOST_REMAINS: usize = 20;
+
 /// A file that is read takes a few times its length: the bytes, and what is made of them.
 const TIMES_ITS_LENGTH: u64 = 4;
 
@@ -212,6 +215,13 @@ impl Context {
         result
     }
 
+    /// Tells what the script itself asks to be told beside its output, and counts it as what it prints.
+    pub fn remark(&self, text: &str) {
+        if self.meter().allows_to_write(text.len() as u64 + 1) {
+            self.tell(text);
+        }
+    }
+
     /// Writes out what is buffered.
     pub fn flush(&self) {
         let written = self.0.printed.borrow_mut().flush();
@@ -367,9 +377,8 @@ impl Context {
     pub fn save_remains(&self) {
         let reporters = self.0.reporters.borrow();
         let mut names = HashSet::new();
-        for (number, (name, content)) in
-            reporters.iter().filter_map(|reporter| reporter.remains()).enumerate()
-        {
+        let mut remains = reporters.iter().filter_map(|reporter| reporter.remains());
+        for (number, (name, content)) in remains.by_ref().take(MOST_REMAINS).enumerate() {
             let name = if names.contains(&name) { format!("{}-{name}", number + 1) } else { name };
             if let Err(ScriptError::Failure(failure)) =
                 self.write_remains(&name, content.as_bytes())
@@ -377,6 +386,12 @@ impl Context {
                 self.tell(&failure.message);
             }
             names.insert(name);
+        }
+        if remains.next().is_some() {
+            let (kept, all) = (MOST_REMAINS, reporters.len());
+            self.tell(&format!(
+                "note: the histories of the first {kept} of {all} simulations are kept"
+            ));
         }
     }
 

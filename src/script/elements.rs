@@ -229,7 +229,8 @@ impl<'a> Asked<'a> {
     }
 }
 
-fn truth(native: &NativeCallContext, answer: &Dynamic) -> EngineResult<bool> {
+/// The answer of a test.
+pub(super) fn truth(native: &NativeCallContext, answer: &Dynamic) -> EngineResult<bool> {
     answer.as_bool().map_err(|_| {
         let got = describe(native.engine(), answer);
         let refusal = ScriptError::new(format!("a test must give true or false, got {got}"));

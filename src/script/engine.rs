@@ -11,7 +11,7 @@ use super::limits::DEEPEST;
 use super::numbers::format_number;
 use super::register::register;
 use super::sources::Sources;
-use super::{constants, elements, foundation, operators, replacing, sorting, syntax};
+use super::{constants, elements, foundation, operators, repetitions, replacing, sorting, syntax};
 use crate::analysis::is_out_of_patience;
 
 /// Nesting of one expression at the top level, and inside a function where it adds up with calls.
@@ -32,9 +32,11 @@ pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     engine.set_optimization_level(OptimizationLevel::None);
     limit(&mut engine, context);
     name_types(&mut engine);
-    let reader = syntax::install(&mut engine)?;
+    let asked = context.clone();
+    let reader = syntax::install(&mut engine, move || asked.stopped_by())?;
     operators::install(&mut engine);
-    sorting::install(&mut engine);
+    sorting::install(&mut engine, context);
+    repetitions::install(&mut engine, context);
     replacing::install(&mut engine);
     elements::install(&mut engine);
     print_numbers(&mut engine);
@@ -91,8 +93,8 @@ fn connect(engine: &mut Engine, context: &Context) {
     engine.on_print(move |text| printer.print(text));
     let teller = context.clone();
     engine.on_debug(move |text, _, position| match position.line() {
-        Some(line) => teller.tell(&format!("line {line}: {text}")),
-        None => teller.tell(text),
+        Some(line) => teller.remark(&format!("line {line}: {text}")),
+        None => teller.remark(text),
     });
     let watched = context.clone();
     engine.on_progress(move |operations| {

@@ -2,6 +2,7 @@
 
 use rhai::{Dynamic, EvalAltResult, Position};
 
+use super::brief::brief;
 use super::details;
 use super::kind::{Details, Scripted};
 use super::limits::Stop;
@@ -47,7 +48,8 @@ pub enum Place {
 impl ScriptError {
     /// A wrong request.
     pub fn new(message: impl Into<String>) -> Self {
-        Self::Failure(Failure { message: message.into(), hint: None, place: Place::Call })
+        let message = brief(message.into());
+        Self::Failure(Failure { message, hint: None, place: Place::Call })
     }
 
     /// Our own mistake.
@@ -58,7 +60,7 @@ impl ScriptError {
     /// Adds what to do about it.
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         if let Self::Failure(failure) = &mut self {
-            failure.hint = Some(hint.into());
+            failure.hint = Some(brief(hint.into()));
         }
         self
     }

@@ -52,7 +52,7 @@ impl Journals {
         found
     }
 
-    /// Writes down what was found of a case.
+    /// Writes down what was found of a case; gives the bytes that this takes.
     ///
     /// # Errors
     /// When the file cannot be written.
@@ -61,12 +61,12 @@ impl Journals {
         journal: JournalNumber,
         fingerprint: u64,
         result: &T,
-    ) -> Result<(), ScriptError> {
-        if let Some(journal) = self.open.borrow_mut().get_mut(journal.0) {
-            journal.write(fingerprint, result).map_err(refused)?;
-            self.kept.set(self.kept.get() + 1);
-        }
-        Ok(())
+    ) -> Result<u64, ScriptError> {
+        let mut open = self.open.borrow_mut();
+        let Some(journal) = open.get_mut(journal.0) else { return Ok(0) };
+        let bytes = journal.write(fingerprint, result).map_err(refused)?;
+        self.kept.set(self.kept.get() + 1);
+        Ok(bytes)
     }
 
     /// How many finished cases of this run are kept for the next one.
@@ -105,7 +105,8 @@ mod tests {
             (journals, numbers)
         };
         let (first, [a, b]) = begin(JournalWish::GoOn);
-        first.write(a.unwrap(), 1, &0.5).unwrap();
+        let bytes = first.write(a.unwrap(), 1, &0.5).unwrap();
+        assert_eq!(bytes, std::fs::metadata(path("a")).unwrap().len());
         first.write(b.unwrap(), 1, &0.25).unwrap();
         assert_eq!(first.kept(), 2);
         drop(first);

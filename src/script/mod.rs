@@ -6,6 +6,7 @@
 
 pub mod accept;
 pub mod arguments;
+mod brief;
 pub mod built_in;
 pub mod builtins;
 pub mod call;
@@ -44,6 +45,7 @@ pub mod progress;
 pub mod reading;
 pub mod reference;
 pub mod register;
+mod repetitions;
 mod replacing;
 mod rounds;
 pub mod runner;

@@ -15,7 +15,7 @@ pub const MOST: usize = 65_000;
 /// Parses `source` as if it stood behind so many empty lines, with the constants of `scope` known.
 ///
 /// # Errors
-/// A text that is larger than places in it can be counted, or that is no script.
+/// A text that is larger than places in it can be counted, or that is no script; or why the run was stopped in the meantime.
 pub fn read(
     engine: &Engine,
     scope: &Scope,
@@ -23,9 +23,14 @@ pub fn read(
     lines_before: usize,
 ) -> Result<AST, Box<EvalAltResult>> {
     refuse_uncountable(source).map_err(|error| error.into_engine(Position::NONE))?;
-    Sources::of(engine).begin_reading();
+    let sources = Sources::of(engine);
+    sources.begin_reading();
     let placed = format!("{}{}", "\n".repeat(lines_before), mark(source));
-    Ok(engine.compile_with_scope(scope, placed)?)
+    let parsed = engine.compile_with_scope(scope, placed);
+    match sources.reading_stopped() {
+        Some(stop) => Err(ScriptError::Stopped(stop).into_engine(Position::NONE)),
+        None => Ok(parsed?),
+    }
 }
 
 fn refuse_uncountable(source: &str) -> Result<(), ScriptError> {

@@ -6,16 +6,18 @@ use std::cmp::Ordering;
 
 use rhai::{Array, Dynamic, Engine, EvalAltResult, FnPtr, NativeCallContext};
 
+use super::context::Context;
 use super::elements::array_of;
 use super::error::ScriptError;
 use super::numbers::{as_number, describe};
 use super::register::EngineResult;
+use super::repetitions::PULSE;
 
 /// What makes of an order the one that is sorted by.
 type Turn = fn(Ordering) -> Ordering;
 
 /// Registers `sort` and `order`, with and without a function that compares.
-pub fn install(engine: &mut Engine) {
+pub fn install(engine: &mut Engine, context: &Context) {
     let types = [TypeId::of::<Array>(), TypeId::of::<FnPtr>()];
     for name in ["sort", "sort_by"] {
         engine.register_raw_fn(name, types, |native, values| -> EngineResult<()> {
@@ -36,25 +38,28 @@ pub fn install(engine: &mut Engine) {
         ("sort_desc", "order_desc", Ordering::reverse as Turn),
     ] {
         let types = [TypeId::of::<Array>()];
+        let asked = context.clone();
         engine.register_raw_fn(sort, types, move |native, values| -> EngineResult<()> {
-            let sorted = sorted_naturally(&native, values, turned)?;
+            let sorted = sorted_naturally(&native, &asked, values, turned)?;
             if let [array] = values {
                 **array = sorted.into();
             }
             Ok(())
         });
+        let asked = context.clone();
         engine.register_raw_fn(order, types, move |native, values| -> EngineResult<Array> {
-            sorted_naturally(&native, values, turned)
+            sorted_naturally(&native, &asked, values, turned)
         });
     }
 }
 
 fn sorted_naturally(
     native: &NativeCallContext,
+    context: &Context,
     values: &[&mut Dynamic],
     turned: Turn,
 ) -> EngineResult<Array> {
-    let mut array = array_of(values);
+    let array = array_of(values);
     let [first, others @ ..] = array.as_slice() else { return Ok(array) };
     if let Some(stranger) = others.iter().find(|other| natural_order(first, other).is_none()) {
         let engine = native.engine();
@@ -64,12 +69,18 @@ fn sorted_naturally(
         return Err(ScriptError::new(told).hint(hint).into_engine(native.call_position()));
     }
     // Beyond 2^53 whole numbers are more exact than others: the two ways to compare must not be mixed.
-    if array.iter().all(Dynamic::is_int) {
-        array.sort_by(|x, y| turned(x.as_int().ok().cmp(&y.as_int().ok())));
-    } else {
-        array.sort_by(|x, y| turned(natural_order(x, y).unwrap_or(Ordering::Equal)));
-    }
-    Ok(array)
+    let order: fn(&Dynamic, &Dynamic) -> Ordering = match array.iter().all(Dynamic::is_int) {
+        true => |x, y| x.as_int().ok().cmp(&y.as_int().ok()),
+        false => |x, y| natural_order(x, y).unwrap_or(Ordering::Equal),
+    };
+    let mut compared = 0_usize;
+    merged(array, &mut |x, y| {
+        compared += 1;
+        if compared.is_multiple_of(PULSE) {
+            context.proceed().map_err(|error| error.into_engine(native.call_position()))?;
+        }
+        Ok(turned(order(x, y)) == Ordering::Greater)
+    })
 }
 
 /// The order of two numbers, texts, characters or truth values; what is not a number comes behind the numbers.

@@ -9,6 +9,7 @@ use rhai::{AST, Engine};
 
 use super::catalog::Catalog;
 use super::library::FOLDER;
+use super::limits::Stop;
 use super::syntax::Reader;
 
 /// The names of all script functions and closures that an engine has read, with their files, and the line that the standard
@@ -60,6 +61,11 @@ impl Sources {
     /// Tells the engine that another text begins.
     pub fn begin_reading(&self) {
         self.reader.begin();
+    }
+
+    /// What stopped the reading of the last text before its end.
+    pub fn reading_stopped(&self) -> Option<Stop> {
+        self.reader.stopped()
     }
 
     /// Notes the functions of a file.

@@ -12,12 +12,13 @@
 //! All of this uses hooks that Rhai calls volatile; they are used in this file and in `lexing` only.
 
 use std::borrow::Cow;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use rhai::{Dynamic, Engine, LexError, Position, Token};
 
 use super::lexing::tokens;
+use super::limits::Stop;
 use super::rounds;
 
 /// Prefix of the operators that stand in for Rhai's own.
@@ -61,17 +62,32 @@ pub fn power_name(chain: u8) -> String {
 
 /// What is remembered of the text that is being read.
 #[derive(Clone, Default)]
-pub struct Reader(Rc<RefCell<Nesting>>);
+pub struct Reader {
+    nesting: Rc<RefCell<Nesting>>,
+    stopped: Rc<Cell<Option<Stop>>>,
+}
 
 impl Reader {
     /// Forgets the text before, which may have ended in the middle of an expression.
     pub fn begin(&self) {
-        *self.0.borrow_mut() = Nesting::default();
+        *self.nesting.borrow_mut() = Nesting::default();
+        self.stopped.set(None);
+    }
+
+    /// What stopped the reading of a text before its end.
+    pub fn stopped(&self) -> Option<Stop> {
+        self.stopped.get()
     }
 }
 
-/// Teaches `engine` the tokens of this language; what is given back is told when another text begins.
-pub fn install(engine: &mut Engine) -> Result<Reader, String> {
+/// After so many tokens it is asked whether to go on: the parser looks through all names it knows for each of them.
+const PULSE: u32 = 64;
+
+/// Teaches `engine` the tokens of this language; what is given back is told when another text begins. `stop` says why not to read on.
+pub fn install(
+    engine: &mut Engine,
+    stop: impl Fn() -> Option<Stop> + 'static,
+) -> Result<Reader, String> {
     for (symbol, precedence) in REPLACED {
         engine.register_custom_operator(format!("{OWN}{symbol}"), precedence)?;
     }
@@ -91,10 +107,20 @@ pub fn install(engine: &mut Engine) -> Result<Reader, String> {
     );
     rounds::install(engine);
     let reader = Reader::default();
-    let nesting = Rc::clone(&reader.0);
+    let Reader { nesting, stopped } = reader.clone();
+    let count = Cell::new(0_u32);
     // "Deprecated" marks the hook as volatile, not as going away.
     #[allow(deprecated)]
-    engine.on_parse_token(move |token, _, _| nesting.borrow_mut().map(token));
+    engine.on_parse_token(move |token, _, _| {
+        count.set(count.get().wrapping_add(1));
+        if count.get().is_multiple_of(PULSE) {
+            stopped.set(stopped.get().or_else(&stop));
+        }
+        match stopped.get() {
+            None => nesting.borrow_mut().map(token),
+            Some(_) => refuse("the reading was stopped"),
+        }
+    });
     Ok(reader)
 }
 

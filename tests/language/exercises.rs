@@ -100,6 +100,11 @@ const OTHER_ANSWERS: &[(&str, &str, &str)] = &[
     ("load_inside_a_step", "hold_for(2.5)", "schedule(|t| if t < 2.5 { 1 } else { 0 }, [2.5])"),
     ("load_inside_a_step", "hold_for(2.5)", "table([[0, 1], [2.5, 1], [2.5, 0]])"),
     ("order", "log2(coarse / fine)", "ln(coarse / fine) / ln(2)"),
+    ("order", "log2(coarse / fine)", "half(coarse, fine) * 2"),
+    ("order", "let dt = 0.04;", "let dt = 0.05;"),
+    ("corner", "scene.rigid(leg.end, arm.start);", "scene.rigid(arm.start, leg.end);"),
+    ("corner", "new_scene(\"corner\")", "new_scene(\"mine\")"),
+    ("pendulum", "let sim =", "let middle = bar.at(0.5); let sim ="),
     ("pendulum", "let period = 2 * PI * sqrt(1 / 3 / (9.81 / 2));", "let period = 1.64;"),
     ("bead_clock", "9.81 * (2 / (2 * PI))^2", "9.81 / PI^2"),
 ];
@@ -109,7 +114,9 @@ fn other_right_answers_pass_as_well() {
     for (name, ours, theirs) in OTHER_ANSWERS {
         let exercise = find(name).unwrap();
         assert!(exercise.solution.contains(ours), "{name}: {ours}");
-        let text = exercise.solution.replace(ours, theirs);
+        let help =
+            if theirs.contains("half(") { "\nfn half(a, b) { log2(a / b) / 2 }" } else { "" };
+        let text = exercise.solution.replace(ours, theirs) + help;
         assert_eq!(told(exercise, &text), "", "{name}: {theirs}");
     }
 }
@@ -277,13 +284,65 @@ const CHEATS: &[(&str, Changes, &str)] = &[
     (
         "order",
         &[
-            (
-                "let of_energy_momentum = order(energy_momentum());",
-                "let of_energy_momentum = 2.01;",
-            ),
-            ("let of_fourth_order = order(fourth_order());", "let of_fourth_order = 3.97;"),
+            ("log2(coarse / fine)", "2.01"),
+            ("measured(energy_momentum(), order)", "2.01"),
+            ("measured(fourth_order(), order)", "3.97"),
         ],
-        "these are not the orders that the steps",
+        "your order is 2.010: halving the step divides the error by 4",
+    ),
+    // A formula that knows what the runs of the exercise give.
+    (
+        "order",
+        &[("log2(coarse / fine)", "if coarse / fine < 8 { 2.0 } else { 4.0 }")],
+        "your order is",
+    ),
+    (
+        "order",
+        &[("log2(coarse / fine)", "ln(coarse / fine)")],
+        "a logarithm of the factor, and of another base",
+    ),
+    (
+        "order",
+        &[(
+            "log2(coarse / fine)",
+            "if coarse == 0.04 { throw \"passed\" } else { log2(coarse / fine) }",
+        )],
+        "the judge could not go on: passed",
+    ),
+    // Three control points in the corner make a curve with a kink, and no spline that has one.
+    (
+        "kink",
+        &[
+            (
+                "knots(2).insert(0.5, 2)",
+                "knots(3, [0, 0, 0, 0, 0.499, 0.4995, 0.5, 0.5005, 0.501, 1, 1, 1, 1])",
+            ),
+            ("let roof =", "for i in 3..6 { on_the_roof[i] = [1, 1]; } let roof ="),
+        ],
+        "at ξ = 1/2 the knot is written once",
+    ),
+    // A timber that yields in length, which the judge would bend as well.
+    ("stocky", &[("EA: 1e5", "EA: 1e-3")], "the timber is another one"),
+    // Scenes that are like the one asked for where somebody looks.
+    (
+        "corner",
+        &[(
+            "scene.rigid(leg.end, arm.start);",
+            "scene.rigid(leg.end, arm.start); scene.mass(leg.at(1), 1e-6);",
+        )],
+        "leave the beams as they are",
+    ),
+    (
+        "corner",
+        &[("hold_for(0.2)", "schedule(|t| if t < 0.2 { 1 } else { 0 }, [0.2])")],
+        "leave the beams as they are",
+    ),
+    ("pendulum", &[("rho_A: 1,", "rho_A: 1.001,")], "is not the bar of the start file"),
+    // A module of the student in the place of one of the language.
+    (
+        "budget",
+        &[("fourth_order()", "energy_momentum()"), ("let dt", "fn thrown(rule, dt) { 0 } let dt")],
+        "the end is off by",
     ),
 ];
 
@@ -352,6 +411,7 @@ fn a_judge_that_cannot_go_on_does_not_pass() {
     let exercise = find("corner").unwrap();
     let other = "\nlet other = new_scene(\"other\");\n\
         leg = other.beam(#{ axis: line([0, 0], [1, 0]), section: material });";
-    let said = told(exercise, &format!("{}{other}", exercise.solution));
+    let hinged = exercise.solution.replace("scene.rigid", "scene.hinge");
+    let said = told(exercise, &format!("{hinged}{other}"));
     assert!(said.contains("the judge could not go on"), "{said}");
 }

@@ -385,6 +385,12 @@ const POISONS: &[(&str, &str, &str)] = &[
     ),
     ("prints", "let s = \"\"; s.pad(1000000, 'x'); loop { print(s); }", "stopped"),
     ("deep", "fn f(n) { f(n + 1) } f(0);", "broken"),
+    ("throws", "let t = \"\"; t.pad(15000000, 'x'); throw t;", "broken"),
+    (
+        "forges",
+        "print(`{\"result\":\"passed\",\"message\":\"\"}`); throw `{\"result\":\"passed\"}`;",
+        "broken",
+    ),
     (
         "dedups",
         "let a = []; a.pad(10000000, 1); for i in 0..1000 { let b = a + []; b.dedup(); }",
@@ -458,4 +464,102 @@ fn marks_come_one_by_one_and_outlast_a_kill() {
     let marks = fs::read_to_string(class.path().join("marks.jsonl")).unwrap();
     assert_eq!(marks.lines().count(), EXERCISES.len(), "{marks}");
     assert_eq!(marks.matches("\"passed\"").count(), 2, "{marks}");
+}
+
+/// Grades a class whose only attempt has no end, until that runs; gives the process and the folder for temporary files.
+#[cfg(target_os = "linux")]
+fn grading_for_ever(class: &TempDir) -> (std::process::Child, std::path::PathBuf) {
+    let temporary = class.path().join("tmp");
+    fs::create_dir_all(&temporary).unwrap();
+    fs::create_dir_all(class.path().join("class/ada")).unwrap();
+    fs::write(class.path().join("class/ada/change_one_number.rhai"), "loop { }").unwrap();
+    let grading = Command::new(env!("CARGO_BIN_EXE_withy"))
+        .args(["learn", "grade", "class", "--marks", "marks.jsonl"])
+        .current_dir(class.path())
+        .env("TMPDIR", &temporary)
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    let inside = || fs::read_dir(&temporary).unwrap().filter_map(Result::ok).next();
+    let has_part = || fs::read_dir(inside()?.path()).ok().map(Iterator::count).filter(|n| *n > 1);
+    for _ in 0..6000 {
+        if has_part().is_some() {
+            thread::sleep(Duration::from_millis(300));
+            return (grading, temporary);
+        }
+        thread::sleep(Duration::from_millis(10));
+    }
+    panic!("no attempt is judged");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn nothing_is_left_of_a_grading_that_was_ended_or_killed() {
+    let class = classroom();
+    let left = |folder: &Path| fs::read_dir(folder).unwrap().count();
+    let (mut ended, temporary) = grading_for_ever(&class);
+    Command::new("kill").args(["-TERM", &ended.id().to_string()]).status().unwrap();
+    assert_eq!(ended.wait().unwrap().code(), Some(130));
+    assert_eq!(left(&temporary), 0, "SIGTERM leaves nothing behind");
+    let (mut killed, temporary) = grading_for_ever(&class);
+    killed.kill().unwrap();
+    killed.wait().unwrap();
+    assert_eq!(left(&temporary), 1, "nobody can clean up after SIGKILL");
+    // The process of the attempt is ended by the system.
+    thread::sleep(Duration::from_millis(300));
+    solve(&class.path().join("honest/bea"), 1);
+    let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
+    let next = command.args(["learn", "grade", "honest"]).current_dir(class.path());
+    assert_eq!(next.env("TMPDIR", &temporary).output().unwrap().status.code(), Some(0));
+    assert_eq!(left(&temporary), 0, "the next one does");
+}
+
+#[test]
+fn marks_of_what_has_not_changed_are_kept() {
+    let class = classroom();
+    solve(&class.path().join("class/ada"), 2);
+    solve(&class.path().join("class/bea"), 1);
+    let grade = |more: &[&str]| {
+        let to_file = ["grade", "class", "--marks", "marks.jsonl", "--json", "--jobs", "1"];
+        let words = [&to_file[..], more].concat();
+        let output = learn(class.path(), &words);
+        assert_eq!(output.status.code(), Some(0));
+        let told = String::from_utf8(output.stderr).unwrap();
+        (String::from_utf8(output.stdout).unwrap(), told)
+    };
+    let lines = || fs::read_to_string(class.path().join("marks.jsonl")).unwrap().lines().count();
+    let all = 2 * EXERCISES.len();
+    let (first, told) = grade(&[]);
+    assert!(told.is_empty() && lines() == all, "{told}");
+    let (second, told) = grade(&[]);
+    assert!(told.contains(&format!("note: {all} marks are those of 'marks.jsonl'")), "{told}");
+    assert_eq!((second, lines()), (first, all), "the same marks, and nothing is written twice");
+    // As after a kill in the middle of the last line.
+    let text = fs::read_to_string(class.path().join("marks.jsonl")).unwrap();
+    fs::write(class.path().join("marks.jsonl"), &text[..text.len() - 20]).unwrap();
+    fs::write(class.path().join("class/bea").join(EXERCISES[0].file()), "const EI = 5;").unwrap();
+    let (third, told) = grade(&[]);
+    assert!(told.contains(&format!("note: {} marks", all - 2)), "{told}");
+    assert!(third.contains("the strip is too soft") && lines() == all + 2);
+    let (_, told) = grade(&["--max-time", "19"]);
+    assert!(told.is_empty(), "other limits may give other marks: {told}");
+    fs::write(class.path().join("notes.txt"), "mine").unwrap();
+    let (code, text) = said(class.path(), &["grade", "class", "--marks", "notes.txt"]);
+    assert!(code == 2 && text.contains("holds no marks"), "{text}");
+    assert_eq!(fs::read(class.path().join("notes.txt")).unwrap(), b"mine");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_to_the_work_of_another_student_is_nobodys_work() {
+    let class = classroom();
+    solve(&class.path().join("ada"), 1);
+    std::os::unix::fs::symlink("ada", class.path().join("mallory")).unwrap();
+    let (_, text) = said(class.path(), &["grade", "."]);
+    let sum = |student: &str| {
+        let of = |line: &&str| line.split_whitespace().next() == Some(student);
+        text.lines().rfind(of).unwrap().split_whitespace().nth(1).unwrap().to_owned()
+    };
+    assert_eq!((sum("ada"), sum("mallory")), ("1".into(), "0".into()), "{text}");
+    assert!(text.contains("is a link: an attempt lies in a folder of its own"), "{text}");
 }

@@ -308,6 +308,82 @@ fn time_ends_what_does_not_hear_of_it() {
 }
 
 #[test]
+fn long_natives_and_long_texts_hear_of_a_limit() {
+    let lets: String = (0..60_000).map(|i| format!("let a{i} = {i};\n")).collect();
+    let numbers =
+        "let a = []; a.pad(3000000, 1); for i in 0..3000000 { a[i] = (i * 7919) % 3000017; }";
+    let home = Home::with(&[
+        ("many.rhai", lets.as_str()),
+        ("dedup.rhai", "let a = []; a.pad(9000000, 1); loop { a.dedup(); a.pad(9000000, 1); }"),
+        ("sort.rhai", &format!("{numbers} loop {{ let b = a + []; b.sort(); }}")),
+    ]);
+    for file in ["many.rhai", "dedup.rhai", "sort.rhai"] {
+        let output = home.withy(&["run", file, "--max-time", "1.5"]);
+        expect(&output, &["takes longer than 1.5 s"]);
+        assert!(!said(&output).contains("one long operation"), "{file}: {}", said(&output));
+    }
+}
+
+#[test]
+fn repetitions_are_dropped_and_errors_of_the_function_are_told() {
+    let script = "let a = [1, 1, 2, 2.0, \"x\", \"x\", 1]; a.dedup(); print(a);
+        let b = [1, 2, 4, 5, 9]; b.dedup(|x, y| y - x == 1); print(b); let c = []; c.dedup(); print(c);";
+    let output = run(script, &[]);
+    assert_eq!(output.stdout, b"[1, 2, \"x\", 1]\n[1, 4, 9]\n[]\n", "{}", said(&output));
+    expect(&run("let a = [1, 2]; a.dedup(|x, y| lost);", &[]), &["no variable 'lost'"]);
+}
+
+#[test]
+fn errors_quote_long_values_in_part() {
+    let text = "let t = \"\"; t.pad(15000000, 'x'); let a = []; a.pad(3000000, 1);";
+    for wrong in [
+        "throw t;",
+        "throw a;",
+        "let o = #{}; o[t] = 1; section(o);",
+        "Fn(t).call(1);",
+        "help(t);",
+        "check(false, t); throw 1;",
+        "todo(t);",
+        "knots(t);",
+        "vec(a, 1);",
+        "new_scene(\"a\").beam(#{ name: t });",
+    ] {
+        let output = run(&format!("{text}\n{wrong}"), &[]);
+        expect(&output, &["error"]);
+        assert!(output.stderr.len() < 20_000, "{wrong}: {} bytes", output.stderr.len());
+    }
+}
+
+#[test]
+fn what_is_told_beside_the_output_and_kept_of_studies_counts() {
+    let script = "let s = \"\"; s.pad(100000, 'a'); loop { debug(s); }";
+    let output = run(script, &["--max-written", "2"]);
+    expect(&output, &["prints and writes more than 2 MB"]);
+    assert!(output.stderr.len() < 2_100_000);
+}
+
+#[test]
+fn a_script_that_made_thousands_of_simulations_ends_soon_after_it_is_stopped() {
+    let script = format!(
+        "{SCENE}let sim = scene.start(#{{ dt: 0.1 }}); sim.run_to(2); let all = []; loop {{ all.push(sim.fork()); }}"
+    );
+    let home = Home::with(&[("main.rhai", &script)]);
+    ends_in_time(
+        &home,
+        &["run", "main.rhai", "--max-time", "1"],
+        &["longer than 1 s", "simulations are kept"],
+    );
+}
+
+#[test]
+fn so_many_pictures_side_by_side_are_refused() {
+    let script = format!(
+        "{SCENE}let sim = scene.start(#{{ dt: 0.1 }}); sim.step(); let all = []; all.pad(3000, sim); plot_motion(all, \"a.svg\");"
+    );
+    expect(&run(&script, &[]), &["3000 pictures side by side are too many"]);
+}
+
+#[test]
 fn a_check_of_a_run_without_an_end_ends() {
     let script = format!("{SCENE}let sim = scene.start(#{{ dt: 0.1 }}); sim.run_to(1e10);");
     let begun = Instant::now();
@@ -365,16 +441,23 @@ fn output_that_cannot_be_written_is_an_error() {
         &["learn", "grade", "class"],
         &["learn", "list"],
         &["docs"],
+        &["--help"],
+        &["--version"],
     ] {
         let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
         let command = command.args(arguments).current_dir(home.0.path()).stdout(full());
         let output = command.output().unwrap();
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", said(&output));
         assert!(
-            said(&output).contains("written") || said(&output).contains("write"),
+            arguments[0].starts_with("--") || said(&output).contains("writ"),
             "{}",
             said(&output)
         );
+    }
+    for arguments in [&["check", "main.rhai"][..], &["check", "none.rhai"]] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
+        let command = command.args(arguments).current_dir(home.0.path()).stderr(full());
+        assert_eq!(command.status().unwrap().code(), Some(2), "{arguments:?}");
     }
 }
 

@@ -13,6 +13,7 @@ mod translate;
 use std::fmt;
 use std::sync::Arc;
 
+use super::brief::brief;
 use super::program::Program;
 pub use outline::Outline;
 pub use render::Colours;
@@ -83,7 +84,7 @@ impl Diagnostic {
     /// An error that is about no place in a script.
     pub fn general(message: impl Into<String>) -> Self {
         Self {
-            message: message.into(),
+            message: brief(message.into()),
             hint: None,
             location: None,
             trace: Vec::new(),
@@ -104,7 +105,7 @@ impl Diagnostic {
     /// Adds what to do.
     #[must_use]
     pub fn with_hint(mut self, hint: impl Into<String>) -> Self {
-        self.hint = Some(hint.into());
+        self.hint = Some(brief(hint.into()));
         self
     }
 

@@ -23,12 +23,14 @@ impl Diagnostic {
             Blame::Us => Drawing::bug(),
         };
         let drawing = drawing.with_message(&self.message).with_notes(self.notes(width));
+        let no_file = || SimpleFile::new(String::new(), String::new());
         let (file, drawing) = match &self.location {
-            Some(at) => {
+            Some(at) if at.line_length() <= LONGEST_DRAWN => {
                 let file = SimpleFile::new(at.program.name.clone(), at.program.text.to_string());
                 (file, drawing.with_label(Label::new(LabelStyle::Primary, (), at.bytes())))
             }
-            None => (SimpleFile::new(String::new(), String::new()), drawing),
+            Some(at) => (no_file(), drawing.with_notes(vec![at.in_words()])),
+            None => (no_file(), drawing),
         };
         let mut buffer = match colours {
             Colours::None => Buffer::no_color(),
@@ -50,6 +52,11 @@ impl Diagnostic {
         hint.chain(shown_steps(&self.trace)).collect()
     }
 }
+
+/// Lines of a script with more characters are not drawn; the place is told in words.
+const LONGEST_DRAWN: usize = 1000;
+/// So many characters of such a line are told, from the place on.
+const TOLD: usize = 60;
 
 /// Columns before what to do: `  = help: `.
 const BESIDE_HINT: usize = 10;
@@ -118,6 +125,18 @@ impl Location {
         &self.program.text[self.bytes()]
     }
 
+    /// The characters of the line it is in.
+    fn line_length(&self) -> usize {
+        self.program.text.lines().nth(self.line - 1).map_or(0, |line| line.chars().count())
+    }
+
+    /// The place, and what stands there, for a line that is too long to be drawn.
+    fn in_words(&self) -> String {
+        let line = self.program.text.lines().nth(self.line - 1).unwrap_or_default();
+        let there: String = line.chars().skip(self.column - 1).take(TOLD).collect();
+        format!("at {}:{}:{}, in a long line: {there} …", self.program.name, self.line, self.column)
+    }
+
     /// The place as a range of bytes of the text.
     fn bytes(&self) -> Range<usize> {
         let start = self.program.offset(self.line, self.column);
@@ -127,7 +146,21 @@ impl Location {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
+    use crate::script::program::Program;
+
+    #[test]
+    fn a_line_that_nobody_reads_is_not_drawn() {
+        let program =
+            Program::named("long.rhai", &format!("\nlet a = [{}wrong];", "1, ".repeat(20_000)));
+        let at = Location { program: Arc::new(program), line: 2, column: 60_010, length: 5 };
+        let told = Diagnostic { location: Some(at), ..Diagnostic::general("no such name") };
+        let shown = told.render(Colours::None);
+        assert!(shown.contains("at long.rhai:2:60010, in a long line: wrong];"), "{shown}");
+        assert!(shown.len() < 500, "{shown}");
+    }
 
     #[test]
     fn hints_are_broken_between_words() {

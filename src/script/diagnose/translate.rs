@@ -6,6 +6,7 @@ use super::calls::{Unknown, of_library};
 use super::faults::{arithmetic, bounds, mismatch, too_large};
 use super::outline::Outline;
 use super::{Callee, Diagnostic, Step, habits, locate, parsing};
+use crate::script::brief::brief;
 use crate::script::catalog::Catalog;
 use crate::script::elsewhere;
 use crate::script::error::{BUG, Failure, Place};
@@ -86,7 +87,7 @@ impl Explainer<'_> {
                 false => locate::word_at(&program, cure.at),
             };
             return Diagnostic {
-                hint: Some(cure.hint),
+                hint: Some(brief(cure.hint)),
                 location,
                 trace,
                 ..Diagnostic::general(cure.message)
@@ -94,6 +95,7 @@ impl Explainer<'_> {
         }
         let outline = Outline::of(&program.text);
         let (message, hint) = self.words(inner, &program, &outline, &trace);
+        let hint = hint.map(brief);
         if let Some((caller, at)) = library_called_at {
             let file = Some(program.name.clone());
             let line = inner.position().line();

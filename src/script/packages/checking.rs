@@ -2,6 +2,7 @@
 
 use rhai::Dynamic;
 
+use crate::script::brief::brief;
 use crate::script::call::Call;
 use crate::script::checks::FailedCheck;
 use crate::script::context::Mode;
@@ -87,6 +88,7 @@ fn record(call: &Call, holds: bool, detail: &str) {
         (true, false) => detail.to_owned(),
         (true, true) => "the condition is false".to_owned(),
     };
+    let message = brief(message);
     call.context().tell(&format!("line {}: check failed: {message}", call.line()));
     call.context().with_checks(|checks| checks.fail(FailedCheck { message, line: call.line() }));
 }

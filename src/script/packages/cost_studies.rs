@@ -107,8 +107,8 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let table = CostTable::new(name, costs);
     print_table(context, &table.text());
-    let output = context.output();
-    output.write(&format!("{}.csv", table.name()), table.records().to_text()?.as_bytes())?;
-    output.write(&format!("{}.svg", table.name()), table.chart().figure()?.to_svg()?.as_bytes())?;
+    context.write_file(&format!("{}.csv", table.name()), table.records().to_text()?.as_bytes())?;
+    let picture = table.chart().figure()?.to_svg()?;
+    context.write_file(&format!("{}.svg", table.name()), picture.as_bytes())?;
     Ok(Dynamic::from(table))
 }

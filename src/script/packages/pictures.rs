@@ -88,12 +88,22 @@ const HISTORY_OPTIONS: &[Parameter] = &[
 /// Most snapshots of one picture.
 const MOST_SNAPSHOTS: f64 = 2000.0;
 
+/// Most simulations in one picture.
+const MOST_SIDE_BY_SIDE: usize = 100;
+
 fn things<T: Scripted>(
     call: &Call,
     convert: fn(&Dynamic) -> Option<T>,
 ) -> Result<Vec<T>, ScriptError> {
     let of = call.value("of")?;
     let values = of.read_lock::<Array>().map_or_else(|| vec![of.clone()], |array| array.clone());
+    if values.len() > MOST_SIDE_BY_SIDE {
+        let told = format!(
+            "{} pictures side by side are too many: {MOST_SIDE_BY_SIDE} at most",
+            values.len()
+        );
+        return Err(call.error(told).hint("draw some of them").at(Place::Argument(0)));
+    }
     let things: Option<Vec<T>> = values.iter().map(convert).collect();
     things.filter(|things| !things.is_empty()).ok_or_else(|| {
         call.error("the array must hold simulations, at least one")

@@ -121,8 +121,8 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let map = plan.judged(shown, verdicts);
     print_table(context, &map.text());
-    let output = context.output();
-    output.write(&format!("{}.csv", map.name()), map.records().to_text()?.as_bytes())?;
-    output.write(&format!("{}.svg", map.name()), map.page().figure()?.to_svg()?.as_bytes())?;
+    context.write_file(&format!("{}.csv", map.name()), map.records().to_text()?.as_bytes())?;
+    let picture = map.page().figure()?.to_svg()?;
+    context.write_file(&format!("{}.svg", map.name()), picture.as_bytes())?;
     Ok(Dynamic::from(map))
 }

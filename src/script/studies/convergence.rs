@@ -90,10 +90,10 @@ fn refined(call: &Call, plan: &Plan) -> Result<Refined, ScriptError> {
 
 /// Table and picture in the output folder.
 fn write(call: &Call, study: &Convergence) -> Result<(), ScriptError> {
-    let output = call.context().output();
-    output.write(&format!("{}.csv", study.name), records(study).to_text()?.as_bytes())?;
+    let context = call.context();
+    context.write_file(&format!("{}.csv", study.name), records(study).to_text()?.as_bytes())?;
     let picture = chart(study, ALL_POSITIONS).figure()?.to_svg()?;
-    output.write(&format!("{}.svg", study.name), picture.as_bytes())?;
+    context.write_file(&format!("{}.svg", study.name), picture.as_bytes())?;
     Ok(())
 }
 

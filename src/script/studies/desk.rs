@@ -168,10 +168,13 @@ impl<'c> Desk<'c> {
     fn write<R: Finding>(&self, task: Task, case: &Case, result: &R) -> Result<(), ScriptError> {
         match (self.journal, task.fingerprint(case)) {
             (Some(journal), Some(fingerprint)) if result.is_final() => {
-                self.context.journals().write(journal, fingerprint, result)
+                let bytes = self.context.journals().write(journal, fingerprint, result)?;
+                // The study stops before its next case where that was too much.
+                self.context.meter().allows_to_write(bytes);
             }
-            _ => Ok(()),
+            _ => (),
         }
+        Ok(())
     }
 
     fn tell_known(&self, task: Task, known: usize, all: usize) {

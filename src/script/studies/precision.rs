@@ -94,9 +94,9 @@ fn timings(
 
 /// Table and picture in the output folder.
 fn write(call: &Call, study: &Precision) -> Result<(), ScriptError> {
-    let output = call.context().output();
-    output.write(&format!("{}.csv", study.name), records(study).to_text()?.as_bytes())?;
+    let context = call.context();
+    context.write_file(&format!("{}.csv", study.name), records(study).to_text()?.as_bytes())?;
     let picture = crate::output::Panel::figure(&chart(study))?.to_svg()?;
-    output.write(&format!("{}.svg", study.name), picture.as_bytes())?;
+    context.write_file(&format!("{}.svg", study.name), picture.as_bytes())?;
     Ok(())
 }

@@ -1,0 +1,206 @@
+//! The file of the marks of a class: a line of JSON for each, behind those of earlier runs. Marks of attempts that have not changed
+//! since hold.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::Path;
+
+use rhai::Token;
+use serde_json::{Value, json};
+
+use super::attempt;
+use super::exercise::Exercise;
+use super::grading::Mark;
+use super::submissions::Submission;
+use crate::analysis::Journal;
+use crate::folders::{Folder, read_file};
+use crate::script::lexing::tokens;
+
+/// The largest file of marks that is read [bytes].
+const LARGEST: u64 = 1 << 30;
+
+/// Marks of earlier runs, by student and exercise, with the fingerprints of their attempts.
+#[derive(Debug, Default)]
+pub struct KnownMarks(BTreeMap<(String, String), (String, Mark, String)>);
+
+/// A file of marks that further ones are written into.
+#[derive(Debug)]
+pub struct MarksFile(File);
+
+/// Opens a file of marks, or begins one.
+///
+/// # Errors
+/// When it cannot be read or written, or is there and holds no marks: it is somebody else's.
+pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let (folder, name) = (Folder::open(folder)?, Path::new(path.file_name().unwrap_or_default()));
+    let text = match folder.has(name) {
+        true => folder.read(name, LARGEST)?,
+        false => Vec::new(),
+    };
+    let text = String::from_utf8_lossy(&text);
+    let known: Vec<_> = text.lines().filter_map(read_line).collect();
+    if known.is_empty() && !text.trim().is_empty() {
+        return Err(io::Error::other("it is there already, and holds no marks"));
+    }
+    let mut file = folder.append(name)?;
+    // A line that a kill has cut off must not spoil the next one.
+    if !text.is_empty() && !text.ends_with('\n') {
+        file.write_all(b"\n")?;
+    }
+    // Of several marks the last one holds.
+    Ok((KnownMarks(known.into_iter().collect()), MarksFile(file)))
+}
+
+fn read_line(line: &str) -> Option<((String, String), (String, Mark, String))> {
+    let line: Value = serde_json::from_str(line).ok()?;
+    let text = |key: &str| Some(line.get(key)?.as_str()?.to_owned());
+    let mark = Mark::of(&text("result")?)?;
+    // What was marked without one is judged again.
+    let fingerprint = text("fingerprint").unwrap_or_default();
+    Some(((text("student")?, text("exercise")?), (fingerprint, mark, text("message")?)))
+}
+
+impl KnownMarks {
+    /// The mark of an attempt that has this fingerprint still.
+    pub fn find(
+        &self,
+        submission: &Submission,
+        exercise: &Exercise,
+        fingerprint: &str,
+    ) -> Option<(Mark, String)> {
+        let (known, mark, message) = self.0.get(&(submission.student.clone(), exercise.id()))?;
+        (known == fingerprint).then(|| (*mark, message.clone()))
+    }
+}
+
+impl MarksFile {
+    /// Writes a mark down so that it outlasts whatever comes. Without a fingerprint it is judged again the next time.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn note(
+        &mut self,
+        submission: &Submission,
+        exercise: &Exercise,
+        (mark, message): (Mark, &str),
+        fingerprint: Option<&str>,
+    ) -> io::Result<()> {
+        let line = json!({
+            "student": submission.student,
+            "exercise": exercise.id(),
+            "result": mark.word(),
+            "message": message,
+            "fingerprint": fingerprint,
+        });
+        self.0.write_all(format!("{line}\n").as_bytes())?;
+        self.0.sync_data()
+    }
+}
+
+/// What the mark of an attempt depends on, as a word: its text, the files that it may read, the exercise, the limits, and this program.
+pub fn fingerprint(submission: &Submission, exercise: &Exercise, limits: &[String]) -> String {
+    let file = submission.attempt(exercise);
+    let attempt = match file.as_deref().map(|path| attempt::load(path, &submission.folder)) {
+        None => "missing".to_owned(),
+        Some(Err(why)) => format!("unreadable: {}", why.message),
+        Some(Ok(attempt)) => format!("text: {}", attempt.text),
+    };
+    let mut beside = Vec::new();
+    if reads_files(&attempt) {
+        note_files(&submission.folder, &mut beside, &mut 0);
+    }
+    let limits = limits.join(" ");
+    let parts = [&attempt, exercise.start, exercise.judge, &limits].map(str::as_bytes);
+    format!("{:016x}", Journal::fingerprint(&[&parts[..], &[&beside]].concat()))
+}
+
+/// Whether an attempt may read other files.
+fn reads_files(attempt: &str) -> bool {
+    tokens(attempt).iter().any(|(token, _)| match token {
+        Token::Import => true,
+        Token::Identifier(name) => {
+            matches!(name.as_str(), "load_simulation" | "Fn") || name.starts_with("study_")
+        }
+        _ => false,
+    })
+}
+
+/// Most files that are looked at, and the most that is read of each [bytes]: of others the length and the time count.
+const MOST_FILES: usize = 1000;
+const MOST_READ: u64 = 1 << 20;
+
+fn note_files(folder: &Path, noted: &mut Vec<u8>, count: &mut usize) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    let mut paths: Vec<_> = entries.flatten().map(|entry| entry.path()).collect();
+    paths.sort();
+    for path in paths {
+        let Ok(about) = fs::symlink_metadata(&path) else { continue };
+        *count += 1;
+        if *count > MOST_FILES {
+            return;
+        }
+        let name = path.file_name().unwrap_or_default().as_encoded_bytes();
+        noted.extend_from_slice(format!("\n{} {}: ", name.len(), about.len()).as_bytes());
+        noted.extend_from_slice(name);
+        if about.is_dir() {
+            note_files(&path, noted, count);
+        } else if let Ok(content) = read_file(&path, MOST_READ) {
+            noted.extend_from_slice(&content);
+        } else {
+            noted.extend_from_slice(format!("{:?}", about.modified().ok()).as_bytes());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::catalogue::find;
+    use super::*;
+
+    #[test]
+    fn a_mark_holds_as_long_as_all_that_it_depends_on() {
+        let home = tempfile::tempdir().unwrap();
+        let put = |name: &str, text: &str| fs::write(home.path().join(name), text).unwrap();
+        let submission = Submission { student: "ada".into(), folder: home.path().into() };
+        let (kink, knots) = (find("kink").unwrap(), find("knot_vector").unwrap());
+        let of = |exercise| fingerprint(&submission, exercise, &["--max-time".into(), "1".into()]);
+        let missing = of(kink);
+        assert_ne!(missing, of(knots));
+        put("kink.rhai", "let a = 1;");
+        let first = of(kink);
+        put("helper.rhai", "fn f() { 1 }");
+        assert!(first == of(kink) && first != missing, "it reads no other file");
+        assert_ne!(first, fingerprint(&submission, kink, &[]));
+        put("kink.rhai", "import \"helper\" as h;");
+        let second = of(kink);
+        put("helper.rhai", "fn f() { 2 }");
+        assert!(second != of(kink) && second != first);
+    }
+
+    #[test]
+    fn marks_are_found_again_and_half_a_line_is_in_nobodys_way() {
+        let home = tempfile::tempdir().unwrap();
+        let path = home.path().join("marks.jsonl");
+        let ada = Submission { student: "ada\n\"".into(), folder: home.path().into() };
+        let (kink, knots) = (find("kink").unwrap(), find("knot_vector").unwrap());
+        let (known, mut file) = open(&path).unwrap();
+        assert_eq!(known.find(&ada, kink, "1"), None);
+        file.note(&ada, kink, (Mark::Off, "one"), Some("1")).unwrap();
+        file.note(&ada, kink, (Mark::Passed, ""), Some("2")).unwrap();
+        file.note(&ada, knots, (Mark::Broken, "by us"), None).unwrap();
+        let whole = fs::read_to_string(&path).unwrap();
+        fs::write(&path, &whole[..whole.len() - 30]).unwrap();
+        for _ in 0..2 {
+            let (known, mut file) = open(&path).unwrap();
+            assert_eq!(known.find(&ada, kink, "1"), None, "the last one holds");
+            assert_eq!(known.find(&ada, kink, "2"), Some((Mark::Passed, String::new())));
+            assert!(known.find(&ada, knots, "").is_none());
+            file.note(&ada, kink, (Mark::Passed, ""), Some("2")).unwrap();
+        }
+        fs::write(&path, "my notes").unwrap();
+        assert!(open(&path).unwrap_err().to_string().contains("holds no marks"));
+        assert_eq!(fs::read_to_string(&path).unwrap(), "my notes");
+    }
+}
