@@ -7,8 +7,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::Exit;
-use super::watching::terminal;
 use super::say::tell;
+use super::watching::terminal;
 use crate::repl::editor::typed_ahead;
 use crate::script::limits::INTERRUPT_HEARD;
 

@@ -9,6 +9,7 @@ mod explain;
 mod motion_pictures;
 mod newcomer;
 mod present;
+mod prompt;
 mod session;
 mod standard_library;
 mod suite;

@@ -3,6 +3,7 @@
 mod cli;
 mod docs_command;
 mod learn_command;
+mod learn_watch;
 mod limits;
 mod repl_pipe;
 mod repl_terminal;

@@ -15,9 +15,7 @@ use withy::repl::shell::{Outcome, Screen, Shell};
 use withy::script::catalog::Catalog;
 use withy::script::context::{Mode, Settings};
 
-#[path = "common/notepad.rs"]
-mod notepad;
-use notepad::Notepad;
+use crate::common::notepad::Notepad;
 
 /// A shell, and what it has printed and told.
 struct Prompt {
