@@ -211,7 +211,8 @@ mod tests {
         let code: Vec<String> = code.broken(20).iter().map(Line::text).collect();
         let expected = ["  let a = f(123, ", "      45678901234567", "      890123456789);"];
         assert_eq!(code, expected);
-        assert_eq!(Line::default().broken(20), [Line::default()]);
+        let empty = Line::default().broken(20);
+        assert_eq!(empty.iter().map(Line::text).collect::<Vec<_>>(), [""]);
         assert_eq!(wrapped("", "", 20), Vec::<String>::new());
     }
 
