@@ -20,9 +20,20 @@ use crate::script::lexing::tokens;
 /// The largest file of marks that is read [bytes].
 const LARGEST: u64 = 1 << 30;
 
-/// Marks of earlier runs, by student and exercise, with the fingerprints of their attempts.
+/// Marks of earlier runs, by student and exercise.
 #[derive(Debug, Default)]
-pub struct KnownMarks(BTreeMap<(String, String), (String, Mark, String)>);
+pub struct KnownMarks(BTreeMap<Whose, Known>);
+
+/// A student and an exercise.
+type Whose = (String, String);
+
+/// A mark of an earlier run.
+#[derive(Debug)]
+struct Known {
+    fingerprint: String,
+    mark: Mark,
+    message: String,
+}
 
 /// A file of marks that further ones are written into.
 #[derive(Debug)]
@@ -53,13 +64,14 @@ pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     Ok((KnownMarks(known.into_iter().collect()), MarksFile(file)))
 }
 
-fn read_line(line: &str) -> Option<((String, String), (String, Mark, String))> {
+fn read_line(line: &str) -> Option<(Whose, Known)> {
     let line: Value = serde_json::from_str(line).ok()?;
     let text = |key: &str| Some(line.get(key)?.as_str()?.to_owned());
     let mark = Mark::of(&text("result")?)?;
     // What was marked without one is judged again.
     let fingerprint = text("fingerprint").unwrap_or_default();
-    Some(((text("student")?, text("exercise")?), (fingerprint, mark, text("message")?)))
+    let known = Known { fingerprint, mark, message: text("message")? };
+    Some(((text("student")?, text("exercise")?), known))
 }
 
 impl KnownMarks {
@@ -70,8 +82,8 @@ impl KnownMarks {
         exercise: &Exercise,
         fingerprint: &str,
     ) -> Option<(Mark, String)> {
-        let (known, mark, message) = self.0.get(&(submission.student.clone(), exercise.id()))?;
-        (known == fingerprint).then(|| (*mark, message.clone()))
+        let known = self.0.get(&(submission.student.clone(), exercise.id()))?;
+        (known.fingerprint == fingerprint).then(|| (known.mark, known.message.clone()))
     }
 }
 

@@ -473,7 +473,7 @@ fn grading_for_ever(class: &TempDir) -> (std::process::Child, std::path::PathBuf
     fs::create_dir_all(&temporary).unwrap();
     fs::create_dir_all(class.path().join("class/ada")).unwrap();
     fs::write(class.path().join("class/ada/change_one_number.rhai"), "loop { }").unwrap();
-    let grading = Command::new(env!("CARGO_BIN_EXE_withy"))
+    let mut grading = Command::new(env!("CARGO_BIN_EXE_withy"))
         .args(["learn", "grade", "class", "--marks", "marks.jsonl"])
         .current_dir(class.path())
         .env("TMPDIR", &temporary)
@@ -489,6 +489,8 @@ fn grading_for_ever(class: &TempDir) -> (std::process::Child, std::path::PathBuf
         }
         thread::sleep(Duration::from_millis(10));
     }
+    grading.kill().unwrap();
+    grading.wait().unwrap();
     panic!("no attempt is judged");
 }
 
