@@ -17,19 +17,9 @@ use super::journals::Journals;
 use super::kind::Type;
 use super::limits::{INTERRUPT_HEARD, MEGABYTE, Meter, Stop};
 use super::progress::Progress;
+pub use super::reports::Reporter;
+use super::reports::Reports;
 pub use super::settings::{JournalWish, Mode, Settings, StudyWishes};
-
-/// Something that has gone through a run and can tell of it, such as a simulation.
-pub trait Reporter {
-    /// What it says about itself in the report, asked when the run ends, however it ends.
-    fn report(&self) -> serde_json::Value;
-
-    /// A name and the content of a file that keeps what would be lost when the script does not come to its end.
-    fn remains(&self) -> Option<(String, String)>;
-}
-
-/// Of so many simulations what would be lost is written: a script that made thousands should end soon after it was asked to.
-const MOST_REMAINS: usize = 20;
 
 /// A file that is read takes a few times its length: the bytes, and what is made of them.
 const TIMES_ITS_LENGTH: u64 = 4;
@@ -50,7 +40,7 @@ struct Shared {
     journals: Journals,
     output: OutputFolder,
     checks: RefCell<Checks>,
-    reporters: RefCell<Vec<Box<dyn Reporter>>>,
+    reports: Reports,
     callback_error: RefCell<Option<Box<EvalAltResult>>>,
     /// The names of studies so far.
     study_names: RefCell<HashSet<PathBuf>>,
@@ -79,7 +69,7 @@ impl Context {
             journals: Journals::default(),
             output: OutputFolder::new(settings.out, settings.folder, settings.mode),
             checks: RefCell::default(),
-            reporters: RefCell::default(),
+            reports: Reports::default(),
             callback_error: RefCell::default(),
             study_names: RefCell::default(),
             snapshots: settings.snapshots,
@@ -370,29 +360,20 @@ impl Context {
 
     /// Adds a simulation to the report.
     pub fn add_reporter(&self, reporter: Box<dyn Reporter>) {
-        self.0.reporters.borrow_mut().push(reporter);
+        self.0.reports.add(reporter);
     }
 
     /// Writes what would be lost of the simulations, after a script that did not come to its end.
     pub fn save_remains(&self) {
-        let reporters = self.0.reporters.borrow();
-        let mut names = HashSet::new();
-        let mut remains = reporters.iter().filter_map(|reporter| reporter.remains());
-        for (number, (name, content)) in remains.by_ref().take(MOST_REMAINS).enumerate() {
-            let name = if names.contains(&name) { format!("{}-{name}", number + 1) } else { name };
+        let (files, note) = self.0.reports.remains();
+        for (name, content) in files {
             if let Err(ScriptError::Failure(failure)) =
                 self.write_remains(&name, content.as_bytes())
             {
                 self.tell(&failure.message);
             }
-            names.insert(name);
         }
-        if remains.next().is_some() {
-            let (kept, all) = (MOST_REMAINS, reporters.len());
-            self.tell(&format!(
-                "note: the histories of the first {kept} of {all} simulations are kept"
-            ));
-        }
+        note.inspect(|note| self.tell(note));
     }
 
     /// What would be lost is little, and is written even where the run may write no more.
@@ -404,12 +385,12 @@ impl Context {
     /// next input may make a study anew.
     pub fn forget_reporters(&self) {
         self.0.study_names.borrow_mut().clear();
-        self.0.reporters.borrow_mut().clear();
+        self.0.reports.forget();
     }
 
     /// What all simulations of the run say about themselves; they are let go.
     pub fn report(&self) -> Vec<serde_json::Value> {
         self.0.latest_simulation.take();
-        self.0.reporters.take().into_iter().map(|reporter| reporter.report()).collect()
+        self.0.reports.take()
     }
 }

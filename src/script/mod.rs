@@ -47,6 +47,7 @@ pub mod reference;
 pub mod register;
 mod repetitions;
 mod replacing;
+mod reports;
 mod rounds;
 pub mod runner;
 pub mod scanner;
