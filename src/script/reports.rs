@@ -1,0 +1,55 @@
+//! What the simulations of a run say about themselves, and what would be lost of them.
+
+use std::cell::RefCell;
+use std::collections::HashSet;
+
+/// Something that has gone through a run and can tell of it, such as a simulation.
+pub trait Reporter {
+    /// What it says about itself in the report, asked when the run ends, however it ends.
+    fn report(&self) -> serde_json::Value;
+
+    /// A name and the content of a file that keeps what would be lost when the script does not come to its end.
+    fn remains(&self) -> Option<(String, String)>;
+}
+
+/// Of so many simulations what would be lost is written: a script that made thousands should end soon after it was asked to.
+const MOST_REMAINS: usize = 20;
+
+/// All that can tell of a run.
+#[derive(Default)]
+pub struct Reports(RefCell<Vec<Box<dyn Reporter>>>);
+
+impl Reports {
+    /// Adds one that can tell.
+    pub fn add(&self, reporter: Box<dyn Reporter>) {
+        self.0.borrow_mut().push(reporter);
+    }
+
+    /// Names, each another one, and contents of the files that keep what would be lost of the first simulations; and a note where there
+    /// are more.
+    pub fn remains(&self) -> (Vec<(String, String)>, Option<String>) {
+        let reporters = self.0.borrow();
+        let mut names = HashSet::new();
+        let mut remains = reporters.iter().filter_map(|reporter| reporter.remains());
+        let named = |(number, (name, content)): (usize, (String, String))| {
+            let taken = names.contains(&name);
+            let name = if taken { format!("{}-{name}", number + 1) } else { name };
+            names.insert(name.clone());
+            (name, content)
+        };
+        let files = remains.by_ref().take(MOST_REMAINS).enumerate().map(named).collect();
+        let (kept, all) = (MOST_REMAINS, reporters.len());
+        let note = format!("note: the histories of the first {kept} of {all} simulations are kept");
+        (files, remains.next().map(|_| note))
+    }
+
+    /// Lets go of all.
+    pub fn forget(&self) {
+        self.0.borrow_mut().clear();
+    }
+
+    /// What all say about themselves; they are let go.
+    pub fn take(&self) -> Vec<serde_json::Value> {
+        self.0.take().into_iter().map(|reporter| reporter.report()).collect()
+    }
+}
