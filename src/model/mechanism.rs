@@ -1,63 +1,77 @@
 //! The model as integrators see it.
 
-use super::Resolution;
-use super::accelerations::Accelerations;
-use super::applied::{AppliedLoad, Exchange, Pattern, collocation};
-use super::body::Body;
-use super::forecast::Forecast;
-use super::inertia::Lump;
-use super::measures::{Energy, Measures};
-use super::scales::{StepScales, largest, relative};
-use super::sliders::TrackLimit;
-use super::sliding::{LANDED, Sliding};
-use super::tracker::Tracker;
+mod at_rest;
+mod forces;
+mod impact;
+mod stiffness;
+
+pub use at_rest::StaticForces;
+pub use impact::Blow;
+pub use stiffness::add_resistance;
+
 use crate::beams::{Mesh, Place};
 use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Ending, Interval, Mechanism, Overshoot, Solution, Stage, StepError};
 use crate::joints::{CONTACT_UNKNOWNS, Component};
 use crate::linalg::{BandedMatrix, Border, BorderShape};
+use crate::model::Resolution;
+use crate::model::bodies::Body;
+use crate::model::bodies::Tracker;
+use crate::model::elements::Lump;
+use crate::model::elements::{AppliedLoad, Exchange, Pattern, collocation};
+use crate::model::looking::{Energy, Measures};
+use crate::model::motion::Accelerations;
+use crate::model::motion::Forecast;
+use crate::model::motion::{StepScales, largest, relative};
+use crate::model::sliders::TrackLimit;
+use crate::model::sliders::{LANDED, Sliding};
 
 /// A supported degree of freedom: the body, its control point and the component that does not move.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Support {
-    pub(super) body: usize,
-    pub(super) point: usize,
-    pub(super) component: Component,
+pub(in crate::model) struct Support {
+    pub(in crate::model) body: usize,
+    pub(in crate::model) point: usize,
+    pub(in crate::model) component: Component,
 }
 
 /// Beams, masses and loads, assembled and in motion.
 pub struct Model {
-    pub(super) bodies: Vec<Body>,
-    pub(super) meshes: Vec<Mesh>,
-    pub(super) lumps: Vec<Lump>,
-    pub(super) loads: Vec<AppliedLoad>,
+    pub(in crate::model) bodies: Vec<Body>,
+    pub(in crate::model) meshes: Vec<Mesh>,
+    pub(in crate::model) lumps: Vec<Lump>,
+    pub(in crate::model) loads: Vec<AppliedLoad>,
     /// The weight of everything, if there is gravity.
-    pub(super) gravity: Option<Pattern>,
-    pub(super) trackers: Vec<Tracker>,
+    pub(in crate::model) gravity: Option<Pattern>,
+    pub(in crate::model) trackers: Vec<Tracker>,
     /// Pairs of places that joints hold together.
-    pub(super) joined: Vec<(Place, Place)>,
-    pub(super) sliders: Vec<Sliding>,
+    pub(in crate::model) joined: Vec<(Place, Place)>,
+    pub(in crate::model) sliders: Vec<Sliding>,
     /// The limit at which the next step is to end.
-    pub(super) aim: Option<TrackLimit>,
+    pub(in crate::model) aim: Option<TrackLimit>,
     /// In the order of their degrees of freedom, which follow the unknowns.
-    pub(super) supports: Vec<Support>,
-    pub(super) unknowns: usize,
-    pub(super) half_bandwidth: usize,
+    pub(in crate::model) supports: Vec<Support>,
+    pub(in crate::model) unknowns: usize,
+    pub(in crate::model) half_bandwidth: usize,
     /// Which unknowns are rotations.
-    pub(super) is_rotation: Vec<bool>,
-    pub(super) rates: Vec<f64>,
-    pub(super) accelerations: Accelerations,
-    pub(super) forecast: Forecast,
-    pub(super) resolution: Resolution,
-    pub(super) total_mass: f64,
-    pub(super) time: f64,
-    pub(super) exchanged: Exchange,
-    pub(super) step: StepScales,
-    pub(super) scratch: Vec<f64>,
+    pub(in crate::model) is_rotation: Vec<bool>,
+    pub(in crate::model) rates: Vec<f64>,
+    pub(in crate::model) accelerations: Accelerations,
+    pub(in crate::model) forecast: Forecast,
+    pub(in crate::model) resolution: Resolution,
+    pub(in crate::model) total_mass: f64,
+    pub(in crate::model) time: f64,
+    pub(in crate::model) exchanged: Exchange,
+    pub(in crate::model) step: StepScales,
+    pub(in crate::model) scratch: Vec<f64>,
 }
 
 impl Model {
-    pub(super) fn add_inertia_of_all(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
+    pub(in crate::model) fn add_inertia_of_all(
+        &mut self,
+        factor: f64,
+        rates: &[f64],
+        out: &mut [f64],
+    ) {
         self.bodies.iter_mut().for_each(|body| body.add_inertia(factor, rates, out));
         self.lumps
             .iter()
@@ -98,11 +112,11 @@ impl Model {
         }
     }
 
-    pub(super) fn all_trackers(&self) -> impl Iterator<Item = &Tracker> {
+    pub(in crate::model) fn all_trackers(&self) -> impl Iterator<Item = &Tracker> {
         self.trackers.iter().chain(self.loads.iter().flat_map(AppliedLoad::trackers))
     }
 
-    pub(super) fn all_trackers_mut(&mut self) -> impl Iterator<Item = &mut Tracker> {
+    pub(in crate::model) fn all_trackers_mut(&mut self) -> impl Iterator<Item = &mut Tracker> {
         self.trackers.iter_mut().chain(self.loads.iter_mut().flat_map(AppliedLoad::trackers_mut))
     }
 
@@ -145,7 +159,7 @@ impl Model {
     }
 
     /// What the supports give with these reactions in such a time.
-    pub(super) fn reactions(&self, residual: &[f64], duration: f64) -> Exchange {
+    pub(in crate::model) fn reactions(&self, residual: &[f64], duration: f64) -> Exchange {
         let mut sum = Exchange::default();
         let reactions = &residual[self.degrees_of_freedom() - self.supports.len()..];
         for (support, reaction) in self.supports.iter().zip(reactions) {
