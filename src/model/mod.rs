@@ -10,11 +10,10 @@ mod scene;
 mod sliders;
 mod words;
 
-pub use looking::{Distance, Energy, Measures, ModelState, Part, Placement, Usage};
-pub use mechanism::{Blow, Model, StaticForces, add_resistance};
+pub use elements::{Element, PointMass};
+pub use looking::{Distance, Part, Placement, Usage};
+pub use mechanism::{Energy, Measures, Model, ModelState, StaticForces, add_resistance};
 pub use motion::Resolution;
-pub use scene::{
-    BeamDefinition, ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity,
-};
-pub use sliders::{SliderState, TrackEnd, TrackLimit};
+pub use scene::{BeamDefinition, ParticleDefinition, Scene, StartMotion, StationVelocity};
+pub use sliders::{Blow, SliderState, TrackEnd, TrackLimit};
 pub use words::{ModelError, SliderError, SliderParts};

@@ -249,7 +249,7 @@ impl Simulation {
             EndAction::Bounce if leads_beyond => {
                 let blow = self.model.bounce(limit.slider)?;
                 let dt = self.dt();
-                self.model.note_blow(&self.scene, limit.slider, blow, dt);
+                self.model.note_blow(limit.slider, blow, dt);
                 ArrivalKind::Bounced
             }
             // It only touched the stop, or its velocity has turned round just there.

@@ -113,7 +113,7 @@ impl Simulation {
         self.trajectory.go_back(self.rows_kept);
         let StepTaken { dt, newton_iterations, retries } = self.last_step;
         let sample = Sample { measures: self.model.measure(), dt, newton_iterations, retries };
-        self.history.push(sample, extra_values(&self.scene, &self.model));
+        self.history.push(sample, extra_values(&self.model));
         self.trajectory.push(self.model.time(), coordinates(&self.model));
     }
 }

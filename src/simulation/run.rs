@@ -18,7 +18,7 @@ use super::{
 };
 
 use crate::geometry::Vec2;
-use crate::integrators::{Integrator, Interval, Mechanism, Method};
+use crate::integrators::{Constraints, Integrator, Interval, Mechanism, Method};
 use crate::model::{Model, Scene};
 use crate::newton::Tolerance;
 use crate::statics::Equilibrium;
@@ -134,11 +134,11 @@ impl Simulation {
         settings.method.check()?;
         model.divide(cores());
         let integrator = settings.method.build(&mut model, settings.tolerance);
-        let cuts = scene.loads.iter().flat_map(|load| load.schedule.breaks()).collect();
+        let cuts = scene.loads().flat_map(|load| load.schedule.breaks()).collect();
         let longest = scene.longest_beam().unwrap_or(0.0);
         let mut history = History::new(scales(&scene, &model, longest), extra_columns(&scene));
         let measures = model.measure();
-        history.push(Sample { measures, ..Sample::default() }, extra_values(&scene, &model));
+        history.push(Sample { measures, ..Sample::default() }, extra_values(&model));
         let mut trajectory =
             Trajectory::new(2 * model.control_points().map(<[Vec2]>::len).sum::<usize>());
         trajectory.push(0.0, coordinates(&model));

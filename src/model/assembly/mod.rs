@@ -1,8 +1,10 @@
-//! From a scene to a model.
+//! From a scene to a model: meshes with nodes where joints are, numbers, elements, sliders and start velocities.
 
 mod assemble;
 mod numbering;
 mod redundancy;
+mod sliders;
+mod start_rates;
 
-pub(super) use assemble::Assembly;
-pub(super) use numbering::{Numbering, check_ties, same_place, written};
+use assemble::Assembly;
+use numbering::Numbering;

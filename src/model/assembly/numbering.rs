@@ -1,139 +1,27 @@
-//! Which movements are tied to each other or to the ground, and the numbers of the unknowns that are left.
+//! The numbers of the unknowns that are left where movements are tied to each other or to the ground.
 
 use crate::beams::{BodyDynamics, Place, Station};
-use crate::geometry::Vec2;
-use crate::joints::{Component, JointKind, Partner};
+use crate::joints::{Component, Partner};
 use crate::linalg::reverse_cuthill_mckee;
-use crate::model::words::names::rounded;
-use crate::model::{ModelError, Scene};
-
-/// Largest gap of a joint when the scene starts, relative to the length of its beam and its distance from the origin.
-const CLOSED: f64 = 1e-12;
+use crate::model::ModelError;
+use crate::model::elements::{Support, Supports};
+use crate::model::motion::Unknowns;
+use crate::model::scene::{Scene, Ties};
 
 /// The degree of freedom of every component of every control point of every body: the unknowns come first,
 /// the supported ones last.
 #[derive(Debug, Clone)]
-pub(in crate::model) struct Numbering {
-    pub(in crate::model) degrees_of_freedom: Vec<Vec<[usize; 3]>>,
-    pub(in crate::model) unknowns: usize,
-    pub(in crate::model) supported: usize,
-    pub(in crate::model) half_bandwidth: usize,
-}
-
-/// Sets of things that are one: union–find with path halving.
-struct Ties {
-    parent: Vec<usize>,
-}
-
-impl Ties {
-    fn new(count: usize) -> Self {
-        Self { parent: (0..count).collect() }
-    }
-
-    fn root(&mut self, mut at: usize) -> usize {
-        while self.parent[at] != at {
-            self.parent[at] = self.parent[self.parent[at]];
-            at = self.parent[at];
-        }
-        at
-    }
-
-    /// Makes two things one; false when they were already.
-    fn tie(&mut self, a: usize, b: usize) -> bool {
-        let (a, b) = (self.root(a), self.root(b));
-        // The smaller index stays the root, so that index 0, the ground, always is one.
-        self.parent[a.max(b)] = a.min(b);
-        a != b
-    }
-}
-
-/// Checks that the joints of a scene close and do not tie a place twice, without building anything.
-pub(in crate::model) fn check_ties(scene: &Scene) -> Result<(), ModelError> {
-    let mut places: Vec<Station> = Vec::new();
-    let mut index = |station: &Station| {
-        places.iter().position(|other| same_place(other, station, scene)).unwrap_or_else(|| {
-            places.push(*station);
-            places.len() - 1
-        })
-    };
-    let pairs: Vec<(usize, Option<usize>)> = scene
-        .joints
-        .iter()
-        .map(|joint| match &joint.partner {
-            Partner::Ground => (index(&joint.station), None),
-            Partner::Station(other) => (index(&joint.station), Some(index(other))),
-        })
-        .collect();
-    let mut ties = Ties::new(1 + 3 * places.len());
-    for (joint, (place, partner)) in scene.joints.iter().zip(pairs) {
-        let stations = match &joint.partner {
-            Partner::Ground => vec![joint.station],
-            Partner::Station(other) => vec![joint.station, *other],
-        };
-        if joint.kind == JointKind::Rigid && stations.iter().any(|at| at.beam().is_none()) {
-            let advice = "use scene.hinge(…), or scene.mass(…) on the beam";
-            return Err(ModelError::ParticleTurned { object: joint.name.clone(), advice });
-        }
-        if let Partner::Station(other) = &joint.partner {
-            if partner == Some(place) {
-                let body = scene.name_of_body(&joint.station);
-                return Err(ModelError::JointWithItself { joint: joint.name.clone(), body });
-            }
-            check_closed(scene, &joint.name, &joint.station, other)?;
-        }
-        for &component in joint.kind.components() {
-            let node = |place: usize| 1 + 3 * place + component as usize;
-            if !ties.tie(node(place), partner.map_or(0, node)) {
-                let ground = ties.root(node(place)) == 0;
-                let how = match (ground, joint.kind) {
-                    (true, _) => "held by the ground",
-                    (false, JointKind::Hinge) => "joined to the other station",
-                    (false, JointKind::Rigid) => "joined to the other station in this component",
-                };
-                let place = scene.describe(&joint.station);
-                return Err(ModelError::AlreadyTied {
-                    joint: joint.name.clone(),
-                    place,
-                    how: how.to_owned(),
-                });
-            }
-        }
-    }
-    Ok(())
-}
-
-pub(in crate::model) fn same_place(a: &Station, b: &Station, scene: &Scene) -> bool {
-    a.body == b.body && (a.arc_length - b.arc_length).abs() <= 1e-10 * scene.length_at(a)
-}
-
-fn check_closed(
-    scene: &Scene,
-    joint: &str,
-    station: &Station,
-    other: &Station,
-) -> Result<(), ModelError> {
-    let (from, to) = (scene.drawn_at(station)?, scene.drawn_at(other)?);
-    let (gap, size) = ((to - from).norm(), scene.length_at(station));
-    if gap <= CLOSED * (size + from.norm()) {
-        return Ok(());
-    }
-    Err(ModelError::OpenJoint {
-        joint: joint.to_owned(),
-        from: written(from),
-        to: written(to),
-        gap,
-    })
-}
-
-/// A point as it stands in messages.
-pub(in crate::model) fn written(at: Vec2) -> String {
-    format!("({}, {})", rounded(at.x), rounded(at.y))
+pub struct Numbering {
+    pub degrees_of_freedom: Vec<Vec<[usize; 3]>>,
+    pub unknowns: usize,
+    supported: usize,
+    half_bandwidth: usize,
 }
 
 impl Numbering {
     /// Numbers the movements of bodies; `place` finds the stations of joints on their meshes. Constraints with `border`
     /// unknowns stand between the unknown and the supported movements.
-    pub(in crate::model) fn new(
+    pub fn new(
         scene: &Scene,
         bodies: &[Box<dyn BodyDynamics>],
         border: usize,
@@ -220,5 +108,23 @@ impl Numbering {
             supported,
             half_bandwidth: ordering.half_bandwidth,
         })
+    }
+
+    /// The supports in the order of their degrees of freedom, and the unknowns; constraints with `border` unknowns stand between.
+    pub fn supports_and_unknowns(&self, border: usize) -> (Supports, Unknowns) {
+        let mut is_rotation = vec![false; self.unknowns];
+        let mut supports =
+            vec![Support { body: 0, point: 0, component: Component::X }; self.supported];
+        for (body, points) in self.degrees_of_freedom.iter().enumerate() {
+            for (point, degrees) in points.iter().enumerate() {
+                for (component, &at) in Component::ALL.into_iter().zip(degrees) {
+                    match at.checked_sub(self.unknowns + border) {
+                        Some(support) => supports[support] = Support { body, point, component },
+                        None => is_rotation[at] = component == Component::Rotation,
+                    }
+                }
+            }
+        }
+        (Supports::new(supports), Unknowns::new(is_rotation, self.half_bandwidth))
     }
 }

@@ -3,10 +3,8 @@
 //! An impulse `P` at the contacts changes the velocities across the masters by `G M⁻¹ Gᵀ P`. Where this matrix is singular, some
 //! impulses change nothing, and the forces of a step are not determined either.
 
-use crate::model::mechanism::Model;
-use crate::model::scene::Scene;
-use crate::model::words::ModelError;
 use crate::model::words::SliderError;
+use crate::model::{Model, ModelError, Scene};
 
 /// What is left of the response of a slider beside that of the others, relative to its own, when it is one of rounding.
 const NOTHING_LEFT: f64 = 1e-13;
@@ -16,8 +14,10 @@ const NO_RESPONSE: f64 = 1e-26;
 
 impl Model {
     /// Refuses sliders whose contact forces are not determined at the start.
-    pub(in crate::model) fn check_determined(&self, scene: &Scene) -> Result<(), ModelError> {
-        let Ok(response) = self.response_across() else { return Err(self.overdetermined()) };
+    pub(super) fn check_determined(&self, scene: &Scene) -> Result<(), ModelError> {
+        let Ok(response) = self.response_across() else {
+            return Err(self.sliders().overdetermined());
+        };
         // Rows of the Cholesky factor.
         let mut rows: Vec<Vec<f64>> = Vec::with_capacity(response.len());
         for (slider, response) in response.iter().enumerate() {

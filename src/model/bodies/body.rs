@@ -3,6 +3,7 @@
 use std::iter::once;
 use std::ops::Range;
 
+use super::Momenta;
 use crate::beams::{
     BlockSink, BodyDynamics, Collocation, ForceSummary, Movement, Place, RotationIncrement, at_once,
 };
@@ -10,9 +11,9 @@ use crate::geometry::{Vec2, cross};
 use crate::linalg::{BandRows, BandedMatrix};
 
 /// A beam or a particle with the places of its movements in the vectors of the mechanism.
-pub(in crate::model) struct Body {
-    pub(in crate::model) dynamics: Box<dyn BodyDynamics>,
-    pub(in crate::model) degrees_of_freedom: Vec<[usize; 3]>,
+pub struct Body {
+    pub dynamics: Box<dyn BodyDynamics>,
+    pub degrees_of_freedom: Vec<[usize; 3]>,
     /// For each span that moves consecutive unknowns only: the first of them.
     consecutive: Vec<Option<usize>>,
     unknowns: usize,
@@ -23,7 +24,7 @@ pub(in crate::model) struct Body {
 }
 
 impl Body {
-    pub(in crate::model) fn new(
+    pub fn new(
         dynamics: Box<dyn BodyDynamics>,
         degrees_of_freedom: Vec<[usize; 3]>,
         unknowns: usize,
@@ -52,7 +53,7 @@ impl Body {
 
     /// From here on works in at most so many parts at once, with the same results: in one, where it is not large, or the
     /// rows of its parts do not stand one part after another. The number of parts.
-    pub(in crate::model) fn divide(&mut self, most: usize) -> usize {
+    pub fn divide(&mut self, most: usize) -> usize {
         let points = self.dynamics.divide(most);
         let rows_of = |points: &[[usize; 3]]| {
             let rows = points.as_flattened().iter().filter(|row| **row < self.unknowns);
@@ -71,7 +72,7 @@ impl Body {
     }
 
     /// The values of the unknowns at this body; supported movements are zero.
-    pub(in crate::model) fn gather(&mut self, values: &[f64]) -> &[Movement] {
+    pub fn gather(&mut self, values: &[f64]) -> &[Movement] {
         for (movement, degrees) in self.moved.iter_mut().zip(&self.degrees_of_freedom) {
             *movement = degrees.map(|at| values.get(at).copied().unwrap_or(0.0));
         }
@@ -79,7 +80,7 @@ impl Body {
     }
 
     /// The movement of a place, from values of the unknowns.
-    pub(in crate::model) fn at(&self, place: &Place, values: &[f64]) -> Movement {
+    pub fn at(&self, place: &Place, values: &[f64]) -> Movement {
         let mut sum = [0.0; 3];
         for (point, share) in place.weights() {
             for (sum, &at) in sum.iter_mut().zip(&self.degrees_of_freedom[point]) {
@@ -90,24 +91,24 @@ impl Body {
     }
 
     /// The x and y components of a control point, from values of the unknowns.
-    pub(in crate::model) fn vector_at(&self, point: usize, values: &[f64]) -> Vec2 {
+    pub fn vector_at(&self, point: usize, values: &[f64]) -> Vec2 {
         let [x, y, _] = self.degrees_of_freedom[point];
         let value = |at: usize| values.get(at).copied().unwrap_or(0.0);
         Vec2::new(value(x), value(y))
     }
 
     /// A control point, and what rounding has cut off it so far [length].
-    pub(in crate::model) fn precise_point(&self, point: usize) -> (Vec2, Vec2) {
+    pub fn precise_point(&self, point: usize) -> (Vec2, Vec2) {
         (self.dynamics.control_points()[point], self.dynamics.remainders()[point])
     }
 
     /// The movements that were gathered last.
-    pub(in crate::model) fn moved(&self) -> &[Movement] {
+    pub fn moved(&self) -> &[Movement] {
         &self.moved
     }
 
     /// Accepts the movements that were gathered last.
-    pub(in crate::model) fn advance(&mut self, rotations: RotationIncrement) {
+    pub fn advance(&mut self, rotations: RotationIncrement) {
         self.dynamics.advance(&self.moved, rotations);
     }
 
@@ -119,7 +120,7 @@ impl Body {
         }
     }
 
-    pub(in crate::model) fn add_forces(
+    pub fn add_forces(
         &mut self,
         at: Collocation,
         increments: &[f64],
@@ -132,7 +133,7 @@ impl Body {
         summary
     }
 
-    pub(in crate::model) fn add_linearised_forces(
+    pub fn add_linearised_forces(
         &mut self,
         at: Collocation,
         increments: &[f64],
@@ -164,28 +165,24 @@ impl Body {
         self.scatter(out);
     }
 
-    pub(in crate::model) fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]) {
+    pub fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]) {
         self.dynamics.add_mismatch_forces(weight, &mut self.forces);
         self.scatter(out);
     }
 
-    pub(in crate::model) fn correct_section_forces(&mut self, correction: &[f64]) {
+    pub fn correct_section_forces(&mut self, correction: &[f64]) {
         self.gather(correction);
         self.dynamics.correct_section_forces(&self.moved);
     }
 
-    pub(in crate::model) fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
+    pub fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
         self.gather(rates);
         self.dynamics.add_inertia(factor, &self.moved, &mut self.forces);
         self.scatter(out);
     }
 
     /// Gives `factor · M` to `add`: row, column and value; several of one place add up.
-    pub(in crate::model) fn inertia_entries(
-        &self,
-        factor: f64,
-        add: &mut impl FnMut(usize, usize, f64),
-    ) {
+    pub fn inertia_entries(&self, factor: f64, add: &mut impl FnMut(usize, usize, f64)) {
         self.inertia_entries_of(0..self.degrees_of_freedom.len(), factor, add);
     }
 
@@ -207,7 +204,7 @@ impl Body {
     }
 
     /// Adds `factor · M` to the tangent.
-    pub(in crate::model) fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
+    pub fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
         let add = |points, mut rows: BandRows<'_>| {
             self.inertia_entries_of(points, factor, &mut |row, column, value| {
                 rows.add(row, column, value);
@@ -225,20 +222,19 @@ impl Body {
         });
     }
 
-    /// Twice the kinetic energy, the momentum and the angular momentum about the origin.
-    pub(in crate::model) fn momenta(&mut self, rates: &[f64]) -> (f64, Vec2, f64) {
+    /// Momenta and twice the kinetic energy.
+    pub fn momenta(&mut self, rates: &[f64]) -> Momenta {
         self.gather(rates);
         self.dynamics.add_inertia(1.0, &self.moved, &mut self.forces);
-        let (mut twice_kinetic, mut momentum, mut angular) = (0.0, Vec2::zeros(), 0.0);
+        let mut sum = Momenta::default();
         let points = self.dynamics.control_points();
         for ((part, rate), point) in self.forces.iter_mut().zip(&self.moved).zip(points) {
             let [px, py, spin] = std::mem::take(part);
             let linear = Vec2::new(px, py);
-            twice_kinetic += px * rate[0] + py * rate[1] + spin * rate[2];
-            momentum += linear;
-            angular += cross(*point, linear) + spin;
+            let twice_kinetic = px * rate[0] + py * rate[1] + spin * rate[2];
+            sum += Momenta { twice_kinetic, linear, angular: cross(*point, linear) + spin };
         }
-        (twice_kinetic, momentum, angular)
+        sum
     }
 }
 

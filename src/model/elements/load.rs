@@ -1,144 +1,108 @@
-//! Loads on the control points of the model: their values in a step, their work and their impulse.
+//! Loads in a step: their values, work and impulse.
 
-use crate::beams::{Collocation, Movement, Rotation, RotationIncrement};
-use crate::geometry::{Vec2, cross, perpendicular};
-use crate::integrators::{Interval, Stage};
+use super::element::{Description, Part, Setting, Site};
+use super::follower::Follower;
+use super::pattern::Pattern;
+use super::{Exchange, ForceElement, Iterate};
+use crate::beams::{BodyIndex, RotationIncrement, Station};
+use crate::geometry::{GaussRule, Vec2};
+use crate::integrators::{Interval, Method, Stage};
 use crate::linalg::BandedMatrix;
-use crate::loads::{LoadError, Schedule, Side};
+use crate::loads::{Frame, Load, LoadError, LoadKind, Schedule, Side, VALUES_OF_A_MEAN};
+use crate::model::ModelError;
 use crate::model::bodies::Body;
-use crate::model::bodies::Tracker;
+use crate::model::words::{finite, in_words, plural};
 
-/// Work [energy], impulse [force·time] and angular impulse about the origin, summed up.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(in crate::model) struct Exchange {
-    pub(in crate::model) work: f64,
-    pub(in crate::model) impulse: Vec2,
-    pub(in crate::model) angular_impulse: f64,
-    /// Sums of magnitudes, which do not cancel.
-    pub(in crate::model) gross_impulse: f64,
-    pub(in crate::model) gross_angular_impulse: f64,
-}
-
-impl Exchange {
-    /// That of a single force or moment.
-    pub(in crate::model) fn of(work: f64, impulse: Vec2, angular_impulse: f64) -> Self {
-        let (gross_impulse, gross_angular_impulse) = (impulse.norm(), angular_impulse.abs());
-        Self { work, impulse, angular_impulse, gross_impulse, gross_angular_impulse }
-    }
-}
-
-impl std::ops::AddAssign for Exchange {
-    fn add_assign(&mut self, other: Self) {
-        self.work += other.work;
-        self.impulse += other.impulse;
-        self.angular_impulse += other.angular_impulse;
-        self.gross_impulse += other.gross_impulse;
-        self.gross_angular_impulse += other.gross_angular_impulse;
-    }
-}
-
-/// Forces on control points that do not change with the configuration.
-#[derive(Debug, Clone, Default)]
-pub(in crate::model) struct Pattern {
-    /// (beam, control point, force and moment)
-    entries: Vec<(usize, usize, Movement)>,
-    /// The largest force and the largest moment on a control point.
-    largest: (f64, f64),
-}
-
-impl Pattern {
-    pub(in crate::model) fn push(&mut self, body: usize, point: usize, force: Movement) {
-        let [x, y, moment] = force.map(f64::abs);
-        self.largest = (self.largest.0.max(x).max(y), self.largest.1.max(moment));
-        self.entries.push((body, point, force));
-    }
-
-    pub(in crate::model) fn subtract_from(&self, bodies: &[Body], factor: f64, out: &mut [f64]) {
-        for (body, point, force) in &self.entries {
-            for (&at, value) in bodies[*body].degrees_of_freedom[*point].iter().zip(force) {
-                out[at] -= factor * value;
+impl Description for Load {
+    fn check(&self, setting: &dyn Setting) -> Result<(), ModelError> {
+        match &self.kind {
+            LoadKind::Force { station, force, .. } => {
+                setting.check_station("a load", station)?;
+                finite(&self.name, "force", force.as_slice())
+            }
+            LoadKind::Moment { station, moment } => {
+                setting.check_station("a load", station)?;
+                finite(&self.name, "moment", &[*moment])
+            }
+            LoadKind::Line { beam, force, .. } => {
+                setting.check_station("a load", &Station::on_beam(*beam, 0.0))?;
+                finite(&self.name, "force", force.as_slice())
             }
         }
     }
 
-    /// The largest force and the largest moment on a control point.
-    pub(in crate::model) fn largest(&self, factor: f64) -> (f64, f64) {
-        (factor.abs() * self.largest.0, factor.abs() * self.largest.1)
-    }
-
-    /// What it gives in a step of the movements that the bodies gathered last, acting at their midpoint.
-    pub(in crate::model) fn exchange(
-        &self,
-        bodies: &[Body],
-        factor: f64,
-        duration: f64,
-    ) -> Exchange {
-        let mut sum = Exchange::default();
-        for (body, point, [fx, fy, moment]) in &self.entries {
-            let [x, y, omega] = bodies[*body].moved()[*point];
-            let (force, moved) = (Vec2::new(*fx, *fy) * factor, Vec2::new(x, y));
-            let middle = bodies[*body].dynamics.control_points()[*point] + moved * 0.5;
-            sum += Exchange::of(
-                force.dot(&moved) + factor * moment * omega,
-                force * duration,
-                (cross(middle, force) + factor * moment) * duration,
-            );
+    fn build(&self, site: &dyn Site) -> Result<Part, ModelError> {
+        if let LoadKind::Moment { station, .. }
+        | LoadKind::Force { station, frame: Frame::Follower, .. } = &self.kind
+            && let BodyIndex::Particle(_) = station.body
+        {
+            let advice = "only a force of fixed direction can act on it";
+            return Err(ModelError::ParticleTurned { object: self.name.clone(), advice });
         }
-        sum
-    }
-
-    /// `Σ f·x`: minus the potential of these forces, were they constant.
-    pub(in crate::model) fn potential_work(&self, bodies: &[Body]) -> f64 {
-        let work = |(body, point, [fx, fy, _]): &(usize, usize, Movement)| {
-            bodies[*body].dynamics.control_points()[*point].dot(&Vec2::new(*fx, *fy))
+        let action = match &self.kind {
+            LoadKind::Force { station, force, frame: Frame::Dead } => {
+                Action::Dead(Pattern::at(&site.place(station)?, [force.x, force.y, 0.0]))
+            }
+            LoadKind::Moment { station, moment } => {
+                Action::Dead(Pattern::at(&site.place(station)?, [0.0, 0.0, *moment]))
+            }
+            LoadKind::Force { station, force, frame: Frame::Follower } => {
+                Action::Follower(vec![Follower::new(site.place(station)?, *force)])
+            }
+            LoadKind::Line { beam, force, frame: Frame::Dead } => {
+                let mut pattern = Pattern::default();
+                for (point, length) in site.body(*beam).lumped_lengths().into_iter().enumerate() {
+                    pattern.push(*beam, point, [length * force.x, length * force.y, 0.0]);
+                }
+                Action::Dead(pattern)
+            }
+            LoadKind::Line { beam, force, frame: Frame::Follower } => {
+                Action::Follower(line_of_followers(site, *beam, *force)?)
+            }
         };
-        self.entries.iter().map(work).sum()
+        Ok(Part::Force(Box::new(AppliedLoad {
+            name: self.name.clone(),
+            schedule: self.schedule.clone(),
+            action,
+            factors: StageFactors::default(),
+            carried: 0.0,
+            current: 0.0,
+        })))
     }
 }
 
-/// A force that turns with a section: `f = Λτ F`.
-#[derive(Debug, Clone)]
-pub(in crate::model) struct Follower {
-    pub(in crate::model) tracker: Tracker,
-    /// In the frame of the section.
-    pub(in crate::model) force: Vec2,
-    carried: Vec2,
-    current: Vec2,
-}
-
-impl Follower {
-    pub(in crate::model) fn new(tracker: Tracker, force: Vec2) -> Self {
-        Self { tracker, force, carried: Vec2::zeros(), current: Vec2::zeros() }
+/// A load that turns with the sections, by `degree` Gauss points a span.
+fn line_of_followers(
+    site: &dyn Site,
+    beam: usize,
+    force: Vec2,
+) -> Result<Vec<Follower>, ModelError> {
+    let basis = site.mesh(beam).basis();
+    let rule = GaussRule::new(basis.degree()).map_err(|error| site.wrong(beam, error))?;
+    let controls = site.body(beam).control_points();
+    let mut followers = Vec::new();
+    for span in basis.spans() {
+        for (xi, weight) in rule.iter_on(span.start, span.end) {
+            let length = weight * basis.evaluate_in(&span, xi).combine(1, controls).norm();
+            followers.push(Follower::new(site.place_at(beam, xi)?, force * length));
+        }
     }
-
-    /// The rotation at `τ` and at the end, and `Δω`.
-    fn rotations(
-        &self,
-        body: &Body,
-        at: Collocation,
-        increments: &[f64],
-    ) -> (Rotation, Rotation, f64) {
-        let [.., increment] = body.at(&self.tracker.place, increments);
-        let end = self.tracker.rotation.turned(at.rotations, increment);
-        (self.tracker.rotation.mixed(end, at.configuration), end, increment)
-    }
+    Ok(followers)
 }
 
 /// What a load acts through.
-#[derive(Debug, Clone)]
-pub(in crate::model) enum Action {
+enum Action {
     Dead(Pattern),
     Follower(Vec<Follower>),
 }
 
 /// A load of the model with its values in the current step.
-#[derive(Debug, Clone)]
-pub(in crate::model) struct AppliedLoad {
-    pub(in crate::model) name: String,
-    pub(in crate::model) schedule: Schedule,
-    pub(in crate::model) action: Action,
+struct AppliedLoad {
+    name: String,
+    schedule: Schedule,
+    action: Action,
     factors: StageFactors,
-    /// The sum of weighted factors that the method uses in this step.
+    /// Weighted factors that the method takes from the start of the step, and from the iterate.
     carried: f64,
     current: f64,
 }
@@ -167,35 +131,42 @@ impl StageFactors {
     }
 }
 
-/// Where forces of a stage are taken. At the ends of a step increments of the angle itself are interpolated.
-pub(in crate::model) fn collocation(stage: Stage) -> Collocation {
-    let (tau, sigma, rotations) = match stage {
-        Stage::Start => (0.0, 0.0, RotationIncrement::Angle),
-        Stage::Midpoint => (0.5, 0.5, RotationIncrement::TangentScaled),
-        Stage::DampedMidpoint(chi) => (0.5, 0.5 + 0.5 * chi, RotationIncrement::TangentScaled),
-        Stage::End => (1.0, 1.0, RotationIncrement::Angle),
-    };
-    Collocation { configuration: tau, stress: sigma, rotations }
-}
-
 impl AppliedLoad {
-    pub(in crate::model) fn new(name: String, schedule: Schedule, action: Action) -> Self {
-        Self {
-            name,
-            schedule,
-            action,
-            factors: StageFactors::default(),
-            carried: 0.0,
-            current: 0.0,
+    fn followers(&self) -> &[Follower] {
+        match &self.action {
+            Action::Dead(_) => &[],
+            Action::Follower(followers) => followers,
         }
     }
 
-    /// Evaluates the schedule for the stages of a step, and for no other: it may be a function of a script.
-    pub(in crate::model) fn begin_step(
-        &mut self,
-        interval: Interval,
-        stages: &[Stage],
-    ) -> Result<(), LoadError> {
+    fn followers_mut(&mut self) -> &mut [Follower] {
+        match &mut self.action {
+            Action::Dead(_) => &mut [],
+            Action::Follower(followers) => followers,
+        }
+    }
+
+    /// How often a step calls functions of scripts.
+    fn calls(&self, methods: &[Method]) -> String {
+        let functions = self.schedule.functions();
+        if functions == 0 {
+            return String::new();
+        }
+        let of_method = |method: &Method| {
+            let calls: usize = method.stages().iter().map(values_at).sum();
+            format!("{} calls a step with {}", functions * calls, method.entry().name)
+        };
+        format!(": {}", methods.iter().map(of_method).collect::<Vec<_>>().join(", "))
+    }
+}
+
+impl ForceElement for AppliedLoad {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Evaluates the schedule for the stages of the step, and for no other: it may be a function of a script.
+    fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), LoadError> {
         self.factors = StageFactors::default();
         for stage in stages {
             match stage {
@@ -209,131 +180,109 @@ impl AppliedLoad {
             }
         }
         (self.carried, self.current) = (0.0, 0.0);
-        if let Action::Follower(followers) = &mut self.action {
-            followers
-                .iter_mut()
-                .for_each(|each| (each.carried, each.current) = (Vec2::zeros(), Vec2::zeros()));
-        }
+        self.followers_mut().iter_mut().for_each(Follower::begin_step);
         Ok(())
     }
 
-    /// Gives the load the value that it has just after a time, at the end of any movement.
-    pub(in crate::model) fn hold_at(&mut self, time: f64) -> Result<(), LoadError> {
-        self.factors = StageFactors {
-            end: self.schedule.value(time, Side::After)?,
-            ..StageFactors::default()
-        };
+    fn hold_at(&mut self, time: f64) -> Result<(), LoadError> {
+        let end = self.schedule.value(time, Side::After)?;
+        self.factors = StageFactors { end, ..StageFactors::default() };
         Ok(())
     }
 
-    pub(in crate::model) fn trackers(&self) -> impl Iterator<Item = &Tracker> {
-        let followers =
-            if let Action::Follower(followers) = &self.action { followers.as_slice() } else { &[] };
-        followers.iter().map(|each| &each.tracker)
+    fn may_jump_at(&self, time: f64) -> bool {
+        self.schedule.may_jump_at(time)
     }
 
-    pub(in crate::model) fn trackers_mut(&mut self) -> impl Iterator<Item = &mut Tracker> {
-        let followers = if let Action::Follower(followers) = &mut self.action {
-            followers.as_mut_slice()
-        } else {
-            &mut []
-        };
-        followers.iter_mut().map(|each| &mut each.tracker)
-    }
-
-    /// Subtracts the load from the forces of a stage; returns the largest force and moment on a control point.
-    pub(in crate::model) fn subtract_from(
-        &mut self,
-        bodies: &[Body],
-        stage: Stage,
-        increments: &[f64],
-        weight: f64,
-        out: &mut [f64],
-    ) -> (f64, f64) {
-        let factor = weight * self.factors.at(stage);
+    fn subtract_from(&mut self, at: Iterate<'_>, out: &mut [f64]) -> (f64, f64) {
+        let value = self.factors.at(at.stage);
+        let factor = at.weight * value;
         match &mut self.action {
             Action::Dead(pattern) => {
                 let used =
-                    if stage == Stage::Start { &mut self.carried } else { &mut self.current };
+                    if at.stage == Stage::Start { &mut self.carried } else { &mut self.current };
                 *used = factor;
-                pattern.subtract_from(bodies, factor, out);
-                pattern.largest(self.factors.at(stage))
+                pattern.subtract_from(at, factor, out);
+                pattern.largest(value)
             }
             Action::Follower(followers) => {
-                followers.iter_mut().fold((0.0, 0.0), |(largest, moment): (f64, f64), each| {
-                    let body = &bodies[each.tracker.place.body];
-                    let (rotation, ..) = each.rotations(body, collocation(stage), increments);
-                    let force = rotation.to_space(each.force) * factor;
-                    let used =
-                        if stage == Stage::Start { &mut each.carried } else { &mut each.current };
-                    *used = force;
-                    for (point, share) in each.tracker.place.weights() {
-                        let [x, y, _] = body.degrees_of_freedom[point];
-                        out[x] -= share * force.x;
-                        out[y] -= share * force.y;
-                    }
-                    (largest.max(each.force.amax() * self.factors.at(stage).abs()), moment)
-                })
+                let largest = followers.iter_mut().fold(0.0, |largest: f64, each| {
+                    each.subtract_from(at, factor, out);
+                    largest.max(each.largest() * value.abs())
+                });
+                (largest, 0.0)
             }
         }
     }
 
-    /// Adds the derivative of minus the load by the increments.
-    pub(in crate::model) fn add_tangent(
-        &self,
-        bodies: &[Body],
-        stage: Stage,
-        increments: &[f64],
-        weight: f64,
-        unknowns: usize,
-        tangent: &mut BandedMatrix,
-    ) {
-        let Action::Follower(followers) = &self.action else { return };
-        let at = collocation(stage);
-        for each in followers {
-            let body = &bodies[each.tracker.place.body];
-            let (_, end, increment) = each.rotations(body, at, increments);
-            let scale =
-                -weight * self.factors.at(stage) * at.configuration * at.rotations.rate(increment);
-            let by_rotation = end.to_space(perpendicular(each.force)) * scale;
-            for (a, share_a) in each.tracker.place.weights() {
-                for (b, share_b) in each.tracker.place.weights() {
-                    let column = body.degrees_of_freedom[b][2];
-                    for (&row, value) in
-                        body.degrees_of_freedom[a].iter().zip([by_rotation.x, by_rotation.y])
-                    {
-                        if row < unknowns && column < unknowns {
-                            tangent.add(row, column, share_a * share_b * value);
-                        }
-                    }
-                }
-            }
-        }
+    fn add_tangent(&self, at: Iterate<'_>, unknowns: usize, tangent: &mut BandedMatrix) {
+        let factor = self.factors.at(at.stage);
+        self.followers().iter().for_each(|each| each.add_tangent(at, factor, unknowns, tangent));
     }
 
-    /// What the load gave in the step of the movements that the bodies gathered last.
-    pub(in crate::model) fn exchange(&self, bodies: &[Body], duration: f64) -> Exchange {
+    fn exchange(&self, bodies: &[Body], duration: f64) -> Exchange {
         match &self.action {
             Action::Dead(pattern) => {
                 pattern.exchange(bodies, self.carried + self.current, duration)
             }
             Action::Follower(followers) => {
-                followers.iter().fold(Exchange::default(), |mut sum, each| {
-                    let body = &bodies[each.tracker.place.body];
-                    let force = each.carried + each.current;
-                    for (point, share) in each.tracker.place.weights() {
-                        let [x, y, _] = body.moved()[point];
-                        let moved = Vec2::new(x, y) * share;
-                        let middle = body.dynamics.control_points()[point] * share + moved * 0.5;
-                        sum += Exchange::of(
-                            force.dot(&moved),
-                            force * (share * duration),
-                            cross(middle, force) * duration,
-                        );
-                    }
-                    sum
-                })
+                let mut sum = Exchange::default();
+                followers.iter().for_each(|each| each.add_exchange(bodies, duration, &mut sum));
+                sum
             }
         }
+    }
+
+    fn turns(&self) -> bool {
+        matches!(self.action, Action::Follower(_))
+    }
+
+    fn followed_sections(&self) -> usize {
+        self.followers().len()
+    }
+
+    fn advance(&mut self, bodies: &[Body], rotations: RotationIncrement) {
+        self.followers_mut().iter_mut().for_each(|each| each.advance(bodies, rotations));
+    }
+
+    fn save(&self, state: &mut Vec<f64>) {
+        self.followers().iter().for_each(|each| each.save(state));
+    }
+
+    fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.followers_mut().iter_mut().for_each(|each| each.restore(next));
+    }
+
+    fn explain(&self, methods: &[Method]) -> String {
+        let action = match &self.action {
+            Action::Dead(_) => "dead".to_owned(),
+            Action::Follower(at) => {
+                format!("follower of {}, part of the tangent", plural(at.len(), "section"))
+            }
+        };
+        let (schedule, calls) = (self.schedule.describe(), self.calls(methods));
+        let cuts = in_words(&cuts(&self.schedule)).map(|at| format!("; steps end at t = {at}"));
+        format!("{action}, {schedule}{calls}{}", cuts.unwrap_or_default())
+    }
+
+    fn functions(&self) -> usize {
+        self.schedule.functions()
+    }
+}
+
+/// The times after the start at which steps end because of a schedule, in their order.
+fn cuts(schedule: &Schedule) -> Vec<f64> {
+    let mut times = schedule.breaks();
+    times.retain(|time| *time > 0.0);
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times
+}
+
+/// How many values of a schedule a stage takes.
+fn values_at(stage: &Stage) -> usize {
+    match stage {
+        Stage::Start | Stage::End => 1,
+        Stage::Midpoint | Stage::DampedMidpoint(_) => VALUES_OF_A_MEAN,
     }
 }

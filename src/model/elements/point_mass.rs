@@ -1,17 +1,58 @@
 //! Point masses.
 
-use crate::beams::Place;
+use serde::{Deserialize, Serialize};
+
+use super::element::{Description, Part, Setting, Site};
+use crate::beams::{Place, Station};
 use crate::geometry::{Vec2, cross};
+use crate::model::ModelError;
+use crate::model::bodies::{Body, Momenta};
 
-use crate::model::Model;
-use crate::model::bodies::Body;
+/// A mass at a station.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PointMass {
+    /// Where it is.
+    pub station: Station,
+    /// How heavy it is [mass].
+    pub mass: f64,
+    /// Its inertia against rotation [mass·length²].
+    pub rotary_inertia: f64,
+}
 
-/// A mass at a place of a beam: it moves with the control points whose functions are non-zero there.
+impl Description for PointMass {
+    fn check(&self, setting: &dyn Setting) -> Result<(), ModelError> {
+        setting.check_station("a mass", &self.station)?;
+        let Self { station, mass, rotary_inertia } = self;
+        let object = || format!("mass at {}", setting.describe(station));
+        let refused = |name, value, allowed| {
+            Err(ModelError::Value { object: object(), name, value, allowed })
+        };
+        if !(mass.is_finite() && *mass > 0.0) {
+            return refused("mass", *mass, "a positive finite number [mass]");
+        }
+        if !(rotary_inertia.is_finite() && *rotary_inertia >= 0.0) {
+            let allowed = "zero or a positive finite number [mass·length²]";
+            return refused("rotary inertia", *rotary_inertia, allowed);
+        }
+        if *rotary_inertia > 0.0 && station.beam().is_none() {
+            let advice = "leave out the rotary inertia";
+            return Err(ModelError::ParticleTurned { object: object(), advice });
+        }
+        Ok(())
+    }
+
+    fn build(&self, site: &dyn Site) -> Result<Part, ModelError> {
+        let Self { mass, rotary_inertia, .. } = *self;
+        Ok(Part::Mass(Lump { place: site.place(&self.station)?, mass, rotary_inertia }))
+    }
+}
+
+/// A mass at a place of a body: it moves with the control points whose functions are non-zero there.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::model) struct Lump {
-    pub(in crate::model) place: Place,
-    pub(in crate::model) mass: f64,
-    pub(in crate::model) rotary_inertia: f64,
+pub struct Lump {
+    pub place: Place,
+    pub mass: f64,
+    pub rotary_inertia: f64,
 }
 
 impl Lump {
@@ -19,13 +60,9 @@ impl Lump {
         [self.mass, self.mass, self.rotary_inertia]
     }
 
-    pub(in crate::model) fn add_inertia(
-        &self,
-        body: &Body,
-        factor: f64,
-        rates: &[f64],
-        out: &mut [f64],
-    ) {
+    /// Adds `factor · M · rates`.
+    pub fn add_inertia(&self, bodies: &[Body], factor: f64, rates: &[f64], out: &mut [f64]) {
+        let body = &bodies[self.place.body];
         let rate = body.at(&self.place, rates);
         for (point, weight) in self.place.weights() {
             for ((&at, inertia), rate) in
@@ -37,13 +74,14 @@ impl Lump {
     }
 
     /// Gives `factor · M` to `add`: row, column and value; several of one place add up.
-    pub(in crate::model) fn inertia_entries(
+    pub fn inertia_entries(
         &self,
-        body: &Body,
+        bodies: &[Body],
         factor: f64,
         unknowns: usize,
         add: &mut impl FnMut(usize, usize, f64),
     ) {
+        let body = &bodies[self.place.body];
         for (a, weight_a) in self.place.weights() {
             for (b, weight_b) in self.place.weights() {
                 let degrees = body.degrees_of_freedom[a].iter().zip(&body.degrees_of_freedom[b]);
@@ -56,35 +94,18 @@ impl Lump {
         }
     }
 
-    /// Twice the kinetic energy, the momentum and the angular momentum about the origin.
-    pub(in crate::model) fn momenta(&self, body: &Body, rates: &[f64]) -> (f64, Vec2, f64) {
+    /// Momenta and twice the kinetic energy.
+    pub fn momenta(&self, bodies: &[Body], rates: &[f64]) -> Momenta {
+        let body = &bodies[self.place.body];
         let [vx, vy, spin] = body.at(&self.place, rates);
         let velocity = Vec2::new(vx, vy);
-        let momentum = velocity * self.mass;
+        let linear = velocity * self.mass;
         let at = self.place.interpolate(body.dynamics.control_points());
-        let angular = self.rotary_inertia * spin;
-        (momentum.dot(&velocity) + angular * spin, momentum, cross(at, momentum) + angular)
-    }
-}
-
-impl Model {
-    /// Gives `factor · M` to `add`: row, column and value; several of one place add up.
-    pub(in crate::model) fn inertia_entries(
-        &self,
-        factor: f64,
-        add: &mut impl FnMut(usize, usize, f64),
-    ) {
-        self.bodies.iter().for_each(|body| body.inertia_entries(factor, add));
-        self.inertia_entries_of_lumps(factor, add);
-    }
-
-    pub(in crate::model) fn inertia_entries_of_lumps(
-        &self,
-        factor: f64,
-        add: &mut impl FnMut(usize, usize, f64),
-    ) {
-        for lump in &self.lumps {
-            lump.inertia_entries(&self.bodies[lump.place.body], factor, self.unknowns, add);
+        let turning = self.rotary_inertia * spin;
+        Momenta {
+            twice_kinetic: linear.dot(&velocity) + turning * spin,
+            linear,
+            angular: cross(at, linear) + turning,
         }
     }
 }

@@ -2,15 +2,11 @@
 
 use crate::beams::PointCounts;
 use crate::geometry::Vec2;
-use crate::integrators::{INTEGRATORS, Mechanism, Method, Stage};
+use crate::integrators::{Constraints, INTEGRATORS, Mechanism, Method};
 use crate::joints::{Component, Joint, Partner, SLIDING_RULES, StartVelocities};
-use crate::loads::{Load, Schedule, VALUES_OF_A_MEAN};
-use crate::model::elements::Action;
-use crate::model::mechanism::Model;
-use crate::model::{ModelError, Scene};
-
-/// More beams or loads than this are told of together.
-const MOST: usize = 6;
+use crate::model::elements::ForceElement;
+use crate::model::words::{MOST, in_words, plural};
+use crate::model::{BeamDefinition, Model, ModelError, Scene};
 
 /// A part of the mechanics.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -66,14 +62,15 @@ impl Model {
         parts.extend(self.explain_beams(scene));
         parts.extend([explain_particles(scene), explain_masses(scene)]);
         parts.extend([self.explain_joints(scene), self.explain_supports(scene)]);
-        parts.extend([self.explain_sliders(scene), self.explain_gravity(scene)]);
-        parts.extend(self.explain_loads(scene, methods));
+        parts.extend([self.explain_sliders(scene), self.explain_gravity(methods)]);
+        parts.extend(self.explain_loads(methods));
         parts.extend([self.explain_angles(), explain_start(scene)]);
         parts
     }
 
     fn explain_matrix(&self) -> Part {
-        let how = format!("{} movements, half-bandwidth {}", self.unknowns, self.half_bandwidth);
+        let how =
+            format!("{} movements, half-bandwidth {}", self.unknowns(), self.half_bandwidth());
         let how = match self.constraint_shape().width {
             0 => how,
             width => format!("{how}; {width} of contacts, in the border"),
@@ -85,12 +82,13 @@ impl Model {
         if scene.beams.is_empty() {
             return vec![Part::left_out("beams", "no strains, no section forces, no quadrature")];
         }
-        let counts: Vec<PointCounts> = self.meshes.iter().map(|mesh| mesh.point_counts()).collect();
+        let counts: Vec<PointCounts> =
+            self.meshes().iter().map(|mesh| mesh.point_counts()).collect();
         let sum = |of: fn(&PointCounts) -> usize| counts.iter().map(of).sum::<usize>();
-        let beam = |(index, beam): (usize, &crate::model::BeamDefinition)| {
+        let beam = |(index, beam): (usize, &BeamDefinition)| {
             let PointCounts { force, moment, inertia } = counts[index];
-            let mesh = self.meshes[index].describe();
-            let points = self.bodies[index].dynamics.control_points().len();
+            let mesh = self.meshes()[index].describe();
+            let points = self.bodies()[index].dynamics.control_points().len();
             let how = format!(
                 "{mesh}, {points} control points; points for Γ {force}, κ {moment}, mass {inertia}"
             );
@@ -118,8 +116,8 @@ impl Model {
         if kinds.is_empty() {
             return Part::left_out("joints", "no movement is shared");
         }
-        let all: usize = self.bodies.iter().map(|body| 3 * body.degrees_of_freedom.len()).sum();
-        let shared = all - self.supports.len() - self.unknowns;
+        let all: usize = self.bodies().iter().map(|body| 3 * body.degrees_of_freedom.len()).sum();
+        let shared = all - self.supports().count() - self.unknowns();
         let saved = plural(shared, "unknown");
         Part::used(
             "joints",
@@ -136,7 +134,7 @@ impl Model {
         let of_particles = |body: usize| body >= scene.beams.len();
         let turns = |component| component == Component::Rotation;
         let held =
-            self.supports.iter().filter(|at| !(of_particles(at.body) && turns(at.component)));
+            self.supports().iter().filter(|at| !(of_particles(at.body) && turns(at.component)));
         let held = plural(held.count(), "movement");
         Part::used(
             "supports",
@@ -160,44 +158,23 @@ impl Model {
         Part::used("sliders", how)
     }
 
-    fn explain_gravity(&self, scene: &Scene) -> Part {
-        match self.gravity {
-            Some(_) => {
-                let (x, y) = (scene.gravity.x, scene.gravity.y);
-                Part::used(
-                    "gravity",
-                    format!("({x}, {y}): a constant weight, and a potential energy"),
-                )
-            }
+    fn explain_gravity(&self, methods: &[Method]) -> Part {
+        match self.elements().weight() {
+            Some(weight) => Part::used(weight.name(), weight.explain(methods)),
             None => Part::left_out("gravity", "no weight; the potential energy stays 0"),
         }
     }
 
-    fn explain_loads(&self, scene: &Scene, methods: &[Method]) -> Vec<Part> {
-        if scene.loads.is_empty() {
+    fn explain_loads(&self, methods: &[Method]) -> Vec<Part> {
+        let all = self.elements().forces();
+        let one = |load: &dyn ForceElement| Part::used(load.name(), load.explain(methods));
+        let mut parts: Vec<Part> = all.clone().take(MOST).map(one).collect();
+        if parts.is_empty() {
             return vec![Part::left_out("loads", "no schedules, no work")];
         }
-        let one = |(load, applied): (&Load, &crate::model::elements::AppliedLoad)| {
-            let action = match &applied.action {
-                Action::Dead(_) => "dead".to_owned(),
-                Action::Follower(at) => {
-                    format!("follower of {}, part of the tangent", plural(at.len(), "section"))
-                }
-            };
-            let schedule = load.schedule.describe();
-            let calls = calls(&load.schedule, methods);
-            let cuts = in_words(&cuts(&load.schedule)).map(|at| format!("; steps end at t = {at}"));
-            Part::used(
-                &load.name,
-                format!("{action}, {schedule}{calls}{}", cuts.unwrap_or_default()),
-            )
-        };
-        let all = scene.loads.iter().zip(&self.loads);
-        let mut parts: Vec<Part> = all.clone().take(MOST).map(one).collect();
-        let rest = all.skip(MOST).map(|(load, _)| &load.schedule).collect::<Vec<_>>();
+        let rest = all.skip(MOST).map(|load| load.functions()).collect::<Vec<_>>();
         if !rest.is_empty() {
-            let functions = rest.iter().map(|schedule| schedule.functions()).sum();
-            let scripts = plural(functions, "function");
+            let scripts = plural(rest.iter().sum(), "function");
             let how = format!("{} more, {scripts} of scripts among them", rest.len());
             parts.push(Part::used("loads", how));
         }
@@ -205,7 +182,7 @@ impl Model {
     }
 
     fn explain_angles(&self) -> Part {
-        match self.all_trackers().count() {
+        match self.bodies().followed_sections() + self.elements().followed_sections() {
             0 => Part::left_out("followed angles", "no section is followed"),
             count => {
                 let how = "ends of beams, stations, and where loads turn";
@@ -239,54 +216,13 @@ fn explain_particles(scene: &Scene) -> Part {
 
 /// Masses besides those of the particles themselves.
 fn explain_masses(scene: &Scene) -> Part {
-    match scene.masses.len().saturating_sub(scene.particles.len()) {
+    match scene.masses().count().saturating_sub(scene.particles.len()) {
         0 => Part::left_out("point masses", "the mass matrix is that of the bodies"),
         count => {
-            let turning = scene.masses.iter().filter(|mass| mass.rotary_inertia > 0.0).count();
+            let turning = scene.masses().filter(|mass| mass.rotary_inertia > 0.0).count();
             let how = format!("{count}, {turning} with rotary inertia; part of the mass matrix");
             Part::used("point masses", how)
         }
-    }
-}
-
-/// The times after the start at which steps end because of a schedule, in their order.
-fn cuts(schedule: &Schedule) -> Vec<f64> {
-    let mut times = schedule.breaks();
-    times.retain(|time| *time > 0.0);
-    times.sort_by(f64::total_cmp);
-    times.dedup();
-    times
-}
-
-/// The first few of some times, none where there are none.
-fn in_words(times: &[f64]) -> Option<String> {
-    match times {
-        [] => None,
-        [first, .., last] if times.len() > MOST => {
-            Some(format!("{first}, …, {last} ({} times)", times.len()))
-        }
-        times => Some(times.iter().map(f64::to_string).collect::<Vec<_>>().join(", ")),
-    }
-}
-
-/// How often a step calls functions of scripts for a schedule.
-fn calls(schedule: &Schedule, methods: &[Method]) -> String {
-    let functions = schedule.functions();
-    if functions == 0 {
-        return String::new();
-    }
-    let of_method = |method: &Method| {
-        let calls: usize = method.stages().iter().map(values_at).sum();
-        format!("{} calls a step with {}", functions * calls, method.entry().name)
-    };
-    format!(": {}", methods.iter().map(of_method).collect::<Vec<_>>().join(", "))
-}
-
-/// How many values of a schedule a stage takes.
-fn values_at(stage: &Stage) -> usize {
-    match stage {
-        Stage::Start | Stage::End => 1,
-        Stage::Midpoint | Stage::DampedMidpoint(_) => VALUES_OF_A_MEAN,
     }
 }
 
@@ -301,8 +237,4 @@ fn counted<'a>(joints: impl Iterator<Item = &'a Joint>) -> String {
         }
     }
     kinds.iter().map(|(kind, count)| plural(*count, kind)).collect::<Vec<_>>().join(", ")
-}
-
-fn plural(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }

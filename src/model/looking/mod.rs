@@ -1,11 +1,9 @@
-//! Looking at a model.
+//! Looking at a model: where it is, how it moves, and what it uses.
 
 mod explain;
-mod measures;
 mod placement;
 mod queries;
+mod sliders;
 
 pub use explain::{Part, Usage};
-pub use measures::{Energy, Measures};
 pub use placement::{Distance, Placement};
-pub use queries::ModelState;

@@ -37,7 +37,7 @@ impl Model {
     pub fn write_placement(&self, placement: &mut Placement) {
         placement.points.clear();
         placement.normals.clear();
-        for body in &self.bodies {
+        for body in self.bodies().iter() {
             placement.points.extend(body.dynamics.control_points());
             body.dynamics.write_normals(&mut placement.normals);
         }
@@ -45,7 +45,7 @@ impl Model {
 
     /// Whether the loads may have other values just after the present time than just before it.
     pub fn loads_may_jump(&self) -> bool {
-        self.loads.iter().any(|load| load.schedule.may_jump_at(self.time))
+        self.elements().may_jump_at(self.time())
     }
 }
 

@@ -4,74 +4,35 @@
 //! to its place on the master. Where the contact is closed, linear and angular momentum stay;
 //! a gap of the relaxed rule costs angular momentum.
 
-use crate::geometry::{Vec2, perpendicular};
-use crate::integrators::Mechanism;
-use crate::joints::StartVelocities;
+use super::Model;
+use crate::geometry::Vec2;
+use crate::integrators::{Inertia, Mechanism};
 use crate::linalg::{BandedLu, BandedMatrix, LinearError};
-use crate::model::bodies::Body;
-use crate::model::mechanism::Model;
-use crate::model::scene::Scene;
-use crate::model::sliders::{SliderState, Sliding};
-use crate::model::words::ModelError;
-use crate::model::words::SliderError;
-
-/// Largest start velocity across the master, relative to the fastest point of the scene: where a mechanism has a dead centre, velocities of
-/// that size have left nothing but their rounding.
-const SAME_VELOCITY: f64 = 1e-9;
+use crate::model::ModelError;
+use crate::model::sliders::Blow;
 
 /// What moves by less than this part of the change of relative velocity is held.
 const GIVES: f64 = 1e-9;
 
-/// What two that strike each other along a master set against the blow: the masses that answer at once, none where it is held, or so
-/// heavy that it does not give way.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Blow {
-    /// The slave's [mass].
-    pub(in crate::model) slave: Option<f64>,
-    /// The master's [mass].
-    pub(in crate::model) master: Option<f64>,
-}
+/// A slider, and the component of its relative velocity on which an impulse acts.
+type Direction = (usize, Vec2);
 
-/// The component of a relative velocity on which an impulse acts.
-struct Direction {
-    slider: usize,
-    unit: Vec2,
+/// What a unit impulse transmits, and how the velocities answer.
+struct Answer {
+    /// `Gᵀ`, on all degrees of freedom.
+    forces: Vec<f64>,
+    /// `M⁻¹ Gᵀ`, of the unknowns.
+    rates: Vec<f64>,
 }
 
 impl Model {
-    /// Deals with start velocities that would leave the masters, as each slider says.
+    /// Takes away the velocities across all masters, by the impulses that change least (Gauss's principle of least constraint).
     ///
-    /// Speeds across a master that strain nothing by more than rounding, as waves go, are none either: `w/c < ε`.
-    pub(in crate::model) fn settle_start_velocities(
-        &mut self,
-        scene: &Scene,
-    ) -> Result<(), ModelError> {
-        let negligible = SAME_VELOCITY * self.fastest_speed() + f64::EPSILON * scene.fastest_wave();
-        let mut is_projected = false;
-        for (slider, described) in self.sliders.iter().zip(&scene.sliders) {
-            match described.velocities {
-                StartVelocities::Check => {
-                    slider.check_velocity(&self.bodies, &self.rates, negligible)?;
-                }
-                StartVelocities::Project => is_projected = true,
-            }
-        }
-        if is_projected {
-            let across: Vec<Direction> =
-                (0..self.sliders.len()).map(|at| self.across(at)).collect();
-            // Projection: the impulses take the velocities across away (Gauss's principle of least constraint).
-            _ = self.strike(&across, -1.0).map_err(|_| self.overdetermined())?;
-        }
-        Ok(())
-    }
-
-    /// The speed of the fastest control point [length/time].
-    fn fastest_speed(&self) -> f64 {
-        let speeds = self.bodies.iter().flat_map(|body| {
-            (0..body.degrees_of_freedom.len())
-                .map(|point| body.vector_at(point, &self.rates).norm())
-        });
-        speeds.fold(0.0, f64::max)
+    /// # Errors
+    /// When the impulses are not determined.
+    pub(in crate::model) fn project_velocities(&mut self) -> Result<(), ModelError> {
+        let impulses = self.strike(&self.across(), -1.0);
+        impulses.map(|_| ()).map_err(|_| self.sliders.overdetermined())
     }
 
     /// A slider bounces off the end of its master, as off an elastic stop: all velocities relative to masters are reversed in
@@ -82,20 +43,14 @@ impl Model {
     /// # Errors
     /// When the impulse is not determined.
     pub fn bounce(&mut self, slider: usize) -> Result<Blow, ModelError> {
-        let directions = self.sliders.iter().enumerate().flat_map(|(at, other)| {
-            let along = match other.state {
-                SliderState::Released => return Vec::new(),
-                SliderState::Sliding => (at == slider).then(|| self.along(at)),
-                SliderState::Held(_) => Some(self.along(at)),
-            };
-            std::iter::once(self.across(at)).chain(along).collect()
-        });
-        let directions: Vec<Direction> = directions.collect();
+        let directions = self.sliders.directions(&self.bodies, slider);
         // Behind that across the master.
-        let of_blow = directions.iter().rposition(|direction| direction.slider == slider);
-        let before = self.speeds_along(slider);
-        let impulses = self.strike(&directions, -2.0).map_err(|_| self.overdetermined())?;
-        let after = self.speeds_along(slider);
+        let of_blow = directions.iter().rposition(|(other, _)| *other == slider);
+        let along = self.sliders[slider].along(&self.bodies);
+        let before = self.speeds(slider, along);
+        let impulses = self.strike(&directions, -2.0);
+        let impulses = impulses.map_err(|_| self.sliders.overdetermined())?;
+        let after = self.speeds(slider, along);
         let impulse = of_blow.map_or(0.0, |at| impulses[at].abs());
         let changes = [(after.0 - before.0).abs(), (after.1 - before.1).abs()];
         let least = GIVES * (changes[0] + changes[1]);
@@ -103,140 +58,86 @@ impl Model {
         Ok(Blow { slave, master })
     }
 
-    /// How fast a slave and its place on the master move along the master.
-    fn speeds_along(&self, slider: usize) -> (f64, f64) {
-        let unit = self.along(slider).unit;
-        let slider = &self.sliders[slider];
+    /// Takes down how many times as long as a blow at the end of a master the steps are [time].
+    pub fn note_blow(&mut self, slider: usize, blow: Blow, dt: f64) {
+        self.sliders[slider].note_blow(&self.bodies, blow, dt);
+    }
+
+    /// How fast a slave and its place on the master move in a direction [length/time].
+    fn speeds(&self, slider: usize, unit: Vec2) -> (f64, f64) {
+        let (slider, rates) = (&self.sliders[slider], &self.motion.rates);
         let (slave, relative) = (
-            slider.slave_velocity(&self.bodies, &self.rates),
-            slider.relative_velocity(&self.bodies, &self.rates),
+            slider.slave_velocity(&self.bodies, rates),
+            slider.relative_velocity(&self.bodies, rates),
         );
         (slave.dot(&unit), (slave - relative).dot(&unit))
     }
 
-    /// What unit impulses transmit, and how the velocities answer.
-    fn answers(
-        &self,
-        inertia: &BandedLu<'_>,
-        directions: &[Direction],
-    ) -> Vec<(Vec<f64>, Vec<f64>)> {
-        let answer = |direction| {
-            let forces = self.transmit(direction);
-            let mut rates = forces[..self.unknowns].to_vec();
+    /// The speed of the fastest control point [length/time].
+    pub(in crate::model) fn fastest_speed(&self) -> f64 {
+        self.bodies.fastest_speed(&self.motion.rates)
+    }
+
+    /// How fast a slave moves across its master [length/time].
+    pub(in crate::model) fn speed_across(&self, slider: usize) -> f64 {
+        let slider = &self.sliders[slider];
+        slider.across(&self.bodies).dot(&slider.relative_velocity(&self.bodies, &self.motion.rates))
+    }
+
+    /// The directions across all masters.
+    fn across(&self) -> Vec<Direction> {
+        self.sliders.iter().map(|slider| slider.across(&self.bodies)).enumerate().collect()
+    }
+
+    fn answers(&self, inertia: &BandedLu<'_>, directions: &[Direction]) -> Vec<Answer> {
+        let answer = |(slider, unit): &Direction| {
+            let mut forces = vec![0.0; self.degrees_of_freedom()];
+            self.sliders[*slider].transmit(&self.bodies, *unit, &mut forces);
+            let mut rates = forces[..self.unknowns()].to_vec();
             inertia.solve(&mut rates);
-            (forces, rates)
+            Answer { forces, rates }
         };
         directions.iter().map(answer).collect()
     }
 
-    fn along(&self, slider: usize) -> Direction {
-        Direction { slider, unit: self.sliders[slider].tangent(&self.bodies).normalize() }
-    }
-
-    fn across(&self, slider: usize) -> Direction {
-        let Direction { slider, unit } = self.along(slider);
-        Direction { slider, unit: perpendicular(unit) }
-    }
-
-    pub(in crate::model) fn overdetermined(&self) -> ModelError {
-        let names: Vec<&str> = self.slider_names().collect();
-        SliderError::Overdetermined { sliders: names.join("', '") }.into()
-    }
-
     /// Changes the components of the relative velocities by `factor` times themselves, by impulses at the sliders, which it tells.
     fn strike(&mut self, directions: &[Direction], factor: f64) -> Result<Vec<f64>, LinearError> {
-        let (unknowns, count) = (self.unknowns, directions.len());
-        let mut inertia = self.inertia();
-        let inertia = inertia.factorise()?;
-        let answers = self.answers(&inertia, directions);
+        let count = directions.len();
+        let mut inertia = self.banded_inertia();
+        let answers = self.answers(&inertia.factorise()?, directions);
         let mut response = BandedMatrix::zeros(count, count.saturating_sub(1));
-        for (row, (forces, _)) in answers.iter().enumerate() {
-            for (column, (_, rates)) in answers.iter().enumerate() {
+        for (row, Answer { forces, .. }) in answers.iter().enumerate() {
+            for (column, Answer { rates, .. }) in answers.iter().enumerate() {
                 response.add(row, column, product(rates, forces));
             }
         }
-        let mut impulses: Vec<f64> =
-            answers.iter().map(|(forces, _)| factor * product(&self.rates, forces)).collect();
+        let wanted = |answer: &Answer| factor * product(&self.motion.rates, &answer.forces);
+        let mut impulses: Vec<f64> = answers.iter().map(wanted).collect();
         response.factorise()?.solve(&mut impulses);
 
-        let mut change = vec![0.0; unknowns];
+        let mut change = vec![0.0; self.unknowns()];
         let mut residual = vec![0.0; self.degrees_of_freedom()];
-        for (impulse, (forces, rates)) in impulses.iter().zip(&answers) {
+        for (impulse, Answer { forces, rates }) in impulses.iter().zip(&answers) {
             change.iter_mut().zip(rates).for_each(|(change, rate)| *change += impulse * rate);
             residual.iter_mut().zip(forces).for_each(|(out, force)| *out -= impulse * force);
         }
         // What is left of `M (v⁺ - v⁻) - Gᵀ P` at supports is their impulse.
-        self.add_inertia_of_all(1.0, &change, &mut residual);
-        self.rates.iter_mut().zip(&change).for_each(|(rate, change)| *rate += change);
-        self.forecast.jump(&change);
-        self.accelerations.forget();
-        let reactions = self.reactions(&residual, 1.0);
-        self.exchanged += reactions;
+        self.add_inertia(1.0, &change, &mut residual);
+        self.motion.jump(&change);
+        self.exchanged += self.supports.exchange(&self.bodies, &residual, 1.0);
         Ok(impulses)
     }
 
     /// How velocities across the masters answer to unit impulses across them: `G M⁻¹ Gᵀ`.
     pub(in crate::model) fn response_across(&self) -> Result<Vec<Vec<f64>>, LinearError> {
-        let across: Vec<Direction> = (0..self.sliders.len()).map(|at| self.across(at)).collect();
-        let mut inertia = self.inertia();
-        let answers = self.answers(&inertia.factorise()?, &across);
-        let row = |rates| answers.iter().map(|(forces, _)| product(rates, forces)).collect();
-        Ok(answers.iter().map(|(_, rates)| row(rates)).collect())
-    }
-
-    /// The inertia matrix.
-    fn inertia(&self) -> BandedMatrix {
-        let mut inertia = BandedMatrix::zeros(self.unknowns, self.half_bandwidth);
-        self.add_inertia_tangent(1.0, &mut inertia);
-        inertia
-    }
-
-    /// Its diagonal.
-    pub(in crate::model) fn diagonal_of_inertia(&self) -> Vec<f64> {
-        let mut diagonal = vec![0.0; self.unknowns];
-        self.inertia_entries(1.0, &mut |row, column, value| {
-            if row == column {
-                diagonal[row] += value;
-            }
-        });
-        diagonal
-    }
-
-    /// `Gᵀ` times a unit impulse: on the slave, and the opposite one on the master.
-    fn transmit(&self, direction: &Direction) -> Vec<f64> {
-        let mut forces = vec![0.0; self.degrees_of_freedom()];
-        let slider = &self.sliders[direction.slider];
-        let mut add = |[x, y, _]: [usize; 3], force: Vec2| {
-            forces[x] += force.x;
-            forces[y] += force.y;
-        };
-        let (body, point) = slider.connection.slave;
-        add(self.bodies[body].degrees_of_freedom[point], direction.unit);
-        let master = &self.bodies[slider.connection.master];
-        for (point, weight) in slider.weights() {
-            add(master.degrees_of_freedom[point], direction.unit * -weight);
-        }
-        forces
+        let mut inertia = self.banded_inertia();
+        let answers = self.answers(&inertia.factorise()?, &self.across());
+        let row = |rates| answers.iter().map(|other| product(rates, &other.forces)).collect();
+        Ok(answers.iter().map(|answer| row(&answer.rates)).collect())
     }
 }
 
 /// Of as many entries as the shorter one has.
 fn product(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-impl Sliding {
-    fn check_velocity(
-        &self,
-        bodies: &[Body],
-        rates: &[f64],
-        negligible: f64,
-    ) -> Result<(), ModelError> {
-        let relative = self.relative_velocity(bodies, rates);
-        let across = perpendicular(self.tangent(bodies).normalize()).dot(&relative);
-        if across.abs() <= negligible {
-            return Ok(());
-        }
-        Err(SliderError::LeavesMaster { slider: self.name.clone(), speed: across.abs() }.into())
-    }
 }

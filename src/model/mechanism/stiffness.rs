@@ -3,29 +3,22 @@
 //! Rotations are increments of the angle itself, for which the stiffness is the Hessian of the strain energy. Loads of fixed direction
 //! have none; those that turn with a section are left out.
 
+use super::Model;
 use crate::beams::SpanAtRest;
 use crate::elementary::square;
 use crate::linalg::{PreciseBand, SymmetricSparse};
-use crate::model::Model;
 
 impl Model {
     /// Gives every span of every body, as at rest: the unknowns of its components, and its rows. Those of supported components stand
     /// behind the unknowns of all.
     pub fn each_span_at_rest(&self, take: &mut dyn FnMut(&[usize], &SpanAtRest)) {
-        for body in &self.bodies {
+        for body in self.bodies.iter() {
             let order = body.dynamics.order();
             body.dynamics.each_span_at_rest(&mut |span| {
                 let degrees = &body.degrees_of_freedom[span.first..span.first + order];
                 take(degrees.as_flattened(), span);
             });
         }
-    }
-
-    /// The inertia of the unknowns.
-    pub fn sparse_inertia(&self) -> SymmetricSparse {
-        SymmetricSparse::new(self.unknowns, |add| {
-            self.inertia_entries(1.0, &mut |row, column, value| add(row, column, value));
-        })
     }
 
     /// About the square of the slowest bending, as if all beams were one: the least `EI` over the largest `ρA` and the fourth power of
@@ -42,8 +35,9 @@ impl Model {
     /// In how many ways a movement from here would release energy if loads keep their directions: the negative eigenvalues of the
     /// stiffness.
     pub fn falls(&self) -> usize {
-        let nothing = SymmetricSparse::new(self.unknowns, |_| {});
-        let mut stiffness = PreciseBand::zeros(self.unknowns, self.half_bandwidth);
+        let nothing = SymmetricSparse::new(self.unknowns.count(), |_| {});
+        let mut stiffness =
+            PreciseBand::zeros(self.unknowns.count(), self.unknowns.half_bandwidth());
         self.each_span_at_rest(&mut |degrees, span| add_resistance(&mut stiffness, degrees, span));
         stiffness.pivots(0.0, &nothing).map_or(0, |pivots| pivots.negative)
     }

@@ -2,22 +2,22 @@
 
 /// The accelerations of the unknowns at the start of a step; no numbers at all where no method asks for them.
 #[derive(Debug, Clone, Default)]
-pub(in crate::model) struct Accelerations {
+pub struct Accelerations {
     values: Vec<f64>,
     are_known: bool,
 }
 
 impl Accelerations {
     /// Takes room for so many, not known yet.
-    pub(in crate::model) fn keep(&mut self, unknowns: usize) {
+    pub fn keep(&mut self, unknowns: usize) {
         *self = Self { values: vec![0.0; unknowns], are_known: false };
     }
 
-    pub(in crate::model) fn known(&self) -> Option<&[f64]> {
+    pub fn known(&self) -> Option<&[f64]> {
         self.are_known.then_some(&self.values)
     }
 
-    pub(in crate::model) fn set(&mut self, values: &[f64]) {
+    pub fn set(&mut self, values: &[f64]) {
         if !self.values.is_empty() {
             self.values.copy_from_slice(values);
             self.are_known = true;
@@ -25,23 +25,23 @@ impl Accelerations {
     }
 
     /// What holds no longer after a sudden change.
-    pub(in crate::model) fn forget(&mut self) {
+    pub fn forget(&mut self) {
         self.values.fill(0.0);
         self.are_known = false;
     }
 
-    pub(in crate::model) fn save(&self, state: &mut Vec<f64>) {
-        if !self.values.is_empty() {
-            state.push(f64::from(u8::from(self.are_known)));
-            state.extend(&self.values);
-        }
+    /// Whether there are any, and they are known.
+    pub fn are_known(&self) -> bool {
+        self.are_known
     }
 
-    pub(in crate::model) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
-        if !self.values.is_empty() {
-            self.are_known = next() != 0.0;
-            self.values.iter_mut().for_each(|value| *value = next());
-        }
+    pub fn save(&self, numbers: &mut Vec<f64>) {
+        numbers.extend(&self.values);
+    }
+
+    pub fn restore(&mut self, are_known: bool, next: &mut dyn FnMut() -> f64) {
+        self.are_known = are_known && !self.values.is_empty();
+        self.values.iter_mut().for_each(|value| *value = next());
     }
 }
 
@@ -69,7 +69,7 @@ mod tests {
         accelerations.forget();
         assert_eq!(accelerations.known(), None);
         let mut numbers = state.into_iter();
-        accelerations.restore(&mut || numbers.next().unwrap());
+        accelerations.restore(true, &mut || numbers.next().unwrap());
         assert_eq!(accelerations.known(), Some(&[1.0, -2.0][..]));
     }
 }

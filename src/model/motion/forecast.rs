@@ -1,12 +1,15 @@
 //! With which rates the next step is best guessed.
 
+use serde::{Deserialize, Serialize};
+
+use super::resolution::Missed;
 use crate::elementary::square;
-use crate::model::motion::Missed;
 
 /// What the next step is best guessed from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Motion {
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum Trend {
     /// No step has been taken: the rates at its start are all there is.
+    #[default]
     Unknown,
     /// The rates at its start.
     Smooth,
@@ -19,36 +22,31 @@ const CLEARLY_LESS: f64 = 0.8;
 
 /// The mean motion of the last step, and whether that or its end tells more about the next one.
 #[derive(Debug, Clone)]
-pub(in crate::model) struct Forecast {
+pub struct Forecast {
     /// Increments over duration.
     mean_rates: Vec<f64>,
-    motion: Motion,
+    trend: Trend,
     /// The diagonal of the inertia matrix.
     inertia: Vec<f64>,
 }
 
 impl Forecast {
     /// Before the first step.
-    pub(in crate::model) fn new(rates: &[f64], inertia: Vec<f64>) -> Self {
-        Self { mean_rates: rates.to_vec(), motion: Motion::Unknown, inertia }
+    pub fn new(rates: &[f64], inertia: Vec<f64>) -> Self {
+        Self { mean_rates: rates.to_vec(), trend: Trend::Unknown, inertia }
     }
 
     /// The rates to go on with, given those at the start of the step.
-    pub(in crate::model) fn rates<'a>(&'a self, at_start: &'a [f64]) -> &'a [f64] {
-        match self.motion {
-            Motion::Unknown | Motion::Smooth => at_start,
-            Motion::Rough => &self.mean_rates,
+    pub fn rates<'a>(&'a self, at_start: &'a [f64]) -> &'a [f64] {
+        match self.trend {
+            Trend::Unknown | Trend::Smooth => at_start,
+            Trend::Rough => &self.mean_rates,
         }
     }
 
     /// Learns from the increments of a step and the rates at its start which guess would have been the better one for it,
     /// in a norm with the diagonal of the inertia matrix; tells how far both missed.
-    pub(in crate::model) fn learn(
-        &mut self,
-        at_start: &[f64],
-        increments: &[f64],
-        duration: f64,
-    ) -> Missed {
+    pub fn learn(&mut self, at_start: &[f64], increments: &[f64], duration: f64) -> Missed {
         let inverse = 1.0 / duration;
         let mut missed = Missed::default();
         let guesses = at_start.iter().zip(&mut self.mean_rates);
@@ -59,36 +57,32 @@ impl Forecast {
             missed.moved += inertia * square(found);
             *mean = found;
         }
-        self.motion = match self.motion {
+        self.trend = match self.trend {
             // Start velocities may be those of single nodes; how these go on, the first step has told.
-            Motion::Unknown => Motion::Rough,
-            _ if missed.by_mean < CLEARLY_LESS * missed.by_start => Motion::Rough,
-            _ => Motion::Smooth,
+            Trend::Unknown => Trend::Rough,
+            _ if missed.by_mean < CLEARLY_LESS * missed.by_start => Trend::Rough,
+            _ => Trend::Smooth,
         };
         missed
     }
 
     /// Takes over a sudden change of all rates.
-    pub(in crate::model) fn jump(&mut self, change: &[f64]) {
+    pub fn jump(&mut self, change: &[f64]) {
         self.mean_rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
     }
 
-    pub(in crate::model) fn save(&self, state: &mut Vec<f64>) {
-        state.extend(&self.mean_rates);
-        state.push(match self.motion {
-            Motion::Unknown => 0.0,
-            Motion::Smooth => 1.0,
-            Motion::Rough => 2.0,
-        });
+    /// What the next step is guessed from.
+    pub fn trend(&self) -> Trend {
+        self.trend
     }
 
-    pub(in crate::model) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+    pub fn save(&self, numbers: &mut Vec<f64>) {
+        numbers.extend(&self.mean_rates);
+    }
+
+    pub fn restore(&mut self, trend: Trend, next: &mut dyn FnMut() -> f64) {
+        self.trend = trend;
         self.mean_rates.iter_mut().for_each(|rate| *rate = next());
-        self.motion = match next() {
-            0.0 => Motion::Unknown,
-            1.0 => Motion::Smooth,
-            _ => Motion::Rough,
-        };
     }
 }
 

@@ -1,12 +1,14 @@
-//! How a model moves, and what its last steps tell of the next.
+//! How a model moves: its rates, what its last steps tell of the next, and what is met in the present one.
 
 mod accelerations;
 mod forecast;
+mod present;
 mod resolution;
-mod scales;
+mod step;
+mod unknowns;
 
-pub(super) use accelerations::Accelerations;
-pub(super) use forecast::Forecast;
-pub(super) use resolution::Missed;
+pub use forecast::Trend;
+pub use present::Motion;
 pub use resolution::Resolution;
-pub(super) use scales::{StepScales, largest, relative};
+pub use step::Step;
+pub use unknowns::Unknowns;

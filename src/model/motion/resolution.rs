@@ -2,17 +2,16 @@
 
 use crate::beams::RotationIncrement;
 use crate::elementary::square;
-use crate::model::Scene;
 
 /// What the guesses for a step were worth, in the norm of the diagonal of the inertia matrix: twice an energy each [energy].
 #[derive(Debug, Clone, Copy, Default)]
-pub(in crate::model) struct Missed {
+pub struct Missed {
     /// `Σ m (v̄ - v0)²`, of the mean rates `v̄` of the step and those at its start.
-    pub(in crate::model) by_start: f64,
+    pub by_start: f64,
     /// `Σ m (v̄ - v̄₋)²`, `v̄₋` being the mean rates of the step before.
-    pub(in crate::model) by_mean: f64,
+    pub by_mean: f64,
     /// `Σ m v̄²`
-    pub(in crate::model) moved: f64,
+    pub moved: f64,
 }
 
 /// Steps whose lengths differ by less than this, as a part of them, are equally long.
@@ -41,18 +40,13 @@ pub struct Resolution {
 }
 
 impl Resolution {
-    /// Before the first step of a scene.
-    pub(in crate::model) fn of(scene: &Scene) -> Self {
-        Self::above(f64::EPSILON * scene.rounding_energy())
-    }
-
     /// Before the first step, with the energy below which all motion is rounding.
-    fn above(noise: f64) -> Self {
+    pub(super) fn above(noise: f64) -> Self {
         Self { kinetic: 0.0, unresolved: 0.0, bent: 0.0, last: 0.0, rotation: 0.0, noise }
     }
 
     /// Takes in a step, or a part of one, of some length [time], in which sections turned by such increments at most.
-    pub(in crate::model) fn add(
+    pub(super) fn add(
         &mut self,
         missed: &Missed,
         duration: f64,
@@ -90,11 +84,11 @@ impl Resolution {
         self.rotation
     }
 
-    pub(in crate::model) fn save(&self, state: &mut Vec<f64>) {
+    pub(super) fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.kinetic, self.unresolved, self.bent, self.last, self.rotation]);
     }
 
-    pub(in crate::model) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+    pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         for number in [
             &mut self.kinetic,
             &mut self.unresolved,

@@ -3,77 +3,17 @@
 use serde::{Deserialize, Serialize};
 
 use super::stored::StoredScene;
-use crate::beams::{BodyIndex, Mesh, Place, Section, Station};
-use crate::geometry::{Curve, Vec2};
+use super::ties::check_ties;
+use super::{BeamDefinition, ParticleDefinition, StationVelocity};
+use crate::beams::{BodyIndex, Mesh, Place, Station};
+use crate::geometry::Vec2;
 use crate::joints::{Joint, JointKind, Partner, Slider};
 use crate::loads::{Load, LoadKind, Schedule};
 use crate::model::ModelError;
-use crate::model::words::names;
+use crate::model::elements::{Element, PointMass, Setting};
+use crate::model::words::{refusal, rounded};
 
-/// How a beam moves when the scene starts: a rigid motion.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct StartMotion {
-    /// The velocity of the point `about` [length/time].
-    pub velocity: Vec2,
-    /// The rate of rotation [1/time].
-    pub spin: f64,
-    /// The point it turns about; its centre of mass when not given.
-    pub about: Option<Vec2>,
-}
-
-impl Default for StartMotion {
-    fn default() -> Self {
-        Self { velocity: Vec2::zeros(), spin: 0.0, about: None }
-    }
-}
-
-/// A beam of a scene.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct BeamDefinition {
-    /// Its name in messages and reports.
-    pub name: String,
-    /// Its axis, stress-free as drawn.
-    pub axis: Curve,
-    /// Basis and quadrature.
-    pub mesh: Mesh,
-    /// Stiffness and inertia.
-    pub section: Section,
-    /// How it moves at the start.
-    pub motion: StartMotion,
-}
-
-/// A point that moves by itself; its mass is one of the masses of the scene.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ParticleDefinition {
-    /// Its name in messages and reports.
-    pub name: String,
-    /// Where it starts [length].
-    pub position: Vec2,
-}
-
-/// A mass at a station.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct PointMass {
-    /// Where.
-    pub station: Station,
-    /// [mass]
-    pub mass: f64,
-    /// [mass·length²]
-    pub rotary_inertia: f64,
-}
-
-/// A velocity at the start of the node at a station alone.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct StationVelocity {
-    /// Where.
-    pub station: Station,
-    /// [length/time]
-    pub velocity: Vec2,
-    /// [1/time]; as the beam has it when not given.
-    pub spin: Option<f64>,
-}
-
-/// Beams, particles, joints, masses and loads.
+/// What is simulated: beams, particles, joints, masses and loads.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(try_from = "StoredScene")]
 pub struct Scene {
@@ -89,12 +29,10 @@ pub struct Scene {
     pub joints: Vec<Joint>,
     /// Joints that slide.
     pub sliders: Vec<Slider>,
-    /// Masses at stations.
-    pub masses: Vec<PointMass>,
     /// Velocities of single nodes.
     pub velocities: Vec<StationVelocity>,
-    /// Loads.
-    pub loads: Vec<Load>,
+    /// Masses and loads, in the order in which they were added.
+    pub elements: Vec<Element>,
     /// Acceleration of free fall [length/time²].
     pub gravity: Vec2,
 }
@@ -114,6 +52,48 @@ impl Scene {
         f64::EPSILON * stiffness.sum::<f64>()
     }
 
+    /// The mass of everything as it is drawn [mass].
+    pub fn mass(&self) -> f64 {
+        let beams: f64 = self.beams.iter().map(BeamDefinition::mass).sum();
+        beams + self.masses().map(|mass| mass.mass).sum::<f64>()
+    }
+
+    /// The speed of the fastest axial wave; zero where there are no beams [length/time].
+    pub(in crate::model) fn fastest_wave(&self) -> f64 {
+        let squares = self
+            .beams
+            .iter()
+            .map(|beam| beam.section.axial_stiffness / beam.section.mass_per_length);
+        squares.fold(0.0, f64::max).sqrt()
+    }
+
+    /// The joints that hold a beam.
+    pub fn joints_of(&self, beam: usize) -> impl Iterator<Item = &Joint> {
+        self.joints.iter().filter(move |joint| {
+            let other = match joint.partner {
+                Partner::Ground => None,
+                Partner::Station(other) => other.beam(),
+            };
+            joint.station.beam() == Some(beam) || other == Some(beam)
+        })
+    }
+
+    /// Point masses, those of particles among them, in the order in which they were added.
+    pub fn masses(&self) -> impl Iterator<Item = &PointMass> + Clone {
+        self.elements.iter().filter_map(|element| match element {
+            Element::PointMass(mass) => Some(mass),
+            _ => None,
+        })
+    }
+
+    /// Loads, in the order in which they were added.
+    pub fn loads(&self) -> impl Iterator<Item = &Load> + Clone {
+        self.elements.iter().filter_map(|element| match element {
+            Element::Load(load) => Some(load),
+            _ => None,
+        })
+    }
+
     /// An empty scene.
     pub fn new(name: impl Into<String>) -> Self {
         Self {
@@ -123,9 +103,8 @@ impl Scene {
             stations: Vec::new(),
             joints: Vec::new(),
             sliders: Vec::new(),
-            masses: Vec::new(),
             velocities: Vec::new(),
-            loads: Vec::new(),
+            elements: Vec::new(),
             gravity: Vec2::zeros(),
         }
     }
@@ -182,12 +161,11 @@ impl Scene {
         new: &'static str,
         name: &str,
     ) -> Result<(), ModelError> {
-        let name = || name.to_owned();
-        if let Some(why) = names::refusal(&name()) {
-            return Err(ModelError::Unnamed { kind: new, name: name(), why });
+        if let Some(why) = refusal(name) {
+            return Err(ModelError::Unnamed { kind: new, name: name.to_owned(), why });
         }
-        match self.names().find(|(_, other)| **other == name()) {
-            Some((kind, _)) => Err(ModelError::DuplicateName { kind, new, name: name() }),
+        match self.names().find(|(_, other)| *other == name) {
+            Some((kind, _)) => Err(ModelError::DuplicateName { kind, new, name: name.to_owned() }),
             None => Ok(()),
         }
     }
@@ -232,7 +210,7 @@ impl Scene {
     ) -> Result<(), ModelError> {
         let name = format!("{} at {}", kind.describe(&partner), self.describe(&station));
         self.joints.push(Joint { name, kind, station, partner });
-        crate::model::assembly::check_ties(self).inspect_err(|_| {
+        check_ties(self).inspect_err(|_| {
             self.joints.pop();
         })
     }
@@ -242,31 +220,16 @@ impl Scene {
     /// # Errors
     /// When the mass is not positive and finite, or its inertia negative.
     pub fn add_mass(&mut self, mass: PointMass) -> Result<(), ModelError> {
-        let object = || format!("mass at {}", self.describe(&mass.station));
-        if !(mass.mass.is_finite() && mass.mass > 0.0) {
-            let allowed = "a positive finite number [mass]";
-            return Err(ModelError::Value {
-                object: object(),
-                name: "mass",
-                value: mass.mass,
-                allowed,
-            });
-        }
-        if !(mass.rotary_inertia.is_finite() && mass.rotary_inertia >= 0.0) {
-            let (value, allowed) =
-                (mass.rotary_inertia, "zero or a positive finite number [mass·length²]");
-            return Err(ModelError::Value {
-                object: object(),
-                name: "rotary inertia",
-                value,
-                allowed,
-            });
-        }
-        if mass.rotary_inertia > 0.0 && mass.station.beam().is_none() {
-            let advice = "leave out the rotary inertia";
-            return Err(ModelError::ParticleTurned { object: object(), advice });
-        }
-        self.masses.push(mass);
+        self.add_element(Element::PointMass(mass))
+    }
+
+    /// Adds an element of any kind.
+    ///
+    /// # Errors
+    /// When a number of it is out of its range, or a station is none of the scene.
+    pub fn add_element(&mut self, element: Element) -> Result<(), ModelError> {
+        element.description().check(self)?;
+        self.elements.push(element);
         Ok(())
     }
 
@@ -279,7 +242,7 @@ impl Scene {
                 format!("line load on beam '{}'", self.beams[*beam].name)
             }
         };
-        self.loads.push(Load { name, kind, schedule });
+        self.elements.push(Element::Load(Load { name, kind, schedule }));
     }
 
     /// The length of the beam that a station is on, as drawn; zero for a particle [length].
@@ -336,7 +299,29 @@ impl Scene {
             _ if station.beam().is_none() => body,
             0.0 => format!("the start of {body}"),
             s if s == length => format!("the end of {body}"),
-            s => format!("station {} of {body}", names::rounded(s)),
+            s => format!("station {} of {body}", rounded(s)),
         }
+    }
+}
+
+impl Setting for Scene {
+    fn describe(&self, station: &Station) -> String {
+        Self::describe(self, station)
+    }
+
+    fn check_station(&self, object: &'static str, station: &Station) -> Result<(), ModelError> {
+        let (kind, index, count) = match station.body {
+            BodyIndex::Beam(index) => ("beam", index, self.beams.len()),
+            BodyIndex::Particle(index) => ("particle", index, self.particles.len()),
+        };
+        if index >= count {
+            return Err(ModelError::Missing { object, kind, index, count });
+        }
+        let length = self.length_at(station);
+        if (0.0..=length).contains(&station.arc_length) {
+            return Ok(());
+        }
+        let beam = self.name_of_body(station);
+        Err(ModelError::StationOutside { beam, station: station.arc_length, length })
     }
 }

@@ -1,8 +1,11 @@
 //! The description of what is simulated, and its checks.
 
+mod definitions;
 mod description;
+mod sliders;
 mod stored;
+mod ties;
 
-pub use description::{
-    BeamDefinition, ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity,
-};
+pub use definitions::{BeamDefinition, ParticleDefinition, StartMotion, StationVelocity};
+pub use description::Scene;
+pub use ties::{Ties, same_place};

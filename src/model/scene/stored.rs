@@ -1,33 +1,30 @@
-//! Scenes and states from a file: whatever it holds, they are checked as if a person had written them.
+//! Scenes from a file: whatever it holds, it is checked as if a person had written it.
 
 use serde::Deserialize;
 
-use crate::beams::{BodyIndex, Station};
+use super::ties::check_ties;
+use super::{BeamDefinition, ParticleDefinition, Scene, StationVelocity};
+use crate::beams::Station;
 use crate::geometry::Vec2;
 use crate::joints::{Joint, Partner, Slider};
-use crate::loads::{Load, LoadKind};
-use crate::model::assembly::check_ties;
-use crate::model::looking::ModelState;
-use crate::model::sliders::{LANDED, Sliding};
-use crate::model::{
-    BeamDefinition, Model, ModelError, ParticleDefinition, PointMass, Scene, StationVelocity,
-};
+use crate::model::ModelError;
+use crate::model::elements::{Element, Setting};
+use crate::model::words::finite;
 
 /// Most sliders of a stored scene: the matrix of a step grows with their square, and a small file must not make it huge.
 const MOST_SLIDERS: usize = 2000;
 
 /// A [`Scene`] as it is stored, not yet checked.
 #[derive(Deserialize)]
-pub(in crate::model) struct StoredScene {
+pub struct StoredScene {
     name: String,
     beams: Vec<BeamDefinition>,
     particles: Vec<ParticleDefinition>,
     stations: Vec<Station>,
     joints: Vec<Joint>,
     sliders: Vec<Slider>,
-    masses: Vec<PointMass>,
     velocities: Vec<StationVelocity>,
-    loads: Vec<Load>,
+    elements: Vec<Element>,
     gravity: Vec2,
 }
 
@@ -63,9 +60,8 @@ impl TryFrom<StoredScene> for Scene {
         }
         scene.joints = stored.joints;
         check_ties(&scene)?;
-        for mass in stored.masses {
-            scene.check_station("a mass", &mass.station)?;
-            scene.add_mass(mass)?;
+        for element in stored.elements {
+            scene.add_element(element)?;
         }
         if stored.sliders.len() > MOST_SLIDERS {
             return Err(ModelError::Value {
@@ -86,89 +82,8 @@ impl TryFrom<StoredScene> for Scene {
             finite("start velocity", "spin", velocity.spin.as_slice())?;
         }
         scene.velocities = stored.velocities;
-        for load in &stored.loads {
-            scene.check_load(load)?;
-        }
-        scene.loads = stored.loads;
         finite("scene", "gravity", stored.gravity.as_slice())?;
         scene.gravity = stored.gravity;
         Ok(scene)
-    }
-}
-
-fn finite(object: &str, name: &'static str, values: &[f64]) -> Result<(), ModelError> {
-    match values.iter().find(|value| !value.is_finite()) {
-        Some(&value) => {
-            let allowed = "a finite number";
-            Err(ModelError::Value { object: object.to_owned(), name, value, allowed })
-        }
-        None => Ok(()),
-    }
-}
-
-impl Scene {
-    fn check_station(&self, object: &'static str, station: &Station) -> Result<(), ModelError> {
-        let (kind, index, count) = match station.body {
-            BodyIndex::Beam(index) => ("beam", index, self.beams.len()),
-            BodyIndex::Particle(index) => ("particle", index, self.particles.len()),
-        };
-        if index >= count {
-            return Err(ModelError::Missing { object, kind, index, count });
-        }
-        let length = self.length_at(station);
-        if (0.0..=length).contains(&station.arc_length) {
-            return Ok(());
-        }
-        let beam = self.name_of_body(station);
-        Err(ModelError::StationOutside { beam, station: station.arc_length, length })
-    }
-
-    fn check_load(&self, load: &Load) -> Result<(), ModelError> {
-        match &load.kind {
-            LoadKind::Force { station, force, .. } => {
-                self.check_station("a load", station)?;
-                finite(&load.name, "force", force.as_slice())
-            }
-            LoadKind::Moment { station, moment } => {
-                self.check_station("a load", station)?;
-                finite(&load.name, "moment", &[*moment])
-            }
-            LoadKind::Line { beam, force, .. } => {
-                self.check_station("a load", &Station::on_beam(*beam, 0.0))?;
-                finite(&load.name, "force", force.as_slice())
-            }
-        }
-    }
-}
-
-impl Model {
-    /// Takes a state from a file, as [`restore`](Self::restore) does for one that is known to be of this model.
-    ///
-    /// # Errors
-    /// When it cannot be one of this model.
-    pub fn restore_checked(&mut self, state: &ModelState) -> Result<(), ModelError> {
-        let refused = |reason: &'static str| ModelError::State { reason };
-        let numbers = state.numbers();
-        if numbers.len() != self.state().numbers().len() {
-            return Err(refused("it has more or fewer numbers"));
-        }
-        if !numbers.iter().all(|number| number.is_finite()) {
-            return Err(refused("a number of it is not finite"));
-        }
-        // The numbers of the sliders stand last, a mark and the parameter first of each.
-        let width = Sliding::SAVED;
-        let of_sliders = &numbers[numbers.len() - width * self.sliders.len()..];
-        for (slider, own) in self.sliders.iter().zip(of_sliders.chunks_exact(width)) {
-            let (first, last) = slider.domain();
-            // Where it has landed it may be beside the end by rounding.
-            let slack = LANDED * (last - first);
-            if ![0.0, 1.0, 2.0, 3.0].contains(&own[0])
-                || !(first - slack..=last + slack).contains(&own[1])
-            {
-                return Err(refused("a slider is beside its beam"));
-            }
-        }
-        self.restore(state);
-        Ok(())
     }
 }

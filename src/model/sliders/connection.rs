@@ -1,29 +1,49 @@
 //! Where slave and master of a slider stand among the unknowns, and how its contact gets there.
 
+use crate::geometry::Vec2;
 use crate::joints::{CONTACT_UNKNOWNS, Contact, Equation};
 use crate::linalg::Border;
 use crate::model::bodies::Body;
 
 /// What a slider connects.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::model) struct Connection {
+pub struct Connection {
     /// The body that is slid on.
-    pub(in crate::model) master: usize,
+    pub master: usize,
     /// The body that slides, and its control point.
-    pub(in crate::model) slave: (usize, usize),
+    pub slave: (usize, usize),
     /// The number of the slider among those of the model.
-    pub(in crate::model) index: usize,
+    pub index: usize,
 }
 
 impl Connection {
     /// The places of the unknowns of the contact, and of its equations, among those of all constraints.
-    pub(in crate::model) fn places(&self) -> std::ops::Range<usize> {
+    pub fn places(&self) -> std::ops::Range<usize> {
         let first = CONTACT_UNKNOWNS * self.index;
         first..first + CONTACT_UNKNOWNS
     }
 
+    /// Adds a force on the slave, and forces on control points of the master from a first one on.
+    pub fn add_forces(
+        &self,
+        bodies: &[Body],
+        on_slave: Vec2,
+        first: usize,
+        on_master: impl Iterator<Item = Vec2>,
+        out: &mut [f64],
+    ) {
+        let (body, point) = self.slave;
+        let mut add = |[x, y, _]: [usize; 3], force: Vec2| {
+            out[x] += force.x;
+            out[y] += force.y;
+        };
+        add(bodies[body].degrees_of_freedom[point], on_slave);
+        let of_master = &bodies[self.master].degrees_of_freedom[first..];
+        of_master.iter().zip(on_master).for_each(|(at, force)| add(*at, force));
+    }
+
     /// Adds the forces on slave and master, and behind the movements the values of the equations.
-    pub(in crate::model) fn add_values(
+    pub fn add_values(
         &self,
         bodies: &[Body],
         contact: &Contact<'_>,
@@ -31,20 +51,14 @@ impl Connection {
         movements: usize,
         out: &mut [f64],
     ) {
-        let (body, point) = self.slave;
-        let mut add = |[x, y, _]: [usize; 3], force: crate::geometry::Vec2| {
-            out[x] += force.x;
-            out[y] += force.y;
-        };
-        add(bodies[body].degrees_of_freedom[point], contact.unknowns.force);
-        let of_master = &bodies[self.master].degrees_of_freedom[contact.first()..];
-        of_master.iter().zip(contact.master_forces()).for_each(|(at, force)| add(*at, -force));
+        let on_master = contact.master_forces().map(|force| -force);
+        self.add_forces(bodies, contact.unknowns.force, contact.first(), on_master, out);
         let rows = &mut out[movements..][self.places()];
         rows.iter_mut().zip(equations).for_each(|(row, equation)| *row += equation.value);
     }
 
     /// Adds the derivatives of what [`add_values`](Self::add_values) adds; supported movements have none.
-    pub(in crate::model) fn add_derivatives(
+    pub fn add_derivatives(
         &self,
         bodies: &[Body],
         contact: &Contact<'_>,

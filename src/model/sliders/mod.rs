@@ -1,12 +1,14 @@
-//! Points that slide along beams.
+//! Points that slide along beams: where they are, what they add to the equations of a step, and what their beams are like where
+//! they end.
 
+mod all;
 mod blow;
 mod connection;
-mod limits;
 mod sliding;
+mod track;
 
-pub(super) use connection::Connection;
-pub use limits::TrackLimit;
-pub(super) use limits::contact_unknowns;
-pub(super) use sliding::{LANDED, Sliding};
-pub use sliding::{SliderState, TrackEnd};
+pub use all::Sliders;
+pub use blow::{Bar, Blow};
+pub use connection::Connection;
+pub use sliding::Sliding;
+pub use track::{SliderState, Track, TrackEnd, TrackLimit};

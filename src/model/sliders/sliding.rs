@@ -1,8 +1,8 @@
 //! Sliders of the model: where they are, and what they add to the equations of a step.
 
-use serde::{Deserialize, Serialize};
-
-use crate::geometry::{Passage, Vec2, larger};
+use super::track::LANDED;
+use super::{Bar, Blow, Connection, SliderState, Track, TrackEnd};
+use crate::geometry::{Passage, Vec2, larger, perpendicular};
 use crate::integrators::{Ending, Interval};
 use crate::joints::{
     CONTACT_UNKNOWNS, Contact, ContactUnknowns, EndAction, Held, Released, Slider, SlidingLaw,
@@ -10,77 +10,27 @@ use crate::joints::{
 };
 use crate::linalg::Border;
 use crate::model::bodies::Body;
-use crate::model::sliders::Connection;
-
-/// How far a slider may end beside the end of its master and still be there, relative to the master's parameters.
-pub(in crate::model) const LANDED: f64 = 4e-15;
-
-/// An end of the master.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum TrackEnd {
-    /// Where its parameter starts.
-    Start,
-    /// Where its parameter ends.
-    End,
-}
-
-impl TrackEnd {
-    /// A word for messages and scripts.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Start => "start",
-            Self::End => "end",
-        }
-    }
-
-    /// The sign of `dξ/dt` with which it is reached.
-    pub(in crate::model) fn outward(self) -> f64 {
-        match self {
-            Self::Start => -1.0,
-            Self::End => 1.0,
-        }
-    }
-}
-
-/// What a slider does at present.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SliderState {
-    /// It slides.
-    Sliding,
-    /// It rests against the stop at an end.
-    Held(TrackEnd),
-    /// It has left its master.
-    Released,
-}
-
-impl SliderState {
-    /// A word for reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Sliding => "sliding",
-            Self::Held(_) => "held",
-            Self::Released => "released",
-        }
-    }
-}
 
 /// A slider with its contact.
 #[derive(Debug, Clone)]
-pub(in crate::model) struct Sliding {
-    pub(in crate::model) name: String,
-    pub(in crate::model) connection: Connection,
-    pub(in crate::model) rule: SlidingRule,
-    pub(in crate::model) ends: EndAction,
-    pub(in crate::model) state: SliderState,
+pub struct Sliding {
+    pub name: String,
+    pub connection: Connection,
+    pub rule: SlidingRule,
+    pub ends: EndAction,
+    pub state: SliderState,
     /// Where on the master it is: `ξ`.
-    pub(in crate::model) parameter: f64,
+    pub parameter: f64,
     /// Of the last step.
-    pub(in crate::model) unknowns: ContactUnknowns,
+    pub unknowns: ContactUnknowns,
     /// The most spans that it passed in a step.
-    pub(in crate::model) most_spans: f64,
+    pub most_spans: f64,
     /// How many times as long as a blow a step was, at the bounce where that is most.
-    pub(in crate::model) blows_in_a_step: f64,
-    domain: (f64, f64),
+    pub blows_in_a_step: f64,
+    /// The master as drawn.
+    track: Track,
+    /// Master and slave as blows run through them; the slave may be no beam.
+    bars: (Bar, Option<Bar>),
     /// The length of the master for a parameter of one [length].
     length: f64,
     /// Where it is at the start of the step.
@@ -98,14 +48,16 @@ pub(in crate::model) struct Sliding {
 }
 
 impl Sliding {
-    pub(in crate::model) fn new(
+    /// A slider at a parameter of the mesh of its master.
+    pub fn new(
         slider: &Slider,
         connection: Connection,
         passage: Passage,
         parameter: f64,
-        length: f64,
+        track: Track,
+        bars: (Bar, Option<Bar>),
     ) -> Self {
-        let domain = passage.basis().domain();
+        let (first, last) = track.domain();
         let functions = passage.basis().functions();
         let mut new = Self {
             name: slider.name.clone(),
@@ -117,14 +69,15 @@ impl Sliding {
             unknowns: ContactUnknowns::zeros(),
             most_spans: 0.0,
             blows_in_a_step: 0.0,
-            domain,
-            length: length / (domain.1 - domain.0),
+            length: track.length() / (last - first),
+            size: track.length(),
+            track,
+            bars,
             here: passage.clone(),
             passage,
             before: Vec::with_capacity(functions),
             moved: Vec::with_capacity(functions),
             units: [Unit::Force; CONTACT_UNKNOWNS],
-            size: length,
             chord: 1.0,
         };
         new.here.go(parameter, parameter);
@@ -132,7 +85,7 @@ impl Sliding {
     }
 
     /// The most entries that its equations have.
-    pub(in crate::model) fn row_entries(&self) -> usize {
+    pub fn row_entries(&self) -> usize {
         CONTACT_UNKNOWNS * 2 * (1 + self.passage.basis().functions())
     }
 
@@ -144,72 +97,103 @@ impl Sliding {
         }
     }
 
-    pub(in crate::model) fn is_sliding(&self) -> bool {
+    pub fn is_sliding(&self) -> bool {
         self.state == SliderState::Sliding
     }
 
-    pub(in crate::model) fn domain(&self) -> (f64, f64) {
-        self.domain
+    /// It rests against the stop at an end of its master.
+    pub fn hold(&mut self, end: TrackEnd) {
+        self.state = SliderState::Held(end);
     }
 
     /// It leaves its master.
-    pub(in crate::model) fn release(&mut self) {
+    pub fn release(&mut self) {
         self.state = SliderState::Released;
         self.unknowns = ContactUnknowns::zeros();
     }
 
-    /// How many numbers it saves.
-    pub(in crate::model) const SAVED: usize = 4 + CONTACT_UNKNOWNS;
+    /// How many numbers it saves, the parameter first.
+    pub const SAVED: usize = 3 + CONTACT_UNKNOWNS;
 
-    pub(in crate::model) fn save(&self, state: &mut Vec<f64>) {
-        let mark = match self.state {
-            SliderState::Sliding => 0.0,
-            SliderState::Held(TrackEnd::Start) => 1.0,
-            SliderState::Held(TrackEnd::End) => 2.0,
-            SliderState::Released => 3.0,
-        };
-        state.extend([mark, self.parameter, self.most_spans, self.blows_in_a_step]);
-        state.extend(self.unknowns.to_array());
+    /// Appends its numbers; its state is no number.
+    pub fn save(&self, numbers: &mut Vec<f64>) {
+        numbers.extend([self.parameter, self.most_spans, self.blows_in_a_step]);
+        numbers.extend(self.unknowns.to_array());
     }
 
-    pub(in crate::model) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
-        let marks = [
-            SliderState::Sliding,
-            SliderState::Held(TrackEnd::Start),
-            SliderState::Held(TrackEnd::End),
-        ];
-        self.state = marks.get(next() as usize).copied().unwrap_or(SliderState::Released);
-        self.parameter = next();
-        (self.most_spans, self.blows_in_a_step) = (next(), next());
+    /// Takes its state and its numbers back, in the order in which these were appended.
+    pub fn restore(&mut self, state: SliderState, next: &mut dyn FnMut() -> f64) {
+        self.state = state;
+        (self.parameter, self.most_spans, self.blows_in_a_step) = (next(), next(), next());
         self.unknowns = ContactUnknowns::of(std::array::from_fn(|_| next()));
         self.here.go(self.parameter, self.parameter);
     }
 
-    /// How far it is from an end of the master, as a part of the parameters of its master.
-    pub(in crate::model) fn distance_to(&self, end: TrackEnd) -> f64 {
-        let (first, last) = self.domain;
-        (self.end_parameter(end) - self.parameter).abs() / (last - first)
+    /// Whether a parameter is one of its master.
+    pub fn may_be_at(&self, parameter: f64) -> bool {
+        self.track.has(parameter)
+    }
+
+    /// How far it is from an end of the master, as a part of the parameters of its master [-].
+    pub fn distance_to(&self, end: TrackEnd) -> f64 {
+        self.track.distance(self.parameter, end)
     }
 
     /// Whether it is at an end of the master.
-    pub(in crate::model) fn is_at(&self, end: TrackEnd) -> bool {
+    pub fn is_at(&self, end: TrackEnd) -> bool {
         self.distance_to(end) <= LANDED
     }
 
-    pub(in crate::model) fn end_parameter(&self, end: TrackEnd) -> f64 {
-        match end {
-            TrackEnd::Start => self.domain.0,
-            TrackEnd::End => self.domain.1,
+    /// Its place along the master as drawn: 0 at the start, 1 at the end [-].
+    pub fn position(&self) -> f64 {
+        // Arrivals are a few digits short of the end, or beyond it.
+        if self.is_at(TrackEnd::Start) {
+            return 0.0;
         }
+        if self.is_at(TrackEnd::End) {
+            return 1.0;
+        }
+        self.track.part_before(self.parameter)
+    }
+
+    /// How far it is from the start of its master, as drawn [length].
+    pub fn arc_length(&self) -> f64 {
+        self.position() * self.track.length()
+    }
+
+    /// How much of its master, as drawn, it passes in a unit of time, positive towards the end [length/time].
+    pub fn speed(&self, bodies: &[Body], rates: &[f64]) -> f64 {
+        self.track.stretch(self.parameter) * self.rate(bodies, rates)
+    }
+
+    /// Takes down how many times as long as a blow at the end of its master the steps are [time].
+    ///
+    /// A blow on a beam lasts at least until its wave has come back, twice the length over `c` (Saint-Venant 1883), or, on a light
+    /// slave, until that has come to rest, which takes some `m/(c ρA)`. Where nothing gives way, there is no wave to resolve.
+    pub fn note_blow(&mut self, bodies: &[Body], blow: Blow, dt: f64) {
+        let (master, slave) = &self.bars;
+        let on_master = blow.master.is_some().then(|| {
+            // A beam that strikes is no heavier than its waves let it be at once.
+            master.answer_time(1.0, blow.slave.filter(|_| slave.is_none()))
+        });
+        let on_slave = slave.filter(|_| blow.slave.is_some()).map(|slave| {
+            let (body, point) = self.connection.slave;
+            let points = bodies[body].dynamics.control_points();
+            let axis = points[(point + 1).min(points.len() - 1)] - points[point.saturating_sub(1)];
+            let tangent = self.tangent(bodies);
+            slave.answer_time(axis.dot(&tangent) / (axis.norm() * tangent.norm()), None)
+        });
+        let lasts = 2.0 * on_master.into_iter().chain(on_slave).fold(f64::INFINITY, f64::min);
+        self.blows_in_a_step = self.blows_in_a_step.max(dt / lasts);
     }
 
     /// The control points of the master with their functions where the slider is.
-    pub(in crate::model) fn weights(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+    fn weights(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         (self.here.first()..).zip(self.here.end().iter().copied())
     }
 
     /// The derivative of the place on the master by the parameter, `Σ B_i'(ξ) x_i` [length].
-    pub(in crate::model) fn tangent(&self, bodies: &[Body]) -> Vec2 {
+    fn tangent(&self, bodies: &[Body]) -> Vec2 {
         let points = &bodies[self.connection.master].dynamics.control_points()[self.here.first()..];
         // Slopes sum to zero: an origin amid the points changes nothing but the rounding.
         self.here
@@ -220,8 +204,24 @@ impl Sliding {
             .sum()
     }
 
+    /// The direction of the master where the slider is [-].
+    pub fn along(&self, bodies: &[Body]) -> Vec2 {
+        self.tangent(bodies).normalize()
+    }
+
+    /// The direction across it [-].
+    pub fn across(&self, bodies: &[Body]) -> Vec2 {
+        perpendicular(self.along(bodies))
+    }
+
+    /// Adds `Gᵀ P` for an impulse `P`, or a force: on the slave, and the opposite one on the master.
+    pub fn transmit(&self, bodies: &[Body], impulse: Vec2, out: &mut [f64]) {
+        let on_master = self.here.end().iter().map(|weight| impulse * -*weight);
+        self.connection.add_forces(bodies, impulse, self.here.first(), on_master, out);
+    }
+
     /// From the slave to its place on the master.
-    pub(in crate::model) fn gap(&self, bodies: &[Body]) -> Vec2 {
+    pub fn gap(&self, bodies: &[Body]) -> Vec2 {
         if self.state == SliderState::Released {
             return Vec2::zeros();
         }
@@ -232,20 +232,20 @@ impl Sliding {
     }
 
     /// The velocity of the slave relative to its place on the master [length/time].
-    pub(in crate::model) fn relative_velocity(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
+    pub fn relative_velocity(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
         let Connection { master, slave: (body, point), .. } = self.connection;
         let on_master = |(index, weight)| bodies[master].vector_at(index, rates) * weight;
         bodies[body].vector_at(point, rates) - self.weights().map(on_master).sum::<Vec2>()
     }
 
     /// The velocity of the slave [length/time].
-    pub(in crate::model) fn slave_velocity(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
+    pub fn slave_velocity(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
         let (body, point) = self.connection.slave;
         bodies[body].vector_at(point, rates)
     }
 
     /// `dξ/dt` of the present velocities [1/time].
-    pub(in crate::model) fn rate(&self, bodies: &[Body], rates: &[f64]) -> f64 {
+    pub fn rate(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         match self.state {
             SliderState::Sliding => {
                 let tangent = self.tangent(bodies);
@@ -262,14 +262,14 @@ impl Sliding {
     }
 
     /// Guesses that it slides on as it does, and that the contact force stays.
-    pub(in crate::model) fn predict(
+    pub fn predict(
         &self,
         bodies: &[Body],
         rates: &[f64],
         interval: Interval,
         unknowns: &mut [f64],
     ) {
-        let (start, end) = self.domain;
+        let (start, end) = self.track.domain();
         let ahead = self.parameter + interval.duration() * self.rate(bodies, rates);
         let way = ahead.clamp(start, end) - self.parameter;
         let guess = ContactUnknowns { way, ..self.unknowns };
@@ -297,7 +297,7 @@ impl Sliding {
     }
 
     /// Adds the forces on slave and master, and behind the movements the equations of the contact; returns the contact force.
-    pub(in crate::model) fn add(
+    pub fn add(
         &mut self,
         bodies: &[Body],
         increments: &[f64],
@@ -316,7 +316,7 @@ impl Sliding {
     }
 
     /// The same, with all derivatives.
-    pub(in crate::model) fn add_linearised(
+    pub fn add_linearised(
         &mut self,
         bodies: &[Body],
         increments: &[f64],
@@ -332,7 +332,7 @@ impl Sliding {
     }
 
     /// The largest violations: relative to the lengths met, and a force [force].
-    pub(in crate::model) fn violation(&self, equations: &[f64]) -> (f64, f64) {
+    pub fn violation(&self, equations: &[f64]) -> (f64, f64) {
         let values = equations[self.connection.places()].iter().zip(self.units);
         values.fold((0.0, 0.0), |(length, force), (value, unit)| match unit {
             Unit::Length => (larger(length, value.abs() / self.size), force),
@@ -341,25 +341,19 @@ impl Sliding {
     }
 
     /// How long the chord of its way is in the mean configuration, relative to the length of the master for that way.
-    pub(in crate::model) fn chord(&self) -> f64 {
+    pub fn chord(&self) -> f64 {
         if self.is_sliding() { self.chord } else { 1.0 }
     }
 
     /// How far beyond an end of the master the unknowns lead, relative to its parameters.
-    pub(in crate::model) fn beyond(&self, unknowns: &[f64], end: TrackEnd) -> f64 {
-        let ahead = self.parameter + self.read(unknowns).way;
-        let (first, last) = self.domain;
-        let distance = match end {
-            TrackEnd::Start => first - ahead,
-            TrackEnd::End => ahead - last,
-        };
-        distance / (last - first)
+    pub fn beyond(&self, unknowns: &[f64], end: TrackEnd) -> f64 {
+        self.track.beyond(self.parameter + self.read(unknowns).way, end)
     }
 
     /// Accepts a step; the bodies are at its end already.
     ///
     /// A stop that had to pull lets go, but not within a step.
-    pub(in crate::model) fn advance(&mut self, bodies: &[Body], unknowns: &[f64], ending: Ending) {
+    pub fn advance(&mut self, bodies: &[Body], unknowns: &[f64], ending: Ending) {
         self.unknowns = self.read(unknowns);
         let before = self.parameter;
         self.parameter += self.unknowns.way;

@@ -1,8 +1,8 @@
 //! What can be wrong with a scene.
 
+use super::SliderError;
 use crate::beams::BeamError;
 use crate::geometry::GeometryError;
-use crate::model::SliderError;
 
 /// A scene that cannot be described or built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -154,6 +154,17 @@ impl ModelError {
     /// For `map_err`: a geometry error of a beam.
     pub(in crate::model) fn geometry(beam: &str) -> impl Fn(GeometryError) -> Self + '_ {
         move |source| Self::Beam { beam: beam.to_owned(), source: source.into() }
+    }
+}
+
+/// Refuses numbers that are not finite: a property of an object.
+pub fn finite(object: &str, name: &'static str, values: &[f64]) -> Result<(), ModelError> {
+    match values.iter().find(|value| !value.is_finite()) {
+        Some(&value) => {
+            let allowed = "a finite number";
+            Err(ModelError::Value { object: object.to_owned(), name, value, allowed })
+        }
+        None => Ok(()),
     }
 }
 

@@ -63,12 +63,6 @@ pub fn refusal(name: &str) -> Option<&'static str> {
         .then_some("a word of it has letters of two alphabets that look alike")
 }
 
-/// A number as it stands in names and messages, of seven digits at most.
-pub fn rounded(number: f64) -> String {
-    let rounded: f64 = format!("{number:.6e}").parse().unwrap_or(number);
-    rounded.to_string()
-}
-
 fn mixes_alphabets(word: &str) -> bool {
     let mut alphabets = word.chars().filter_map(alphabet);
     let first = alphabets.next();
@@ -92,15 +86,6 @@ fn alphabet(letter: char) -> Option<Alphabet> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn places_are_told_in_seven_digits() {
-        assert_eq!(rounded(std::f64::consts::FRAC_PI_2), "1.570796");
-        assert_eq!(
-            (rounded(2.800_000_000_000_000_3), rounded(-0.25)),
-            ("2.8".into(), "-0.25".into())
-        );
-    }
 
     #[test]
     fn names_of_people_are_welcome() {

@@ -51,7 +51,7 @@ impl Simulation {
     /// # Errors
     /// When a load has a function from outside as its schedule.
     pub fn to_bytes(&self, name: &str) -> Result<Vec<u8>, ArchiveError> {
-        if let Some(load) = self.scene.loads.iter().find(|load| !load.schedule.can_be_stored()) {
+        if let Some(load) = self.scene.loads().find(|load| !load.schedule.can_be_stored()) {
             return Err(ArchiveError::Function { load: load.name.clone() });
         }
         let content = Content {

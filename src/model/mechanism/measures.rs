@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::Vec2;
+use super::Model;
+use crate::geometry::{Vec2, larger};
 
 /// The energy of a model, in parts [energy].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -45,4 +46,30 @@ pub struct Measures {
     pub gross_angular_impulse: f64,
     /// The largest distance between the partners of a joint [length].
     pub gap: f64,
+}
+
+impl Model {
+    /// Energy, momenta and what was exchanged so far.
+    pub fn measure(&mut self) -> Measures {
+        let rates = &self.motion.rates;
+        let mut momenta = self.bodies.momenta(rates);
+        self.elements.add_momenta(&self.bodies, rates, &mut momenta);
+        let energy = Energy {
+            kinetic: 0.5 * momenta.twice_kinetic,
+            strain: self.bodies.strain_energy(),
+            potential: self.elements.energy(&self.bodies),
+        };
+        Measures {
+            time: self.motion.time,
+            energy,
+            work: self.exchanged.work,
+            momentum: momenta.linear,
+            impulse: self.exchanged.impulse,
+            angular_momentum: momenta.angular,
+            angular_impulse: self.exchanged.angular_impulse,
+            gross_impulse: self.exchanged.gross_impulse,
+            gross_angular_impulse: self.exchanged.gross_angular_impulse,
+            gap: larger(self.bodies.largest_gap(), self.sliders.largest_gap(&self.bodies)),
+        }
+    }
 }
