@@ -198,3 +198,31 @@ fn mesh_with_nodes<'s>(
         .map_err(&wrap)?;
     beam.mesh.with_breaks(&places).map_err(&wrap)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::rc::Rc;
+
+    use super::*;
+    use crate::integrators::{Interval, Mechanism, Stage, StepError};
+    use crate::loads::{Frame, LoadError, LoadKind, Schedule};
+    use crate::model::ParticleDefinition;
+
+    #[test]
+    fn a_load_without_a_value_refuses_the_step_with_its_own_error() {
+        let mut scene = Scene::new("bead");
+        let bead = ParticleDefinition { name: "bead".to_owned(), position: Vec2::zeros() };
+        let station = scene.add_particle(bead, 1.0).unwrap();
+        let schedule = Schedule::Function { function: Rc::new(|_| Ok(f64::NAN)), breaks: vec![] };
+        scene.add_load(LoadKind::Force { station, force: Vec2::x(), frame: Frame::Dead }, schedule);
+        let mut model = Model::assemble(&scene).unwrap();
+        let refused = model.begin_step(Interval::between(0.0, 0.1), &[Stage::End]);
+        let Err(StepError::Load { load, source, .. }) = refused else { panic!("{refused:?}") };
+        assert_eq!(load, "force at particle 'bead'");
+        let cause = source.downcast_ref::<LoadError>();
+        assert!(
+            matches!(cause, Some(LoadError::NotFinite { time, .. }) if *time == 0.1),
+            "{cause:?}"
+        );
+    }
+}

@@ -51,7 +51,7 @@ impl Assembly<'_> {
             self.share_rigid_motion(index, &numbering.degrees_of_freedom[index], &mut shared)?;
         }
         let rates = shared.rates.into_iter();
-        let mut rates = rates.map(|rate| rate.map_or(0.0, |(_, value)| value)).collect();
+        let mut rates: Vec<f64> = rates.map(|rate| rate.map_or(0.0, |(_, value)| value)).collect();
         for velocity in &self.scene.velocities {
             self.set_velocity(velocity, numbering, &mut rates)?;
         }
@@ -74,16 +74,16 @@ impl Assembly<'_> {
         for (point, degrees) in beam.control_points().iter().zip(degrees_of_freedom) {
             let velocity = motion.velocity + perpendicular(point - about) * motion.spin;
             let rates = [velocity.x, velocity.y, motion.spin];
-            for component in 0..COMPONENTS.len() {
-                let (at, rate) = (degrees[component], rates[component]);
-                if let Some(other) = shared.take(at, index, rate, sizes[component]) {
+            let sized = degrees.iter().zip(rates).zip(sizes).zip(COMPONENTS);
+            for (((&at, rate), size), component) in sized {
+                if let Some(other) = shared.take(at, index, rate, size) {
                     let other = other.map_or(GROUND.to_owned(), |(other, rate)| {
                         let name = &self.scene.beams[other].name;
                         format!("beam '{name}', joined there, has {rate}")
                     });
                     return Err(ModelError::StartVelocity {
                         body: format!("beam '{name}'"),
-                        place: format!("joint ({})", COMPONENTS[component]),
+                        place: format!("joint ({component})"),
                         velocity: rate,
                         other,
                     });
@@ -98,7 +98,7 @@ impl Assembly<'_> {
         &self,
         velocity: &StationVelocity,
         numbering: &Numbering,
-        rates: &mut Vec<f64>,
+        rates: &mut [f64],
     ) -> Result<(), ModelError> {
         let StationVelocity { station, velocity, spin } = velocity;
         if station.beam().is_none() && spin.is_some() {

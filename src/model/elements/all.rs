@@ -1,6 +1,6 @@
 //! All elements of a model.
 
-use super::element::Part;
+use super::element::Assembled;
 use super::point_mass::Lump;
 use super::{Exchange, ForceElement, Iterate, Weight};
 use crate::beams::RotationIncrement;
@@ -21,12 +21,12 @@ pub struct Elements {
 
 impl Elements {
     /// The elements that descriptions were built into, and the weight of the beams, if there is gravity.
-    pub fn new(parts: impl Iterator<Item = Part>, mut weight: Option<Weight>) -> Self {
+    pub fn new(parts: impl Iterator<Item = Assembled>, mut weight: Option<Weight>) -> Self {
         let (mut masses, mut forces) = (Vec::new(), Vec::new());
         for part in parts {
             match part {
-                Part::Mass(mass) => masses.push(mass),
-                Part::Force(force) => forces.push(force),
+                Assembled::Mass(mass) => masses.push(mass),
+                Assembled::Force(force) => forces.push(force),
             }
         }
         weight.iter_mut().for_each(|weight| masses.iter().for_each(|mass| weight.add(mass)));

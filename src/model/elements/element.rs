@@ -47,11 +47,11 @@ pub trait Description {
     ///
     /// # Errors
     /// When it cannot act where it is.
-    fn build(&self, site: &dyn Site) -> Result<Part, ModelError>;
+    fn build(&self, site: &dyn Site) -> Result<Assembled, ModelError>;
 }
 
 /// What becomes of an element in a model.
-pub enum Part {
+pub enum Assembled {
     /// A part of the inertia.
     Mass(Lump),
     /// Forces on bodies.

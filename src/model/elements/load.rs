@@ -1,6 +1,6 @@
 //! Loads in a step: their values, work and impulse.
 
-use super::element::{Description, Part, Setting, Site};
+use super::element::{Assembled, Description, Setting, Site};
 use super::follower::Follower;
 use super::pattern::Pattern;
 use super::{Exchange, ForceElement, Iterate};
@@ -31,7 +31,7 @@ impl Description for Load {
         }
     }
 
-    fn build(&self, site: &dyn Site) -> Result<Part, ModelError> {
+    fn build(&self, site: &dyn Site) -> Result<Assembled, ModelError> {
         if let LoadKind::Moment { station, .. }
         | LoadKind::Force { station, frame: Frame::Follower, .. } = &self.kind
             && let BodyIndex::Particle(_) = station.body
@@ -60,7 +60,7 @@ impl Description for Load {
                 Action::Follower(line_of_followers(site, *beam, *force)?)
             }
         };
-        Ok(Part::Force(Box::new(AppliedLoad {
+        Ok(Assembled::Force(Box::new(AppliedLoad {
             name: self.name.clone(),
             schedule: self.schedule.clone(),
             action,

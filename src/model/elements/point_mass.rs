@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::element::{Description, Part, Setting, Site};
+use super::element::{Assembled, Description, Setting, Site};
 use crate::beams::{Place, Station};
 use crate::geometry::{Vec2, cross};
 use crate::model::ModelError;
@@ -41,9 +41,9 @@ impl Description for PointMass {
         Ok(())
     }
 
-    fn build(&self, site: &dyn Site) -> Result<Part, ModelError> {
+    fn build(&self, site: &dyn Site) -> Result<Assembled, ModelError> {
         let Self { mass, rotary_inertia, .. } = *self;
-        Ok(Part::Mass(Lump { place: site.place(&self.station)?, mass, rotary_inertia }))
+        Ok(Assembled::Mass(Lump { place: site.place(&self.station)?, mass, rotary_inertia }))
     }
 }
 

@@ -84,7 +84,8 @@ impl Model {
     pub fn restore_checked(&mut self, state: &ModelState) -> Result<(), ModelError> {
         let refused = |reason: &'static str| ModelError::State { reason };
         let numbers = &state.numbers;
-        if numbers.len() != self.state().numbers.len() {
+        let own = self.state();
+        if numbers.len() != own.numbers.len() || state.sliders.len() != own.sliders.len() {
             return Err(refused("it has more or fewer numbers"));
         }
         if !numbers.iter().all(|number| number.is_finite()) {
@@ -92,7 +93,7 @@ impl Model {
         }
         // The numbers of the sliders stand last.
         let of_sliders = &numbers[numbers.len() - Sliding::SAVED * self.sliders.len()..];
-        if !self.sliders.fit(&state.sliders, of_sliders) {
+        if !self.sliders.fit(of_sliders) {
             return Err(refused("a slider is beside its beam"));
         }
         self.restore(state);

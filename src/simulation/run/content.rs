@@ -4,13 +4,14 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
-use super::{ArchiveError, envelope};
+use super::Simulation;
 use crate::model::{ModelState, Scene};
 use crate::newton::Tolerance;
+use crate::simulation::archive::{ArchiveError, unwrap, wrap};
 use crate::simulation::controller::Pace;
-use crate::simulation::recording::StepTaken;
-use crate::simulation::stepping::Halving;
-use crate::simulation::{Arrival, Recording, Sample, Settings, Simulation, WorkCounts};
+use crate::simulation::halving::Halving;
+use crate::simulation::progress::StepTaken;
+use crate::simulation::{Arrival, Recording, Sample, Settings, WorkCounts};
 
 /// Counts beyond this, and grid points beyond it, cannot have been counted.
 const MOST_COUNTED: usize = 1 << 52;
@@ -59,21 +60,21 @@ impl Simulation {
             scene: Cow::Borrowed(&self.scene),
             settings: self.settings,
             state: self.model.state(),
-            recording: self.recording,
-            samples: self.history.samples().into(),
-            rows_kept: self.rows_kept,
-            extra: self.history.extra_values().into(),
-            every: self.trajectory.every(),
-            times: self.trajectory.times().into(),
-            numbers: self.trajectory.numbers().into(),
-            arrivals: self.arrivals.as_slice().into(),
-            counts: self.counts,
-            cuts: self.grid.cuts().into(),
-            under_way: self.under_way.map(Halving::to_parts),
-            pace: self.pace,
+            recording: self.record.recording,
+            samples: self.record.history.samples().into(),
+            rows_kept: self.record.rows_kept,
+            extra: self.record.history.extra_values().into(),
+            every: self.record.trajectory.every(),
+            times: self.record.trajectory.times().into(),
+            numbers: self.record.trajectory.numbers().into(),
+            arrivals: self.progress.arrivals.as_slice().into(),
+            counts: self.progress.counts,
+            cuts: self.clock.grid.cuts().into(),
+            under_way: self.clock.under_way.map(Halving::to_parts),
+            pace: self.clock.pace,
         };
         let bytes = postcard::to_stdvec(&content).map_err(|error| refused(&error.to_string()))?;
-        Ok(envelope::wrap(&bytes))
+        Ok(wrap(&bytes))
     }
 
     /// A simulation and its name from a file of [`to_bytes`](Self::to_bytes); it goes on bit for bit as the one that was stored.
@@ -81,7 +82,7 @@ impl Simulation {
     /// # Errors
     /// When the file is cut off, damaged, of a later format or something else, or its content makes no sense.
     pub fn from_bytes(file: &[u8]) -> Result<(String, Self), ArchiveError> {
-        let bytes = envelope::unwrap(file)?;
+        let bytes = unwrap(file)?;
         let read = postcard::take_from_bytes::<Content>(bytes);
         let (content, rest) = read.map_err(|error| refused(&error.to_string()))?;
         if !rest.is_empty() {
@@ -137,18 +138,20 @@ impl Content<'_> {
         restored.map_err(|error| refused(&error.to_string()))?;
         let now = simulation.time();
         let last = self.samples.last().map(|row| row.measures.time);
-        if last != Some(now) || now / simulation.grid.dt() >= MOST_COUNTED as f64 {
+        if last != Some(now) || now / simulation.clock.grid.dt() >= MOST_COUNTED as f64 {
             return Err(refused("its time is not that of the last row of its history"));
         }
         let rows = self.samples.len();
-        simulation.last_step = self.samples.last().map(StepTaken::of).unwrap_or_default();
+        simulation.progress.last_step = self.samples.last().map(StepTaken::of).unwrap_or_default();
         let (samples, extra) = (self.samples.into_owned(), self.extra.into_owned());
-        let history = simulation.history.with_rows(samples, extra);
-        simulation.history = history.ok_or_else(|| refused("the rows of its history are torn"))?;
+        let history = simulation.record.history.with_rows(samples, extra);
+        simulation.record.history =
+            history.ok_or_else(|| refused("the rows of its history are torn"))?;
         let (times, numbers) = (self.times.into_owned(), self.numbers.into_owned());
-        let kept = simulation.trajectory.with_configurations(rows, self.every, times, numbers);
-        simulation.trajectory = kept.ok_or_else(|| refused("its trajectory is torn"))?;
-        simulation.under_way = match self.under_way {
+        let kept =
+            simulation.record.trajectory.with_configurations(rows, self.every, times, numbers);
+        simulation.record.trajectory = kept.ok_or_else(|| refused("its trajectory is torn"))?;
+        simulation.clock.under_way = match self.under_way {
             None => None,
             Some(parts) => {
                 let halving = Halving::from_parts(now, parts);
@@ -161,11 +164,12 @@ impl Content<'_> {
         {
             return Err(refused("the size of its next step makes no sense"));
         }
-        simulation.pace = self.pace;
-        simulation.grid.lay(&self.cuts, now);
-        simulation.arrivals = self.arrivals.into_owned();
-        simulation.counts = self.counts;
-        (simulation.recording, simulation.rows_kept) = (self.recording, self.rows_kept);
+        simulation.clock.pace = self.pace;
+        simulation.clock.grid.lay(&self.cuts, now);
+        simulation.progress.arrivals = self.arrivals.into_owned();
+        simulation.progress.counts = self.counts;
+        (simulation.record.recording, simulation.record.rows_kept) =
+            (self.recording, self.rows_kept);
         Ok((self.name.into_owned(), simulation))
     }
 }

@@ -1,9 +1,10 @@
 //! Looking at a simulation: places, paths and configurations to draw.
 
-use super::{Configuration, Outline, Simulation};
+use super::Simulation;
 use crate::beams::{Place, Station};
 use crate::geometry::Vec2;
 use crate::model::ModelError;
+use crate::simulation::{Configuration, Outline};
 use crate::vibration::{Modes, VibrationError};
 
 impl Simulation {
@@ -32,7 +33,7 @@ impl Simulation {
         let counts: Vec<usize> = self.model.control_points().map(<[Vec2]>::len).collect();
         let offset = counts[..place.body].iter().sum::<usize>();
         let at = |index: usize| -> Vec2 {
-            let numbers = self.trajectory.configuration(index);
+            let numbers = self.record.trajectory.configuration(index);
             place
                 .weights()
                 .map(|(point, w)| {
@@ -40,7 +41,13 @@ impl Simulation {
                 })
                 .sum()
         };
-        self.trajectory.times().iter().enumerate().map(|(index, &time)| (time, at(index))).collect()
+        self.record
+            .trajectory
+            .times()
+            .iter()
+            .enumerate()
+            .map(|(index, &time)| (time, at(index)))
+            .collect()
     }
 
     /// The present configuration, as it is drawn.
@@ -57,10 +64,10 @@ impl Simulation {
     /// # Errors
     /// When an axis has a point without a tangent.
     pub fn configuration_near(&self, time: f64) -> Result<Option<Configuration>, ModelError> {
-        let Some(index) = self.trajectory.nearest(time) else { return Ok(None) };
+        let Some(index) = self.record.trajectory.nearest(time) else { return Ok(None) };
         let bodies = self.control_points_at(index);
         let bodies: Vec<&[Vec2]> = bodies.iter().map(Vec::as_slice).collect();
-        Ok(Some(Outline::draw(self.outlines()?, self.trajectory.times()[index], &bodies)))
+        Ok(Some(Outline::draw(self.outlines()?, self.record.trajectory.times()[index], &bodies)))
     }
 
     /// Where stations are [length].
@@ -76,7 +83,9 @@ impl Simulation {
     /// # Errors
     /// When one lies outside its beam.
     pub fn stations_near(&self, stations: &[Station], time: f64) -> Result<Vec<Vec2>, ModelError> {
-        let Some(index) = self.trajectory.nearest(time) else { return self.stations(stations) };
+        let Some(index) = self.record.trajectory.nearest(time) else {
+            return self.stations(stations);
+        };
         let bodies = self.control_points_at(index);
         let at = |station| {
             let place = self.place(station)?;
@@ -87,7 +96,7 @@ impl Simulation {
 
     /// The control points of all bodies in a configuration of the trajectory.
     fn control_points_at(&self, index: usize) -> Vec<Vec<Vec2>> {
-        let mut numbers = self.trajectory.configuration(index).chunks_exact(2);
+        let mut numbers = self.record.trajectory.configuration(index).chunks_exact(2);
         let of_body = |body: &[Vec2]| {
             numbers.by_ref().take(body.len()).map(|xy| Vec2::new(xy[0], xy[1])).collect()
         };
@@ -95,10 +104,6 @@ impl Simulation {
     }
 
     fn outlines(&self) -> Result<&[Outline], ModelError> {
-        if let Some(outlines) = self.outlines.get() {
-            return Ok(outlines);
-        }
-        let outlines = Outline::of_scene(&self.scene, self.model.meshes())?;
-        Ok(self.outlines.get_or_init(|| outlines))
+        self.drawn.outlines(|| Outline::of_scene(&self.scene, self.model.meshes()))
     }
 }

@@ -1,8 +1,9 @@
 //! What a simulation uses, and what it therefore leaves out.
 
-use super::controller::Controller;
-use super::{Recording, Simulation, WorkCounts};
+use super::Simulation;
 use crate::model::Part;
+use crate::simulation::controller::Controller;
+use crate::simulation::{Recording, WorkCounts};
 
 impl Simulation {
     /// What this simulation uses and what it leaves out: of its scene, then how it takes steps.
@@ -17,7 +18,8 @@ impl Simulation {
         let how = format!("{}, order {}; keeps {}", entry.name, entry.claims.order, kept);
         parts.push(Part::used("integrator", how));
         let now = self.time();
-        let ahead: Vec<f64> = self.grid.cuts().iter().copied().filter(|cut| *cut > now).collect();
+        let ahead: Vec<f64> =
+            self.clock.grid.cuts().iter().copied().filter(|cut| *cut > now).collect();
         parts.push(Part::steps(&self.settings().dt.to_string(), &ahead));
         parts.push(self.explain_tries());
         parts.extend([self.explain_recording(), self.explain_snapshots()]);
@@ -26,10 +28,13 @@ impl Simulation {
     }
 
     fn explain_recording(&self) -> Part {
-        let numbers = self.history.columns().count() + self.trajectory.stride();
-        let rows = self.history.samples().len();
-        let how = format!("{}: {rows} rows of {numbers} numbers so far", self.recording.describe());
-        match self.recording {
+        let numbers = self.record.history.columns().count() + self.record.trajectory.stride();
+        let rows = self.record.history.samples().len();
+        let how = format!(
+            "{}: {rows} rows of {numbers} numbers so far",
+            self.record.recording.describe()
+        );
+        match self.record.recording {
             Recording::Nothing => Part::left_out(
                 "recording",
                 "no rows between the ends of a run; energies are measured when asked for",

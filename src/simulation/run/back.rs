@@ -1,8 +1,10 @@
 //! Going back to states that were, and copies that go their own way.
 
-use super::snapshots::Snapshot;
-use super::{Simulation, SimulationError, WorkCounts};
+use super::Simulation;
 use crate::model::ModelState;
+use crate::simulation::clock::Clock;
+use crate::simulation::snapshots::Snapshot;
+use crate::simulation::{SimulationError, WorkCounts};
 
 impl Simulation {
     /// Keeps the state after every step from here on, as long as all of them fit into so many bytes; then the oldest but the
@@ -29,7 +31,7 @@ impl Simulation {
     /// # Errors
     /// When fewer steps were taken, or the state there is not kept.
     pub fn back(&mut self, steps: usize) -> Result<(), SimulationError> {
-        let taken = self.counts.steps;
+        let taken = self.progress.counts.steps;
         match taken.checked_sub(steps) {
             Some(rest) => self.go_back_to(rest),
             None => Err(SimulationError::FewerSteps { steps, taken }),
@@ -53,7 +55,7 @@ impl Simulation {
             None => {
                 let first = self.snapshots.first();
                 let is_earlier = first.is_some_and(|first| time < first.time);
-                let steps = if is_earlier { 0 } else { self.counts.steps };
+                let steps = if is_earlier { 0 } else { self.progress.counts.steps };
                 Err(self.forgotten(format!("t = {time}"), steps))
             }
         }
@@ -62,15 +64,15 @@ impl Simulation {
     /// How many steps ended at or before a time, as far as history or snapshots know.
     fn steps_until(&self, time: f64) -> Option<usize> {
         if self.has_all_rows() {
-            let rows = self.history.samples();
+            let rows = self.record.history.samples();
             return rows.partition_point(|row| row.measures.time <= time).checked_sub(1);
         }
-        Some(self.snapshots.last_until(time, self.counts.steps)?.steps())
+        Some(self.snapshots.last_until(time, self.progress.counts.steps)?.steps())
     }
 
     /// For checking scripts: goes back as [`back`](Self::back) does, or as near as a pretended run allows.
     pub fn pretend_back(&mut self, steps: usize) {
-        self.pretend_back_to(self.counts.steps.saturating_sub(steps));
+        self.pretend_back_to(self.progress.counts.steps.saturating_sub(steps));
     }
 
     /// For checking scripts: goes back as [`rewind`](Self::rewind) does, or as near as a pretended run allows.
@@ -87,27 +89,25 @@ impl Simulation {
     }
 
     fn go_back_to(&mut self, steps: usize) -> Result<(), SimulationError> {
-        let back = self.counts.steps - steps;
+        let back = self.progress.counts.steps - steps;
         if back == 0 {
             return Ok(());
         }
         let Some(snapshot) = self.snapshots.find(steps) else {
             let target = match self.has_all_rows() {
-                true => format!("t = {}", self.history.samples()[steps].measures.time),
+                true => format!("t = {}", self.record.history.samples()[steps].measures.time),
                 false => format!("where it was {back} steps ago"),
             };
             return Err(self.forgotten(target, steps));
         };
         self.model.restore(&snapshot.state);
-        self.grid.go_back(snapshot.passed);
-        self.rows_kept = snapshot.rows;
-        self.last_step = snapshot.last_step;
-        self.history.truncate(snapshot.rows);
-        self.trajectory.go_back(snapshot.rows);
-        self.arrivals.truncate(snapshot.arrivals);
-        self.counts = WorkCounts { wall: self.counts.wall, ..snapshot.counts };
-        self.under_way = snapshot.under_way;
-        self.pace = snapshot.pace;
+        self.clock.grid.go_back(snapshot.passed);
+        self.progress.last_step = snapshot.last_step;
+        self.record.go_back(snapshot.rows);
+        self.progress.arrivals.truncate(snapshot.arrivals);
+        self.progress.counts = WorkCounts { wall: self.progress.counts.wall, ..snapshot.counts };
+        self.clock.under_way = snapshot.under_way;
+        self.clock.pace = snapshot.pace;
         self.snapshots.truncate(steps);
         self.show_present();
         Ok(())
@@ -115,7 +115,7 @@ impl Simulation {
 
     /// The error of a state that is not kept: in words, and the fewest steps that may have led there.
     fn forgotten(&self, target: String, steps: usize) -> SimulationError {
-        let now = self.counts.steps;
+        let now = self.progress.counts.steps;
         let kept = self.snapshots.first().zip(self.snapshots.unbroken_from(now));
         let time = |steps: usize| self.snapshots.find(steps).map_or(self.time(), |of| of.time);
         match kept {
@@ -136,7 +136,7 @@ impl Simulation {
     /// Keeps the present state, if snapshots are kept.
     pub(super) fn remember(&mut self) {
         let Some(blank) = self.snapshots.blank() else { return };
-        self.grid.reach(self.time());
+        self.clock.grid.reach(self.time());
         let snapshot = self.snapshot(blank);
         self.snapshots.push(snapshot);
     }
@@ -147,13 +147,13 @@ impl Simulation {
         Snapshot {
             state,
             time: self.time(),
-            rows: self.rows_kept,
-            last_step: self.last_step,
-            arrivals: self.arrivals.len(),
-            counts: self.counts,
-            passed: self.grid.passed(),
-            under_way: self.under_way,
-            pace: self.pace,
+            rows: self.record.rows_kept,
+            last_step: self.progress.last_step,
+            arrivals: self.progress.arrivals.len(),
+            counts: self.progress.counts,
+            passed: self.clock.grid.passed(),
+            under_way: self.clock.under_way,
+            pace: self.clock.pace,
         }
     }
 
@@ -164,17 +164,10 @@ impl Simulation {
     pub fn fork(&self) -> Result<Self, SimulationError> {
         let mut fork = Self::start(self.scene.clone(), self.settings)?;
         fork.model.restore(&self.model.state());
-        fork.grid = self.grid.clone();
-        fork.history = self.history.clone();
-        fork.trajectory = self.trajectory.clone();
-        fork.counts = self.counts;
-        fork.arrivals = self.arrivals.clone();
-        fork.under_way = self.under_way;
-        fork.pace = self.pace;
+        fork.clock = Clock { goal: f64::INFINITY, ..self.clock.clone() };
+        fork.progress = self.progress.clone();
+        fork.record = self.record.clone();
         fork.snapshots = self.snapshots.clone();
-        fork.recording = self.recording;
-        fork.rows_kept = self.rows_kept;
-        fork.last_step = self.last_step;
         Ok(fork)
     }
 }

@@ -1,13 +1,12 @@
 //! Steps that end exactly where a slider reaches the end of its master, and what happens there.
 
-use serde::{Deserialize, Serialize};
-
-use super::{Simulation, SimulationError};
+use super::Simulation;
 use crate::elementary::whole_power;
 use crate::integrators::{Interval, Overshoot, StepError};
 use crate::joints::EndAction;
 use crate::model::{SliderState, TrackEnd, TrackLimit};
 use crate::newton::NewtonReport;
+use crate::simulation::{Arrival, ArrivalKind, SimulationError};
 
 /// Most tries to find the time of an arrival; few are needed, the rest is for bad luck.
 const MOST_TRIES: usize = 60;
@@ -21,56 +20,6 @@ const PROBES: i32 = 12;
 
 /// Most arrivals within one step of the grid.
 pub(super) const MOST_ARRIVALS: usize = 10_000;
-
-/// What happened to a slider at the end of its master.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum ArrivalKind {
-    /// The run ended.
-    Stopped,
-    /// It bounced off.
-    Bounced,
-    /// It came to rest against the stop.
-    Rested,
-    /// It left the master.
-    Released,
-}
-
-/// A slider reached the end of its master.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Arrival {
-    /// When.
-    pub time: f64,
-    /// Which slider, and which end.
-    pub limit: TrackLimit,
-    /// What came of it.
-    pub kind: ArrivalKind,
-}
-
-impl ArrivalKind {
-    /// A word for scripts.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Stopped => "stopped",
-            Self::Bounced => "bounced",
-            Self::Rested => "rested",
-            Self::Released => "released",
-        }
-    }
-}
-
-impl Arrival {
-    /// In words: `slider 'ring' bounced off the end of its beam at t = 1.5`.
-    pub fn describe(&self, slider: &str) -> String {
-        let end = self.limit.end.name();
-        let did = match self.kind {
-            ArrivalKind::Stopped => "reached",
-            ArrivalKind::Bounced => "bounced off",
-            ArrivalKind::Rested => "came to rest against",
-            ArrivalKind::Released => "left over",
-        };
-        format!("slider '{slider}' {did} the {end} of its beam at t = {}", self.time)
-    }
-}
 
 /// A step that was cut where a slider arrives.
 pub(super) struct Landing {
@@ -228,16 +177,11 @@ impl Simulation {
         match self.integrator.step(&mut self.model, cut) {
             Ok(report) => Ok(Ok(report)),
             Err(StepError::Overshoot { overshoot, iterations, .. }) => {
-                self.count_try(iterations);
+                self.progress.count_try(iterations);
                 Ok(Err(overshoot))
             }
             Err(other) => Err(other),
         }
-    }
-
-    pub(super) fn count_try(&mut self, iterations: usize) {
-        self.counts.arrival_tries += 1;
-        self.counts.factorisations += iterations;
     }
 
     /// Does what is to be done where a slider arrives.
@@ -263,7 +207,7 @@ impl Simulation {
                 ArrivalKind::Released
             }
         };
-        self.arrivals.push(Arrival { time: self.model.time(), limit, kind });
+        self.progress.arrivals.push(Arrival { time: self.model.time(), limit, kind });
         Ok(())
     }
 
@@ -280,27 +224,22 @@ impl Simulation {
         };
         let mut arrivals: Vec<Arrival> = (0..self.scene.sliders.len()).map(arrival).collect();
         arrivals.sort_by_key(|arrival| arrival.kind == ArrivalKind::Stopped);
-        self.arrivals = arrivals;
+        self.progress.arrivals = arrivals;
     }
 
     /// Sliders that reached the end of their masters so far.
     pub fn arrivals(&self) -> &[Arrival] {
-        &self.arrivals
-    }
-
-    /// The arrival that ended the run: nothing happens after it.
-    fn stopped(&self) -> Option<&Arrival> {
-        self.arrivals.last().filter(|last| last.kind == ArrivalKind::Stopped)
+        &self.progress.arrivals
     }
 
     /// Whether a slider has ended the run.
     pub fn has_ended(&self) -> bool {
-        self.stopped().is_some()
+        self.progress.stopped().is_some()
     }
 
     /// Why the run has ended, if it has.
     pub fn ending(&self) -> Option<String> {
-        self.stopped().map(|stopped| self.describe(stopped))
+        self.progress.stopped().map(|stopped| self.describe(stopped))
     }
 
     /// An arrival in words.
