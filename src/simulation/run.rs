@@ -82,7 +82,7 @@ impl Simulation {
         settings.method.check()?;
         model.divide(cores());
         let integrator = settings.method.build(&mut model, settings.tolerance);
-        let cuts = scene.loads().flat_map(|load| load.schedule.breaks()).collect();
+        let cuts = scene.schedules().flat_map(|(_, schedule)| schedule.breaks()).collect();
         let (grid, adaptive) = match settings.dt {
             StepSize::Fixed(dt) => (TimeGrid::new(0.0, dt, cuts), None),
             StepSize::Adaptive(control) => {

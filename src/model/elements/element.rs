@@ -6,7 +6,7 @@ use super::point_mass::Lump;
 use super::{ForceElement, PointMass};
 use crate::beams::{BodyDynamics, Mesh, Place, Station};
 use crate::geometry::GeometryError;
-use crate::loads::Load;
+use crate::loads::{Load, Schedule};
 use crate::model::ModelError;
 
 /// An element of a scene: something with mass on a body, or something that puts forces on bodies.
@@ -41,6 +41,11 @@ pub trait Description {
     /// Stations at which it needs a node of the mesh.
     fn nodes(&self) -> Vec<Station> {
         Vec::new()
+    }
+
+    /// The schedule that it follows, with its name; steps end where a schedule jumps or bends.
+    fn schedule(&self) -> Option<(&str, &Schedule)> {
+        None
     }
 
     /// What it is in a model.

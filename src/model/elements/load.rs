@@ -31,6 +31,10 @@ impl Description for Load {
         }
     }
 
+    fn schedule(&self) -> Option<(&str, &Schedule)> {
+        Some((&self.name, &self.schedule))
+    }
+
     fn build(&self, site: &dyn Site) -> Result<Assembled, ModelError> {
         if let LoadKind::Moment { station, .. }
         | LoadKind::Force { station, frame: Frame::Follower, .. } = &self.kind

@@ -94,6 +94,11 @@ impl Scene {
         })
     }
 
+    /// The schedules of elements, each with the name of its element.
+    pub fn schedules(&self) -> impl Iterator<Item = (&str, &Schedule)> {
+        self.elements.iter().filter_map(|element| element.description().schedule())
+    }
+
     /// An empty scene.
     pub fn new(name: impl Into<String>) -> Self {
         Self {

@@ -52,8 +52,9 @@ impl Simulation {
     /// # Errors
     /// When a load has a function from outside as its schedule.
     pub fn to_bytes(&self, name: &str) -> Result<Vec<u8>, ArchiveError> {
-        if let Some(load) = self.scene.loads().find(|load| !load.schedule.can_be_stored()) {
-            return Err(ArchiveError::Function { load: load.name.clone() });
+        let mut schedules = self.scene.schedules();
+        if let Some((load, _)) = schedules.find(|(_, schedule)| !schedule.can_be_stored()) {
+            return Err(ArchiveError::Function { load: load.to_owned() });
         }
         let content = Content {
             name: name.into(),
