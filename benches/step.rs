@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Curve, Vec2};
-use withy::integrators::{INTEGRATORS, Interval, Mechanism, Method, Stage};
+use withy::integrators::{Forces, INTEGRATORS, Inertia, Interval, Mechanism, Method, Stage};
 use withy::joints::{EndAction, Slider, SlidingRule, StartVelocities};
 use withy::linalg::BandedMatrix;
 use withy::loads::{Frame, LoadKind, Schedule};

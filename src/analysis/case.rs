@@ -46,7 +46,7 @@ impl Monitor for Watch<'_> {
 impl Case {
     /// The case for another thread or another day; none when a load of it has a function of a script.
     pub fn to_bytes(&self) -> Option<Vec<u8>> {
-        let is_data = self.scene.loads.iter().all(|load| load.schedule.can_be_stored());
+        let is_data = self.scene.schedules().all(|(_, schedule)| schedule.can_be_stored());
         is_data.then(|| postcard::to_stdvec(self).ok()).flatten()
     }
 
@@ -77,7 +77,7 @@ impl Case {
     /// make the same run.
     pub fn is_one_step_from_stop_to_stop(&self, dt: f64) -> bool {
         let end = self.stops.last().copied().unwrap_or(0.0);
-        let breaks = self.scene.loads.iter().flat_map(|load| load.schedule.breaks());
+        let breaks = self.scene.schedules().flat_map(|(_, schedule)| schedule.breaks());
         let mut times: Vec<f64> = breaks.filter(|time| *time > 0.0 && *time < end).collect();
         times.extend_from_slice(&self.stops);
         times.sort_by(f64::total_cmp);

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::timing::median;
 use super::{Case, Outcome, Patience};
-use crate::integrators::Mechanism;
+use crate::integrators::Constraints;
 use crate::simulation::{Recording, Simulation};
 
 /// A case with all that adds to the cost of a step.

@@ -65,7 +65,7 @@ impl Verdict {
 
 /// When the last schedule of a scene has its last break [time].
 fn rest(scene: &Scene) -> f64 {
-    scene.loads.iter().flat_map(|load| load.schedule.breaks()).fold(0.0, f64::max)
+    scene.schedules().flat_map(|(_, schedule)| schedule.breaks()).fold(0.0, f64::max)
 }
 
 #[cfg(test)]

@@ -60,6 +60,16 @@ pub struct Solid {
 }
 
 impl Section {
+    /// How fast a wave of stretching runs, `√(EA/ρA)` [length/time].
+    pub fn axial_wave_speed(&self) -> f64 {
+        (self.axial_stiffness / self.mass_per_length).sqrt()
+    }
+
+    /// How fast a wave of shear runs, `√(GA/ρA)` [length/time].
+    pub fn shear_wave_speed(&self) -> f64 {
+        (self.shear_stiffness / self.mass_per_length).sqrt()
+    }
+
     /// Checks that every property is positive and finite, and hands the section on.
     ///
     /// # Errors

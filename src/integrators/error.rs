@@ -1,7 +1,47 @@
 //! Why a step could not be taken.
 
+use std::error::Error;
+use std::fmt;
+use std::sync::Arc;
+
 use super::{Interval, Overshoot};
 use crate::newton::NewtonError;
+
+/// An error from outside of the mechanics of a step, as the one who caused it made it; it is told as that one, and may be taken apart
+/// by who knows its type.
+#[derive(Debug, Clone)]
+pub struct Cause(Arc<dyn Error + Send + Sync>);
+
+impl Cause {
+    /// An error of any type.
+    pub fn new(error: impl Error + Send + Sync + 'static) -> Self {
+        Self(Arc::new(error))
+    }
+
+    /// The error itself, if it is of that type.
+    pub fn downcast_ref<E: Error + 'static>(&self) -> Option<&E> {
+        self.0.downcast_ref()
+    }
+}
+
+/// Causes are equal that are told alike.
+impl PartialEq for Cause {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.to_string() == other.0.to_string()
+    }
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl Error for Cause {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        self.0.source()
+    }
+}
 
 /// A step that was refused; the mechanism is still at its start.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -57,14 +97,14 @@ pub enum StepError {
         iterations: usize,
     },
     /// A load has no finite value in the step.
-    #[error("{load}: {reason} (in the step from t = {} to {})", interval.start, interval.end)]
+    #[error("{load}: {source} (in the step from t = {} to {})", interval.start, interval.end)]
     Load {
         /// The step.
         interval: Interval,
         /// The name of the load.
         load: String,
         /// What its schedule says.
-        reason: String,
+        source: Cause,
     },
 }
 
@@ -93,7 +133,7 @@ impl StepError {
             Self::Overshoot { overshoot, iterations, .. } => {
                 Self::Overshoot { interval, overshoot, iterations: iterations + before }
             }
-            Self::Load { load, reason, .. } => Self::Load { interval, load, reason },
+            Self::Load { load, source, .. } => Self::Load { interval, load, source },
         }
     }
 

@@ -1,6 +1,5 @@
 //! A composition of energy–momentum steps.
 
-use super::balance::{Rule, StepSolver};
 use super::{EnergyMomentum, Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
@@ -27,9 +26,7 @@ const ENDS: [f64; 7] = {
 /// composition methods, SIAM J. Sci. Comput. 16 (1995) 151–168; the coefficients are this project's.
 #[derive(Debug, Clone)]
 pub struct FourthOrder {
-    solver: StepSolver,
-    /// The state at the start of the step, to go back to when a part fails.
-    start: Vec<f64>,
+    part: EnergyMomentum,
 }
 
 impl FourthOrder {
@@ -37,22 +34,10 @@ impl FourthOrder {
     pub const STAGES: &[Stage] = &[Stage::Midpoint; ENDS.len()];
 
     /// The method with work space for a mechanism.
-    pub fn new(mechanism: &dyn Mechanism, tolerance: Tolerance) -> Self {
-        let mut start = Vec::new();
-        mechanism.write_checkpoint(&mut start);
-        Self { solver: StepSolver::new(mechanism, tolerance), start }
-    }
-
-    fn take_part(
-        &mut self,
-        mechanism: &mut dyn Mechanism,
-        part: Interval,
-    ) -> Result<NewtonReport, StepError> {
-        mechanism.begin_step(part, EnergyMomentum::STAGES)?;
-        self.solver.predict(mechanism, part);
-        let report = self.solver.solve(mechanism, part, Rule::mean(Stage::Midpoint, 1.0))?;
-        self.solver.correct(mechanism, part);
-        Ok(report)
+    pub fn new(mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
+        // Here is time to make room for it.
+        mechanism.checkpoint().keep();
+        Self { part: EnergyMomentum::new(mechanism, tolerance) }
     }
 }
 
@@ -63,14 +48,14 @@ impl Integrator for FourthOrder {
         mechanism: &mut dyn Mechanism,
         interval: Interval,
     ) -> Result<NewtonReport, StepError> {
-        mechanism.write_checkpoint(&mut self.start);
+        mechanism.checkpoint().keep();
         let mut whole = NewtonReport::default();
         let mut behind = 0.0;
         for end in ENDS {
-            match self.take_part(mechanism, interval.part(behind, end)) {
+            match self.part.step(mechanism, interval.part(behind, end)) {
                 Ok(report) => whole = whole.then(report),
                 Err(error) => {
-                    mechanism.return_to_checkpoint(&self.start);
+                    mechanism.checkpoint().go_back();
                     return Err(error.of_whole(interval, whole.iterations));
                 }
             }

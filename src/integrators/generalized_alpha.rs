@@ -59,7 +59,7 @@ impl GeneralizedAlpha {
 
     /// The method with work space for a mechanism, which it makes keep accelerations.
     pub fn new(rho_infinity: f64, mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
-        mechanism.keep_accelerations();
+        mechanism.accelerated().keep_accelerations();
         Self {
             solver: StepSolver::new(mechanism, tolerance),
             weights: Weights::new(rho_infinity),
@@ -125,14 +125,14 @@ impl Integrator for GeneralizedAlpha {
     ) -> Result<NewtonReport, StepError> {
         mechanism.begin_step(interval, Self::STAGES)?;
         self.solver.predict(mechanism, interval);
-        let report = match mechanism.accelerations() {
+        let report = match mechanism.accelerated().accelerations() {
             Some(known) => {
                 self.accelerations.copy_from_slice(known);
                 self.step_with(mechanism, interval)?
             }
             None => self.step_without(mechanism, interval)?,
         };
-        mechanism.set_accelerations(&self.accelerations);
+        mechanism.accelerated().set_accelerations(&self.accelerations);
         Ok(report)
     }
 }

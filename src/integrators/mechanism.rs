@@ -27,43 +27,19 @@ impl Stage {
     pub const ALL: [Self; 3] = [Self::Start, Self::Midpoint, Self::End];
 }
 
-/// A mechanical system with a constant inertia matrix `M` and forces that depend on its configuration.
-///
-/// Increments and rates are those of the movements that are unknown. Constraints add unknowns of their own (contact forces,
-/// places of contacts), which have no inertia and stand behind the movements, with as many equations. Forces have, after the
-/// entries of all these, those of the supported degrees of freedom, which do not move: what is left of a residual there is
-/// the reaction of the supports.
-pub trait Mechanism {
-    /// The number of unknown movements of a step.
-    fn unknowns(&self) -> usize;
-
-    /// How many unknowns the constraints add, and how many entries their equations may have.
-    fn constraint_shape(&self) -> BorderShape;
-
-    /// The number of entries of a force vector: movements, constraints and supported degrees of freedom.
-    fn degrees_of_freedom(&self) -> usize;
-
-    /// How far from the diagonal the tangent reaches.
-    fn half_bandwidth(&self) -> usize;
-
-    /// The rates of the unknowns at the start of the step [length/time, 1/time].
-    fn rates(&self) -> &[f64];
-
-    /// The rates with which the movements of the next step may be guessed [length/time, 1/time].
-    fn expected_rates(&self) -> &[f64];
-
-    /// Prepares a step that takes forces at the given stages: evaluates what depends on time only.
-    ///
-    /// # Errors
-    /// When a load has no finite value.
-    fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), StepError>;
-
+/// The constant inertia matrix `M` of a mechanical system.
+pub trait Inertia {
     /// Adds `factor · M · rates` to `out`.
     fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]);
 
     /// Adds `factor · M` to the tangent.
     fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix);
+}
 
+/// The forces of a mechanical system, which depend on its configuration.
+///
+/// Section forces may be unknowns of their own, which forces are condensed by and which are corrected with the increments.
+pub trait Forces {
     /// Adds `weight` times the forces of a stage (internal minus loads), as its section forces have them, to `out`.
     ///
     /// Returns the largest mismatch between the strain of the section forces and that of the configuration.
@@ -87,6 +63,18 @@ pub trait Mechanism {
     /// Carries a correction of the increments over to the section forces of the last linearisation.
     fn correct_section_forces(&mut self, correction: &[f64]);
 
+    /// The largest residual of a movement, relative to the forces that balance in this step [-].
+    fn relative_imbalance(&self, residual: &[f64]) -> f64;
+
+    /// The largest rotation increment `Δω` that the last forces met at any section [rad].
+    fn largest_rotation(&self) -> f64;
+}
+
+/// The constraints of a mechanical system, with unknowns of their own.
+pub trait Constraints {
+    /// How many unknowns the constraints add, and how many entries their equations may have.
+    fn constraint_shape(&self) -> BorderShape;
+
     /// Guesses the unknowns of the constraints.
     fn predict_constraints(&mut self, interval: Interval, unknowns: &mut [f64]);
 
@@ -102,9 +90,6 @@ pub trait Mechanism {
         border: &mut Border,
     );
 
-    /// The largest residual of a movement, relative to the forces that balance in this step [-].
-    fn relative_imbalance(&self, residual: &[f64]) -> f64;
-
     /// The largest violation of a constraint, relative to its size [-].
     fn relative_violation(&self, residual: &[f64]) -> f64;
 
@@ -114,22 +99,60 @@ pub trait Mechanism {
     /// When a constraint ends within the step, or not where it should.
     fn check_constraints(&self, unknowns: &[f64]) -> Result<(), Overshoot>;
 
-    /// The largest rotation increment `Δω` that the last forces met at any section [rad].
-    fn largest_rotation(&self) -> f64;
-
     /// The shortest chord of a way along a constraint in the mean configuration that the last forces met, relative to the length
     /// of that way as it is built [-].
     fn shortest_chord(&self) -> f64;
+}
+
+/// A mechanical system that integrators advance: its unknowns, its state, and the present step.
+///
+/// Increments and rates are those of the movements that are unknown. Constraints add unknowns of their own (contact forces,
+/// places of contacts), which have no inertia and stand behind the movements, with as many equations. Forces have, after the
+/// entries of all these, those of the supported degrees of freedom, which do not move: what is left of a residual there is
+/// the reaction of the supports.
+pub trait Mechanism: Inertia + Forces + Constraints {
+    /// The number of unknown movements of a step.
+    fn unknowns(&self) -> usize;
+
+    /// The number of entries of a force vector: movements, constraints and supported degrees of freedom.
+    fn degrees_of_freedom(&self) -> usize;
+
+    /// How far from the diagonal the tangent reaches.
+    fn half_bandwidth(&self) -> usize;
+
+    /// The rates of the unknowns at the start of the step [length/time, 1/time].
+    fn rates(&self) -> &[f64];
+
+    /// The rates with which the movements of the next step may be guessed [length/time, 1/time].
+    fn expected_rates(&self) -> &[f64];
+
+    /// Prepares a step that takes forces at the given stages: evaluates what depends on time only.
+    ///
+    /// # Errors
+    /// When a load has no finite value.
+    fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), StepError>;
 
     /// Accepts a step: new configuration and rates, work and impulse of loads and supports.
     fn advance(&mut self, solution: &Solution<'_>);
 
-    /// Writes the state at the start of a step over what a buffer holds.
-    fn write_checkpoint(&self, buffer: &mut Vec<f64>);
+    /// For methods that go back within a step.
+    fn checkpoint(&mut self) -> &mut dyn Checkpoint;
 
-    /// Goes back to a state that was written, bit for bit.
-    fn return_to_checkpoint(&mut self, buffer: &[f64]);
+    /// For methods whose state accelerations are a part of.
+    fn accelerated(&mut self) -> &mut dyn Accelerated;
+}
 
+/// A mechanical system that remembers one of its states: what a method asks for whose steps have parts.
+pub trait Checkpoint {
+    /// Remembers the present state, at the start of a step, in the place of the one remembered before.
+    fn keep(&mut self);
+
+    /// Goes back to the state that is remembered, bit for bit.
+    fn go_back(&mut self);
+}
+
+/// A mechanical system with accelerations as a part of its state: what a method asks for that uses those of the step before.
+pub trait Accelerated {
     /// From here on accelerations are a part of the state, unknown until they are set.
     fn keep_accelerations(&mut self);
 

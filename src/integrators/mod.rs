@@ -13,11 +13,13 @@ mod trapezoidal;
 
 pub use energy_decaying::EnergyDecaying;
 pub use energy_momentum::EnergyMomentum;
-pub use error::StepError;
+pub use error::{Cause, StepError};
 pub use fourth_order::FourthOrder;
 pub use generalized_alpha::GeneralizedAlpha;
 pub use interval::{Ending, Interval};
-pub use mechanism::{Mechanism, Overshoot, Solution, Stage};
+pub use mechanism::{
+    Accelerated, Checkpoint, Constraints, Forces, Inertia, Mechanism, Overshoot, Solution, Stage,
+};
 pub use registry::{
     Claims, EnergyClaim, INTEGRATORS, IntegratorEntry, Method, MethodError, MethodParameter,
 };

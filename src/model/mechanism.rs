@@ -1,109 +1,109 @@
-//! The model as integrators see it.
+//! The model: bodies, elements and sliders, their present motion, and what can be done with them.
 
-use super::Resolution;
-use super::accelerations::Accelerations;
-use super::applied::{AppliedLoad, Exchange, Pattern, collocation};
-use super::body::Body;
-use super::forecast::Forecast;
-use super::inertia::Lump;
-use super::measures::{Energy, Measures};
-use super::scales::{StepScales, largest, relative};
-use super::sliders::TrackLimit;
-use super::sliding::{LANDED, Sliding};
-use super::tracker::Tracker;
-use crate::beams::{Mesh, Place};
-use crate::geometry::{Vec2, cross, larger};
-use crate::integrators::{Ending, Interval, Mechanism, Overshoot, Solution, Stage, StepError};
-use crate::joints::{CONTACT_UNKNOWNS, Component};
-use crate::linalg::{BandedMatrix, Border, BorderShape};
+mod acceleration;
+mod impact;
+mod inertia;
+mod measures;
+mod rest;
+mod state;
+mod steps;
+mod stiffness;
 
-/// A supported degree of freedom: the body, its control point and the component that does not move.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Support {
-    pub(super) body: usize,
-    pub(super) point: usize,
-    pub(super) component: Component,
-}
+pub use measures::{Energy, Measures};
+pub use rest::StaticForces;
+pub use state::ModelState;
+pub use stiffness::add_resistance;
 
-/// Beams, masses and loads, assembled and in motion.
+use super::bodies::Bodies;
+use super::elements::{Elements, Exchange, Supports};
+use super::motion::{Motion, Resolution, Step, Unknowns};
+use super::sliders::{Sliders, Sliding, TrackLimit};
+use crate::loads::LoadError;
+
+/// A scene, assembled and in motion.
 pub struct Model {
-    pub(super) bodies: Vec<Body>,
-    pub(super) meshes: Vec<Mesh>,
-    pub(super) lumps: Vec<Lump>,
-    pub(super) loads: Vec<AppliedLoad>,
-    /// The weight of everything, if there is gravity.
-    pub(super) gravity: Option<Pattern>,
-    pub(super) trackers: Vec<Tracker>,
-    /// Pairs of places that joints hold together.
-    pub(super) joined: Vec<(Place, Place)>,
-    pub(super) sliders: Vec<Sliding>,
-    /// The limit at which the next step is to end.
-    pub(super) aim: Option<TrackLimit>,
-    /// In the order of their degrees of freedom, which follow the unknowns.
-    pub(super) supports: Vec<Support>,
-    pub(super) unknowns: usize,
-    pub(super) half_bandwidth: usize,
-    /// Which unknowns are rotations.
-    pub(super) is_rotation: Vec<bool>,
-    pub(super) rates: Vec<f64>,
-    pub(super) accelerations: Accelerations,
-    pub(super) forecast: Forecast,
-    pub(super) resolution: Resolution,
-    pub(super) total_mass: f64,
-    pub(super) time: f64,
-    pub(super) exchanged: Exchange,
-    pub(super) step: StepScales,
-    pub(super) scratch: Vec<f64>,
+    bodies: Bodies,
+    elements: Elements,
+    sliders: Sliders,
+    supports: Supports,
+    unknowns: Unknowns,
+    motion: Motion,
+    /// Since the start.
+    exchanged: Exchange,
+    step: Step,
+    /// A state to go back to, for methods whose steps have parts.
+    kept: ModelState,
 }
 
 impl Model {
-    pub(super) fn add_inertia_of_all(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
-        self.bodies.iter_mut().for_each(|body| body.add_inertia(factor, rates, out));
-        self.lumps
-            .iter()
-            .for_each(|lump| lump.add_inertia(&self.bodies[lump.place.body], factor, rates, out));
-    }
-
-    /// Energy, momenta and what was exchanged so far.
-    pub fn measure(&mut self) -> Measures {
-        let (mut twice_kinetic, mut momentum, mut angular_momentum) = (0.0, Vec2::zeros(), 0.0);
-        let mut add = |(kinetic, linear, angular): (f64, Vec2, f64)| {
-            twice_kinetic += kinetic;
-            momentum += linear;
-            angular_momentum += angular;
-        };
-        self.bodies.iter_mut().for_each(|body| add(body.momenta(&self.rates)));
-        self.lumps
-            .iter()
-            .for_each(|lump| add(lump.momenta(&self.bodies[lump.place.body], &self.rates)));
-        let energy = Energy {
-            kinetic: 0.5 * twice_kinetic,
-            strain: self.bodies.iter().map(|body| body.dynamics.strain_energy()).sum(),
-            potential: self
-                .gravity
-                .as_ref()
-                .map_or(0.0, |gravity| -gravity.potential_work(&self.bodies)),
-        };
-        Measures {
-            time: self.time,
-            energy,
-            work: self.exchanged.work,
-            momentum,
-            impulse: self.exchanged.impulse,
-            angular_momentum,
-            angular_impulse: self.exchanged.angular_impulse,
-            gross_impulse: self.exchanged.gross_impulse,
-            gross_angular_impulse: self.exchanged.gross_angular_impulse,
-            gap: self.gap(),
+    /// A mechanism of its parts, at their start.
+    pub(super) fn new(
+        bodies: Bodies,
+        elements: Elements,
+        sliders: Sliders,
+        supports: Supports,
+        unknowns: Unknowns,
+        motion: Motion,
+    ) -> Self {
+        let degrees_of_freedom = unknowns.count() + sliders.border().width + supports.count();
+        Self {
+            bodies,
+            elements,
+            sliders,
+            supports,
+            unknowns,
+            motion,
+            exchanged: Exchange::default(),
+            step: Step::new(degrees_of_freedom),
+            kept: ModelState::default(),
         }
     }
 
-    pub(super) fn all_trackers(&self) -> impl Iterator<Item = &Tracker> {
-        self.trackers.iter().chain(self.loads.iter().flat_map(AppliedLoad::trackers))
+    /// From here on time passes: what supports gave to make velocities fit was before, and the first step is guessed from the rates
+    /// as they are now.
+    pub(super) fn begin(&mut self) {
+        self.exchanged = Exchange::default();
+        let inertia = self.diagonal_of_inertia();
+        self.motion.begin(inertia);
     }
 
-    pub(super) fn all_trackers_mut(&mut self) -> impl Iterator<Item = &mut Tracker> {
-        self.trackers.iter_mut().chain(self.loads.iter_mut().flat_map(AppliedLoad::trackers_mut))
+    pub(super) fn bodies(&self) -> &Bodies {
+        &self.bodies
+    }
+
+    pub(super) fn elements(&self) -> &Elements {
+        &self.elements
+    }
+
+    pub(super) fn supports(&self) -> &Supports {
+        &self.supports
+    }
+
+    pub(super) fn unknown_movements(&self) -> &Unknowns {
+        &self.unknowns
+    }
+
+    pub(super) fn sliders(&self) -> &Sliders {
+        &self.sliders
+    }
+
+    pub(super) fn slider(&self, slider: usize) -> &Sliding {
+        &self.sliders[slider]
+    }
+
+    /// The time of the present state [time].
+    pub fn time(&self) -> f64 {
+        self.motion.time
+    }
+
+    /// How far the steps so far resolve the motion.
+    pub fn resolution(&self) -> &Resolution {
+        self.motion.resolution()
+    }
+
+    /// The mass of everything [mass].
+    pub fn total_mass(&self) -> f64 {
+        self.bodies.mass() + self.elements.mass()
     }
 
     /// From here on up to so many threads work on a large body, with the same results; how many at most.
@@ -113,251 +113,37 @@ impl Model {
 
     /// Moves the clock without moving anything else.
     pub fn pass_time_to(&mut self, time: f64) {
-        self.time = time;
+        self.motion.time = time;
     }
 
-    fn gap(&self) -> f64 {
-        let at =
-            |place: &Place| place.interpolate(self.bodies[place.body].dynamics.control_points());
-        let joined = self.joined.iter().map(|(a, b)| (at(a) - at(b)).norm());
-        joined
-            .chain(self.sliders.iter().map(|slider| slider.gap(&self.bodies).norm()))
-            .fold(0.0, larger)
+    /// Gives all loads the values that they have just after a time.
+    ///
+    /// # Errors
+    /// When one has no finite value then: its name, and why.
+    pub fn hold_loads_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
+        self.elements.hold_at(time)
     }
 
-    fn exchange_in_step(&self, residual: &[f64]) -> Exchange {
-        let duration = self.step.interval.duration();
-        let mut sum = Exchange::default();
-        for load in &self.loads {
-            sum += load.exchange(&self.bodies, duration);
-        }
-        if let Some(gravity) = &self.gravity {
-            // Its work is the change of the potential, which is an energy of its own.
-            sum += Exchange { work: 0.0, ..gravity.exchange(&self.bodies, 1.0, duration) };
-        }
-        sum += self.reactions(residual, duration);
-        if duration < 0.0 {
-            // A part of a step that goes back takes away what the others give twice.
-            (sum.gross_impulse, sum.gross_angular_impulse) =
-                (-sum.gross_impulse, -sum.gross_angular_impulse);
-        }
-        sum
+    /// Makes steps end where a slider reaches a limit, or lets them go where they lead again.
+    pub fn aim_at(&mut self, limit: Option<TrackLimit>) {
+        self.sliders.aim_at(limit);
     }
 
-    /// What the supports give with these reactions in such a time.
-    pub(super) fn reactions(&self, residual: &[f64], duration: f64) -> Exchange {
-        let mut sum = Exchange::default();
-        let reactions = &residual[self.degrees_of_freedom() - self.supports.len()..];
-        for (support, reaction) in self.supports.iter().zip(reactions) {
-            let at = self.bodies[support.body].dynamics.control_points()[support.point];
-            let (force, moment) = match support.component {
-                Component::X => (Vec2::new(*reaction, 0.0), 0.0),
-                Component::Y => (Vec2::new(0.0, *reaction), 0.0),
-                Component::Rotation => (Vec2::zeros(), *reaction),
-            };
-            let angular = (cross(at, force) + moment) * duration;
-            sum += Exchange::of(0.0, force * duration, angular);
-        }
-        sum
-    }
-}
-
-impl Mechanism for Model {
-    fn unknowns(&self) -> usize {
-        self.unknowns
+    /// Lets a slider leave its master.
+    pub fn release(&mut self, slider: usize) {
+        self.sliders[slider].release();
+        self.motion.accelerations.forget();
     }
 
-    fn constraint_shape(&self) -> BorderShape {
-        BorderShape {
-            width: CONTACT_UNKNOWNS * self.sliders.len(),
-            row_entries: self.sliders.iter().map(Sliding::row_entries).sum(),
-        }
+    /// Lets a slider rest against the stop at a limit, until the stop would have to pull.
+    pub fn hold(&mut self, limit: TrackLimit) {
+        self.sliders[limit.slider].hold(limit.end);
+        self.motion.accelerations.forget();
     }
 
-    fn degrees_of_freedom(&self) -> usize {
-        self.unknowns + self.constraint_shape().width + self.supports.len()
-    }
-
-    fn half_bandwidth(&self) -> usize {
-        self.half_bandwidth
-    }
-
-    fn rates(&self) -> &[f64] {
-        &self.rates
-    }
-
-    fn expected_rates(&self) -> &[f64] {
-        self.forecast.rates(&self.rates)
-    }
-
-    fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), StepError> {
-        for load in &mut self.loads {
-            load.begin_step(interval, stages).map_err(|reason| StepError::Load {
-                interval,
-                load: load.name.clone(),
-                reason: reason.to_string(),
-            })?;
-        }
-        self.bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
-        let jumps = self.accelerations.known().is_some()
-            && self.loads.iter().any(|load| load.schedule.may_jump_at(interval.start));
-        self.step = StepScales { interval, jumps, ..StepScales::default() };
-        let (mut scratch, rates) =
-            (std::mem::take(&mut self.scratch), std::mem::take(&mut self.rates));
-        scratch.fill(0.0);
-        self.add_inertia_of_all(2.0 / interval.duration(), &rates, &mut scratch);
-        self.step.inertia = largest(&scratch, &self.is_rotation);
-        (self.scratch, self.rates) = (scratch, rates);
-        Ok(())
-    }
-
-    fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
-        self.add_inertia_of_all(factor, rates, out);
-    }
-
-    fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
-        self.bodies.iter().for_each(|body| body.add_inertia_tangent(factor, tangent));
-        self.inertia_entries_of_lumps(factor, &mut |row, column, value| {
-            tangent.add(row, column, value);
-        });
-    }
-
-    fn add_forces(
-        &mut self,
-        stage: Stage,
-        increments: &[f64],
-        weight: f64,
-        out: &mut [f64],
-    ) -> f64 {
-        let summary = self.add_internal_forces(stage, increments, weight, out);
-        self.step.loads = self.subtract_loads(stage, increments, weight, out);
-        self.step.summary = summary;
-        self.step.rotations = collocation(stage).rotations;
-        summary.strain_mismatch
-    }
-
-    fn add_linearised_forces(
-        &mut self,
-        stage: Stage,
-        increments: &[f64],
-        weight: f64,
-        out: &mut [f64],
-        tangent: &mut BandedMatrix,
-    ) {
-        self.add_linearised_internal_forces(stage, increments, weight, out, tangent);
-        self.subtract_linearised_loads(stage, increments, weight, out, tangent);
-    }
-
-    fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]) {
-        self.bodies.iter_mut().for_each(|body| body.add_mismatch_forces(weight, out));
-    }
-
-    fn correct_section_forces(&mut self, correction: &[f64]) {
-        self.bodies.iter_mut().for_each(|body| body.correct_section_forces(correction));
-    }
-
-    fn predict_constraints(&mut self, interval: Interval, unknowns: &mut [f64]) {
-        for slider in &self.sliders {
-            slider.predict(&self.bodies, &self.rates, interval, unknowns);
-        }
-    }
-
-    fn add_constraints(&mut self, increments: &[f64], unknowns: &[f64], out: &mut [f64]) {
-        self.step.contact = 0.0;
-        for slider in &mut self.sliders {
-            let force = slider.add(&self.bodies, increments, unknowns, out);
-            self.step.contact = larger(self.step.contact, force);
-        }
-    }
-
-    fn add_linearised_constraints(
-        &mut self,
-        increments: &[f64],
-        unknowns: &[f64],
-        out: &mut [f64],
-        border: &mut Border,
-    ) {
-        for slider in &mut self.sliders {
-            slider.add_linearised(&self.bodies, increments, unknowns, out, border);
-        }
-    }
-
-    fn relative_imbalance(&self, residual: &[f64]) -> f64 {
-        let (force, moment) = largest(residual, &self.is_rotation);
-        larger(relative(force, self.step.force()), relative(moment, self.step.moment()))
-    }
-
-    fn relative_violation(&self, residual: &[f64]) -> f64 {
-        let equations = &residual[self.unknowns..];
-        self.sliders.iter().fold(0.0, |largest, slider| {
-            let (length, force) = slider.violation(equations);
-            larger(largest, larger(length, relative(force, self.step.force())))
-        })
-    }
-
-    fn check_constraints(&self, unknowns: &[f64]) -> Result<(), Overshoot> {
-        let mut furthest: Option<Overshoot> = None;
-        let ending = self.step.interval.ending();
-        let aim = self.aim.filter(|_| ending == Ending::OfStep);
-        let limits = (0..self.sliders.len()).flat_map(TrackLimit::both);
-        for limit in limits.filter(|limit| self.sliders[limit.slider].is_sliding()) {
-            let distance = self.sliders[limit.slider].beyond(unknowns, limit.end);
-            let overshoot = Overshoot { limit: limit.number(), distance };
-            if aim == Some(limit) && distance.abs() > LANDED {
-                return Err(overshoot);
-            }
-            if distance > LANDED && furthest.is_none_or(|other| distance > other.distance) {
-                furthest = Some(overshoot);
-            }
-        }
-        furthest.map_or(Ok(()), Err)
-    }
-
-    fn largest_rotation(&self) -> f64 {
-        self.step.summary.rotation
-    }
-
-    fn shortest_chord(&self) -> f64 {
-        self.sliders.iter().map(Sliding::chord).fold(f64::INFINITY, f64::min)
-    }
-
-    fn advance(&mut self, solution: &Solution<'_>) {
-        let Solution { increments, constraints, rates, residual } = *solution;
-        for body in &mut self.bodies {
-            body.gather(increments);
-        }
-        let rotations = self.step.rotations;
-        let exchange = self.exchange_in_step(residual);
-        self.exchanged += exchange;
-        self.move_gathered(rotations);
-        let ending = self.step.interval.ending();
-        self.sliders.iter_mut().for_each(|slider| {
-            slider.advance(&self.bodies, constraints, ending);
-        });
-        let duration = self.step.interval.duration();
-        let missed = self.forecast.learn(&self.rates, increments, duration);
-        self.resolution.add(&missed, duration, self.step.summary.rotation, rotations);
-        self.rates.copy_from_slice(rates);
-        self.time = self.step.interval.end;
-    }
-    fn write_checkpoint(&self, buffer: &mut Vec<f64>) {
-        self.write_numbers(buffer);
-    }
-
-    fn return_to_checkpoint(&mut self, buffer: &[f64]) {
-        self.restore_numbers(buffer);
-    }
-
-    fn keep_accelerations(&mut self) {
-        self.accelerations.keep(self.unknowns);
-    }
-
-    fn accelerations(&self) -> Option<&[f64]> {
-        // Those from before a jump are not those after it.
-        self.accelerations.known().filter(|_| !self.step.jumps)
-    }
-
-    fn set_accelerations(&mut self, accelerations: &[f64]) {
-        self.accelerations.set(accelerations);
+    /// Whether the present velocities lead beyond a limit at which a slider is.
+    pub fn leads_beyond(&self, limit: TrackLimit) -> bool {
+        let rate = self.sliders[limit.slider].rate(&self.bodies, &self.motion.rates);
+        rate * limit.end.outward() > 0.0
     }
 }

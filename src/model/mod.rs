@@ -1,49 +1,19 @@
 //! From a scene, as the user describes it, to a mechanism that integrators can advance.
 
-mod accelerations;
-mod applied;
-mod assemble;
-mod at_rest;
-mod body;
-mod connection;
-mod error;
-mod explain;
-mod forces;
-mod forecast;
-mod impact;
-mod inertia;
-mod likeness;
-mod measures;
+mod assembly;
+mod bodies;
+mod elements;
+mod looking;
 mod mechanism;
-pub mod names;
-mod numbering;
-mod placement;
-mod queries;
-mod redundancy;
-mod resolution;
-mod scales;
+mod motion;
 mod scene;
-mod slider_error;
 mod sliders;
-mod sliding;
-mod stiffness;
-mod stored;
-mod tracker;
-mod waves;
+mod words;
 
-pub use at_rest::StaticForces;
-pub use error::ModelError;
-pub use explain::{Part, Usage};
-pub use impact::Blow;
-pub use measures::{Energy, Measures};
-pub use mechanism::Model;
-pub use placement::{Distance, Placement};
-pub use queries::ModelState;
-pub use resolution::Resolution;
-pub use scene::{
-    BeamDefinition, ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity,
-};
-pub use slider_error::{SliderError, SliderParts};
-pub use sliders::TrackLimit;
-pub use sliding::{SliderState, TrackEnd};
-pub use stiffness::add_resistance;
+pub use elements::{Element, PointMass};
+pub use looking::{Distance, Part, Placement, Usage};
+pub use mechanism::{Energy, Measures, Model, ModelState, StaticForces, add_resistance};
+pub use motion::Resolution;
+pub use scene::{BeamDefinition, ParticleDefinition, Scene, StartMotion, StationVelocity};
+pub use sliders::{Blow, SliderState, TrackEnd, TrackLimit};
+pub use words::{ModelError, SliderError, SliderParts, refusal as refusal_of_name};

@@ -10,7 +10,7 @@ use super::numbers::{as_number, as_whole, describe};
 use super::options::Options;
 use super::parameter::Parameter;
 use crate::geometry::Vec2;
-use crate::model::names;
+use crate::model::refusal_of_name;
 
 /// `value` in the form that bodies read: numbers as `f64`, points as [`Vec2`], option maps as [`Options`].
 ///
@@ -92,7 +92,7 @@ fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Convers
 
 /// A name that stands in tables and is typed.
 pub fn readable(owner: &str, name: &str) -> Result<String, ScriptError> {
-    match names::refusal(name) {
+    match refusal_of_name(name) {
         None => Ok(name.to_owned()),
         Some(why) => Err(ScriptError::new(format!("{owner}: {name:?} is no name: {why}"))
             .hint("use letters, numbers and spaces")),

@@ -70,11 +70,10 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
 }
 
 /// The values of these columns at the present state of the model, in the same order.
-pub(super) fn extra_values(scene: &Scene, model: &Model) -> impl Iterator<Item = f64> {
-    (0..scene.sliders.len()).flat_map(|slider| {
+pub(super) fn extra_values(model: &Model) -> impl Iterator<Item = f64> {
+    (0..model.slider_names().count()).flat_map(|slider| {
         let force = model.contact_force(slider);
-        let (position, speed) =
-            (model.slider_position(scene, slider), model.slider_speed(scene, slider));
+        let (position, speed) = (model.slider_position(slider), model.slider_speed(slider));
         [position, speed, force.norm(), force.x, force.y]
     })
 }

@@ -19,8 +19,7 @@ pub(super) fn length_of(scene: &Scene, model: &Model) -> f64 {
 /// velocities or the weight move a particle as far as the scene is large.
 pub(super) fn first_step(scene: &Scene, model: &Model) -> f64 {
     let waves = scene.beams.iter().map(|beam| {
-        let speed = (beam.section.axial_stiffness / beam.section.mass_per_length).sqrt();
-        beam.axis.length() / (beam.mesh.spans() as f64 * speed)
+        beam.axis.length() / (beam.mesh.spans() as f64 * beam.section.axial_wave_speed())
     });
     if let Some(shortest) = waves.reduce(f64::min) {
         return shortest;

@@ -3,41 +3,17 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
-use super::Simulation;
-use crate::integrators::Mechanism;
-use crate::model::{Model, Part};
-use crate::vibration::{Modes, VibrationError};
-
-/// Steps that leave more than this part of the kinetic energy to vibration that they do not follow are too long: that of a single
-/// vibration with 3.5 steps a period, which takes a fifth longer than it should.
-const LARGEST_SHARE: f64 = 0.2;
-
-/// Where motion as a whole is followed, a smaller part of its energy may be in vibration that is not,
-const HIDDEN_SHARE: f64 = 0.05;
-
-/// and that takes less than a step, by so many times [rad].
-const HIDDEN_TURN: f64 = 2.0 * TAU;
-
 /// Largest rotation of a section in a step: ten steps a turn [rad].
-const LARGEST_ROTATION: f64 = 0.1 * TAU;
+pub(super) const LARGEST_ROTATION: f64 = 0.1 * TAU;
 
 /// Most spans that a slider may pass in a step.
-const MOST_SPANS: f64 = 1.0;
-
-/// How many times as long as a blow a step may be.
-const MOST_BLOWS: f64 = 1.0;
+pub(super) const MOST_SPANS: f64 = 1.0;
 
 /// A note is told again where its measure has grown by this factor.
 const WORSE: f64 = 2.0;
 
 /// How many steps a period has where nothing is to be told any more.
 const ENOUGH: f64 = 20.0;
-
-/// The modes about a scene as drawn are looked for where there are no more unknowns than this,
-const MOST_UNKNOWNS: usize = 1200;
-
-/// and so many of them at a time, until one is no free movement.
-const MODES: [usize; 3] = [4, 8, 16];
 
 /// Something that steps do not resolve.
 ///
@@ -174,7 +150,7 @@ impl fmt::Display for Note {
 }
 
 /// Three digits.
-fn short(number: f64) -> String {
+pub(super) fn short(number: f64) -> String {
     let rounded: f64 = format!("{number:.2e}").parse().unwrap_or(number);
     let size = rounded.abs();
     if size == 0.0 || (1e-4..1e7).contains(&size) {
@@ -183,78 +159,6 @@ fn short(number: f64) -> String {
         format!("{rounded:e}")
     }
 }
-
-impl Simulation {
-    /// What the steps that led to the present do not resolve; empty when all is well. Steps that were taken back do not count.
-    ///
-    /// The lowest period of the scene is found the first time that there is something to tell of it.
-    pub fn notes(&self) -> Vec<Note> {
-        let (dt, resolution) = (self.dt(), self.model.resolution());
-        let mut notes = Vec::new();
-        let share = resolution.unresolved_share();
-        let turn = resolution.angular_frequency() * dt;
-        if share > LARGEST_SHARE || (share > HIDDEN_SHARE && turn > HIDDEN_TURN) {
-            let period = TAU / resolution.angular_frequency();
-            notes.push(Note::Motion { dt, share, period, lowest: self.lowest_period() });
-        }
-        if resolution.rotation() > LARGEST_ROTATION {
-            notes.push(Note::Rotation { dt, angle: resolution.rotation() });
-        }
-        for (index, slider) in self.model.slider_names().enumerate() {
-            let (slider, spans) = (slider.to_owned(), self.model.most_spans(index));
-            if spans > MOST_SPANS {
-                notes.push(Note::Way { slider: slider.clone(), dt, spans });
-            }
-            let blows = self.model.blows_in_a_step(index);
-            if blows > MOST_BLOWS {
-                notes.push(Note::Bounce { slider, dt, blows });
-            }
-        }
-        notes
-    }
-
-    /// The lowest period of the scene as drawn; none where something slides, nothing vibrates, or the scene is large [time].
-    fn lowest_period(&self) -> Option<f64> {
-        *self.lowest_period.get_or_init(|| {
-            if self.model.unknowns() > MOST_UNKNOWNS {
-                return None;
-            }
-            let drawn = Model::assemble(&self.scene).ok()?;
-            MODES.iter().find_map(|count| {
-                let modes = match Modes::of(&drawn, *count, &mut || true) {
-                    Err(VibrationError::Count { available, .. }) if available > 0 => {
-                        Modes::of(&drawn, available, &mut || true)
-                    }
-                    found => found,
-                };
-                let modes = modes.ok()?;
-                let vibrating = modes.all().iter().find(|mode| mode.square > 0.0)?;
-                Some(vibrating.period())
-            })
-        })
-    }
-
-    /// How far the steps so far resolve the motion, in numbers, and what is to be told of it.
-    pub(super) fn explain_resolution(&self) -> Vec<Part> {
-        let resolution = self.model.resolution();
-        let mut how = format!(
-            "{} % of the kinetic energy in vibration that steps do not follow; sections turn by at most {} rad a step",
-            short(100.0 * resolution.unresolved_share()),
-            short(resolution.rotation())
-        );
-        for (index, slider) in self.model.slider_names().enumerate().take(SLIDERS) {
-            how += &format!(
-                "; '{slider}' passes at most {} spans",
-                short(self.model.most_spans(index))
-            );
-        }
-        let notes = self.notes().into_iter().map(|note| Part::used("note", note.to_string()));
-        std::iter::once(Part::used("resolution", how)).chain(notes).collect()
-    }
-}
-
-/// The resolution of no more sliders is explained.
-const SLIDERS: usize = 6;
 
 #[cfg(test)]
 mod tests {

@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 
 use super::WorkCounts;
 use super::controller::Pace;
-use super::recording::StepTaken;
-use super::stepping::Halving;
+use super::halving::Halving;
+use super::progress::StepTaken;
 use crate::model::ModelState;
 
 /// What a simulation needs to be where it was, bit for bit.

@@ -1,7 +1,7 @@
 //! The equations of equilibrium: under a prescribed load, and at a prescribed distance along the path.
 
 use crate::geometry::larger;
-use crate::integrators::Mechanism;
+use crate::integrators::Forces;
 use crate::linalg::BorderedMatrix;
 use crate::model::{Model, StaticForces};
 use crate::newton::{Equations, Imbalance};

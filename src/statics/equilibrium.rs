@@ -6,7 +6,7 @@ use crate::beams::{Place, Section};
 use crate::elementary::square;
 use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
-use crate::model::{Model, Scene};
+use crate::model::{Element, Model, Scene};
 use crate::vibration::{Modes, VibrationError, loose_movements};
 
 /// What becomes of a small disturbance of an equilibrium.
@@ -152,8 +152,10 @@ fn of_equal_stiffness(scene: &Scene) -> Scene {
         };
     }
     let length = scene.longest_beam().unwrap_or(1.0);
-    for mass in &mut equal.masses {
-        (mass.mass, mass.rotary_inertia) = (length, 0.0);
+    for element in &mut equal.elements {
+        if let Element::PointMass(mass) = element {
+            (mass.mass, mass.rotary_inertia) = (length, 0.0);
+        }
     }
     equal
 }

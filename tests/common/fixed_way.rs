@@ -2,7 +2,8 @@
 //! step has a solution, whatever Newton's method finds.
 
 use withy::integrators::{
-    EnergyMomentum, Integrator, Interval, Mechanism, Overshoot, Solution, Stage, StepError,
+    Accelerated, Checkpoint, Constraints, EnergyMomentum, Forces, Inertia, Integrator, Interval,
+    Mechanism, Overshoot, Solution, Stage, StepError,
 };
 use withy::joints::CONTACT_UNKNOWNS;
 use withy::linalg::{BandedMatrix, Border, BorderShape, BorderedMatrix};
@@ -51,10 +52,6 @@ impl Mechanism for FixedWay<'_> {
         self.model.unknowns()
     }
 
-    fn constraint_shape(&self) -> BorderShape {
-        self.model.constraint_shape()
-    }
-
     fn degrees_of_freedom(&self) -> usize {
         self.model.degrees_of_freedom()
     }
@@ -75,6 +72,26 @@ impl Mechanism for FixedWay<'_> {
         self.model.begin_step(interval, stages)
     }
 
+    fn advance(&mut self, solution: &Solution<'_>) {
+        let inverse = 0.5;
+        let ends = solution.rates.iter().zip(self.model.rates());
+        self.mean_rates
+            .iter_mut()
+            .zip(ends)
+            .for_each(|(mean, (end, start))| *mean = inverse * (end + start));
+        self.contact.copy_from_slice(solution.constraints);
+    }
+
+    fn checkpoint(&mut self) -> &mut dyn Checkpoint {
+        self.model.checkpoint()
+    }
+
+    fn accelerated(&mut self) -> &mut dyn Accelerated {
+        self.model.accelerated()
+    }
+}
+
+impl Inertia for FixedWay<'_> {
     fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
         self.model.add_inertia(factor, rates, out);
     }
@@ -82,7 +99,9 @@ impl Mechanism for FixedWay<'_> {
     fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
         self.model.add_inertia_tangent(factor, tangent);
     }
+}
 
+impl Forces for FixedWay<'_> {
     fn add_forces(
         &mut self,
         stage: Stage,
@@ -110,6 +129,20 @@ impl Mechanism for FixedWay<'_> {
 
     fn correct_section_forces(&mut self, correction: &[f64]) {
         self.model.correct_section_forces(correction);
+    }
+
+    fn relative_imbalance(&self, residual: &[f64]) -> f64 {
+        self.model.relative_imbalance(residual)
+    }
+
+    fn largest_rotation(&self) -> f64 {
+        self.model.largest_rotation()
+    }
+}
+
+impl Constraints for FixedWay<'_> {
+    fn constraint_shape(&self) -> BorderShape {
+        self.model.constraint_shape()
     }
 
     fn predict_constraints(&mut self, _interval: Interval, unknowns: &mut [f64]) {
@@ -159,10 +192,6 @@ impl Mechanism for FixedWay<'_> {
         }
     }
 
-    fn relative_imbalance(&self, residual: &[f64]) -> f64 {
-        self.model.relative_imbalance(residual)
-    }
-
     fn relative_violation(&self, residual: &[f64]) -> f64 {
         self.model.relative_violation(residual)
     }
@@ -171,40 +200,7 @@ impl Mechanism for FixedWay<'_> {
         Ok(())
     }
 
-    fn largest_rotation(&self) -> f64 {
-        self.model.largest_rotation()
-    }
-
     fn shortest_chord(&self) -> f64 {
         self.model.shortest_chord()
-    }
-
-    fn advance(&mut self, solution: &Solution<'_>) {
-        let inverse = 0.5;
-        let ends = solution.rates.iter().zip(self.model.rates());
-        self.mean_rates
-            .iter_mut()
-            .zip(ends)
-            .for_each(|(mean, (end, start))| *mean = inverse * (end + start));
-        self.contact.copy_from_slice(solution.constraints);
-    }
-    fn write_checkpoint(&self, buffer: &mut Vec<f64>) {
-        self.model.write_checkpoint(buffer);
-    }
-
-    fn return_to_checkpoint(&mut self, buffer: &[f64]) {
-        self.model.return_to_checkpoint(buffer);
-    }
-
-    fn keep_accelerations(&mut self) {
-        self.model.keep_accelerations();
-    }
-
-    fn accelerations(&self) -> Option<&[f64]> {
-        self.model.accelerations()
-    }
-
-    fn set_accelerations(&mut self, accelerations: &[f64]) {
-        self.model.set_accelerations(accelerations);
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use withy::geometry::{Vec2, cross, perpendicular};
-use withy::integrators::{Interval, Mechanism, Solution, Stage};
+use withy::integrators::{Forces, Inertia, Interval, Mechanism, Solution, Stage};
 use withy::linalg::BandedMatrix;
 use withy::model::Model;
 

@@ -5,9 +5,9 @@ use crate::common::probe::{self, STEP, advance, condensed, differences, settle, 
 use crate::common::{Random, at, meshes, scenes};
 use nalgebra::{DMatrix, DVector};
 use withy::geometry::Vec2;
-use withy::integrators::{Mechanism, Solution, Stage};
+use withy::integrators::{Forces, Inertia, Mechanism, Solution, Stage};
 use withy::loads::{Frame, LoadKind};
-use withy::model::{Model, Scene};
+use withy::model::{Element, Model, Scene};
 
 const STAGES: [Stage; 3] = [Stage::Midpoint, Stage::DampedMidpoint(0.6), Stage::End];
 
@@ -155,7 +155,7 @@ fn midpoint_forces_do_exactly_the_work_by_which_the_energy_changes() {
 }
 
 fn has_followers(scene: &Scene) -> bool {
-    scene.loads.iter().any(|load| {
+    scene.loads().any(|load| {
         matches!(
             load.kind,
             LoadKind::Force { frame: Frame::Follower, .. }
@@ -198,7 +198,7 @@ fn is_free(scene: &Scene) -> bool {
 fn a_rigid_motion_strains_nothing_and_meets_no_force() {
     for (name, mesh) in meshes(4) {
         for mut scene in scenes::all(&mesh).into_iter().filter(is_free) {
-            scene.loads.clear();
+            scene.elements.retain(|element| !matches!(element, Element::Load(_)));
             for stage in STAGES {
                 let mut model = Model::assemble(&scene).unwrap();
                 let u = probe::rigid(&mut model, stage, 2.1, at(3.0, -1.0), at(5.0, 4.0));
@@ -235,7 +235,7 @@ fn a_rigid_motion_of_a_deformed_beam_keeps_its_strain_energy() {
 fn internal_forces_have_no_resultant_and_no_moment() {
     for (name, mesh) in meshes(4) {
         for mut scene in scenes::all(&mesh).into_iter().filter(is_free) {
-            scene.loads.clear();
+            scene.elements.retain(|element| !matches!(element, Element::Load(_)));
             let mut model = Model::assemble(&scene).unwrap();
             let mut random = Random(3);
             let u = random.vector(model.unknowns(), 0.2);

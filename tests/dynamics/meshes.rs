@@ -149,7 +149,7 @@ fn masses_slide_on_every_mesh_where_the_references_have_them() {
             let mut simulation =
                 Simulation::start(scene, settings(Method::EnergyMomentum, 0.002)).unwrap();
             run(&mut simulation, end).unwrap();
-            simulation.model().slider_position(simulation.scene(), 0)
+            simulation.model().slider_position(0)
         };
         let errors = [
             place(32, true, 0.3) - 0.481_207,

@@ -5,7 +5,7 @@ use crate::common::{scenes, settings, simulate};
 use withy::analysis::FEATURES;
 use withy::beams::Mesh;
 use withy::geometry::Vec2;
-use withy::integrators::{INTEGRATORS, Mechanism, Method};
+use withy::integrators::{Constraints, INTEGRATORS, Method};
 use withy::loads::{Frame, LoadKind, Schedule};
 use withy::model::{Scene, StartMotion};
 use withy::simulation::{Recording, Simulation, Unwatched};

@@ -116,6 +116,114 @@ fn layers_use_only_those_to_their_right() {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
+/// The rooms of the model: each with those it may use.
+const ROOMS: &[(&str, &[&str])] = &[
+    (
+        "looking",
+        &["assembly", "mechanism", "motion", "sliders", "scene", "elements", "bodies", "words"],
+    ),
+    ("assembly", &["mechanism", "motion", "sliders", "scene", "elements", "bodies", "words"]),
+    ("mechanism", &["motion", "sliders", "elements", "bodies", "words"]),
+    ("motion", &[]),
+    ("sliders", &["bodies", "words"]),
+    ("scene", &["elements", "words"]),
+    ("elements", &["bodies", "words"]),
+    ("bodies", &[]),
+    ("words", &[]),
+];
+
+/// The names after a path in a file, those in braces one by one, with the line of each.
+fn named_after(text: &str, path: &str) -> Vec<(usize, String)> {
+    let mut found = Vec::new();
+    for (at, _) in text.match_indices(path) {
+        let line = text[..at].lines().count();
+        let is_comment = text[..at].rsplit('\n').next().unwrap().contains("//");
+        let rest = &text[at + path.len()..];
+        let word = |text: &str| {
+            let name = text.trim().split(|c: char| !c.is_alphanumeric() && c != '_').next();
+            name.unwrap_or_default().to_owned()
+        };
+        let list = rest.strip_prefix('{').and_then(|rest| rest.split('}').next());
+        let names: Vec<String> = match list {
+            Some(list) => list.split(',').map(word).filter(|name| !name.is_empty()).collect(),
+            None => vec![word(rest)],
+        };
+        if !is_comment {
+            found.extend(names.into_iter().map(|name| (line, name)));
+        }
+    }
+    found
+}
+
+/// The room of a file of the model, by its folder or, for the file beside a folder, its name.
+fn room(path: &Path) -> Option<String> {
+    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/model");
+    let first = path.strip_prefix(model).ok()?.components().next()?;
+    let name = first.as_os_str().to_str()?.trim_end_matches(".rs").to_owned();
+    (name != "mod").then_some(name)
+}
+
+/// Uses of one room by another that the table does not allow; `exports` are the rooms of names that the model hands on.
+fn strangers(files: &[(PathBuf, String)], exports: &[(String, String)]) -> Vec<String> {
+    let mut found = Vec::new();
+    for (path, text) in files {
+        let Some(own) = room(path) else { continue };
+        let Some((_, allowed)) = ROOMS.iter().find(|(name, _)| **name == own) else {
+            found.push(format!("{}: no room '{own}' in the table", path.display()));
+            continue;
+        };
+        for (line, name) in named_after(text, "crate::model::") {
+            let of = exports.iter().find(|(export, _)| *export == name);
+            let other = of.map_or(&name, |(_, room)| room);
+            if *other != own && !allowed.contains(&other.as_str()) {
+                found.push(format!("{}:{line}: {own} uses {other}", path.display()));
+            }
+        }
+    }
+    found
+}
+
+/// What `model/mod.rs` hands on: names with their rooms.
+fn exports(text: &str) -> Vec<(String, String)> {
+    let of_room = |(room, _): &(&str, &[&str])| {
+        let names = named_after(text, &format!("pub use {room}::"));
+        names.into_iter().map(|(_, name)| (name, (*room).to_owned())).collect::<Vec<_>>()
+    };
+    ROOMS.iter().flat_map(of_room).collect()
+}
+
+#[test]
+fn rooms_of_the_model_use_one_another_one_way() {
+    let files = sources();
+    let (_, handed_on) = files.iter().find(|(path, _)| path.ends_with("model/mod.rs")).unwrap();
+    let exports = exports(handed_on);
+    assert!(exports.contains(&("Blow".to_owned(), "sliders".to_owned())), "{exports:?}");
+    let found = strangers(&files, &exports);
+    assert!(found.is_empty(), "{}", found.join("\n"));
+    for (at, (room, allowed)) in ROOMS.iter().enumerate() {
+        let later = |name: &&str| ROOMS[at + 1..].iter().any(|(other, _)| other == name);
+        assert!(allowed.iter().all(later), "{room} may use one that may use it");
+    }
+    let bodies = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/model/bodies/body.rs");
+    let text =
+        "// crate::model::scene\nuse crate::model::{\n    Model, words::finite};\n".to_owned();
+    assert_eq!(strangers(&[(bodies, text)], &exports).len(), 2);
+}
+
+#[test]
+fn a_model_and_a_simulation_are_at_most_ten_private_parts() {
+    for (file, name) in [("model/mechanism.rs", "Model"), ("simulation/run.rs", "Simulation")] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(file);
+        let text = fs::read_to_string(path).unwrap();
+        let (_, fields) = text.split_once(&format!("pub struct {name} {{\n")).unwrap();
+        let (fields, _) = fields.split_once("\n}").unwrap();
+        let fields: Vec<&str> =
+            fields.lines().map(str::trim).filter(|line| !line.starts_with("//")).collect();
+        assert!((5..=10).contains(&fields.len()), "{name}: {fields:?}");
+        assert!(!fields.iter().any(|field| field.starts_with("pub")), "{name}: {fields:?}");
+    }
+}
+
 #[test]
 fn a_trespass_is_found() {
     let beams = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/beams/mesh.rs");

@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Curve, Vec2};
-use withy::integrators::{INTEGRATORS, Mechanism};
+use withy::integrators::{Constraints, INTEGRATORS, Mechanism};
 use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
 use withy::loads::{Frame, LoadKind, Schedule};
 use withy::model::{BeamDefinition, Model, Part, ParticleDefinition, Scene, StartMotion, Usage};

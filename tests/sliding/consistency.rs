@@ -6,7 +6,7 @@ use crate::common::{Random, meshes, sliding_scenes};
 use nalgebra::DMatrix;
 use withy::beams::Mesh;
 use withy::geometry::{Passage, Vec2, cross};
-use withy::integrators::{Mechanism, Stage};
+use withy::integrators::{Constraints, Mechanism, Stage};
 use withy::joints::{
     Conserving, Contact, ContactUnknowns, Exact, Held, Relaxed, Released, SLIDING_RULES,
     SlidingLaw, Unit,

@@ -38,11 +38,11 @@ fn assert_kept(label: &str, simulation: &Simulation, tolerance: f64) -> [f64; 4]
 }
 
 fn position(simulation: &Simulation) -> f64 {
-    simulation.model().slider_position(simulation.scene(), 0)
+    simulation.model().slider_position(0)
 }
 
 fn speed(simulation: &Simulation) -> f64 {
-    simulation.model().slider_speed(simulation.scene(), 0)
+    simulation.model().slider_speed(0)
 }
 
 fn kinds(simulation: &Simulation) -> Vec<ArrivalKind> {

@@ -36,7 +36,7 @@ fn position(simulation: &Simulation, station: &Station) -> Vec2 {
 
 /// Where on beam AB the contact is.
 fn contact_length(simulation: &Simulation) -> f64 {
-    10_f64.sqrt() * simulation.model().slider_position(simulation.scene(), 0)
+    10_f64.sqrt() * simulation.model().slider_position(0)
 }
 
 fn contact_point(simulation: &Simulation) -> Vec2 {

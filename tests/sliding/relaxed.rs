@@ -47,7 +47,7 @@ fn where_the_relaxed_rule_stops_its_step_has_no_solution() {
                     Err(error) => break error,
                 }
             };
-            let (xi, gap) = (model.slider_position(&scene, 0), model.measure().gap);
+            let (xi, gap) = (model.slider_position(0), model.measure().gap);
             let failing = solutions(&mut model, interval(step));
             let state = model.state();
             model.restore(&before);

@@ -5,7 +5,7 @@ use crate::common::reference::{number, text};
 use crate::common::{at, meshes, orders, scenes, sci};
 use withy::beams::{Mesh, Section};
 use withy::geometry::Vec2;
-use withy::integrators::{Mechanism, Method};
+use withy::integrators::{Inertia, Mechanism, Method};
 use withy::joints::{JointKind, Partner};
 use withy::loads::{Frame, LoadKind, Schedule};
 use withy::model::{Model, Scene};

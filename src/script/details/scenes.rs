@@ -3,28 +3,28 @@
 use super::{line, listed, number, pair};
 use crate::beams::{BodyIndex, Section, Station};
 use crate::geometry::Vec2;
-use crate::joints::{EndAction, Partner, StartVelocities};
+use crate::joints::{EndAction, StartVelocities};
 use crate::model::{BeamDefinition, Scene};
 use crate::script::kind::Details;
 
 /// What stands in a scene; nothing is said of what is not there.
 pub fn of_scene(scene: &Scene) -> Details {
     let beam = |beam: &BeamDefinition| format!("{} ({})", beam.name, number(beam.axis.length()));
+    let loads: Vec<String> = scene.loads().map(|load| load.name.clone()).collect();
     let kinds = [
         ("beams (length)", listed(scene.beams.iter().map(beam))),
         ("particles", listed(scene.particles.iter().map(|particle| particle.name.clone()))),
         ("joints", listed(scene.joints.iter().map(|joint| joint.name.clone()))),
         ("sliders", listed(scene.sliders.iter().map(|slider| slider.name.clone()))),
-        ("loads", listed(scene.loads.iter().map(|load| load.name.clone()))),
+        ("loads", listed(loads.into_iter())),
     ];
-    let mut details = vec![line("mass", number(mass(scene)))];
+    let mut details = vec![line("mass", number(scene.mass()))];
     details
         .extend(kinds.into_iter().filter(|(_, all)| !all.is_empty()).map(|(l, all)| line(l, all)));
     if scene.gravity != Vec2::zeros() {
         details.push(line("gravity", pair(scene.gravity)));
     }
-    let is_moving =
-        |beam: &&BeamDefinition| beam.motion.velocity != Vec2::zeros() || beam.motion.spin != 0.0;
+    let is_moving = |beam: &&BeamDefinition| beam.starts_in_motion();
     let moving = (scene.beams.iter().filter(is_moving).count(), scene.velocities.len());
     details.push(line(
         "at the start",
@@ -36,39 +36,25 @@ pub fn of_scene(scene: &Scene) -> Details {
     details
 }
 
-fn mass(scene: &Scene) -> f64 {
-    let of_beam = |beam: &BeamDefinition| beam.section.mass_per_length * beam.axis.length();
-    let beams: f64 = scene.beams.iter().map(of_beam).sum();
-    beams + scene.masses.iter().map(|mass| mass.mass).sum::<f64>()
-}
-
 /// Where a beam lies, what it is made of, and how it is held.
 pub fn of_beam(scene: &Scene, index: usize) -> Details {
-    let BeamDefinition { axis, mesh, section, motion, .. } = &scene.beams[index];
+    let beam = &scene.beams[index];
+    let BeamDefinition { axis, mesh, section, motion, .. } = beam;
     let (start, end) = axis.domain();
     let ends = axis.point(start).ok().zip(axis.point(end).ok());
     let ends = ends.map(|(start, end)| line("ends", format!("{} … {}", pair(start), pair(end))));
     let [ea, ga, ei] =
         [section.axial_stiffness, section.shear_stiffness, section.bending_stiffness];
     let stiffness = format!("EA {}, GA {}, EI {}", number(ea), number(ga), number(ei));
-    let mass = section.mass_per_length * axis.length();
-    let held = scene.joints.iter().filter(|joint| {
-        let other = match joint.partner {
-            Partner::Ground => None,
-            Partner::Station(other) => other.beam(),
-        };
-        joint.station.beam() == Some(index) || other == Some(index)
-    });
-    let held: Vec<String> = held.map(|joint| joint.name.clone()).collect();
-    let is_moving = motion.velocity != Vec2::zeros() || motion.spin != 0.0;
+    let held: Vec<String> = scene.joints_of(index).map(|joint| joint.name.clone()).collect();
     let moving = format!("velocity {}, spin {}", pair(motion.velocity), number(motion.spin));
     let lines = [
         ends,
         Some(line("control points", mesh.basis().functions().to_string())),
         Some(line("stiffness", stiffness)),
-        Some(line("mass", number(mass))),
+        Some(line("mass", number(beam.mass()))),
         (!held.is_empty()).then(|| line("joints", listed(held.into_iter()))),
-        is_moving.then(|| line("at the start", moving)),
+        beam.starts_in_motion().then(|| line("at the start", moving)),
     ];
     lines.into_iter().flatten().collect()
 }
@@ -97,10 +83,9 @@ pub fn of_section(section: &Section) -> Details {
         ("rho_A [mass/length]", section.mass_per_length),
         ("rho_I [mass·length]", section.rotary_inertia),
     ];
-    let speed = |stiffness: f64| number((stiffness / section.mass_per_length).sqrt());
     let speeds = [
-        line("axial wave [length/time]", speed(section.axial_stiffness)),
-        line("shear wave [length/time]", speed(section.shear_stiffness)),
+        line("axial wave [length/time]", number(section.axial_wave_speed())),
+        line("shear wave [length/time]", number(section.shear_wave_speed())),
     ];
     properties.into_iter().map(|(label, value)| line(label, number(value))).chain(speeds).collect()
 }

@@ -60,9 +60,9 @@ pub fn of_simulation(simulation: &Simulation) -> Details {
 }
 
 fn sliders(simulation: &Simulation) -> Details {
-    let (model, scene) = (simulation.model(), simulation.scene());
+    let model = simulation.model();
     let slider = |(index, name): (usize, &str)| {
-        let place = number(model.slider_position(scene, index));
+        let place = number(model.slider_position(index));
         let (force, state) = (pair(model.contact_force(index)), model.slider_state(index).name());
         line(&format!("slider '{name}'"), format!("{state} at {place}, force {force}"))
     };

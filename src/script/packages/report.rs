@@ -30,8 +30,8 @@ impl Reporter for SimulationHandle {
             let force = model.contact_force(index);
             json!({
                 "name": name,
-                "position": model.slider_position(scene, index),
-                "speed": model.slider_speed(scene, index),
+                "position": model.slider_position(index),
+                "speed": model.slider_speed(index),
                 "force": [force.x, force.y],
                 "state": model.slider_state(index).name(),
                 "most_spans_in_a_step": model.most_spans(index),

@@ -294,7 +294,7 @@ impl Scripted for SceneHandle {
         };
         let always = [(scene.beams.len(), "beam")];
         let if_any = [(scene.particles.len(), "particle"), (scene.sliders.len(), "slider")];
-        let last = [(scene.joints.len(), "joint"), (scene.loads.len(), "load")];
+        let last = [(scene.joints.len(), "joint"), (scene.loads().count(), "load")];
         let some = if_any.into_iter().filter(|(number, _)| *number > 0);
         let parts: Vec<String> = always.into_iter().chain(some).chain(last).map(count).collect();
         format!("scene '{}' with {}", scene.name, parts.join(", "))

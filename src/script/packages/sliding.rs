@@ -73,7 +73,7 @@ pub const TABLE: Table = Table {
             .summary("Its name.")
             .example("check(ring.name == \"ring\");"),
         method(SIMULATION, "contact_force", &[WHICH], |call| {
-            asked(call, |model, _, slider| Dynamic::from(model.contact_force(slider)))
+            asked(call, |model, slider| Dynamic::from(model.contact_force(slider)))
         })
         .returns("a vector [force]")
         .summary("The force that a slider put on its beam in the last step, the mean of the step; its station got the opposite.")
@@ -85,7 +85,7 @@ pub const TABLE: Table = Table {
         .example("check(norm(sim.contact_force(ring)) == 0);\nsim.step();\ncheck(sim.contact_force(ring).y < 0);")
         .see(&["slider_position", "averaged"]),
         method(SIMULATION, "slider_position", &[WHICH], |call| {
-            asked(call, |model, scene, slider| model.slider_position(scene, slider).into())
+            asked(call, |model, slider| model.slider_position(slider).into())
         })
         .returns("a number")
         .summary("Where a slider is on its beam: 0 at the start, 1 at the end, by length as drawn.")
@@ -96,10 +96,7 @@ pub const TABLE: Table = Table {
         .example("check_close(sim.slider_position(ring), 0.25, 1e-12);")
         .see(&["slider_arc_length", "slider_speed"]),
         method(SIMULATION, "slider_arc_length", &[WHICH], |call| {
-            asked(call, |model, scene, slider| {
-                let length = scene.beams[scene.sliders[slider].master].axis.length();
-                (model.slider_position(scene, slider) * length).into()
-            })
+            asked(call, |model, slider| model.slider_arc_length(slider).into())
         })
         .returns("a number [length]")
         .summary("How far a slider is from the start of its beam, by length as drawn; slider_speed is its rate.")
@@ -109,7 +106,7 @@ pub const TABLE: Table = Table {
         )
         .see(&["slider_speed", "slider_position"]),
         method(SIMULATION, "slider_speed", &[WHICH], |call| {
-            asked(call, |model, scene, slider| model.slider_speed(scene, slider).into())
+            asked(call, |model, slider| model.slider_speed(slider).into())
         })
         .returns("a number [length/time]")
         .summary("How fast a slider moves along its beam as drawn, positive towards the end.")
@@ -281,14 +278,11 @@ fn blame(error: ModelError, is_placed: bool) -> ScriptError {
 }
 
 /// Asks a model about the slider of a call.
-fn asked(
-    call: &Call,
-    ask: impl FnOnce(&Model, &Scene, usize) -> Dynamic,
-) -> Result<Dynamic, ScriptError> {
+fn asked(call: &Call, ask: impl FnOnce(&Model, usize) -> Dynamic) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let slider = call.get::<SliderHandle>("slider")?.on(&handle)?;
     let simulation = handle.simulation();
-    Ok(ask(simulation.model(), simulation.scene(), slider))
+    Ok(ask(simulation.model(), slider))
 }
 
 fn events(call: &mut Call) -> Result<Dynamic, ScriptError> {

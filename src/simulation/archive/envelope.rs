@@ -14,7 +14,7 @@ use super::ArchiveError;
 const MARK: [u8; 8] = *b"\x89withy\r\n";
 
 /// Of this program. A change of anything that is stored makes it one more.
-const FORMAT: u16 = 6;
+const FORMAT: u16 = 7;
 
 const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 
@@ -45,7 +45,7 @@ impl<'a> Reader<'a> {
 }
 
 /// Puts content into a file.
-pub(super) fn wrap(content: &[u8]) -> Vec<u8> {
+pub fn wrap(content: &[u8]) -> Vec<u8> {
     let program = &PROGRAM.as_bytes()[..PROGRAM.len().min(usize::from(u8::MAX))];
     let mut file = MARK.to_vec();
     file.extend(FORMAT.to_le_bytes());
@@ -58,7 +58,7 @@ pub(super) fn wrap(content: &[u8]) -> Vec<u8> {
 }
 
 /// The content of a file.
-pub(super) fn unwrap(file: &[u8]) -> Result<&[u8], ArchiveError> {
+pub fn unwrap(file: &[u8]) -> Result<&[u8], ArchiveError> {
     if file.is_empty() || !file.starts_with(&MARK[..file.len().min(MARK.len())]) {
         return Err(ArchiveError::Foreign);
     }

@@ -1,7 +1,7 @@
-//! Simulations as files that survive a restart: bit for bit, versioned, checksummed.
+//! Simulations as files that survive a restart: versioned and checksummed.
 
-mod content;
 mod envelope;
 mod error;
 
+pub(super) use envelope::{unwrap, wrap};
 pub use error::ArchiveError;

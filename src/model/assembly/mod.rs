@@ -1,0 +1,10 @@
+//! From a scene to a model: meshes with nodes where joints are, numbers, elements, sliders and start velocities.
+
+mod assemble;
+mod numbering;
+mod redundancy;
+mod sliders;
+mod start_rates;
+
+use assemble::Assembly;
+use numbering::Numbering;

@@ -1,0 +1,130 @@
+//! The numbers of the unknowns that are left where movements are tied to each other or to the ground.
+
+use crate::beams::{BodyDynamics, Place, Station};
+use crate::joints::{Component, Partner};
+use crate::linalg::reverse_cuthill_mckee;
+use crate::model::ModelError;
+use crate::model::elements::{Support, Supports};
+use crate::model::motion::Unknowns;
+use crate::model::scene::{Scene, Ties};
+
+/// The degree of freedom of every component of every control point of every body: the unknowns come first,
+/// the supported ones last.
+#[derive(Debug, Clone)]
+pub struct Numbering {
+    pub degrees_of_freedom: Vec<Vec<[usize; 3]>>,
+    pub unknowns: usize,
+    supported: usize,
+    half_bandwidth: usize,
+}
+
+impl Numbering {
+    /// Numbers the movements of bodies; `place` finds the stations of joints on their meshes. Constraints with `border`
+    /// unknowns stand between the unknown and the supported movements.
+    pub fn new(
+        scene: &Scene,
+        bodies: &[Box<dyn BodyDynamics>],
+        border: usize,
+        place: impl Fn(&Station) -> Result<Place, ModelError>,
+    ) -> Result<Self, ModelError> {
+        let counts = bodies.iter().map(|body| body.control_points().len());
+        let offsets: Vec<usize> = std::iter::once(1)
+            .chain(counts.scan(1, |offset, count| {
+                *offset += 3 * count;
+                Some(*offset)
+            }))
+            .collect();
+        let all = offsets[bodies.len()];
+        let mut ties = Ties::new(all);
+        // Particles do not turn.
+        for offset in offsets[scene.beams.len()..].iter().take(scene.particles.len()) {
+            ties.tie(0, offset + Component::Rotation as usize);
+        }
+        for joint in &scene.joints {
+            let node = |station: &Station| -> Result<usize, ModelError> {
+                // Stations of joints are breaks of the mesh, where a control point lies on the axis.
+                let place = place(station)?;
+                Ok(offsets[place.body] + 3 * place.nearest_control_point())
+            };
+            let from = node(&joint.station)?;
+            let to = match &joint.partner {
+                Partner::Ground => None,
+                Partner::Station(other) => Some(node(other)?),
+            };
+            for &component in joint.kind.components() {
+                ties.tie(from + component as usize, to.map_or(0, |to| to + component as usize));
+            }
+        }
+
+        // Free classes get numbers in the order of the beams; ground is class 0.
+        let mut number = vec![usize::MAX; all];
+        let mut unknowns = 0;
+        for at in 1..all {
+            let root = ties.root(at);
+            if root != 0 && number[root] == usize::MAX {
+                number[root] = unknowns;
+                unknowns += 1;
+            }
+        }
+        if unknowns == 0 {
+            return Err(ModelError::NothingMoves { scene: scene.name.clone() });
+        }
+        let mut groups = Vec::new();
+        for (body, offset) in bodies.iter().zip(&offsets) {
+            for first in body.span_starts() {
+                let nodes = offset + 3 * first..offset + 3 * (first + body.order());
+                let mut group: Vec<usize> =
+                    nodes.map(|at| number[ties.root(at)]).filter(|&n| n != usize::MAX).collect();
+                group.sort_unstable();
+                group.dedup();
+                groups.push(group);
+            }
+        }
+        let ordering = reverse_cuthill_mckee(unknowns, &groups);
+
+        let mut supported = 0;
+        let degrees_of_freedom = bodies
+            .iter()
+            .zip(&offsets)
+            .map(|(body, offset)| {
+                let mut degree = |at: usize| match ties.root(at) {
+                    0 => {
+                        supported += 1;
+                        unknowns + border + supported - 1
+                    }
+                    root => ordering.position[number[root]],
+                };
+                (0..body.control_points().len())
+                    .map(|point| {
+                        Component::ALL
+                            .map(|component| degree(offset + 3 * point + component as usize))
+                    })
+                    .collect()
+            })
+            .collect();
+        Ok(Self {
+            degrees_of_freedom,
+            unknowns,
+            supported,
+            half_bandwidth: ordering.half_bandwidth,
+        })
+    }
+
+    /// The supports in the order of their degrees of freedom, and the unknowns; constraints with `border` unknowns stand between.
+    pub fn supports_and_unknowns(&self, border: usize) -> (Supports, Unknowns) {
+        let mut is_rotation = vec![false; self.unknowns];
+        let mut supports =
+            vec![Support { body: 0, point: 0, component: Component::X }; self.supported];
+        for (body, points) in self.degrees_of_freedom.iter().enumerate() {
+            for (point, degrees) in points.iter().enumerate() {
+                for (component, &at) in Component::ALL.into_iter().zip(degrees) {
+                    match at.checked_sub(self.unknowns + border) {
+                        Some(support) => supports[support] = Support { body, point, component },
+                        None => is_rotation[at] = component == Component::Rotation,
+                    }
+                }
+            }
+        }
+        (Supports::new(supports), Unknowns::new(is_rotation, self.half_bandwidth))
+    }
+}

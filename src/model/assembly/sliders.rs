@@ -1,0 +1,84 @@
+//! Sliders from description to model.
+
+use super::{Assembly, Numbering};
+use crate::beams::Station;
+use crate::geometry::Passage;
+use crate::joints::{Slider, StartVelocities};
+use crate::model::elements::Site;
+use crate::model::sliders::{Bar, Connection, Sliding, Track};
+use crate::model::words::SliderError;
+use crate::model::{BeamDefinition, Model, ModelError, Scene};
+
+/// Largest start velocity across the master, relative to the fastest point of the scene: where a mechanism has a dead centre, velocities of
+/// that size have left nothing but their rounding.
+const SAME_VELOCITY: f64 = 1e-9;
+
+impl Assembly<'_> {
+    /// The contact of every slider.
+    pub fn sliders(&self, numbering: &Numbering) -> Result<Vec<Sliding>, ModelError> {
+        let mut sliders: Vec<Sliding> = Vec::new();
+        for (index, slider) in self.scene.sliders.iter().enumerate() {
+            let place = self.place(&slider.slave)?;
+            let slave = (place.body, place.nearest_control_point());
+            let [x, ..] = numbering.degrees_of_freedom[slave.0][slave.1];
+            let of_master = &numbering.degrees_of_freedom[slider.master];
+            let is_unknown = x < numbering.unknowns;
+            if is_unknown && of_master.iter().any(|degrees| degrees[0] == x) {
+                return Err(SliderError::Tied(self.scene.parts(slider)).into());
+            }
+            let is_twice = |other: &Sliding| {
+                let Connection { master, slave: (body, point), .. } = other.connection;
+                master == slider.master && numbering.degrees_of_freedom[body][point][0] == x
+            };
+            if is_unknown && sliders.iter().any(is_twice) {
+                return Err(SliderError::Twice(self.scene.parts(slider)).into());
+            }
+            let connection = Connection { master: slider.master, slave, index };
+            let (beam, basis) =
+                (&self.scene.beams[slider.master], self.mesh(slider.master).basis());
+            let track = Track::new(beam.axis.clone(), basis.domain());
+            let bars = (bar(beam), self.scene.beams.get(slave.0).map(bar));
+            let (passage, parameter) =
+                (Passage::new(basis.clone()), self.slider_parameter(slider)?);
+            sliders.push(Sliding::new(slider, connection, passage, parameter, track, bars));
+        }
+        Ok(sliders)
+    }
+
+    /// The parameter of the mesh of its master at which a slider starts.
+    pub fn slider_parameter(&self, slider: &Slider) -> Result<f64, ModelError> {
+        let beam = &self.scene.beams[slider.master];
+        Station::on_beam(slider.master, slider.arc_length)
+            .parameter(&beam.axis, self.mesh(slider.master))
+            .map_err(|error| self.wrong(slider.master, error))
+    }
+}
+
+fn bar(beam: &BeamDefinition) -> Bar {
+    Bar { length: beam.axis.length(), section: beam.section }
+}
+
+impl Model {
+    /// Deals with start velocities that would leave the masters, as each slider says.
+    ///
+    /// Speeds across a master that strain nothing by more than rounding, as waves go, are none either: `w/c < ε`.
+    pub(super) fn settle_start_velocities(&mut self, scene: &Scene) -> Result<(), ModelError> {
+        let negligible = SAME_VELOCITY * self.fastest_speed() + f64::EPSILON * scene.fastest_wave();
+        let mut is_projected = false;
+        for (index, described) in scene.sliders.iter().enumerate() {
+            match described.velocities {
+                StartVelocities::Check => self.check_start_velocity(index, negligible)?,
+                StartVelocities::Project => is_projected = true,
+            }
+        }
+        if is_projected { self.project_velocities() } else { Ok(()) }
+    }
+
+    fn check_start_velocity(&self, slider: usize, negligible: f64) -> Result<(), ModelError> {
+        let speed = self.speed_across(slider).abs();
+        if speed <= negligible {
+            return Ok(());
+        }
+        Err(SliderError::LeavesMaster { slider: self.slider(slider).name.clone(), speed }.into())
+    }
+}

@@ -1,0 +1,135 @@
+//! Start velocities: rigid motions of beams, which tied movements must share, and velocities of single nodes.
+
+use super::{Assembly, Numbering};
+use crate::beams::BodyDynamics;
+use crate::geometry::{Vec2, perpendicular};
+use crate::model::elements::Site;
+use crate::model::{BeamDefinition, ModelError, StationVelocity};
+
+/// Largest difference of tied start velocities, relative to the velocities of the beam.
+const SAME_VELOCITY: f64 = 1e-9;
+
+/// The components of a start velocity in messages.
+const COMPONENTS: [&str; 3] = ["velocity along x", "velocity along y", "spin"];
+
+/// Why a supported movement has no velocity.
+const GROUND: &str = "the ground there does not move";
+
+/// The rate of each unknown, with the beam that has given it.
+struct Shared {
+    rates: Vec<Option<(usize, f64)>>,
+}
+
+impl Shared {
+    /// Takes a rate of a beam for a degree of freedom; that of another beam, or of the ground, which it does not share, is returned.
+    fn take(
+        &mut self,
+        at: usize,
+        beam: usize,
+        rate: f64,
+        size: f64,
+    ) -> Option<Option<(usize, f64)>> {
+        let other = match self.rates.get_mut(at) {
+            Some(free @ None) => {
+                *free = Some((beam, rate));
+                return None;
+            }
+            Some(taken) => *taken,
+            None => None,
+        };
+        let expected = other.map_or(0.0, |(_, rate)| rate);
+        let differs = (rate - expected).abs() > SAME_VELOCITY * size.max(expected.abs());
+        differs.then_some(other)
+    }
+}
+
+impl Assembly<'_> {
+    /// The rates of the unknowns at the start [length/time, 1/time].
+    pub fn start_rates(&self, numbering: &Numbering) -> Result<Vec<f64>, ModelError> {
+        let mut shared = Shared { rates: vec![None; numbering.unknowns] };
+        for index in 0..self.scene.beams.len() {
+            self.share_rigid_motion(index, &numbering.degrees_of_freedom[index], &mut shared)?;
+        }
+        let rates = shared.rates.into_iter();
+        let mut rates: Vec<f64> = rates.map(|rate| rate.map_or(0.0, |(_, value)| value)).collect();
+        for velocity in &self.scene.velocities {
+            self.set_velocity(velocity, numbering, &mut rates)?;
+        }
+        Ok(rates)
+    }
+
+    /// Gives the movements of a beam the rates of its rigid motion.
+    fn share_rigid_motion(
+        &self,
+        index: usize,
+        degrees_of_freedom: &[[usize; 3]],
+        shared: &mut Shared,
+    ) -> Result<(), ModelError> {
+        let (beam, BeamDefinition { name, axis, motion, .. }) =
+            (self.body(index), &self.scene.beams[index]);
+        let about = motion.about.unwrap_or_else(|| centre(beam));
+        let length = axis.length();
+        let speed = motion.velocity.norm() + motion.spin.abs() * length;
+        let sizes = [speed, speed, speed / length];
+        for (point, degrees) in beam.control_points().iter().zip(degrees_of_freedom) {
+            let velocity = motion.velocity + perpendicular(point - about) * motion.spin;
+            let rates = [velocity.x, velocity.y, motion.spin];
+            let sized = degrees.iter().zip(rates).zip(sizes).zip(COMPONENTS);
+            for (((&at, rate), size), component) in sized {
+                if let Some(other) = shared.take(at, index, rate, size) {
+                    let other = other.map_or(GROUND.to_owned(), |(other, rate)| {
+                        let name = &self.scene.beams[other].name;
+                        format!("beam '{name}', joined there, has {rate}")
+                    });
+                    return Err(ModelError::StartVelocity {
+                        body: format!("beam '{name}'"),
+                        place: format!("joint ({component})"),
+                        velocity: rate,
+                        other,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Sets the rates of the node at a station, whatever its beam does.
+    fn set_velocity(
+        &self,
+        velocity: &StationVelocity,
+        numbering: &Numbering,
+        rates: &mut [f64],
+    ) -> Result<(), ModelError> {
+        let StationVelocity { station, velocity, spin } = velocity;
+        if station.beam().is_none() && spin.is_some() {
+            let object = format!("start velocity of {}", self.scene.describe(station));
+            return Err(ModelError::ParticleTurned { object, advice: "leave out the spin" });
+        }
+        let place = self.place(station)?;
+        let degrees = numbering.degrees_of_freedom[place.body][place.nearest_control_point()];
+        let values = [Some(velocity.x), Some(velocity.y), *spin];
+        for ((at, value), component) in degrees.into_iter().zip(values).zip(COMPONENTS) {
+            match (value, rates.get_mut(at)) {
+                (Some(value), Some(rate)) => *rate = value,
+                (Some(value), None) if value != 0.0 => {
+                    return Err(ModelError::StartVelocity {
+                        body: self.scene.name_of_body(station),
+                        place: format!("support ({component})"),
+                        velocity: value,
+                        other: GROUND.to_owned(),
+                    });
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The centre of mass of a beam as drawn.
+fn centre(beam: &dyn BodyDynamics) -> Vec2 {
+    let lengths = beam.lumped_lengths();
+    let moment: Vec2 =
+        beam.control_points().iter().zip(&lengths).map(|(point, length)| point * *length).sum();
+    moment / lengths.iter().sum::<f64>()
+}

@@ -1,0 +1,159 @@
+//! All bodies of a model, and what is watched on them.
+
+use std::ops::{Deref, DerefMut};
+
+use super::{Body, Momenta, Tracker};
+use crate::beams::{Mesh, Place, RotationIncrement};
+use crate::geometry::{Vec2, larger};
+
+/// A function that is smaller than this at a place is zero there.
+const NO_WEIGHT: f64 = 1e-12;
+
+/// The bodies of a model: beams, then particles. As a slice it is these.
+pub struct Bodies {
+    all: Vec<Body>,
+    /// Of the beams.
+    meshes: Vec<Mesh>,
+    /// Sections whose angle is followed: starts and ends of all beams, then the stations of the scene.
+    trackers: Vec<Tracker>,
+    /// Pairs of places that joints hold together.
+    joined: Vec<(Place, Place)>,
+    /// That of the beams alone [mass].
+    mass: f64,
+}
+
+impl Deref for Bodies {
+    type Target = [Body];
+
+    fn deref(&self) -> &[Body] {
+        &self.all
+    }
+}
+
+impl DerefMut for Bodies {
+    fn deref_mut(&mut self) -> &mut [Body] {
+        &mut self.all
+    }
+}
+
+impl Bodies {
+    /// Bodies with the meshes of the beams among them, the sections that are followed, the places that joints hold together, and the
+    /// mass of the beams [mass].
+    pub fn new(
+        all: Vec<Body>,
+        meshes: Vec<Mesh>,
+        trackers: Vec<Tracker>,
+        joined: Vec<(Place, Place)>,
+        mass: f64,
+    ) -> Self {
+        Self { all, meshes, trackers, joined, mass }
+    }
+
+    /// The meshes of the beams, with breaks where joints are.
+    pub fn meshes(&self) -> &[Mesh] {
+        &self.meshes
+    }
+
+    /// The mass of the beams, without what stands on them [mass].
+    pub fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    /// The number of sections whose angle is followed.
+    pub fn followed_sections(&self) -> usize {
+        self.trackers.len()
+    }
+
+    /// The unwrapped angle of a section that is followed, by its number [rad].
+    pub fn angle(&self, section: usize) -> Option<f64> {
+        self.trackers.get(section).map(|tracker| tracker.angle)
+    }
+
+    /// Where a place is at the start of the step [length].
+    pub fn position(&self, place: &Place) -> Vec2 {
+        place.interpolate(self[place.body].dynamics.control_points())
+    }
+
+    /// The speed of the fastest control point [length/time].
+    pub fn fastest_speed(&self, rates: &[f64]) -> f64 {
+        let speeds = self.iter().flat_map(|body| {
+            (0..body.degrees_of_freedom.len()).map(|point| body.vector_at(point, rates).norm())
+        });
+        speeds.fold(0.0, f64::max)
+    }
+
+    /// The largest distance between places that joints hold together [length].
+    pub fn largest_gap(&self) -> f64 {
+        let gap = |(a, b): &(Place, Place)| (self.position(a) - self.position(b)).norm();
+        self.joined.iter().map(gap).fold(0.0, larger)
+    }
+
+    /// Momenta and twice the kinetic energy of all bodies.
+    pub fn momenta(&mut self, rates: &[f64]) -> Momenta {
+        let mut sum = Momenta::default();
+        self.all.iter_mut().for_each(|body| sum += body.momenta(rates));
+        sum
+    }
+
+    /// The energy of deformation [energy].
+    pub fn strain_energy(&self) -> f64 {
+        self.iter().map(|body| body.dynamics.strain_energy()).sum()
+    }
+
+    /// Adds `factor · M · rates`.
+    pub fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
+        self.all.iter_mut().for_each(|body| body.add_inertia(factor, rates, out));
+    }
+
+    /// Gives every body its part of the movements.
+    pub fn gather(&mut self, increments: &[f64]) {
+        for body in &mut self.all {
+            body.gather(increments);
+        }
+    }
+
+    /// Accepts the movements that were gathered last.
+    pub fn advance(&mut self, rotations: RotationIncrement) {
+        for tracker in &mut self.trackers {
+            tracker.advance(self.all[tracker.place.body].moved(), rotations);
+        }
+        self.all.iter_mut().for_each(|body| body.advance(rotations));
+    }
+
+    /// The nodes that joints hold where a place is: bodies and control points; none where the place is no node.
+    pub fn tied_nodes(&self, place: &Place) -> Option<Vec<(usize, usize)>> {
+        let mut nodes = vec![node_of(place)?];
+        let mut next = 0;
+        while let Some(&at) = nodes.get(next) {
+            next += 1;
+            for (one, other) in &self.joined {
+                for (here, there) in [(one, other), (other, one)] {
+                    let there = node_of(there).filter(|there| !nodes.contains(there));
+                    if node_of(here) == Some(at) {
+                        nodes.extend(there);
+                    }
+                }
+            }
+        }
+        Some(nodes)
+    }
+
+    /// Appends the state at the start of a step.
+    pub fn save(&self, state: &mut Vec<f64>) {
+        self.iter().for_each(|body| body.dynamics.save(state));
+        self.trackers.iter().for_each(|tracker| tracker.save(state));
+    }
+
+    /// Takes the state back, in the order in which it was appended.
+    pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.all.iter_mut().for_each(|body| body.dynamics.restore(next));
+        self.trackers.iter_mut().for_each(|tracker| tracker.restore(next));
+    }
+}
+
+/// The body and the control point of a place, if it is where a control point is.
+fn node_of(place: &Place) -> Option<(usize, usize)> {
+    let point = place.nearest_control_point();
+    let is_node = place.weights().all(|(at, weight)| at == point || weight.abs() < NO_WEIGHT);
+    is_node.then_some((place.body, point))
+}

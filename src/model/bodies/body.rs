@@ -1,0 +1,287 @@
+//! A body of the model: its dynamics, and where its movements stand among the degrees of freedom.
+
+use std::iter::once;
+use std::ops::Range;
+
+use super::Momenta;
+use crate::beams::{
+    BlockSink, BodyDynamics, Collocation, ForceSummary, Movement, Place, RotationIncrement, at_once,
+};
+use crate::geometry::{Vec2, cross};
+use crate::linalg::{BandRows, BandedMatrix};
+
+/// A beam or a particle with the places of its movements in the vectors of the mechanism.
+pub struct Body {
+    pub dynamics: Box<dyn BodyDynamics>,
+    pub degrees_of_freedom: Vec<[usize; 3]>,
+    /// For each span that moves consecutive unknowns only: the first of them.
+    consecutive: Vec<Option<usize>>,
+    unknowns: usize,
+    /// The first control point and the first row of each part that is worked on at the same time, but for the first part.
+    parts: Vec<(usize, usize)>,
+    moved: Vec<Movement>,
+    forces: Vec<Movement>,
+}
+
+impl Body {
+    pub fn new(
+        dynamics: Box<dyn BodyDynamics>,
+        degrees_of_freedom: Vec<[usize; 3]>,
+        unknowns: usize,
+    ) -> Self {
+        let order = dynamics.order();
+        let is_consecutive = |first: usize| {
+            let span = degrees_of_freedom[first..first + order].as_flattened();
+            let steps = span.windows(2).all(|pair| pair[1] == pair[0] + 1);
+            (steps && span.iter().all(|&at| at < unknowns)).then(|| span[0])
+        };
+        let mut consecutive = vec![None; degrees_of_freedom.len()];
+        for first in dynamics.span_starts() {
+            consecutive[first] = is_consecutive(first);
+        }
+        let zeros = vec![[0.0; 3]; degrees_of_freedom.len()];
+        Self {
+            dynamics,
+            degrees_of_freedom,
+            consecutive,
+            unknowns,
+            parts: Vec::new(),
+            moved: zeros.clone(),
+            forces: zeros,
+        }
+    }
+
+    /// From here on works in at most so many parts at once, with the same results: in one, where it is not large, or the
+    /// rows of its parts do not stand one part after another. The number of parts.
+    pub fn divide(&mut self, most: usize) -> usize {
+        let points = self.dynamics.divide(most);
+        let rows_of = |points: &[[usize; 3]]| {
+            let rows = points.as_flattened().iter().filter(|row| **row < self.unknowns);
+            Some((*rows.clone().min()?, *rows.max()?))
+        };
+        let first_row = |&point: &usize| {
+            let (before, behind) = self.degrees_of_freedom.split_at(point);
+            let ((_, last), (first, _)) = (rows_of(before)?, rows_of(behind)?);
+            (last < first).then_some((point, first))
+        };
+        self.parts = points.iter().map(first_row).collect::<Option<_>>().unwrap_or_else(|| {
+            self.dynamics.divide(1);
+            Vec::new()
+        });
+        self.parts.len() + 1
+    }
+
+    /// The values of the unknowns at this body; supported movements are zero.
+    pub fn gather(&mut self, values: &[f64]) -> &[Movement] {
+        for (movement, degrees) in self.moved.iter_mut().zip(&self.degrees_of_freedom) {
+            *movement = degrees.map(|at| values.get(at).copied().unwrap_or(0.0));
+        }
+        &self.moved
+    }
+
+    /// The movement of a place, from values of the unknowns.
+    pub fn at(&self, place: &Place, values: &[f64]) -> Movement {
+        let mut sum = [0.0; 3];
+        for (point, share) in place.weights() {
+            for (sum, &at) in sum.iter_mut().zip(&self.degrees_of_freedom[point]) {
+                *sum += share * values.get(at).copied().unwrap_or(0.0);
+            }
+        }
+        sum
+    }
+
+    /// The x and y components of a control point, from values of the unknowns.
+    pub fn vector_at(&self, point: usize, values: &[f64]) -> Vec2 {
+        let [x, y, _] = self.degrees_of_freedom[point];
+        let value = |at: usize| values.get(at).copied().unwrap_or(0.0);
+        Vec2::new(value(x), value(y))
+    }
+
+    /// A control point, and what rounding has cut off it so far [length].
+    pub fn precise_point(&self, point: usize) -> (Vec2, Vec2) {
+        (self.dynamics.control_points()[point], self.dynamics.remainders()[point])
+    }
+
+    /// The movements that were gathered last.
+    pub fn moved(&self) -> &[Movement] {
+        &self.moved
+    }
+
+    /// Accepts the movements that were gathered last.
+    pub fn advance(&mut self, rotations: RotationIncrement) {
+        self.dynamics.advance(&self.moved, rotations);
+    }
+
+    fn scatter(&mut self, out: &mut [f64]) {
+        for (force, degrees) in self.forces.iter_mut().zip(&self.degrees_of_freedom) {
+            for (value, &at) in force.iter_mut().zip(degrees) {
+                out[at] += std::mem::take(value);
+            }
+        }
+    }
+
+    pub fn add_forces(
+        &mut self,
+        at: Collocation,
+        increments: &[f64],
+        weight: f64,
+        out: &mut [f64],
+    ) -> ForceSummary {
+        self.gather(increments);
+        let summary = self.dynamics.add_forces(at, &self.moved, weight, &mut self.forces);
+        self.scatter(out);
+        summary
+    }
+
+    pub fn add_linearised_forces(
+        &mut self,
+        at: Collocation,
+        increments: &[f64],
+        weight: f64,
+        out: &mut [f64],
+        tangent: &mut BandedMatrix,
+    ) {
+        self.gather(increments);
+        let Self { dynamics, degrees_of_freedom, consecutive, moved, forces, parts, unknowns } =
+            self;
+        let (order, unknowns) = (dynamics.order(), *unknowns);
+        let places = Places { degrees_of_freedom, consecutive, order, unknowns };
+        let mut add = |tangents: &mut [BlockSink<'_>]| {
+            dynamics.add_linearised_forces(at, moved, weight, forces, tangents);
+        };
+        if parts.is_empty() {
+            let mut rows = tangent.rows_mut();
+            add(&mut [&mut |first, block| places.add_block(&mut rows, first, block)]);
+        } else {
+            let mut sinks: Vec<_> = rows_of_parts(parts, tangent)
+                .map(|mut rows| {
+                    let places = &places;
+                    move |first: usize, block: &[f64]| places.add_block(&mut rows, first, block)
+                })
+                .collect();
+            let mut sinks: Vec<BlockSink<'_>> = sinks.iter_mut().map(|sink| sink as _).collect();
+            add(&mut sinks);
+        }
+        self.scatter(out);
+    }
+
+    pub fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]) {
+        self.dynamics.add_mismatch_forces(weight, &mut self.forces);
+        self.scatter(out);
+    }
+
+    pub fn correct_section_forces(&mut self, correction: &[f64]) {
+        self.gather(correction);
+        self.dynamics.correct_section_forces(&self.moved);
+    }
+
+    pub fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
+        self.gather(rates);
+        self.dynamics.add_inertia(factor, &self.moved, &mut self.forces);
+        self.scatter(out);
+    }
+
+    /// Gives `factor · M` to `add`: row, column and value; several of one place add up.
+    pub fn inertia_entries(&self, factor: f64, add: &mut impl FnMut(usize, usize, f64)) {
+        self.inertia_entries_of(0..self.degrees_of_freedom.len(), factor, add);
+    }
+
+    fn inertia_entries_of(
+        &self,
+        points: Range<usize>,
+        factor: f64,
+        add: &mut impl FnMut(usize, usize, f64),
+    ) {
+        self.dynamics.add_inertia_tangent(factor, points, &mut |a, b, inertia| {
+            for ((&row, &column), value) in
+                self.degrees_of_freedom[a].iter().zip(&self.degrees_of_freedom[b]).zip(inertia)
+            {
+                if row < self.unknowns && column < self.unknowns {
+                    add(row, column, value);
+                }
+            }
+        });
+    }
+
+    /// Adds `factor · M` to the tangent.
+    pub fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
+        let add = |points, mut rows: BandRows<'_>| {
+            self.inertia_entries_of(points, factor, &mut |row, column, value| {
+                rows.add(row, column, value);
+            });
+        };
+        let points = self.degrees_of_freedom.len();
+        if self.parts.is_empty() {
+            return add(0..points, tangent.rows_mut());
+        }
+        let starts = once(0).chain(self.parts.iter().map(|(point, _)| *point));
+        let ends = self.parts.iter().map(|(point, _)| *point).chain(once(points));
+        let points = starts.zip(ends).map(|(start, end)| start..end);
+        at_once(points.zip(rows_of_parts(&self.parts, tangent)), |(points, rows)| {
+            add(points, rows);
+        });
+    }
+
+    /// Momenta and twice the kinetic energy.
+    pub fn momenta(&mut self, rates: &[f64]) -> Momenta {
+        self.gather(rates);
+        self.dynamics.add_inertia(1.0, &self.moved, &mut self.forces);
+        let mut sum = Momenta::default();
+        let points = self.dynamics.control_points();
+        for ((part, rate), point) in self.forces.iter_mut().zip(&self.moved).zip(points) {
+            let [px, py, spin] = std::mem::take(part);
+            let linear = Vec2::new(px, py);
+            let twice_kinetic = px * rate[0] + py * rate[1] + spin * rate[2];
+            sum += Momenta { twice_kinetic, linear, angular: cross(*point, linear) + spin };
+        }
+        sum
+    }
+}
+
+/// The rows of a tangent, cut where parts begin.
+fn rows_of_parts<'a>(
+    parts: &[(usize, usize)],
+    tangent: &'a mut BandedMatrix,
+) -> impl Iterator<Item = BandRows<'a>> {
+    let cuts = parts.iter().map(|(_, row)| Some(*row)).chain(once(None));
+    cuts.scan(Some(tangent.rows_mut()), |left, cut| {
+        let rows = left.take()?;
+        let Some(cut) = cut else { return Some(rows) };
+        let (part, rest) = rows.split_at(cut);
+        *left = Some(rest);
+        Some(part)
+    })
+}
+
+/// Where the movements of spans stand in the tangent.
+struct Places<'a> {
+    degrees_of_freedom: &'a [[usize; 3]],
+    consecutive: &'a [Option<usize>],
+    /// The number of control points of a span.
+    order: usize,
+    unknowns: usize,
+}
+
+impl Places<'_> {
+    /// Adds the block of a span, but for rows that are not at hand.
+    fn add_block(&self, rows: &mut BandRows<'_>, first: usize, block: &[f64]) {
+        let width = 3 * self.order;
+        let at_hand = rows.rows();
+        if let Some(start) = self.consecutive[first]
+            && at_hand.start <= start
+            && start + width <= at_hand.end
+        {
+            return rows.add_block(start, width, block);
+        }
+        let degrees = self.degrees_of_freedom[first..first + self.order].as_flattened();
+        for (values, row) in block.chunks_exact(width).zip(degrees) {
+            if at_hand.contains(row) {
+                for (&column, &value) in degrees.iter().zip(values) {
+                    if column < self.unknowns {
+                        rows.add(*row, column, value);
+                    }
+                }
+            }
+        }
+    }
+}

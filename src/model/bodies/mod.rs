@@ -1,0 +1,11 @@
+//! Beams and particles, and where their movements stand among the unknowns of the model.
+
+mod all;
+mod body;
+mod momenta;
+mod tracker;
+
+pub use all::Bodies;
+pub use body::Body;
+pub use momenta::Momenta;
+pub use tracker::Tracker;

@@ -1,0 +1,151 @@
+//! All elements of a model.
+
+use super::element::Assembled;
+use super::point_mass::Lump;
+use super::{Exchange, ForceElement, Iterate, Weight};
+use crate::beams::RotationIncrement;
+use crate::integrators::{Interval, Stage};
+use crate::linalg::BandedMatrix;
+use crate::loads::LoadError;
+use crate::model::bodies::{Body, Momenta};
+
+/// The elements of a model: point masses, weight, and what else puts forces on bodies.
+#[derive(Default)]
+pub struct Elements {
+    masses: Vec<Lump>,
+    /// The weight of everything, if there is gravity.
+    weight: Option<Weight>,
+    /// In the order of the scene.
+    forces: Vec<Box<dyn ForceElement>>,
+}
+
+impl Elements {
+    /// The elements that descriptions were built into, and the weight of the beams, if there is gravity.
+    pub fn new(parts: impl Iterator<Item = Assembled>, mut weight: Option<Weight>) -> Self {
+        let (mut masses, mut forces) = (Vec::new(), Vec::new());
+        for part in parts {
+            match part {
+                Assembled::Mass(mass) => masses.push(mass),
+                Assembled::Force(force) => forces.push(force),
+            }
+        }
+        weight.iter_mut().for_each(|weight| masses.iter().for_each(|mass| weight.add(mass)));
+        Self { masses, weight, forces }
+    }
+
+    /// The mass of all point masses [mass].
+    pub fn mass(&self) -> f64 {
+        self.masses.iter().map(|mass| mass.mass).sum()
+    }
+
+    /// The weight of everything, if there is gravity.
+    pub fn weight(&self) -> Option<&dyn ForceElement> {
+        self.weight.as_ref().map(|weight| weight as &dyn ForceElement)
+    }
+
+    /// What puts forces on bodies besides the weight, in the order of the scene.
+    pub fn forces(&self) -> impl Iterator<Item = &dyn ForceElement> + Clone {
+        self.forces.iter().map(|force| &**force)
+    }
+
+    /// Prepares a step.
+    ///
+    /// # Errors
+    /// When an element has no finite value: its name, and why.
+    pub fn begin_step(
+        &mut self,
+        interval: Interval,
+        stages: &[Stage],
+    ) -> Result<(), (String, LoadError)> {
+        self.forces.iter_mut().try_for_each(|force| {
+            force.begin_step(interval, stages).map_err(|error| (force.name().to_owned(), error))
+        })
+    }
+
+    /// Gives all elements the values that they have just after a time.
+    ///
+    /// # Errors
+    /// When one has no finite value then: its name, and why.
+    pub fn hold_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
+        self.forces.iter_mut().try_for_each(|force| {
+            force.hold_at(time).map_err(|error| (force.name().to_owned(), error))
+        })
+    }
+
+    /// Whether one may have another value just after a time than just before it.
+    pub fn may_jump_at(&self, time: f64) -> bool {
+        self.forces.iter().any(|force| force.may_jump_at(time))
+    }
+
+    /// The number of sections whose angle elements follow.
+    pub fn followed_sections(&self) -> usize {
+        self.forces.iter().map(|force| force.followed_sections()).sum()
+    }
+
+    /// Adds `factor · M · rates`.
+    pub fn add_inertia(&self, bodies: &[Body], factor: f64, rates: &[f64], out: &mut [f64]) {
+        self.masses.iter().for_each(|mass| mass.add_inertia(bodies, factor, rates, out));
+    }
+
+    /// Gives `factor · M` to `add`: row, column and value; several of one place add up.
+    pub fn inertia_entries(
+        &self,
+        bodies: &[Body],
+        factor: f64,
+        unknowns: usize,
+        add: &mut impl FnMut(usize, usize, f64),
+    ) {
+        let masses = self.masses.iter();
+        masses.for_each(|mass| mass.inertia_entries(bodies, factor, unknowns, add));
+    }
+
+    /// Adds momenta and twice the kinetic energy of all masses to a sum.
+    pub fn add_momenta(&self, bodies: &[Body], rates: &[f64], sum: &mut Momenta) {
+        self.masses.iter().for_each(|mass| *sum += mass.momenta(bodies, rates));
+    }
+
+    /// Subtracts the forces of an iterate; the largest force and the largest moment of an element on a control point.
+    pub fn subtract_from(&mut self, at: Iterate<'_>, out: &mut [f64]) -> (f64, f64) {
+        let weight = self.weight.iter_mut().map(|weight| weight as &mut dyn ForceElement);
+        let forces = self.forces.iter_mut().map(|force| &mut **force as &mut dyn ForceElement);
+        weight.chain(forces).fold((0.0, 0.0), |largest: (f64, f64), element| {
+            let (force, moment) = element.subtract_from(at, out);
+            (largest.0.max(force), largest.1.max(moment))
+        })
+    }
+
+    /// Adds the derivative of minus the forces by the increments; there are so many unknowns.
+    pub fn add_tangent(&self, at: Iterate<'_>, unknowns: usize, tangent: &mut BandedMatrix) {
+        self.forces.iter().for_each(|force| force.add_tangent(at, unknowns, tangent));
+    }
+
+    /// What all gave in the step of the movements that the bodies gathered last.
+    pub fn exchange(&self, bodies: &[Body], duration: f64) -> Exchange {
+        let mut sum = Exchange::default();
+        for element in self.forces().chain(self.weight()) {
+            sum += element.exchange(bodies, duration);
+        }
+        sum
+    }
+
+    /// The energy that is stored in weight and elements [energy].
+    pub fn energy(&self, bodies: &[Body]) -> f64 {
+        let stored = self.weight().into_iter().chain(self.forces());
+        stored.filter_map(|element| element.energy(bodies)).reduce(|a, b| a + b).unwrap_or(0.0)
+    }
+
+    /// Accepts the movements that the bodies gathered last.
+    pub fn advance(&mut self, bodies: &[Body], rotations: RotationIncrement) {
+        self.forces.iter_mut().for_each(|force| force.advance(bodies, rotations));
+    }
+
+    /// Appends the state at the start of a step.
+    pub fn save(&self, state: &mut Vec<f64>) {
+        self.forces.iter().for_each(|force| force.save(state));
+    }
+
+    /// Takes the state back, in the order in which it was appended.
+    pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.forces.iter_mut().for_each(|force| force.restore(next));
+    }
+}

@@ -1,0 +1,100 @@
+//! The elements of a scene as they are described, and what their descriptions offer to a model.
+
+use serde::{Deserialize, Serialize};
+
+use super::point_mass::Lump;
+use super::{ForceElement, PointMass};
+use crate::beams::{BodyDynamics, Mesh, Place, Station};
+use crate::geometry::GeometryError;
+use crate::loads::{Load, Schedule};
+use crate::model::ModelError;
+
+/// An element of a scene: something with mass on a body, or something that puts forces on bodies.
+///
+/// A further kind is a variant, and a file in `model/elements` with its [`Description`] and its [`ForceElement`].
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub enum Element {
+    /// A mass at a station.
+    PointMass(PointMass),
+    /// A force, a moment or a force per length that follows a schedule.
+    Load(Load),
+}
+
+impl Element {
+    /// What every kind of element can be asked.
+    pub(in crate::model) fn description(&self) -> &dyn Description {
+        match self {
+            Self::PointMass(mass) => mass,
+            Self::Load(load) => load,
+        }
+    }
+}
+
+/// A kind of element as it is described.
+pub trait Description {
+    /// Checks its numbers and its stations.
+    ///
+    /// # Errors
+    /// When a number is out of its range, or a station is none of the scene.
+    fn check(&self, setting: &dyn Setting) -> Result<(), ModelError>;
+
+    /// Stations at which it needs a node of the mesh.
+    fn nodes(&self) -> Vec<Station> {
+        Vec::new()
+    }
+
+    /// The schedule that it follows, with its name; steps end where a schedule jumps or bends.
+    fn schedule(&self) -> Option<(&str, &Schedule)> {
+        None
+    }
+
+    /// What it is in a model.
+    ///
+    /// # Errors
+    /// When it cannot act where it is.
+    fn build(&self, site: &dyn Site) -> Result<Assembled, ModelError>;
+}
+
+/// What becomes of an element in a model.
+pub enum Assembled {
+    /// A part of the inertia.
+    Mass(Lump),
+    /// Forces on bodies.
+    Force(Box<dyn ForceElement>),
+}
+
+/// What the check of an element may ask of its scene.
+pub trait Setting {
+    /// A station in words.
+    fn describe(&self, station: &Station) -> String;
+
+    /// Refuses a station that is none of the scene; `object` is what is there, in words.
+    ///
+    /// # Errors
+    /// When there is no such body, or the station lies outside its beam.
+    fn check_station(&self, object: &'static str, station: &Station) -> Result<(), ModelError>;
+}
+
+/// What an element may ask of the model that it is built into.
+pub trait Site {
+    /// The place of a station on the mesh of its body.
+    ///
+    /// # Errors
+    /// When it lies outside its beam.
+    fn place(&self, station: &Station) -> Result<Place, ModelError>;
+
+    /// The place of a beam at a parameter of its mesh.
+    ///
+    /// # Errors
+    /// When it lies outside the mesh.
+    fn place_at(&self, beam: usize, parameter: f64) -> Result<Place, ModelError>;
+
+    /// The mesh of a beam.
+    fn mesh(&self, beam: usize) -> &Mesh;
+
+    /// A body at its start: beams come first, then particles.
+    fn body(&self, index: usize) -> &dyn BodyDynamics;
+
+    /// An error of geometry as one of a beam.
+    fn wrong(&self, beam: usize, error: GeometryError) -> ModelError;
+}

@@ -1,0 +1,21 @@
+//! What acts on the bodies: point masses, weight, loads and supports. A further kind of element is a file here and a variant of
+//! [`Element`].
+
+mod all;
+mod element;
+mod exchange;
+mod follower;
+mod force_element;
+mod load;
+mod pattern;
+mod point_mass;
+mod supports;
+mod weight;
+
+pub use all::Elements;
+pub use element::{Element, Setting, Site};
+pub use exchange::Exchange;
+pub use force_element::{ForceElement, Iterate, collocation};
+pub use point_mass::PointMass;
+pub use supports::{Support, Supports};
+pub use weight::Weight;

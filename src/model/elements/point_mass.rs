@@ -1,0 +1,111 @@
+//! Point masses.
+
+use serde::{Deserialize, Serialize};
+
+use super::element::{Assembled, Description, Setting, Site};
+use crate::beams::{Place, Station};
+use crate::geometry::{Vec2, cross};
+use crate::model::ModelError;
+use crate::model::bodies::{Body, Momenta};
+
+/// A mass at a station.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PointMass {
+    /// Where it is.
+    pub station: Station,
+    /// How heavy it is [mass].
+    pub mass: f64,
+    /// Its inertia against rotation [mass·length²].
+    pub rotary_inertia: f64,
+}
+
+impl Description for PointMass {
+    fn check(&self, setting: &dyn Setting) -> Result<(), ModelError> {
+        setting.check_station("a mass", &self.station)?;
+        let Self { station, mass, rotary_inertia } = self;
+        let object = || format!("mass at {}", setting.describe(station));
+        let refused = |name, value, allowed| {
+            Err(ModelError::Value { object: object(), name, value, allowed })
+        };
+        if !(mass.is_finite() && *mass > 0.0) {
+            return refused("mass", *mass, "a positive finite number [mass]");
+        }
+        if !(rotary_inertia.is_finite() && *rotary_inertia >= 0.0) {
+            let allowed = "zero or a positive finite number [mass·length²]";
+            return refused("rotary inertia", *rotary_inertia, allowed);
+        }
+        if *rotary_inertia > 0.0 && station.beam().is_none() {
+            let advice = "leave out the rotary inertia";
+            return Err(ModelError::ParticleTurned { object: object(), advice });
+        }
+        Ok(())
+    }
+
+    fn build(&self, site: &dyn Site) -> Result<Assembled, ModelError> {
+        let Self { mass, rotary_inertia, .. } = *self;
+        Ok(Assembled::Mass(Lump { place: site.place(&self.station)?, mass, rotary_inertia }))
+    }
+}
+
+/// A mass at a place of a body: it moves with the control points whose functions are non-zero there.
+#[derive(Debug, Clone, Copy)]
+pub struct Lump {
+    pub place: Place,
+    pub mass: f64,
+    pub rotary_inertia: f64,
+}
+
+impl Lump {
+    fn inertia(&self) -> [f64; 3] {
+        [self.mass, self.mass, self.rotary_inertia]
+    }
+
+    /// Adds `factor · M · rates`.
+    pub fn add_inertia(&self, bodies: &[Body], factor: f64, rates: &[f64], out: &mut [f64]) {
+        let body = &bodies[self.place.body];
+        let rate = body.at(&self.place, rates);
+        for (point, weight) in self.place.weights() {
+            for ((&at, inertia), rate) in
+                body.degrees_of_freedom[point].iter().zip(self.inertia()).zip(rate)
+            {
+                out[at] += factor * weight * inertia * rate;
+            }
+        }
+    }
+
+    /// Gives `factor · M` to `add`: row, column and value; several of one place add up.
+    pub fn inertia_entries(
+        &self,
+        bodies: &[Body],
+        factor: f64,
+        unknowns: usize,
+        add: &mut impl FnMut(usize, usize, f64),
+    ) {
+        let body = &bodies[self.place.body];
+        for (a, weight_a) in self.place.weights() {
+            for (b, weight_b) in self.place.weights() {
+                let degrees = body.degrees_of_freedom[a].iter().zip(&body.degrees_of_freedom[b]);
+                for ((&row, &column), inertia) in degrees.zip(self.inertia()) {
+                    if row < unknowns && column < unknowns {
+                        add(row, column, factor * weight_a * weight_b * inertia);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Momenta and twice the kinetic energy.
+    pub fn momenta(&self, bodies: &[Body], rates: &[f64]) -> Momenta {
+        let body = &bodies[self.place.body];
+        let [vx, vy, spin] = body.at(&self.place, rates);
+        let velocity = Vec2::new(vx, vy);
+        let linear = velocity * self.mass;
+        let at = self.place.interpolate(body.dynamics.control_points());
+        let turning = self.rotary_inertia * spin;
+        Momenta {
+            twice_kinetic: linear.dot(&velocity) + turning * spin,
+            linear,
+            angular: cross(at, linear) + turning,
+        }
+    }
+}

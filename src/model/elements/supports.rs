@@ -1,0 +1,78 @@
+//! What supports give.
+
+use super::Exchange;
+use crate::geometry::{Vec2, cross};
+use crate::joints::Component;
+use crate::model::bodies::Body;
+
+/// A supported degree of freedom: the body, its control point and the component that does not move.
+#[derive(Debug, Clone, Copy)]
+pub struct Support {
+    pub body: usize,
+    pub point: usize,
+    pub component: Component,
+}
+
+impl Support {
+    /// A reaction as a force and a moment.
+    fn reaction(&self, reaction: f64) -> (Vec2, f64) {
+        match self.component {
+            Component::X => (Vec2::new(reaction, 0.0), 0.0),
+            Component::Y => (Vec2::new(0.0, reaction), 0.0),
+            Component::Rotation => (Vec2::zeros(), reaction),
+        }
+    }
+}
+
+/// The supports of a model, in the order of their degrees of freedom, which stand last of all.
+pub struct Supports(Vec<Support>);
+
+impl Supports {
+    /// In the order of their degrees of freedom.
+    pub fn new(all: Vec<Support>) -> Self {
+        Self(all)
+    }
+
+    /// How many degrees of freedom are held.
+    pub fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    /// All of them.
+    pub fn iter(&self) -> impl Iterator<Item = &Support> {
+        self.0.iter()
+    }
+
+    /// The supports with their reactions, which are the last entries of a residual.
+    fn with_reactions<'a>(
+        &'a self,
+        residual: &'a [f64],
+    ) -> impl Iterator<Item = (&'a Support, f64)> {
+        let first = residual.len() - self.0.len();
+        self.0.iter().zip(residual[first..].iter().copied())
+    }
+
+    /// What they give in such a time with the reactions of a residual.
+    pub fn exchange(&self, bodies: &[Body], residual: &[f64], duration: f64) -> Exchange {
+        let mut sum = Exchange::default();
+        for (support, reaction) in self.with_reactions(residual) {
+            let at = bodies[support.body].dynamics.control_points()[support.point];
+            let (force, moment) = support.reaction(reaction);
+            let angular = (cross(at, force) + moment) * duration;
+            sum += Exchange::of(0.0, force * duration, angular);
+        }
+        sum
+    }
+
+    /// The force [force] and the moment [force·length] on some nodes, bodies and control points, with the reactions of a residual; none
+    /// where nothing is held.
+    pub fn force_on(&self, nodes: &[(usize, usize)], residual: &[f64]) -> Option<(Vec2, f64)> {
+        let is_there = |support: &Support| nodes.contains(&(support.body, support.point));
+        let mut held = self.with_reactions(residual).filter(|(at, _)| is_there(at)).peekable();
+        held.peek()?;
+        Some(held.fold((Vec2::zeros(), 0.0), |(force, moment), (support, reaction)| {
+            let (by, turning) = support.reaction(reaction);
+            (force + by, moment + turning)
+        }))
+    }
+}

@@ -1,0 +1,65 @@
+//! The weight of everything.
+
+use super::pattern::Pattern;
+use super::point_mass::Lump;
+use super::{Exchange, ForceElement, Iterate};
+use crate::beams::{BodyDynamics, Section};
+use crate::geometry::Vec2;
+use crate::integrators::Method;
+use crate::model::bodies::Body;
+
+/// The weight of beams and point masses: constant forces, with a potential of their own.
+pub struct Weight {
+    gravity: Vec2,
+    forces: Pattern,
+}
+
+impl Weight {
+    /// That of beams with their sections, in a field of gravity [length/time²].
+    pub fn new<'a>(
+        gravity: Vec2,
+        beams: impl Iterator<Item = (&'a dyn BodyDynamics, &'a Section)>,
+    ) -> Self {
+        let mut forces = Pattern::default();
+        for (index, (beam, section)) in beams.enumerate() {
+            for (point, length) in beam.lumped_lengths().into_iter().enumerate() {
+                let force = gravity * (length * section.mass_per_length);
+                forces.push(index, point, [force.x, force.y, 0.0]);
+            }
+        }
+        Self { gravity, forces }
+    }
+
+    /// Adds that of a point mass.
+    pub fn add(&mut self, mass: &Lump) {
+        for (point, share) in mass.place.weights() {
+            let force = self.gravity * (share * mass.mass);
+            self.forces.push(mass.place.body, point, [force.x, force.y, 0.0]);
+        }
+    }
+}
+
+impl ForceElement for Weight {
+    fn name(&self) -> &str {
+        "gravity"
+    }
+
+    fn subtract_from(&mut self, at: Iterate<'_>, out: &mut [f64]) -> (f64, f64) {
+        self.forces.subtract_from(at, at.weight, out);
+        self.forces.largest(1.0)
+    }
+
+    /// Its work is the change of the potential.
+    fn exchange(&self, bodies: &[Body], duration: f64) -> Exchange {
+        Exchange { work: 0.0, ..self.forces.exchange(bodies, 1.0, duration) }
+    }
+
+    fn energy(&self, bodies: &[Body]) -> Option<f64> {
+        Some(-self.forces.potential_work(bodies))
+    }
+
+    fn explain(&self, _methods: &[Method]) -> String {
+        let (x, y) = (self.gravity.x, self.gravity.y);
+        format!("({x}, {y}): a constant weight, and a potential energy")
+    }
+}

@@ -1,0 +1,9 @@
+//! Looking at a model: where it is, how it moves, and what it uses.
+
+mod explain;
+mod placement;
+mod queries;
+mod sliders;
+
+pub use explain::{Part, Usage};
+pub use placement::{Distance, Placement};

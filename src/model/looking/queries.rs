@@ -1,0 +1,68 @@
+//! Looking at a model: places, velocities and angles.
+
+use crate::beams::{Mesh, Place, Station};
+use crate::geometry::Vec2;
+use crate::integrators::Mechanism;
+use crate::model::bodies::Body;
+use crate::model::{Model, Scene};
+
+impl Model {
+    /// The meshes of the beams, with breaks where joints are.
+    pub fn meshes(&self) -> &[Mesh] {
+        self.bodies().meshes()
+    }
+
+    /// The control points of all bodies: beams first, then particles [length].
+    pub fn control_points(&self) -> impl Iterator<Item = &[Vec2]> {
+        self.bodies().iter().map(|body| body.dynamics.control_points())
+    }
+
+    /// Where a place is [length].
+    pub fn position(&self, place: &Place) -> Vec2 {
+        self.bodies().position(place)
+    }
+
+    /// How fast a place moves [length/time].
+    pub fn velocity(&self, place: &Place) -> Vec2 {
+        let [x, y, _] = self.bodies()[place.body].at(place, self.rates());
+        Vec2::new(x, y)
+    }
+
+    /// The angle of the section at a station, unwrapped [rad]; none when the scene did not know it at the start.
+    pub fn angle(&self, scene: &Scene, station: &Station) -> Option<f64> {
+        let beam = station.beam()?;
+        let section = if station.arc_length == 0.0 {
+            2 * beam
+        } else if station.arc_length == scene.beams[beam].axis.length() {
+            2 * beam + 1
+        } else {
+            let known = scene.stations.iter().position(|other| other == station)?;
+            2 * scene.beams.len() + known
+        };
+        self.bodies().angle(section)
+    }
+
+    /// The angles of the sections at the start and the end of a beam, unwrapped [rad].
+    pub fn end_angles(&self, beam: usize) -> (f64, f64) {
+        let angle = |section| self.bodies().angle(section).unwrap_or(f64::NAN);
+        (angle(2 * beam), angle(2 * beam + 1))
+    }
+
+    /// Which unknown movements are rotations.
+    pub fn rotations(&self) -> &[bool] {
+        self.unknown_movements().rotations()
+    }
+
+    /// The displacements of the control points of all bodies in a movement [length].
+    pub fn displacements(&self, movements: &[f64]) -> Vec<Vec<Vec2>> {
+        let of_body = |body: &Body| {
+            (0..body.degrees_of_freedom.len()).map(|at| body.vector_at(at, movements)).collect()
+        };
+        self.bodies().iter().map(of_body).collect()
+    }
+
+    /// The first load that turns with a section, which has no potential.
+    pub fn follower(&self) -> Option<&str> {
+        self.elements().forces().find(|element| element.turns()).map(|element| element.name())
+    }
+}

@@ -1,0 +1,68 @@
+//! Looking at the sliders of a model.
+
+use crate::geometry::Vec2;
+use crate::integrators::Mechanism;
+use crate::joints::EndAction;
+use crate::model::Model;
+use crate::model::sliders::{SliderState, TrackLimit};
+
+impl Model {
+    /// The names of the sliders, in the order of the scene.
+    pub fn slider_names(&self) -> impl Iterator<Item = &str> {
+        self.sliders().iter().map(|slider| slider.name.as_str())
+    }
+
+    /// What a slider does.
+    pub fn slider_state(&self, slider: usize) -> SliderState {
+        self.slider(slider).state
+    }
+
+    /// The most spans of its master that a slider passed in a step so far [-].
+    pub fn most_spans(&self, slider: usize) -> f64 {
+        self.slider(slider).most_spans
+    }
+
+    /// How many times as long as its blow a step was, at the bounce of a slider where that is most; zero where nothing gave way [-].
+    pub fn blows_in_a_step(&self, slider: usize) -> f64 {
+        self.slider(slider).blows_in_a_step
+    }
+
+    /// The force that a slider put on its master in the last step, the mean of the step [force]; the slave got the opposite.
+    ///
+    /// Zero before the first step and after a release.
+    pub fn contact_force(&self, slider: usize) -> Vec2 {
+        self.slider(slider).unknowns.force
+    }
+
+    /// The place of a slider along its master as drawn: 0 at its start, 1 at its end [-].
+    pub fn slider_position(&self, slider: usize) -> f64 {
+        self.slider(slider).position()
+    }
+
+    /// How far a slider is from the start of its master, as drawn [length].
+    pub fn slider_arc_length(&self, slider: usize) -> f64 {
+        self.slider(slider).arc_length()
+    }
+
+    /// How much of its master, as drawn, a slider passes in a unit of time, positive towards its end [length/time].
+    ///
+    /// That of the present velocities; zero for one that is held or released.
+    pub fn slider_speed(&self, slider: usize) -> f64 {
+        self.slider(slider).speed(self.bodies(), self.rates())
+    }
+
+    /// How far a slider is from a limit, as a part of the parameters of its master [-].
+    pub fn distance_to(&self, limit: TrackLimit) -> f64 {
+        self.slider(limit.slider).distance_to(limit.end)
+    }
+
+    /// Whether a slider is at a limit.
+    pub fn is_at(&self, limit: TrackLimit) -> bool {
+        self.slider(limit.slider).is_at(limit.end)
+    }
+
+    /// What a slider is to do at the ends of its master.
+    pub fn end_action(&self, slider: usize) -> EndAction {
+        self.slider(slider).ends
+    }
+}

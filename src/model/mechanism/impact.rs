@@ -1,0 +1,143 @@
+//! Impulses at sliders: consistent start velocities, and bounces off the ends of a master.
+//!
+//! An impulse `P` at a contact changes the velocities by `M (v⁺ - v⁻) = Gᵀ P`, `G v` being the velocity of the slave relative
+//! to its place on the master. Where the contact is closed, linear and angular momentum stay;
+//! a gap of the relaxed rule costs angular momentum.
+
+use super::Model;
+use crate::geometry::Vec2;
+use crate::integrators::{Inertia, Mechanism};
+use crate::linalg::{BandedLu, BandedMatrix, LinearError};
+use crate::model::ModelError;
+use crate::model::sliders::Blow;
+
+/// What moves by less than this part of the change of relative velocity is held.
+const GIVES: f64 = 1e-9;
+
+/// A slider, and the component of its relative velocity on which an impulse acts.
+type Direction = (usize, Vec2);
+
+/// What a unit impulse transmits, and how the velocities answer.
+struct Answer {
+    /// `Gᵀ`, on all degrees of freedom.
+    forces: Vec<f64>,
+    /// `M⁻¹ Gᵀ`, of the unknowns.
+    rates: Vec<f64>,
+}
+
+impl Model {
+    /// Takes away the velocities across all masters, by the impulses that change least (Gauss's principle of least constraint).
+    ///
+    /// # Errors
+    /// When the impulses are not determined.
+    pub(in crate::model) fn project_velocities(&mut self) -> Result<(), ModelError> {
+        let impulses = self.strike(&self.across(), -1.0);
+        impulses.map(|_| ()).map_err(|_| self.sliders.overdetermined())
+    }
+
+    /// A slider bounces off the end of its master, as off an elastic stop: all velocities relative to masters are reversed in
+    /// the directions that transmit forces, which keeps the energy (`P·(G v⁺ + G v⁻) = 0`).
+    ///
+    /// Tells what the two set against it: waves run from what gave way.
+    ///
+    /// # Errors
+    /// When the impulse is not determined.
+    pub fn bounce(&mut self, slider: usize) -> Result<Blow, ModelError> {
+        let directions = self.sliders.directions(&self.bodies, slider);
+        // Behind that across the master.
+        let of_blow = directions.iter().rposition(|(other, _)| *other == slider);
+        let along = self.sliders[slider].along(&self.bodies);
+        let before = self.speeds(slider, along);
+        let impulses = self.strike(&directions, -2.0);
+        let impulses = impulses.map_err(|_| self.sliders.overdetermined())?;
+        let after = self.speeds(slider, along);
+        let impulse = of_blow.map_or(0.0, |at| impulses[at].abs());
+        let changes = [(after.0 - before.0).abs(), (after.1 - before.1).abs()];
+        let least = GIVES * (changes[0] + changes[1]);
+        let [slave, master] = changes.map(|change| (change > least).then(|| impulse / change));
+        Ok(Blow { slave, master })
+    }
+
+    /// Takes down how many times as long as a blow at the end of a master the steps are [time].
+    pub fn note_blow(&mut self, slider: usize, blow: Blow, dt: f64) {
+        self.sliders[slider].note_blow(&self.bodies, blow, dt);
+    }
+
+    /// How fast a slave and its place on the master move in a direction [length/time].
+    fn speeds(&self, slider: usize, unit: Vec2) -> (f64, f64) {
+        let (slider, rates) = (&self.sliders[slider], &self.motion.rates);
+        let (slave, relative) = (
+            slider.slave_velocity(&self.bodies, rates),
+            slider.relative_velocity(&self.bodies, rates),
+        );
+        (slave.dot(&unit), (slave - relative).dot(&unit))
+    }
+
+    /// The speed of the fastest control point [length/time].
+    pub(in crate::model) fn fastest_speed(&self) -> f64 {
+        self.bodies.fastest_speed(&self.motion.rates)
+    }
+
+    /// How fast a slave moves across its master [length/time].
+    pub(in crate::model) fn speed_across(&self, slider: usize) -> f64 {
+        let slider = &self.sliders[slider];
+        slider.across(&self.bodies).dot(&slider.relative_velocity(&self.bodies, &self.motion.rates))
+    }
+
+    /// The directions across all masters.
+    fn across(&self) -> Vec<Direction> {
+        self.sliders.iter().map(|slider| slider.across(&self.bodies)).enumerate().collect()
+    }
+
+    fn answers(&self, inertia: &BandedLu<'_>, directions: &[Direction]) -> Vec<Answer> {
+        let answer = |(slider, unit): &Direction| {
+            let mut forces = vec![0.0; self.degrees_of_freedom()];
+            self.sliders[*slider].transmit(&self.bodies, *unit, &mut forces);
+            let mut rates = forces[..self.unknowns()].to_vec();
+            inertia.solve(&mut rates);
+            Answer { forces, rates }
+        };
+        directions.iter().map(answer).collect()
+    }
+
+    /// Changes the components of the relative velocities by `factor` times themselves, by impulses at the sliders, which it tells.
+    fn strike(&mut self, directions: &[Direction], factor: f64) -> Result<Vec<f64>, LinearError> {
+        let count = directions.len();
+        let mut inertia = self.banded_inertia();
+        let answers = self.answers(&inertia.factorise()?, directions);
+        let mut response = BandedMatrix::zeros(count, count.saturating_sub(1));
+        for (row, Answer { forces, .. }) in answers.iter().enumerate() {
+            for (column, Answer { rates, .. }) in answers.iter().enumerate() {
+                response.add(row, column, product(rates, forces));
+            }
+        }
+        let wanted = |answer: &Answer| factor * product(&self.motion.rates, &answer.forces);
+        let mut impulses: Vec<f64> = answers.iter().map(wanted).collect();
+        response.factorise()?.solve(&mut impulses);
+
+        let mut change = vec![0.0; self.unknowns()];
+        let mut residual = vec![0.0; self.degrees_of_freedom()];
+        for (impulse, Answer { forces, rates }) in impulses.iter().zip(&answers) {
+            change.iter_mut().zip(rates).for_each(|(change, rate)| *change += impulse * rate);
+            residual.iter_mut().zip(forces).for_each(|(out, force)| *out -= impulse * force);
+        }
+        // What is left of `M (v⁺ - v⁻) - Gᵀ P` at supports is their impulse.
+        self.add_inertia(1.0, &change, &mut residual);
+        self.motion.jump(&change);
+        self.exchanged += self.supports.exchange(&self.bodies, &residual, 1.0);
+        Ok(impulses)
+    }
+
+    /// How velocities across the masters answer to unit impulses across them: `G M⁻¹ Gᵀ`.
+    pub(in crate::model) fn response_across(&self) -> Result<Vec<Vec<f64>>, LinearError> {
+        let mut inertia = self.banded_inertia();
+        let answers = self.answers(&inertia.factorise()?, &self.across());
+        let row = |rates| answers.iter().map(|other| product(rates, &other.forces)).collect();
+        Ok(answers.iter().map(|answer| row(&answer.rates)).collect())
+    }
+}
+
+/// Of as many entries as the shorter one has.
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

@@ -1,0 +1,82 @@
+//! The model without inertia: what balances at rest, and how it resists small movements.
+//!
+//! Movements are counted from the present configuration; rotations are increments of the angle itself, for which the stiffness
+//! is the Hessian of the potential energy.
+
+use super::Model;
+use crate::beams::{Place, RotationIncrement};
+use crate::geometry::{Vec2, larger};
+use crate::integrators::Stage;
+use crate::linalg::BandedMatrix;
+
+/// The largest of the forces that meet at rest.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StaticForces {
+    /// The largest force: in a section, or of a load [force].
+    pub force: f64,
+    /// The largest moment: in a section, or of a load [force·length].
+    pub moment: f64,
+    /// The largest mismatch between the strain of a section force and that of the configuration [-].
+    pub strain_mismatch: f64,
+}
+
+impl Model {
+    /// Takes the section forces of the last movement for a start of the next.
+    pub fn begin_movement(&mut self) {
+        self.bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
+    }
+
+    /// Adds the internal forces minus `load_factor` times the loads, with the section forces as they are.
+    pub fn add_static_forces(
+        &mut self,
+        movements: &[f64],
+        load_factor: f64,
+        out: &mut [f64],
+    ) -> StaticForces {
+        let summary = self.add_internal_forces(Stage::End, movements, 1.0, out);
+        let (force, moment) = self.subtract_static_loads(movements, load_factor, out);
+        StaticForces {
+            force: larger(summary.force, load_factor.abs() * force),
+            moment: larger(summary.moment, load_factor.abs() * moment),
+            strain_mismatch: summary.strain_mismatch,
+        }
+    }
+
+    /// Adds the condensed internal forces minus `load_factor` times the loads, and their derivative by the movements.
+    pub fn add_linearised_static_forces(
+        &mut self,
+        movements: &[f64],
+        load_factor: f64,
+        out: &mut [f64],
+        tangent: &mut BandedMatrix,
+    ) {
+        self.add_linearised(Stage::End, movements, (1.0, load_factor), out, tangent);
+    }
+
+    /// Subtracts `load_factor` times the loads and the weight; returns the largest force and moment of a whole load on a
+    /// control point.
+    pub fn subtract_static_loads(
+        &mut self,
+        movements: &[f64],
+        load_factor: f64,
+        out: &mut [f64],
+    ) -> (f64, f64) {
+        self.subtract_loads(Stage::End, movements, load_factor, out)
+    }
+
+    /// Moves everything, and leaves it at rest there.
+    pub fn move_by(&mut self, movements: &[f64]) {
+        self.bodies.gather(movements);
+        self.elements.advance(&self.bodies, RotationIncrement::Angle);
+        self.bodies.advance(RotationIncrement::Angle);
+        self.motion.rates.fill(0.0);
+    }
+
+    /// The forces of the supports on the scene at a place, from forces at rest: force [force] and moment [force·length]; none where
+    /// nothing is held.
+    ///
+    /// Where several bodies are tied to the place, the supports hold all of them.
+    pub fn support_force(&self, place: &Place, forces: &[f64]) -> Option<(Vec2, f64)> {
+        self.supports.force_on(&self.bodies.tied_nodes(place)?, forces)
+    }
+}

@@ -1,0 +1,202 @@
+//! The model as integrators see it: a mechanism.
+
+use super::Model;
+use crate::beams::ForceSummary;
+use crate::geometry::larger;
+use crate::integrators::{
+    Accelerated, Cause, Checkpoint, Constraints, Forces, Interval, Mechanism, Overshoot, Solution,
+    Stage, StepError,
+};
+use crate::linalg::{BandedMatrix, Border, BorderShape};
+use crate::model::elements::{Exchange, Iterate, collocation};
+
+impl Model {
+    /// Adds what the bodies resist with; the largest that was met.
+    pub(super) fn add_internal_forces(
+        &mut self,
+        stage: Stage,
+        increments: &[f64],
+        weight: f64,
+        out: &mut [f64],
+    ) -> ForceSummary {
+        let mut summary = ForceSummary::default();
+        for body in self.bodies.iter_mut() {
+            summary.join(&body.add_forces(collocation(stage), increments, weight, out));
+        }
+        summary
+    }
+
+    /// Subtracts the forces of the elements; the largest force and the largest moment of one on a control point.
+    pub(super) fn subtract_loads(
+        &mut self,
+        stage: Stage,
+        increments: &[f64],
+        weight: f64,
+        out: &mut [f64],
+    ) -> (f64, f64) {
+        let at = Iterate { bodies: &self.bodies, stage, increments, weight };
+        self.elements.subtract_from(at, out)
+    }
+
+    /// Adds what the bodies resist with, condensed, and minus `share` times what the elements give, with the derivatives.
+    pub(super) fn add_linearised(
+        &mut self,
+        stage: Stage,
+        increments: &[f64],
+        (weight, share): (f64, f64),
+        out: &mut [f64],
+        tangent: &mut BandedMatrix,
+    ) {
+        for body in self.bodies.iter_mut() {
+            body.add_linearised_forces(collocation(stage), increments, weight, out, tangent);
+        }
+        self.subtract_loads(stage, increments, share, out);
+        let at = Iterate { bodies: &self.bodies, stage, increments, weight: share };
+        self.elements.add_tangent(at, self.unknowns.count(), tangent);
+    }
+
+    fn exchange_in_step(&self, residual: &[f64]) -> Exchange {
+        let duration = self.step.interval.duration();
+        let mut sum = self.elements.exchange(&self.bodies, duration);
+        sum += self.supports.exchange(&self.bodies, residual, duration);
+        if duration < 0.0 { sum.taken_back() } else { sum }
+    }
+}
+
+impl Forces for Model {
+    fn add_forces(
+        &mut self,
+        stage: Stage,
+        increments: &[f64],
+        weight: f64,
+        out: &mut [f64],
+    ) -> f64 {
+        let summary = self.add_internal_forces(stage, increments, weight, out);
+        self.step.loads = self.subtract_loads(stage, increments, weight, out);
+        self.step.summary = summary;
+        self.step.rotations = collocation(stage).rotations;
+        summary.strain_mismatch
+    }
+
+    fn add_linearised_forces(
+        &mut self,
+        stage: Stage,
+        increments: &[f64],
+        weight: f64,
+        out: &mut [f64],
+        tangent: &mut BandedMatrix,
+    ) {
+        self.add_linearised(stage, increments, (weight, weight), out, tangent);
+    }
+
+    fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]) {
+        self.bodies.iter_mut().for_each(|body| body.add_mismatch_forces(weight, out));
+    }
+
+    fn correct_section_forces(&mut self, correction: &[f64]) {
+        self.bodies.iter_mut().for_each(|body| body.correct_section_forces(correction));
+    }
+
+    fn relative_imbalance(&self, residual: &[f64]) -> f64 {
+        let (force, moment) = self.unknowns.largest(residual);
+        larger(self.step.relative_force(force), self.step.relative_moment(moment))
+    }
+
+    fn largest_rotation(&self) -> f64 {
+        self.step.summary.rotation
+    }
+}
+
+impl Constraints for Model {
+    fn constraint_shape(&self) -> BorderShape {
+        self.sliders.border()
+    }
+
+    fn predict_constraints(&mut self, interval: Interval, unknowns: &mut [f64]) {
+        self.sliders.predict(&self.bodies, &self.motion.rates, interval, unknowns);
+    }
+
+    fn add_constraints(&mut self, increments: &[f64], unknowns: &[f64], out: &mut [f64]) {
+        self.step.contact = self.sliders.add(&self.bodies, increments, unknowns, out);
+    }
+
+    fn add_linearised_constraints(
+        &mut self,
+        increments: &[f64],
+        unknowns: &[f64],
+        out: &mut [f64],
+        border: &mut Border,
+    ) {
+        self.sliders.add_linearised(&self.bodies, increments, unknowns, out, border);
+    }
+
+    fn relative_violation(&self, residual: &[f64]) -> f64 {
+        let equations = &residual[self.unknowns.count()..];
+        self.sliders.violation(equations, |force| self.step.relative_force(force))
+    }
+
+    fn check_constraints(&self, unknowns: &[f64]) -> Result<(), Overshoot> {
+        self.sliders.check(unknowns, self.step.interval.ending())
+    }
+
+    fn shortest_chord(&self) -> f64 {
+        self.sliders.shortest_chord()
+    }
+}
+
+impl Mechanism for Model {
+    fn unknowns(&self) -> usize {
+        self.unknowns.count()
+    }
+
+    fn degrees_of_freedom(&self) -> usize {
+        self.unknowns.count() + self.sliders.border().width + self.supports.count()
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        self.unknowns.half_bandwidth()
+    }
+
+    fn rates(&self) -> &[f64] {
+        &self.motion.rates
+    }
+
+    fn expected_rates(&self) -> &[f64] {
+        self.motion.expected_rates()
+    }
+
+    fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), StepError> {
+        let Self { bodies, elements, motion, step, unknowns, .. } = self;
+        elements.begin_step(interval, stages).map_err(|(load, error)| StepError::Load {
+            interval,
+            load,
+            source: Cause::new(error),
+        })?;
+        bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
+        let knows_accelerations = motion.accelerations.known().is_some();
+        step.begin(interval, knows_accelerations && elements.may_jump_at(interval.start));
+        let (factor, inertia) = (2.0 / interval.duration(), step.no_forces());
+        bodies.add_inertia(factor, &motion.rates, inertia);
+        elements.add_inertia(bodies, factor, &motion.rates, inertia);
+        step.inertia = unknowns.largest(inertia);
+        Ok(())
+    }
+
+    fn advance(&mut self, solution: &Solution<'_>) {
+        let Solution { increments, constraints, rates, residual } = *solution;
+        self.bodies.gather(increments);
+        self.exchanged += self.exchange_in_step(residual);
+        self.elements.advance(&self.bodies, self.step.rotations);
+        self.bodies.advance(self.step.rotations);
+        self.sliders.advance(&self.bodies, constraints, self.step.interval.ending());
+        self.motion.advance(&self.step, increments, rates);
+    }
+
+    fn checkpoint(&mut self) -> &mut dyn Checkpoint {
+        self
+    }
+
+    fn accelerated(&mut self) -> &mut dyn Accelerated {
+        self
+    }
+}

@@ -1,0 +1,75 @@
+//! Accelerations, for methods whose state they are a part of.
+
+/// The accelerations of the unknowns at the start of a step; no numbers at all where no method asks for them.
+#[derive(Debug, Clone, Default)]
+pub struct Accelerations {
+    values: Vec<f64>,
+    are_known: bool,
+}
+
+impl Accelerations {
+    /// Takes room for so many, not known yet.
+    pub fn keep(&mut self, unknowns: usize) {
+        *self = Self { values: vec![0.0; unknowns], are_known: false };
+    }
+
+    pub fn known(&self) -> Option<&[f64]> {
+        self.are_known.then_some(&self.values)
+    }
+
+    pub fn set(&mut self, values: &[f64]) {
+        if !self.values.is_empty() {
+            self.values.copy_from_slice(values);
+            self.are_known = true;
+        }
+    }
+
+    /// What holds no longer after a sudden change.
+    pub fn forget(&mut self) {
+        self.values.fill(0.0);
+        self.are_known = false;
+    }
+
+    /// Whether there are any, and they are known.
+    pub fn are_known(&self) -> bool {
+        self.are_known
+    }
+
+    pub fn save(&self, numbers: &mut Vec<f64>) {
+        numbers.extend(&self.values);
+    }
+
+    pub fn restore(&mut self, are_known: bool, next: &mut dyn FnMut() -> f64) {
+        self.are_known = are_known && !self.values.is_empty();
+        self.values.iter_mut().for_each(|value| *value = next());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn where_nobody_asks_for_them_they_are_no_part_of_the_state() {
+        let mut accelerations = Accelerations::default();
+        accelerations.set(&[1.0]);
+        let mut state = Vec::new();
+        accelerations.save(&mut state);
+        assert_eq!((accelerations.known(), state.len()), (None, 0));
+    }
+
+    #[test]
+    fn they_are_known_from_when_they_are_set_to_when_they_are_forgotten() {
+        let mut accelerations = Accelerations::default();
+        accelerations.keep(2);
+        assert_eq!(accelerations.known(), None);
+        accelerations.set(&[1.0, -2.0]);
+        let mut state = Vec::new();
+        accelerations.save(&mut state);
+        accelerations.forget();
+        assert_eq!(accelerations.known(), None);
+        let mut numbers = state.into_iter();
+        accelerations.restore(true, &mut || numbers.next().unwrap());
+        assert_eq!(accelerations.known(), Some(&[1.0, -2.0][..]));
+    }
+}

@@ -1,0 +1,14 @@
+//! How a model moves: its rates, what its last steps tell of the next, and what is met in the present one.
+
+mod accelerations;
+mod forecast;
+mod present;
+mod resolution;
+mod step;
+mod unknowns;
+
+pub use forecast::Trend;
+pub use present::Motion;
+pub use resolution::Resolution;
+pub use step::Step;
+pub use unknowns::Unknowns;

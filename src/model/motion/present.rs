@@ -1,0 +1,81 @@
+//! The rates of a model, and what its last steps tell of the next.
+
+use super::accelerations::Accelerations;
+use super::forecast::{Forecast, Trend};
+use super::{Resolution, Step};
+
+/// The present time and rates of a model, and what was learnt of its motion.
+pub struct Motion {
+    /// The end of the last step [time].
+    pub time: f64,
+    /// Of the unknowns [length/time, 1/time].
+    pub rates: Vec<f64>,
+    pub accelerations: Accelerations,
+    forecast: Forecast,
+    resolution: Resolution,
+}
+
+impl Motion {
+    /// At t = 0 with these rates; motions below some energy are rounding [energy].
+    pub fn new(rates: Vec<f64>, noise: f64) -> Self {
+        Self {
+            time: 0.0,
+            forecast: Forecast::new(&rates, Vec::new()),
+            rates,
+            accelerations: Accelerations::default(),
+            resolution: Resolution::above(noise),
+        }
+    }
+
+    /// Guesses the first step from the present rates, in the norm of the diagonal of the inertia matrix.
+    pub fn begin(&mut self, inertia: Vec<f64>) {
+        self.forecast = Forecast::new(&self.rates, inertia);
+    }
+
+    /// The rates with which the movements of the next step may be guessed [length/time, 1/time].
+    pub fn expected_rates(&self) -> &[f64] {
+        self.forecast.rates(&self.rates)
+    }
+
+    /// How far the steps so far resolve the motion.
+    pub fn resolution(&self) -> &Resolution {
+        &self.resolution
+    }
+
+    /// Accepts the increments of a step and the rates at its end, and learns from them.
+    pub fn advance(&mut self, step: &Step, increments: &[f64], rates: &[f64]) {
+        let duration = step.interval.duration();
+        let missed = self.forecast.learn(&self.rates, increments, duration);
+        self.resolution.add(&missed, duration, step.summary.rotation, step.rotations);
+        self.rates.copy_from_slice(rates);
+        self.time = step.interval.end;
+    }
+
+    /// Takes over a sudden change of all rates.
+    pub fn jump(&mut self, change: &[f64]) {
+        self.rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
+        self.forecast.jump(change);
+        self.accelerations.forget();
+    }
+
+    /// What the next step is guessed from, which is no number.
+    pub fn trend(&self) -> Trend {
+        self.forecast.trend()
+    }
+
+    /// Appends time, rates and what was learnt in numbers; accelerations are saved by themselves.
+    pub fn save(&self, numbers: &mut Vec<f64>) {
+        numbers.push(self.time);
+        numbers.extend(&self.rates);
+        self.forecast.save(numbers);
+        self.resolution.save(numbers);
+    }
+
+    /// Takes these back, in the order in which they were appended.
+    pub fn restore(&mut self, trend: Trend, next: &mut dyn FnMut() -> f64) {
+        self.time = next();
+        self.rates.iter_mut().for_each(|rate| *rate = next());
+        self.forecast.restore(trend, next);
+        self.resolution.restore(next);
+    }
+}

@@ -1,0 +1,332 @@
+//! The editable description of what is simulated. Nothing is assembled here.
+
+use serde::{Deserialize, Serialize};
+
+use super::stored::StoredScene;
+use super::ties::check_ties;
+use super::{BeamDefinition, ParticleDefinition, StationVelocity};
+use crate::beams::{BodyIndex, Mesh, Place, Station};
+use crate::geometry::Vec2;
+use crate::joints::{Joint, JointKind, Partner, Slider};
+use crate::loads::{Load, LoadKind, Schedule};
+use crate::model::ModelError;
+use crate::model::elements::{Element, PointMass, Setting};
+use crate::model::words::{refusal, rounded};
+
+/// What is simulated: beams, particles, joints, masses and loads.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(try_from = "StoredScene")]
+pub struct Scene {
+    /// For messages and reports.
+    pub name: String,
+    /// In the order in which they were added.
+    pub beams: Vec<BeamDefinition>,
+    /// In the order in which they were added.
+    pub particles: Vec<ParticleDefinition>,
+    /// Places whose angle is followed, besides the ends of all beams.
+    pub stations: Vec<Station>,
+    /// Supports and joints between beams.
+    pub joints: Vec<Joint>,
+    /// Joints that slide.
+    pub sliders: Vec<Slider>,
+    /// Velocities of single nodes.
+    pub velocities: Vec<StationVelocity>,
+    /// Masses and loads, in the order in which they were added.
+    pub elements: Vec<Element>,
+    /// Acceleration of free fall [length/time²].
+    pub gravity: Vec2,
+}
+
+impl Scene {
+    /// The length of the longest beam, if there is one [length].
+    pub fn longest_beam(&self) -> Option<f64> {
+        self.beams.iter().map(|beam| beam.axis.length()).reduce(f64::max)
+    }
+
+    /// How far strain energies may be off by rounding: `ε Σ (EA L + EI/L)` [energy].
+    pub fn rounding_energy(&self) -> f64 {
+        let stiffness = self.beams.iter().map(|beam| {
+            let length = beam.axis.length();
+            beam.section.axial_stiffness * length + beam.section.bending_stiffness / length
+        });
+        f64::EPSILON * stiffness.sum::<f64>()
+    }
+
+    /// The mass of everything as it is drawn [mass].
+    pub fn mass(&self) -> f64 {
+        let beams: f64 = self.beams.iter().map(BeamDefinition::mass).sum();
+        beams + self.masses().map(|mass| mass.mass).sum::<f64>()
+    }
+
+    /// The speed of the fastest axial wave; zero where there are no beams [length/time].
+    pub(in crate::model) fn fastest_wave(&self) -> f64 {
+        let squares = self
+            .beams
+            .iter()
+            .map(|beam| beam.section.axial_stiffness / beam.section.mass_per_length);
+        squares.fold(0.0, f64::max).sqrt()
+    }
+
+    /// The joints that hold a beam.
+    pub fn joints_of(&self, beam: usize) -> impl Iterator<Item = &Joint> {
+        self.joints.iter().filter(move |joint| {
+            let other = match joint.partner {
+                Partner::Ground => None,
+                Partner::Station(other) => other.beam(),
+            };
+            joint.station.beam() == Some(beam) || other == Some(beam)
+        })
+    }
+
+    /// Point masses, those of particles among them, in the order in which they were added.
+    pub fn masses(&self) -> impl Iterator<Item = &PointMass> + Clone {
+        self.elements.iter().filter_map(|element| match element {
+            Element::PointMass(mass) => Some(mass),
+            _ => None,
+        })
+    }
+
+    /// Loads, in the order in which they were added.
+    pub fn loads(&self) -> impl Iterator<Item = &Load> + Clone {
+        self.elements.iter().filter_map(|element| match element {
+            Element::Load(load) => Some(load),
+            _ => None,
+        })
+    }
+
+    /// The schedules of elements, each with the name of its element.
+    pub fn schedules(&self) -> impl Iterator<Item = (&str, &Schedule)> {
+        self.elements.iter().filter_map(|element| element.description().schedule())
+    }
+
+    /// An empty scene.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            beams: Vec::new(),
+            particles: Vec::new(),
+            stations: Vec::new(),
+            joints: Vec::new(),
+            sliders: Vec::new(),
+            velocities: Vec::new(),
+            elements: Vec::new(),
+            gravity: Vec2::zeros(),
+        }
+    }
+
+    /// Adds a beam and returns its index.
+    ///
+    /// # Errors
+    /// When something of that name exists, or the name is empty or cannot be printed.
+    pub fn add_beam(&mut self, beam: BeamDefinition) -> Result<usize, ModelError> {
+        self.check_name("beam", &beam.name)?;
+        self.beams.push(beam);
+        Ok(self.beams.len() - 1)
+    }
+
+    /// Adds a particle and returns its station.
+    ///
+    /// # Errors
+    /// When something of that name exists, the name is empty or cannot be printed, or the mass is not positive and finite.
+    pub fn add_particle(
+        &mut self,
+        particle: ParticleDefinition,
+        mass: f64,
+    ) -> Result<Station, ModelError> {
+        self.check_name("particle", &particle.name)?;
+        self.particles.push(particle);
+        let station = Station::on_particle(self.particles.len() - 1);
+        self.add_mass(PointMass { station, mass, rotary_inertia: 0.0 }).inspect_err(|_| {
+            self.particles.pop();
+        })?;
+        Ok(station)
+    }
+
+    /// Adds a sliding joint and returns its index.
+    ///
+    /// # Errors
+    /// When something of that name exists, the slave is not on the master or part of it, or it slides there already.
+    pub fn add_slider(&mut self, slider: Slider) -> Result<usize, ModelError> {
+        self.check_name("slider", &slider.name)?;
+        self.check_slider(&slider)?;
+        self.sliders.push(slider);
+        Ok(self.sliders.len() - 1)
+    }
+
+    /// What everything with a name is, and its name.
+    fn names(&self) -> impl Iterator<Item = (&'static str, &String)> {
+        let beams = self.beams.iter().map(|beam| ("beam", &beam.name));
+        let particles = self.particles.iter().map(|particle| ("particle", &particle.name));
+        let sliders = self.sliders.iter().map(|slider| ("slider", &slider.name));
+        beams.chain(particles).chain(sliders)
+    }
+
+    pub(in crate::model) fn check_name(
+        &self,
+        new: &'static str,
+        name: &str,
+    ) -> Result<(), ModelError> {
+        if let Some(why) = refusal(name) {
+            return Err(ModelError::Unnamed { kind: new, name: name.to_owned(), why });
+        }
+        match self.names().find(|(_, other)| *other == name) {
+            Some((kind, _)) => Err(ModelError::DuplicateName { kind, new, name: name.to_owned() }),
+            None => Ok(()),
+        }
+    }
+
+    /// The first of `kind1`, `kind2`, … that nothing in the scene is called.
+    pub fn free_name(&self, kind: &str) -> String {
+        let mut names = (1..).map(|number| format!("{kind}{number}"));
+        names.find(|name| self.names().all(|(_, other)| other != name)).unwrap_or_default()
+    }
+
+    /// The station of a beam at an arc length; it is followed from the start.
+    ///
+    /// # Errors
+    /// When it lies outside the beam.
+    pub fn station(&mut self, beam: usize, arc_length: f64) -> Result<Station, ModelError> {
+        let definition = &self.beams[beam];
+        let length = definition.axis.length();
+        let tolerance = 1e-12 * length;
+        if !(arc_length >= -tolerance && arc_length <= length + tolerance) {
+            return Err(ModelError::StationOutside {
+                beam: definition.name.clone(),
+                station: arc_length,
+                length,
+            });
+        }
+        let station = Station::on_beam(beam, arc_length.clamp(0.0, length));
+        if !self.stations.contains(&station) {
+            self.stations.push(station);
+        }
+        Ok(station)
+    }
+
+    /// Ties a station to the ground or to another station.
+    ///
+    /// # Errors
+    /// When both stations are one, do not meet, or one is tied already.
+    pub fn join(
+        &mut self,
+        kind: JointKind,
+        station: Station,
+        partner: Partner,
+    ) -> Result<(), ModelError> {
+        let name = format!("{} at {}", kind.describe(&partner), self.describe(&station));
+        self.joints.push(Joint { name, kind, station, partner });
+        check_ties(self).inspect_err(|_| {
+            self.joints.pop();
+        })
+    }
+
+    /// Puts a mass on a station.
+    ///
+    /// # Errors
+    /// When the mass is not positive and finite, or its inertia negative.
+    pub fn add_mass(&mut self, mass: PointMass) -> Result<(), ModelError> {
+        self.add_element(Element::PointMass(mass))
+    }
+
+    /// Adds an element of any kind.
+    ///
+    /// # Errors
+    /// When a number of it is out of its range, or a station is none of the scene.
+    pub fn add_element(&mut self, element: Element) -> Result<(), ModelError> {
+        element.description().check(self)?;
+        self.elements.push(element);
+        Ok(())
+    }
+
+    /// Adds a load.
+    pub fn add_load(&mut self, kind: LoadKind, schedule: Schedule) {
+        let name = match &kind {
+            LoadKind::Force { station, .. } => format!("force at {}", self.describe(station)),
+            LoadKind::Moment { station, .. } => format!("moment at {}", self.describe(station)),
+            LoadKind::Line { beam, .. } => {
+                format!("line load on beam '{}'", self.beams[*beam].name)
+            }
+        };
+        self.elements.push(Element::Load(Load { name, kind, schedule }));
+    }
+
+    /// The length of the beam that a station is on, as drawn; zero for a particle [length].
+    pub fn length_at(&self, station: &Station) -> f64 {
+        station.beam().map_or(0.0, |beam| self.beams[beam].axis.length())
+    }
+
+    /// Where a station is as drawn [length].
+    ///
+    /// # Errors
+    /// When it lies outside its beam.
+    pub fn drawn_at(&self, station: &Station) -> Result<Vec2, ModelError> {
+        match station.body {
+            BodyIndex::Beam(beam) => {
+                let BeamDefinition { axis, name, .. } = &self.beams[beam];
+                let at = axis.parameter_at(station.arc_length).and_then(|xi| axis.point(xi));
+                at.map_err(ModelError::geometry(name))
+            }
+            BodyIndex::Particle(particle) => Ok(self.particles[particle].position),
+        }
+    }
+
+    /// The place of a station, given the meshes of the beams.
+    ///
+    /// # Errors
+    /// When it lies outside its beam.
+    pub fn place(&self, station: &Station, meshes: &[Mesh]) -> Result<Place, ModelError> {
+        match station.body {
+            BodyIndex::Beam(index) => {
+                let BeamDefinition { axis, name, .. } = &self.beams[index];
+                let mesh = &meshes[index];
+                let place =
+                    station.parameter(axis, mesh).and_then(|xi| Place::at(index, axis, mesh, xi));
+                place.map_err(ModelError::geometry(name))
+            }
+            BodyIndex::Particle(particle) => Ok(Place::of_particle(self.beams.len() + particle)),
+        }
+    }
+
+    /// The body that a station is on, in words.
+    pub fn name_of_body(&self, station: &Station) -> String {
+        match station.body {
+            BodyIndex::Beam(beam) => format!("beam '{}'", self.beams[beam].name),
+            BodyIndex::Particle(particle) => {
+                format!("particle '{}'", self.particles[particle].name)
+            }
+        }
+    }
+
+    /// A station in words.
+    pub fn describe(&self, station: &Station) -> String {
+        let (body, length) = (self.name_of_body(station), self.length_at(station));
+        match station.arc_length {
+            _ if station.beam().is_none() => body,
+            0.0 => format!("the start of {body}"),
+            s if s == length => format!("the end of {body}"),
+            s => format!("station {} of {body}", rounded(s)),
+        }
+    }
+}
+
+impl Setting for Scene {
+    fn describe(&self, station: &Station) -> String {
+        Self::describe(self, station)
+    }
+
+    fn check_station(&self, object: &'static str, station: &Station) -> Result<(), ModelError> {
+        let (kind, index, count) = match station.body {
+            BodyIndex::Beam(index) => ("beam", index, self.beams.len()),
+            BodyIndex::Particle(index) => ("particle", index, self.particles.len()),
+        };
+        if index >= count {
+            return Err(ModelError::Missing { object, kind, index, count });
+        }
+        let length = self.length_at(station);
+        if (0.0..=length).contains(&station.arc_length) {
+            return Ok(());
+        }
+        let beam = self.name_of_body(station);
+        Err(ModelError::StationOutside { beam, station: station.arc_length, length })
+    }
+}

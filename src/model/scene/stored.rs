@@ -1,0 +1,89 @@
+//! Scenes from a file: whatever it holds, it is checked as if a person had written it.
+
+use serde::Deserialize;
+
+use super::ties::check_ties;
+use super::{BeamDefinition, ParticleDefinition, Scene, StationVelocity};
+use crate::beams::Station;
+use crate::geometry::Vec2;
+use crate::joints::{Joint, Partner, Slider};
+use crate::model::ModelError;
+use crate::model::elements::{Element, Setting};
+use crate::model::words::finite;
+
+/// Most sliders of a stored scene: the matrix of a step grows with their square, and a small file must not make it huge.
+const MOST_SLIDERS: usize = 2000;
+
+/// A [`Scene`] as it is stored, not yet checked.
+#[derive(Deserialize)]
+pub struct StoredScene {
+    name: String,
+    beams: Vec<BeamDefinition>,
+    particles: Vec<ParticleDefinition>,
+    stations: Vec<Station>,
+    joints: Vec<Joint>,
+    sliders: Vec<Slider>,
+    velocities: Vec<StationVelocity>,
+    elements: Vec<Element>,
+    gravity: Vec2,
+}
+
+impl TryFrom<StoredScene> for Scene {
+    type Error = ModelError;
+
+    fn try_from(stored: StoredScene) -> Result<Self, ModelError> {
+        let mut scene = Self::new(stored.name);
+        for beam in stored.beams {
+            let motion = beam.motion;
+            finite("start motion", "velocity", motion.velocity.as_slice())?;
+            finite("start motion", "spin", &[motion.spin])?;
+            finite("start motion", "centre", motion.about.as_ref().map_or(&[], Vec2::as_slice))?;
+            beam.section
+                .validated()
+                .map_err(|source| ModelError::Beam { beam: beam.name.clone(), source })?;
+            scene.add_beam(beam)?;
+        }
+        for particle in stored.particles {
+            scene.check_name("particle", &particle.name)?;
+            finite("particle", "position", particle.position.as_slice())?;
+            scene.particles.push(particle);
+        }
+        for station in &stored.stations {
+            scene.check_station("a station", station)?;
+        }
+        scene.stations = stored.stations;
+        for joint in &stored.joints {
+            scene.check_station("a joint", &joint.station)?;
+            if let Partner::Station(other) = &joint.partner {
+                scene.check_station("a joint", other)?;
+            }
+        }
+        scene.joints = stored.joints;
+        check_ties(&scene)?;
+        for element in stored.elements {
+            scene.add_element(element)?;
+        }
+        if stored.sliders.len() > MOST_SLIDERS {
+            return Err(ModelError::Value {
+                object: format!("scene '{}'", scene.name),
+                name: "number of sliders",
+                value: stored.sliders.len() as f64,
+                allowed: "at most 2000 in a file",
+            });
+        }
+        for slider in stored.sliders {
+            scene.check_station("a slider", &slider.slave)?;
+            scene.check_station("a slider", &Station::on_beam(slider.master, slider.arc_length))?;
+            scene.add_slider(slider)?;
+        }
+        for velocity in &stored.velocities {
+            scene.check_station("a start velocity", &velocity.station)?;
+            finite("start velocity", "velocity", velocity.velocity.as_slice())?;
+            finite("start velocity", "spin", velocity.spin.as_slice())?;
+        }
+        scene.velocities = stored.velocities;
+        finite("scene", "gravity", stored.gravity.as_slice())?;
+        scene.gravity = stored.gravity;
+        Ok(scene)
+    }
+}

@@ -1,0 +1,116 @@
+//! Which places joints tie to each other or to the ground.
+
+use super::Scene;
+use crate::beams::Station;
+use crate::joints::{JointKind, Partner};
+use crate::model::ModelError;
+use crate::model::words::written;
+
+/// Largest gap of a joint when the scene starts, relative to the length of its beam and its distance from the origin.
+const CLOSED: f64 = 1e-12;
+
+/// Sets of things that are one: union–find with path halving.
+pub struct Ties {
+    parent: Vec<usize>,
+}
+
+impl Ties {
+    pub fn new(count: usize) -> Self {
+        Self { parent: (0..count).collect() }
+    }
+
+    pub fn root(&mut self, mut at: usize) -> usize {
+        while self.parent[at] != at {
+            self.parent[at] = self.parent[self.parent[at]];
+            at = self.parent[at];
+        }
+        at
+    }
+
+    /// Makes two things one; false when they were already.
+    pub fn tie(&mut self, a: usize, b: usize) -> bool {
+        let (a, b) = (self.root(a), self.root(b));
+        // The smaller index stays the root, so that index 0, the ground, always is one.
+        self.parent[a.max(b)] = a.min(b);
+        a != b
+    }
+}
+
+/// Checks that the joints of a scene close and do not tie a place twice, without building anything.
+pub fn check_ties(scene: &Scene) -> Result<(), ModelError> {
+    let mut places: Vec<Station> = Vec::new();
+    let mut index = |station: &Station| {
+        places.iter().position(|other| same_place(other, station, scene)).unwrap_or_else(|| {
+            places.push(*station);
+            places.len() - 1
+        })
+    };
+    let pairs: Vec<(usize, Option<usize>)> = scene
+        .joints
+        .iter()
+        .map(|joint| match &joint.partner {
+            Partner::Ground => (index(&joint.station), None),
+            Partner::Station(other) => (index(&joint.station), Some(index(other))),
+        })
+        .collect();
+    let mut ties = Ties::new(1 + 3 * places.len());
+    for (joint, (place, partner)) in scene.joints.iter().zip(pairs) {
+        let stations = match &joint.partner {
+            Partner::Ground => vec![joint.station],
+            Partner::Station(other) => vec![joint.station, *other],
+        };
+        if joint.kind == JointKind::Rigid && stations.iter().any(|at| at.beam().is_none()) {
+            let advice = "use scene.hinge(…), or scene.mass(…) on the beam";
+            return Err(ModelError::ParticleTurned { object: joint.name.clone(), advice });
+        }
+        if let Partner::Station(other) = &joint.partner {
+            if partner == Some(place) {
+                let body = scene.name_of_body(&joint.station);
+                return Err(ModelError::JointWithItself { joint: joint.name.clone(), body });
+            }
+            check_closed(scene, &joint.name, &joint.station, other)?;
+        }
+        for &component in joint.kind.components() {
+            let node = |place: usize| 1 + 3 * place + component as usize;
+            if !ties.tie(node(place), partner.map_or(0, node)) {
+                let ground = ties.root(node(place)) == 0;
+                let how = match (ground, joint.kind) {
+                    (true, _) => "held by the ground",
+                    (false, JointKind::Hinge) => "joined to the other station",
+                    (false, JointKind::Rigid) => "joined to the other station in this component",
+                };
+                let place = scene.describe(&joint.station);
+                return Err(ModelError::AlreadyTied {
+                    joint: joint.name.clone(),
+                    place,
+                    how: how.to_owned(),
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether two stations are one place, but for rounding.
+pub fn same_place(a: &Station, b: &Station, scene: &Scene) -> bool {
+    a.body == b.body && (a.arc_length - b.arc_length).abs() <= 1e-10 * scene.length_at(a)
+}
+
+fn check_closed(
+    scene: &Scene,
+    joint: &str,
+    station: &Station,
+    other: &Station,
+) -> Result<(), ModelError> {
+    let (from, to) = (scene.drawn_at(station)?, scene.drawn_at(other)?);
+    let (gap, size) = ((to - from).norm(), scene.length_at(station));
+    if gap <= CLOSED * (size + from.norm()) {
+        return Ok(());
+    }
+    Err(ModelError::OpenJoint {
+        joint: joint.to_owned(),
+        from: written(from),
+        to: written(to),
+        gap,
+    })
+}

@@ -1,0 +1,177 @@
+//! All sliders of a model.
+
+use std::ops::{Deref, DerefMut};
+
+use super::track::LANDED;
+use super::{SliderState, Sliding, TrackLimit};
+use crate::geometry::{Vec2, larger};
+use crate::integrators::{Ending, Interval, Overshoot};
+use crate::joints::CONTACT_UNKNOWNS;
+use crate::linalg::{Border, BorderShape};
+use crate::model::bodies::Body;
+use crate::model::words::{ModelError, SliderError};
+
+/// The sliders of a model, in the order of the scene. As a slice it is these.
+#[derive(Default)]
+pub struct Sliders {
+    all: Vec<Sliding>,
+    /// The limit at which the next step is to end.
+    aim: Option<TrackLimit>,
+}
+
+impl Deref for Sliders {
+    type Target = [Sliding];
+
+    fn deref(&self) -> &[Sliding] {
+        &self.all
+    }
+}
+
+impl DerefMut for Sliders {
+    fn deref_mut(&mut self) -> &mut [Sliding] {
+        &mut self.all
+    }
+}
+
+impl Sliders {
+    /// In the order of the scene.
+    pub fn new(all: Vec<Sliding>) -> Self {
+        Self { all, aim: None }
+    }
+
+    /// Makes steps end at a limit, or lets them go where they lead again.
+    pub fn aim_at(&mut self, limit: Option<TrackLimit>) {
+        self.aim = limit;
+    }
+
+    /// How many unknowns the contacts add, and how many entries their equations may have.
+    pub fn border(&self) -> BorderShape {
+        BorderShape {
+            width: CONTACT_UNKNOWNS * self.len(),
+            row_entries: self.iter().map(Sliding::row_entries).sum(),
+        }
+    }
+
+    /// Guesses that all slide on as they do.
+    pub fn predict(
+        &self,
+        bodies: &[Body],
+        rates: &[f64],
+        interval: Interval,
+        unknowns: &mut [f64],
+    ) {
+        self.iter().for_each(|slider| slider.predict(bodies, rates, interval, unknowns));
+    }
+
+    /// Adds the forces and the equations of all contacts; the largest force of a contact [force].
+    pub fn add(
+        &mut self,
+        bodies: &[Body],
+        increments: &[f64],
+        unknowns: &[f64],
+        out: &mut [f64],
+    ) -> f64 {
+        self.iter_mut().fold(0.0, |largest, slider| {
+            larger(largest, slider.add(bodies, increments, unknowns, out))
+        })
+    }
+
+    /// Adds the forces and the equations of all contacts, and their derivatives.
+    pub fn add_linearised(
+        &mut self,
+        bodies: &[Body],
+        increments: &[f64],
+        unknowns: &[f64],
+        out: &mut [f64],
+        border: &mut Border,
+    ) {
+        for slider in self.iter_mut() {
+            slider.add_linearised(bodies, increments, unknowns, out, border);
+        }
+    }
+
+    /// The largest violation of an equation: of lengths relative to the lengths met, of forces as `relative` has it [-].
+    pub fn violation(&self, equations: &[f64], relative: impl Fn(f64) -> f64) -> f64 {
+        self.iter().fold(0.0, |largest, slider| {
+            let (length, force) = slider.violation(equations);
+            larger(largest, larger(length, relative(force)))
+        })
+    }
+
+    /// Whether a step with these unknowns, of such an ending, may be accepted.
+    ///
+    /// # Errors
+    /// When a slider passes an end of its master, or does not come to that at which the step is to end.
+    pub fn check(&self, unknowns: &[f64], ending: Ending) -> Result<(), Overshoot> {
+        let mut furthest: Option<Overshoot> = None;
+        let aim = self.aim.filter(|_| ending == Ending::OfStep);
+        let limits = (0..self.len()).flat_map(TrackLimit::both);
+        for limit in limits.filter(|limit| self[limit.slider].is_sliding()) {
+            let distance = self[limit.slider].beyond(unknowns, limit.end);
+            let overshoot = Overshoot { limit: limit.number(), distance };
+            if aim == Some(limit) && distance.abs() > LANDED {
+                return Err(overshoot);
+            }
+            if distance > LANDED && furthest.is_none_or(|other| distance > other.distance) {
+                furthest = Some(overshoot);
+            }
+        }
+        furthest.map_or(Ok(()), Err)
+    }
+
+    /// The shortest chord of a way, relative to the length of that way [-].
+    pub fn shortest_chord(&self) -> f64 {
+        self.iter().map(Sliding::chord).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Accepts a step of such an ending; the bodies are at its end already.
+    pub fn advance(&mut self, bodies: &[Body], unknowns: &[f64], ending: Ending) {
+        self.iter_mut().for_each(|slider| slider.advance(bodies, unknowns, ending));
+    }
+
+    /// The largest distance of a slave from its place on the master [length].
+    pub fn largest_gap(&self, bodies: &[Body]) -> f64 {
+        self.iter().map(|slider| slider.gap(bodies).norm()).fold(0.0, larger)
+    }
+
+    /// What each does at present.
+    pub fn states(&self) -> impl Iterator<Item = SliderState> {
+        self.iter().map(|slider| slider.state)
+    }
+
+    /// Appends the numbers of all; their states are no numbers.
+    pub fn save(&self, numbers: &mut Vec<f64>) {
+        self.iter().for_each(|slider| slider.save(numbers));
+    }
+
+    /// Takes states and numbers back, in their order.
+    pub fn restore(&mut self, states: &[SliderState], next: &mut dyn FnMut() -> f64) {
+        self.iter_mut().zip(states).for_each(|(slider, state)| slider.restore(*state, next));
+    }
+
+    /// Whether the numbers of sliders may be those of these.
+    pub fn fit(&self, numbers: &[f64]) -> bool {
+        let mut pairs = self.iter().zip(numbers.chunks_exact(Sliding::SAVED));
+        pairs.all(|(slider, own)| slider.may_be_at(own[0]))
+    }
+
+    /// The error of contact forces that are not determined.
+    pub fn overdetermined(&self) -> ModelError {
+        let names: Vec<&str> = self.iter().map(|slider| slider.name.as_str()).collect();
+        SliderError::Overdetermined { sliders: names.join("', '") }.into()
+    }
+
+    /// The directions in which all transmit forces, with the number of the slider: across the masters, and along them where they are
+    /// held or `strikes`.
+    pub fn directions(&self, bodies: &[Body], strikes: usize) -> Vec<(usize, Vec2)> {
+        let of_slider = |(at, slider): (usize, &Sliding)| {
+            let (across, along) = (slider.across(bodies), slider.along(bodies));
+            match slider.state {
+                SliderState::Released => vec![],
+                SliderState::Sliding if at != strikes => vec![(at, across)],
+                SliderState::Sliding | SliderState::Held(_) => vec![(at, across), (at, along)],
+            }
+        };
+        self.iter().enumerate().flat_map(of_slider).collect()
+    }
+}

@@ -1,0 +1,14 @@
+//! Points that slide along beams: where they are, what they add to the equations of a step, and what their beams are like where
+//! they end.
+
+mod all;
+mod blow;
+mod connection;
+mod sliding;
+mod track;
+
+pub use all::Sliders;
+pub use blow::{Bar, Blow};
+pub use connection::Connection;
+pub use sliding::Sliding;
+pub use track::{SliderState, Track, TrackEnd, TrackLimit};

@@ -1,0 +1,370 @@
+//! Sliders of the model: where they are, and what they add to the equations of a step.
+
+use super::track::LANDED;
+use super::{Bar, Blow, Connection, SliderState, Track, TrackEnd};
+use crate::geometry::{Passage, Vec2, larger, perpendicular};
+use crate::integrators::{Ending, Interval};
+use crate::joints::{
+    CONTACT_UNKNOWNS, Contact, ContactUnknowns, EndAction, Held, Released, Slider, SlidingLaw,
+    SlidingRule, Unit,
+};
+use crate::linalg::Border;
+use crate::model::bodies::Body;
+
+/// A slider with its contact.
+#[derive(Debug, Clone)]
+pub struct Sliding {
+    pub name: String,
+    pub connection: Connection,
+    pub rule: SlidingRule,
+    pub ends: EndAction,
+    pub state: SliderState,
+    /// Where on the master it is: `ξ`.
+    pub parameter: f64,
+    /// Of the last step.
+    pub unknowns: ContactUnknowns,
+    /// The most spans that it passed in a step.
+    pub most_spans: f64,
+    /// How many times as long as a blow a step was, at the bounce where that is most.
+    pub blows_in_a_step: f64,
+    /// The master as drawn.
+    track: Track,
+    /// Master and slave as blows run through them; the slave may be no beam.
+    bars: (Bar, Option<Bar>),
+    /// The length of the master for a parameter of one [length].
+    length: f64,
+    /// Where it is at the start of the step.
+    here: Passage,
+    /// Its way in the iterate of the step.
+    passage: Passage,
+    /// Control points of the master in the window of the passage, counted from the slave.
+    before: Vec<Vec2>,
+    moved: Vec<Vec2>,
+    units: [Unit; CONTACT_UNKNOWNS],
+    /// The length of the master and the way of the slave in the iterate: what rounding of places is relative to [length].
+    size: f64,
+    /// How long the chord of the way is in the mean configuration of the iterate, relative to the master for that way.
+    chord: f64,
+}
+
+impl Sliding {
+    /// A slider at a parameter of the mesh of its master.
+    pub fn new(
+        slider: &Slider,
+        connection: Connection,
+        passage: Passage,
+        parameter: f64,
+        track: Track,
+        bars: (Bar, Option<Bar>),
+    ) -> Self {
+        let (first, last) = track.domain();
+        let functions = passage.basis().functions();
+        let mut new = Self {
+            name: slider.name.clone(),
+            connection,
+            rule: slider.rule,
+            ends: slider.ends,
+            state: SliderState::Sliding,
+            parameter,
+            unknowns: ContactUnknowns::zeros(),
+            most_spans: 0.0,
+            blows_in_a_step: 0.0,
+            length: track.length() / (last - first),
+            size: track.length(),
+            track,
+            bars,
+            here: passage.clone(),
+            passage,
+            before: Vec::with_capacity(functions),
+            moved: Vec::with_capacity(functions),
+            units: [Unit::Force; CONTACT_UNKNOWNS],
+            chord: 1.0,
+        };
+        new.here.go(parameter, parameter);
+        new
+    }
+
+    /// The most entries that its equations have.
+    pub fn row_entries(&self) -> usize {
+        CONTACT_UNKNOWNS * 2 * (1 + self.passage.basis().functions())
+    }
+
+    fn law(&self) -> &'static dyn SlidingLaw {
+        match self.state {
+            SliderState::Sliding => self.rule.law(),
+            SliderState::Held(_) => &Held,
+            SliderState::Released => &Released,
+        }
+    }
+
+    pub fn is_sliding(&self) -> bool {
+        self.state == SliderState::Sliding
+    }
+
+    /// It rests against the stop at an end of its master.
+    pub fn hold(&mut self, end: TrackEnd) {
+        self.state = SliderState::Held(end);
+    }
+
+    /// It leaves its master.
+    pub fn release(&mut self) {
+        self.state = SliderState::Released;
+        self.unknowns = ContactUnknowns::zeros();
+    }
+
+    /// How many numbers it saves, the parameter first.
+    pub const SAVED: usize = 3 + CONTACT_UNKNOWNS;
+
+    /// Appends its numbers; its state is no number.
+    pub fn save(&self, numbers: &mut Vec<f64>) {
+        numbers.extend([self.parameter, self.most_spans, self.blows_in_a_step]);
+        numbers.extend(self.unknowns.to_array());
+    }
+
+    /// Takes its state and its numbers back, in the order in which these were appended.
+    pub fn restore(&mut self, state: SliderState, next: &mut dyn FnMut() -> f64) {
+        self.state = state;
+        (self.parameter, self.most_spans, self.blows_in_a_step) = (next(), next(), next());
+        self.unknowns = ContactUnknowns::of(std::array::from_fn(|_| next()));
+        self.here.go(self.parameter, self.parameter);
+    }
+
+    /// Whether a parameter is one of its master.
+    pub fn may_be_at(&self, parameter: f64) -> bool {
+        self.track.has(parameter)
+    }
+
+    /// How far it is from an end of the master, as a part of the parameters of its master [-].
+    pub fn distance_to(&self, end: TrackEnd) -> f64 {
+        self.track.distance(self.parameter, end)
+    }
+
+    /// Whether it is at an end of the master.
+    pub fn is_at(&self, end: TrackEnd) -> bool {
+        self.distance_to(end) <= LANDED
+    }
+
+    /// Its place along the master as drawn: 0 at the start, 1 at the end [-].
+    pub fn position(&self) -> f64 {
+        // Arrivals are a few digits short of the end, or beyond it.
+        if self.is_at(TrackEnd::Start) {
+            return 0.0;
+        }
+        if self.is_at(TrackEnd::End) {
+            return 1.0;
+        }
+        self.track.part_before(self.parameter)
+    }
+
+    /// How far it is from the start of its master, as drawn [length].
+    pub fn arc_length(&self) -> f64 {
+        self.position() * self.track.length()
+    }
+
+    /// How much of its master, as drawn, it passes in a unit of time, positive towards the end [length/time].
+    pub fn speed(&self, bodies: &[Body], rates: &[f64]) -> f64 {
+        self.track.stretch(self.parameter) * self.rate(bodies, rates)
+    }
+
+    /// Takes down how many times as long as a blow at the end of its master the steps are [time].
+    ///
+    /// A blow on a beam lasts at least until its wave has come back, twice the length over `c` (Saint-Venant 1883), or, on a light
+    /// slave, until that has come to rest, which takes some `m/(c ρA)`. Where nothing gives way, there is no wave to resolve.
+    pub fn note_blow(&mut self, bodies: &[Body], blow: Blow, dt: f64) {
+        let (master, slave) = &self.bars;
+        let on_master = blow.master.is_some().then(|| {
+            // A beam that strikes is no heavier than its waves let it be at once.
+            master.answer_time(1.0, blow.slave.filter(|_| slave.is_none()))
+        });
+        let on_slave = slave.filter(|_| blow.slave.is_some()).map(|slave| {
+            let (body, point) = self.connection.slave;
+            let points = bodies[body].dynamics.control_points();
+            let axis = points[(point + 1).min(points.len() - 1)] - points[point.saturating_sub(1)];
+            let tangent = self.tangent(bodies);
+            slave.answer_time(axis.dot(&tangent) / (axis.norm() * tangent.norm()), None)
+        });
+        let lasts = 2.0 * on_master.into_iter().chain(on_slave).fold(f64::INFINITY, f64::min);
+        self.blows_in_a_step = self.blows_in_a_step.max(dt / lasts);
+    }
+
+    /// The control points of the master with their functions where the slider is.
+    fn weights(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        (self.here.first()..).zip(self.here.end().iter().copied())
+    }
+
+    /// The derivative of the place on the master by the parameter, `Σ B_i'(ξ) x_i` [length].
+    fn tangent(&self, bodies: &[Body]) -> Vec2 {
+        let points = &bodies[self.connection.master].dynamics.control_points()[self.here.first()..];
+        // Slopes sum to zero: an origin amid the points changes nothing but the rounding.
+        self.here
+            .slope()
+            .iter()
+            .zip(points)
+            .map(|(slope, point)| (point - points[0]) * *slope)
+            .sum()
+    }
+
+    /// The direction of the master where the slider is [-].
+    pub fn along(&self, bodies: &[Body]) -> Vec2 {
+        self.tangent(bodies).normalize()
+    }
+
+    /// The direction across it [-].
+    pub fn across(&self, bodies: &[Body]) -> Vec2 {
+        perpendicular(self.along(bodies))
+    }
+
+    /// Adds `Gᵀ P` for an impulse `P`, or a force: on the slave, and the opposite one on the master.
+    pub fn transmit(&self, bodies: &[Body], impulse: Vec2, out: &mut [f64]) {
+        let on_master = self.here.end().iter().map(|weight| impulse * -*weight);
+        self.connection.add_forces(bodies, impulse, self.here.first(), on_master, out);
+    }
+
+    /// From the slave to its place on the master.
+    pub fn gap(&self, bodies: &[Body]) -> Vec2 {
+        if self.state == SliderState::Released {
+            return Vec2::zeros();
+        }
+        let (body, point) = self.connection.slave;
+        let slave = bodies[body].dynamics.control_points()[point];
+        let master = bodies[self.connection.master].dynamics.control_points();
+        self.weights().map(|(index, weight)| (master[index] - slave) * weight).sum()
+    }
+
+    /// The velocity of the slave relative to its place on the master [length/time].
+    pub fn relative_velocity(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
+        let Connection { master, slave: (body, point), .. } = self.connection;
+        let on_master = |(index, weight)| bodies[master].vector_at(index, rates) * weight;
+        bodies[body].vector_at(point, rates) - self.weights().map(on_master).sum::<Vec2>()
+    }
+
+    /// The velocity of the slave [length/time].
+    pub fn slave_velocity(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
+        let (body, point) = self.connection.slave;
+        bodies[body].vector_at(point, rates)
+    }
+
+    /// `dξ/dt` of the present velocities [1/time].
+    pub fn rate(&self, bodies: &[Body], rates: &[f64]) -> f64 {
+        match self.state {
+            SliderState::Sliding => {
+                let tangent = self.tangent(bodies);
+                self.relative_velocity(bodies, rates).dot(&tangent) / tangent.norm_squared()
+            }
+            SliderState::Held(_) | SliderState::Released => 0.0,
+        }
+    }
+
+    fn read(&self, unknowns: &[f64]) -> ContactUnknowns {
+        let mut own = [0.0; CONTACT_UNKNOWNS];
+        own.copy_from_slice(&unknowns[self.connection.places()]);
+        ContactUnknowns::of(own)
+    }
+
+    /// Guesses that it slides on as it does, and that the contact force stays.
+    pub fn predict(
+        &self,
+        bodies: &[Body],
+        rates: &[f64],
+        interval: Interval,
+        unknowns: &mut [f64],
+    ) {
+        let (start, end) = self.track.domain();
+        let ahead = self.parameter + interval.duration() * self.rate(bodies, rates);
+        let way = ahead.clamp(start, end) - self.parameter;
+        let guess = ContactUnknowns { way, ..self.unknowns };
+        unknowns[self.connection.places()].copy_from_slice(&guess.to_array());
+    }
+
+    /// The contact in the iterate of a step.
+    fn take(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) -> Contact<'_> {
+        let unknowns = self.read(unknowns);
+        self.passage.go(self.parameter, self.parameter + unknowns.way);
+        let Connection { master, slave: (body, point), .. } = self.connection;
+        let (slave, master) = (&bodies[body], &bodies[master]);
+        let (origin, cut_off) = slave.precise_point(point);
+        let window = self.passage.first()..self.passage.first() + self.passage.end().len();
+        self.before.clear();
+        self.before.extend(window.clone().map(|at| {
+            let (position, remainder) = master.precise_point(at);
+            (position - origin) + (remainder - cut_off)
+        }));
+        self.moved.clear();
+        self.moved.extend(window.map(|at| master.vector_at(at, increments)));
+        let slave_moved = slave.vector_at(point, increments);
+        let Self { passage, before, moved, length, .. } = self;
+        Contact { passage, master: (before, moved), slave_moved, unknowns, length: *length }
+    }
+
+    /// Adds the forces on slave and master, and behind the movements the equations of the contact; returns the contact force.
+    pub fn add(
+        &mut self,
+        bodies: &[Body],
+        increments: &[f64],
+        unknowns: &[f64],
+        out: &mut [f64],
+    ) -> f64 {
+        let (law, connection) = (self.law(), self.connection);
+        let contact = self.take(bodies, increments, unknowns);
+        let equations = law.equations(&contact);
+        connection.add_values(bodies, &contact, &equations, increments.len(), out);
+        let force = contact.unknowns.force.norm();
+        let chord = contact.tangent().value.norm() / contact.length;
+        (self.size, self.chord) = (contact.length + contact.slave_moved.norm(), chord);
+        self.units = equations.map(|equation| equation.unit);
+        force
+    }
+
+    /// The same, with all derivatives.
+    pub fn add_linearised(
+        &mut self,
+        bodies: &[Body],
+        increments: &[f64],
+        unknowns: &[f64],
+        out: &mut [f64],
+        border: &mut Border,
+    ) {
+        let (law, connection, movements) = (self.law(), self.connection, increments.len());
+        let contact = self.take(bodies, increments, unknowns);
+        let equations = law.equations(&contact);
+        connection.add_values(bodies, &contact, &equations, movements, out);
+        connection.add_derivatives(bodies, &contact, &equations, movements, border);
+    }
+
+    /// The largest violations: relative to the lengths met, and a force [force].
+    pub fn violation(&self, equations: &[f64]) -> (f64, f64) {
+        let values = equations[self.connection.places()].iter().zip(self.units);
+        values.fold((0.0, 0.0), |(length, force), (value, unit)| match unit {
+            Unit::Length => (larger(length, value.abs() / self.size), force),
+            Unit::Force => (length, larger(force, value.abs())),
+        })
+    }
+
+    /// How long the chord of its way is in the mean configuration, relative to the length of the master for that way.
+    pub fn chord(&self) -> f64 {
+        if self.is_sliding() { self.chord } else { 1.0 }
+    }
+
+    /// How far beyond an end of the master the unknowns lead, relative to its parameters.
+    pub fn beyond(&self, unknowns: &[f64], end: TrackEnd) -> f64 {
+        self.track.beyond(self.parameter + self.read(unknowns).way, end)
+    }
+
+    /// Accepts a step; the bodies are at its end already.
+    ///
+    /// A stop that had to pull lets go, but not within a step.
+    pub fn advance(&mut self, bodies: &[Body], unknowns: &[f64], ending: Ending) {
+        self.unknowns = self.read(unknowns);
+        let before = self.parameter;
+        self.parameter += self.unknowns.way;
+        let passed = self.passage.spans_between(before, self.parameter);
+        self.most_spans = self.most_spans.max(passed);
+        self.here.go(self.parameter, self.parameter);
+        if let (SliderState::Held(end), Ending::OfStep) = (self.state, ending) {
+            let outward = self.unknowns.force.dot(&self.tangent(bodies)) * end.outward();
+            if outward < 0.0 {
+                self.state = SliderState::Sliding;
+            }
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! What a model says: its errors, what may be a name, and how numbers are told.
+
+mod error;
+mod names;
+mod numbers;
+mod slider_error;
+
+pub use error::{ModelError, finite};
+pub use names::refusal;
+pub use numbers::{MOST, in_words, plural, rounded, written};
+pub use slider_error::{SliderError, SliderParts};

@@ -1,0 +1,117 @@
+//! What may be a name: it is read by people, stands in column heads of tables, and is asked for by what is typed.
+
+use std::ops::RangeInclusive;
+
+/// Most characters of a name.
+const LONGEST: usize = 100;
+
+/// Signs with which a spreadsheet takes the head of a column for a formula.
+const FORMULA: [char; 4] = ['=', '+', '-', '@'];
+
+/// Characters without a width or a direction of their own, and copies of letters: Unicode 16, general categories Cf and Mn where they
+/// are invisible, fillers, variation selectors, full-width forms and mathematical alphabets.
+const INVISIBLE_OR_COPIES: [RangeInclusive<u32>; 14] = [
+    0xAD..=0xAD,
+    0x34F..=0x34F,
+    0x61C..=0x61C,
+    0x115F..=0x1160,
+    0x17B4..=0x17B5,
+    0x180B..=0x180F,
+    0x200B..=0x200F,
+    0x202A..=0x202E,
+    0x2060..=0x206F,
+    0x3164..=0x3164,
+    0xFE00..=0xFE0F,
+    0xFEFF..=0xFFFF,
+    0x1D400..=0x1D7FF,
+    0xE0000..=0x10_FFFF,
+];
+
+/// Alphabets whose letters look alike.
+#[derive(Clone, Copy, PartialEq)]
+enum Alphabet {
+    Latin,
+    Greek,
+    Cyrillic,
+    Armenian,
+    Cherokee,
+}
+
+/// Why nobody could read or type a name, if so.
+pub fn refusal(name: &str) -> Option<&'static str> {
+    let code = |letter: char| u32::from(letter);
+    let is_hidden = |letter: char| {
+        letter.is_control()
+            || (letter.is_whitespace() && letter != ' ')
+            || INVISIBLE_OR_COPIES.iter().any(|range| range.contains(&code(letter)))
+    };
+    if name.trim().is_empty() {
+        return Some("it is empty");
+    }
+    if name.chars().count() > LONGEST {
+        return Some("it has more than 100 characters");
+    }
+    if name.starts_with(FORMULA) {
+        return Some("a spreadsheet would take a table with it for a formula");
+    }
+    if name.chars().any(is_hidden) {
+        return Some("it has characters that cannot be seen or told from others");
+    }
+    let mut words = name.split(|letter: char| !letter.is_alphabetic());
+    words
+        .any(mixes_alphabets)
+        .then_some("a word of it has letters of two alphabets that look alike")
+}
+
+fn mixes_alphabets(word: &str) -> bool {
+    let mut alphabets = word.chars().filter_map(alphabet);
+    let first = alphabets.next();
+    alphabets.any(|other| Some(other) != first)
+}
+
+/// The alphabet of a letter, if letters of others look like some of its own. Greek letters that are used as symbols do not.
+fn alphabet(letter: char) -> Option<Alphabet> {
+    const SYMBOLS: &str = "αβγδεζηθλμξπρστφχψωΓΔΘΛΞΠΣΦΨΩ";
+    match u32::from(letter) {
+        _ if SYMBOLS.contains(letter) => None,
+        0x41..=0x24F | 0x1E00..=0x1EFF => Some(Alphabet::Latin),
+        0x370..=0x3FF | 0x1F00..=0x1FFF => Some(Alphabet::Greek),
+        0x400..=0x52F => Some(Alphabet::Cyrillic),
+        0x530..=0x58F => Some(Alphabet::Armenian),
+        0x13A0..=0x13FF | 0xAB70..=0xABBF => Some(Alphabet::Cherokee),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_people_are_welcome() {
+        for name in ["mast", "beam 1", "Träger", "балка", "梁", "Δx", "EI_ξ", "a-b", "joint (left)"]
+        {
+            assert_eq!(refusal(name), None, "{name}");
+        }
+    }
+
+    #[test]
+    fn what_misleads_is_refused() {
+        let long = "a".repeat(LONGEST + 1);
+        for name in [
+            "",
+            "  ",
+            "=1+1",
+            "@a",
+            "-b",
+            "a\nb",
+            "be\u{200B}am",
+            "m\u{430}st",
+            "ｂｅａｍ",
+            "a\u{A0}b",
+            &long,
+        ] {
+            assert!(refusal(name).is_some(), "{name:?}");
+        }
+    }
+}

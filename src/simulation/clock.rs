@@ -1,0 +1,29 @@
+//! When the steps of a run end.
+
+use super::TimeGrid;
+use super::controller::Pace;
+use super::halving::Halving;
+
+/// When the steps of a run end: its grid, and how far the present step and the present run have got.
+#[derive(Debug, Clone)]
+pub(super) struct Clock {
+    pub(super) grid: TimeGrid,
+    /// Where steps vary, how long the next one is to be.
+    pub(super) pace: Option<Pace>,
+    /// A step of the grid that is covered in part.
+    pub(super) under_way: Option<Halving>,
+    /// Where the present run ends; infinite for single steps [time].
+    pub(super) goal: f64,
+}
+
+impl Clock {
+    /// At the start of a grid.
+    pub(super) fn new(grid: TimeGrid, pace: Option<Pace>) -> Self {
+        Self { grid, pace, under_way: None, goal: f64::INFINITY }
+    }
+
+    /// The size that the next step has if nothing cuts it [time].
+    pub(super) fn dt(&self) -> f64 {
+        self.pace.map_or(self.grid.dt(), |pace| pace.wish)
+    }
+}

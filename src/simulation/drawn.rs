@@ -1,0 +1,32 @@
+//! What is found of a scene as drawn, once, when it is first asked for.
+
+use std::cell::OnceCell;
+
+use super::Outline;
+use crate::model::ModelError;
+
+/// What is found of a scene as drawn.
+#[derive(Debug, Default)]
+pub(super) struct Drawn {
+    outlines: OnceCell<Vec<Outline>>,
+    lowest_period: OnceCell<Option<f64>>,
+}
+
+impl Drawn {
+    /// The outlines of its beams.
+    pub(super) fn outlines(
+        &self,
+        draw: impl FnOnce() -> Result<Vec<Outline>, ModelError>,
+    ) -> Result<&[Outline], ModelError> {
+        if let Some(outlines) = self.outlines.get() {
+            return Ok(outlines);
+        }
+        let outlines = draw()?;
+        Ok(self.outlines.get_or_init(|| outlines))
+    }
+
+    /// Its lowest period, where it has one [time].
+    pub(super) fn lowest_period(&self, find: impl FnOnce() -> Option<f64>) -> Option<f64> {
+        *self.lowest_period.get_or_init(find)
+    }
+}

@@ -1,0 +1,17 @@
+//! Watching a run.
+
+/// What watches a run after every step, and may stop it.
+pub trait Monitor {
+    /// Called after every step and every failed try; `false` stops the run there.
+    fn goes_on(&mut self, time: f64) -> bool;
+}
+
+/// A monitor that never stops a run.
+#[derive(Debug, Clone, Copy)]
+pub struct Unwatched;
+
+impl Monitor for Unwatched {
+    fn goes_on(&mut self, _time: f64) -> bool {
+        true
+    }
+}

@@ -1,0 +1,86 @@
+//! What is kept of a run: rows of its history, configurations of its trajectory.
+
+use super::columns::{extra_columns, extra_values};
+use super::progress::StepTaken;
+use super::{History, Recording, Sample, Scales, Trajectory};
+use crate::geometry::Vec2;
+use crate::model::{Model, Scene};
+
+/// What is kept of a run, and which of its states are recorded.
+#[derive(Debug, Clone)]
+pub(super) struct Record {
+    pub(super) history: History,
+    pub(super) trajectory: Trajectory,
+    pub(super) recording: Recording,
+    /// The first rows of the history, which stay; a further one belongs to the present.
+    pub(super) rows_kept: usize,
+}
+
+impl Record {
+    /// A record whose first row is the start of a scene.
+    pub(super) fn new(scene: &Scene, model: &mut Model) -> Self {
+        let points = model.control_points().map(<[Vec2]>::len).sum::<usize>();
+        let mut record = Self {
+            history: History::new(scales(scene, model), extra_columns(scene)),
+            trajectory: Trajectory::new(2 * points),
+            recording: Recording::default(),
+            rows_kept: 0,
+        };
+        record.keep_row(model, StepTaken::default());
+        record
+    }
+
+    /// Makes room for so many steps.
+    pub(super) fn reserve(&mut self, steps: usize) {
+        let rows = self.recording.rows_of(steps);
+        self.history.reserve(rows);
+        self.trajectory.reserve(rows);
+    }
+
+    /// Gives the present a row that stays.
+    pub(super) fn keep_row(&mut self, model: &mut Model, last_step: StepTaken) {
+        self.add_row(model, last_step);
+        self.rows_kept = self.history.samples().len();
+    }
+
+    /// Gives the present a row until it is past, unless it has one.
+    pub(super) fn show_present(&mut self, model: &mut Model, last_step: StepTaken) {
+        let last = self.history.samples().last().map(|row| row.measures.time);
+        if last != Some(model.time()) {
+            self.add_row(model, last_step);
+        }
+    }
+
+    fn add_row(&mut self, model: &mut Model, last_step: StepTaken) {
+        self.go_back(self.rows_kept);
+        let StepTaken { dt, newton_iterations, retries } = last_step;
+        let sample = Sample { measures: model.measure(), dt, newton_iterations, retries };
+        self.history.push(sample, extra_values(model));
+        self.trajectory.push(model.time(), coordinates(model));
+    }
+
+    /// Keeps the first rows alone.
+    pub(super) fn go_back(&mut self, rows: usize) {
+        self.rows_kept = rows;
+        self.history.truncate(rows);
+        self.trajectory.go_back(rows);
+    }
+}
+
+fn coordinates(model: &Model) -> impl Iterator<Item = f64> + '_ {
+    model.control_points().flatten().flat_map(|point| [point.x, point.y])
+}
+
+/// What a change of an invariant is measured by when the motion itself is small.
+fn scales(scene: &Scene, model: &Model) -> Scales {
+    let longest = scene.longest_beam().unwrap_or(0.0);
+    let distances = model.control_points().flatten().map(|point| point.norm());
+    Scales {
+        mass: model.total_mass(),
+        // The radius of gyration of the longest beam, or how far the scene is from the origin.
+        length: distances.fold(longest / 12_f64.sqrt(), |length, distance| {
+            if distance > 10.0 * longest { length.max(distance) } else { length }
+        }),
+        rounding_energy: scene.rounding_energy(),
+    }
+}

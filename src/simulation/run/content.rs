@@ -1,0 +1,176 @@
+//! What is stored of a simulation, and how it is made of that again.
+
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
+
+use super::Simulation;
+use crate::model::{ModelState, Scene};
+use crate::newton::Tolerance;
+use crate::simulation::archive::{ArchiveError, unwrap, wrap};
+use crate::simulation::controller::Pace;
+use crate::simulation::halving::Halving;
+use crate::simulation::progress::StepTaken;
+use crate::simulation::{Arrival, Recording, Sample, Settings, WorkCounts};
+
+/// Counts beyond this, and grid points beyond it, cannot have been counted.
+const MOST_COUNTED: usize = 1 << 52;
+
+/// Most Newton iterations that settings may allow.
+const MOST_ITERATIONS: usize = 10_000;
+
+/// Everything that a simulation is but what follows from it.
+#[derive(Serialize, Deserialize)]
+struct Content<'a> {
+    name: Cow<'a, str>,
+    scene: Cow<'a, Scene>,
+    settings: Settings,
+    state: ModelState,
+    recording: Recording,
+    samples: Cow<'a, [Sample]>,
+    rows_kept: usize,
+    extra: Cow<'a, [f64]>,
+    /// How many configurations were offered to the trajectory for each that it kept.
+    every: usize,
+    times: Cow<'a, [f64]>,
+    numbers: Cow<'a, [f64]>,
+    arrivals: Cow<'a, [Arrival]>,
+    counts: WorkCounts,
+    cuts: Cow<'a, [f64]>,
+    /// The parts of a [`Halving`].
+    under_way: Option<((f64, f64), u64, u32, usize)>,
+    pace: Option<Pace>,
+}
+
+fn refused(reason: &str) -> ArchiveError {
+    ArchiveError::Content { reason: reason.to_owned() }
+}
+
+impl Simulation {
+    /// The simulation as a file that [`from_bytes`](Self::from_bytes) reads, under a name. Snapshots are not in it.
+    ///
+    /// # Errors
+    /// When a load has a function from outside as its schedule.
+    pub fn to_bytes(&self, name: &str) -> Result<Vec<u8>, ArchiveError> {
+        let mut schedules = self.scene.schedules();
+        if let Some((load, _)) = schedules.find(|(_, schedule)| !schedule.can_be_stored()) {
+            return Err(ArchiveError::Function { load: load.to_owned() });
+        }
+        let content = Content {
+            name: name.into(),
+            scene: Cow::Borrowed(&self.scene),
+            settings: self.settings,
+            state: self.model.state(),
+            recording: self.record.recording,
+            samples: self.record.history.samples().into(),
+            rows_kept: self.record.rows_kept,
+            extra: self.record.history.extra_values().into(),
+            every: self.record.trajectory.every(),
+            times: self.record.trajectory.times().into(),
+            numbers: self.record.trajectory.numbers().into(),
+            arrivals: self.progress.arrivals.as_slice().into(),
+            counts: self.progress.counts,
+            cuts: self.clock.grid.cuts().into(),
+            under_way: self.clock.under_way.map(Halving::to_parts),
+            pace: self.clock.pace,
+        };
+        let bytes = postcard::to_stdvec(&content).map_err(|error| refused(&error.to_string()))?;
+        Ok(wrap(&bytes))
+    }
+
+    /// A simulation and its name from a file of [`to_bytes`](Self::to_bytes); it goes on bit for bit as the one that was stored.
+    ///
+    /// # Errors
+    /// When the file is cut off, damaged, of a later format or something else, or its content makes no sense.
+    pub fn from_bytes(file: &[u8]) -> Result<(String, Self), ArchiveError> {
+        let bytes = unwrap(file)?;
+        let read = postcard::take_from_bytes::<Content>(bytes);
+        let (content, rest) = read.map_err(|error| refused(&error.to_string()))?;
+        if !rest.is_empty() {
+            return Err(refused("something follows behind it"));
+        }
+        content.check()?;
+        content.into_simulation()
+    }
+}
+
+impl Content<'_> {
+    /// Checks what no constructor checks.
+    fn check(&self) -> Result<(), ArchiveError> {
+        let Tolerance { force, strain, constraint, polish, iterations } = self.settings.tolerance;
+        let are_tolerances = [force, strain, constraint, polish].iter().all(|x| *x >= 0.0);
+        if !are_tolerances || iterations > MOST_ITERATIONS {
+            return Err(refused("the tolerances of its solver are out of range"));
+        }
+        let counts = &self.counts;
+        let numbers = [
+            counts.steps,
+            counts.newton_iterations,
+            counts.corrections,
+            counts.newton_max,
+            counts.factorisations,
+            counts.retries,
+            counts.rejected,
+            counts.arrival_tries,
+        ];
+        let is_counted = numbers.iter().all(|number| *number < MOST_COUNTED);
+        let rows = self.samples.len();
+        let has_rows = self.rows_kept >= 1 && (self.rows_kept..=self.rows_kept + 1).contains(&rows);
+        if !is_counted || !has_rows || rows > counts.steps + 1 {
+            return Err(refused("its steps and the rows of its history do not fit each other"));
+        }
+        let times = || self.samples.iter().map(|row| row.measures.time);
+        let is_ordered = times().all(f64::is_finite) && times().is_sorted();
+        if !is_ordered || times().next() != Some(0.0) {
+            return Err(refused("the times of its history are out of order"));
+        }
+        let is_arrival = |arrival: &Arrival| {
+            arrival.limit.slider < self.scene.sliders.len() && arrival.time.is_finite()
+        };
+        if !self.arrivals.iter().all(is_arrival) {
+            return Err(refused("a slider arrived that is not there"));
+        }
+        Ok(())
+    }
+
+    fn into_simulation(self) -> Result<(String, Simulation), ArchiveError> {
+        let mut simulation = Simulation::start(self.scene.into_owned(), self.settings)?;
+        let restored = simulation.model.restore_checked(&self.state);
+        restored.map_err(|error| refused(&error.to_string()))?;
+        let now = simulation.time();
+        let last = self.samples.last().map(|row| row.measures.time);
+        if last != Some(now) || now / simulation.clock.grid.dt() >= MOST_COUNTED as f64 {
+            return Err(refused("its time is not that of the last row of its history"));
+        }
+        let rows = self.samples.len();
+        simulation.progress.last_step = self.samples.last().map(StepTaken::of).unwrap_or_default();
+        let (samples, extra) = (self.samples.into_owned(), self.extra.into_owned());
+        let history = simulation.record.history.with_rows(samples, extra);
+        simulation.record.history =
+            history.ok_or_else(|| refused("the rows of its history are torn"))?;
+        let (times, numbers) = (self.times.into_owned(), self.numbers.into_owned());
+        let kept =
+            simulation.record.trajectory.with_configurations(rows, self.every, times, numbers);
+        simulation.record.trajectory = kept.ok_or_else(|| refused("its trajectory is torn"))?;
+        simulation.clock.under_way = match self.under_way {
+            None => None,
+            Some(parts) => {
+                let halving = Halving::from_parts(now, parts);
+                Some(halving.ok_or_else(|| refused("the step under way makes no sense"))?)
+            }
+        };
+        let bounds = simulation.adaptive.as_ref().map(|adaptive| adaptive.controller);
+        if self.pace.is_some() != bounds.is_some()
+            || bounds.zip(self.pace).is_some_and(|(bounds, pace)| !bounds.allows(&pace))
+        {
+            return Err(refused("the size of its next step makes no sense"));
+        }
+        simulation.clock.pace = self.pace;
+        simulation.clock.grid.lay(&self.cuts, now);
+        simulation.progress.arrivals = self.arrivals.into_owned();
+        simulation.progress.counts = self.counts;
+        (simulation.record.recording, simulation.record.rows_kept) =
+            (self.recording, self.rows_kept);
+        Ok((self.name.into_owned(), simulation))
+    }
+}

@@ -1,0 +1,254 @@
+//! Steps that end exactly where a slider reaches the end of its master, and what happens there.
+
+use super::Simulation;
+use crate::elementary::whole_power;
+use crate::integrators::{Interval, Overshoot, StepError};
+use crate::joints::EndAction;
+use crate::model::{SliderState, TrackEnd, TrackLimit};
+use crate::newton::NewtonReport;
+use crate::simulation::{Arrival, ArrivalKind, SimulationError};
+
+/// Most tries to find the time of an arrival; few are needed, the rest is for bad luck.
+const MOST_TRIES: usize = 60;
+
+/// A slider that is about to reach an end and as near to it as this, as a part of its master, has reached it: a step over what
+/// is left would make velocities out of the rounding of places.
+const NEAR: f64 = 1e-10;
+
+/// How often a step is halved to see whether a slider at an end leaves it for a while.
+const PROBES: i32 = 12;
+
+/// Most arrivals within one step of the grid.
+pub(super) const MOST_ARRIVALS: usize = 10_000;
+
+/// A step that was cut where a slider arrives.
+pub(super) struct Landing {
+    /// The step; none for a slider that is at the end already and led beyond it by every step.
+    pub(super) step: Option<(Interval, NewtonReport)>,
+    /// The end that is reached; none where the step ends just before, because longer ones lead by a jump beyond it.
+    reached: Option<TrackLimit>,
+}
+
+/// What is known of an arrival before it is searched for.
+enum Prospect {
+    /// It lies between two times.
+    Between(Bracket),
+    /// A step was taken that ends with it, or none is needed.
+    Landed(Landing),
+}
+
+/// Durations of steps that end before and after an arrival, with the distances beyond the limit there.
+struct Bracket {
+    before: (f64, f64),
+    after: (f64, f64),
+    /// The side that was replaced last.
+    last: Option<Side>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Before,
+    After,
+}
+
+impl Bracket {
+    fn new(before: (f64, f64), after: (f64, f64)) -> Self {
+        Self { before, after, last: None }
+    }
+
+    /// Puts a duration in the place of the one on its side.
+    fn narrow(&mut self, duration: f64, distance: f64) {
+        let side = if distance > 0.0 { Side::After } else { Side::Before };
+        let is_again = self.last == Some(side);
+        let (replaced, other) = match side {
+            Side::Before => (&mut self.before, &mut self.after),
+            Side::After => (&mut self.after, &mut self.before),
+        };
+        *replaced = (duration, distance);
+        if is_again {
+            other.1 *= 0.5;
+        }
+        self.last = Some(side);
+    }
+
+    /// Whether there is no duration between the two any more.
+    fn is_closed(&self) -> bool {
+        self.after.0 - self.before.0 <= 4.0 * f64::EPSILON * self.after.0
+    }
+
+    /// The next duration to try: false position, with the weight of an end halved that stays (Illinois; Dowell & Jarratt 1971).
+    fn guess(&self) -> f64 {
+        let ((t0, f0), (t1, f1)) = (self.before, self.after);
+        let t = t1 - f1 * (t1 - t0) / (f1 - f0);
+        // Rounding may put it on an end.
+        if t > t0 && t < t1 { t } else { 0.5 * (t0 + t1) }
+    }
+}
+
+impl Simulation {
+    /// Takes a step that ends where the slider arrives that went too far in the whole interval.
+    pub(super) fn land(
+        &mut self,
+        interval: Interval,
+        overshoot: Overshoot,
+    ) -> Result<Landing, StepError> {
+        let landing = self.search(interval, overshoot);
+        self.model.aim_at(None);
+        landing
+    }
+
+    fn search(&mut self, interval: Interval, first: Overshoot) -> Result<Landing, StepError> {
+        let (mut cut, mut overshoot) = (interval, first);
+        let mut tries = 0..MOST_TRIES;
+        // Once for each slider that turns out to arrive before the one aimed at.
+        loop {
+            let limit = TrackLimit::of(overshoot.limit);
+            self.model.aim_at(Some(limit));
+            let mut bracket = match self.prospect(cut, limit, overshoot.distance)? {
+                Prospect::Between(bracket) => bracket,
+                Prospect::Landed(landing) => return Ok(landing),
+            };
+            loop {
+                if bracket.is_closed() {
+                    self.model.aim_at(None);
+                    let short = Interval::lasting(interval.start, bracket.before.0);
+                    let report = self.integrator.step(&mut self.model, short)?;
+                    return Ok(Landing { step: Some((short, report)), reached: None });
+                }
+                if tries.next().is_none() {
+                    return Err(StepError::Overshoot { interval, overshoot: first, iterations: 0 });
+                }
+                let duration = bracket.guess();
+                cut = Interval::lasting(interval.start, duration);
+                overshoot = match self.attempt(cut)? {
+                    Ok(report) => {
+                        return Ok(Landing { step: Some((cut, report)), reached: Some(limit) });
+                    }
+                    Err(overshoot) => overshoot,
+                };
+                if overshoot.limit != limit.number() {
+                    break;
+                }
+                bracket.narrow(duration, overshoot.distance);
+            }
+        }
+    }
+
+    /// Looks for a step that ends before the arrival, given one that ends after it.
+    fn prospect(
+        &mut self,
+        interval: Interval,
+        limit: TrackLimit,
+        distance: f64,
+    ) -> Result<Prospect, StepError> {
+        let mut after = (interval.duration(), distance);
+        let left = self.model.distance_to(limit);
+        let at_once = Landing { step: None, reached: Some(limit) };
+        if self.model.leads_beyond(limit) && left <= NEAR {
+            return Ok(Prospect::Landed(at_once));
+        }
+        if !self.model.is_at(limit) {
+            return Ok(Prospect::Between(Bracket::new((0.0, -left), after)));
+        }
+        // Where the whole step hardly leaves the end, the slider rests there: halves of it would tell rounding from rounding.
+        for halving in 1..=PROBES {
+            if after.1 <= NEAR {
+                break;
+            }
+            let duration = interval.duration() * whole_power(0.5, halving);
+            let cut = Interval::lasting(interval.start, duration);
+            match self.attempt(cut)? {
+                Ok(report) => {
+                    let landing = Landing { step: Some((cut, report)), reached: Some(limit) };
+                    return Ok(Prospect::Landed(landing));
+                }
+                Err(overshoot) if overshoot.limit != limit.number() => {}
+                Err(Overshoot { distance, .. }) if distance < 0.0 => {
+                    return Ok(Prospect::Between(Bracket::new((duration, distance), after)));
+                }
+                Err(Overshoot { distance, .. }) => after = (duration, distance),
+            }
+        }
+        Ok(Prospect::Landed(at_once))
+    }
+
+    /// Tries a step; one that does not end where it is aimed at is counted, and not taken.
+    fn attempt(&mut self, cut: Interval) -> Result<Result<NewtonReport, Overshoot>, StepError> {
+        match self.integrator.step(&mut self.model, cut) {
+            Ok(report) => Ok(Ok(report)),
+            Err(StepError::Overshoot { overshoot, iterations, .. }) => {
+                self.progress.count_try(iterations);
+                Ok(Err(overshoot))
+            }
+            Err(other) => Err(other),
+        }
+    }
+
+    /// Does what is to be done where a slider arrives.
+    pub(super) fn arrive(&mut self, landing: &Landing) -> Result<(), SimulationError> {
+        let Some(limit) = landing.reached else { return Ok(()) };
+        let leads_beyond = self.model.leads_beyond(limit);
+        let kind = match self.model.end_action(limit.slider) {
+            EndAction::Stop => ArrivalKind::Stopped,
+            EndAction::Bounce if leads_beyond => {
+                let blow = self.model.bounce(limit.slider)?;
+                let dt = self.dt();
+                self.model.note_blow(limit.slider, blow, dt);
+                ArrivalKind::Bounced
+            }
+            // It only touched the stop, or its velocity has turned round just there.
+            EndAction::Bounce if landing.step.is_some() => ArrivalKind::Bounced,
+            EndAction::Bounce => {
+                self.model.hold(limit);
+                ArrivalKind::Rested
+            }
+            EndAction::Release => {
+                self.model.release(limit.slider);
+                ArrivalKind::Released
+            }
+        };
+        self.progress.arrivals.push(Arrival { time: self.model.time(), limit, kind });
+        Ok(())
+    }
+
+    /// Lets every slider arrive at the end of its master, for a pretended run: scripts may wait for that.
+    pub(super) fn pretend_arrivals(&mut self) {
+        let time = self.model.time();
+        let arrival = |slider: usize| {
+            let kind = match self.model.end_action(slider) {
+                EndAction::Stop => ArrivalKind::Stopped,
+                EndAction::Bounce => ArrivalKind::Bounced,
+                EndAction::Release => ArrivalKind::Released,
+            };
+            Arrival { time, limit: TrackLimit { slider, end: TrackEnd::End }, kind }
+        };
+        let mut arrivals: Vec<Arrival> = (0..self.scene.sliders.len()).map(arrival).collect();
+        arrivals.sort_by_key(|arrival| arrival.kind == ArrivalKind::Stopped);
+        self.progress.arrivals = arrivals;
+    }
+
+    /// Sliders that reached the end of their masters so far.
+    pub fn arrivals(&self) -> &[Arrival] {
+        &self.progress.arrivals
+    }
+
+    /// Whether a slider has ended the run.
+    pub fn has_ended(&self) -> bool {
+        self.progress.stopped().is_some()
+    }
+
+    /// Why the run has ended, if it has.
+    pub fn ending(&self) -> Option<String> {
+        self.progress.stopped().map(|stopped| self.describe(stopped))
+    }
+
+    /// An arrival in words.
+    pub(super) fn describe(&self, arrival: &Arrival) -> String {
+        arrival.describe(&self.scene.sliders[arrival.limit.slider].name)
+    }
+
+    /// What a slider does at present.
+    pub fn slider_state(&self, slider: usize) -> SliderState {
+        self.model.slider_state(slider)
+    }
+}

@@ -1,0 +1,114 @@
+//! A step of the time grid: taken whole or in halves, cut where sliders arrive, and recorded.
+
+use super::Simulation;
+use super::landing::MOST_ARRIVALS;
+use crate::integrators::{Interval, StepError};
+use crate::model::TrackLimit;
+use crate::simulation::halving::Halving;
+use crate::simulation::{Monitor, SimulationError};
+
+/// How much of an interval was covered.
+#[derive(PartialEq, Eq)]
+pub(super) enum Covered {
+    All,
+    UntilAnArrival,
+}
+
+impl Simulation {
+    /// Goes on to the end of a step, cutting the way where sliders arrive at ends of their masters.
+    pub(super) fn cover_with_arrivals(
+        &mut self,
+        mut halving: Halving,
+        monitor: &mut dyn Monitor,
+    ) -> Result<(), SimulationError> {
+        let end = halving.end();
+        for _ in 0..MOST_ARRIVALS {
+            let covered = self.cover(halving, monitor)?;
+            let is_there = self.has_reached(end);
+            if covered == Covered::All || is_there || self.has_ended() {
+                return Ok(());
+            }
+            halving = Halving::new(Interval::between(self.time(), end));
+        }
+        Err(self.rattles())
+    }
+
+    /// The error of a slider that does not get away from an end.
+    pub(super) fn rattles(&self) -> SimulationError {
+        let arrival = self.progress.arrivals.last().map_or_else(
+            || format!("a slider is about to arrive after t = {}", self.time()),
+            |last| self.describe(last),
+        );
+        SimulationError::Rattles { arrival, most: MOST_ARRIVALS }
+    }
+
+    /// Covers an interval by one step or, where that fails, by halves of it, growing again after success.
+    pub(super) fn cover(
+        &mut self,
+        mut halving: Halving,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Covered, SimulationError> {
+        while !halving.is_done() {
+            let interval = halving.next();
+            let mut stepped = self.integrator.step(&mut self.model, interval);
+            if let Err(StepError::Overshoot { overshoot, iterations, .. }) = stepped {
+                self.progress.count_try(iterations);
+                match self.land(interval, overshoot) {
+                    Ok(landing) => {
+                        self.clock.under_way = None;
+                        if let Some((interval, report)) = landing.step {
+                            self.progress.count_step(interval, report, halving.retries);
+                            self.keep_row();
+                        }
+                        let arrived = self.arrive(&landing);
+                        // An arrival without a step is not remembered: going on from the step before leads here again.
+                        if landing.step.is_some() {
+                            self.remember();
+                        }
+                        arrived?;
+                        return self.ask(monitor).map(|()| Covered::UntilAnArrival);
+                    }
+                    Err(source) => stepped = Err(source),
+                }
+            }
+            match stepped {
+                Ok(report) => {
+                    self.progress.count_step(interval, report, halving.retries);
+                    halving.succeed();
+                    self.clock.under_way = halving.rest();
+                    self.keep_present();
+                }
+                Err(source) if !source.may_be_cured_by_a_smaller_step() => {
+                    return Err(SimulationError::Load { source });
+                }
+                Err(source) => {
+                    self.progress.count_failure(source.factorisations());
+                    let divisions = halving.divisions();
+                    if !halving.fail() {
+                        return Err(self.no_step(halving.whole.duration(), divisions, source));
+                    }
+                    self.clock.under_way = halving.rest();
+                }
+            }
+            self.ask(monitor)?;
+        }
+        Ok(Covered::All)
+    }
+
+    /// Asks whether the run goes on.
+    pub(super) fn ask(&self, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
+        let time = self.time();
+        if monitor.goes_on(time) { Ok(()) } else { Err(SimulationError::Interrupted { time }) }
+    }
+
+    /// The error of steps that failed in every size.
+    fn no_step(&self, dt: f64, divisions: u64, source: StepError) -> SimulationError {
+        let time = self.time();
+        if let StepError::Overshoot { overshoot, .. } = &source {
+            let limit = TrackLimit::of(overshoot.limit);
+            let slider = self.scene.sliders[limit.slider].name.clone();
+            return SimulationError::Landing { slider, end: limit.end.name(), time, dt, divisions };
+        }
+        SimulationError::Step { time, dt, divisions, source }
+    }
+}

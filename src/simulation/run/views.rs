@@ -1,0 +1,109 @@
+//! Looking at a simulation: places, paths and configurations to draw.
+
+use super::Simulation;
+use crate::beams::{Place, Station};
+use crate::geometry::Vec2;
+use crate::model::ModelError;
+use crate::simulation::{Configuration, Outline};
+use crate::vibration::{Modes, VibrationError};
+
+impl Simulation {
+    /// The place of a station on its body.
+    ///
+    /// # Errors
+    /// When it lies outside its beam.
+    pub fn place(&self, station: &Station) -> Result<Place, ModelError> {
+        self.scene.place(station, self.model.meshes())
+    }
+
+    /// The lowest natural modes of the present configuration, taken as one at rest.
+    ///
+    /// # Errors
+    /// When there are not so many, something slides or turns with the beam, or it is stopped.
+    pub fn modes(
+        &self,
+        count: usize,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Modes, VibrationError> {
+        Modes::of(&self.model, count, goes_on)
+    }
+
+    /// Where a place was, at all times of the trajectory.
+    pub fn path(&self, place: &Place) -> Vec<(f64, Vec2)> {
+        let counts: Vec<usize> = self.model.control_points().map(<[Vec2]>::len).collect();
+        let offset = counts[..place.body].iter().sum::<usize>();
+        let at = |index: usize| -> Vec2 {
+            let numbers = self.record.trajectory.configuration(index);
+            place
+                .weights()
+                .map(|(point, w)| {
+                    Vec2::new(numbers[2 * (offset + point)], numbers[2 * (offset + point) + 1]) * w
+                })
+                .sum()
+        };
+        self.record
+            .trajectory
+            .times()
+            .iter()
+            .enumerate()
+            .map(|(index, &time)| (time, at(index)))
+            .collect()
+    }
+
+    /// The present configuration, as it is drawn.
+    ///
+    /// # Errors
+    /// When an axis has a point without a tangent.
+    pub fn configuration(&self) -> Result<Configuration, ModelError> {
+        let bodies: Vec<&[Vec2]> = self.model.control_points().collect();
+        Ok(Outline::draw(self.outlines()?, self.time(), &bodies))
+    }
+
+    /// The configuration nearest to a time, as it is drawn; none before there is one.
+    ///
+    /// # Errors
+    /// When an axis has a point without a tangent.
+    pub fn configuration_near(&self, time: f64) -> Result<Option<Configuration>, ModelError> {
+        let Some(index) = self.record.trajectory.nearest(time) else { return Ok(None) };
+        let bodies = self.control_points_at(index);
+        let bodies: Vec<&[Vec2]> = bodies.iter().map(Vec::as_slice).collect();
+        Ok(Some(Outline::draw(self.outlines()?, self.record.trajectory.times()[index], &bodies)))
+    }
+
+    /// Where stations are [length].
+    ///
+    /// # Errors
+    /// When one lies outside its beam.
+    pub fn stations(&self, stations: &[Station]) -> Result<Vec<Vec2>, ModelError> {
+        stations.iter().map(|at| Ok(self.model.position(&self.place(at)?))).collect()
+    }
+
+    /// Where stations were in the configuration nearest to a time [length].
+    ///
+    /// # Errors
+    /// When one lies outside its beam.
+    pub fn stations_near(&self, stations: &[Station], time: f64) -> Result<Vec<Vec2>, ModelError> {
+        let Some(index) = self.record.trajectory.nearest(time) else {
+            return self.stations(stations);
+        };
+        let bodies = self.control_points_at(index);
+        let at = |station| {
+            let place = self.place(station)?;
+            Ok(place.interpolate(&bodies[place.body]))
+        };
+        stations.iter().map(at).collect()
+    }
+
+    /// The control points of all bodies in a configuration of the trajectory.
+    fn control_points_at(&self, index: usize) -> Vec<Vec<Vec2>> {
+        let mut numbers = self.record.trajectory.configuration(index).chunks_exact(2);
+        let of_body = |body: &[Vec2]| {
+            numbers.by_ref().take(body.len()).map(|xy| Vec2::new(xy[0], xy[1])).collect()
+        };
+        self.model.control_points().map(of_body).collect()
+    }
+
+    fn outlines(&self) -> Result<&[Outline], ModelError> {
+        self.drawn.outlines(|| Outline::of_scene(&self.scene, self.model.meshes()))
+    }
+}
