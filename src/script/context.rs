@@ -375,10 +375,8 @@ impl Context {
             names.insert(name);
         }
         if remains.next().is_some() {
-            let (kept, all) = (MOST_REMAINS, reporters.len());
-            self.tell(&format!(
-                "note: the histories of the first {kept} of {all} simulations are kept"
-            ));
+            let all = reporters.len();
+            self.tell(&format!("note: the first {MOST_REMAINS} of {all} simulations are kept"));
         }
     }
 
