@@ -39,7 +39,7 @@ impl Reports {
         };
         let files = remains.by_ref().take(MOST_REMAINS).enumerate().map(named).collect();
         let (kept, all) = (MOST_REMAINS, reporters.len());
-        let note = format!("note: the histories of the first {kept} of {all} simulations are kept");
+        let note = format!("note: the first {kept} of {all} simulations are kept");
         (files, remains.next().map(|_| note))
     }
 

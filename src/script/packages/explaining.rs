@@ -1,4 +1,4 @@
-//! Looking closely: what a scene uses, and what a value is.
+//! Looking closely: what a scene uses, what it is like, and what a value is.
 
 use rhai::Dynamic;
 
@@ -8,7 +8,7 @@ use super::simulations::{SIMULATION, SPINNING};
 use crate::model::{Part, Usage};
 use crate::output::Table as TextTable;
 use crate::script::catalog::Catalog;
-use crate::script::parameter::anything;
+use crate::script::parameter::{anything, object};
 use crate::script::present::present;
 use crate::script::table::{Table, function, method};
 
@@ -32,6 +32,23 @@ pub const TABLE: Table = Table {
         .doc("Numbers have up to ten digits; long arrays and maps are elided.")
         .example("print(describe(rod));\ncheck(describe(0.1 + 0.2) == \"0.3\");")
         .see(&["explain"]),
+        method(SCENE, "is_like", &[object("other", SCENE)], |call| {
+            let (own, other) = (call.receiver::<SceneHandle>()?, call.get::<SceneHandle>("other")?);
+            let is_like = own.scene().borrow().is_like(&other.scene().borrow());
+            Ok(is_like.into())
+        })
+        .returns("true or false")
+        .summary("Whether another scene has the same beams, joints, masses, velocities and loads, in the same order.")
+        .doc(
+            "Names do not count, nor do differences of a billionth. Functions of scripts cannot be compared: a scene with a load that \
+             follows one is like no other scene.",
+        )
+        .example(
+            "let pair = [\"a\", \"b\"].map(|name| new_scene(name));\n\
+             for one in pair { one.particle([0, 0], 1); }\ncheck(pair[0].is_like(pair[1]));\n\
+             pair[1].gravity([0, -9.81]);\ncheck(!pair[0].is_like(pair[1]));",
+        )
+        .see(&["beam", "start"]),
         method(SCENE, "explain", &[], |call| {
             let parts = call.receiver::<SceneHandle>()?.scene().borrow().explain()?;
             Ok(written(&parts))

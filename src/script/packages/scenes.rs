@@ -88,22 +88,6 @@ pub const TABLE: Table = Table {
             .returns("a text")
             .summary("Its name.")
             .example("check(new_scene(\"pendulum\").name == \"pendulum\");"),
-        method(SCENE, "is_like", &[object("other", SCENE)], |call| {
-            let (own, other) = (call.receiver::<SceneHandle>()?, call.get::<SceneHandle>("other")?);
-            let is_like = own.0.borrow().is_like(&other.0.borrow());
-            Ok(is_like.into())
-        })
-        .returns("true or false")
-        .summary("Whether another scene has the same beams, joints, masses, velocities and loads, in the same order.")
-        .doc(
-            "Names do not count, nor do differences of a billionth. Functions of scripts cannot be compared: a scene with a load that \
-             follows one is like no other scene.",
-        )
-        .example(
-            "let other = new_scene(\"other\");\nother.beam(#{ axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });\n\
-             check(scene.is_like(other));\nscene.clamp(rod.start);\ncheck(!scene.is_like(other));",
-        )
-        .see(&["beam", "start"]),
         method(SCENE, "clamp", &[AT], |call| join(call, JointKind::Rigid))
             .summary("Holds position and angle of a station.")
             .doc("Inside a beam the mesh becomes only C0 there, so that the shear force can jump.")
