@@ -38,7 +38,8 @@ mod windows;
 pub use live::{Revisit, SimulationHandle};
 pub use scenes::{SceneHandle, StationHandle};
 
-use super::table::Table;
+use crate::script::rows::catalog::Catalog;
+use crate::script::rows::table::Table;
 
 /// All domains, in the order of the reference.
 pub const TABLES: &[&Table] = &[
@@ -75,6 +76,11 @@ pub const TABLES: &[&Table] = &[
     &reading_options::TABLE,
     &help::TABLE,
 ];
+
+/// The language of withy.
+pub fn language() -> Catalog {
+    Catalog::of(TABLES)
+}
 
 #[cfg(test)]
 mod tests;

@@ -9,11 +9,11 @@ use super::scenes::{SCENE, STATION, SceneHandle, StationHandle};
 use super::simulations::SIMULATION;
 use crate::model::{Model, Scene};
 use crate::output::{Cell, Table as TextTable, significant};
-use crate::script::call::Call;
-use crate::script::error::{Place, ScriptError};
-use crate::script::kind::{Scripted, Type};
-use crate::script::parameter::{Parameter, Presence, object, whole};
-use crate::script::table::{Body, Row, Table, method, property};
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Scripted, Type};
+use crate::script::rows::parameter::{Parameter, Presence, object, whole};
+use crate::script::rows::table::{Body, Row, Table, method, property};
+use crate::script::words::error::{Place, ScriptError};
 use crate::vibration::{Mode, Modes, VibrationError};
 
 /// Modes.

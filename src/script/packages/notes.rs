@@ -6,8 +6,8 @@ use rhai::{Array, Dynamic};
 
 use super::live::SimulationHandle;
 use super::simulations::{SIMULATION, SPINNING};
-use crate::script::context::Context;
-use crate::script::table::{Table, property};
+use crate::script::rows::table::{Table, property};
+use crate::script::state::context::Context;
 use crate::simulation::{Note, Simulation};
 
 /// Notes.

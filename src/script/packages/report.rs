@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::live::SimulationHandle;
 use crate::geometry::Vec2;
 use crate::output::CsvTable;
-use crate::script::context::Reporter;
+use crate::script::words::reports::Reporter;
 use crate::simulation::{History, Invariant};
 
 impl Reporter for SimulationHandle {

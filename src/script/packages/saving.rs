@@ -8,11 +8,11 @@ use super::scenes::{BeamHandle, SCENE, SceneHandle, StationHandle};
 use super::simulations::{SIMULATION, SPINNING};
 use super::sliding::SliderHandle;
 use crate::beams::Station;
-use crate::script::call::Call;
-use crate::script::error::{Place, ScriptError};
-use crate::script::parameter::{Parameter, text};
-use crate::script::suggest::nearest;
-use crate::script::table::{Table, function, method, property};
+use crate::script::rows::call::Call;
+use crate::script::rows::parameter::{Parameter, text};
+use crate::script::rows::table::{Table, function, method, property};
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::suggest::nearest;
 use crate::simulation::Simulation;
 
 /// Saving and loading.

@@ -15,14 +15,14 @@ use crate::model::{
     BeamDefinition, ModelError, ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity,
 };
 use crate::output::significant;
-use crate::script::call::Call;
-use crate::script::details;
-use crate::script::error::{Place, ScriptError};
-use crate::script::kind::{Details, Scripted, Type};
-use crate::script::parameter::{
+use crate::script::looks::details;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Details, Scripted, Type};
+use crate::script::rows::parameter::{
     Parameter, Presence, either, name, number, object, options, point, text,
 };
-use crate::script::table::{Table, function, method, property};
+use crate::script::rows::table::{Table, function, method, property};
+use crate::script::words::error::{Place, ScriptError};
 
 /// Scenes and what stands in them.
 pub const TABLE: Table = Table {

@@ -3,12 +3,12 @@
 use rhai::Dynamic;
 
 use super::live::SimulationHandle;
-use crate::script::call::Call;
-use crate::script::details;
-use crate::script::error::{Place, ScriptError};
-use crate::script::kind::{Details, Scripted};
-use crate::script::numbers::format_number;
-use crate::script::sight::{column_hint, column_names};
+use crate::script::looks::details;
+use crate::script::looks::sight::{column_hint, column_names};
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Details, Scripted};
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::format_number;
 use crate::simulation::{History, Sample};
 
 /// A part of the history of a simulation; it grows with it.

@@ -4,9 +4,9 @@ use std::cell::{Ref, RefCell};
 use std::rc::Rc;
 
 use super::{Events, SimulationHandle, Watch, explain};
-use crate::script::context::Context;
-use crate::script::error::ScriptError;
-use crate::script::stored::StoredFunction;
+use crate::script::rows::stored::StoredFunction;
+use crate::script::state::context::Context;
+use crate::script::words::error::ScriptError;
 use crate::simulation::Simulation;
 
 /// As long as it lives, a copy stands in the place of a simulation; then all is as it was.
