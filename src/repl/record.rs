@@ -7,7 +7,7 @@ use rhai::{Engine, Scope, Token};
 
 use super::session::ANSWER;
 use super::statements;
-use crate::script::packages::SimulationHandle;
+use crate::script::handles::simulation::SimulationHandle;
 use crate::script::source::lexing::tokens;
 use crate::script::source::program::Program;
 use crate::script::words::numbers::format_number;

@@ -15,8 +15,8 @@ use super::session::{ANSWER, Reply, Session};
 use crate::folders::read_file;
 use crate::output::{Colours, Style, significant};
 use crate::script::diagnose::Diagnostic;
+use crate::script::handles::simulation::SimulationHandle;
 use crate::script::looks::present::present;
-use crate::script::packages::SimulationHandle;
 use crate::script::rows::kind::Scripted;
 use crate::script::source::program::{LARGEST_SCRIPT, Program};
 

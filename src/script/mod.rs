@@ -7,6 +7,7 @@
 pub mod diagnose;
 pub mod dialect;
 pub mod engine;
+pub mod handles;
 pub mod library;
 pub mod looks;
 pub mod packages;

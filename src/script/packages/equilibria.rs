@@ -6,10 +6,12 @@ use std::rc::Rc;
 use rhai::{Array, Dynamic, INT, Map};
 
 use super::modes::{COUNT, ModesHandle, expect_room, look as look_for_modes};
-use super::scenes::{SCENE, STATION, SceneHandle, StationHandle};
+use super::scenes::{SCENE, STATION};
 use super::simulations::{START, begin, followed};
 use crate::beams::Place;
 use crate::output::significant;
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::station::StationHandle;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Details, Scripted, Type};
 use crate::script::rows::parameter::{Parameter, Presence, number, object, options, whole};

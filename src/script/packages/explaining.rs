@@ -3,11 +3,12 @@
 use rhai::Dynamic;
 
 use super::language;
-use super::live::SimulationHandle;
-use super::scenes::{SCENE, SceneHandle};
+use super::scenes::SCENE;
 use super::simulations::{SIMULATION, SPINNING};
 use crate::model::{Part, Usage};
 use crate::output::Table as TextTable;
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::simulation::SimulationHandle;
 use crate::script::looks::present::present;
 use crate::script::rows::parameter::{anything, object};
 use crate::script::rows::table::{Table, function, method};

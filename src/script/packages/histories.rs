@@ -4,8 +4,8 @@ use rhai::{Array, Dynamic, INT};
 
 use super::recording::expect_all_rows;
 use super::simulations::SPINNING;
-use super::windows::HistoryHandle;
 use crate::geometry::{larger, smaller};
+use crate::script::handles::history::HistoryHandle;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Type;
 use crate::script::rows::parameter::{Parameter, choice, number, text};

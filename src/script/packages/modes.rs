@@ -4,11 +4,13 @@ use std::rc::Rc;
 
 use rhai::{Array, Dynamic, INT};
 
-use super::live::SimulationHandle;
-use super::scenes::{SCENE, STATION, SceneHandle, StationHandle};
+use super::scenes::{SCENE, STATION};
 use super::simulations::SIMULATION;
 use crate::model::{Model, Scene};
 use crate::output::{Cell, Table as TextTable, significant};
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::handles::station::StationHandle;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Scripted, Type};
 use crate::script::rows::parameter::{Parameter, Presence, object, whole};

@@ -5,16 +5,16 @@ use std::path::Path;
 use rhai::{Array, Dynamic};
 
 use super::histories::HISTORY;
-use super::live::SimulationHandle;
 use super::recording::{expect_all_rows, expect_near, expect_rows_between};
-use super::report::history_table;
-use super::scenes::StationHandle;
 use super::simulations::{SIMULATION, SPINNING};
-use super::windows::HistoryHandle;
 use crate::geometry::Vec2;
 use crate::output::{
     CsvTable, LineChart, MotionPicture, Page, Panel, PictureKind, Scale, Snapshot,
 };
+use crate::script::handles::history::HistoryHandle;
+use crate::script::handles::report::history_table;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::handles::station::StationHandle;
 use crate::script::looks::sight::{drift_lines, line_chart};
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Kind, Scripted};

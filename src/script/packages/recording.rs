@@ -4,8 +4,8 @@ use std::num::NonZeroUsize;
 
 use rhai::Dynamic;
 
-use super::live::SimulationHandle;
 use super::simulations::SPINNING;
+use crate::script::handles::simulation::SimulationHandle;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Scripted, Type};
 use crate::script::rows::parameter::whole;

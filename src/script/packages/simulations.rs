@@ -3,19 +3,22 @@
 use rhai::{Dynamic, INT};
 
 use super::integrators::INTEGRATOR;
-use super::live::{Goal, SimulationHandle};
-use super::notes::{Notes, PRINTING};
+use super::notes::PRINTING;
 use super::recording::RECORDING;
-use super::scenes::{SCENE, STATION, SceneHandle, StationHandle};
+use super::scenes::{SCENE, STATION};
 use super::sliding::meant;
 use super::step_sizes::STEP_CONTROL;
 use super::time_travel::bytes;
-use super::windows::HistoryHandle;
 use crate::beams::Place;
 use crate::integrators::Method;
 use crate::model::Measures;
 use crate::newton::Tolerance;
 use crate::output::{Cell, Table as TextTable, scientific};
+use crate::script::handles::history::HistoryHandle;
+use crate::script::handles::notes::Notes;
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::simulation::{Goal, SimulationHandle};
+use crate::script::handles::station::StationHandle;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Kind, Range, Scripted, Type};
 use crate::script::rows::parameter::{

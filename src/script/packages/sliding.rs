@@ -2,13 +2,16 @@
 
 use rhai::{Array, Dynamic, Map};
 
-use super::live::SimulationHandle;
-use super::scenes::{BEAM, BeamHandle, SCENE, STATION, SceneHandle, here};
+use super::scenes::{BEAM, SCENE, STATION};
 use super::simulations::SIMULATION;
 use crate::beams::Station;
 use crate::joints::{EndAction, Slider, SlidingRule, StartVelocities};
 use crate::model::{Model, ModelError, Scene, SliderError};
 use crate::output::significant;
+use crate::script::handles::beam::BeamHandle;
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::handles::station::here;
 use crate::script::looks::details;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Details, Scripted, Type};

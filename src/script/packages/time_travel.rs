@@ -2,8 +2,8 @@
 
 use rhai::Dynamic;
 
-use super::live::{Goal, SimulationHandle};
 use super::simulations::{SIMULATION, SPINNING};
+use crate::script::handles::simulation::{Goal, SimulationHandle};
 use crate::script::rows::call::Call;
 use crate::script::rows::parameter::{Presence, name, number, whole};
 use crate::script::rows::table::{Table, method};

@@ -8,12 +8,14 @@
 
 use rhai::{Dynamic, Engine, EvalContext, Position, Token};
 
-/// Private-use characters that stand for the statement: in a loop with one variable, and in one that counts as well.
+/// The private-use character that stands for the statement in a loop with one variable.
 pub const ONE: char = '\u{E003}';
+/// The one in a loop that counts as well.
 pub const TWO: char = '\u{E004}';
 
-/// The names of the statement for the parser.
+/// The name of the statement for the parser, in a loop with one variable.
 pub const ONE_NAME: &str = "\u{E003}";
+/// Its name in a loop that counts as well.
 pub const TWO_NAME: &str = "\u{E004}";
 
 /// Teaches `engine` the statement.

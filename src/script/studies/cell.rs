@@ -7,7 +7,7 @@ use super::plan::{STEP_SIZE, step_size};
 use crate::analysis::Case;
 use crate::integrators::Method;
 use crate::newton::Tolerance;
-use crate::script::packages::SceneHandle;
+use crate::script::handles::scene::SceneHandle;
 use crate::script::rows::call::Call;
 use crate::script::rows::options::Options;
 use crate::script::words::error::{Failure, Place, ScriptError};

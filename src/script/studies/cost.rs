@@ -8,7 +8,7 @@ use crate::integrators::{INTEGRATORS, Method};
 use crate::model::Scene;
 use crate::newton::Tolerance;
 use crate::output::{BarChart, Cell, CsvRecords, Table, format_number, significant};
-use crate::script::packages::SceneHandle;
+use crate::script::handles::scene::SceneHandle;
 use crate::script::rows::call::Call;
 use crate::script::rows::options::Options;
 use crate::script::words::error::{Place, ScriptError};

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::live::SimulationHandle;
+use super::simulation::SimulationHandle;
 use crate::geometry::Vec2;
 use crate::output::CsvTable;
 use crate::script::words::reports::Reporter;
@@ -85,7 +85,7 @@ impl Reporter for SimulationHandle {
 }
 
 /// All columns of a history.
-pub(super) fn history_table(name: &str, history: &History) -> CsvTable {
+pub fn history_table(name: &str, history: &History) -> CsvTable {
     let table = CsvTable::new().comment(format!("simulation: {name}"));
     history.columns().fold(table, |table, (column, dimension)| {
         let values = history.column(column).unwrap_or_default();

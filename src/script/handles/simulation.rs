@@ -9,7 +9,7 @@ use rhai::Dynamic;
 
 use super::events::Events;
 use super::notes::Notes;
-use super::scenes::SceneHandle;
+use super::scene::SceneHandle;
 use crate::script::looks::details;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Details, Scripted};

@@ -2,7 +2,7 @@
 
 use rhai::Dynamic;
 
-use super::live::SimulationHandle;
+use super::simulation::SimulationHandle;
 use crate::script::looks::details;
 use crate::script::looks::sight::{column_hint, column_names};
 use crate::script::rows::call::Call;
