@@ -7,12 +7,13 @@ use std::rc::Rc;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use withy::script::catalog::Catalog;
-use withy::script::context::{Context, Mode, Settings};
 use withy::script::engine;
-use withy::script::limits::Limits;
-use withy::script::program::Program;
-use withy::script::runner::{Ending, compile, on_large_stack, run};
+use withy::script::engine::runner::{Ending, compile, on_large_stack, run};
+use withy::script::packages::language;
+use withy::script::source::program::Program;
+use withy::script::state::context::Context;
+use withy::script::state::limits::Limits;
+use withy::script::state::settings::{Mode, Settings};
 
 /// Every figure is the least of so many repeats, taken in turns with what it is compared to.
 const REPEATS: usize = 15;
@@ -54,7 +55,7 @@ fn seconds(scene: &str, work: &str) -> f64 {
     );
     let printed = Printed::default();
     let settings = Settings { printed: Box::new(printed.clone()), ..Settings::silent(Mode::Run) };
-    let outcome = run(&Program::named("bench", &text), &Catalog::standard(), settings);
+    let outcome = run(&Program::named("bench", &text), &language(), settings);
     if let Ending::Failed(diagnostic) = outcome.ending {
         panic!("{diagnostic}");
     }
@@ -123,7 +124,7 @@ fn main() {
         median(|| {
             timed(|| {
                 let context = Context::new(Settings::silent(Mode::Run));
-                let mut engine = engine::build(&Catalog::standard(), &context).unwrap();
+                let mut engine = engine::build(&language(), &context).unwrap();
                 let ast = compile(&mut engine, &Program::named("empty", "")).unwrap();
                 Rc::new(engine).run_ast(&ast).unwrap();
             })

@@ -23,8 +23,9 @@ use crate::exercises::grading::{self, Mark};
 use crate::exercises::judging::{Verdict, judge};
 use crate::exercises::submissions::Submission;
 use crate::folders::Scratch;
-use crate::script::context::{Mode, Settings};
-use crate::script::limits::{Limits, Stop};
+use crate::script::state::limits::Limits;
+use crate::script::state::settings::{Mode, Settings};
+use crate::script::words::stop::Stop;
 
 /// How often a process is looked at.
 const INTERVAL: Duration = Duration::from_millis(5);
@@ -226,7 +227,7 @@ pub(super) fn judge_one(
 /// Limits of the system for this process: a net below our own, which are kept first.
 #[cfg(unix)]
 fn confine(limits: &Limits) -> nix::Result<()> {
-    use crate::script::runner::stack_for;
+    use crate::script::engine::runner::stack_for;
     use nix::sys::resource::{Resource, getrlimit, setrlimit};
     let cores = thread::available_parallelism().map_or(1, usize::from) as u64;
     let set = |resource, most: u64| {

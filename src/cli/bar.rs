@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::script::numbers::format_number;
-use crate::script::progress::{NoProgress, Progress};
+use crate::script::words::numbers::format_number;
+use crate::script::words::progress::{NoProgress, Progress};
 
 /// Whether progress is wanted at all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

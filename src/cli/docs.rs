@@ -8,18 +8,19 @@ use super::args::DocsOptions;
 use super::run::refuse;
 use crate::folders::read_text;
 use crate::output::{Colours, Style, write_whole};
-use crate::script::catalog::Catalog;
-use crate::script::definitions::definitions;
 use crate::script::diagnose::Diagnostic;
-use crate::script::help::{self, WIDTH};
-use crate::script::reference::reference;
+use crate::script::packages::language;
+use crate::script::pages::definitions::definitions;
+use crate::script::pages::help::{self, WIDTH};
+use crate::script::pages::reference::reference;
+use crate::script::rows::catalog::Catalog;
 
 /// The largest definition file that is looked at before it is replaced [bytes].
 const LARGEST_DEFINITION: u64 = 1 << 24;
 
 /// Shows or writes what was asked for.
 pub fn docs(options: &DocsOptions) -> Exit {
-    let catalog = Catalog::standard();
+    let catalog = language();
     let text = match &options.definitions {
         Some(folder) => write_definitions(&catalog, folder),
         None if options.markdown => Ok(reference(&catalog)),

@@ -10,7 +10,7 @@ use super::Exit;
 use super::say::tell;
 use super::watching::terminal;
 use crate::repl::editor::typed_ahead;
-use crate::script::limits::INTERRUPT_HEARD;
+use crate::script::state::limits::INTERRUPT_HEARD;
 
 /// So long has a run to hear of it,
 const GRACE: Duration = Duration::from_millis(900);

@@ -24,9 +24,9 @@ use crate::exercises::exercise::Exercise;
 use crate::exercises::judging::{Verdict, judge};
 use crate::exercises::watch::{INTERVAL, Watcher};
 use crate::exercises::workbook::{Advice, Workbook};
-use crate::script::context::{Mode, Settings};
 use crate::script::diagnose::{Colours, Diagnostic};
-use crate::script::panics;
+use crate::script::state::settings::{Mode, Settings};
+use crate::script::words::panics;
 
 /// Does what was asked for.
 pub fn learn(options: &LearnOptions) -> Exit {

@@ -13,13 +13,14 @@ use super::say::tell;
 use crate::folders::read_file;
 use crate::output::write_whole;
 use crate::repl::editor::typed_ahead;
-use crate::script::catalog::Catalog;
-use crate::script::context::{JournalWish, Mode, Settings, StudyWishes};
 use crate::script::diagnose::{Colours, Diagnostic};
-use crate::script::limits::{LastResort, Stop};
-use crate::script::panics;
-use crate::script::program::Program;
-use crate::script::runner::{self, Ending, Outcome};
+use crate::script::engine::runner::{self, Ending, Outcome};
+use crate::script::packages::language;
+use crate::script::source::program::Program;
+use crate::script::state::limits::LastResort;
+use crate::script::state::settings::{JournalWish, Mode, Settings, StudyWishes};
+use crate::script::words::panics;
+use crate::script::words::stop::Stop;
 
 /// The largest report that is looked at before it is replaced [bytes].
 const LARGEST_REPORT: u64 = 1 << 28;
@@ -112,7 +113,7 @@ pub fn check(options: &CheckOptions) -> Exit {
 fn start(file: &Path, settings: Settings) -> Result<Outcome, Diagnostic> {
     let program = Program::load(file)?;
     panics::silence();
-    Ok(runner::run(&program, &Catalog::standard(), settings))
+    Ok(runner::run(&program, &language(), settings))
 }
 
 fn exit_for(outcome: &Outcome) -> Exit {

@@ -15,13 +15,13 @@ use crate::repl::pager::TerminalPager;
 use crate::repl::session::Session;
 use crate::repl::shell::{Outcome, Screen, Shell};
 use crate::repl::{batch, prompt};
-use crate::script::catalog::Catalog;
-use crate::script::context::{Mode, Settings};
 use crate::script::diagnose::Diagnostic;
-use crate::script::limits::{MEGABYTE, Stop};
-use crate::script::panics;
-use crate::script::program::Program;
-use crate::script::runner::on_large_stack;
+use crate::script::engine::runner::on_large_stack;
+use crate::script::packages::language;
+use crate::script::source::program::Program;
+use crate::script::state::settings::{Mode, Settings};
+use crate::script::words::panics;
+use crate::script::words::stop::{MEGABYTE, Stop};
 
 /// Opens a session in which a file may have been evaluated first.
 pub fn open(options: &ReplOptions) -> Exit {
@@ -50,7 +50,7 @@ fn hold(options: &ReplOptions) -> Result<Exit, Diagnostic> {
     let ReplOptions { file, session: options } = options;
     let is_conversation = is_conversation(options);
     let settings = Settings { folder: folder_of(file), ..settings(options, is_conversation) };
-    let session = Session::new(Catalog::standard(), settings)?;
+    let session = Session::new(language(), settings)?;
     let screen = if is_conversation { Screen::Terminal(style(options)) } else { Screen::Pipe };
     let mut shell = Shell::new(session, screen);
     let mut outcome = match file {

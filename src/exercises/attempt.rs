@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::folders::Folder;
 use crate::script::diagnose::Diagnostic;
-use crate::script::program::Program;
+use crate::script::source::program::Program;
 
 /// The largest file that is taken for an attempt [bytes].
 pub const LARGEST: u64 = 1 << 20;
@@ -25,7 +25,7 @@ pub fn load(path: &Path, folder: &Path) -> Result<Program, Diagnostic> {
         ErrorKind::NotFound => refused("there is no such file"),
         _ => refused(&error.to_string()),
     });
-    Program::from_bytes(path, content?)
+    Ok(Program::from_bytes(path, content?)?)
 }
 
 #[cfg(test)]

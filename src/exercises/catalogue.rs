@@ -2,7 +2,7 @@
 
 use super::error::ExerciseError;
 use super::exercise::Exercise;
-use crate::script::suggest::nearest;
+use crate::script::words::suggest::nearest;
 
 /// A track of exercises.
 #[derive(Debug, PartialEq, Eq)]

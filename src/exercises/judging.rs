@@ -14,14 +14,16 @@ use rhai::{AST, Dynamic, Engine, FnPtr, NativeCallContext, Scope};
 use super::exercise::Exercise;
 use super::judge::Need;
 use super::muffle::Silence;
-use crate::script::catalog::Catalog;
-use crate::script::context::{Context, Settings};
 use crate::script::diagnose::{Blame, Diagnostic, Explainer, is_interrupt};
 use crate::script::engine;
-use crate::script::kind::with_article;
-use crate::script::panics;
-use crate::script::program::Program;
-use crate::script::runner::{self, SNAPSHOTS};
+use crate::script::engine::runner::{self, SNAPSHOTS};
+use crate::script::packages::language;
+use crate::script::rows::catalog::Catalog;
+use crate::script::source::program::Program;
+use crate::script::state::context::Context;
+use crate::script::state::settings::Settings;
+use crate::script::words::nouns::with_article;
+use crate::script::words::panics;
 
 /// How long an attempt may take, and its judge as well, unless a limit is set.
 pub const PATIENCE: Duration = Duration::from_secs(20);
@@ -71,7 +73,7 @@ impl Trial {
             told: silence.muffle(settings.told),
             ..settings
         };
-        let (catalog, context) = (Catalog::standard(), Context::new(settings));
+        let (catalog, context) = (language(), Context::new(settings));
         let mut engine = engine::build(&catalog, &context).map_err(broken_by_us)?;
         engine::import_from(&mut engine, &folder);
         let engine = Rc::new(engine);

@@ -15,7 +15,7 @@ use super::grading::Mark;
 use super::submissions::Submission;
 use crate::analysis::Journal;
 use crate::folders::{Folder, read_file};
-use crate::script::lexing::tokens;
+use crate::script::source::lexing::tokens;
 
 /// The largest file of marks that is read [bytes].
 const LARGEST: u64 = 1 << 30;

@@ -115,7 +115,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::script::program::Program;
+    use crate::script::source::program::Program;
 
     fn place(text: &str, line: usize, column: usize) -> Place {
         let program = Arc::new(Program::named("mine.rhai", text));

@@ -5,7 +5,7 @@ use std::io::{self, BufRead, Read};
 use super::editor::completeness::{Completeness, completeness_of_script, is_command};
 use super::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
-use crate::script::program::LARGEST_SCRIPT;
+use crate::script::source::program::LARGEST_SCRIPT;
 
 /// Whether a line belongs to the one before, complete as that may be.
 fn continues(line: &str) -> bool {

@@ -5,7 +5,7 @@ use rhai::{Array, Dynamic};
 use super::editor::completeness::is_command;
 use crate::geometry::Vec2;
 use crate::output::{Point, significant};
-use crate::script::scanner::{Kind, scan};
+use crate::script::source::scanner::{Kind, scan};
 
 /// Digits of the numbers in a summary.
 const DIGITS: usize = 6;

@@ -3,7 +3,8 @@
 use rhai::{Array, Dynamic, FnPtr, Map};
 
 use super::session::Session;
-use crate::script::packages::{SceneHandle, SimulationHandle};
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::simulation::SimulationHandle;
 
 /// Arrays and maps are looked into so deep.
 const DEEPEST: usize = 8;

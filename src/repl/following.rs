@@ -7,10 +7,11 @@ use super::curves::{Shape, shape};
 use super::session::{Reply, Rounds};
 use super::shell::{Outcome, Shell};
 use crate::output::significant;
-use crate::script::context::Context;
 use crate::script::diagnose::Diagnostic;
-use crate::script::error::ScriptError;
-use crate::script::packages::{Revisit, SimulationHandle};
+use crate::script::handles::simulation::Revisit;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::state::context::Context;
+use crate::script::words::error::ScriptError;
 
 /// More states than a terminal has dots for are thinned out.
 const MOST_STATES: usize = 1000;

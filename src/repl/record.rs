@@ -7,10 +7,10 @@ use rhai::{Engine, Scope, Token};
 
 use super::session::ANSWER;
 use super::statements;
-use crate::script::lexing::tokens;
-use crate::script::numbers::format_number;
-use crate::script::packages::SimulationHandle;
-use crate::script::program::Program;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::source::lexing::tokens;
+use crate::script::source::program::Program;
+use crate::script::words::numbers::format_number;
 
 /// The first line of every saved session.
 const HEADER: &str = "//! A session of withy: what worked of it.";
@@ -270,13 +270,15 @@ fn without(text: String, is_replaced: impl Fn(&Definition) -> bool) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::script::catalog::Catalog;
-    use crate::script::context::{Context, Mode, Settings};
     use crate::script::engine::build;
+    use crate::script::packages::language;
+
+    use crate::script::state::context::Context;
+    use crate::script::state::settings::{Mode, Settings};
 
     fn script(record: &Record) -> String {
         let context = Context::new(Settings::silent(Mode::Run));
-        let engine = build(&Catalog::standard(), &context).expect("an engine");
+        let engine = build(&language(), &context).expect("an engine");
         record.script(&engine).lines().skip(2).collect::<Vec<_>>().join("\n")
     }
 

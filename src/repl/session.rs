@@ -15,18 +15,19 @@ use rhai::{
 use super::record::{Record, Whereabouts, functions_of, whereabouts};
 use super::transcript::{PROMPT, Transcript};
 use super::{scope, statements};
-use crate::script::catalog::Catalog;
-use crate::script::context::{Context, Settings};
 use crate::script::diagnose::{Diagnostic, Explainer, is_interrupt};
+use crate::script::dialect::naming;
+use crate::script::dialect::reading::read;
 use crate::script::engine;
-use crate::script::error::ScriptError;
-use crate::script::lexing::{open_comment, tokens};
-use crate::script::naming;
-use crate::script::panics;
-use crate::script::program::Program;
-use crate::script::reading::read;
-use crate::script::sources::Sources;
-use crate::script::watchdog::Watchdog;
+use crate::script::rows::catalog::Catalog;
+use crate::script::rows::sources::Sources;
+use crate::script::source::lexing::{open_comment, tokens};
+use crate::script::source::program::Program;
+use crate::script::state::context::Context;
+use crate::script::state::settings::Settings;
+use crate::script::state::watchdog::Watchdog;
+use crate::script::words::error::ScriptError;
+use crate::script::words::panics;
 
 pub use peek::Rounds;
 

@@ -15,10 +15,10 @@ use super::session::{ANSWER, Reply, Session};
 use crate::folders::read_file;
 use crate::output::{Colours, Style, significant};
 use crate::script::diagnose::Diagnostic;
-use crate::script::kind::Scripted;
-use crate::script::packages::SimulationHandle;
-use crate::script::present::present;
-use crate::script::program::{LARGEST_SCRIPT, Program};
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::looks::present::present;
+use crate::script::rows::kind::Scripted;
+use crate::script::source::program::{LARGEST_SCRIPT, Program};
 
 /// What came of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

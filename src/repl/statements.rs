@@ -2,9 +2,9 @@
 
 use rhai::{AST, ASTFlags, ASTNode, Engine, Scope, Stmt, Token};
 
-use crate::script::lexing::tokens;
-use crate::script::program::Program;
-use crate::script::reading::read;
+use crate::script::dialect::reading::read;
+use crate::script::source::lexing::tokens;
+use crate::script::source::program::Program;
 
 /// How many statements a text has, functions apart; none if it is not correct.
 pub fn count(engine: &Engine, text: &str) -> Option<usize> {
@@ -47,13 +47,15 @@ pub fn returns(ast: &AST) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::script::catalog::Catalog;
-    use crate::script::context::{Context, Mode, Settings};
     use crate::script::engine::build;
+    use crate::script::packages::language;
+
+    use crate::script::state::context::Context;
+    use crate::script::state::settings::{Mode, Settings};
 
     fn engine() -> Engine {
         let context = Context::new(Settings::silent(Mode::Run));
-        build(&Catalog::standard(), &context).expect("an engine")
+        build(&language(), &context).expect("an engine")
     }
 
     #[test]

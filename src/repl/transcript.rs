@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use crate::script::diagnose::{Diagnostic, Location};
-use crate::script::program::Program;
+use crate::script::source::program::Program;
 
 /// The name of what is typed at the prompt, in messages.
 pub const PROMPT: &str = "prompt";

@@ -8,10 +8,10 @@ use withy::beams::{Mesh, Section, Station};
 use withy::integrators::Method;
 use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
 use withy::model::{BeamDefinition, ParticleDefinition, Scene, StartMotion, StationVelocity};
-use withy::script::catalog::Catalog;
-use withy::script::context::{Mode, Settings};
-use withy::script::program::Program;
-use withy::script::runner::{self, Ending, Outcome};
+use withy::script::engine::runner::{self, Ending, Outcome};
+use withy::script::packages::language;
+use withy::script::source::program::Program;
+use withy::script::state::settings::{Mode, Settings};
 use withy::simulation::{Note, Simulation, Unwatched};
 
 const METHODS: [Method; 3] = [Method::EnergyMomentum, Method::Trapezoidal, Method::FourthOrder];
@@ -244,7 +244,7 @@ fn outcome(script: &str) -> (Outcome, String) {
         out: out.path().to_owned(),
         ..Settings::silent(Mode::Run)
     };
-    let outcome = runner::run(&Program::named("test", script), &Catalog::standard(), settings);
+    let outcome = runner::run(&Program::named("test", script), &language(), settings);
     assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
     assert_eq!(outcome.checks.failed(), []);
     (outcome, told.take())

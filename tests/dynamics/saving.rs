@@ -4,16 +4,16 @@
 use std::path::Path;
 
 use crate::common::notepad::Notepad;
-use withy::script::catalog::Catalog;
-use withy::script::context::{Mode, Settings};
-use withy::script::program::Program;
-use withy::script::runner::{Ending, Outcome, run};
+use withy::script::engine::runner::{Ending, Outcome, run};
+use withy::script::packages::language;
+use withy::script::source::program::Program;
+use withy::script::state::settings::{Mode, Settings};
 
 fn run_in(out: &Path, mode: Mode, script: &str) -> (Outcome, String) {
     let told = Notepad::default();
     let settings =
         Settings { out: out.to_owned(), told: Box::new(told.clone()), ..Settings::silent(mode) };
-    let outcome = run(&Program::named("script", script), &Catalog::standard(), settings);
+    let outcome = run(&Program::named("script", script), &language(), settings);
     (outcome, told.take())
 }
 

@@ -25,13 +25,16 @@ use withy::repl::editor::hints::hint;
 use withy::repl::editor::surroundings::Surroundings;
 use withy::repl::session::Session;
 use withy::repl::shell::{Screen, Shell};
-use withy::script::catalog::Catalog;
-use withy::script::context::{Context, Mode, Settings};
 use withy::script::diagnose::{Blame, Explainer};
 use withy::script::engine;
-use withy::script::limits::{Limits, MEGABYTE, Stop};
-use withy::script::program::Program;
-use withy::script::runner::{on_large_stack, parse};
+use withy::script::engine::runner::{on_large_stack, parse};
+use withy::script::packages::language;
+use withy::script::rows::catalog::Catalog;
+use withy::script::source::program::Program;
+use withy::script::state::context::Context;
+use withy::script::state::limits::Limits;
+use withy::script::state::settings::{Mode, Settings};
+use withy::script::words::stop::{MEGABYTE, Stop};
 
 const SEEDS: u64 = 100_000;
 /// So many are run while somebody waits.
@@ -137,7 +140,7 @@ fn run_batch(
     present: &Present,
     report: &Mutex<Report>,
 ) {
-    let catalog = Catalog::standard();
+    let catalog = language();
     let settings =
         Settings { out: folder.join("out"), limits: LIMITS, ..Settings::silent(Mode::Run) };
     let context = Context::new(settings);

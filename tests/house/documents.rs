@@ -7,10 +7,10 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use crate::common::notepad::Notepad;
-use withy::script::catalog::Catalog;
-use withy::script::context::{Mode, Settings};
-use withy::script::program::Program;
-use withy::script::runner::{Ending, run};
+use withy::script::engine::runner::{Ending, run};
+use withy::script::packages::language;
+use withy::script::source::program::Program;
+use withy::script::state::settings::{Mode, Settings};
 
 /// A fenced block, and the line of its document that it begins at.
 struct Block {
@@ -55,7 +55,7 @@ fn every_block_of_rhai_in_the_documents_runs() {
                 told: Box::new(told.clone()),
                 ..Settings::silent(Mode::Run)
             };
-            let outcome = run(&Program::named(&name, &block.text), &Catalog::standard(), settings);
+            let outcome = run(&Program::named(&name, &block.text), &language(), settings);
             assert!(matches!(outcome.ending, Ending::Finished), "{name}: {:?}", outcome.ending);
             let told = told.take();
             assert!(!told.contains("note: simulation"), "{name}: {told}");
@@ -151,7 +151,7 @@ fn said_by_a_session(folder: &Path, piped: &str) -> String {
 
 #[test]
 fn the_language_reference_is_up_to_date() {
-    expect_written("docs/language.md", &withy::script::reference::reference(&Catalog::standard()));
+    expect_written("docs/language.md", &withy::script::pages::reference::reference(&language()));
 }
 
 #[test]

@@ -50,7 +50,7 @@ fn allowed(layer: &str) -> Option<Vec<&'static str>> {
 /// Most lines of a file.
 const LONGEST: usize = 400;
 
-fn sources() -> Vec<(PathBuf, String)> {
+pub fn sources() -> Vec<(PathBuf, String)> {
     fn collect(folder: &Path, files: &mut Vec<(PathBuf, String)>) {
         for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {
             let path = entry.path();
@@ -133,7 +133,7 @@ const ROOMS: &[(&str, &[&str])] = &[
 ];
 
 /// The names after a path in a file, those in braces one by one, with the line of each.
-fn named_after(text: &str, path: &str) -> Vec<(usize, String)> {
+pub fn named_after(text: &str, path: &str) -> Vec<(usize, String)> {
     let mut found = Vec::new();
     for (at, _) in text.match_indices(path) {
         let line = text[..at].lines().count();

@@ -5,3 +5,4 @@ mod common;
 
 mod documents;
 mod layering;
+mod wings;

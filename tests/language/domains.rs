@@ -6,19 +6,19 @@ use std::rc::Rc;
 use std::sync::atomic::Ordering;
 
 use rhai::Dynamic;
-use withy::script::call::Call;
-use withy::script::catalog::Catalog;
-use withy::script::context::Reporter;
-use withy::script::context::{Mode, Settings};
 use withy::script::diagnose::Diagnostic;
-use withy::script::error::ScriptError;
-use withy::script::kind::{Kind, Range, Scripted, Type};
-use withy::script::parameter::{
+use withy::script::engine::runner::{Ending, Outcome, run};
+use withy::script::packages::language;
+use withy::script::rows::call::Call;
+use withy::script::rows::kind::{Kind, Range, Scripted, Type};
+use withy::script::rows::parameter::{
     Parameter, Presence, callback, choice, either, number, options, point, text, whole,
 };
-use withy::script::program::Program;
-use withy::script::runner::{Ending, Outcome, run};
-use withy::script::table::{Row, Table, function, method, property};
+use withy::script::rows::table::{Row, Table, function, method, property};
+use withy::script::source::program::Program;
+use withy::script::state::settings::{Mode, Settings};
+use withy::script::words::error::ScriptError;
+use withy::script::words::reports::Reporter;
 
 /// A mass on a spring, as a shared handle.
 #[derive(Clone)]
@@ -131,7 +131,7 @@ fn work(call: &mut Call) -> Result<Dynamic, ScriptError> {
 fn outcome(script: &str) -> Outcome {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let settings = Settings { out: folder.path().join("out"), ..Settings::silent(Mode::Run) };
-    run(&Program::named("test", script), &Catalog::standard().and(&TABLE), settings)
+    run(&Program::named("test", script), &language().and(&TABLE), settings)
 }
 
 fn runs(script: &str) {

@@ -12,11 +12,11 @@ use crate::common::notepad::Notepad;
 use withy::exercises::catalogue::{EXERCISES, find};
 use withy::exercises::exercise::Exercise;
 use withy::exercises::judging::{Verdict, judge};
-use withy::script::catalog::Catalog;
-use withy::script::context::{Mode, Settings};
-use withy::script::limits::Limits;
-use withy::script::program::Program;
-use withy::script::runner::run;
+use withy::script::engine::runner::run;
+use withy::script::packages::language;
+use withy::script::source::program::Program;
+use withy::script::state::limits::Limits;
+use withy::script::state::settings::{Mode, Settings};
 
 fn root() -> PathBuf {
     env!("CARGO_MANIFEST_DIR").into()
@@ -68,7 +68,7 @@ fn every_solution_passes_and_its_steps_resolve_what_happens() {
             ..Settings::silent(Mode::Run)
         };
         let program = Program::named("solution", exercise.solution);
-        run(&program, &Catalog::standard(), settings);
+        run(&program, &language(), settings);
         let notes = notes.take();
         assert!(!notes.contains("note: simulation"), "{}: {notes}", exercise.id());
     }

@@ -3,10 +3,10 @@
 
 use std::fs;
 
-use withy::script::catalog::Catalog;
-use withy::script::context::{Mode, Settings};
-use withy::script::program::Program;
-use withy::script::runner::{Ending, run};
+use withy::script::engine::runner::{Ending, run};
+use withy::script::packages::language;
+use withy::script::source::program::Program;
+use withy::script::state::settings::{Mode, Settings};
 
 /// How many knots a picture with such options marks on a beam that has run to t = 1.
 fn knots(options: &str) -> usize {
@@ -20,7 +20,7 @@ sim.run_to(1);
 plot_motion(sim, \"spin.svg\", #{{ {options} }});"
     );
     let settings = Settings { out: out.path().to_owned(), ..Settings::silent(Mode::Run) };
-    let outcome = run(&Program::named("picture", &script), &Catalog::standard(), settings);
+    let outcome = run(&Program::named("picture", &script), &language(), settings);
     assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
     fs::read_to_string(out.path().join("spin.svg")).unwrap().matches("<circle").count()
 }

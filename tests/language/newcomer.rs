@@ -7,10 +7,10 @@
 use std::fs;
 
 use crate::common::notepad::Notepad;
-use withy::script::catalog::Catalog;
-use withy::script::context::{Mode, Settings};
-use withy::script::program::Program;
-use withy::script::runner::{Ending, run};
+use withy::script::engine::runner::{Ending, run};
+use withy::script::packages::language;
+use withy::script::source::program::Program;
+use withy::script::state::settings::{Mode, Settings};
 
 /// A mistake, and what must be said about it.
 #[derive(Default)]
@@ -42,7 +42,7 @@ fn rows(text: &str) -> Vec<Row> {
 fn said(typed: &str) -> Result<(String, String), String> {
     let printed = Notepad::default();
     let settings = Settings { printed: Box::new(printed.clone()), ..Settings::silent(Mode::Run) };
-    match run(&Program::named("typed", typed), &Catalog::standard(), settings).ending {
+    match run(&Program::named("typed", typed), &language(), settings).ending {
         Ending::Failed(told) => Ok((told.message, told.hint.unwrap_or_default())),
         other => Err(format!("{other:?}")),
     }

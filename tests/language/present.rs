@@ -3,20 +3,21 @@
 
 use proptest::prelude::*;
 use rhai::{Dynamic, Engine};
-use withy::script::catalog::Catalog;
-use withy::script::context::{Context, Mode, Settings};
 use withy::script::engine;
-use withy::script::present::present;
+use withy::script::looks::present::present;
+use withy::script::packages::language;
+use withy::script::state::context::Context;
+use withy::script::state::settings::{Mode, Settings};
 
 const WIDTH: usize = 80;
 
 fn engine() -> Engine {
-    engine::build(&Catalog::standard(), &Context::new(Settings::silent(Mode::Run))).unwrap()
+    engine::build(&language(), &Context::new(Settings::silent(Mode::Run))).unwrap()
 }
 
 fn shown_at(width: usize, script: &str) -> String {
     let value: Dynamic = engine().eval(script).unwrap_or_else(|error| panic!("{script}: {error}"));
-    present(&Catalog::standard(), &value, width)
+    present(&language(), &value, width)
 }
 
 fn shown(script: &str) -> String {
@@ -100,7 +101,7 @@ fn wide_collections_take_several_lines() {
 
 #[test]
 fn values_that_hold_themselves_come_to_an_end() {
-    let shown = |value: &Dynamic| present(&Catalog::standard(), value, WIDTH);
+    let shown = |value: &Dynamic| present(&language(), value, WIDTH);
     let mut ring = Dynamic::from(vec![Dynamic::from(1_i64)]).into_shared();
     for _ in 0..3 {
         let itself = ring.clone();
@@ -205,7 +206,7 @@ proptest! {
         map.insert(text.clone().into(), text.clone().into());
         let all = [Dynamic::from(array.clone()), Dynamic::from(map.clone()), Dynamic::from(vec![Dynamic::from(array), Dynamic::from(map)])];
         for value in all {
-            let shown = present(&Catalog::standard(), &value, width);
+            let shown = present(&language(), &value, width);
             // The count of an array that is elided stands behind its last line.
             prop_assert!(shown.lines().all(|line| line.chars().count() <= width + 5), "{}", shown);
         }

@@ -12,8 +12,8 @@ use withy::repl::clock::Clock;
 use withy::repl::pager::{Pager, Shown};
 use withy::repl::session::Session;
 use withy::repl::shell::{Outcome, Screen, Shell};
-use withy::script::catalog::Catalog;
-use withy::script::context::{Mode, Settings};
+use withy::script::packages::language;
+use withy::script::state::settings::{Mode, Settings};
 
 use crate::common::notepad::Notepad;
 
@@ -45,7 +45,7 @@ impl Prompt {
             snapshots,
             ..Settings::silent(Mode::Run)
         };
-        let session = Session::new(Catalog::standard(), settings).unwrap();
+        let session = Session::new(language(), settings).unwrap();
         let clock = Ticks { now: Cell::new(Duration::ZERO) };
         let shell = Shell::new(session, screen).with_clock(Rc::new(clock));
         Self { shell, printed, told, interrupt }
@@ -437,7 +437,7 @@ fn functions_of_imported_files_are_explained() {
     let settings = Settings { folder: folder.path().into(), ..Settings::silent(Mode::Run) };
     let printed = Notepad::default();
     let settings = Settings { printed: Box::new(printed.clone()), ..settings };
-    let session = Session::new(Catalog::standard(), settings).unwrap();
+    let session = Session::new(language(), settings).unwrap();
     let mut shell = Shell::new(session, Screen::Pipe);
     shell.submit("import \"parts\" as parts;");
     shell.submit("parts?");

@@ -4,9 +4,9 @@
 use std::path::PathBuf;
 
 use withy::repl::session::{Reply, Session};
-use withy::script::catalog::Catalog;
-use withy::script::context::{Mode, Settings};
-use withy::script::program::Program;
+use withy::script::packages::language;
+use withy::script::source::program::Program;
+use withy::script::state::settings::{Mode, Settings};
 
 fn session() -> Session {
     in_folder(".".into())
@@ -14,12 +14,12 @@ fn session() -> Session {
 
 fn in_folder(folder: PathBuf) -> Session {
     let settings = Settings { folder, ..Settings::silent(Mode::Run) };
-    Session::new(Catalog::standard(), settings).unwrap()
+    Session::new(language(), settings).unwrap()
 }
 
 fn session_with_snapshots() -> Session {
     let settings = Settings { snapshots: 1_000_000, ..Settings::silent(Mode::Run) };
-    Session::new(Catalog::standard(), settings).unwrap()
+    Session::new(language(), settings).unwrap()
 }
 
 /// The value of an input as text.

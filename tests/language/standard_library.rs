@@ -10,11 +10,11 @@ use crate::common::notepad::Notepad;
 use withy::repl::editor::completion::complete;
 use withy::repl::session::{Reply, Session};
 use withy::repl::shell::{Screen, Shell};
-use withy::script::catalog::Catalog;
-use withy::script::context::{Mode, Settings};
+use withy::script::engine::runner::{Ending, Outcome, run};
 use withy::script::library::MODULES;
-use withy::script::program::Program;
-use withy::script::runner::{Ending, Outcome, run};
+use withy::script::packages::language;
+use withy::script::source::program::Program;
+use withy::script::state::settings::{Mode, Settings};
 
 /// Runs a script beside files, and gives what it told at once.
 fn run_beside(files: &[(&str, &str)], script: &str) -> (Outcome, String) {
@@ -27,7 +27,7 @@ fn run_beside(files: &[(&str, &str)], script: &str) -> (Outcome, String) {
     let told = Notepad::default();
     let settings = Settings { told: Box::new(told.clone()), ..Settings::silent(Mode::Run) };
     let program = Program { folder: home.path().into(), ..Program::named("main.rhai", script) };
-    (run(&program, &Catalog::standard(), settings), told.take())
+    (run(&program, &language(), settings), told.take())
 }
 
 fn failure(outcome: &Outcome) -> String {
@@ -154,7 +154,7 @@ fn an_error_in_a_closure_of_the_user_stays_at_its_place() {
 fn the_prompt_imports_the_library() {
     let told = Notepad::default();
     let settings = Settings { told: Box::new(told.clone()), ..Settings::silent(Mode::Run) };
-    let mut session = Session::new(Catalog::standard(), settings).unwrap();
+    let mut session = Session::new(language(), settings).unwrap();
     for input in
         ["import \"std/checks\" as checks;", "let a = 2;", "checks::assert_close(\"a\", a, 1, 0.1)"]
     {
@@ -184,7 +184,7 @@ fn help_explains_modules_and_their_functions() {
 
 #[test]
 fn what_was_imported_is_completed_at_the_prompt() {
-    let session = Session::new(Catalog::standard(), Settings::silent(Mode::Run)).unwrap();
+    let session = Session::new(language(), Settings::silent(Mode::Run)).unwrap();
     let mut shell = Shell::new(session, Screen::Pipe);
     shell.submit("import \"std/sections\" as parts;");
     let (_, found) = complete("parts::rect", 11, &shell.surroundings());

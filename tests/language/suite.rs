@@ -7,10 +7,10 @@
 use std::fs;
 
 use crate::common::notepad::Notepad;
-use withy::script::catalog::Catalog;
-use withy::script::context::{Mode, Settings};
-use withy::script::program::Program;
-use withy::script::runner::{Ending, Outcome, run};
+use withy::script::engine::runner::{Ending, Outcome, run};
+use withy::script::packages::language;
+use withy::script::source::program::Program;
+use withy::script::state::settings::{Mode, Settings};
 
 /// What a section of a file expects.
 #[derive(Default)]
@@ -88,7 +88,7 @@ fn judge(section: &Section) -> Result<(), String> {
     let expected = expectation(&section.text);
     let printed = Notepad::default();
     let settings = Settings { printed: Box::new(printed.clone()), ..Settings::silent(Mode::Run) };
-    let outcome = run(&Program::named("suite", &section.text), &Catalog::standard(), settings);
+    let outcome = run(&Program::named("suite", &section.text), &language(), settings);
     let lines: Vec<_> = printed.take().lines().map(str::to_owned).collect();
     judge_ending(&expected, &outcome)?;
     if !expected.printed.is_empty() && lines != expected.printed {

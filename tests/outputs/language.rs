@@ -4,11 +4,11 @@ use std::fs;
 use std::path::Path;
 
 use withy::exercises::catalogue::EXERCISES;
-use withy::script::catalog::Catalog;
-use withy::script::context::{Mode, Settings};
+use withy::script::engine::runner::{Ending, run};
 use withy::script::packages::TABLES;
-use withy::script::program::Program;
-use withy::script::runner::{Ending, run};
+use withy::script::packages::language;
+use withy::script::source::program::Program;
+use withy::script::state::settings::{Mode, Settings};
 
 use crate::book::Book;
 use crate::notepad::Notepad;
@@ -31,7 +31,7 @@ fn keep_run(book: &mut Book, name: &str, text: &str) {
         told: Box::new(told.clone()),
         ..Settings::silent(Mode::Run)
     };
-    let outcome = run(&Program::named("script", text), &Catalog::standard(), settings);
+    let outcome = run(&Program::named("script", text), &language(), settings);
     let ending = match outcome.ending {
         Ending::Failed(diagnostic) => diagnostic.to_string(),
         other => format!("{other:?}"),
@@ -102,7 +102,7 @@ fn examples(book: &mut Book) {
             keep_run(book, &format!("examples/{}/{number} {}", table.name, row.name), &script);
         }
     }
-    for table in Catalog::standard().built_in_tables() {
+    for table in language().built_in_tables() {
         for (number, row) in table.rows.iter().enumerate() {
             keep_run(
                 book,

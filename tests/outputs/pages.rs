@@ -1,10 +1,10 @@
 //! Help, reference, definition files, and the pages of the library.
 
-use withy::script::catalog::Catalog;
-use withy::script::definitions::definitions;
-use withy::script::help::{self, WIDTH};
 use withy::script::library;
-use withy::script::reference::reference;
+use withy::script::packages::language;
+use withy::script::pages::definitions::definitions;
+use withy::script::pages::help::{self, WIDTH};
+use withy::script::pages::reference::reference;
 
 use crate::book::Book;
 
@@ -12,7 +12,7 @@ use crate::book::Book;
 const UNKNOWN: &[&str] = &["", "bspilne", "sim.rnu_to", "spring.pull", "%", "gravity.x"];
 
 pub fn record(book: &mut Book) {
-    let catalog = Catalog::standard();
+    let catalog = language();
     book.keep("pages/reference.md", reference(&catalog));
     book.keep("pages/library.md", library::document());
     for file in definitions(&catalog) {

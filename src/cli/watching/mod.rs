@@ -36,7 +36,7 @@ use crate::exercises::exercise::Exercise;
 use crate::exercises::report::Outcome;
 use crate::exercises::watch::{INTERVAL, Watcher};
 use crate::exercises::workbook::{Advice, Workbook};
-use crate::script::panics;
+use crate::script::words::panics;
 
 /// How long keys are waited for before one looks at the run.
 const PATIENCE: Duration = Duration::from_millis(50);

@@ -6,7 +6,7 @@ use super::line::{GOOD, Line, coloured};
 use crate::exercises::exercise::Exercise;
 use crate::repl::editor::highlight::{Vocabulary, highlight};
 use crate::repl::editor::surroundings::Surroundings;
-use crate::script::catalog::Catalog;
+use crate::script::packages::language;
 
 /// The colours of the language.
 pub struct Painter(Vocabulary);
@@ -14,7 +14,7 @@ pub struct Painter(Vocabulary);
 impl Painter {
     /// With all names of the language.
     pub fn new() -> Self {
-        Self(Vocabulary::of(Surroundings::of_language(Catalog::standard())))
+        Self(Vocabulary::of(Surroundings::of_language(language())))
     }
 
     /// A script in colours.

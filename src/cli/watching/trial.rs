@@ -17,8 +17,9 @@ use crate::exercises::judging::{PATIENCE, Verdict, judge};
 use crate::exercises::overheard::{Ear, Overheard};
 use crate::exercises::report::{Outcome, Report, Trouble};
 use crate::exercises::workbook::Workbook;
-use crate::script::context::{Mode, Settings};
-use crate::script::limits::{Limits, Stop};
+use crate::script::state::limits::Limits;
+use crate::script::state::settings::{Mode, Settings};
+use crate::script::words::stop::Stop;
 
 /// What the process may take beside the attempt and its judge, which are given time to hear of their limits.
 const SLACK: Duration = Duration::from_secs(12);

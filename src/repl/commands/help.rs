@@ -5,7 +5,7 @@ use super::{COMMANDS, Command, find};
 use crate::output::Colours;
 use crate::repl::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
-use crate::script::help::{self, Page, Span};
+use crate::script::pages::help::{self, Page, Span};
 
 /// `:help [name]`
 pub fn help(shell: &mut Shell, operand: &str) -> Outcome {

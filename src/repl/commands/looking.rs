@@ -3,10 +3,10 @@
 use crate::output::{Cell, Table};
 use crate::repl::shell::{Outcome, Screen, Shell, no_simulation};
 use crate::script::diagnose::Diagnostic;
-use crate::script::error::ScriptError;
-use crate::script::numbers::format_number;
-use crate::script::present::present_in_a_line;
-use crate::script::sight;
+use crate::script::looks::present::present_in_a_line;
+use crate::script::looks::sight;
+use crate::script::words::error::ScriptError;
+use crate::script::words::numbers::format_number;
 use crate::simulation::Simulation;
 
 /// Characters of a value in the list of variables.

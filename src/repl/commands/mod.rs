@@ -12,7 +12,7 @@ mod words;
 use super::editor::surroundings::Operand;
 use super::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
-use crate::script::suggest::nearest;
+use crate::script::words::suggest::nearest;
 pub use plotting::{moves, refuse};
 pub use words::meant;
 

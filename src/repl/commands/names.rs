@@ -6,10 +6,10 @@ use crate::output::significant;
 use crate::repl::editor::type_before;
 use crate::repl::session::{ANSWER, Reply};
 use crate::repl::shell::Shell;
-use crate::script::help::{Page, Span};
-use crate::script::kind::with_article;
 use crate::script::library::page_of;
-use crate::script::present::present;
+use crate::script::looks::present::present;
+use crate::script::pages::help::{Page, Span};
+use crate::script::words::nouns::with_article;
 
 /// Digits of a number.
 const DIGITS: usize = 6;

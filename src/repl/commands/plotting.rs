@@ -9,12 +9,13 @@ use crate::repl::following::{Followed, follow};
 use crate::repl::session::Reply;
 use crate::repl::shell::{Outcome, Screen, Shell};
 use crate::script::diagnose::Diagnostic;
-use crate::script::error::ScriptError;
-use crate::script::kind::with_article;
-use crate::script::limits::Stop;
-use crate::script::packages::{Revisit, SimulationHandle};
-use crate::script::scanner::{Kind, scan};
-use crate::script::sight;
+use crate::script::handles::simulation::Revisit;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::looks::sight;
+use crate::script::source::scanner::{Kind, scan};
+use crate::script::words::error::ScriptError;
+use crate::script::words::nouns::with_article;
+use crate::script::words::stop::Stop;
 
 /// What is drawn when nothing is named.
 const ENERGIES: [&str; 3] = ["kinetic", "strain", "energy"];

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::output::write_whole;
 use crate::repl::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
-use crate::script::program::Program;
+use crate::script::source::program::Program;
 
 /// `:save file`
 pub fn save(shell: &mut Shell, operand: &str) -> Outcome {
@@ -52,7 +52,7 @@ pub fn load(shell: &mut Shell, operand: &str) -> Outcome {
     }
     match Program::load(Path::new(operand)) {
         Ok(program) => shell.run_program(program),
-        Err(refusal) => shell.refuse(&refusal),
+        Err(refused) => shell.refuse(&refused.into()),
     }
 }
 

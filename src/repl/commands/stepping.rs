@@ -2,7 +2,7 @@
 
 use crate::repl::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
-use crate::script::numbers::format_number;
+use crate::script::words::numbers::format_number;
 
 /// `:step [count]`
 pub fn step(shell: &mut Shell, operand: &str) -> Outcome {

@@ -1,7 +1,7 @@
 //! Candidates of a completion, and which of them fit what is typed.
 
-use crate::script::parameter::Parameter;
-use crate::script::table::{Form, Row};
+use crate::script::rows::parameter::Parameter;
+use crate::script::rows::table::{Form, Row};
 
 /// Something that can be completed.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,6 +1,6 @@
 //! Whether an input can be run, or goes on in the next line.
 
-use crate::script::scanner::{Bracket, Kind, Token, scan};
+use crate::script::source::scanner::{Bracket, Kind, Token, scan};
 
 /// Whether an input is complete.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -199,10 +199,12 @@ impl<'t> Reader<'t> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::script::catalog::Catalog;
-    use crate::script::context::{Context, Mode, Settings};
+    use crate::script::dialect::reading::read;
     use crate::script::engine;
-    use crate::script::reading::read;
+    use crate::script::packages::language;
+
+    use crate::script::state::context::Context;
+    use crate::script::state::settings::{Mode, Settings};
 
     #[test]
     fn brackets_texts_and_comments_keep_an_input_open() {
@@ -359,7 +361,7 @@ mod tests {
     #[test]
     fn the_scripts_of_the_repository_can_be_typed() {
         let context = Context::new(Settings::silent(Mode::DryBuild));
-        let engine = engine::build(&Catalog::standard(), &context).expect("an engine");
+        let engine = engine::build(&language(), &context).expect("an engine");
         let scripts = concat!(env!("CARGO_MANIFEST_DIR"), "/scripts");
         let mut count = 0;
         let files = std::fs::read_dir(scripts).expect("a folder").flatten();

@@ -9,10 +9,10 @@ use super::members::members;
 use super::paths::{Files, complete_path};
 use super::surroundings::{Function, Surroundings};
 use super::types::Types;
-use crate::script::kind;
-use crate::script::scanner::{Bracket, Kind, Token, scan};
-use crate::script::table::Form;
-use crate::script::words::{FUNCTIONS, KEYWORDS};
+use crate::script::rows::kind;
+use crate::script::rows::table::Form;
+use crate::script::source::keywords::{FUNCTIONS, KEYWORDS};
+use crate::script::source::scanner::{Bracket, Kind, Token, scan};
 
 /// What may stand in `line` at `position`: where the word that is typed begins, and what it may become.
 pub fn complete(

@@ -3,10 +3,10 @@
 use super::input::{Callee, Input, Level};
 use super::surroundings::Surroundings;
 use super::types::Types;
-use crate::script::kind::Kind;
-use crate::script::parameter::Parameter;
-use crate::script::scanner::Bracket;
-use crate::script::table::{Form, Row};
+use crate::script::rows::kind::Kind;
+use crate::script::rows::parameter::Parameter;
+use crate::script::rows::table::{Form, Row};
+use crate::script::source::scanner::Bracket;
 
 /// The parameters of what stands in brackets.
 pub struct Expected<'a, 't> {

@@ -3,7 +3,7 @@
 use super::commands::command_named;
 use super::completeness::is_command;
 use super::surroundings::{Operand, Surroundings};
-use crate::script::highlight::{self, STRAY, Style, draw};
+use crate::script::looks::highlight::{self, STRAY, Style, draw};
 
 const COMMAND: Style = Style("1");
 
@@ -81,7 +81,7 @@ mod tests {
 
     use super::super::samples::surroundings;
     use super::*;
-    use crate::script::highlight::{
+    use crate::script::looks::highlight::{
         COMMENT, CONSTANT, FUNCTION, KEYWORD, NUMBER, TEXT, UNKNOWN_MEMBER,
     };
     use proptest::prelude::*;

@@ -7,9 +7,9 @@ use super::completion::complete;
 use super::expected::{Called, Expected};
 use super::input::{Callee, Input, Level};
 use super::surroundings::{Function, Operand, Surroundings};
-use crate::script::numbers::format_number;
-use crate::script::parameter::{Parameter, Presence};
-use crate::script::scanner::{Bracket, Kind};
+use crate::script::rows::parameter::{Parameter, Presence};
+use crate::script::source::scanner::{Bracket, Kind};
+use crate::script::words::numbers::format_number;
 
 /// What is shown behind the cursor.
 #[derive(Clone, Debug, PartialEq, Eq)]

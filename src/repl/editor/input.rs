@@ -1,6 +1,6 @@
 //! An input up to the cursor: its tokens, which brackets are open there, and whose they are.
 
-use crate::script::scanner::{Bracket, Kind, Token, pair, scan};
+use crate::script::source::scanner::{Bracket, Kind, Token, pair, scan};
 
 /// Open brackets that are looked at: what stands further outside does not matter at the cursor.
 const MOST_LEVELS: usize = 64;
@@ -124,7 +124,7 @@ impl<'t> Input<'t> {
         let at = opener.checked_sub(1)?;
         let is_call = self.kind(opener) == Some(Kind::Open(Bracket::Round))
             && self.kind(at) == Some(Kind::Word)
-            && !crate::script::words::is_keyword(self.written(at));
+            && !crate::script::source::keywords::is_keyword(self.written(at));
         if !is_call {
             return None;
         }

@@ -3,9 +3,9 @@
 use super::candidates::Candidate;
 use super::surroundings::{Surroundings, Variable};
 use super::types::family;
-use crate::script::kind::Kind;
-use crate::script::table::{Form, Row};
-use crate::script::words::built_in;
+use crate::script::rows::kind::Kind;
+use crate::script::rows::table::{Form, Row};
+use crate::script::source::keywords::built_in;
 
 /// Members of a value of type `of`. Of an unknown type all members of all types are offered once something is typed; of a
 /// map held by a variable its keys.
@@ -43,6 +43,6 @@ fn takes_first(row: &Row, of: &str) -> bool {
 
 /// Whether a key can be written after a dot.
 fn is_plain(key: &str) -> bool {
-    key.chars().all(crate::script::scanner::is_name)
+    key.chars().all(crate::script::source::scanner::is_name)
         && !key.starts_with(|letter: char| letter.is_numeric())
 }

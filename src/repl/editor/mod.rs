@@ -1,6 +1,6 @@
 //! Typing at the prompt: whether an input is complete, completion, hints, colours and history.
 //!
-//! All that knows the language is pure and works on the tokens of [`scanner`](crate::script::scanner); the terminal is left to rustyline, which
+//! All that knows the language is pure and works on the tokens of [`scanner`](crate::script::source::scanner); the terminal is left to rustyline, which
 //! [`line_editor`] sets up.
 
 mod assistant;

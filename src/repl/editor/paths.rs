@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use super::candidates::{Candidate, fitting};
-use crate::script::library::{FOLDER, MODULES};
+use crate::script::library::MODULES;
+use crate::script::rows::sources::FOLDER;
 
 /// Which files are meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

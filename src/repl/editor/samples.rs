@@ -1,7 +1,7 @@
 //! A session for the tests of the editor: the flying spaghetti, half built.
 
 use super::surroundings::{CommandWord, Function, Module, Operand, Surroundings, Variable};
-use crate::script::catalog::Catalog;
+use crate::script::packages::language;
 
 /// What such a session holds.
 pub fn surroundings() -> Surroundings {
@@ -47,6 +47,6 @@ pub fn surroundings() -> Surroundings {
             command(":time", "Measures an expression.", Operand::Expression),
         ],
         columns: columns.map(str::to_owned).into(),
-        ..Surroundings::of_language(Catalog::standard())
+        ..Surroundings::of_language(language())
     }
 }

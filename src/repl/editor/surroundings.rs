@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::script::catalog::Catalog;
+use crate::script::rows::catalog::Catalog;
 
 /// What can be completed and hinted besides the syntax of the language: a picture of the session as it was when the prompt
 /// appeared. A session takes one before each line; it holds names only, so it is small however large the values are.

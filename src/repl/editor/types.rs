@@ -2,9 +2,9 @@
 
 use super::input::Input;
 use super::surroundings::Surroundings;
-use crate::script::scanner::{Bracket, Kind};
-use crate::script::table::{Form, Row};
-use crate::script::words;
+use crate::script::rows::table::{Form, Row};
+use crate::script::source::keywords;
+use crate::script::source::scanner::{Bracket, Kind};
 
 /// Members and calls that are followed in `a.b().c[0].d`.
 const LONGEST_CHAIN: usize = 32;
@@ -110,7 +110,7 @@ impl<'t> Types<'_, 't> {
 
     fn is_value(&self, at: usize) -> bool {
         match self.input.kind(at) {
-            Some(Kind::Word) => !words::is_keyword(self.input.written(at)),
+            Some(Kind::Word) => !keywords::is_keyword(self.input.written(at)),
             Some(Kind::Close(_) | Kind::Text) => true,
             _ => false,
         }

@@ -4,7 +4,7 @@ use super::{Outcome, Shell};
 use crate::output::significant;
 use crate::repl::session::Reply;
 use crate::script::diagnose::Diagnostic;
-use crate::script::present::present;
+use crate::script::looks::present::present;
 
 impl Shell {
     /// Whether anything is watched.

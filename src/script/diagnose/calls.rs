@@ -2,19 +2,20 @@
 
 use rhai::Position;
 
+use super::elsewhere;
 use super::operands;
-use super::outline::Outline;
-use super::translate::type_word;
-use crate::script::built_in::BuiltIn;
-use crate::script::catalog::Catalog;
-use crate::script::elsewhere;
-use crate::script::kind::with_article;
-use crate::script::library::{FOLDER, ModuleFunction, page_of, pages};
-use crate::script::operators;
-use crate::script::program::Program;
-use crate::script::sources::Sources;
-use crate::script::suggest::{nearest, related};
-use crate::script::table::{Form, Row};
+use crate::script::dialect::operators;
+use crate::script::library::{ModuleFunction, page_of, pages};
+use crate::script::rows::built_in::BuiltIn;
+use crate::script::rows::catalog::Catalog;
+use crate::script::rows::sources::FOLDER;
+use crate::script::rows::sources::Sources;
+use crate::script::rows::table::{Form, Row};
+use crate::script::source::outline::Outline;
+use crate::script::source::program::Program;
+use crate::script::words::nouns::type_word;
+use crate::script::words::nouns::with_article;
+use crate::script::words::suggest::{nearest, related};
 
 /// What is known, to be held against what was asked for.
 pub struct Unknown<'a> {

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use rhai::{Position, Token};
 
 use super::Location;
-use crate::script::catalog::Catalog;
-use crate::script::error::Place;
-use crate::script::lexing::tokens;
-use crate::script::program::Program;
-use crate::script::table::Form;
+use crate::script::rows::catalog::Catalog;
+use crate::script::rows::table::Form;
+use crate::script::source::lexing::tokens;
+use crate::script::source::program::Program;
+use crate::script::words::error::Place;
 
 /// The word, number, text or sign at `position`; nothing if the engine gave no position.
 pub fn word_at(program: &Program, position: Position) -> Option<Location> {

@@ -1,11 +1,11 @@
 //! Every error of a script as one message: what is wrong, where, what to do, and the calls that led there.
 
 mod calls;
+pub(in crate::script) mod elsewhere;
 mod faults;
 mod habits;
 mod locate;
 mod operands;
-mod outline;
 mod parsing;
 mod render;
 mod translate;
@@ -13,11 +13,10 @@ mod translate;
 use std::fmt;
 use std::sync::Arc;
 
-use super::brief::brief;
-use super::program::Program;
-pub use outline::Outline;
+use crate::script::source::program::{Program, Unreadable};
+use crate::script::words::brief::brief;
 pub use render::Colours;
-pub use translate::{Explainer, is_interrupt, is_waiting, type_word};
+pub use translate::{Explainer, is_interrupt, is_waiting};
 
 /// An error as it is shown to people.
 #[derive(Clone, Debug)]
@@ -128,6 +127,12 @@ impl Diagnostic {
     /// `file:line:column`, for tests and editors.
     pub fn place(&self) -> Option<String> {
         self.location.as_ref().map(|at| format!("{}:{}:{}", at.program.name, at.line, at.column))
+    }
+}
+
+impl From<Unreadable> for Diagnostic {
+    fn from(refused: Unreadable) -> Self {
+        Self::general(refused.told).with_hint(refused.hint)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Operators that do not work on the values beside them, and what is written instead.
 
-use crate::script::kind::with_article;
+use crate::script::words::nouns::with_article;
 
 /// For the operator `symbol` between, or before, values of these types.
 pub fn explain(symbol: &str, types: &[&str]) -> (String, Option<String>) {

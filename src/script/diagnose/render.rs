@@ -149,7 +149,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::script::program::Program;
+    use crate::script::source::program::Program;
 
     #[test]
     fn a_line_that_nobody_reads_is_not_drawn() {

@@ -1,24 +1,28 @@
 //! From the engine's errors to diagnostics, in the words of the language.
 
+use std::path::Path;
+
 use rhai::{Dynamic, Engine, EvalAltResult, ParseErrorType, Position};
 
 use super::calls::{Unknown, of_library};
+use super::elsewhere;
 use super::faults::{arithmetic, bounds, mismatch, too_large};
-use super::outline::Outline;
 use super::{Callee, Diagnostic, Step, habits, locate, parsing};
-use crate::script::brief::brief;
-use crate::script::catalog::Catalog;
-use crate::script::elsewhere;
-use crate::script::error::{BUG, Failure, Place};
-use crate::script::kind::with_article;
-use crate::script::library::FOLDER;
-use crate::script::limits::Stop;
-use crate::script::naming::not_visible;
-use crate::script::program::Program;
-use crate::script::register::STEERED;
-use crate::script::sources::Sources;
-use crate::script::suggest::nearest;
-use crate::script::table::{Form, Row};
+use crate::script::dialect::naming::not_visible;
+use crate::script::library;
+use crate::script::rows::catalog::Catalog;
+use crate::script::rows::register::STEERED;
+use crate::script::rows::sources::FOLDER;
+use crate::script::rows::sources::Sources;
+use crate::script::rows::table::{Form, Row};
+use crate::script::source::outline::Outline;
+use crate::script::source::program::Program;
+use crate::script::words::brief::brief;
+use crate::script::words::error::{BUG, Failure, Place};
+use crate::script::words::nouns::type_word;
+use crate::script::words::nouns::with_article;
+use crate::script::words::stop::Stop;
+use crate::script::words::suggest::nearest;
 
 /// What the words of an error are drawn from.
 pub struct Explainer<'a> {
@@ -149,7 +153,7 @@ impl Explainer<'_> {
                     true => library_called_at.or(called_at.clone()),
                     false => None,
                 };
-                program = self.program.of_source(&file);
+                program = source(self.program, &file);
             }
             inner = cause;
         }
@@ -323,20 +327,19 @@ fn missing_key(key: &str, outline: &Outline) -> Words {
     (format!("the map has no key '{key}'"), Some(hint))
 }
 
-/// A type in our words, also where the engine used the Rust name.
-pub fn type_word(name: &str) -> &str {
-    match name.trim() {
-        "i64" => "whole number",
-        "f64" => "number",
-        "bool" => "truth value",
-        "char" => "character",
-        "string" | "String" | "ImmutableString" | "&str | ImmutableString | String" => "text",
-        "array" => "array",
-        "Fn" | "FnPtr" => "function",
-        "()" => "nothing",
-        range if range.starts_with("core::ops::range::Range") => "range",
-        other => other,
+/// The same program, or the imported one that an error names as its source.
+fn source(program: &Program, named: &str) -> Program {
+    if named.is_empty() || named == program.name {
+        return program.clone();
     }
+    if let Some(Ok(module)) = library::find(named) {
+        return module.program();
+    }
+    Program::load(Path::new(named)).unwrap_or_else(|_| Program {
+        name: named.into(),
+        text: "".into(),
+        folder: program.folder.clone(),
+    })
 }
 
 /// The engine's own message, without the position at its end.

@@ -8,8 +8,8 @@ use rhai::{
     RhaiFunc, ScriptFuncDef, Shared,
 };
 
-use crate::script::error::BUG;
-use crate::script::sources::Sources;
+use crate::script::rows::sources::Sources;
+use crate::script::words::error::BUG;
 
 /// What the functions of a module see.
 #[derive(Clone)]

@@ -7,5 +7,5 @@ mod pages;
 
 pub use document::document;
 pub use entrance::behind_entrances;
-pub use modules::{FOLDER, MODULES, Module, find};
+pub use modules::{MODULES, Module, find};
 pub use pages::{Block, ModuleFunction, ModulePage, page_of, pages};

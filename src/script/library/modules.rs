@@ -1,11 +1,9 @@
 //! The modules and their texts. None is parsed before a script imports it.
 
-use crate::script::error::ScriptError;
-use crate::script::program::Program;
-use crate::script::suggest::nearest;
-
-/// What names of modules of the library begin with. Files of a script's own folder never have such a name.
-pub const FOLDER: &str = "std/";
+use crate::script::rows::sources::FOLDER;
+use crate::script::source::program::Program;
+use crate::script::words::error::ScriptError;
+use crate::script::words::suggest::nearest;
 
 /// A module of the library.
 #[derive(Debug)]

@@ -3,7 +3,8 @@
 
 use std::sync::LazyLock;
 
-use super::modules::{FOLDER, MODULES, Module};
+use super::modules::{MODULES, Module};
+use crate::script::rows::sources::FOLDER;
 
 /// What is said about a module.
 #[derive(Debug)]
@@ -174,10 +175,11 @@ fn blocks(lines: &[&str]) -> Vec<Block> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::script::catalog::Catalog;
-    use crate::script::context::{Mode, Settings};
-    use crate::script::program::Program;
-    use crate::script::runner::{Ending, run};
+    use crate::script::engine::runner::{Ending, run};
+    use crate::script::packages::language;
+
+    use crate::script::source::program::Program;
+    use crate::script::state::settings::{Mode, Settings};
 
     #[test]
     fn a_comment_is_taken_apart() {
@@ -238,7 +240,7 @@ mod tests {
                 assert!(example.contains(name.as_str()), "{name}: the example does not show it");
                 let out = tempfile::tempdir().unwrap();
                 let settings = Settings { out: out.path().into(), ..Settings::silent(Mode::Run) };
-                let outcome = run(&Program::named(name, example), &Catalog::standard(), settings);
+                let outcome = run(&Program::named(name, example), &language(), settings);
                 assert!(matches!(outcome.ending, Ending::Finished), "{name}: {:?}", outcome.ending);
                 assert_eq!(outcome.checks.failed(), [], "{name}");
             }

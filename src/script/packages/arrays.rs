@@ -2,10 +2,10 @@
 
 use rhai::{Array, Dynamic};
 
-use crate::script::call::Call;
-use crate::script::error::{Place, ScriptError};
-use crate::script::parameter::{Parameter, number, numbers, whole};
-use crate::script::table::{Table, function};
+use crate::script::rows::call::Call;
+use crate::script::rows::parameter::{Parameter, number, numbers, whole};
+use crate::script::rows::table::{Table, function};
+use crate::script::words::error::{Place, ScriptError};
 
 /// Helpers on arrays of numbers.
 pub const TABLE: Table = Table {

@@ -2,15 +2,16 @@
 
 use rhai::Dynamic;
 
-use crate::script::brief::brief;
-use crate::script::call::Call;
-use crate::script::checks::FailedCheck;
-use crate::script::context::Mode;
-use crate::script::error::{Failure, ScriptError};
-use crate::script::kind::Type;
-use crate::script::numbers::format_number;
-use crate::script::parameter::{Parameter, boolean, number, text};
-use crate::script::table::{Table, function, property};
+use crate::script::looks::details;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Details, Scripted, Type};
+use crate::script::rows::parameter::{Parameter, boolean, number, text};
+use crate::script::rows::table::{Table, function, property};
+use crate::script::state::settings::Mode;
+use crate::script::words::brief::brief;
+use crate::script::words::checks::FailedCheck;
+use crate::script::words::error::{Failure, ScriptError};
+use crate::script::words::numbers::format_number;
 
 /// Checks, and what `catch` receives.
 pub const TABLE: Table = Table {
@@ -45,6 +46,20 @@ pub const TABLE: Table = Table {
 };
 
 const PROBLEM: Type = Type::of::<Failure>();
+
+impl Scripted for Failure {
+    const NAME: &'static str = "error";
+    const DOC: &'static str = "What `catch (problem)` receives when a function of withy refuses.";
+
+    fn show(&self) -> String {
+        self.message.clone()
+    }
+
+    fn details(&self) -> Details {
+        details::of_failure(self)
+    }
+}
+
 const MESSAGE: Parameter = text("message").doc("what should be so").optional();
 const TOLERANCE: Parameter =
     number("tolerance").non_negative().doc("the largest difference allowed");

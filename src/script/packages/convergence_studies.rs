@@ -10,14 +10,14 @@ use super::precision_studies::{
 };
 use crate::analysis::{Convergence, Ladder};
 use crate::integrators::Method;
-use crate::script::call::Call;
-use crate::script::error::ScriptError;
-use crate::script::kind::{Details, Scripted, Type};
-use crate::script::parameter::{Parameter, object, options, text};
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Details, Scripted, Type};
+use crate::script::rows::parameter::{Parameter, object, options, text};
+use crate::script::rows::table::{Table, function, method, property};
 use crate::script::studies::convergence::{expect_quantity, find, map_of, study};
 use crate::script::studies::convergence_chart::chart;
 use crate::script::studies::convergence_table::table;
-use crate::script::table::{Table, function, method, property};
+use crate::script::words::error::ScriptError;
 
 /// Studies of convergence.
 pub const TABLE: Table = Table {

@@ -5,17 +5,17 @@ use rhai::{Array, Dynamic};
 use super::integrators::INTEGRATOR;
 use crate::analysis::{Outcome, Patience, StepCost, step_costs};
 use crate::output::Panel;
-use crate::script::call::Call;
-use crate::script::context::Mode;
-use crate::script::error::ScriptError;
-use crate::script::kind::{Scripted, Type};
-use crate::script::parameter::{
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Scripted, Type};
+use crate::script::rows::parameter::{
     Parameter, Presence, anything, callback, name, number, object, options, whole,
 };
+use crate::script::rows::table::{Table, function, property};
+use crate::script::state::settings::Mode;
 use crate::script::studies::cost::{CostTable, Way, cases};
 use crate::script::studies::desk::print_table;
 use crate::script::studies::plan::{patience, study_name};
-use crate::script::table::{Table, function, property};
+use crate::script::words::error::ScriptError;
 
 /// Costs.
 pub const TABLE: Table = Table {

@@ -6,16 +6,18 @@ use std::rc::Rc;
 use rhai::{Array, Dynamic, INT, Map};
 
 use super::modes::{COUNT, ModesHandle, expect_room, look as look_for_modes};
-use super::scenes::{SCENE, STATION, SceneHandle, StationHandle};
+use super::scenes::{SCENE, STATION};
 use super::simulations::{START, begin, followed};
 use crate::beams::Place;
 use crate::output::significant;
-use crate::script::call::Call;
-use crate::script::context::Mode;
-use crate::script::error::ScriptError;
-use crate::script::kind::{Details, Scripted, Type};
-use crate::script::parameter::{Parameter, Presence, number, object, options, whole};
-use crate::script::table::{Body, Row, Table, function, method, property};
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::station::StationHandle;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Details, Scripted, Type};
+use crate::script::rows::parameter::{Parameter, Presence, number, object, options, whole};
+use crate::script::rows::table::{Body, Row, Table, function, method, property};
+use crate::script::state::settings::Mode;
+use crate::script::words::error::ScriptError;
 use crate::simulation::Simulation;
 use crate::statics::{ArcLength, Control, Equilibrium, Loading, Stability, StaticsError};
 

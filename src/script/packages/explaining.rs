@@ -2,15 +2,16 @@
 
 use rhai::Dynamic;
 
-use super::live::SimulationHandle;
-use super::scenes::{SCENE, SceneHandle};
+use super::language;
+use super::scenes::SCENE;
 use super::simulations::{SIMULATION, SPINNING};
 use crate::model::{Part, Usage};
 use crate::output::Table as TextTable;
-use crate::script::catalog::Catalog;
-use crate::script::parameter::{anything, object};
-use crate::script::present::present;
-use crate::script::table::{Table, function, method};
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::looks::present::present;
+use crate::script::rows::parameter::{anything, object};
+use crate::script::rows::table::{Table, function, method};
 
 /// Characters in a line of a description.
 const WIDTH: usize = 100;
@@ -24,7 +25,7 @@ pub const TABLE: Table = Table {
     constants: &[],
     rows: &[
         function("describe", &[anything("value")], |call| {
-            let shown = present(&Catalog::standard(), &call.value("value")?, WIDTH);
+            let shown = present(&language(), &call.value("value")?, WIDTH);
             Ok(if shown.is_empty() { "nothing".into() } else { shown.into() })
         })
         .returns("a text")

@@ -10,10 +10,10 @@ pub mod quadrature;
 use rhai::{Array, Dynamic};
 
 use crate::geometry::{Basis, GeometryError, MAX_DEGREE, Vec2};
-use crate::script::call::Call;
-use crate::script::error::{Place, ScriptError};
-use crate::script::numbers::format_number;
-use crate::script::parameter::{Parameter, Presence, number, whole};
+use crate::script::rows::call::Call;
+use crate::script::rows::parameter::{Parameter, Presence, number, whole};
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::format_number;
 
 pub use curves::CURVE;
 pub use knots::KNOTS;

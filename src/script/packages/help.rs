@@ -2,12 +2,12 @@
 
 use rhai::Dynamic;
 
-use crate::script::call::Call;
-use crate::script::catalog::Catalog;
-use crate::script::error::{Place, ScriptError};
-use crate::script::help::{WIDTH, page};
-use crate::script::parameter::anything;
-use crate::script::table::{Table, function};
+use super::language;
+use crate::script::pages::help::{WIDTH, page};
+use crate::script::rows::call::Call;
+use crate::script::rows::parameter::anything;
+use crate::script::rows::table::{Table, function};
+use crate::script::words::error::{Place, ScriptError};
 
 /// Help on everything else.
 pub const TABLE: Table = Table {
@@ -29,7 +29,7 @@ fn help(call: &mut Call) -> Result<Dynamic, ScriptError> {
         Ok(value) if value.is_string() => value.to_string(),
         Ok(value) => call.type_of(&value),
     };
-    let page = page(&Catalog::standard(), &name)
+    let page = page(&language(), &name)
         .map_err(|unknown| call.error(&unknown).hint(unknown.hint()).at(Place::Argument(0)))?;
     call.context().print(page.plain(WIDTH).trim_end());
     Ok(Dynamic::UNIT)

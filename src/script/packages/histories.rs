@@ -4,14 +4,14 @@ use rhai::{Array, Dynamic, INT};
 
 use super::recording::expect_all_rows;
 use super::simulations::SPINNING;
-use super::windows::HistoryHandle;
 use crate::geometry::{larger, smaller};
-use crate::script::call::Call;
-use crate::script::error::ScriptError;
-use crate::script::kind::Type;
-use crate::script::numbers::format_number;
-use crate::script::parameter::{Parameter, choice, number, text};
-use crate::script::table::{Row, Table, method, property};
+use crate::script::handles::history::HistoryHandle;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::Type;
+use crate::script::rows::parameter::{Parameter, choice, number, text};
+use crate::script::rows::table::{Row, Table, method, property};
+use crate::script::words::error::ScriptError;
+use crate::script::words::numbers::format_number;
 use crate::simulation::{History, Invariant};
 
 /// Histories.
@@ -85,7 +85,7 @@ const COLUMN: Parameter = text("column").doc("the name of a column of this histo
 const fn statistic(
     name: &'static str,
     summary: &'static str,
-    body: crate::script::table::Body,
+    body: crate::script::rows::table::Body,
 ) -> Row {
     method(HISTORY, name, &[COLUMN], body)
         .returns("a number")

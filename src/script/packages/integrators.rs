@@ -3,10 +3,10 @@
 use rhai::Dynamic;
 
 use crate::integrators::Method;
-use crate::script::details;
-use crate::script::kind::{Details, Scripted, Type};
-use crate::script::parameter::{Parameter, Presence, number, options};
-use crate::script::table::{Table, function};
+use crate::script::looks::details;
+use crate::script::rows::kind::{Details, Scripted, Type};
+use crate::script::rows::parameter::{Parameter, Presence, number, options};
+use crate::script::rows::table::{Table, function};
 
 /// Integrators.
 pub const TABLE: Table = Table {
@@ -99,7 +99,7 @@ impl Scripted for Method {
 mod tests {
     use super::*;
     use crate::integrators::INTEGRATORS;
-    use crate::script::kind::Kind;
+    use crate::script::rows::kind::Kind;
 
     #[test]
     fn every_integrator_of_the_registry_has_a_row_that_cites_its_source() {

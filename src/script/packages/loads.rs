@@ -2,15 +2,18 @@
 
 use rhai::Dynamic;
 
-use super::scenes::{BEAM, BeamHandle, SCENE, STATION, SceneHandle, here};
+use super::scenes::{BEAM, SCENE, STATION};
 use super::schedules::{SCHEDULE_KINDS, schedule_of};
 use crate::loads::{Frame, LoadKind};
-use crate::script::call::Call;
-use crate::script::error::ScriptError;
-use crate::script::parameter::{
+use crate::script::handles::beam::BeamHandle;
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::station::here;
+use crate::script::rows::call::Call;
+use crate::script::rows::parameter::{
     Parameter, Presence, choice, either, number, object, options, point,
 };
-use crate::script::table::{Table, method};
+use crate::script::rows::table::{Table, method};
+use crate::script::words::error::ScriptError;
 
 /// Loads.
 pub const TABLE: Table = Table {

@@ -3,11 +3,11 @@
 use rhai::{Dynamic, INT};
 
 use crate::elementary;
-use crate::script::call::Call;
-use crate::script::error::ScriptError;
-use crate::script::numbers::as_number;
-use crate::script::parameter::{Parameter, number, numeric, whole};
-use crate::script::table::{Body, Constant, Row, Table, function};
+use crate::script::rows::call::Call;
+use crate::script::rows::parameter::{Parameter, number, numeric, whole};
+use crate::script::rows::table::{Body, Constant, Row, Table, function};
+use crate::script::words::error::ScriptError;
+use crate::script::words::numbers::as_number;
 
 /// Functions and constants of numbers.
 pub const TABLE: Table = Table {

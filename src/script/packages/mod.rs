@@ -5,13 +5,11 @@ mod checking;
 mod convergence_studies;
 mod cost_studies;
 mod equilibria;
-mod events;
 mod explaining;
 pub mod geometry;
 mod help;
 mod histories;
 mod integrators;
-mod live;
 mod loads;
 mod math;
 mod modes;
@@ -20,7 +18,6 @@ mod pictures;
 mod precision_studies;
 mod reading_options;
 mod recording;
-mod report;
 mod rest_pictures;
 mod saving;
 mod scenes;
@@ -33,12 +30,9 @@ mod step_sizes;
 mod text;
 mod time_travel;
 mod vectors;
-mod windows;
 
-pub use live::{Revisit, SimulationHandle};
-pub use scenes::{SceneHandle, StationHandle};
-
-use super::table::Table;
+use crate::script::rows::catalog::Catalog;
+use crate::script::rows::table::Table;
 
 /// All domains, in the order of the reference.
 pub const TABLES: &[&Table] = &[
@@ -75,6 +69,11 @@ pub const TABLES: &[&Table] = &[
     &reading_options::TABLE,
     &help::TABLE,
 ];
+
+/// The language of withy.
+pub fn language() -> Catalog {
+    Catalog::of(TABLES)
+}
 
 #[cfg(test)]
 mod tests;

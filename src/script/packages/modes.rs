@@ -4,16 +4,18 @@ use std::rc::Rc;
 
 use rhai::{Array, Dynamic, INT};
 
-use super::live::SimulationHandle;
-use super::scenes::{SCENE, STATION, SceneHandle, StationHandle};
+use super::scenes::{SCENE, STATION};
 use super::simulations::SIMULATION;
 use crate::model::{Model, Scene};
 use crate::output::{Cell, Table as TextTable, significant};
-use crate::script::call::Call;
-use crate::script::error::{Place, ScriptError};
-use crate::script::kind::{Scripted, Type};
-use crate::script::parameter::{Parameter, Presence, object, whole};
-use crate::script::table::{Body, Row, Table, method, property};
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::handles::station::StationHandle;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Scripted, Type};
+use crate::script::rows::parameter::{Parameter, Presence, object, whole};
+use crate::script::rows::table::{Body, Row, Table, method, property};
+use crate::script::words::error::{Place, ScriptError};
 use crate::vibration::{Mode, Modes, VibrationError};
 
 /// Modes.

@@ -1,14 +1,11 @@
 //! What a run is told of that its steps do not resolve.
 
-use std::cell::RefCell;
-
 use rhai::{Array, Dynamic};
 
-use super::live::SimulationHandle;
 use super::simulations::{SIMULATION, SPINNING};
-use crate::script::context::Context;
-use crate::script::table::{Table, property};
-use crate::simulation::{Note, Simulation};
+use crate::script::handles::notes::Printing;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::rows::table::{Table, property};
 
 /// Notes.
 pub const TABLE: Table = Table {
@@ -43,41 +40,3 @@ pub const TABLE: Table = Table {
 /// What becomes of notes when a run ends, and the word for it.
 pub(super) const PRINTING: [(&str, Printing); 2] =
     [("print", Printing::AtTheEnd), ("keep", Printing::Never)];
-
-/// Whether notes are printed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Printing {
-    /// When a run ends.
-    #[default]
-    AtTheEnd,
-    /// They are kept for those who ask.
-    Never,
-}
-
-/// What has been told of a simulation.
-#[derive(Debug, Clone, Default)]
-pub struct Notes {
-    printing: Printing,
-    told: RefCell<Vec<Note>>,
-}
-
-impl Notes {
-    /// Nothing so far.
-    pub(super) fn new(printing: Printing) -> Self {
-        Self { printing, told: RefCell::default() }
-    }
-
-    /// Tells what the steps of a simulation do not resolve, each thing once unless it gets worse.
-    pub(super) fn tell(&self, name: &str, simulation: &Simulation, context: &Context) {
-        if self.printing == Printing::Never || context.is_stopped() {
-            return;
-        }
-        let mut told = self.told.borrow_mut();
-        for note in simulation.notes() {
-            if note.is_news_after(&told) {
-                context.tell(&format!("note: simulation '{name}': {note}"));
-                told.push(note);
-            }
-        }
-    }
-}

@@ -5,24 +5,24 @@ use std::path::Path;
 use rhai::{Array, Dynamic};
 
 use super::histories::HISTORY;
-use super::live::SimulationHandle;
 use super::recording::{expect_all_rows, expect_near, expect_rows_between};
-use super::report::history_table;
-use super::scenes::StationHandle;
 use super::simulations::{SIMULATION, SPINNING};
-use super::windows::HistoryHandle;
 use crate::geometry::Vec2;
 use crate::output::{
     CsvTable, LineChart, MotionPicture, Page, Panel, PictureKind, Scale, Snapshot,
 };
-use crate::script::call::Call;
-use crate::script::error::{Place, ScriptError};
-use crate::script::kind::{Kind, Scripted};
-use crate::script::numbers::format_number;
-use crate::script::options::Options;
-use crate::script::parameter::{Parameter, array, boolean, either, number, options, text};
-use crate::script::sight::{drift_lines, line_chart};
-use crate::script::table::{Table, function};
+use crate::script::handles::history::HistoryHandle;
+use crate::script::handles::report::history_table;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::handles::station::StationHandle;
+use crate::script::looks::sight::{drift_lines, line_chart};
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Kind, Scripted};
+use crate::script::rows::options::Options;
+use crate::script::rows::parameter::{Parameter, array, boolean, either, number, options, text};
+use crate::script::rows::table::{Table, function};
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::format_number;
 use crate::simulation::{Configuration, History};
 
 /// Pictures and files.

@@ -6,20 +6,20 @@ use rhai::{Array, Dynamic};
 
 use super::integrators::INTEGRATOR;
 use crate::analysis::Precision;
-use crate::script::call::Call;
-use crate::script::context::Mode;
-use crate::script::error::{Place, ScriptError};
-use crate::script::kind::{Details, Kind, Range, Scripted, Type};
-use crate::script::numbers::{as_number, format_number};
-use crate::script::parameter::{
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Details, Kind, Range, Scripted, Type};
+use crate::script::rows::parameter::{
     Parameter, Presence, anything, array, callback, either, name, number, numbers, object, options,
     text, whole,
 };
+use crate::script::rows::table::{Row, Table, function, method, property};
+use crate::script::state::settings::Mode;
 use crate::script::studies::precision::study;
 use crate::script::studies::precision_comparison::comparison;
 use crate::script::studies::precision_rows::{map_of, table};
 use crate::script::studies::reference::FinestRun;
-use crate::script::table::{Row, Table, function, method, property};
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::{as_number, format_number};
 
 /// Studies of error against run time.
 pub const TABLE: Table = Table {
@@ -172,7 +172,7 @@ const FINEST_KEYS: &[Parameter] = &[
     object("integrator", INTEGRATOR).optional(),
 ];
 
-const fn of_study(name: &'static str, body: crate::script::table::Body) -> Row {
+const fn of_study(name: &'static str, body: crate::script::rows::table::Body) -> Row {
     property(PRECISION, name, body)
 }
 

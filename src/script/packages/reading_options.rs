@@ -3,12 +3,13 @@
 use rhai::{Array, Dynamic, Map};
 
 use crate::geometry::Vec2;
-use crate::script::call::Call;
-use crate::script::error::{Place, ScriptError};
-use crate::script::kind::{Kind, Range, with_article};
-use crate::script::parameter::{anything, text};
-use crate::script::suggest::nearest;
-use crate::script::table::{Table, function};
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Kind, Range};
+use crate::script::rows::parameter::{anything, text};
+use crate::script::rows::table::{Table, function};
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::nouns::with_article;
+use crate::script::words::suggest::nearest;
 
 /// Options and arguments of a script's own functions.
 pub const TABLE: Table = Table {

@@ -4,14 +4,14 @@ use std::num::NonZeroUsize;
 
 use rhai::Dynamic;
 
-use super::live::SimulationHandle;
 use super::simulations::SPINNING;
-use crate::script::call::Call;
-use crate::script::error::ScriptError;
-use crate::script::kind::{Scripted, Type};
-use crate::script::numbers::format_number;
-use crate::script::parameter::whole;
-use crate::script::table::{Table, function};
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Scripted, Type};
+use crate::script::rows::parameter::whole;
+use crate::script::rows::table::{Table, function};
+use crate::script::words::error::ScriptError;
+use crate::script::words::numbers::format_number;
 use crate::simulation::Recording;
 
 /// Recording.

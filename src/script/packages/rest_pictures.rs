@@ -5,14 +5,17 @@ use rhai::Dynamic;
 use super::equilibria::{BENT, EQUILIBRIUM, EquilibriumHandle};
 use super::modes::{MODES, ModesHandle};
 use super::pictures::{plain, snapshot, stations, write_csv, write_picture};
-use super::scenes::{STATION, StationHandle};
+use super::scenes::STATION;
 use crate::geometry::Vec2;
 use crate::output::{CsvTable, LineChart, MotionPicture, Page, Series, Snapshot, significant};
-use crate::script::call::Call;
-use crate::script::error::{Place, ScriptError};
-use crate::script::kind::Scripted;
-use crate::script::parameter::{Parameter, Presence, array, number, object, options, text, whole};
-use crate::script::table::{Table, function};
+use crate::script::handles::station::StationHandle;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::Scripted;
+use crate::script::rows::parameter::{
+    Parameter, Presence, array, number, object, options, text, whole,
+};
+use crate::script::rows::table::{Table, function};
+use crate::script::words::error::{Place, ScriptError};
 use crate::simulation::Outline;
 
 /// Pictures of equilibria and modes.

@@ -2,17 +2,20 @@
 
 use rhai::Dynamic;
 
-use super::live::SimulationHandle;
-use super::notes::Notes;
-use super::scenes::{BeamHandle, SCENE, SceneHandle, StationHandle};
+use super::scenes::SCENE;
 use super::simulations::{SIMULATION, SPINNING};
 use super::sliding::SliderHandle;
 use crate::beams::Station;
-use crate::script::call::Call;
-use crate::script::error::{Place, ScriptError};
-use crate::script::parameter::{Parameter, text};
-use crate::script::suggest::nearest;
-use crate::script::table::{Table, function, method, property};
+use crate::script::handles::beam::BeamHandle;
+use crate::script::handles::notes::Notes;
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::handles::station::StationHandle;
+use crate::script::rows::call::Call;
+use crate::script::rows::parameter::{Parameter, text};
+use crate::script::rows::table::{Table, function, method, property};
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::suggest::nearest;
 use crate::simulation::Simulation;
 
 /// Saving and loading.

@@ -1,28 +1,27 @@
 //! Scenes: beams, particles, stations, supports and joints, masses and start velocities.
 
-use std::cell::RefCell;
 use std::rc::Rc;
 
 use rhai::Dynamic;
 
 use super::geometry::CURVE;
-use super::live::SimulationHandle;
 use super::sections::{MESH_KINDS, SECTION, mesh_of};
-use crate::beams::{self, BodyIndex, Mesh, Station};
+use crate::beams::Mesh;
 use crate::geometry::Curve;
 use crate::joints::{JointKind, Partner};
 use crate::model::{
     BeamDefinition, ModelError, ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity,
 };
-use crate::output::significant;
-use crate::script::call::Call;
-use crate::script::details;
-use crate::script::error::{Place, ScriptError};
-use crate::script::kind::{Details, Scripted, Type};
-use crate::script::parameter::{
+use crate::script::handles::beam::BeamHandle;
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::station::{StationHandle, here};
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::Type;
+use crate::script::rows::parameter::{
     Parameter, Presence, either, name, number, object, options, point, text,
 };
-use crate::script::table::{Table, function, method, property};
+use crate::script::rows::table::{Table, function, method, property};
+use crate::script::words::error::{Place, ScriptError};
 
 /// Scenes and what stands in them.
 pub const TABLE: Table = Table {
@@ -168,167 +167,6 @@ const PARTICLE_KEYS: &[Parameter] = &[
     point("velocity").unit("length/time").doc("at the start; at rest unless given").optional(),
 ];
 
-/// A scene that a script holds.
-#[derive(Clone)]
-pub struct SceneHandle(Rc<RefCell<Scene>>);
-
-/// A beam of a scene.
-#[derive(Clone)]
-pub struct BeamHandle {
-    pub(super) scene: SceneHandle,
-    pub(super) index: usize,
-}
-
-/// A station of a beam of a scene.
-#[derive(Clone)]
-pub struct StationHandle {
-    pub(super) scene: SceneHandle,
-    pub(super) station: Station,
-}
-
-impl SceneHandle {
-    /// A handle on a scene of its own.
-    pub fn new(scene: Scene) -> Self {
-        Self(Rc::new(RefCell::new(scene)))
-    }
-
-    /// The scene itself.
-    pub fn scene(&self) -> &RefCell<Scene> {
-        &self.0
-    }
-
-    /// The station of a handle, if it is one of this scene.
-    pub fn own(&self, handle: &StationHandle) -> Result<Station, ScriptError> {
-        self.expect_same(&handle.scene, "station")?;
-        Ok(handle.station)
-    }
-
-    /// Refuses a thing of another scene; `what` is the kind of the thing.
-    pub fn expect_same(&self, other: &Self, what: &str) -> Result<(), ScriptError> {
-        if Rc::ptr_eq(&self.0, &other.0) {
-            return Ok(());
-        }
-        let (mine, other) = (&self.0.borrow().name, &other.0.borrow().name);
-        let told = match mine == other {
-            true => format!("the {what} belongs to another scene that is called '{other}' too"),
-            false => format!("the {what} belongs to the scene '{other}', not to '{mine}'"),
-        };
-        Err(ScriptError::new(told).hint(format!("use a {what} of this scene")))
-    }
-}
-
-impl BeamHandle {
-    /// The index of the beam, if it is one of the scene.
-    pub fn own(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
-        scene.expect_same(&self.scene, "beam")?;
-        Ok(self.index)
-    }
-
-    fn length(&self) -> f64 {
-        self.scene.0.borrow().beams[self.index].axis.length()
-    }
-
-    fn name(&self) -> String {
-        self.scene.0.borrow().beams[self.index].name.clone()
-    }
-}
-
-impl StationHandle {
-    /// The station itself.
-    pub fn station(&self) -> Station {
-        self.station
-    }
-
-    /// Its place in a simulation, if that is one of its scene.
-    pub fn on(&self, handle: &SimulationHandle) -> Result<beams::Place, ScriptError> {
-        let simulation = handle.simulation();
-        self.within(handle.scene(), simulation.scene(), simulation.model().meshes())
-    }
-
-    /// Its place among the meshes of a scene that was built when it was `built`, if it is one of that scene.
-    pub fn within(
-        &self,
-        of: &SceneHandle,
-        built: &Scene,
-        meshes: &[Mesh],
-    ) -> Result<beams::Place, ScriptError> {
-        of.own(self)?;
-        let known = match self.station.body {
-            BodyIndex::Beam(beam) => beam < built.beams.len(),
-            BodyIndex::Particle(particle) => particle < built.particles.len(),
-        };
-        if !known {
-            let told = format!("{} was added after the scene was started", self.show());
-            return Err(
-                ScriptError::new(told).hint("add everything before scene.start(…), or start again")
-            );
-        }
-        Ok(built.place(&self.station, meshes)?)
-    }
-}
-
-impl Scripted for SceneHandle {
-    const NAME: &'static str = "scene";
-    const DOC: &'static str = "A description of beams, particles, joints, masses and loads.";
-
-    fn show(&self) -> String {
-        let scene = self.0.borrow();
-        let count = |(number, what): (usize, &str)| {
-            format!("{number} {what}{}", if number == 1 { "" } else { "s" })
-        };
-        let always = [(scene.beams.len(), "beam")];
-        let if_any = [(scene.particles.len(), "particle"), (scene.sliders.len(), "slider")];
-        let last = [(scene.joints.len(), "joint"), (scene.loads().count(), "load")];
-        let some = if_any.into_iter().filter(|(number, _)| *number > 0);
-        let parts: Vec<String> = always.into_iter().chain(some).chain(last).map(count).collect();
-        format!("scene '{}' with {}", scene.name, parts.join(", "))
-    }
-
-    fn details(&self) -> Details {
-        details::of_scene(&self.0.borrow())
-    }
-}
-
-impl Scripted for BeamHandle {
-    const NAME: &'static str = "beam";
-    const DOC: &'static str = "A flexible beam of a scene.";
-
-    fn show(&self) -> String {
-        let scene = self.scene.0.borrow();
-        let beam = &scene.beams[self.index];
-        format!(
-            "beam '{}' of length {}, {}",
-            beam.name,
-            significant(beam.axis.length(), 7),
-            beam.mesh.describe()
-        )
-    }
-
-    fn details(&self) -> Details {
-        details::of_beam(&self.scene.0.borrow(), self.index)
-    }
-}
-
-impl Scripted for StationHandle {
-    const NAME: &'static str = "station";
-    const DOC: &'static str = "A place on a beam, or a particle.";
-
-    fn show(&self) -> String {
-        self.scene.0.borrow().describe(&self.station)
-    }
-
-    fn details(&self) -> Details {
-        details::of_station(&self.scene.0.borrow(), &self.station)
-    }
-}
-
-/// The scene that is called, and one of its stations.
-pub(super) fn here(call: &Call, name: &str) -> Result<(Station, Rc<RefCell<Scene>>), ScriptError> {
-    let scene = call.receiver::<SceneHandle>()?;
-    let station = scene.own(&call.get::<StationHandle>(name)?)?;
-    Ok((station, scene.0))
-}
-
 fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let options = call.options("options")?;
@@ -347,13 +185,13 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
         about: if options.has("about") { Some(options.point("about")?) } else { None },
     };
     let definition = BeamDefinition {
-        name: named.unwrap_or_else(|_| scene.0.borrow().free_name("beam")),
+        name: named.unwrap_or_else(|_| scene.scene().borrow().free_name("beam")),
         axis: Curve::clone(&*options.get::<Rc<Curve>>("axis")?),
         mesh,
         section: options.get("section")?,
         motion,
     };
-    let added = scene.0.borrow_mut().add_beam(definition);
+    let added = scene.scene().borrow_mut().add_beam(definition);
     let index = added.map_err(|error| ScriptError::from(error).at(Place::Key("name".into())))?;
     Ok(Dynamic::from(BeamHandle { scene, index }))
 }
@@ -363,10 +201,10 @@ fn particle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options_or_defaults("options")?;
     let name = options.text("name").map(|name| name.to_string());
     let definition = ParticleDefinition {
-        name: name.unwrap_or_else(|_| scene.0.borrow().free_name("particle")),
+        name: name.unwrap_or_else(|_| scene.scene().borrow().free_name("particle")),
         position: call.point("position")?,
     };
-    let added = scene.0.borrow_mut().add_particle(definition, call.number("mass")?);
+    let added = scene.scene().borrow_mut().add_particle(definition, call.number("mass")?);
     let station = added.map_err(|error| match error {
         ModelError::Value { .. } => ScriptError::from(error).at(Place::Argument(1)),
         _ => ScriptError::from(error).at(Place::Key("name".into())),
@@ -374,15 +212,15 @@ fn particle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     if options.has("velocity") {
         let velocity = options.point("velocity")?;
         let moving = StationVelocity { station, velocity, spin: None };
-        scene.0.borrow_mut().velocities.push(moving);
+        scene.scene().borrow_mut().velocities.push(moving);
     }
     Ok(Dynamic::from(StationHandle { scene, station }))
 }
 
 fn station(call: &mut Call, arc_length: impl FnOnce(f64) -> f64) -> Result<Dynamic, ScriptError> {
     let BeamHandle { scene, index } = call.receiver::<BeamHandle>()?;
-    let length = scene.0.borrow().beams[index].axis.length();
-    let station = scene.0.borrow_mut().station(index, arc_length(length))?;
+    let length = scene.scene().borrow().beams[index].axis.length();
+    let station = scene.scene().borrow_mut().station(index, arc_length(length))?;
     Ok(Dynamic::from(StationHandle { scene, station }))
 }
 

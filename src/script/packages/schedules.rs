@@ -2,16 +2,23 @@
 
 use std::rc::Rc;
 
-use rhai::{Dynamic, FnPtr};
+use rhai::{Dynamic, EvalAltResult, FnPtr};
 
 use crate::loads::{Operation, Schedule, Side};
-use crate::script::arguments::Arguments;
-use crate::script::call::Call;
-use crate::script::details;
-use crate::script::error::ScriptError;
-use crate::script::kind::{Details, Kind, Range, Scripted, Type};
-use crate::script::parameter::{Parameter, Presence, array, callback, number, numbers, object};
-use crate::script::table::{Table, function, method, operator};
+use crate::script::diagnose::Explainer;
+use crate::script::looks::details;
+use crate::script::rows::arguments::Arguments;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Details, Kind, Range, Scripted, Type};
+use crate::script::rows::parameter::{
+    Parameter, Presence, array, callback, number, numbers, object,
+};
+use crate::script::rows::sources::Sources;
+use crate::script::rows::stored::NoNumber;
+use crate::script::rows::table::{Table, function, method, operator};
+use crate::script::source::program::Program;
+use crate::script::state::context::Context;
+use crate::script::words::error::ScriptError;
 
 /// Schedules.
 pub const TABLE: Table = Table {
@@ -161,9 +168,8 @@ fn scaled(call: &Call, factor: f64, of: &str) -> Result<Schedule, ScriptError> {
 fn table(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let pair = |(row, value): (usize, Dynamic)| {
         let pair = value.read_lock::<rhai::Array>().and_then(|pair| match pair.as_slice() {
-            [t, factor] => {
-                crate::script::numbers::as_number(t).zip(crate::script::numbers::as_number(factor))
-            }
+            [t, factor] => crate::script::words::numbers::as_number(t)
+                .zip(crate::script::words::numbers::as_number(factor)),
             _ => None,
         });
         pair.ok_or_else(|| {
@@ -183,7 +189,26 @@ fn closure(call: &mut Call) -> Result<Dynamic, ScriptError> {
 fn stored(call: &Call, function: FnPtr, breaks: Vec<f64>) -> Result<Schedule, ScriptError> {
     call.expect_arguments(&function, 1, "|t| …, a function of time")?;
     let stored = call.store(function, "the function of a schedule");
-    Ok(Schedule::Function { function: Rc::new(move |t| stored.number_of(t)), breaks })
+    let function = Rc::new(move |t| {
+        stored.number_of(t).map_err(|error| match error {
+            NoNumber::Other(words) => words,
+            NoNumber::Failed(error) => {
+                let words = words(stored.context(), &error);
+                stored.context().keep_callback_error(error);
+                words
+            }
+        })
+    });
+    Ok(Schedule::Function { function, breaks })
+}
+
+/// An error of a stored function in one line, as the language tells errors.
+fn words(context: &Context, error: &EvalAltResult) -> String {
+    let Some(engine) = context.engine() else { return error.to_string() };
+    let Some(catalog) = Sources::of(&engine).catalog() else { return error.to_string() };
+    // The error names the file that it arose in; the script itself is not at hand here.
+    let program = Program::named("", "");
+    Explainer { program: &program, catalog: &catalog, engine: &engine }.explain(error).line()
 }
 
 /// The schedule of a load: given in one of [`SCHEDULE_KINDS`], or always 1.

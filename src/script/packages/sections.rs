@@ -9,14 +9,14 @@ use super::geometry::KNOTS;
 use crate::beams::{BeamError, Mesh, Quadrature, Section, Shape, Solid};
 use crate::geometry::{Basis, KnotVector};
 use crate::output::significant;
-use crate::script::arguments::Arguments;
-use crate::script::call::Call;
-use crate::script::details;
-use crate::script::error::{Place, ScriptError};
-use crate::script::kind::{Details, Kind, Range, Scripted, Type};
-use crate::script::options::Options;
-use crate::script::parameter::{Parameter, Presence, choice, either, number, options, whole};
-use crate::script::table::{Table, function, property};
+use crate::script::looks::details;
+use crate::script::rows::arguments::Arguments;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Details, Kind, Range, Scripted, Type};
+use crate::script::rows::options::Options;
+use crate::script::rows::parameter::{Parameter, Presence, choice, either, number, options, whole};
+use crate::script::rows::table::{Table, function, property};
+use crate::script::words::error::{Place, ScriptError};
 
 /// Digits of a stiffness or an inertia where it is shown.
 const DIGITS: usize = 7;

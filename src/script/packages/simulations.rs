@@ -3,26 +3,29 @@
 use rhai::{Dynamic, INT};
 
 use super::integrators::INTEGRATOR;
-use super::live::{Goal, SimulationHandle};
-use super::notes::{Notes, PRINTING};
+use super::notes::PRINTING;
 use super::recording::RECORDING;
-use super::scenes::{SCENE, STATION, SceneHandle, StationHandle};
+use super::scenes::{SCENE, STATION};
 use super::sliding::meant;
 use super::step_sizes::STEP_CONTROL;
 use super::time_travel::bytes;
-use super::windows::HistoryHandle;
 use crate::beams::Place;
 use crate::integrators::Method;
 use crate::model::Measures;
 use crate::newton::Tolerance;
 use crate::output::{Cell, Table as TextTable, scientific};
-use crate::script::call::Call;
-use crate::script::error::ScriptError;
-use crate::script::kind::{Kind, Range, Scripted, Type};
-use crate::script::parameter::{
+use crate::script::handles::history::HistoryHandle;
+use crate::script::handles::notes::Notes;
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::simulation::{Goal, SimulationHandle};
+use crate::script::handles::station::StationHandle;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Kind, Range, Scripted, Type};
+use crate::script::rows::parameter::{
     Parameter, Presence, callback, choice, either, name, number, object, options, whole,
 };
-use crate::script::table::{Row, Table, method, property};
+use crate::script::rows::table::{Row, Table, method, property};
+use crate::script::words::error::ScriptError;
 use crate::simulation::{Invariant, Recording, Settings, Simulation, SimulationError, StepControl};
 
 /// Simulations.
@@ -218,18 +221,18 @@ impl Scripted for Invariants {
 const fn measure(
     name: &'static str,
     summary: &'static str,
-    body: crate::script::table::Body,
+    body: crate::script::rows::table::Body,
 ) -> Row {
     property(SIMULATION, name, body).returns("a number").summary(summary)
 }
 
-const fn invariant(name: &'static str, body: crate::script::table::Body) -> Row {
+const fn invariant(name: &'static str, body: crate::script::rows::table::Body) -> Row {
     property(INVARIANTS, name, body)
         .returns("a number")
         .example("sim.run_to(0.5);\nlet kept = sim.invariants();\ncheck(kept.energy < 1e-12 && kept.momentum < 1e-12);\ncheck(kept.angular_momentum < 1e-12 && kept.gap == 0);")
 }
 
-const fn count(name: &'static str, body: crate::script::table::Body) -> Row {
+const fn count(name: &'static str, body: crate::script::rows::table::Body) -> Row {
     property(SIMULATION, name, body)
         .returns("a whole number")
         .example("sim.step(2);\ncheck(sim.steps == 2 && sim.newton_iterations <= 8 && sim.retries == 0 && sim.rejected == 0 && sim.unknowns == 21);")

@@ -2,19 +2,22 @@
 
 use rhai::{Array, Dynamic, Map};
 
-use super::live::SimulationHandle;
-use super::scenes::{BEAM, BeamHandle, SCENE, STATION, SceneHandle, here};
+use super::scenes::{BEAM, SCENE, STATION};
 use super::simulations::SIMULATION;
 use crate::beams::Station;
 use crate::joints::{EndAction, Slider, SlidingRule, StartVelocities};
 use crate::model::{Model, ModelError, Scene, SliderError};
 use crate::output::significant;
-use crate::script::call::Call;
-use crate::script::details;
-use crate::script::error::{Place, ScriptError};
-use crate::script::kind::{Details, Scripted, Type};
-use crate::script::parameter::{Parameter, Presence, choice, number, object, options, text};
-use crate::script::table::{Row, Table, function, method, property};
+use crate::script::handles::beam::BeamHandle;
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::handles::station::here;
+use crate::script::looks::details;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Details, Scripted, Type};
+use crate::script::rows::parameter::{Parameter, Presence, choice, number, object, options, text};
+use crate::script::rows::table::{Row, Table, function, method, property};
+use crate::script::words::error::{Place, ScriptError};
 use crate::simulation::Arrival;
 
 /// Sliding joints.
@@ -222,7 +225,7 @@ impl Scripted for SlidingRule {
     }
 }
 
-const fn rule(name: &'static str, body: crate::script::table::Body) -> Row {
+const fn rule(name: &'static str, body: crate::script::rows::table::Body) -> Row {
     function(name, &[], body)
         .returns("a sliding rule")
         .example("for rule in [conserving(), exact(), relaxed()] {\n    print(rule);\n}")

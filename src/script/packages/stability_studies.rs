@@ -5,17 +5,17 @@ use rhai::{Array, Dynamic};
 use super::integrators::INTEGRATOR;
 use crate::analysis::{Case, Outcome, Verdict};
 use crate::output::Panel;
-use crate::script::call::Call;
-use crate::script::context::Mode;
-use crate::script::error::ScriptError;
-use crate::script::kind::{Scripted, Type};
-use crate::script::parameter::{
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Scripted, Type};
+use crate::script::rows::parameter::{
     Parameter, Presence, anything, callback, choice, name, number, object, options,
 };
+use crate::script::rows::table::{Table, function, property};
+use crate::script::state::settings::Mode;
 use crate::script::studies::desk::{Desk, Task, print_table};
 use crate::script::studies::plan::patience;
 use crate::script::studies::stability::{Shown, StabilityMap, StabilityPlan};
-use crate::script::table::{Table, function, property};
+use crate::script::words::error::ScriptError;
 
 /// Stability maps.
 pub const TABLE: Table = Table {

@@ -2,11 +2,11 @@
 
 use rhai::Dynamic;
 
-use crate::script::details;
-use crate::script::error::{Place, ScriptError};
-use crate::script::kind::{Details, Scripted, Type};
-use crate::script::parameter::{Parameter, Presence, number, options};
-use crate::script::table::{Table, function};
+use crate::script::looks::details;
+use crate::script::rows::kind::{Details, Scripted, Type};
+use crate::script::rows::parameter::{Parameter, Presence, number, options};
+use crate::script::rows::table::{Table, function};
+use crate::script::words::error::{Place, ScriptError};
 use crate::simulation::{StepControl, StepSize};
 
 /// Step sizes.

@@ -3,13 +3,13 @@
 use std::collections::HashSet;
 
 use super::TABLES;
-use crate::script::catalog::Catalog;
-use crate::script::context::{Mode, Settings};
-use crate::script::kind::Kind;
-use crate::script::parameter::Parameter;
-use crate::script::program::Program;
-use crate::script::runner::{Ending, run};
-use crate::script::table::{Form, Row};
+use super::language;
+use crate::script::engine::runner::{Ending, run};
+use crate::script::rows::kind::Kind;
+use crate::script::rows::parameter::Parameter;
+use crate::script::rows::table::{Form, Row};
+use crate::script::source::program::Program;
+use crate::script::state::settings::{Mode, Settings};
 
 fn rows() -> impl Iterator<Item = &'static Row> {
     TABLES.iter().flat_map(|table| table.rows)
@@ -30,7 +30,7 @@ fn every_example_runs() {
     {
         let program =
             Program::named(&row.signature(), &format!("{}\n{}", table.setup, row.example));
-        let outcome = run(&program, &Catalog::standard(), Settings::silent(Mode::Run));
+        let outcome = run(&program, &language(), Settings::silent(Mode::Run));
         assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
         assert_eq!(outcome.checks.failed(), [], "{}", row.signature());
     }

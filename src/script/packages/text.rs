@@ -3,11 +3,11 @@
 use rhai::{Array, Dynamic};
 
 use crate::output::{Cell, Table as TextTable};
-use crate::script::call::Call;
-use crate::script::error::{Place, ScriptError};
-use crate::script::numbers::{format_fixed, format_scientific};
-use crate::script::parameter::{Parameter, Presence, array, number, whole};
-use crate::script::table::{Table, function};
+use crate::script::rows::call::Call;
+use crate::script::rows::parameter::{Parameter, Presence, array, number, whole};
+use crate::script::rows::table::{Table, function};
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::{format_fixed, format_scientific};
 
 /// Formats for numbers.
 pub const TABLE: Table = Table {

@@ -2,12 +2,12 @@
 
 use rhai::Dynamic;
 
-use super::live::{Goal, SimulationHandle};
 use super::simulations::{SIMULATION, SPINNING};
-use crate::script::call::Call;
-use crate::script::error::ScriptError;
-use crate::script::parameter::{Presence, name, number, whole};
-use crate::script::table::{Table, method};
+use crate::script::handles::simulation::{Goal, SimulationHandle};
+use crate::script::rows::call::Call;
+use crate::script::rows::parameter::{Presence, name, number, whole};
+use crate::script::rows::table::{Table, method};
+use crate::script::words::error::ScriptError;
 
 /// Going back.
 pub const TABLE: Table = Table {

@@ -5,12 +5,12 @@ use rhai::Dynamic;
 use crate::elementary::atan2;
 use crate::geometry::{Vec2, cross, unit};
 use crate::output::significant;
-use crate::script::call::Call;
-use crate::script::details;
-use crate::script::error::ScriptError;
-use crate::script::kind::{Details, Scripted, Type};
-use crate::script::parameter::{Parameter, number, object, point};
-use crate::script::table::{Table, function, operator, property};
+use crate::script::looks::details;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Details, Scripted, Type};
+use crate::script::rows::parameter::{Parameter, number, object, point};
+use crate::script::rows::table::{Table, function, operator, property};
+use crate::script::words::error::ScriptError;
 
 /// Vectors and their arithmetic.
 pub const TABLE: Table = Table {

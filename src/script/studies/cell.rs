@@ -7,12 +7,12 @@ use super::plan::{STEP_SIZE, step_size};
 use crate::analysis::Case;
 use crate::integrators::Method;
 use crate::newton::Tolerance;
-use crate::script::call::Call;
-use crate::script::error::{Failure, Place, ScriptError};
-use crate::script::numbers::as_number;
-use crate::script::options::Options;
-use crate::script::packages::SceneHandle;
-use crate::script::suggest::nearest;
+use crate::script::handles::scene::SceneHandle;
+use crate::script::rows::call::Call;
+use crate::script::rows::options::Options;
+use crate::script::words::error::{Failure, Place, ScriptError};
+use crate::script::words::numbers::as_number;
+use crate::script::words::suggest::nearest;
 use crate::simulation::Settings;
 
 /// What a function may say of a cell.

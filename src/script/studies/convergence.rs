@@ -13,10 +13,10 @@ use crate::analysis::{
 };
 use crate::integrators::Method;
 use crate::output::{CsvRecords, Panel, format_number};
-use crate::script::call::Call;
-use crate::script::context::Mode;
-use crate::script::error::ScriptError;
-use crate::script::options::Options;
+use crate::script::rows::call::Call;
+use crate::script::rows::options::Options;
+use crate::script::state::settings::Mode;
+use crate::script::words::error::ScriptError;
 use crate::simulation::{Settings, StepSize};
 
 /// Makes the study that the options ask for; in a dry build nothing runs.

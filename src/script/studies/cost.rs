@@ -8,10 +8,10 @@ use crate::integrators::{INTEGRATORS, Method};
 use crate::model::Scene;
 use crate::newton::Tolerance;
 use crate::output::{BarChart, Cell, CsvRecords, Table, format_number, significant};
-use crate::script::call::Call;
-use crate::script::error::{Place, ScriptError};
-use crate::script::options::Options;
-use crate::script::packages::SceneHandle;
+use crate::script::handles::scene::SceneHandle;
+use crate::script::rows::call::Call;
+use crate::script::rows::options::Options;
+use crate::script::words::error::{Place, ScriptError};
 use crate::simulation::{Recording, Settings};
 
 /// The memory for snapshots in the row that has some [bytes].

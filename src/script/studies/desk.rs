@@ -8,9 +8,10 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::analysis::{Case, Journal, Outcome, Timing, Trial, Verdict, on_all_cores};
-use crate::script::context::{Context, Mode};
-use crate::script::error::ScriptError;
-use crate::script::journals::JournalNumber;
+use crate::script::state::context::Context;
+use crate::script::state::journals::JournalNumber;
+use crate::script::state::settings::Mode;
+use crate::script::words::error::ScriptError;
 
 /// What is found of a case.
 pub trait Finding: Serialize + DeserializeOwned {

@@ -5,11 +5,11 @@ use rhai::{Array, Dynamic, Map};
 use super::labels;
 use crate::integrators::Method;
 use crate::output::significant;
-use crate::script::accept::readable;
-use crate::script::call::Call;
-use crate::script::error::{Place, ScriptError};
-use crate::script::numbers::{as_number, format_number};
-use crate::script::options::Options;
+use crate::script::rows::accept::readable;
+use crate::script::rows::call::Call;
+use crate::script::rows::options::Options;
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::{as_number, format_number};
 
 /// The most significant digits of a number in a label.
 const DIGITS: usize = 6;

@@ -8,12 +8,13 @@ use crate::beams::{Mesh, Station};
 use crate::integrators::Method;
 use crate::model::Scene;
 use crate::newton::Tolerance;
-use crate::script::accept::readable;
-use crate::script::call::Call;
-use crate::script::error::{Place, ScriptError};
-use crate::script::numbers::{as_number, format_number};
-use crate::script::options::Options;
-use crate::script::packages::{SceneHandle, StationHandle};
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::station::StationHandle;
+use crate::script::rows::accept::readable;
+use crate::script::rows::call::Call;
+use crate::script::rows::options::Options;
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::{as_number, format_number};
 use crate::simulation::{History, Settings, StepControl, StepSize};
 
 /// Everything a study needs but its reference.

@@ -8,10 +8,10 @@ use super::reference::{Reference, read_sheet};
 use crate::analysis::{
     Case, Outcome, Precision, PrecisionRow, Rival, Timing, Trial, Truth, all_combinations,
 };
-use crate::script::call::Call;
-use crate::script::context::Mode;
-use crate::script::error::ScriptError;
-use crate::script::options::Options;
+use crate::script::rows::call::Call;
+use crate::script::rows::options::Options;
+use crate::script::state::settings::Mode;
+use crate::script::words::error::ScriptError;
 
 /// Makes the study that the options ask for; in a dry build nothing runs.
 pub fn study(call: &Call, options: &Options) -> Result<Precision, ScriptError> {

@@ -11,11 +11,11 @@ use crate::analysis::{
 use crate::elementary::square;
 use crate::geometry::Vec2;
 use crate::integrators::Method;
-use crate::script::call::Call;
-use crate::script::error::ScriptError;
-use crate::script::kind::Scripted;
-use crate::script::numbers::format_number;
-use crate::script::options::Options;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::Scripted;
+use crate::script::rows::options::Options;
+use crate::script::words::error::ScriptError;
+use crate::script::words::numbers::format_number;
 use crate::simulation::{StepControl, StepSize};
 
 /// A run of our own as a reference, as far as the script says how it is made.

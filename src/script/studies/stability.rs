@@ -11,9 +11,9 @@ use crate::output::{
     Colours, CsvRecords, Glyphs, HeatCell, HeatMap, Page, Style, Table, format_number, scientific,
     significant,
 };
-use crate::script::call::Call;
-use crate::script::error::ScriptError;
-use crate::script::options::Options;
+use crate::script::rows::call::Call;
+use crate::script::rows::options::Options;
+use crate::script::words::error::ScriptError;
 
 /// Columns of text that a map on a terminal may take.
 const WIDTH: usize = 160;

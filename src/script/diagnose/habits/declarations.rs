@@ -4,7 +4,7 @@ use rhai::ParseErrorType;
 
 use super::spot::Spot;
 use super::{Cure, Habit};
-use crate::script::suggest::nearest;
+use crate::script::words::suggest::nearest;
 
 /// Declarations.
 pub const HABITS: &[Habit] = &[

@@ -4,7 +4,7 @@ use rhai::ParseErrorType;
 
 use super::spot::Spot;
 use super::{Cure, Habit};
-use crate::script::table::Form;
+use crate::script::rows::table::Form;
 
 /// Values.
 pub const HABITS: &[Habit] = &[

@@ -12,8 +12,8 @@ mod spot;
 
 use rhai::{ParseErrorType, Position};
 
-use crate::script::catalog::Catalog;
-use crate::script::program::Program;
+use crate::script::rows::catalog::Catalog;
+use crate::script::source::program::Program;
 use spot::Spot;
 
 /// What is wrong, what to write, and where it stands.

@@ -3,9 +3,9 @@
 use rhai::{ParseErrorType, Position, Token};
 
 use super::Cure;
-use crate::script::catalog::Catalog;
-use crate::script::lexing::tokens;
-use crate::script::program::Program;
+use crate::script::rows::catalog::Catalog;
+use crate::script::source::lexing::tokens;
+use crate::script::source::program::Program;
 
 /// So many words are looked at before the place, and as many behind it.
 const REACH: usize = 40;

@@ -7,12 +7,13 @@ use rhai::{Array, Dynamic};
 use super::knots::{KNOTS, shared as shared_knots};
 use super::{ORDER, TIMES, XI, blame, brief, brief_point, pair, plural, vector};
 use crate::geometry::{Curve, GeometryError, KnotVector, SplineCurve, Vec2};
-use crate::script::call::Call;
-use crate::script::details;
-use crate::script::error::ScriptError;
-use crate::script::kind::{Details, Scripted, Type, with_article};
-use crate::script::parameter::{Parameter, Presence, number, object, point, points};
-use crate::script::table::{Table, function, method, operator, property};
+use crate::script::looks::details;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Details, Scripted, Type};
+use crate::script::rows::parameter::{Parameter, Presence, number, object, point, points};
+use crate::script::rows::table::{Table, function, method, operator, property};
+use crate::script::words::error::ScriptError;
+use crate::script::words::nouns::with_article;
 
 /// Curves of the plane.
 pub const TABLE: Table = Table {

@@ -6,13 +6,13 @@ use rhai::{Dynamic, Map};
 
 use super::{ORDER, TIMES, XI, all_functions, blame, brief, count, numbers, pair, plural};
 use crate::geometry::{Basis, KnotVector, MAX_DEGREE, MAX_SPANS};
-use crate::script::call::Call;
-use crate::script::details;
-use crate::script::error::{Place, ScriptError};
-use crate::script::kind::{Details, Kind, Range, Scripted, Type};
-use crate::script::options::Options;
-use crate::script::parameter::{self, Parameter, Presence, either, object, whole};
-use crate::script::table::{Table, function, method, operator, property};
+use crate::script::looks::details;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Details, Kind, Range, Scripted, Type};
+use crate::script::rows::options::Options;
+use crate::script::rows::parameter::{self, Parameter, Presence, either, object, whole};
+use crate::script::rows::table::{Table, function, method, operator, property};
+use crate::script::words::error::{Place, ScriptError};
 
 /// Knots and basis functions.
 pub const TABLE: Table = Table {

@@ -4,10 +4,10 @@ use rhai::{Dynamic, Map};
 
 use super::{blame, numbers};
 use crate::geometry::GaussRule;
-use crate::script::call::Call;
-use crate::script::error::ScriptError;
-use crate::script::parameter::{Presence, number, whole};
-use crate::script::table::{Table, function};
+use crate::script::rows::call::Call;
+use crate::script::rows::parameter::{Presence, number, whole};
+use crate::script::rows::table::{Table, function};
+use crate::script::words::error::ScriptError;
 
 /// Numerical integration.
 pub const TABLE: Table = Table {

@@ -1,0 +1,239 @@
+//! Methods of arrays and maps that ask a function about each element. Rhai's own take whatever is not true for false, and
+//! `for_each` gives the index where all others give the element.
+
+use std::any::TypeId;
+use std::cell::Cell;
+
+use rhai::{Array, Dynamic, Engine, EvalAltResult, FnPtr, INT, Map, NativeCallContext, Position};
+
+use crate::script::words::error::EngineResult;
+use crate::script::words::error::ScriptError;
+use crate::script::words::numbers::describe;
+
+/// Registers them under the names that they have in Rhai.
+pub fn install(engine: &mut Engine) {
+    install_searches(engine);
+    install_sieves(engine);
+    let types = [TypeId::of::<Array>(), TypeId::of::<FnPtr>()];
+    engine.register_raw_fn("for_each", types, |native, values| -> EngineResult<()> {
+        let function = function_of(values)?;
+        let asked = Asked::new(&native, &function);
+        let Some(mut array) = values.first_mut().and_then(|array| array.write_lock::<Array>())
+        else {
+            return Ok(());
+        };
+        for (index, element) in array.iter_mut().enumerate() {
+            let _ = asked.about(index, element)?;
+        }
+        Ok(())
+    });
+}
+
+/// What looks for elements and leaves the array as it is.
+fn install_searches(engine: &mut Engine) {
+    search(engine, "some", |_, found| found.is_some().into());
+    search(engine, "index_of", |_, found| {
+        found.map_or(-1, |index| INT::try_from(index).unwrap_or(INT::MAX)).into()
+    });
+    search(engine, "find", |array, found| {
+        found.and_then(|index| array.get(index).cloned()).unwrap_or_default()
+    });
+    let types = [TypeId::of::<Array>(), TypeId::of::<FnPtr>()];
+    engine.register_raw_fn("all", types, |native, values| -> EngineResult<bool> {
+        let (mut array, test) = array_and_test(values)?;
+        let asked = Asked::new(&native, &test);
+        for (index, element) in array.iter_mut().enumerate() {
+            if !asked.whether(index, element)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    });
+}
+
+/// Registers what the index of the first element that passes a test gives.
+fn search(engine: &mut Engine, name: &str, give: fn(&Array, Option<usize>) -> Dynamic) {
+    let types = [TypeId::of::<Array>(), TypeId::of::<FnPtr>(), TypeId::of::<INT>()];
+    let least = if name == "some" { 2 } else { 3 };
+    for count in 2..=least {
+        engine.register_raw_fn(
+            name,
+            &types[..count],
+            move |native, values| -> EngineResult<Dynamic> {
+                let start = values.get(2).and_then(|start| start.as_int().ok()).unwrap_or(0);
+                let (mut array, test) = array_and_test(values)?;
+                let first = match usize::try_from(start) {
+                    Ok(start) => start,
+                    Err(_) => array.len().saturating_sub(start.unsigned_abs() as usize),
+                };
+                let asked = Asked::new(&native, &test);
+                let mut found = None;
+                for (index, element) in array.iter_mut().enumerate().skip(first) {
+                    if asked.whether(index, element)? {
+                        found = Some(index);
+                        break;
+                    }
+                }
+                Ok(give(&array, found))
+            },
+        );
+    }
+}
+
+/// Parts what a method is called on into what passes its test and the rest.
+type Part = fn(&NativeCallContext, &[&mut Dynamic]) -> EngineResult<(Dynamic, Dynamic)>;
+
+/// What parts the elements of an array or a map into those that pass a test and the others.
+fn install_sieves(engine: &mut Engine) {
+    let kinds =
+        [(TypeId::of::<Array>(), part_array as Part), (TypeId::of::<Map>(), part_map as Part)];
+    for (of, part) in kinds {
+        let types = [of, TypeId::of::<FnPtr>()];
+        engine.register_raw_fn("filter", types, move |native, values| -> EngineResult<Dynamic> {
+            Ok(part(&native, values)?.0)
+        });
+        engine.register_raw_fn("drain", types, move |native, values| -> EngineResult<Dynamic> {
+            let (passed, others) = part(&native, values)?;
+            Ok(replace(values, others, passed))
+        });
+        engine.register_raw_fn("retain", types, move |native, values| -> EngineResult<Dynamic> {
+            let (passed, others) = part(&native, values)?;
+            Ok(replace(values, passed, others))
+        });
+    }
+}
+
+/// Leaves `kept` in the variable that the method is called on, and hands `given` on.
+fn replace(values: &mut [&mut Dynamic], kept: Dynamic, given: Dynamic) -> Dynamic {
+    if let Some(own) = values.first_mut() {
+        **own = kept;
+    }
+    given
+}
+
+fn part_array(
+    native: &NativeCallContext,
+    values: &[&mut Dynamic],
+) -> EngineResult<(Dynamic, Dynamic)> {
+    let (array, test) = array_and_test(values)?;
+    let asked = Asked::new(native, &test);
+    let (mut passed, mut others) = (Array::new(), Array::new());
+    for (index, mut element) in array.into_iter().enumerate() {
+        let is_passed = asked.whether(index, &mut element)?;
+        if is_passed { &mut passed } else { &mut others }.push(element);
+    }
+    Ok((passed.into(), others.into()))
+}
+
+fn part_map(
+    native: &NativeCallContext,
+    values: &[&mut Dynamic],
+) -> EngineResult<(Dynamic, Dynamic)> {
+    let map = values.first().and_then(|map| map.read_lock::<Map>());
+    let map = map.map(|map| map.clone()).unwrap_or_default();
+    let test = function_of(values)?;
+    let (mut passed, mut others) = (Map::new(), Map::new());
+    for (key, mut value) in map {
+        let answer = test.call_raw_with_extra_args(
+            test.fn_name(),
+            native,
+            Some(&mut value),
+            [key.clone().into()],
+            [],
+            Some(1),
+        )?;
+        let is_passed = truth(native, &answer)?;
+        if is_passed { &mut passed } else { &mut others }.insert(key, value);
+    }
+    Ok((passed.into(), others.into()))
+}
+
+/// A copy of the array that a method is called on.
+pub(super) fn array_of(values: &[&mut Dynamic]) -> Array {
+    let array = values.first().and_then(|array| array.read_lock::<Array>());
+    array.map(|array| array.clone()).unwrap_or_default()
+}
+
+fn array_and_test(values: &[&mut Dynamic]) -> EngineResult<(Array, FnPtr)> {
+    Ok((array_of(values), function_of(values)?))
+}
+
+fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {
+    // The engine calls with these types only.
+    let function = values.get(1).and_then(|function| (**function).clone().try_cast::<FnPtr>());
+    function.ok_or_else(|| ScriptError::bug("a test is no function").into_engine(Position::NONE))
+}
+
+/// What a function is given about an element.
+#[derive(Clone, Copy)]
+enum Given {
+    Element,
+    ElementAndIndex,
+    /// Nothing: it sees the element as `this`.
+    This,
+}
+
+/// A function that is asked about one element after the other.
+struct Asked<'a> {
+    native: &'a NativeCallContext<'a>,
+    function: &'a FnPtr,
+    given: Cell<Option<Given>>,
+}
+
+impl<'a> Asked<'a> {
+    fn new(native: &'a NativeCallContext<'a>, function: &'a FnPtr) -> Self {
+        Self { native, function, given: Cell::new(None) }
+    }
+
+    /// What the function says about an element; found out once is how many arguments it takes.
+    fn about(&self, index: usize, element: &mut Dynamic) -> EngineResult<Dynamic> {
+        if let Some(given) = self.given.get() {
+            return self.call(given, index, element);
+        }
+        let mut refused = None;
+        for given in [Given::Element, Given::ElementAndIndex, Given::This] {
+            match self.call(given, index, element) {
+                Err(error) if self.is_wrong_count(&error) => refused = refused.or(Some(error)),
+                other => {
+                    self.given.set(Some(given));
+                    return other;
+                }
+            }
+        }
+        refused.map_or(Ok(Dynamic::UNIT), Err)
+    }
+
+    fn call(&self, given: Given, index: usize, element: &mut Dynamic) -> EngineResult<Dynamic> {
+        let copy = element.clone();
+        let index = Dynamic::from(INT::try_from(index).unwrap_or(INT::MAX));
+        // A native function would take this for its first argument.
+        let this = self.function.is_anonymous().then_some(&mut *element);
+        match given {
+            Given::Element => self.function.call_raw(self.native, this, [copy]),
+            Given::ElementAndIndex => self.function.call_raw(self.native, this, [copy, index]),
+            Given::This => self.function.call_raw(self.native, Some(element), []),
+        }
+    }
+
+    fn is_wrong_count(&self, error: &EvalAltResult) -> bool {
+        matches!(
+            error,
+            EvalAltResult::ErrorFunctionNotFound(signature, _)
+                if signature.starts_with(self.function.fn_name())
+        )
+    }
+
+    /// Whether an element passes the test that the function is.
+    fn whether(&self, index: usize, element: &mut Dynamic) -> EngineResult<bool> {
+        truth(self.native, &self.about(index, element)?)
+    }
+}
+
+/// The answer of a test.
+pub(super) fn truth(native: &NativeCallContext, answer: &Dynamic) -> EngineResult<bool> {
+    answer.as_bool().map_err(|_| {
+        let got = describe(native.engine(), answer);
+        let refusal = ScriptError::new(format!("a test must give true or false, got {got}"));
+        refusal.hint("compare: |x| x % 2 == 1").into_engine(native.call_position())
+    })
+}

@@ -1,0 +1,11 @@
+//! What makes Rhai the language of withy: reading, operators, arrays, constants, names that are refused.
+
+pub mod constants;
+pub mod elements;
+pub mod foundation;
+pub mod naming;
+pub mod operators;
+pub mod reading;
+pub mod repetitions;
+pub mod replacing;
+pub mod sorting;

@@ -1,0 +1,181 @@
+//! Numbers as in science: what the operators of [`syntax`](crate::script::source::syntax) do.
+//!
+//! Comparisons are those of IEEE 754 for every mix of whole and other numbers, division is never truncated, and a
+//! power of whole numbers with an exponent of zero or more is whole; to leave the range of whole numbers is an error. Other types keep the engine's own operators, except that
+//! an order between values of different types is an error and not silently `false`.
+//!
+//! Two limits of the engine remain: `switch` compares by the kind of number as well (`3.0` is not `case 3`), and a
+//! minus binds tighter than a power, which is why `-x^2` is refused.
+
+use std::any::TypeId;
+
+use rhai::{Dynamic, Engine, EvalAltResult, INT, NativeCallContext, Position};
+
+use crate::elementary::power;
+use crate::script::source::syntax::{LONGEST_CHAIN, OWN, Operand, REPLACED, power_name};
+use crate::script::words::error::EngineResult;
+use crate::script::words::error::ScriptError;
+
+/// Registers the operators on numbers, under our own names and where possible under the engine's.
+pub fn install(engine: &mut Engine) {
+    register_comparison(engine, "<", |x, y| x < y, |m, n| m < n);
+    register_comparison(engine, ">", |x, y| x > y, |m, n| m > n);
+    register_comparison(engine, "<=", |x, y| x <= y, |m, n| m <= n);
+    register_comparison(engine, ">=", |x, y| x >= y, |m, n| m >= n);
+    register_comparison(engine, "==", |x, y| x == y, |m, n| m == n);
+    register_comparison(engine, "!=", |x, y| x != y, |m, n| m != n);
+    register_arithmetic(
+        engine,
+        &format!("{OWN}/"),
+        |x, y| x / y,
+        |m, n| Ok((m as f64 / n as f64).into()),
+    );
+    for chain in 0..LONGEST_CHAIN {
+        register_arithmetic(engine, &power_name(chain), power, whole_power);
+    }
+    engine.register_fn(format!("{OWN}<<"), shifted_up);
+    engine.register_fn(format!("{OWN}>>"), shifted_down);
+    for (symbol, _) in REPLACED {
+        hand_over(engine, format!("{OWN}{symbol}"), symbol);
+    }
+    for chain in 0..LONGEST_CHAIN {
+        hand_over(engine, power_name(chain), "^");
+    }
+    register_assignment(engine, "/=", format!("{OWN}/"));
+    register_assignment(engine, "**=", power_name(0));
+    register_assignment(engine, "<<=", format!("{OWN}<<"));
+    register_assignment(engine, ">>=", format!("{OWN}>>"));
+}
+
+/// The name under which the script wrote `operator`: `num<` is `<`, `num^3` is `^`.
+pub fn written(operator: &str) -> &str {
+    match operator.strip_prefix(OWN) {
+        Some(power) if power.starts_with('^') => "^",
+        Some(symbol)
+            if !symbol.is_empty()
+                && !symbol.starts_with(|c: char| c.is_alphanumeric() || c == '_') =>
+        {
+            symbol
+        }
+        _ => operator,
+    }
+}
+
+fn register_comparison(
+    engine: &mut Engine,
+    symbol: &str,
+    numbers: fn(f64, f64) -> bool,
+    wholes: fn(INT, INT) -> bool,
+) {
+    // The engine's own name as well: arrays compare and search their elements by it.
+    for name in [symbol.to_owned(), format!("{OWN}{symbol}")] {
+        engine.register_fn(&name, numbers);
+        engine.register_fn(&name, wholes);
+        engine.register_fn(&name, move |x: f64, n: INT| numbers(x, n as f64));
+        engine.register_fn(&name, move |n: INT, x: f64| numbers(n as f64, x));
+    }
+}
+
+fn register_arithmetic(
+    engine: &mut Engine,
+    name: &str,
+    numbers: fn(f64, f64) -> f64,
+    wholes: fn(INT, INT) -> EngineResult<Dynamic>,
+) {
+    engine.register_fn(name, numbers);
+    engine.register_fn(name, wholes);
+    engine.register_fn(name, move |x: f64, n: INT| numbers(x, n as f64));
+    engine.register_fn(name, move |n: INT, x: f64| numbers(n as f64, x));
+}
+
+/// A whole number where the exponent is not negative, else the nearest number: `2^3` is 8, `2^-1` is 0.5.
+fn whole_power(base: INT, exponent: INT) -> EngineResult<Dynamic> {
+    if exponent < 0 {
+        return Ok(power(base as f64, exponent as f64).into());
+    }
+    let whole = match (base, u32::try_from(exponent)) {
+        (_, Ok(exponent)) => base.checked_pow(exponent),
+        (0 | 1, Err(_)) => Some(base),
+        (-1, Err(_)) => Some(if exponent % 2 == 0 { 1 } else { -1 }),
+        (_, Err(_)) => None,
+    };
+    whole.map(Dynamic::from).ok_or_else(|| {
+        let written = if base < 0 { format!("({base}.0)") } else { format!("{base}.0") };
+        let told = format!("{base}^{exponent} is too large for a whole number of 64 bits");
+        let hint = format!("write {written}^{exponent} for the nearest number");
+        ScriptError::new(told).hint(hint).into_engine(Position::NONE)
+    })
+}
+
+/// `number << places`, as long as no bit is lost.
+fn shifted_up(number: INT, places: INT) -> EngineResult<INT> {
+    let shifted = number << shift(places)?;
+    match shifted >> places == number {
+        true => Ok(shifted),
+        false => {
+            let told = format!("{number} << {places} is too large for a whole number of 64 bits");
+            let hint = format!("write {number}.0 * 2^{places} for the nearest number");
+            Err(ScriptError::new(told).hint(hint).into_engine(Position::NONE))
+        }
+    }
+}
+
+/// `number >> places`.
+fn shifted_down(number: INT, places: INT) -> EngineResult<INT> {
+    Ok(number >> shift(places)?)
+}
+
+/// By how many places bits can be moved.
+fn shift(places: INT) -> EngineResult<INT> {
+    match places {
+        0..=63 => Ok(places),
+        _ => {
+            let told = format!("bits are moved by 0 to 63 places, got {places}");
+            Err(ScriptError::new(told).into_engine(Position::NONE))
+        }
+    }
+}
+
+/// Everything that is not two numbers goes to the engine's operator `symbol`.
+fn hand_over(engine: &mut Engine, name: String, symbol: &'static str) {
+    let any_two = [TypeId::of::<Dynamic>(); 2];
+    engine.register_raw_fn(
+        name,
+        any_two,
+        move |context: NativeCallContext, operands| -> EngineResult<Dynamic> {
+            let [left, right] = operands else { return Ok(Dynamic::UNIT) };
+            let (mut left, mut right) = (left.clone(), right.clone());
+            let ordered = matches!(symbol, "<" | ">" | "<=" | ">=");
+            if ordered && left.type_id() != right.type_id() {
+                let types =
+                    [&left, &right].map(|value| context.engine().map_type_name(value.type_name()));
+                let signature = format!("{symbol} ({}, {})", types[0], types[1]);
+                return Err(EvalAltResult::ErrorFunctionNotFound(
+                    signature,
+                    context.call_position(),
+                )
+                .into());
+            }
+            context.call_native_fn_raw(symbol, false, &mut [&mut left, &mut right])
+        },
+    );
+}
+
+/// `x /= y` as `x = x / y`, whatever x and y are.
+fn register_assignment(engine: &mut Engine, name: &'static str, operator: String) {
+    let types = [TypeId::of::<Dynamic>(), TypeId::of::<Operand>()];
+    engine.register_raw_fn(
+        name,
+        types,
+        move |context: NativeCallContext, values| -> EngineResult<()> {
+            let [target, operand] = values else { return Ok(()) };
+            let Some(Operand(mut right)) = operand.clone().try_cast::<Operand>() else {
+                return Ok(());
+            };
+            let mut left = target.clone();
+            **target =
+                context.call_native_fn_raw(&operator, false, &mut [&mut left, &mut right])?;
+            Ok(())
+        },
+    );
+}

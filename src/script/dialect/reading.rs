@@ -1,0 +1,121 @@
+//! From the text of a script to its syntax tree: the only way there is.
+//!
+//! Rhai keeps the line and the column of a token in 16 bits each and counts no further. Powers, loops and errors are found by those
+//! places, so a text that is larger would be read wrongly without a word: it is refused instead.
+
+use rhai::{AST, Engine, EvalAltResult, Position, Scope};
+
+use crate::script::rows::sources::Sources;
+use crate::script::source::syntax::mark;
+use crate::script::words::error::ScriptError;
+
+/// Most lines of a source, and most characters of a line: a little less than Rhai can count.
+pub const MOST: usize = 65_000;
+
+/// Parses `source` as if it stood behind so many empty lines, with the constants of `scope` known.
+///
+/// # Errors
+/// A text that is larger than places in it can be counted, or that is no script; or why the run was stopped in the meantime.
+pub fn read(
+    engine: &Engine,
+    scope: &Scope,
+    source: &str,
+    lines_before: usize,
+) -> Result<AST, Box<EvalAltResult>> {
+    refuse_uncountable(source).map_err(|error| error.into_engine(Position::NONE))?;
+    let sources = Sources::of(engine);
+    sources.begin_reading();
+    let placed = format!("{}{}", "\n".repeat(lines_before), mark(source));
+    let parsed = engine.compile_with_scope(scope, placed);
+    match sources.reading_stopped() {
+        Some(stop) => Err(ScriptError::Stopped(stop).into_engine(Position::NONE)),
+        None => Ok(parsed?),
+    }
+}
+
+fn refuse_uncountable(source: &str) -> Result<(), ScriptError> {
+    let mut lines = 0;
+    for line in source.split('\n') {
+        lines += 1;
+        // Only a line of so many bytes can have so many characters.
+        let length = if line.len() > MOST { line.chars().count() } else { 0 };
+        if length > MOST {
+            let told = format!(
+                "line {lines} of the script has {length} characters; a line may have {MOST} at most"
+            );
+            return Err(ScriptError::new(told).hint(
+                "break the line: an array or a call may go over several lines, after each comma",
+            ));
+        }
+    }
+    if lines > MOST {
+        let told = format!("the script has {lines} lines; it may have {MOST} at most");
+        return Err(ScriptError::new(told).hint(
+            "put parts of it into files of their own, which import \"NAME\" as name; reads, or write loops for what repeats",
+        ));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::script::engine::build;
+    use crate::script::packages::language;
+
+    use crate::script::state::context::Context;
+    use crate::script::state::settings::{Mode, Settings};
+
+    fn engine() -> Engine {
+        let context = Context::new(Settings::silent(Mode::Run));
+        build(&language(), &context).expect("an engine")
+    }
+
+    fn value(engine: &Engine, source: &str) -> Result<String, String> {
+        read(engine, &Scope::new(), source, 0)
+            .and_then(|ast| engine.eval_ast::<rhai::Dynamic>(&ast))
+            .map(|value| value.to_string())
+            .map_err(|error| match *error {
+                EvalAltResult::ErrorRuntime(told, _) => told
+                    .try_cast::<crate::script::words::error::Failure>()
+                    .map(|failure| failure.message)
+                    .unwrap_or_default(),
+                other => other.to_string(),
+            })
+    }
+
+    #[test]
+    fn what_cannot_be_counted_is_refused() {
+        let engine = engine();
+        let long = format!("let a = [{}]; 2^3^2", "1, ".repeat(25_000));
+        let told = value(&engine, &long).expect_err("a line of 75 000 characters");
+        assert!(told.contains("line 1 of the script has 75017 characters"), "{told}");
+        let made = "let made = []; for i in 0..3 { made.push(|| i); } made.map(|f| f.call())";
+        let told = value(&engine, &format!("{}{made}", "\n".repeat(70_000)));
+        assert!(told.expect_err("70 001 lines").contains("the script has 70001 lines"));
+    }
+
+    #[test]
+    fn what_can_be_counted_means_the_same_everywhere() {
+        let engine = engine();
+        let made = "let made = []; for i in 0..3 { made.push(|| i); } made.map(|f| f.call())";
+        for before in ["\n".repeat(MOST - 1), " ".repeat(MOST - made.len())] {
+            assert_eq!(value(&engine, &format!("{before}{made}")).as_deref(), Ok("[0, 1, 2]"));
+            assert_eq!(value(&engine, &format!("{before}2^3^2")).as_deref(), Ok("512"));
+            assert!(value(&engine, &format!("{before}-2^2")).is_err());
+            assert_eq!(
+                value(&engine, &format!("{before}let z = 2; z ^= 3; z")).as_deref(),
+                Ok("8")
+            );
+        }
+    }
+
+    #[test]
+    fn what_was_read_before_changes_nothing() {
+        let engine = engine();
+        assert_eq!(value(&engine, "-3").as_deref(), Ok("-3"));
+        assert_eq!(value(&engine, "\n\n5^2").as_deref(), Ok("25"), "no minus stands before it");
+        assert!(value(&engine, "let a = [-(2").is_err());
+        assert_eq!(value(&engine, "\n\n\n2^3^2").as_deref(), Ok("512"));
+    }
+}

@@ -1,0 +1,62 @@
+//! `array.dedup()`: as in Rhai, but it hears that the run is to stop, and hands on what goes wrong in its function.
+
+use std::any::TypeId;
+
+use rhai::{Array, Dynamic, Engine, FnPtr, NativeCallContext};
+
+use super::elements::{array_of, truth};
+use crate::script::source::syntax::OWN;
+use crate::script::state::context::Context;
+use crate::script::words::error::EngineResult;
+
+/// After so many elements it is asked whether to go on.
+pub(super) const PULSE: usize = 4096;
+
+/// Registers it, with and without a function that says whether two neighbours are the same.
+pub fn install(engine: &mut Engine, context: &Context) {
+    let types = [TypeId::of::<Array>(), TypeId::of::<FnPtr>()];
+    for count in 1..=2 {
+        let (context, equal) = (context.clone(), format!("{OWN}=="));
+        engine.register_raw_fn("dedup", &types[..count], move |native, values| {
+            let kept = match values.get(1).and_then(|same| (**same).clone().try_cast::<FnPtr>()) {
+                Some(same) => without_repetitions(&native, &context, values, |earlier, later| {
+                    truth(&native, &same.call_raw(&native, None, [earlier, later])?)
+                })?,
+                // What has no "==" is not the same.
+                None => {
+                    without_repetitions(&native, &context, values, |mut earlier, mut later| {
+                        let both = &mut [&mut earlier, &mut later];
+                        let answer = native.call_native_fn_raw(&equal, false, both);
+                        Ok(answer.is_ok_and(|answer| answer.as_bool().unwrap_or(false)))
+                    })?
+                }
+            };
+            if let Some(array) = values.first_mut() {
+                **array = kept.into();
+            }
+            Ok(())
+        });
+    }
+}
+
+fn without_repetitions(
+    native: &NativeCallContext,
+    context: &Context,
+    values: &[&mut Dynamic],
+    is_same: impl Fn(Dynamic, Dynamic) -> EngineResult<bool>,
+) -> EngineResult<Array> {
+    let mut kept = Array::new();
+    for (index, element) in array_of(values).into_iter().enumerate() {
+        if index.is_multiple_of(PULSE) {
+            context.proceed().map_err(|error| error.into_engine(native.call_position()))?;
+        }
+        let is_repeated = match kept.last() {
+            Some(last) => is_same(Dynamic::clone(last), element.clone())?,
+            None => false,
+        };
+        if !is_repeated {
+            kept.push(element);
+        }
+    }
+    Ok(kept)
+}

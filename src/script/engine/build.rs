@@ -1,0 +1,108 @@
+//! The engine: limits, names of types, number syntax, all tables, printing, and the interrupt.
+
+use std::ops::{Range, RangeInclusive};
+
+use rhai::{Dynamic, Engine, FnPtr, INT, ImmutableString, Map, OptimizationLevel};
+
+use super::imports::FolderResolver;
+use crate::analysis::is_out_of_patience;
+use crate::script::dialect::{
+    constants, elements, foundation, operators, repetitions, replacing, sorting,
+};
+use crate::script::rows::catalog::Catalog;
+use crate::script::rows::register::register;
+use crate::script::rows::sources::Sources;
+use crate::script::source::syntax;
+use crate::script::state::context::Context;
+use crate::script::state::limits::DEEPEST;
+use crate::script::words::numbers::format_number;
+
+/// Nesting of one expression at the top level, and inside a function where it adds up with calls.
+const EXPRESSION_DEPTH: usize = 256;
+const EXPRESSION_DEPTH_IN_FUNCTION: usize = 64;
+const LONGEST_TEXT: usize = 16 << 20;
+const LARGEST_ARRAY: usize = 10_000_000;
+const LARGEST_MAP: usize = 1_000_000;
+/// After so many operations it is asked whether a case of a study takes too long.
+const PULSE: u64 = 256;
+
+/// An engine that speaks the language of `catalog` and reports to `context`.
+///
+/// An error means that a token hook of Rhai no longer works as this crate needs it.
+pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
+    let mut engine = foundation::engine();
+    // Rhai's optimiser puts a constant also where a parameter or a loop variable has its name, and drops statements that count here.
+    engine.set_optimization_level(OptimizationLevel::None);
+    limit(&mut engine, context);
+    name_types(&mut engine);
+    let asked = context.clone();
+    let reader = syntax::install(&mut engine, move || asked.stopped_by())?;
+    operators::install(&mut engine);
+    sorting::install(&mut engine, context);
+    repetitions::install(&mut engine, context);
+    replacing::install(&mut engine);
+    elements::install(&mut engine);
+    print_numbers(&mut engine);
+    Sources::install(&mut engine, catalog, reader);
+    for table in catalog.tables() {
+        register(&mut engine, table, context);
+    }
+    constants::install(&mut engine, catalog);
+    connect(&mut engine, context);
+    Ok(engine)
+}
+
+/// Lets `import "name"` find files in the script's folder.
+pub fn import_from(engine: &mut Engine, folder: &std::path::Path) {
+    engine.set_module_resolver(FolderResolver::new(folder));
+}
+
+fn limit(engine: &mut Engine, context: &Context) {
+    engine
+        .set_max_call_levels(context.meter().limits().depth.min(DEEPEST))
+        .set_max_expr_depths(EXPRESSION_DEPTH, EXPRESSION_DEPTH_IN_FUNCTION)
+        .set_max_string_size(LONGEST_TEXT)
+        .set_max_array_size(LARGEST_ARRAY)
+        .set_max_map_size(LARGEST_MAP)
+        .set_fail_on_invalid_map_property(true);
+}
+
+/// Names of the built-in types in messages and in `type_of`.
+fn name_types(engine: &mut Engine) {
+    engine
+        .register_type_with_name::<INT>("whole number")
+        .register_type_with_name::<f64>("number")
+        .register_type_with_name::<bool>("truth value")
+        .register_type_with_name::<char>("character")
+        .register_type_with_name::<ImmutableString>("text")
+        .register_type_with_name::<rhai::Array>("array")
+        .register_type_with_name::<Map>("map")
+        .register_type_with_name::<FnPtr>("function")
+        .register_type_with_name::<Range<INT>>("range")
+        .register_type_with_name::<RangeInclusive<INT>>("range")
+        .register_type_with_name::<()>("nothing");
+}
+
+fn print_numbers(engine: &mut Engine) {
+    for name in ["to_string", "to_debug", "print", "debug"] {
+        engine.register_fn(name, |x: f64| ImmutableString::from(format_number(x)));
+    }
+    engine.register_fn("+", |text: ImmutableString, x: f64| format!("{text}{}", format_number(x)));
+    engine.register_fn("+", |x: f64, text: ImmutableString| format!("{}{text}", format_number(x)));
+}
+
+fn connect(engine: &mut Engine, context: &Context) {
+    let printer = context.clone();
+    engine.on_print(move |text| printer.print(text));
+    let teller = context.clone();
+    engine.on_debug(move |text, _, position| match position.line() {
+        Some(line) => teller.remark(&format!("line {line}: {text}")),
+        None => teller.remark(text),
+    });
+    let watched = context.clone();
+    engine.on_progress(move |operations| {
+        let late = || operations.is_multiple_of(PULSE) && is_out_of_patience();
+        let stop = watched.stopped_by().map(Dynamic::from);
+        stop.or_else(|| late().then(|| Dynamic::from("the study ran out of patience")))
+    });
+}

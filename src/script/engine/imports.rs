@@ -1,0 +1,154 @@
+//! Imports: modules of the standard library, whose names begin with `std/`, and files from the script's own folder, each read
+//! once as long as it does not change. A file that imports itself, in however many steps, is an error, not an abort.
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use rhai::{
+    Engine, EvalAltResult, GlobalRuntimeState, Module, ModuleResolver, Position, Scope, Shared,
+};
+
+use super::runner::parse;
+use crate::script::library;
+use crate::script::source::program::{LARGEST_SCRIPT, Program};
+use crate::script::state::files::{InputFolder, InputFolders};
+use crate::script::words::error::ScriptError;
+
+/// Files that import files that import files: so many at most.
+const LONGEST_CHAIN: usize = 50;
+
+/// Finds modules in the library or in a folder, and remembers which were read and which are being read.
+pub struct FolderResolver {
+    folder: PathBuf,
+    inputs: InputFolders,
+    being_read: RefCell<Vec<PathBuf>>,
+    read: RefCell<HashMap<PathBuf, ReadModule>>,
+}
+
+/// A module as its file was when it was read: a session may see a file in several states.
+struct ReadModule {
+    /// Nothing for modules of the library, which do not change.
+    content: Vec<u8>,
+    module: Shared<Module>,
+}
+
+impl FolderResolver {
+    /// Files in a folder and below.
+    pub fn new(folder: &Path) -> Self {
+        Self {
+            folder: folder.to_owned(),
+            inputs: InputFolders::new([InputFolder::beside(folder)]),
+            being_read: RefCell::default(),
+            read: RefCell::default(),
+        }
+    }
+
+    /// The file of a module: its name as it is shown, its path below the folder, and what it holds.
+    fn find(&self, name: &str) -> Result<(PathBuf, PathBuf, Vec<u8>), ScriptError> {
+        let file = if name.ends_with(".rhai") { name.to_owned() } else { format!("{name}.rhai") };
+        let content = self.inputs.read(&file, LARGEST_SCRIPT).map_err(|error| {
+            error.hint("import looks for NAME.rhai in the script's own folder and below")
+        })?;
+        // One file, however many slashes it is written with.
+        let path: PathBuf = Path::new(&file).components().collect();
+        let shown =
+            if self.folder == Path::new(".") { file.into() } else { self.folder.join(file) };
+        Ok((shown, path, content))
+    }
+
+    /// A module of the library, behind its entrances.
+    fn load_library(
+        &self,
+        engine: &Engine,
+        global: &mut GlobalRuntimeState,
+        of: &library::Module,
+        position: Position,
+    ) -> Result<Shared<Module>, Box<EvalAltResult>> {
+        let file = PathBuf::from(of.file);
+        if let Some(read) = self.read.borrow().get(&file) {
+            return Ok(Shared::clone(&read.module));
+        }
+        let ast = parse(engine, &of.program())?;
+        let module = Module::eval_ast_as_new_raw(engine, &mut Scope::new(), global, &ast).map_err(
+            |error| Box::new(EvalAltResult::ErrorInModule(of.file.into(), error, position)),
+        )?;
+        let module = Shared::new(library::behind_entrances(&module, &ast, of.file));
+        let read = ReadModule { content: Vec::new(), module: Shared::clone(&module) };
+        self.read.borrow_mut().insert(file, read);
+        Ok(module)
+    }
+
+    fn refuse_chain(&self, name: &str, file: &PathBuf) -> Result<(), ScriptError> {
+        let being_read = self.being_read.borrow();
+        if being_read.contains(file) {
+            return Err(ScriptError::new(format!("'{name}' imports itself"))
+                .hint("put what both files need into a third one"));
+        }
+        if being_read.len() >= LONGEST_CHAIN {
+            let told = format!("more than {LONGEST_CHAIN} files import each other in a chain");
+            return Err(ScriptError::new(told).hint("import them beside each other"));
+        }
+        Ok(())
+    }
+
+    fn load(
+        &self,
+        engine: &Engine,
+        global: &mut GlobalRuntimeState,
+        file: &Path,
+        content: Vec<u8>,
+        position: Position,
+    ) -> Result<Shared<Module>, Box<EvalAltResult>> {
+        let program = Program::from_bytes(file, content).map_err(|refused| {
+            let refusal = ScriptError::new(refused.told);
+            refusal.into_engine(position)
+        })?;
+        let module = parse(engine, &program)
+            .and_then(|ast| Module::eval_ast_as_new_raw(engine, &mut Scope::new(), global, &ast))
+            .map_err(|error| {
+                Box::new(EvalAltResult::ErrorInModule(program.name.clone(), error, position))
+            })?;
+        Ok(module.into())
+    }
+}
+
+impl ModuleResolver for FolderResolver {
+    fn resolve(
+        &self,
+        engine: &Engine,
+        _source: Option<&str>,
+        path: &str,
+        position: Position,
+    ) -> Result<Shared<Module>, Box<EvalAltResult>> {
+        let mut global = engine.new_global_runtime_state();
+        self.resolve_raw(engine, &mut global, &mut Scope::new(), path, position)
+    }
+
+    fn resolve_raw(
+        &self,
+        engine: &Engine,
+        global: &mut GlobalRuntimeState,
+        _scope: &mut Scope,
+        path: &str,
+        position: Position,
+    ) -> Result<Shared<Module>, Box<EvalAltResult>> {
+        let refused = |error: ScriptError| error.into_engine(position);
+        if let Some(module) = library::find(path) {
+            return self.load_library(engine, global, module.map_err(refused)?, position);
+        }
+        let (shown, file, content) = self.find(path).map_err(refused)?;
+        self.refuse_chain(path, &file).map_err(refused)?;
+        let known = self.read.borrow();
+        if let Some(read) = known.get(&file).filter(|read| read.content == content) {
+            return Ok(Shared::clone(&read.module));
+        }
+        drop(known);
+        self.being_read.borrow_mut().push(file.clone());
+        let module = self.load(engine, global, &shown, content.clone(), position);
+        self.being_read.borrow_mut().pop();
+        let module = module?;
+        self.read.borrow_mut().insert(file, ReadModule { content, module: Shared::clone(&module) });
+        Ok(module)
+    }
+}

@@ -1,0 +1,54 @@
+//! A beam of a scene that a script holds.
+
+use super::scene::SceneHandle;
+use crate::output::significant;
+use crate::script::looks::details;
+use crate::script::rows::kind::{Details, Scripted};
+use crate::script::words::error::ScriptError;
+
+/// A beam of a scene.
+#[derive(Clone)]
+pub struct BeamHandle {
+    /// The scene.
+    pub scene: SceneHandle,
+    /// Which of its beams, from 0.
+    pub index: usize,
+}
+
+impl BeamHandle {
+    /// The index of the beam, if it is one of the scene.
+    pub fn own(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
+        scene.expect_same(&self.scene, "beam")?;
+        Ok(self.index)
+    }
+
+    /// Its length as drawn [length].
+    pub fn length(&self) -> f64 {
+        self.scene.scene().borrow().beams[self.index].axis.length()
+    }
+
+    /// Its name.
+    pub fn name(&self) -> String {
+        self.scene.scene().borrow().beams[self.index].name.clone()
+    }
+}
+
+impl Scripted for BeamHandle {
+    const NAME: &'static str = "beam";
+    const DOC: &'static str = "A flexible beam of a scene.";
+
+    fn show(&self) -> String {
+        let scene = self.scene.scene().borrow();
+        let beam = &scene.beams[self.index];
+        format!(
+            "beam '{}' of length {}, {}",
+            beam.name,
+            significant(beam.axis.length(), 7),
+            beam.mesh.describe()
+        )
+    }
+
+    fn details(&self) -> Details {
+        details::of_beam(&self.scene.scene().borrow(), self.index)
+    }
+}

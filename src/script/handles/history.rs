@@ -1,0 +1,110 @@
+//! A part of the history of a simulation.
+
+use rhai::Dynamic;
+
+use super::simulation::SimulationHandle;
+use crate::script::looks::details;
+use crate::script::looks::sight::{column_hint, column_names};
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Details, Scripted};
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::format_number;
+use crate::simulation::{History, Sample};
+
+/// A part of the history of a simulation; it grows with it.
+#[derive(Clone)]
+pub struct HistoryHandle {
+    /// Whose history it is.
+    pub of: SimulationHandle,
+    /// First time.
+    pub from: f64,
+    /// Last time.
+    pub to: f64,
+}
+
+impl HistoryHandle {
+    /// Reads the rows.
+    pub fn read<T>(&self, read: impl FnOnce(&History) -> T) -> T {
+        let simulation = self.of.simulation();
+        let all = simulation.history();
+        if self.from == f64::NEG_INFINITY && self.to == f64::INFINITY {
+            read(all)
+        } else {
+            read(&all.between(self.from, self.to))
+        }
+    }
+
+    /// The error of a window in which nothing was recorded.
+    pub fn no_rows(&self, call: &Call) -> ScriptError {
+        let now = format_number(self.of.time());
+        let recording = self.of.simulation().recording();
+        let recorded = match recording.is_complete() {
+            true => String::new(),
+            false => format!(" and recorded {} (option record)", recording.describe()),
+        };
+        call.error("the history has no rows there")
+            .hint(format!("the simulation has run from t = 0 to {now}{recorded}"))
+    }
+
+    /// The names of its columns in a line.
+    pub fn column_names(&self) -> String {
+        column_names(self.of.simulation().history())
+    }
+
+    /// Refuses what is not the name of one of its columns; `argument` is where the script gives it.
+    pub fn expect_column(
+        &self,
+        call: &Call,
+        given: &Dynamic,
+        argument: usize,
+    ) -> Result<String, ScriptError> {
+        let name = given.clone().into_string().unwrap_or_default();
+        let simulation = self.of.simulation();
+        let history = simulation.history();
+        if history.dimension(&name).is_some() {
+            return Ok(name);
+        }
+        let got = call.show(given);
+        Err(call
+            .error(format!("the history of '{}' has no column {got}", self.of.name()))
+            .hint(column_hint(history, &name))
+            .at(Place::Argument(argument)))
+    }
+
+    /// The part of it between two times.
+    pub fn between(&self, from: f64, to: f64) -> Self {
+        Self { of: self.of.clone(), from: self.from.max(from), to: self.to.min(to) }
+    }
+}
+
+impl Scripted for HistoryHandle {
+    const NAME: &'static str = "history";
+    const DOC: &'static str = "What a simulation was like, step by step.";
+
+    fn is_busy(&self) -> Option<String> {
+        self.of.is_busy()
+    }
+
+    fn show(&self) -> String {
+        if let Some(reason) = self.is_busy() {
+            return format!("history: {reason}");
+        }
+        let (rows, first, last) = self.read(|history| {
+            let time = |row: Option<&Sample>| row.map_or(f64::NAN, |row| row.measures.time);
+            (
+                history.samples().len(),
+                time(history.samples().first()),
+                time(history.samples().last()),
+            )
+        });
+        format!(
+            "history of {rows} rows from t = {} to {}",
+            format_number(first),
+            format_number(last)
+        )
+    }
+
+    fn details(&self) -> Details {
+        self.read(details::of_history)
+    }
+}

@@ -1,0 +1,10 @@
+//! Scenes, beams, stations, simulations and histories as scripts hold them: clones are the same thing.
+
+pub mod beam;
+pub mod events;
+pub mod history;
+pub mod notes;
+pub mod report;
+pub mod scene;
+pub mod simulation;
+pub mod station;

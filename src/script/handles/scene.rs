@@ -1,0 +1,73 @@
+//! A scene that a script holds.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use super::station::StationHandle;
+use crate::beams::Station;
+use crate::model::Scene;
+use crate::script::looks::details;
+use crate::script::rows::kind::{Details, Scripted};
+use crate::script::words::error::ScriptError;
+
+/// A scene that a script holds.
+#[derive(Clone)]
+pub struct SceneHandle(Rc<RefCell<Scene>>);
+
+impl SceneHandle {
+    /// A handle on a scene of its own.
+    pub fn new(scene: Scene) -> Self {
+        Self(Rc::new(RefCell::new(scene)))
+    }
+
+    /// The scene itself.
+    pub fn scene(&self) -> &RefCell<Scene> {
+        &self.0
+    }
+
+    /// The scene itself, shared.
+    pub fn shared(&self) -> Rc<RefCell<Scene>> {
+        Rc::clone(&self.0)
+    }
+
+    /// The station of a handle, if it is one of this scene.
+    pub fn own(&self, handle: &StationHandle) -> Result<Station, ScriptError> {
+        self.expect_same(&handle.scene, "station")?;
+        Ok(handle.station)
+    }
+
+    /// Refuses a thing of another scene; `what` is the kind of the thing.
+    pub fn expect_same(&self, other: &Self, what: &str) -> Result<(), ScriptError> {
+        if Rc::ptr_eq(&self.0, &other.0) {
+            return Ok(());
+        }
+        let (mine, other) = (&self.0.borrow().name, &other.0.borrow().name);
+        let told = match mine == other {
+            true => format!("the {what} belongs to another scene that is called '{other}' too"),
+            false => format!("the {what} belongs to the scene '{other}', not to '{mine}'"),
+        };
+        Err(ScriptError::new(told).hint(format!("use a {what} of this scene")))
+    }
+}
+
+impl Scripted for SceneHandle {
+    const NAME: &'static str = "scene";
+    const DOC: &'static str = "A description of beams, particles, joints, masses and loads.";
+
+    fn show(&self) -> String {
+        let scene = self.0.borrow();
+        let count = |(number, what): (usize, &str)| {
+            format!("{number} {what}{}", if number == 1 { "" } else { "s" })
+        };
+        let always = [(scene.beams.len(), "beam")];
+        let if_any = [(scene.particles.len(), "particle"), (scene.sliders.len(), "slider")];
+        let last = [(scene.joints.len(), "joint"), (scene.loads().count(), "load")];
+        let some = if_any.into_iter().filter(|(number, _)| *number > 0);
+        let parts: Vec<String> = always.into_iter().chain(some).chain(last).map(count).collect();
+        format!("scene '{}' with {}", scene.name, parts.join(", "))
+    }
+
+    fn details(&self) -> Details {
+        details::of_scene(&self.0.borrow())
+    }
+}

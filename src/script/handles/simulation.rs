@@ -1,0 +1,358 @@
+//! A simulation that a script holds: steps, events, progress and interrupts.
+
+mod revisit;
+
+use std::cell::{Cell, Ref, RefCell};
+use std::rc::Rc;
+
+use rhai::Dynamic;
+
+use super::events::Events;
+use super::notes::Notes;
+use super::scene::SceneHandle;
+use crate::script::looks::details;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Details, Scripted};
+use crate::script::rows::stored::StoredFunction;
+use crate::script::state::context::Context;
+use crate::script::state::settings::Mode;
+use crate::script::words::error::ScriptError;
+use crate::script::words::numbers::format_number;
+use crate::script::words::stop::Stop;
+use crate::simulation::{Monitor, Simulation, SimulationError, StepSize};
+use crate::vibration::{Modes, VibrationError};
+
+pub use revisit::Revisit;
+
+/// A running simulation; clones are the same one.
+#[derive(Clone)]
+pub struct SimulationHandle(Rc<Live>);
+
+struct Live {
+    name: String,
+    scene: SceneHandle,
+    simulation: RefCell<Simulation>,
+    events: RefCell<Events<Rc<StoredFunction>>>,
+    /// While an event is called, no other may be set for the same time.
+    is_firing: Cell<bool>,
+    /// Whether the user knows that the run ended earlier than the script wanted.
+    is_ending_told: Cell<bool>,
+    notes: Notes,
+}
+
+/// How far a script goes on, or back.
+pub enum Goal {
+    /// So many steps.
+    Steps(usize),
+    /// To a time.
+    Time(f64),
+}
+
+/// Tells the progress bar, counts steps, and stops when the run is interrupted or beyond a limit.
+struct Watch<'a> {
+    context: &'a Context,
+    /// Steps beyond this time are no longer wanted.
+    end: f64,
+}
+
+impl Monitor for Watch<'_> {
+    fn goes_on(&mut self, time: f64) -> bool {
+        self.context.progress().reach(time);
+        self.context.meter().count_step();
+        let may_step = time >= self.end || self.context.meter().allows_a_step();
+        may_step && !self.context.is_stopped()
+    }
+}
+
+/// Stops a pretended run like a real one; its steps cost nothing and do not count.
+struct Pretence<'a>(&'a Context);
+
+impl Monitor for Pretence<'_> {
+    fn goes_on(&mut self, _time: f64) -> bool {
+        !self.0.is_stopped()
+    }
+}
+
+impl SimulationHandle {
+    /// A handle on a simulation at its start; it will be in the report of the run.
+    pub fn new(
+        simulation: Simulation,
+        scene: SceneHandle,
+        name: String,
+        notes: Notes,
+        context: &Context,
+    ) -> Self {
+        let live = Live {
+            name,
+            scene,
+            notes,
+            is_firing: Cell::new(false),
+            is_ending_told: Cell::new(false),
+            simulation: RefCell::new(simulation),
+            events: RefCell::default(),
+        };
+        let handle = Self(Rc::new(live));
+        context.add_reporter(Box::new(handle.clone()));
+        handle.is_latest(context);
+        handle
+    }
+
+    /// A copy that goes its own way from here, with the same functions for times to come.
+    pub fn fork(&self, name: String, context: &Context) -> Result<Self, ScriptError> {
+        let simulation = self.simulation().fork()?;
+        let fork = Self::new(simulation, self.0.scene.clone(), name, self.0.notes.clone(), context);
+        fork.0.events.replace(self.0.events.borrow().clone());
+        fork.0.is_ending_told.set(self.0.is_ending_told.get());
+        Ok(fork)
+    }
+
+    fn is_latest(&self, context: &Context) {
+        context.note_simulation(Dynamic::from(self.clone()));
+    }
+
+    /// The lowest modes about its present configuration.
+    pub fn modes(
+        &self,
+        count: usize,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Modes, VibrationError> {
+        self.0.simulation.borrow().modes(count, goes_on)
+    }
+
+    /// Changes the memory for states to go back to [bytes].
+    pub fn keep_snapshots(&self, limit: usize) {
+        self.0.simulation.borrow_mut().keep_snapshots(limit);
+    }
+
+    /// How many functions wait for a time.
+    pub fn events_waiting(&self) -> usize {
+        self.0.events.borrow().waiting()
+    }
+
+    /// The simulation itself.
+    pub fn simulation(&self) -> Ref<'_, Simulation> {
+        self.0.simulation.borrow()
+    }
+
+    /// The scene that was started.
+    pub fn scene(&self) -> &SceneHandle {
+        &self.0.scene
+    }
+
+    /// Whether both are the same simulation.
+    pub fn is_same(&self, other: &Self) -> bool {
+        Rc::ptr_eq(&self.0, &other.0)
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    /// Where it is.
+    pub fn time(&self) -> f64 {
+        self.simulation().time()
+    }
+
+    /// Calls a script function when a time is reached.
+    pub fn at(&self, time: f64, function: StoredFunction) -> Result<(), ScriptError> {
+        let now = self.time();
+        let is_late = if self.0.is_firing.get() { time <= now } else { time < now };
+        if is_late {
+            return Err(ScriptError::new(format!(
+                "at: t = {} has passed, the simulation is at t = {}",
+                format_number(time),
+                format_number(now)
+            ))
+            .hint("give a later time, before the simulation gets there"));
+        }
+        self.0.simulation.borrow_mut().cut_at(time);
+        self.0.events.borrow_mut().insert(time, Rc::new(function));
+        Ok(())
+    }
+
+    /// Goes back to a state that was; a dry build goes as near as it can.
+    pub fn go_back(&self, call: &Call, goal: &Goal) -> Result<(), ScriptError> {
+        let mut simulation = self.0.simulation.borrow_mut();
+        match (call.context().mode(), goal) {
+            (Mode::Run, Goal::Steps(steps)) => simulation.back(*steps)?,
+            (Mode::Run, Goal::Time(time)) => simulation.rewind(*time)?,
+            (Mode::DryBuild, Goal::Steps(steps)) => simulation.pretend_back(*steps),
+            (Mode::DryBuild, Goal::Time(time)) => simulation.pretend_rewind(*time),
+        }
+        drop(simulation);
+        self.0.events.borrow_mut().go_back(self.time() + self.slack());
+        self.0.is_ending_told.set(false);
+        self.is_latest(call.context());
+        Ok(())
+    }
+
+    /// By how much a time may be missed and still be reached.
+    fn slack(&self) -> f64 {
+        self.simulation().slack()
+    }
+
+    /// Goes on, calling the functions of the events on its way.
+    pub fn go_on(&self, call: &Call, goal: &Goal) -> Result<(), ScriptError> {
+        let context = call.context();
+        let dt = self.simulation().dt();
+        let now = self.time();
+        let end = match goal {
+            Goal::Steps(steps) => now + *steps as f64 * dt,
+            Goal::Time(time) => *time,
+        };
+        self.is_latest(context);
+        context.progress().begin(&self.0.name, now, end);
+        let outcome = match (context.mode(), goal) {
+            (Mode::DryBuild, _) => self.pretend(call, end),
+            (Mode::Run, Goal::Steps(steps)) => self.take_steps(call, *steps),
+            (Mode::Run, Goal::Time(_)) => {
+                let ran = self.run_to(call, end);
+                self.0.notes.tell(self.name(), &self.simulation(), context);
+                ran
+            }
+        };
+        context.progress().end();
+        outcome
+    }
+
+    fn take_steps(&self, call: &Call, steps: usize) -> Result<(), ScriptError> {
+        for taken in 0..steps {
+            // A script that asks for a step after the end is wrong; one that asks for some too many is told.
+            if taken > 0 && self.has_ended() {
+                self.tell_ending(call.context(), &format!("before it had taken {steps} steps"));
+                break;
+            }
+            let context = call.context();
+            if !context.meter().allows_a_step() {
+                context.proceed()?;
+            }
+            // How many parts the step needs is not known beforehand: it is always finished.
+            let mut watch = Watch { context, end: f64::NEG_INFINITY };
+            let stepped = self.0.simulation.borrow_mut().step(&mut watch);
+            stepped.map_err(|error| explain(error, call.context()))?;
+            self.fire_due()?;
+        }
+        Ok(())
+    }
+
+    fn has_ended(&self) -> bool {
+        self.simulation().has_ended()
+    }
+
+    /// Tells once that a run ended earlier than the script wanted.
+    fn tell_ending(&self, context: &Context, when: &str) {
+        let ending = self.simulation().ending().filter(|_| !self.0.is_ending_told.replace(true));
+        if let Some(ending) = ending {
+            context.tell(&format!("note: simulation '{}' ended {when}: {ending}", self.0.name));
+        }
+    }
+
+    fn run_to(&self, call: &Call, end: f64) -> Result<(), ScriptError> {
+        loop {
+            let next = self.0.events.borrow().next_time().unwrap_or(f64::INFINITY);
+            let stop = if next < end { next } else { end };
+            let slack = self.slack();
+            let context = call.context();
+            if self.time() < stop - slack && !context.meter().allows_a_step() {
+                context.proceed()?;
+            }
+            let mut watch = Watch { context, end: stop - slack };
+            let ran = self.0.simulation.borrow_mut().run_to(stop, &mut watch);
+            ran.map_err(|error| explain(error, call.context()))?;
+            self.fire_due()?;
+            if self.has_ended() && self.time() < end {
+                let when = format!("before t = {}", format_number(end));
+                self.tell_ending(call.context(), &when);
+                return Ok(());
+            }
+            // An event may have gone further by itself.
+            if self.time() >= end || stop >= end || stop.is_nan() {
+                return Ok(());
+            }
+        }
+    }
+
+    /// What a dry build does instead of running: time passes, and events are called.
+    fn pretend(&self, call: &Call, end: f64) -> Result<(), ScriptError> {
+        call.context().meter().count_pretended();
+        call.context().proceed()?;
+        let mut watch = Pretence(call.context());
+        let pretended = self.0.simulation.borrow_mut().pretend_to(end, &mut watch);
+        pretended.map_err(|error| explain(error, call.context()))?;
+        self.fire_due()
+    }
+
+    fn fire_due(&self) -> Result<(), ScriptError> {
+        let slack = self.slack();
+        loop {
+            let due = self.0.events.borrow_mut().take_due(self.time() + slack);
+            let Some(function) = due else { return Ok(()) };
+            // What an event gives back has no meaning.
+            self.0.is_firing.set(true);
+            let called = function.call([Dynamic::from(self.clone())]);
+            self.0.is_firing.set(false);
+            let _ = called.map_err(ScriptError::Engine)?;
+        }
+    }
+}
+
+/// An error of a run in the words of the script: interrupts stay interrupts, errors of closures keep their place.
+fn explain(error: SimulationError, context: &Context) -> ScriptError {
+    match error {
+        SimulationError::Interrupted { .. } => {
+            ScriptError::Stopped(context.stopped_by().unwrap_or(Stop::Interrupt))
+        }
+        SimulationError::Load { .. } => match context.take_callback_error() {
+            Some(error) => ScriptError::Engine(error),
+            None => ScriptError::from(error).hint("a load needs a finite value at all times"),
+        },
+        SimulationError::Step { .. } | SimulationError::Smallest { .. } => ScriptError::from(error).hint(
+            "the history up to there is kept; try a smaller dt or a finer mesh, and check loads, stiffness, units and what is held",
+        ),
+        SimulationError::Tolerance { .. } => {
+            ScriptError::from(error).hint("the history up to there is kept; adaptive steps land on jumps of schedules by themselves, but a function that jumps needs its breaks: schedule(|t| …, [t1, t2])")
+        }
+        error => error.into(),
+    }
+}
+
+/// How long steps are, in numbers as the language writes them.
+fn step_size(size: &StepSize) -> String {
+    match size {
+        StepSize::Fixed(dt) => format!("dt = {}", format_number(*dt)),
+        StepSize::Adaptive(control) => control.to_string(),
+    }
+}
+
+impl Scripted for SimulationHandle {
+    const NAME: &'static str = "simulation";
+    const DOC: &'static str = "A scene in motion.";
+
+    fn is_busy(&self) -> Option<String> {
+        let is_stepping = self.0.simulation.try_borrow().is_err();
+        is_stepping.then(|| format!("simulation '{}' is in the middle of a step", self.0.name))
+    }
+
+    fn show(&self) -> String {
+        let Ok(simulation) = self.0.simulation.try_borrow() else {
+            return format!("simulation '{}' in the middle of a step", self.0.name);
+        };
+        let (counts, settings) = (simulation.counts(), simulation.settings());
+        let ended = simulation.ending().map(|ending| format!("; ended: {ending}"));
+        format!(
+            "simulation '{}' at t = {} after {} steps, {}, {}, {} unknowns{}",
+            self.0.name,
+            format_number(simulation.time()),
+            counts.steps,
+            settings.method.entry().name,
+            step_size(&settings.dt),
+            simulation.unknowns(),
+            ended.unwrap_or_default(),
+        )
+    }
+
+    fn details(&self) -> Details {
+        details::of_simulation(&self.simulation())
+    }
+}

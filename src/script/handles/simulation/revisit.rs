@@ -1,0 +1,85 @@
+//! A simulation that stands for a while where it has been: whoever asks it, by whatever name, is answered from there.
+
+use std::cell::{Ref, RefCell};
+use std::rc::Rc;
+
+use super::{Events, SimulationHandle, Watch, explain};
+use crate::script::rows::stored::StoredFunction;
+use crate::script::state::context::Context;
+use crate::script::words::error::ScriptError;
+use crate::simulation::Simulation;
+
+/// As long as it lives, a copy stands in the place of a simulation; then all is as it was.
+pub struct Revisit {
+    handle: SimulationHandle,
+    /// The copy when it is not in the place of the original.
+    original: RefCell<Simulation>,
+    events: Events<Rc<StoredFunction>>,
+    is_ending_told: bool,
+}
+
+impl Revisit {
+    /// Begins at the present.
+    ///
+    /// # Errors
+    /// When the scene cannot be built, which it could before.
+    pub fn at_present(handle: &SimulationHandle) -> Result<Self, ScriptError> {
+        let copy = handle.simulation().copy_at_present()?;
+        Ok(Self::with(handle, copy))
+    }
+
+    /// Begins at the start of the run, to make it again.
+    ///
+    /// # Errors
+    /// When the scene cannot be built, which it could before.
+    pub fn at_start(handle: &SimulationHandle) -> Result<Self, ScriptError> {
+        let copy = handle.simulation().copy_at_start()?;
+        Ok(Self::with(handle, copy))
+    }
+
+    fn with(handle: &SimulationHandle, copy: Simulation) -> Self {
+        let original = RefCell::new(copy);
+        handle.0.simulation.swap(&original);
+        Self {
+            handle: handle.clone(),
+            original,
+            events: handle.0.events.borrow().clone(),
+            is_ending_told: handle.0.is_ending_told.get(),
+        }
+    }
+
+    /// The simulation whose place is taken.
+    pub fn original(&self) -> Ref<'_, Simulation> {
+        self.original.borrow()
+    }
+
+    /// How many steps led to where the copy stands, and its time.
+    pub fn place(&self) -> (usize, f64) {
+        (self.handle.simulation().counts().steps, self.handle.time())
+    }
+
+    /// Goes back to a state that is kept; gives whether it is.
+    pub fn go_back_to(&self, steps: usize) -> bool {
+        self.handle.0.simulation.borrow_mut().revisit(&self.original(), steps)
+    }
+
+    /// Goes on to a row of the history; gives whether all is there as it was.
+    ///
+    /// # Errors
+    /// When a step fails that did not, or the run is stopped.
+    pub fn run_again(&self, row: usize, context: &Context) -> Result<bool, ScriptError> {
+        let mut watch = Watch { context, end: f64::INFINITY };
+        let ran =
+            self.handle.0.simulation.borrow_mut().run_again(&self.original(), row, &mut watch);
+        ran.map_err(|error| explain(error, context))
+    }
+}
+
+impl Drop for Revisit {
+    fn drop(&mut self) {
+        self.handle.0.simulation.swap(&self.original);
+        // What was looked at may have gone on, and called what waits for the original.
+        self.handle.0.events.replace(self.events.clone());
+        self.handle.0.is_ending_told.set(self.is_ending_told);
+    }
+}

@@ -1,0 +1,76 @@
+//! A place on a beam, or a particle, of a scene that a script holds.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use super::scene::SceneHandle;
+use super::simulation::SimulationHandle;
+use crate::beams::{self, BodyIndex, Mesh, Station};
+use crate::model::Scene;
+use crate::script::looks::details;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Details, Scripted};
+use crate::script::words::error::ScriptError;
+
+/// A station of a beam of a scene.
+#[derive(Clone)]
+pub struct StationHandle {
+    /// The scene.
+    pub scene: SceneHandle,
+    /// The station in it.
+    pub station: Station,
+}
+
+impl StationHandle {
+    /// The station itself.
+    pub fn station(&self) -> Station {
+        self.station
+    }
+
+    /// Its place in a simulation, if that is one of its scene.
+    pub fn on(&self, handle: &SimulationHandle) -> Result<beams::Place, ScriptError> {
+        let simulation = handle.simulation();
+        self.within(handle.scene(), simulation.scene(), simulation.model().meshes())
+    }
+
+    /// Its place among the meshes of a scene that was built when it was `built`, if it is one of that scene.
+    pub fn within(
+        &self,
+        of: &SceneHandle,
+        built: &Scene,
+        meshes: &[Mesh],
+    ) -> Result<beams::Place, ScriptError> {
+        of.own(self)?;
+        let known = match self.station.body {
+            BodyIndex::Beam(beam) => beam < built.beams.len(),
+            BodyIndex::Particle(particle) => particle < built.particles.len(),
+        };
+        if !known {
+            let told = format!("{} was added after the scene was started", self.show());
+            return Err(
+                ScriptError::new(told).hint("add everything before scene.start(…), or start again")
+            );
+        }
+        Ok(built.place(&self.station, meshes)?)
+    }
+}
+
+impl Scripted for StationHandle {
+    const NAME: &'static str = "station";
+    const DOC: &'static str = "A place on a beam, or a particle.";
+
+    fn show(&self) -> String {
+        self.scene.scene().borrow().describe(&self.station)
+    }
+
+    fn details(&self) -> Details {
+        details::of_station(&self.scene.scene().borrow(), &self.station)
+    }
+}
+
+/// The scene that is called, and one of its stations.
+pub fn here(call: &Call, name: &str) -> Result<(Station, Rc<RefCell<Scene>>), ScriptError> {
+    let scene = call.receiver::<SceneHandle>()?;
+    let station = scene.own(&call.get::<StationHandle>(name)?)?;
+    Ok((station, scene.shared()))
+}

@@ -1,0 +1,114 @@
+//! Details of scenes and what stands in them.
+
+use super::{line, listed, number, pair};
+use crate::beams::{BodyIndex, Section, Station};
+use crate::geometry::Vec2;
+use crate::joints::{EndAction, StartVelocities};
+use crate::model::{BeamDefinition, Scene};
+use crate::script::rows::kind::Details;
+
+/// What stands in a scene; nothing is said of what is not there.
+pub fn of_scene(scene: &Scene) -> Details {
+    let beam = |beam: &BeamDefinition| format!("{} ({})", beam.name, number(beam.axis.length()));
+    let loads: Vec<String> = scene.loads().map(|load| load.name.clone()).collect();
+    let kinds = [
+        ("beams (length)", listed(scene.beams.iter().map(beam))),
+        ("particles", listed(scene.particles.iter().map(|particle| particle.name.clone()))),
+        ("joints", listed(scene.joints.iter().map(|joint| joint.name.clone()))),
+        ("sliders", listed(scene.sliders.iter().map(|slider| slider.name.clone()))),
+        ("loads", listed(loads.into_iter())),
+    ];
+    let mut details = vec![line("mass", number(scene.mass()))];
+    details
+        .extend(kinds.into_iter().filter(|(_, all)| !all.is_empty()).map(|(l, all)| line(l, all)));
+    if scene.gravity != Vec2::zeros() {
+        details.push(line("gravity", pair(scene.gravity)));
+    }
+    let is_moving = |beam: &&BeamDefinition| beam.starts_in_motion();
+    let moving = (scene.beams.iter().filter(is_moving).count(), scene.velocities.len());
+    details.push(line(
+        "at the start",
+        match moving {
+            (0, 0) => "at rest".to_owned(),
+            (beams, nodes) => format!("beams that move: {beams}, single nodes: {nodes}"),
+        },
+    ));
+    details
+}
+
+/// Where a beam lies, what it is made of, and how it is held.
+pub fn of_beam(scene: &Scene, index: usize) -> Details {
+    let beam = &scene.beams[index];
+    let BeamDefinition { axis, mesh, section, motion, .. } = beam;
+    let (start, end) = axis.domain();
+    let ends = axis.point(start).ok().zip(axis.point(end).ok());
+    let ends = ends.map(|(start, end)| line("ends", format!("{} … {}", pair(start), pair(end))));
+    let [ea, ga, ei] =
+        [section.axial_stiffness, section.shear_stiffness, section.bending_stiffness];
+    let stiffness = format!("EA {}, GA {}, EI {}", number(ea), number(ga), number(ei));
+    let held: Vec<String> = scene.joints_of(index).map(|joint| joint.name.clone()).collect();
+    let moving = format!("velocity {}, spin {}", pair(motion.velocity), number(motion.spin));
+    let lines = [
+        ends,
+        Some(line("control points", mesh.basis().functions().to_string())),
+        Some(line("stiffness", stiffness)),
+        Some(line("mass", number(beam.mass()))),
+        (!held.is_empty()).then(|| line("joints", listed(held.into_iter()))),
+        beam.starts_in_motion().then(|| line("at the start", moving)),
+    ];
+    lines.into_iter().flatten().collect()
+}
+
+/// Where a station is as drawn.
+pub fn of_station(scene: &Scene, station: &Station) -> Details {
+    let along = match station.body {
+        BodyIndex::Beam(beam) => {
+            let length = scene.beams[beam].axis.length();
+            let part = number(station.arc_length / length);
+            let s = number(station.arc_length);
+            Some(line("arc length", format!("{s} of {}, {part} of it", number(length))))
+        }
+        BodyIndex::Particle(_) => None,
+    };
+    let at = scene.drawn_at(station).ok().map(|at| line("drawn at", pair(at)));
+    along.into_iter().chain(at).collect()
+}
+
+/// Stiffness and inertia with their dimensions, and the speeds that follow: the longest time that a step may skip.
+pub fn of_section(section: &Section) -> Details {
+    let properties = [
+        ("EA [force]", section.axial_stiffness),
+        ("GA [force]", section.shear_stiffness),
+        ("EI [force·length²]", section.bending_stiffness),
+        ("rho_A [mass/length]", section.mass_per_length),
+        ("rho_I [mass·length]", section.rotary_inertia),
+    ];
+    let speeds = [
+        line("axial wave [length/time]", number(section.axial_wave_speed())),
+        line("shear wave [length/time]", number(section.shear_wave_speed())),
+    ];
+    properties.into_iter().map(|(label, value)| line(label, number(value))).chain(speeds).collect()
+}
+
+/// What slides on what, and how.
+pub fn of_slider(scene: &Scene, index: usize) -> Details {
+    let slider = &scene.sliders[index];
+    let master = &scene.beams[slider.master];
+    let part = slider.arc_length / master.axis.length();
+    let ends = match slider.ends {
+        EndAction::Stop => "the run stops",
+        EndAction::Bounce => "it bounces off",
+        EndAction::Release => "it flies free",
+    };
+    let velocities = match slider.velocities {
+        StartVelocities::Check => "must fit the beam",
+        StartVelocities::Project => "are made to fit the beam",
+    };
+    vec![
+        line("slides", scene.describe(&slider.slave)),
+        line("on", format!("beam '{}', from {} of its length", master.name, number(part))),
+        line("rule", slider.rule.entry().name),
+        line("at the ends", ends),
+        line("start velocities", velocities),
+    ]
+}

@@ -1,0 +1,188 @@
+//! Colours of the language. Only colours: what can be read stays as it was typed, right or wrong, finished or not.
+
+use std::collections::{HashMap, HashSet};
+
+use crate::script::rows::catalog::Catalog;
+use crate::script::rows::table::Form;
+use crate::script::source::keywords::{FUNCTIONS, is_keyword};
+use crate::script::source::scanner::{Kind, Token, pair, scan};
+
+/// How a piece of an input is drawn, as numbers of an ANSI sequence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Style(pub &'static str);
+
+/// A keyword.
+pub const KEYWORD: Style = Style("35");
+/// A number.
+pub const NUMBER: Style = Style("36");
+/// A text.
+pub const TEXT: Style = Style("32");
+/// A comment.
+pub const COMMENT: Style = Style("2");
+/// The name of a function.
+pub const FUNCTION: Style = Style("34");
+/// The name of a number.
+pub const CONSTANT: Style = Style("36");
+/// A member that its value has not.
+pub const UNKNOWN_MEMBER: Style = Style("4");
+/// The bracket at the cursor, and its partner.
+pub const PARTNER: Style = Style("1;4");
+/// What does not belong there.
+pub const STRAY: Style = Style("31");
+
+/// Members that every value has.
+const UNIVERSAL: &[&str] =
+    &["to_string", "to_debug", "type_of", "print", "debug", "is_shared", "call"];
+
+/// Names that are drawn in colours of their own; made once for many texts, as lines are drawn at each key.
+pub struct Vocabulary {
+    functions: HashSet<String>,
+    constants: HashSet<String>,
+    /// The type of each variable whose type has members of ours.
+    variables: HashMap<String, &'static str>,
+    members: HashMap<&'static str, HashSet<&'static str>>,
+    /// What stands behind the `::` of a module.
+    modules: HashMap<String, HashSet<String>>,
+}
+
+impl Vocabulary {
+    /// The names of the language itself: enough for a file.
+    pub fn of_language(catalog: &Catalog) -> Self {
+        let built_in = FUNCTIONS.iter().map(|(name, _)| (*name).to_owned());
+        let functions = catalog.function_names().map(str::to_owned).chain(built_in).collect();
+        let mut members: HashMap<&str, HashSet<&str>> = HashMap::new();
+        for row in catalog.rows() {
+            if let Some(receiver) = row.receiver().filter(|_| !matches!(row.form, Form::Operator)) {
+                members.entry(receiver.name()).or_default().insert(row.name);
+            }
+        }
+        let constants = catalog.constants().map(str::to_owned).collect();
+        Self { functions, constants, members, variables: HashMap::new(), modules: HashMap::new() }
+    }
+
+    /// Knows a function more.
+    pub fn add_function(&mut self, name: &str) {
+        self.functions.insert(name.to_owned());
+    }
+
+    /// Knows a variable more, and its type in the words of the language.
+    pub fn add_variable(&mut self, name: &str, of: &str) {
+        if let Some((of, _)) = self.members.get_key_value(of) {
+            self.variables.insert(name.to_owned(), *of);
+        }
+    }
+
+    /// Knows the functions of a module, by the name that it was given.
+    pub fn add_module<'n>(&mut self, alias: &str, functions: impl Iterator<Item = &'n str>) {
+        self.modules.insert(alias.to_owned(), functions.map(str::to_owned).collect());
+    }
+
+    /// Whether the value called `variable` has no member `name`; not if either is unknown.
+    fn lacks(&self, variable: &str, name: &str) -> bool {
+        let members = self.variables.get(variable).and_then(|of| self.members.get(of));
+        members.is_some_and(|members| !members.contains(name))
+            && !self.functions.contains(name)
+            && !UNIVERSAL.contains(&name)
+    }
+
+    fn style_of_member(&self, value: &str, name: &str) -> Option<Style> {
+        self.lacks(value, name).then_some(UNKNOWN_MEMBER)
+    }
+
+    fn style_in_module(&self, alias: &str, name: &str) -> Option<Style> {
+        let functions = self.modules.get(alias)?;
+        Some(if functions.contains(name) { FUNCTION } else { UNKNOWN_MEMBER })
+    }
+
+    fn style_of_word(&self, word: &str) -> Option<Style> {
+        match word {
+            _ if is_keyword(word) => Some(KEYWORD),
+            _ if self.functions.contains(word) => Some(FUNCTION),
+            _ if self.constants.contains(word) => Some(CONSTANT),
+            _ => None,
+        }
+    }
+}
+
+/// `text` of the language with colours; a bracket at the cursor and its partner stand out.
+pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> String {
+    // An escape character in the input could join with ours; nobody types one.
+    if text.contains('\x1b') {
+        return text.to_owned();
+    }
+    let tokens = scan(text);
+    let (partners, _) = pair(&tokens);
+    let touched = cursor.and_then(|cursor| bracket_at(&tokens, cursor));
+    let marked = touched.and_then(|at| partners[at].map(|partner| [at, partner]));
+    // Parameters of functions hide variables of the session: their members are not judged.
+    let has_parameters =
+        tokens.iter().any(|token| matches!(token.of(text), "fn" | "|" | "let" | "for"));
+    let mut drawn = String::with_capacity(text.len() * 2);
+    let mut before = [0; 2];
+    for (index, token) in tokens.iter().enumerate() {
+        let written = token.of(text);
+        let style = match token.kind {
+            _ if marked.is_some_and(|marked| marked.contains(&index)) => Some(PARTNER),
+            Kind::Comment | Kind::OpenComment => Some(COMMENT),
+            Kind::Text | Kind::OpenText | Kind::Piece | Kind::OpenPiece => Some(TEXT),
+            Kind::Number => Some(NUMBER),
+            Kind::Close(_) if partners[index].is_none() => Some(STRAY),
+            Kind::Word => {
+                let [value, sign] = before.map(|at: usize| tokens[at].of(text));
+                let style = match sign {
+                    "." | "?." if index > 1 && has_parameters => None,
+                    "." | "?." if index > 1 => vocabulary.style_of_member(value, written),
+                    "::" if index > 1 => vocabulary.style_in_module(value, written),
+                    _ => vocabulary.style_of_word(written),
+                };
+                // The last name may still be typed.
+                let is_last = index + 1 == tokens.len();
+                style.filter(|style| !is_last || *style != UNKNOWN_MEMBER)
+            }
+            Kind::Space | Kind::Open(_) | Kind::Close(_) | Kind::Symbol => None,
+        };
+        draw(&mut drawn, written, style);
+        if token.is_significant() {
+            before = [before[1], index];
+        }
+    }
+    drawn
+}
+
+/// The bracket under the cursor, or else the one before it.
+fn bracket_at(tokens: &[Token], cursor: usize) -> Option<usize> {
+    let is_bracket = |token: &Token| matches!(token.kind, Kind::Open(_) | Kind::Close(_));
+    let under = tokens.iter().position(|token| token.start == cursor && is_bracket(token));
+    under.or_else(|| tokens.iter().position(|token| token.end == cursor && is_bracket(token)))
+}
+
+/// Adds a text in a style, if it has one.
+pub fn draw(drawn: &mut String, text: &str, style: Option<Style>) {
+    match style.filter(|_| !text.is_empty()) {
+        Some(Style(numbers)) => {
+            for part in ["\x1b[", numbers, "m", text, "\x1b[0m"] {
+                drawn.push_str(part);
+            }
+        }
+        None => drawn.push_str(text),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::script::packages::language;
+
+    #[test]
+    fn a_file_can_be_drawn_without_a_session() {
+        let mut vocabulary = Vocabulary::of_language(&language());
+        let drawn = highlight("let a = line(1); // b", None, &vocabulary);
+        let expected =
+            "\x1b[35mlet\x1b[0m a = \x1b[34mline\x1b[0m(\x1b[36m1\x1b[0m); \x1b[2m// b\x1b[0m";
+        assert_eq!(drawn, expected);
+        assert_eq!(highlight("parts::half(x)", None, &vocabulary), "parts::half(x)");
+        vocabulary.add_module("parts", ["half"].into_iter());
+        let drawn = highlight("parts::half(parts::third(x))", None, &vocabulary);
+        assert_eq!(drawn, "parts::\x1b[34mhalf\x1b[0m(parts::\x1b[4mthird\x1b[0m(x))");
+    }
+}

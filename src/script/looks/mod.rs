@@ -1,0 +1,6 @@
+//! How values look: at the prompt, in charts and pictures, in colours.
+
+pub mod details;
+pub mod highlight;
+pub mod present;
+pub mod sight;

@@ -1,0 +1,145 @@
+//! Definition files (`.d.rhai`) for the Rhai language server of editors, from the same rows that the engine registers.
+//!
+//! The format has no optional arguments: a function is declared once for each number of arguments. What may be given,
+//! units, options and examples stand in the comment above, which editors show.
+
+mod types;
+
+use std::fmt::Write;
+
+use super::reference::{describe_parameter, gives};
+use crate::script::rows::built_in::{BuiltIn, BuiltInTable, Ending, Written};
+use crate::script::rows::catalog::Catalog;
+use crate::script::rows::table::{Form, Row, Table};
+use types::{for_kind, for_words, identifier};
+
+/// A definition file: its name and its text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DefinitionFile {
+    /// Name of the file.
+    pub name: String,
+    /// What it holds.
+    pub text: String,
+}
+
+/// One file for the types of all, and one for each table.
+pub fn definitions(catalog: &Catalog) -> Vec<DefinitionFile> {
+    let mut files =
+        vec![DefinitionFile { name: "types.d.rhai".into(), text: types::file(catalog) }];
+    files.extend(catalog.tables().map(|table| of_table(catalog, table)));
+    files.extend(catalog.built_in_tables().map(|table| of_built_ins(catalog, table)));
+    files
+}
+
+const HEADER: &str = "module static;\n";
+
+fn of_table(catalog: &Catalog, table: &Table) -> DefinitionFile {
+    let mut text = format!("/// {}\n{HEADER}", table.doc);
+    for constant in table.constants {
+        let _ = writeln!(text, "\n/// {}\nconst {}: number;", constant.summary, constant.name);
+    }
+    for row in table.rows {
+        let comment = comment(&row_comment(table, row));
+        for declaration in declarations(catalog, row) {
+            let _ = write!(text, "\n{comment}{declaration};\n");
+        }
+    }
+    DefinitionFile { name: format!("{}.d.rhai", identifier(table.name)), text }
+}
+
+fn of_built_ins(catalog: &Catalog, table: &BuiltInTable) -> DefinitionFile {
+    let mut text = format!("/// {}\n{HEADER}", table.doc);
+    for built_in in table.rows {
+        let comment = comment(&built_in_comment(built_in));
+        let returns = for_words(catalog, built_in.returns);
+        for declaration in built_in.written().flat_map(|form| built_in_declarations(&form)) {
+            let _ = write!(text, "\n{comment}{declaration} -> {returns};\n");
+        }
+    }
+    DefinitionFile { name: format!("rhai_{}.d.rhai", table.name), text }
+}
+
+fn declarations(catalog: &Catalog, row: &Row) -> Vec<String> {
+    let returns = for_words(catalog, row.returns);
+    let typed = |count: usize| {
+        let parameters = row.parameters[..count].iter();
+        parameters.map(|known| format!("{}: {}", identifier(known.name), for_kind(&known.kind)))
+    };
+    let receiver = row.receiver().map(|of| format!("{0}: {0}", identifier(of.name())));
+    let list = |count: usize| {
+        receiver.clone().into_iter().chain(typed(count)).collect::<Vec<_>>().join(", ")
+    };
+    match row.form {
+        Form::Function | Form::Method(_) => (row.required()..=row.parameters.len())
+            .map(|count| format!("fn {}({}) -> {returns}", row.name, list(count)))
+            .collect(),
+        Form::Property(_) => {
+            let mut declared = vec![format!("fn get {}({}) -> {returns}", row.name, list(0))];
+            if let Some(setter) = row.setter {
+                let [value] = setter.value;
+                let value = format!("value: {}", for_kind(&value.kind));
+                declared.push(format!("fn set {}({}, {value})", row.name, list(0)));
+            }
+            declared
+        }
+        Form::Operator => {
+            let operands: Vec<_> =
+                row.parameters.iter().map(|known| for_kind(&known.kind)).collect();
+            vec![format!("op {}({}) -> {returns}", row.name, operands.join(", "))]
+        }
+    }
+}
+
+fn built_in_declarations(form: &Written) -> Vec<String> {
+    let receiver = form.receiver.map(|of| format!("{of}: {}", types::for_receiver(of)));
+    let named = |count: usize| {
+        let arguments = form.required.iter().chain(form.optional.iter().take(count));
+        let arguments = arguments.map(|name| format!("{name}: ?"));
+        receiver.clone().into_iter().chain(arguments).collect::<Vec<_>>().join(", ")
+    };
+    let name = form.name;
+    match form.ending {
+        Ending::Property => vec![format!("fn get {name}({})", named(0))],
+        Ending::Arguments => {
+            (0..=form.optional.len()).map(|count| format!("fn {name}({})", named(count))).collect()
+        }
+        Ending::Repeated => vec![format!("fn {name}({}, ...values: ?)", named(0))],
+    }
+}
+
+fn row_comment(table: &Table, row: &Row) -> String {
+    let mut text = format!("`{}`{}\n\n{}\n", row.signature(), gives(row.returns), row.summary);
+    if !row.doc.is_empty() {
+        let _ = writeln!(text, "\n{}", row.doc);
+    }
+    if !row.parameters.is_empty() {
+        text.push('\n');
+        row.parameters.iter().for_each(|parameter| describe_parameter(&mut text, parameter, 0));
+    }
+    let setup = if table.setup.is_empty() { String::new() } else { format!("{}\n", table.setup) };
+    text += &example(&format!("{setup}{}", row.example));
+    text
+}
+
+fn built_in_comment(built_in: &BuiltIn) -> String {
+    let forms: Vec<_> = built_in.forms.iter().map(|form| format!("`{form}`")).collect();
+    let mut text =
+        format!("{}{}\n\n{}\n", forms.join(", "), gives(built_in.returns), built_in.summary);
+    if !built_in.doc.is_empty() {
+        let _ = writeln!(text, "\n{}", built_in.doc);
+    }
+    text += &example(built_in.example);
+    text
+}
+
+fn example(script: &str) -> String {
+    format!("\n# Example\n\n```rhai\n{script}\n```\n")
+}
+
+/// `text` as a documenting comment.
+fn comment(text: &str) -> String {
+    text.lines().map(|line| format!("{}\n", format!("/// {line}").trim_end())).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,190 @@
+//! Pages of whole subjects, and the overview.
+
+use super::find::{Subject, find};
+use super::page::{Page, Span};
+use super::unknown::Unknown;
+use super::{library, rows};
+use crate::script::diagnose::elsewhere;
+use crate::script::library::{Block, pages};
+use crate::script::rows::built_in::BuiltInTable;
+use crate::script::rows::catalog::Catalog;
+use crate::script::rows::kind::Type;
+use crate::script::rows::parameter::Parameter;
+use crate::script::rows::table::{Constant, Row, Table};
+use crate::script::rows::topics::{TOPICS, Topic};
+use crate::script::words::nouns::with_article;
+use crate::script::words::numbers::format_number;
+
+/// The page on `name`; without a name, an overview.
+///
+/// # Errors
+/// Nothing has this name; the error says what may have been meant.
+pub fn page(catalog: &Catalog, name: &str) -> Result<Page, Unknown> {
+    if name.trim().is_empty() {
+        return Ok(overview(catalog));
+    }
+    let subjects = find(catalog, name);
+    if subjects.is_empty() {
+        return Err(Unknown::new(catalog, name.trim()));
+    }
+    let mut page = Page::default();
+    let mut options: Vec<(&Row, &Parameter)> = Vec::new();
+    for subject in subjects {
+        if let Subject::Option(row, key) = subject {
+            options.push((row, key));
+            continue;
+        }
+        separate(&mut page);
+        match subject {
+            Subject::Topic(topic) => describe_topic(&mut page, topic),
+            Subject::Row(table, row) => rows::row(&mut page, table, row),
+            Subject::BuiltIn(built_in) => rows::built_in(&mut page, built_in),
+            Subject::Type(of) => describe_type(&mut page, catalog, of),
+            Subject::Constant(constant) => describe_constant(&mut page, constant),
+            Subject::Table(table) => describe_table(&mut page, table),
+            Subject::BuiltIns(table) => describe_built_ins(&mut page, table),
+            Subject::Module(of) => library::module(&mut page, of),
+            Subject::ModuleFunction(of) => library::function(&mut page, of),
+            Subject::Option(..) => (),
+        }
+    }
+    if !options.is_empty() {
+        separate(&mut page);
+        describe_option(&mut page, &options);
+    }
+    // The word may have been meant as other programs have it.
+    if let Some(found) = elsewhere::find_exactly(name.trim()) {
+        separate(&mut page);
+        page.paragraph(&found.told());
+    }
+    Ok(page)
+}
+
+/// Room between two things of the same name.
+fn separate(page: &mut Page) {
+    if !page.parts.is_empty() {
+        page.gap();
+        page.words(0, vec![Span::aside("────────────────")]);
+        page.gap();
+    }
+}
+
+fn overview(catalog: &Catalog) -> Page {
+    let mut page = Page::default();
+    page.heading("Help");
+    page.paragraph(
+        "help(\"NAME\") tells about a function, a type such as simulation, an option such as rho_A, a constant, or a heading \
+         below. Every page has an example that runs as it stands: copy its lines into a script or to the prompt.",
+    );
+    page.gap();
+    page.heading("The language");
+    TOPICS.iter().for_each(|topic| entry(&mut page, topic.name, topic.summary));
+    page.gap();
+    page.heading("Beams and what goes with them");
+    catalog.tables().for_each(|table| entry(&mut page, table.name, first_sentence(table.doc)));
+    page.gap();
+    page.heading("From Rhai");
+    let tables = catalog.built_in_tables();
+    tables.for_each(|table| entry(&mut page, table.name, first_sentence(table.doc)));
+    page.gap();
+    page.heading("The standard library, import \"std/sections\" as sections;");
+    for of in pages() {
+        if let Some(Block::Paragraph(about)) = of.about.first() {
+            entry(&mut page, of.module.name, first_sentence(about));
+        }
+    }
+    page
+}
+
+fn first_sentence(text: &str) -> &str {
+    text.split_inclusive(". ").next().unwrap_or(text).trim_end()
+}
+
+/// A name and a line on it.
+fn entry(page: &mut Page, name: &str, summary: &str) {
+    page.words(2, vec![Span::name(name), Span::plain(format!(": {}", summary.replace('`', "")))]);
+}
+
+fn row_entry(page: &mut Page, row: &Row) {
+    entry(page, &row.signature(), row.summary);
+}
+
+fn describe_topic(page: &mut Page, topic: &Topic) {
+    page.heading(format!("The language: {}", topic.name));
+    page.paragraph(topic.summary);
+    page.gap();
+    page.paragraph(topic.doc);
+    rows::example(page, "", topic.example);
+    rows::see(page, topic.see);
+}
+
+fn describe_type(page: &mut Page, catalog: &Catalog, of: Type) {
+    page.heading(format!("The type {}", of.name()));
+    page.paragraph(of.doc());
+    let members = catalog.members(of.name());
+    if !members.is_empty() {
+        page.gap();
+        members.into_iter().for_each(|row| row_entry(page, row));
+    }
+    let makers: Vec<_> = catalog
+        .rows()
+        .filter(|row| row.returns.starts_with(&with_article(of.name())))
+        .map(Row::signature)
+        .collect();
+    if !makers.is_empty() {
+        page.gap();
+        page.words(0, vec![Span::plain(format!("It comes from {}.", makers.join(", ")))]);
+    }
+}
+
+fn describe_constant(page: &mut Page, constant: &Constant) {
+    page.words(
+        0,
+        vec![
+            Span::name(constant.name),
+            Span::plain(format!(" = {}", format_number(constant.value))),
+        ],
+    );
+    page.paragraph(constant.summary);
+}
+
+fn describe_table(page: &mut Page, table: &Table) {
+    page.heading(format!("About {}", table.name));
+    page.paragraph(table.doc);
+    page.gap();
+    for of in table.types {
+        entry(page, of.name(), of.doc());
+    }
+    table.constants.iter().for_each(|constant| entry(page, constant.name, constant.summary));
+    table.rows.iter().for_each(|row| row_entry(page, row));
+}
+
+fn describe_built_ins(page: &mut Page, table: &BuiltInTable) {
+    page.heading(format!("From Rhai: {}", table.name));
+    page.paragraph(table.doc);
+    page.gap();
+    for built_in in table.rows {
+        entry(page, &built_in.forms.join(", "), built_in.summary);
+    }
+}
+
+/// One option, and which functions take it; said once where they say the same.
+fn describe_option(page: &mut Page, options: &[(&Row, &Parameter)]) {
+    let mut told: Vec<(&Parameter, Vec<String>)> = Vec::new();
+    for (row, key) in options {
+        let same = told.iter_mut().find(|(other, _)| {
+            other.doc == key.doc
+                && other.expectation() == key.expectation()
+                && other.presence == key.presence
+        });
+        match same {
+            Some((_, rows)) if rows.contains(&row.signature()) => (),
+            Some((_, rows)) => rows.push(row.signature()),
+            None => told.push((*key, vec![row.signature()])),
+        }
+    }
+    for (key, rows) in told {
+        page.words(0, vec![Span::plain(format!("An option of {}:", rows.join(", ")))]);
+        rows::parameter(page, key, 2);
+    }
+}

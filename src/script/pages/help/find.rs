@@ -1,0 +1,149 @@
+//! What a name stands for: often several things.
+
+use std::collections::BTreeSet;
+
+use crate::script::library::{ModuleFunction, ModulePage, page_of, pages};
+use crate::script::rows::built_in::{BuiltIn, BuiltInTable};
+use crate::script::rows::catalog::Catalog;
+use crate::script::rows::kind::{Kind, Type};
+use crate::script::rows::parameter::Parameter;
+use crate::script::rows::table::{Constant, Form, Row, Table};
+use crate::script::rows::topics::{TOPICS, Topic};
+
+/// One thing that a name stands for.
+#[derive(Clone, Copy)]
+pub enum Subject {
+    /// A part of the language.
+    Topic(&'static Topic),
+    /// A function, method, property or operator, and the domain it belongs to.
+    Row(&'static Table, &'static Row),
+    /// A function of Rhai.
+    BuiltIn(&'static BuiltIn),
+    /// A type of ours.
+    Type(Type),
+    /// A name with a fixed value.
+    Constant(&'static Constant),
+    /// A key of the options of this row.
+    Option(&'static Row, &'static Parameter),
+    /// A domain.
+    Table(&'static Table),
+    /// Functions of Rhai about one kind of value.
+    BuiltIns(&'static BuiltInTable),
+    /// A module of the standard library.
+    Module(&'static ModulePage),
+    /// A function of such a module.
+    ModuleFunction(&'static ModuleFunction),
+}
+
+/// Everything that `name` stands for, the most likely first; nothing if it is unknown.
+///
+/// `simulation.run_to` is the method of that type; when what stands before the dot is no type, such as the variable in
+/// `sim.run_to`, the methods of all types are meant.
+pub fn find(catalog: &Catalog, name: &str) -> Vec<Subject> {
+    let name = name.trim();
+    let name = name.strip_suffix("()").filter(|name| !name.is_empty()).unwrap_or(name);
+    let found = named(catalog, name);
+    if !found.is_empty() {
+        return found;
+    }
+    let Some((owner, member)) = name.rsplit_once('.') else { return found };
+    let members: Vec<_> =
+        named(catalog, member).into_iter().filter(|subject| is_member(*subject)).collect();
+    let of_owner: Vec<_> =
+        members.iter().copied().filter(|subject| belongs_to(*subject, owner)).collect();
+    if of_owner.is_empty() { members } else { of_owner }
+}
+
+/// All names that have help, for completion and suggestions.
+pub fn names(catalog: &Catalog) -> BTreeSet<&'static str> {
+    let mut names = BTreeSet::new();
+    for table in catalog.tables() {
+        names.insert(table.name);
+        names.extend(table.types.iter().map(Type::name));
+        names.extend(table.constants.iter().map(|constant| constant.name));
+        for row in table.rows {
+            names.insert(row.name);
+            names.extend(keys(row).iter().map(|key| key.name));
+        }
+    }
+    for table in catalog.built_in_tables() {
+        names.insert(table.name);
+        names.extend(table.rows.iter().map(BuiltIn::name));
+    }
+    for topic in TOPICS {
+        names.insert(topic.name);
+        names.extend(topic.words);
+    }
+    for page in pages() {
+        names.insert(page.module.name);
+        names.extend(page.functions.iter().map(|function| function.full_name.as_str()));
+    }
+    names
+}
+
+fn named(catalog: &Catalog, name: &str) -> Vec<Subject> {
+    let rows = catalog.tables().flat_map(|table| table.rows.iter().map(move |row| (table, row)));
+    let types = catalog.tables().flat_map(|table| table.types).filter(|of| of.name() == name);
+    let constants =
+        catalog.tables().flat_map(|table| table.constants).filter(|known| known.name == name);
+    let options = catalog.rows().flat_map(|row| {
+        let keys = keys(row).into_iter().filter(move |key| key.name == name);
+        keys.map(move |key| Subject::Option(row, key))
+    });
+    let topics = TOPICS.iter().filter(|topic| topic.name == name || topic.words.contains(&name));
+    topics
+        .map(Subject::Topic)
+        .chain(
+            rows.filter(|(_, row)| row.name == name).map(|(table, row)| Subject::Row(table, row)),
+        )
+        .chain(catalog.built_ins_named(name).map(Subject::BuiltIn))
+        .chain(types.copied().map(Subject::Type))
+        .chain(constants.map(Subject::Constant))
+        .chain(options)
+        .chain(catalog.tables().filter(|table| table.name == name).map(Subject::Table))
+        .chain(
+            catalog
+                .built_in_tables()
+                .filter(|table| table.name.strip_suffix('s') == Some(name) || table.name == name)
+                .map(Subject::BuiltIns),
+        )
+        .chain(page_of(name).map(Subject::Module))
+        .chain(pages().iter().filter_map(|page| page.named(name)).map(Subject::ModuleFunction))
+        .collect()
+}
+
+/// All option keys that a row knows, those of nested maps included.
+fn keys(row: &'static Row) -> Vec<&'static Parameter> {
+    let mut found = Vec::new();
+    row.parameters.iter().for_each(|parameter| collect_keys(&parameter.kind, &mut found));
+    found
+}
+
+fn collect_keys(kind: &'static Kind, found: &mut Vec<&'static Parameter>) {
+    match kind {
+        Kind::Options(keys) => {
+            for key in *keys {
+                found.push(key);
+                collect_keys(&key.kind, found);
+            }
+        }
+        Kind::Either(kinds) => kinds.iter().for_each(|kind| collect_keys(kind, found)),
+        _ => (),
+    }
+}
+
+fn is_member(subject: Subject) -> bool {
+    matches!(subject, Subject::Row(..) | Subject::BuiltIn(_))
+}
+
+/// Whether it can be written after a dot behind a value of the type; functions of ours can, behind any.
+fn belongs_to(subject: Subject, owner: &str) -> bool {
+    match subject {
+        Subject::Row(_, row) => match row.form {
+            Form::Method(of) | Form::Property(of) => of.name() == owner,
+            Form::Function | Form::Operator => false,
+        },
+        Subject::BuiltIn(built_in) => built_in.is_of(owner),
+        _ => false,
+    }
+}

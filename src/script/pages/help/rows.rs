@@ -1,0 +1,113 @@
+//! The parts of a page that describe rows: signature, parameters, example.
+
+use super::page::{Page, Span};
+use crate::script::rows::built_in::BuiltIn;
+use crate::script::rows::kind::Kind;
+use crate::script::rows::parameter::{Parameter, Presence};
+use crate::script::rows::table::{Row, Table};
+
+/// Describes a row of ours.
+pub fn row(page: &mut Page, table: &Table, row: &Row) {
+    page.words(0, signature(&row.signature(), row.returns));
+    page.paragraph(row.summary);
+    if let Some(setter) = row.setter {
+        let [value] = setter.value;
+        page.words(0, [vec![Span::plain("It can be assigned: ")], expectation(value)].concat());
+    }
+    if !row.doc.is_empty() {
+        page.gap();
+        page.paragraph(row.doc);
+    }
+    if !row.parameters.is_empty() {
+        page.gap();
+        row.parameters.iter().for_each(|known| parameter(page, known, 2));
+    }
+    example(page, table.setup, row.example);
+    see(page, row.see);
+}
+
+/// Describes a function of Rhai.
+pub fn built_in(page: &mut Page, built_in: &BuiltIn) {
+    for form in built_in.forms {
+        page.words(0, signature(form, built_in.returns));
+    }
+    page.paragraph(built_in.summary);
+    if !built_in.doc.is_empty() {
+        page.gap();
+        page.paragraph(built_in.doc);
+    }
+    example(page, "", built_in.example);
+    see(page, built_in.see);
+}
+
+/// A script to copy, after the lines that it needs before it.
+pub fn example(page: &mut Page, setup: &str, script: &str) {
+    page.gap();
+    page.heading("Example");
+    if !setup.is_empty() {
+        page.code(setup);
+    }
+    page.code(script);
+}
+
+/// Where to read on.
+pub fn see(page: &mut Page, names: &[&str]) {
+    if !names.is_empty() {
+        page.gap();
+        page.words(0, vec![Span::plain(format!("See also {}.", names.join(", ")))]);
+    }
+}
+
+/// Describes a parameter or a key, and below it the keys of its map of options.
+pub fn parameter(page: &mut Page, parameter: &Parameter, indent: usize) {
+    let mut spans = vec![Span::name(parameter.name), Span::plain(": ")];
+    spans.extend(expectation(parameter));
+    if !parameter.doc.is_empty() {
+        spans.push(Span::plain(format!(", {}", parameter.doc)));
+    }
+    spans.push(Span::aside(presence(parameter.presence)));
+    page.words(indent, spans);
+    for keys in maps(&parameter.kind) {
+        for key in keys {
+            self::parameter(page, key, indent + 2);
+        }
+    }
+}
+
+/// What may be given, and its dimension.
+fn expectation(parameter: &Parameter) -> Vec<Span> {
+    let kind = Span::plain(parameter.kind.to_string());
+    match parameter.unit {
+        "" => vec![kind],
+        unit => vec![kind, Span::plain(" "), Span::aside(format!("[{unit}]"))],
+    }
+}
+
+/// What holds when a parameter is left out, to be put behind its description.
+pub fn presence(presence: Presence) -> String {
+    match presence {
+        Presence::Required => String::new(),
+        Presence::Optional => "; optional".to_owned(),
+        Presence::Number(default) => format!("; {default} unless given"),
+        Presence::Whole(default) => format!("; {default} unless given"),
+        Presence::Text(default) => format!("; \"{default}\" unless given"),
+        Presence::Boolean(default) => format!("; {default} unless given"),
+    }
+}
+
+/// The maps of options that a kind allows.
+pub fn maps(kind: &Kind) -> Vec<&'static [Parameter]> {
+    match kind {
+        Kind::Options(keys) => vec![*keys],
+        Kind::Either(kinds) => kinds.iter().flat_map(maps).collect(),
+        _ => Vec::new(),
+    }
+}
+
+fn signature(written: &str, returns: &str) -> Vec<Span> {
+    let mut spans = vec![Span::name(written)];
+    if !returns.is_empty() {
+        spans.push(Span::plain(format!(" → {returns}")));
+    }
+    spans
+}

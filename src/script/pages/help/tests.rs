@@ -1,0 +1,140 @@
+//! A few pages as they look, and what all pages keep.
+
+use super::page::broken;
+use super::{WIDTH, find, names, page};
+use crate::script::packages::language;
+use crate::script::source::lexing::tokens;
+
+fn shown(name: &str) -> String {
+    page(&language(), name).unwrap().plain(WIDTH)
+}
+
+#[test]
+fn a_function_has_its_signature_parameters_and_example() {
+    assert_eq!(
+        shown("round_to"),
+        "\
+round_to(x, digits) → a number
+x rounded to this many digits after the point.
+
+  x: a number
+  digits: a whole number from 0 to 15
+
+Example
+    check(round_to(PI, 2) == 3.14);
+
+See also round, fixed.
+"
+    );
+}
+
+#[test]
+fn a_function_of_rhai_has_all_its_forms() {
+    assert_eq!(
+        shown("sub_string"),
+        "\
+text.sub_string(start, [count]) → a text
+text.sub_string(range) → a text
+A piece of the text; without a count, all from start on.
+
+Example
+    check(\"spaghetti\".sub_string(0, 3) == \"spa\");
+    check(\"spaghetti\".sub_string(3..6) == \"ghe\");
+
+See also crop, split.
+"
+    );
+}
+
+#[test]
+fn constants_and_options_have_pages() {
+    assert!(shown("PI").starts_with("PI = 3.141592653589793\nHalf a turn"), "{}", shown("PI"));
+    let density = shown("rho_A");
+    assert!(density.contains("section.rho_A"), "{density}");
+    assert!(
+        density.contains("An option of section(options):\n  rho_A: a number [mass/length]"),
+        "{density}"
+    );
+}
+
+#[test]
+fn methods_are_found_by_type_by_variable_and_alone() {
+    let page = shown("simulation.run_to");
+    assert!(page.starts_with("simulation.run_to(t)\n"), "{page}");
+    assert_eq!(shown("run_to"), page);
+    assert_eq!(shown("sim.run_to()"), page);
+    let simulation = shown("simulation");
+    assert!(simulation.contains("\n  simulation.run_to(t): Steps until a time"), "{simulation}");
+    assert!(simulation.contains("It comes from"), "{simulation}");
+    assert!(simulation.contains("scene.start(options)"), "{simulation}");
+    let end = shown("range.end");
+    assert!(end.contains("range.end") && !end.contains("beam"), "{end}");
+    assert!(shown("end").contains("beam.end"), "{}", shown("end"));
+}
+
+#[test]
+fn a_property_says_what_may_be_assigned() {
+    assert!(shown("vector.x").contains("It can be assigned: a number"), "{}", shown("vector.x"));
+}
+
+#[test]
+fn domains_and_words_of_the_language_have_pages() {
+    assert!(shown("loads").contains("\n  scene.force("), "{}", shown("loads"));
+    assert!(shown("arrays").contains("array.push(value): Adds"), "{}", shown("arrays"));
+    assert!(shown("while").starts_with("The language: loops\n"), "{}", shown("while"));
+    assert!(shown("**").starts_with("The language: operators\n"), "{}", shown("**"));
+    assert!(shown("").starts_with("Help\n"), "{}", shown(""));
+}
+
+#[test]
+fn unknown_names_get_suggestions() {
+    let unknown = |name: &str| page(&language(), name).unwrap_err();
+    assert_eq!(unknown("slidr").meant, Some("slider"));
+    assert_eq!(unknown("slidr").to_string(), "there is no help on 'slidr'");
+    assert_eq!(unknown("slidr").hint(), "did you mean 'slider'?");
+    assert!(unknown("friction").mentions.contains(&"sliding joints"), "{:?}", unknown("friction"));
+    assert_eq!(unknown("zzzzzz").hint(), "help() lists what there is");
+}
+
+#[test]
+fn every_name_has_a_page_that_fits() {
+    let catalog = language();
+    let names = names(&catalog);
+    assert!(names.len() > 300, "{}", names.len());
+    for name in names {
+        assert!(!find(&catalog, name).is_empty(), "{name}");
+        for width in [WIDTH, 60] {
+            for line in page(&catalog, name).unwrap().plain(width).lines() {
+                // A text within a script cannot be broken.
+                let is_code = width < WIDTH && line.starts_with("    ");
+                assert!(line.chars().count() <= width || is_code, "{name}: {line}");
+            }
+        }
+    }
+}
+
+#[test]
+fn broken_examples_are_the_same_scripts() {
+    let catalog = language();
+    let rows = catalog.tables().flat_map(|table| {
+        table.rows.iter().map(|row| row.example).chain(std::iter::once(table.setup))
+    });
+    let examples = rows.chain(catalog.built_ins().map(|known| known.example));
+    for example in examples {
+        let broken: Vec<String> = example.lines().flat_map(|line| broken(line, 40)).collect();
+        let words =
+            |text: &str| tokens(text).into_iter().map(|(token, _)| token).collect::<Vec<_>>();
+        assert_eq!(words(&broken.join("\n")), words(example));
+    }
+}
+
+#[test]
+fn colours_change_nothing_but_the_look() {
+    let page = page(&language(), "section").unwrap();
+    let ansi = page.ansi(WIDTH);
+    assert!(ansi.contains("\u{1b}[2m[mass/length]\u{1b}[0m"), "{ansi}");
+    let bare = ["\u{1b}[0m", "\u{1b}[1m", "\u{1b}[2m"]
+        .iter()
+        .fold(ansi, |text, code| text.replace(code, ""));
+    assert_eq!(bare, page.plain(WIDTH));
+}

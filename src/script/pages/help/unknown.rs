@@ -1,0 +1,97 @@
+//! A name that nothing is known of: what may have been meant.
+
+use std::fmt;
+
+use super::find::names;
+use crate::script::diagnose::elsewhere::{self, Elsewhere};
+use crate::script::rows::catalog::Catalog;
+use crate::script::rows::topics::TOPICS;
+use crate::script::words::suggest::{nearest, related};
+
+/// How many places that mention a word are told.
+const MOST_MENTIONS: usize = 8;
+
+/// A name without help.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unknown {
+    /// The name.
+    pub name: String,
+    /// The nearest name that has help.
+    pub meant: Option<&'static str>,
+    /// What is written here for a word of other programs.
+    pub elsewhere: Option<&'static Elsewhere>,
+    /// Names of which the word is a part.
+    pub related: Vec<&'static str>,
+    /// Names whose help mentions the word.
+    pub mentions: Vec<&'static str>,
+}
+
+impl Unknown {
+    /// Looks for what may have been meant by `name`.
+    pub fn new(catalog: &Catalog, name: &str) -> Self {
+        let known = names(catalog);
+        let elsewhere = elsewhere::find(name);
+        let related = related(name, known.iter().copied());
+        // A word that is known is not misspelt.
+        let is_known = elsewhere.is_some() || !related.is_empty();
+        let meant = if is_known { None } else { nearest(name, known) };
+        Self { name: name.to_owned(), meant, elsewhere, related, mentions: mentions(catalog, name) }
+    }
+
+    /// What to do about it.
+    pub fn hint(&self) -> String {
+        let elsewhere = self.elsewhere.map(Elsewhere::told);
+        let related = (elsewhere.is_none() && !self.related.is_empty())
+            .then(|| format!("there is {}", self.related.join(", ")));
+        let meant = self.meant.map(|near| format!("did you mean '{near}'?"));
+        let mentions = (elsewhere.is_none() && !self.mentions.is_empty()).then(|| {
+            format!("'{}' is mentioned in the help of {}", self.name, self.mentions.join(", "))
+        });
+        let told: Vec<String> =
+            [elsewhere, related, meant, mentions].into_iter().flatten().collect();
+        match told.is_empty() {
+            true => "help() lists what there is".into(),
+            false => told.join("\n"),
+        }
+    }
+
+    /// Whether nothing is known that could have been meant.
+    pub fn is_strange(&self) -> bool {
+        self.elsewhere.is_none()
+            && self.related.is_empty()
+            && self.meant.is_none()
+            && self.mentions.is_empty()
+    }
+}
+
+impl fmt::Display for Unknown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "there is no help on '{}'", self.name)
+    }
+}
+
+fn mentions(catalog: &Catalog, word: &str) -> Vec<&'static str> {
+    let word = word.trim().to_lowercase();
+    // A letter or two would be found nearly everywhere.
+    if word.chars().count() < 3 {
+        return Vec::new();
+    }
+    let is_in = |text: &str| text.to_lowercase().contains(&word);
+    let topics = TOPICS.iter().filter(|topic| is_in(topic.summary) || is_in(topic.doc));
+    let rows = catalog.rows().filter(|row| is_in(row.summary) || is_in(row.doc));
+    let built_ins = catalog.built_ins().filter(|known| is_in(known.summary) || is_in(known.doc));
+    let tables = catalog.tables().filter(|table| is_in(table.doc));
+    let mut found = Vec::new();
+    for name in rows
+        .map(|row| row.name)
+        .chain(built_ins.map(|known| known.name()))
+        .chain(topics.map(|topic| topic.name))
+        .chain(tables.map(|table| table.name))
+    {
+        if !found.contains(&name) {
+            found.push(name);
+        }
+    }
+    found.truncate(MOST_MENTIONS);
+    found
+}

@@ -1,0 +1,133 @@
+//! Reading accepted values by name: the same for the arguments of a call and for the keys of an option map.
+
+use rhai::{Array, Dynamic, FnPtr, INT, ImmutableString};
+
+use super::kind::Kind;
+use super::options::Options;
+use super::parameter::Parameter;
+use crate::geometry::Vec2;
+use crate::script::words::error::ScriptError;
+
+/// Values that were checked against their parameters; what was left out holds its default, if it has one.
+#[derive(Clone)]
+pub struct Arguments {
+    parameters: &'static [Parameter],
+    values: Vec<Option<Dynamic>>,
+}
+
+impl Arguments {
+    /// Pairs each parameter with its accepted value; `values` shorter than `parameters` are filled up.
+    pub(super) fn new(parameters: &'static [Parameter], mut values: Vec<Option<Dynamic>>) -> Self {
+        values.resize(parameters.len(), None);
+        for (parameter, value) in parameters.iter().zip(&mut values) {
+            if value.is_none() {
+                *value = parameter.default_value();
+            }
+        }
+        Self { parameters, values }
+    }
+
+    /// Whether there is a value, given or by default.
+    pub fn has(&self, name: &str) -> bool {
+        self.find(name).is_ok()
+    }
+
+    /// A number.
+    pub fn number(&self, name: &str) -> Result<f64, ScriptError> {
+        self.find(name)?.as_float().map_err(|held| wrong_read(name, held))
+    }
+
+    /// A number, if there is one.
+    pub fn number_if_given(&self, name: &str) -> Option<f64> {
+        self.number(name).ok()
+    }
+
+    /// A whole number.
+    pub fn whole(&self, name: &str) -> Result<INT, ScriptError> {
+        self.find(name)?.as_int().map_err(|held| wrong_read(name, held))
+    }
+
+    /// A whole number that counts something; its row must keep it from being negative.
+    pub fn count(&self, name: &str) -> Result<usize, ScriptError> {
+        usize::try_from(self.whole(name)?).map_err(|_| wrong_read(name, "a negative number"))
+    }
+
+    /// A text.
+    pub fn text(&self, name: &str) -> Result<ImmutableString, ScriptError> {
+        self.find(name)?.clone().into_immutable_string().map_err(|held| wrong_read(name, held))
+    }
+
+    /// A truth value.
+    pub fn boolean(&self, name: &str) -> Result<bool, ScriptError> {
+        self.find(name)?.as_bool().map_err(|held| wrong_read(name, held))
+    }
+
+    /// A point or vector.
+    pub fn point(&self, name: &str) -> Result<Vec2, ScriptError> {
+        self.get(name)
+    }
+
+    /// An array of anything.
+    pub fn array(&self, name: &str) -> Result<Array, ScriptError> {
+        self.get(name)
+    }
+
+    /// An array of numbers.
+    pub fn numbers(&self, name: &str) -> Result<Vec<f64>, ScriptError> {
+        self.get(name)
+    }
+
+    /// An array of points.
+    pub fn points(&self, name: &str) -> Result<Vec<Vec2>, ScriptError> {
+        self.get(name)
+    }
+
+    /// A script function, to be called back with [`Call::invoke`](super::call::Call::invoke).
+    pub fn callback(&self, name: &str) -> Result<FnPtr, ScriptError> {
+        self.get(name)
+    }
+
+    /// A map of options.
+    pub fn options(&self, name: &str) -> Result<Options, ScriptError> {
+        self.get(name)
+    }
+
+    /// A map of options that may be left out: then all of its keys have their defaults.
+    pub fn options_or_defaults(&self, name: &str) -> Result<Options, ScriptError> {
+        match self.parameters.iter().find(|parameter| parameter.name == name) {
+            Some(Parameter { kind: Kind::Options(keys), .. }) if !self.has(name) => {
+                Ok(Options::defaults(keys))
+            }
+            _ => self.options(name),
+        }
+    }
+
+    /// A value of a native type; handles are cloned, which is cheap.
+    pub fn get<T: Clone + 'static>(&self, name: &str) -> Result<T, ScriptError> {
+        self.find(name)?.clone().try_cast().ok_or_else(|| wrong_read(name, "another type"))
+    }
+
+    /// A value of a native type, if it is there and of that type: for parameters of either kind.
+    pub fn get_if<T: Clone + 'static>(&self, name: &str) -> Option<T> {
+        self.find(name).ok()?.clone().try_cast()
+    }
+
+    /// Whatever was given.
+    pub fn value(&self, name: &str) -> Result<Dynamic, ScriptError> {
+        self.find(name).cloned()
+    }
+
+    fn find(&self, name: &str) -> Result<&Dynamic, ScriptError> {
+        let index = self.parameters.iter().position(|parameter| parameter.name == name);
+        index.and_then(|index| self.values.get(index)?.as_ref()).ok_or_else(|| {
+            ScriptError::bug(format!("a body reads '{name}', which its row does not promise"))
+        })
+    }
+}
+
+/// A body and its row disagree: our mistake, not the script's.
+fn wrong_read(name: &str, held: &str) -> ScriptError {
+    ScriptError::bug(format!(
+        "a body reads '{name}' as something else than its row says; it holds {held}"
+    ))
+}

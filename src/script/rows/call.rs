@@ -1,0 +1,179 @@
+//! What a native body sees: its arguments by name, the receiver, the context, and a way to call back.
+
+use std::ops::Deref;
+
+use rhai::{AST, Dynamic, FnPtr, NativeCallContext};
+
+use super::accept::accept_described;
+use super::arguments::Arguments;
+use super::kind::Kind;
+use super::sources::Sources;
+use super::stored::StoredFunction;
+use super::table::Row;
+use crate::script::state::context::Context;
+use crate::script::words::error::ScriptError;
+use crate::script::words::numbers::{as_number, describe};
+
+/// One call of a row, in progress.
+pub struct Call<'c, 'r> {
+    row: &'static Row,
+    context: &'c Context,
+    native: &'c NativeCallContext<'c>,
+    receiver: Option<&'r mut Dynamic>,
+    arguments: Arguments,
+}
+
+/// Arguments are read straight from the call: `call.number("dt")`.
+impl Deref for Call<'_, '_> {
+    type Target = Arguments;
+
+    fn deref(&self) -> &Arguments {
+        &self.arguments
+    }
+}
+
+impl<'c, 'r> Call<'c, 'r> {
+    pub(super) fn new(
+        row: &'static Row,
+        context: &'c Context,
+        native: &'c NativeCallContext<'c>,
+        receiver: Option<&'r mut Dynamic>,
+        arguments: Arguments,
+    ) -> Self {
+        Self { row, context, native, receiver, arguments }
+    }
+
+    /// What all calls of a run share: output folder, mode, checks, progress.
+    pub fn context(&self) -> &'c Context {
+        self.context
+    }
+
+    /// The value whose method or property this is. Handles are cloned, which is cheap.
+    pub fn receiver<T: Clone + 'static>(&self) -> Result<T, ScriptError> {
+        let receiver = self
+            .receiver
+            .as_ref()
+            .and_then(|value| value.read_lock::<T>().map(|held| held.clone()));
+        receiver.ok_or_else(|| {
+            ScriptError::bug(format!("'{}' has no receiver of its type", self.row.name))
+        })
+    }
+
+    /// Changes the value whose method or property this is.
+    pub fn change_receiver<T: Clone + 'static>(
+        &mut self,
+        change: impl FnOnce(&mut T),
+    ) -> Result<(), ScriptError> {
+        let name = self.row.name;
+        let receiver = self.receiver.as_mut().and_then(|value| value.write_lock::<T>());
+        let mut receiver = receiver
+            .ok_or_else(|| ScriptError::bug(format!("'{name}' has no receiver of its type")))?;
+        change(&mut receiver);
+        Ok(())
+    }
+
+    /// The line of the script that calls, from 1; for a call by the standard library, the line that called the library.
+    pub fn line(&self) -> usize {
+        let entered = Sources::of(self.native.engine())
+            .entered_at(self.native.global_runtime_state().source());
+        entered.or(self.native.call_position().line()).unwrap_or(0)
+    }
+
+    /// Calls a script function back. Its own errors, positions and trace stay as they are.
+    pub fn invoke(
+        &self,
+        function: &FnPtr,
+        arguments: impl AsMut<[Dynamic]>,
+    ) -> Result<Dynamic, ScriptError> {
+        self.proceed()?;
+        function.call_raw(self.native, None, arguments).map_err(ScriptError::Engine)
+    }
+
+    /// Calls a script function back for a finite number; `role` says what the function stands for, such as `load`.
+    pub fn invoke_for_number(
+        &self,
+        function: &FnPtr,
+        arguments: impl AsMut<[Dynamic]>,
+        role: &str,
+    ) -> Result<f64, ScriptError> {
+        let value = self.invoke(function, arguments)?;
+        as_number(&value).filter(|x| x.is_finite()).ok_or_else(|| {
+            let got = self.describe(&value);
+            ScriptError::new(format!(
+                "{}: the {role} must give a finite number, got {got}",
+                self.row.name
+            ))
+            .hint("the last expression of a function is what it gives")
+        })
+    }
+
+    /// Refuses a script function that takes another number of arguments; `shape` shows the right one.
+    pub fn expect_arguments(
+        &self,
+        function: &FnPtr,
+        count: usize,
+        shape: &str,
+    ) -> Result<(), ScriptError> {
+        let libraries = &self.native.global_runtime_state().lib;
+        let known = libraries.iter().find_map(|library| {
+            let library = AST::new_from_module(library.clone());
+            let mut functions = library.iter_functions();
+            functions.find(|known| known.name == function.fn_name()).map(|known| known.params.len())
+        });
+        let given = known.map(|parameters| parameters.saturating_sub(function.curry().len()));
+        match given {
+            Some(given) if given != count => {
+                let plural = if given == 1 { "" } else { "s" };
+                Err(self
+                    .error(format!(
+                        "the function takes {given} argument{plural}, but is called with {count}"
+                    ))
+                    .hint(format!("write {shape}")))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Keeps a script function for later calls; `role` names it in messages.
+    pub fn store(&self, function: FnPtr, role: &str) -> StoredFunction {
+        StoredFunction::new(function, self.native, self.context, role.to_owned())
+    }
+
+    /// Refuses to go on when the run was interrupted; long native loops ask once in every step.
+    pub fn proceed(&self) -> Result<(), ScriptError> {
+        self.context.proceed()
+    }
+
+    /// `value` for a parameter of a script's own function: a kind, and the words of the script for it.
+    pub fn accept(
+        &self,
+        owner: &str,
+        name: &str,
+        wanted: (&Kind, &str),
+        value: Dynamic,
+    ) -> Result<Dynamic, ScriptError> {
+        accept_described(self.native.engine(), owner, name, wanted, value)
+    }
+
+    /// An error that begins with the name of the row, as all errors about a call do.
+    pub fn error(&self, what: impl std::fmt::Display) -> ScriptError {
+        ScriptError::new(format!("{}: {what}", self.row.name))
+    }
+
+    /// `value` in the words of a message.
+    pub fn describe(&self, value: &Dynamic) -> String {
+        describe(self.native.engine(), value)
+    }
+
+    /// The name of the type of `value`.
+    pub fn type_of(&self, value: &Dynamic) -> String {
+        self.native.engine().map_type_name(value.type_name()).to_owned()
+    }
+
+    /// `value` as the script would print it.
+    pub fn show(&self, value: &Dynamic) -> String {
+        let mut value = value.clone();
+        let shown = self.native.call_native_fn_raw("to_debug", true, &mut [&mut value]);
+        shown.map_or_else(|_| value.to_string(), |text| text.to_string())
+    }
+}

@@ -1,0 +1,82 @@
+//! All tables of a language together: what is known under which name, for messages, help and completion.
+
+use super::built_in::{BuiltIn, BuiltInTable};
+use super::builtins;
+use super::kind::Type;
+use super::table::{Form, Row, Table};
+
+/// The tables that make up a language.
+#[derive(Clone)]
+pub struct Catalog {
+    tables: Vec<&'static Table>,
+    built_ins: &'static [&'static BuiltInTable],
+}
+
+impl Catalog {
+    /// A language of these domains, on what is taken over from Rhai.
+    pub fn of(tables: &[&'static Table]) -> Self {
+        Self { tables: tables.to_vec(), built_ins: builtins::TABLES }
+    }
+
+    /// The same with one more table.
+    #[must_use]
+    pub fn and(mut self, table: &'static Table) -> Self {
+        self.tables.push(table);
+        self
+    }
+
+    /// Its tables, in the order of the reference.
+    pub fn tables(&self) -> impl Iterator<Item = &'static Table> {
+        self.tables.iter().copied()
+    }
+
+    /// All rows.
+    pub fn rows(&self) -> impl Iterator<Item = &'static Row> {
+        self.tables().flat_map(|table| table.rows)
+    }
+
+    /// The rows with this name: several when types share a method name.
+    pub fn named<'a>(&self, name: &'a str) -> impl Iterator<Item = &'static Row> + use<'a, '_> {
+        self.rows().filter(move |row| row.name == name)
+    }
+
+    /// Names that can be called as functions.
+    pub fn function_names(&self) -> impl Iterator<Item = &'static str> {
+        self.rows().filter(|row| matches!(row.form, Form::Function)).map(|row| row.name)
+    }
+
+    /// The type with this display name.
+    pub fn type_named(&self, name: &str) -> Option<Type> {
+        self.tables().flat_map(|table| table.types).find(|of| of.name() == name).copied()
+    }
+
+    /// Methods and properties of a type.
+    pub fn members(&self, of: &str) -> Vec<&'static Row> {
+        self.rows()
+            .filter(|row| row.receiver().is_some_and(|receiver| receiver.name() == of))
+            .collect()
+    }
+
+    /// Names with a fixed value.
+    pub fn constants(&self) -> impl Iterator<Item = &str> {
+        self.tables().flat_map(|table| table.constants).map(|constant| constant.name)
+    }
+
+    /// What it takes over from Rhai, in the order of the reference.
+    pub fn built_in_tables(&self) -> impl Iterator<Item = &'static BuiltInTable> {
+        self.built_ins.iter().copied()
+    }
+
+    /// The functions of Rhai.
+    pub fn built_ins(&self) -> impl Iterator<Item = &'static BuiltIn> {
+        self.built_in_tables().flat_map(|table| table.rows)
+    }
+
+    /// The functions of Rhai with this name.
+    pub fn built_ins_named<'a>(
+        &self,
+        name: &'a str,
+    ) -> impl Iterator<Item = &'static BuiltIn> + use<'a, '_> {
+        self.built_ins().filter(move |built_in| built_in.name() == name)
+    }
+}

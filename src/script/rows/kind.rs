@@ -1,0 +1,244 @@
+//! What a parameter may be: the kinds of values, their words in messages, their ranges.
+
+use std::any::TypeId;
+use std::fmt;
+
+use rhai::{Dynamic, Engine};
+
+use super::parameter::Parameter;
+use crate::script::words::nouns::with_article;
+
+/// A native type that scripts can hold.
+pub trait Scripted: Clone + 'static {
+    /// Its name in messages and help: one or two words.
+    const NAME: &'static str;
+    /// One line on what it is.
+    const DOC: &'static str;
+    /// How it is printed.
+    fn show(&self) -> String;
+
+    /// What a person wants to know at a glance besides: labels and values, at most a dozen.
+    fn details(&self) -> Details {
+        Details::new()
+    }
+
+    /// Why it cannot be used now, if so: a native call that calls a script function back may be at work on it.
+    fn is_busy(&self) -> Option<String> {
+        None
+    }
+}
+
+/// Labels and values, set as aligned lines.
+pub type Details = Vec<(String, String)>;
+
+/// A [`Scripted`] type as a value, for rows.
+#[derive(Clone, Copy)]
+pub struct Type {
+    name: &'static str,
+    doc: &'static str,
+    id: fn() -> TypeId,
+    register: fn(&mut Engine),
+    show: fn(&Dynamic) -> Option<String>,
+    details: fn(&Dynamic) -> Option<Details>,
+    busy: fn(&Dynamic) -> Option<String>,
+}
+
+impl Type {
+    /// The type `T`.
+    pub const fn of<T: Scripted>() -> Self {
+        Self {
+            name: T::NAME,
+            doc: T::DOC,
+            id: TypeId::of::<T>,
+            register: register::<T>,
+            show: |value| value.read_lock::<T>().map(|held| held.show()),
+            details: |value| value.read_lock::<T>().map(|held| held.details()),
+            busy: |value| value.read_lock::<T>().and_then(|value| value.is_busy()),
+        }
+    }
+
+    /// Its name in scripts.
+    pub const fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// What it is.
+    pub const fn doc(&self) -> &'static str {
+        self.doc
+    }
+
+    /// Its identity.
+    pub fn id(&self) -> TypeId {
+        (self.id)()
+    }
+
+    /// How a value is printed, if it is one of this type.
+    pub fn show(&self, value: &Dynamic) -> Option<String> {
+        (self.show)(value)
+    }
+
+    /// What there is to know about a value besides, if it is one of this type.
+    pub fn details(&self, value: &Dynamic) -> Option<Details> {
+        (self.details)(value)
+    }
+
+    /// What says why a value cannot be used now, if it is of this type and busy.
+    pub fn busy(&self) -> fn(&Dynamic) -> Option<String> {
+        self.busy
+    }
+
+    /// Gives it a name and a printed form in the engine.
+    pub fn register(&self, engine: &mut Engine) {
+        (self.register)(engine);
+    }
+}
+
+fn register<T: Scripted>(engine: &mut Engine) {
+    engine.register_type_with_name::<T>(T::NAME);
+    for name in ["to_string", "to_debug"] {
+        engine.register_fn(name, |value: &mut T| value.show());
+    }
+}
+
+/// What may be given for a parameter.
+#[derive(Clone, Copy)]
+pub enum Kind {
+    /// A number; whole numbers are welcome.
+    Number(Range),
+    /// Any number, left whole if it is whole; infinite and not-a-number included.
+    Numeric,
+    /// A whole number; a number without a fraction, such as `3.0`, is welcome.
+    Whole(Range),
+    /// A text.
+    Text,
+    /// A text that people can read in tables, and type.
+    Name,
+    /// One of these texts.
+    Choice(&'static [&'static str]),
+    /// `true` or `false`.
+    Boolean,
+    /// A vector or an array `[x, y]`.
+    Point,
+    /// An array of anything.
+    Array,
+    /// An array of finite numbers.
+    Numbers,
+    /// An array of points.
+    Points,
+    /// A function or closure.
+    Function,
+    /// A map of options with these keys.
+    Options(&'static [Parameter]),
+    /// A value of one of our types.
+    Object(Type),
+    /// One of these, tried in order.
+    Either(&'static [Kind]),
+    /// Anything.
+    Anything,
+}
+
+/// Which numbers are allowed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Range {
+    /// Any finite number.
+    Finite,
+    /// Greater than zero.
+    Positive,
+    /// Zero or greater.
+    NonNegative,
+    /// At least this.
+    AtLeast(f64),
+    /// From the first to the second, both included.
+    Between(f64, f64),
+    /// Infinite and not-a-number included.
+    Unlimited,
+}
+
+impl Range {
+    /// Whether `x` is allowed.
+    pub fn contains(self, x: f64) -> bool {
+        let bounded = match self {
+            Self::Unlimited => return true,
+            Self::Finite => true,
+            Self::Positive => x > 0.0,
+            Self::NonNegative => x >= 0.0,
+            Self::AtLeast(least) => x >= least,
+            Self::Between(least, most) => (least..=most).contains(&x),
+        };
+        x.is_finite() && bounded
+    }
+
+    /// The phrase for a number of this range, around the `noun` for it.
+    fn phrase(self, noun: &str) -> String {
+        match self {
+            Self::Finite | Self::Unlimited => format!("a {noun}"),
+            Self::Positive => format!("a positive {noun}"),
+            Self::NonNegative => format!("a {noun} of zero or more"),
+            Self::AtLeast(least) => format!("a {noun} of at least {least}"),
+            Self::Between(least, most) => format!("a {noun} from {least} to {most}"),
+        }
+    }
+}
+
+impl Kind {
+    /// Whether values of this type can be meant, whatever they hold.
+    pub fn takes(&self, type_name: &str) -> bool {
+        match self {
+            Self::Number(_) | Self::Whole(_) | Self::Numeric => {
+                matches!(type_name, "number" | "whole number")
+            }
+            Self::Text | Self::Name | Self::Choice(_) => type_name == "text",
+            Self::Boolean => type_name == "truth value",
+            Self::Point => matches!(type_name, "vector" | "array"),
+            Self::Array | Self::Numbers | Self::Points => type_name == "array",
+            Self::Function => type_name == "function",
+            Self::Options(_) => type_name == "map",
+            Self::Object(of) => of.name() == type_name,
+            Self::Either(kinds) => kinds.iter().any(|kind| kind.takes(type_name)),
+            Self::Anything => true,
+        }
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(range) => f.write_str(&range.phrase("number")),
+            Self::Whole(range) => f.write_str(&range.phrase("whole number")),
+            Self::Numeric => f.write_str("a number"),
+            Self::Text | Self::Name => f.write_str("a text"),
+            Self::Choice(allowed) => {
+                let quoted: Vec<_> = allowed.iter().map(|text| format!("\"{text}\"")).collect();
+                write!(f, "one of {}", quoted.join(", "))
+            }
+            Self::Boolean => f.write_str("true or false"),
+            Self::Point => f.write_str("a point [x, y]"),
+            Self::Array => f.write_str("an array"),
+            Self::Numbers => f.write_str("an array of numbers"),
+            Self::Points => f.write_str("an array of points [x, y]"),
+            Self::Function => f.write_str("a function such as |t| 2 * t"),
+            Self::Options(_) => f.write_str("a map of options #{ … }"),
+            Self::Object(of) => f.write_str(&with_article(of.name())),
+            Self::Either(kinds) => {
+                let words: Vec<_> = kinds.iter().map(Kind::to_string).collect();
+                f.write_str(&words.join(" or "))
+            }
+            Self::Anything => f.write_str("a value"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_refuse_what_is_not_finite() {
+        for range in [Range::Finite, Range::Positive, Range::NonNegative, Range::AtLeast(1.0)] {
+            assert!(!range.contains(f64::NAN) && !range.contains(f64::INFINITY), "{range:?}");
+        }
+        assert!(Range::Unlimited.contains(f64::NAN));
+        assert!(Range::Between(0.0, 1.0).contains(1.0));
+        assert!(!Range::Positive.contains(0.0));
+    }
+}

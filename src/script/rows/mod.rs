@@ -1,0 +1,17 @@
+//! What a domain declares and how it is called: tables of rows, kinds and parameters, and from a row to a checked native call.
+
+pub mod accept;
+pub mod arguments;
+pub mod built_in;
+pub mod builtins;
+pub mod call;
+pub mod catalog;
+pub mod instead;
+pub mod kind;
+pub mod options;
+pub mod parameter;
+pub mod register;
+pub mod sources;
+pub mod stored;
+pub mod table;
+pub mod topics;

@@ -1,0 +1,183 @@
+//! From rows to registered functions: every row passes through `perform`, which counts, converts and checks.
+
+use std::any::TypeId;
+
+use rhai::{Array, Dynamic, Engine, INT, ImmutableString, NativeCallContext};
+
+use super::accept::{accept, blame_argument};
+use super::arguments::Arguments;
+use super::call::Call;
+use super::kind::{Kind, Type};
+use super::parameter::Parameter;
+use super::table::{Body, Form, Row, Table};
+use crate::geometry::Vec2;
+use crate::script::state::context::Context;
+use crate::script::words::error::ScriptError;
+
+/// Registers the types and rows of `table`.
+pub fn register(engine: &mut Engine, table: &'static Table, context: &Context) {
+    for of in table.types {
+        of.register(engine);
+        context.know(of.busy());
+    }
+    for row in table.rows {
+        register_row(engine, row, context);
+    }
+}
+
+fn register_row(engine: &mut Engine, row: &'static Row, context: &Context) {
+    match row.form {
+        Form::Function => {
+            for count in row.required()..=row.parameters.len() {
+                let types = vec![TypeId::of::<Dynamic>(); count];
+                add(engine, row.name.into(), types, Binding::of(row, context));
+            }
+            for types in numbers_only(row.parameters) {
+                add(engine, row.name.into(), types, Binding::of(row, context));
+            }
+        }
+        Form::Method(of) => {
+            for count in row.required()..=row.parameters.len() {
+                let types = with_receiver(of, count);
+                add(engine, row.name.into(), types, Binding::of(row, context));
+            }
+        }
+        Form::Property(of) => {
+            let getter = format!("get${}", row.name);
+            add(engine, getter, with_receiver(of, 0), Binding::of(row, context));
+            if let Some(setter) = row.setter {
+                let name = format!("set${}", row.name);
+                let binding = Binding {
+                    parameters: setter.value,
+                    body: setter.body,
+                    ..Binding::of(row, context)
+                };
+                add(engine, name, with_receiver(of, 1), binding);
+            }
+        }
+        Form::Operator => {
+            for types in operand_types(row.parameters) {
+                add(engine, row.name.into(), types, Binding::of(row, context));
+            }
+        }
+    }
+}
+
+fn with_receiver(of: Type, count: usize) -> Vec<TypeId> {
+    std::iter::once(of.id()).chain(std::iter::repeat_n(TypeId::of::<Dynamic>(), count)).collect()
+}
+
+/// The exact types of a function of numbers alone: Rhai has some of its own by these names, and ours must win.
+fn numbers_only(parameters: &[Parameter]) -> Vec<Vec<TypeId>> {
+    let numeric = |parameter: &Parameter| matches!(parameter.kind, Kind::Number(_) | Kind::Numeric);
+    match parameters.iter().all(numeric) {
+        true => combinations(parameters),
+        false => vec![],
+    }
+}
+
+/// All combinations of exact types that an operator row stands for; those of built-in types alone stay the engine's.
+fn operand_types(operands: &[Parameter]) -> Vec<Vec<TypeId>> {
+    let built_in = [
+        TypeId::of::<f64>(),
+        TypeId::of::<INT>(),
+        TypeId::of::<Array>(),
+        TypeId::of::<ImmutableString>(),
+    ];
+    let mut combinations = combinations(operands);
+    combinations.retain(|types| types.iter().any(|id| !built_in.contains(id)));
+    combinations
+}
+
+fn combinations(parameters: &[Parameter]) -> Vec<Vec<TypeId>> {
+    parameters.iter().fold(vec![vec![]], |combinations, parameter| {
+        let types = exact_types(&parameter.kind);
+        let longer = |left: Vec<TypeId>| {
+            types.iter().map(|id| [left.as_slice(), &[*id]].concat()).collect::<Vec<_>>()
+        };
+        combinations.into_iter().flat_map(longer).collect()
+    })
+}
+
+fn exact_types(kind: &Kind) -> Vec<TypeId> {
+    match kind {
+        Kind::Number(_) | Kind::Numeric => vec![TypeId::of::<f64>(), TypeId::of::<INT>()],
+        Kind::Whole(_) => vec![TypeId::of::<INT>()],
+        Kind::Text | Kind::Name | Kind::Choice(_) => vec![TypeId::of::<ImmutableString>()],
+        Kind::Boolean => vec![TypeId::of::<bool>()],
+        Kind::Point => vec![TypeId::of::<Vec2>(), TypeId::of::<Array>()],
+        Kind::Array | Kind::Numbers | Kind::Points => vec![TypeId::of::<Array>()],
+        Kind::Object(of) => vec![of.id()],
+        Kind::Either(kinds) => kinds.iter().flat_map(exact_types).collect(),
+        Kind::Function | Kind::Options(_) | Kind::Anything => vec![],
+    }
+}
+
+/// A row as one registered function: a property has two of them.
+#[derive(Clone)]
+struct Binding {
+    row: &'static Row,
+    parameters: &'static [Parameter],
+    body: Body,
+    context: Context,
+}
+
+impl Binding {
+    fn of(row: &'static Row, context: &Context) -> Self {
+        Self { row, parameters: row.parameters, body: row.body, context: context.clone() }
+    }
+}
+
+fn add(engine: &mut Engine, name: String, types: Vec<TypeId>, binding: Binding) {
+    engine.register_raw_fn(name, types, move |native, values| {
+        let position = native.call_position();
+        perform(&binding, &native, values).map_err(|error| error.into_engine(position))
+    });
+}
+
+fn perform(
+    binding: &Binding,
+    native: &NativeCallContext,
+    values: &mut [&mut Dynamic],
+) -> Result<Dynamic, ScriptError> {
+    let Binding { row, parameters, body, context } = binding;
+    context.enter(native.global_runtime_state().level);
+    if context.is_calling_back() {
+        refuse_busy(row, context, values)?;
+    }
+    let (receiver, given) = match (row.receiver(), values) {
+        (Some(_), [receiver, given @ ..]) => (Some(&mut **receiver), given),
+        (_, given) => (None, given),
+    };
+    let accepted = parameters
+        .iter()
+        .zip(given)
+        .enumerate()
+        .map(|(number, (parameter, value))| {
+            // Cloned, not taken: the first value may be the script's own variable.
+            let value = value.clone().flatten();
+            accept(native.engine(), row.name, parameter, value)
+                .map(Some)
+                .map_err(|error| blame_argument(error, number))
+        })
+        .collect::<Result<_, _>>()?;
+    body(&mut Call::new(row, context, native, receiver, Arguments::new(parameters, accepted)))
+}
+
+/// What to do in the place of a load that reads a simulation in the middle of a step.
+pub const STEERED: &str = "a load is a function of its argument, the time; one that depends on the motion reads a variable that is set \
+    between steps: let u = 0.0; scene.force(station, [1, 0], |t| u); then u = … before each sim.step()";
+
+/// Refuses values that the native call which has called back is at work on; arrays are looked into.
+fn refuse_busy(row: &Row, context: &Context, values: &[&mut Dynamic]) -> Result<(), ScriptError> {
+    let is_ours = |value: &Dynamic| !(value.is_float() || value.is_int() || value.is_string());
+    for value in values.iter().map(|value| &**value).filter(|value| is_ours(value)) {
+        let elements = value.read_lock::<Array>();
+        let elements = elements.iter().flat_map(|array| array.iter());
+        if let Some(reason) = elements.chain([value]).find_map(|value| context.busy(value)) {
+            let refusal = ScriptError::new(format!("{}: {reason}", row.name));
+            return Err(refusal.hint(STEERED));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,9 @@
+//! From the text of a script to its tokens: the text, the lexer, names that a text declares, tokens and rounds that Rhai has not.
+
+pub mod keywords;
+pub mod lexing;
+pub mod outline;
+pub mod program;
+pub mod rounds;
+pub mod scanner;
+pub mod syntax;

@@ -1,0 +1,104 @@
+//! The names that a script declares, read off its tokens: what a misspelt name may have meant.
+
+use rhai::{Position, Token};
+
+use super::lexing::tokens;
+
+/// Declared names of a script.
+#[derive(Debug, Default)]
+pub struct Outline {
+    /// Variables and constants declared outside functions and blocks, with their lines.
+    pub top_level: Vec<(String, usize)>,
+    /// All variables, loop variables and parameters.
+    pub variables: Vec<String>,
+    /// Script functions with their counts of parameters.
+    pub functions: Vec<(String, usize)>,
+    /// Keys of map literals.
+    pub keys: Vec<String>,
+    /// What is imported, with the names that it gets.
+    pub imports: Vec<(String, String)>,
+}
+
+impl Outline {
+    /// Reads `source`, which need not be correct.
+    pub fn of(source: &str) -> Self {
+        let tokens = tokens(source);
+        let mut outline = Self::default();
+        let mut depth = 0_usize;
+        for (index, (token, position)) in tokens.iter().enumerate() {
+            let name = |ahead: usize| match tokens.get(index + ahead) {
+                Some((Token::Identifier(name), _)) => Some(name.to_string()),
+                _ => None,
+            };
+            match token {
+                Token::LeftBrace | Token::MapStart => depth += 1,
+                Token::RightBrace => depth = depth.saturating_sub(1),
+                Token::Let | Token::Const | Token::For => {
+                    outline.declare(token, name(1), depth, *position)
+                }
+                Token::As => outline.imported(&tokens[..index], name(1)),
+                Token::Fn => outline.define(name(1), parameters(&tokens[index..])),
+                Token::Identifier(key)
+                    if matches!(tokens.get(index + 1), Some((Token::Colon, _))) =>
+                {
+                    outline.keys.push(key.to_string());
+                }
+                _ => (),
+            }
+        }
+        outline
+    }
+
+    fn declare(&mut self, token: &Token, name: Option<String>, depth: usize, position: Position) {
+        let Some(name) = name else { return };
+        if depth == 0 && !matches!(token, Token::For) {
+            self.top_level.push((name.clone(), position.line().unwrap_or(0)));
+        }
+        self.variables.push(name);
+    }
+
+    fn imported(&mut self, before: &[(Token, Position)], name: Option<String>) {
+        if let (Some((Token::StringConstant(path), _)), Some(name)) = (before.last(), name) {
+            self.imports.push((name, path.to_string()));
+        }
+    }
+
+    fn define(&mut self, name: Option<String>, parameters: Vec<String>) {
+        if let Some(name) = name {
+            self.functions.push((name, parameters.len()));
+        }
+        self.variables.extend(parameters);
+    }
+}
+
+/// The names between the parentheses after `fn name`.
+fn parameters(tokens: &[(Token, Position)]) -> Vec<String> {
+    let inside = tokens
+        .iter()
+        .map(|(token, _)| token)
+        .skip_while(|token| !matches!(token, Token::LeftParen));
+    inside
+        .take_while(|token| !matches!(token, Token::RightParen))
+        .filter_map(|token| match token {
+            Token::Identifier(name) => Some(name.to_string()),
+            _ => None,
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn declarations_are_found() {
+        let outline =
+            Outline::of("let a = 1;\nfn f(x, y) { let b = #{ key: x }; b }\nfor i in 0..3 { }");
+        assert_eq!(outline.top_level, [("a".to_owned(), 1)]);
+        assert_eq!(outline.functions, [("f".to_owned(), 2)]);
+        assert_eq!(outline.variables, ["a", "x", "y", "b", "i"]);
+        assert_eq!(outline.keys, ["key"]);
+        let outline = Outline::of("import \"std/checks\" as c;");
+        assert_eq!(outline.imports, [("c".to_owned(), "std/checks".to_owned())]);
+    }
+}

@@ -1,0 +1,162 @@
+//! A variable of its own for every round of a `for` loop: what a closure that is kept sees is what it saw when it was made.
+//!
+//! Rhai gives all rounds of a loop one variable, and closures share it: those of the first round would see the last value.
+//! A loop whose body has a closure that mentions its variable therefore begins each round with a statement that Rhai does
+//! not have, which declares the variable again, in the block of the round. The statement is put into the text before it is
+//! parsed, in the place of blanks around the brace that opens the body, so that columns stay right; where there are no two
+//! blanks, what follows on the line seems to stand a column or two further right.
+
+use rhai::{Dynamic, Engine, EvalContext, Position, Token};
+
+/// The private-use character that stands for the statement in a loop with one variable.
+pub const ONE: char = '\u{E003}';
+/// The one in a loop that counts as well.
+pub const TWO: char = '\u{E004}';
+
+/// The name of the statement for the parser, in a loop with one variable.
+pub const ONE_NAME: &str = "\u{E003}";
+/// Its name in a loop that counts as well.
+pub const TWO_NAME: &str = "\u{E004}";
+
+/// Teaches `engine` the statement.
+pub fn install(engine: &mut Engine) {
+    for (name, variables) in [(ONE_NAME, 1), (TWO_NAME, 2)] {
+        engine.register_custom_syntax_with_state_raw(
+            name,
+            |_, _, _| Ok(None),
+            true,
+            move |context, _, _| {
+                declare_again(context, variables);
+                Ok(Dynamic::UNIT)
+            },
+        );
+    }
+}
+
+/// Declares the last variables of the scope again, with their values: the loop sets its own anew for every round.
+fn declare_again(context: &mut EvalContext, variables: usize) {
+    let scope = context.scope_mut();
+    // The last come first.
+    let names: Vec<String> =
+        scope.iter_raw().take(variables).map(|(name, _, _)| name.to_owned()).collect();
+    for name in names {
+        let value = scope.get_mut(&name).map(std::mem::take).unwrap_or_default();
+        scope.push_dynamic(name, value);
+    }
+}
+
+/// Where bodies of loops begin that need the statement, with its character.
+pub fn bodies(tokens: &[(Token, Position)]) -> Vec<(Position, char)> {
+    let loops = tokens.iter().enumerate().filter(|(_, (token, _))| matches!(token, Token::For));
+    loops.filter_map(|(start, _)| body(tokens, start)).collect()
+}
+
+fn body(tokens: &[(Token, Position)], start: usize) -> Option<(Position, char)> {
+    let token = |index: usize| tokens.get(index).map(|(token, _)| token);
+    let name = |index: usize| match token(index) {
+        Some(Token::Identifier(name)) => Some(name.as_str()),
+        _ => None,
+    };
+    let (names, after) = match token(start + 1)? {
+        Token::LeftParen => (vec![name(start + 2)?, name(start + 4)?], start + 6),
+        _ => (vec![name(start + 1)?], start + 2),
+    };
+    let open = opening(tokens, after)?;
+    let close = closing(tokens, open);
+    let is_closure = |(token, _): &(Token, Position)| matches!(token, Token::Pipe | Token::Or);
+    let closure = open + tokens[open..close].iter().position(is_closure)?;
+    let is_captured = tokens[closure..close].iter().any(
+        |(token, _)| matches!(token, Token::Identifier(name) if names.contains(&name.as_str())),
+    );
+    let letter = if names.len() == 1 { ONE } else { TWO };
+    is_captured.then_some((tokens[open].1, letter))
+}
+
+/// Whether a brace belongs to a text `${…}`.
+fn is_interpolation(tokens: &[(Token, Position)], index: usize) -> bool {
+    matches!(tokens.get(index.wrapping_sub(1)), Some((Token::InterpolatedString(_), _)))
+}
+
+/// The brace that opens the body of a loop whose `in` stands at `after`; none where what is gone over has blocks of its own.
+fn opening(tokens: &[(Token, Position)], after: usize) -> Option<usize> {
+    let mut depth = 0_usize;
+    for (index, (token, _)) in tokens.iter().enumerate().skip(after) {
+        match token {
+            Token::LeftBrace if depth == 0 && !is_interpolation(tokens, index) => {
+                return Some(index);
+            }
+            Token::If | Token::Switch | Token::Pipe | Token::Or if depth == 0 => return None,
+            other => depth = depth.checked_add_signed(nesting(other))?,
+        }
+    }
+    None
+}
+
+/// The index behind the block that opens at `open`.
+fn closing(tokens: &[(Token, Position)], open: usize) -> usize {
+    let mut depth = 0;
+    for (index, (token, _)) in tokens.iter().enumerate().skip(open) {
+        depth += nesting(token);
+        if depth == 0 {
+            return index + 1;
+        }
+    }
+    tokens.len()
+}
+
+/// By how much a token changes the depth of brackets.
+pub fn nesting(token: &Token) -> isize {
+    match token {
+        Token::LeftBrace
+        | Token::MapStart
+        | Token::LeftParen
+        | Token::LeftBracket
+        | Token::QuestionBracket => 1,
+        Token::RightBrace | Token::RightParen | Token::RightBracket => -1,
+        _ => 0,
+    }
+}
+
+/// Puts the statement behind the brace at `column`, from 0, of a line: in the place of blanks where there are some.
+pub fn put(line: &mut Vec<char>, column: usize, letter: char) {
+    const LENGTH: usize = 2;
+    let is_blank = |letter: &&char| matches!(letter, ' ' | '\t');
+    let Some((before, [_, behind @ ..])) = line.split_at_checked(column) else { return };
+    let after = behind.iter().take_while(is_blank).take(LENGTH).count();
+    let missing = if behind.is_empty() { 0 } else { LENGTH - after };
+    let before = before.iter().rev().take_while(is_blank).take(missing).count();
+    let (start, end) = (column - before, column + 1 + after);
+    line.splice(start..end, ['{', letter, ';']);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::script::source::lexing::tokens;
+
+    fn letters(source: &str) -> Vec<char> {
+        bodies(&tokens(source)).into_iter().map(|(_, letter)| letter).collect()
+    }
+
+    #[test]
+    fn loops_whose_closures_mention_the_variable_are_found() {
+        assert_eq!(letters("for x in xs { f(|t| t * x); }"), [ONE]);
+        assert_eq!(letters("for (x, i) in xs { f(|| i); }"), [TWO]);
+        assert_eq!(letters("for x in `a${b}`.split() { for y in x { f(|| x + y) } }"), [ONE, ONE]);
+        assert_eq!(letters("for x in xs { print(x); } f(|| x);"), []);
+        assert_eq!(letters("for x in xs.map(|y| { y }) { f(|| 1); }"), []);
+    }
+
+    #[test]
+    fn columns_stay_where_there_are_blanks() {
+        let put_into = |text: &str| {
+            let mut line: Vec<char> = text.chars().collect();
+            let column = text.find('{').expect("a brace");
+            put(&mut line, column, ONE);
+            line.into_iter().collect::<String>()
+        };
+        assert_eq!(put_into("in a {  b"), format!("in a {{{ONE};b"));
+        assert_eq!(put_into("in a { b"), format!("in a{{{ONE};b"));
+        assert_eq!(put_into("in a {"), format!("in a {{{ONE};"));
+    }
+}

@@ -1,0 +1,302 @@
+//! Numbers as in science, at the level of tokens: which operators the parser sees in place of Rhai's own.
+//!
+//! Rhai's built-in comparisons and its whole-number division bypass everything that is registered, so the parser
+//! is given operators of our own instead ([`operators`](crate::script::dialect::operators) says what they do):
+//!
+//! - `/ << >> < > <= >= == !=` become `num/`, `num<`, … of the same precedence;
+//! - `^` and `**` become `num^0`, `num^1`, … along a chain of powers, each binding tighter than the one before, because
+//!   an operator of ours would otherwise bind to the left and `2^3^2` would be 64;
+//! - `-x^2` is refused, because Rhai's minus binds tighter than any operator and would give the square of `-x`;
+//! - `/=`, `^=`, `**=`, `<<=` and `>>=` are lexed as two tokens, and loops get a statement of their own ([`rounds`]), see [`mark`].
+//!
+//! All of this uses hooks that Rhai calls volatile; they are used in this file and in `lexing` only.
+
+use std::borrow::Cow;
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+
+use rhai::{Dynamic, Engine, LexError, Position, Token};
+
+use super::lexing::tokens;
+use super::rounds;
+use crate::script::words::stop::Stop;
+
+/// Prefix of the operators that stand in for Rhai's own.
+pub const OWN: &str = "num";
+
+/// Comparison, division and shifts of bits with their precedences in Rhai.
+pub const REPLACED: [(&str, u8); 9] = [
+    ("<<", 210),
+    (">>", 210),
+    ("/", 180),
+    ("<", 110),
+    (">", 110),
+    ("<=", 110),
+    (">=", 110),
+    ("==", 90),
+    ("!=", 90),
+];
+
+/// How many powers may follow each other: `a^b^c^…`.
+pub const LONGEST_CHAIN: u8 = 16;
+
+/// Rhai's precedence of the power; the next operator above it is at 210.
+const POWER_PRECEDENCE: u8 = 190;
+
+/// Private-use characters: the operator half of `/=`, that of `^=`, and the half that wraps the right-hand side.
+const DIVIDE_HALF: char = '\u{E000}';
+const POWER_HALF: char = '\u{E001}';
+const OPERAND_HALF: char = '\u{E002}';
+const UP_HALF: char = '\u{E005}';
+const DOWN_HALF: char = '\u{E006}';
+const OPERAND: &str = "\u{E002}";
+
+/// The right-hand side of `x /= y`: a type of its own, so that Rhai's built-in whole-number `/=` does not apply.
+#[derive(Clone)]
+pub struct Operand(pub Dynamic);
+
+/// The operator that stands for the power at place `chain` of a chain of powers.
+pub fn power_name(chain: u8) -> String {
+    format!("{OWN}^{chain}")
+}
+
+/// What is remembered of the text that is being read.
+#[derive(Clone, Default)]
+pub struct Reader {
+    nesting: Rc<RefCell<Nesting>>,
+    stopped: Rc<Cell<Option<Stop>>>,
+}
+
+impl Reader {
+    /// Forgets the text before, which may have ended in the middle of an expression.
+    pub fn begin(&self) {
+        *self.nesting.borrow_mut() = Nesting::default();
+        self.stopped.set(None);
+    }
+
+    /// What stopped the reading of a text before its end.
+    pub fn stopped(&self) -> Option<Stop> {
+        self.stopped.get()
+    }
+}
+
+/// After so many tokens it is asked whether to go on: the parser looks through all names it knows for each of them.
+const PULSE: u32 = 64;
+
+/// Teaches `engine` the tokens of this language; what is given back is told when another text begins. `stop` says why not to read on.
+pub fn install(
+    engine: &mut Engine,
+    stop: impl Fn() -> Option<Stop> + 'static,
+) -> Result<Reader, String> {
+    for (symbol, precedence) in REPLACED {
+        engine.register_custom_operator(format!("{OWN}{symbol}"), precedence)?;
+    }
+    for chain in 0..LONGEST_CHAIN {
+        engine.register_custom_operator(power_name(chain), POWER_PRECEDENCE + chain)?;
+    }
+    engine.register_custom_syntax_with_state_raw(
+        OPERAND,
+        |symbols, _, _| Ok((symbols.len() == 1).then(|| "$expr$".into())),
+        false,
+        |context, inputs, _| match inputs.first() {
+            Some(expression) => {
+                context.eval_expression_tree(expression).map(|value| Dynamic::from(Operand(value)))
+            }
+            None => Ok(Dynamic::UNIT),
+        },
+    );
+    rounds::install(engine);
+    let reader = Reader::default();
+    let Reader { nesting, stopped } = reader.clone();
+    let count = Cell::new(0_u32);
+    // "Deprecated" marks the hook as volatile, not as going away.
+    #[allow(deprecated)]
+    engine.on_parse_token(move |token, _, _| {
+        count.set(count.get().wrapping_add(1));
+        if count.get().is_multiple_of(PULSE) {
+            stopped.set(stopped.get().or_else(&stop));
+        }
+        match stopped.get() {
+            None => nesting.borrow_mut().map(token),
+            Some(_) => refuse("the reading was stopped"),
+        }
+    });
+    Ok(reader)
+}
+
+/// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` so that they lex as an operator and a wrapper of what follows, and marks the rounds of loops;
+/// columns do not move.
+pub fn mark(source: &str) -> Cow<'_, str> {
+    let tokens = tokens(source);
+    let halves = |token: &Token| -> &[char] {
+        match token {
+            Token::DivideAssign => &[DIVIDE_HALF, OPERAND_HALF],
+            Token::XOrAssign => &[POWER_HALF, OPERAND_HALF],
+            Token::PowerOfAssign => &[POWER_HALF, OPERAND_HALF, ' '],
+            Token::LeftShiftAssign => &[UP_HALF, OPERAND_HALF, ' '],
+            Token::RightShiftAssign => &[DOWN_HALF, OPERAND_HALF, ' '],
+            _ => &[],
+        }
+    };
+    let mut marks: Vec<(Position, Mark)> =
+        rounds::bodies(&tokens).into_iter().map(|(at, letter)| (at, Mark::Round(letter))).collect();
+    let assignments = tokens.iter().map(|(token, at)| (*at, halves(token)));
+    marks.extend(
+        assignments.filter(|(_, halves)| !halves.is_empty()).map(|(at, h)| (at, Mark::Assign(h))),
+    );
+    if marks.is_empty() {
+        return Cow::Borrowed(source);
+    }
+    // From the end on: a mark may move what stands behind it.
+    marks.sort_by_key(|(at, _)| std::cmp::Reverse((at.line(), at.position())));
+    let mut lines: Vec<Vec<char>> = source.split('\n').map(|line| line.chars().collect()).collect();
+    for (at, mark) in marks {
+        let (Some(line), Some(column)) = (at.line(), at.position()) else { continue };
+        let Some(line) = lines.get_mut(line - 1) else { continue };
+        match mark {
+            Mark::Round(letter) => rounds::put(line, column - 1, letter),
+            Mark::Assign(halves) => {
+                if let Some(target) = line.get_mut(column - 1..column - 1 + halves.len()) {
+                    target.copy_from_slice(halves);
+                }
+            }
+        }
+    }
+    let lines: Vec<String> = lines.into_iter().map(String::from_iter).collect();
+    Cow::Owned(lines.join("\n"))
+}
+
+/// What is put into a text.
+enum Mark<'m> {
+    /// In the place of an operator that assigns.
+    Assign(&'m [char]),
+    /// Behind the brace that opens the body of a loop.
+    Round(char),
+}
+
+/// What the mapper remembers of the operands read so far at one depth of brackets.
+#[derive(Clone, Copy, Default)]
+struct Chain {
+    powers: u8,
+    minus: bool,
+}
+
+/// One [`Chain`] for each open bracket.
+#[derive(Default)]
+struct Nesting {
+    outer: Vec<Chain>,
+    current: Chain,
+}
+
+impl Nesting {
+    fn map(&mut self, token: Token) -> Token {
+        match token {
+            Token::XOr | Token::PowerOf => self.power(),
+            Token::UnaryMinus => {
+                self.current.minus = true;
+                token
+            }
+            Token::IntegerConstant(n) => {
+                self.current.minus |= n < 0;
+                token
+            }
+            Token::FloatConstant(ref literal) if is_too_large(&literal.1) => {
+                refuse("write it with a point: the whole number is too large for 64 bits")
+            }
+            Token::FloatConstant(ref literal) => {
+                self.current.minus |= literal.0.is_sign_negative();
+                token
+            }
+            Token::LeftParen
+            | Token::LeftBracket
+            | Token::LeftBrace
+            | Token::MapStart
+            | Token::QuestionBracket => {
+                self.outer.push(std::mem::take(&mut self.current));
+                token
+            }
+            Token::RightParen | Token::RightBracket => {
+                self.current = self.outer.pop().unwrap_or_default();
+                token
+            }
+            Token::RightBrace => {
+                self.outer.pop();
+                self.current = Chain::default();
+                token
+            }
+            Token::Identifier(_)
+            | Token::Period
+            | Token::DoubleColon
+            | Token::Reserved(_)
+            | Token::StringConstant(_) => token,
+            other => {
+                self.current = Chain::default();
+                replace(other)
+            }
+        }
+    }
+
+    fn power(&mut self) -> Token {
+        let chain = self.current.powers;
+        if self.current.minus {
+            return refuse(
+                "write -(x^2) or (-x)^2: a minus before a power can be read in both ways",
+            );
+        }
+        if chain == LONGEST_CHAIN {
+            return refuse("too many powers in a row: use parentheses");
+        }
+        self.current.powers += 1;
+        custom(&power_name(chain))
+    }
+}
+
+/// Whether a literal is a whole number that Rhai has made a number of because it has too many digits.
+fn is_too_large(literal: &str) -> bool {
+    !literal.contains(['.', 'e', 'E'])
+}
+
+fn replace(token: Token) -> Token {
+    let symbol = match &token {
+        Token::Divide => "/",
+        Token::LeftShift => "<<",
+        Token::RightShift => ">>",
+        Token::LessThan => "<",
+        Token::GreaterThan => ">",
+        Token::LessThanEqualsTo => "<=",
+        Token::GreaterThanEqualsTo => ">=",
+        Token::EqualsTo => "==",
+        Token::NotEqualsTo => "!=",
+        Token::DivideAssign | Token::PowerOfAssign | Token::XOrAssign => {
+            return refuse(
+                "only x = x / y and x = x ^ y can be written here, not x /= y or x ^= y",
+            );
+        }
+        Token::LexError(error) => return half(error).unwrap_or(token),
+        _ => return token,
+    };
+    custom(&format!("{OWN}{symbol}"))
+}
+
+/// The token for one half of a marked assignment.
+fn half(error: &LexError) -> Option<Token> {
+    let LexError::UnexpectedInput(text) = error else { return None };
+    match text.chars().next()? {
+        DIVIDE_HALF => Some(Token::DivideAssign),
+        POWER_HALF => Some(Token::PowerOfAssign),
+        UP_HALF => Some(Token::LeftShiftAssign),
+        DOWN_HALF => Some(Token::RightShiftAssign),
+        OPERAND_HALF => Some(custom(OPERAND)),
+        rounds::ONE => Some(custom(rounds::ONE_NAME)),
+        rounds::TWO => Some(custom(rounds::TWO_NAME)),
+        _ => None,
+    }
+}
+
+fn custom(name: &str) -> Token {
+    Token::Custom(Box::new(name.into()))
+}
+
+fn refuse(message: &str) -> Token {
+    Token::LexError(Box::new(LexError::Runtime(message.into())))
+}

@@ -1,0 +1,399 @@
+//! What all native calls of one run share: where output goes, what was checked, whether to go on.
+
+use std::cell::{Cell, RefCell};
+use std::collections::HashSet;
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::rc::{Rc, Weak};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rhai::{Dynamic, Engine, EvalAltResult};
+
+use super::files::{OutputFolder, Written};
+use super::journals::Journals;
+use super::limits::{INTERRUPT_HEARD, Meter};
+pub use super::settings::{JournalWish, Mode, Settings, StudyWishes};
+use crate::script::words::checks::Checks;
+use crate::script::words::error::ScriptError;
+use crate::script::words::progress::Progress;
+pub use crate::script::words::reports::Reporter;
+use crate::script::words::reports::Reports;
+use crate::script::words::stop::{MEGABYTE, Stop};
+
+/// A file that is read takes a few times its length: the bytes, and what is made of them.
+const TIMES_ITS_LENGTH: u64 = 4;
+
+/// Why a value cannot be used now, if it is of a certain type and busy.
+pub type Busy = fn(&Dynamic) -> Option<String>;
+
+/// A cheap handle on the state of one run.
+#[derive(Clone)]
+pub struct Context(Rc<Shared>);
+
+struct Shared {
+    mode: Mode,
+    interrupt: Arc<AtomicBool>,
+    meter: Meter,
+    printed: RefCell<Box<dyn Write + Send>>,
+    told: RefCell<Box<dyn Write + Send>>,
+    pipe_closed: Cell<bool>,
+    progress: Box<dyn Progress + Send>,
+    studies: StudyWishes,
+    journals: Journals,
+    output: OutputFolder,
+    checks: RefCell<Checks>,
+    reports: Reports,
+    callback_error: RefCell<Option<Box<EvalAltResult>>>,
+    /// The names of studies so far.
+    study_names: RefCell<HashSet<PathBuf>>,
+    snapshots: usize,
+    latest_simulation: RefCell<Option<Dynamic>>,
+    /// Weak, for the engine has this context in all its functions.
+    engine: RefCell<Weak<Engine>>,
+    level: Cell<usize>,
+    is_calling_back: Cell<bool>,
+    is_silent: Cell<bool>,
+    busy: RefCell<Vec<Busy>>,
+}
+
+impl Context {
+    /// The state at the start of a run.
+    pub fn new(settings: Settings) -> Self {
+        Self(Rc::new(Shared {
+            mode: settings.mode,
+            interrupt: settings.interrupt,
+            meter: Meter::guarded(settings.limits, settings.last_resort),
+            printed: RefCell::new(settings.printed),
+            told: RefCell::new(settings.told),
+            pipe_closed: Cell::new(false),
+            progress: settings.progress,
+            studies: settings.studies,
+            journals: Journals::default(),
+            output: OutputFolder::new(settings.out, settings.folder, settings.mode),
+            checks: RefCell::default(),
+            reports: Reports::default(),
+            callback_error: RefCell::default(),
+            study_names: RefCell::default(),
+            snapshots: settings.snapshots,
+            latest_simulation: RefCell::default(),
+            engine: RefCell::default(),
+            level: Cell::new(0),
+            is_calling_back: Cell::new(false),
+            is_silent: Cell::new(false),
+            busy: RefCell::default(),
+        }))
+    }
+
+    /// Whether simulations really run.
+    pub fn mode(&self) -> Mode {
+        self.0.mode
+    }
+
+    /// The folder for files of the script.
+    pub fn output(&self) -> &OutputFolder {
+        &self.0.output
+    }
+
+    /// What to tell how far a simulation is.
+    pub fn progress(&self) -> &dyn Progress {
+        &*self.0.progress
+    }
+
+    /// How studies are made.
+    pub fn studies(&self) -> StudyWishes {
+        self.0.studies
+    }
+
+    /// What is kept of the studies until the script has come to its end.
+    pub fn journals(&self) -> &Journals {
+        &self.0.journals
+    }
+
+    /// Takes a name for a study; whether no other one had it, however it is written.
+    pub fn claim_study(&self, name: &str) -> bool {
+        self.0.study_names.borrow_mut().insert(PathBuf::from(name))
+    }
+
+    /// Refuses to go on after an interrupt, beyond a limit, or when nobody reads the output any more.
+    pub fn proceed(&self) -> Result<(), ScriptError> {
+        self.stopped_by().map_or(Ok(()), |stop| Err(ScriptError::Stopped(stop)))
+    }
+
+    /// Sees that there is room for something that takes memory all at once, before anybody could stop it [bytes].
+    ///
+    /// # Errors
+    /// When a run may not use so much.
+    pub fn expect_room(&self, what: &str, bytes: u64) -> Result<(), ScriptError> {
+        match self.meter().limits().memory.filter(|limit| bytes > *limit) {
+            None => Ok(()),
+            Some(limit) => {
+                let (needed, limit) = (bytes / MEGABYTE, limit / MEGABYTE);
+                let told = format!(
+                    "{what} take about {needed} MB of memory, and a run may use {limit} MB"
+                );
+                Err(ScriptError::new(told).hint("ask for less, or allow more with --max-memory MB"))
+            }
+        }
+    }
+
+    /// Why something that is asked again and again whether to go on did not: the limit or the interrupt that stopped it. `what` stopped
+    /// without any would be a mistake of ours.
+    pub fn why_stopped(&self, what: &str) -> ScriptError {
+        match self.proceed() {
+            Err(stopped) => stopped,
+            Ok(()) => ScriptError::bug(format!("{what} was stopped by nobody")),
+        }
+    }
+
+    /// Whether the run should end as soon as it can.
+    pub fn is_stopped(&self) -> bool {
+        self.stopped_by().is_some()
+    }
+
+    /// Why the run should end as soon as it can, if it should.
+    pub fn stopped_by(&self) -> Option<Stop> {
+        if self.0.pipe_closed.get() {
+            return Some(Stop::PipeClosed);
+        }
+        if self.0.interrupt.load(Ordering::Relaxed) {
+            INTERRUPT_HEARD.store(true, Ordering::Relaxed);
+            return Some(Stop::Interrupt);
+        }
+        self.0.meter.passed()
+    }
+
+    /// What the run may use, and how much of it is used. Whoever lets a script run calls
+    /// [`watch`](Meter::watch) before, and keeps the guard until it has ended.
+    pub fn meter(&self) -> &Meter {
+        &self.0.meter
+    }
+
+    /// The flag that stops the run, for native loops that know nothing of scripts.
+    pub fn interrupt_flag(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.0.interrupt)
+    }
+
+    /// Whether the reader of the output went away.
+    pub fn is_pipe_closed(&self) -> bool {
+        self.0.pipe_closed.get()
+    }
+
+    /// Prints a line for the script.
+    pub fn print(&self, text: &str) {
+        if self.0.is_silent.get() || !self.meter().allows_to_write(text.len() as u64 + 1) {
+            return;
+        }
+        self.0.progress.step_aside(&mut || {
+            self.notice(writeln!(self.0.printed.borrow_mut(), "{text}"));
+        });
+    }
+
+    /// Tells the user something that is not the script's own output.
+    pub fn tell(&self, text: &str) {
+        if self.0.is_silent.get() {
+            return;
+        }
+        self.0.progress.step_aside(&mut || {
+            // When nobody listens, the exit code still tells.
+            let _ = writeln!(self.0.told.borrow_mut(), "{text}");
+        });
+    }
+
+    /// Does something of which nothing is printed or told.
+    pub fn silently<T>(&self, work: impl FnOnce() -> T) -> T {
+        let was_silent = self.0.is_silent.replace(true);
+        let result = work();
+        self.0.is_silent.set(was_silent);
+        result
+    }
+
+    /// Tells what the script itself asks to be told beside its output, and counts it as what it prints.
+    pub fn remark(&self, text: &str) {
+        if self.meter().allows_to_write(text.len() as u64 + 1) {
+            self.tell(text);
+        }
+    }
+
+    /// Writes out what is buffered.
+    pub fn flush(&self) {
+        let written = self.0.printed.borrow_mut().flush();
+        self.notice(written);
+    }
+
+    /// A closed pipe ends the run quietly; that the script prints where there is no room is an error.
+    fn notice(&self, written: io::Result<()>) {
+        match written {
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
+                self.0.pipe_closed.set(true);
+            }
+            Err(error) => self.meter().stop(Stop::OutputLost(error.kind())),
+            Ok(()) => (),
+        }
+    }
+
+    /// Writes a file of the output folder. What stood there and was not written by this program is kept, and that is told.
+    ///
+    /// # Errors
+    /// When it cannot be written, or the run may write no more.
+    pub fn write_file(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
+        self.account_for(content)?;
+        self.output().write(name, content).map(|written| self.tell_kept(written))
+    }
+
+    /// The same for a file that the script may [read](Self::read_file) again, which a dry build then can too.
+    ///
+    /// # Errors
+    /// When it cannot be written, or the run may write no more.
+    pub fn write_to_read(&self, name: &str, content: Vec<u8>) -> Result<PathBuf, ScriptError> {
+        self.account_for(&content)?;
+        self.output().write_to_read(name, content).map(|written| self.tell_kept(written))
+    }
+
+    /// Reads a file of the output folder or of the script's own folder, as far as there is memory for it.
+    ///
+    /// # Errors
+    /// When there is none, or it is no ordinary file of such a length.
+    pub fn read_file(&self, name: &str) -> Result<Vec<u8>, ScriptError> {
+        let room = self.meter().limits().memory.map(|bytes| bytes / TIMES_ITS_LENGTH);
+        self.output().read(name, room)
+    }
+
+    fn account_for(&self, content: &[u8]) -> Result<(), ScriptError> {
+        match self.mode() == Mode::DryBuild || self.meter().allows_a_file(content.len() as u64) {
+            true => Ok(()),
+            false => self.proceed(),
+        }
+    }
+
+    fn tell_kept(&self, written: Written) -> PathBuf {
+        if let Some(kept) = written.kept {
+            self.tell(&format!(
+                "note: '{}' was there already, and not as withy has written it: it is kept as '{}'",
+                written.path.display(),
+                kept.display()
+            ));
+        }
+        written.path
+    }
+
+    /// Changes the record of checks.
+    pub fn with_checks<T>(&self, change: impl FnOnce(&mut Checks) -> T) -> T {
+        change(&mut self.0.checks.borrow_mut())
+    }
+
+    /// Keeps the error of a script function that was called from inside a native loop.
+    pub fn keep_callback_error(&self, error: Box<EvalAltResult>) {
+        self.0.callback_error.replace(Some(error));
+    }
+
+    /// The error that was kept last, if there is one.
+    pub fn take_callback_error(&self) -> Option<Box<EvalAltResult>> {
+        self.0.callback_error.take()
+    }
+
+    /// Forgets errors of script functions that are told otherwise: those in the cases of a study.
+    pub fn forget_callback_errors(&self) {
+        self.0.callback_error.take();
+    }
+
+    /// The memory that a simulation may take for states to go back to, unless the script says otherwise [bytes].
+    pub fn snapshots(&self) -> usize {
+        self.0.snapshots
+    }
+
+    /// Remembers the simulation that something was done with last.
+    pub fn note_simulation(&self, simulation: Dynamic) {
+        self.0.latest_simulation.replace(Some(simulation));
+    }
+
+    /// The simulation that was started, loaded, forked, stepped or taken back last.
+    pub fn latest_simulation(&self) -> Option<Dynamic> {
+        self.0.latest_simulation.borrow().clone()
+    }
+
+    /// Forgets which simulation was the last, and lets go of those that the report would tell of.
+    pub fn forget_simulations(&self) {
+        self.0.latest_simulation.take();
+        self.forget_reporters();
+    }
+
+    /// Lets functions that the script has stored be called by its own engine, as long as that is kept by the caller.
+    pub fn lend(&self, engine: &Rc<Engine>) {
+        self.0.engine.replace(Rc::downgrade(engine));
+    }
+
+    /// The engine of the script while it runs.
+    pub fn engine(&self) -> Option<Rc<Engine>> {
+        self.0.engine.borrow().upgrade()
+    }
+
+    /// Notes how deep in calls of script functions the running native call is.
+    pub fn enter(&self, level: usize) {
+        self.0.level.set(level);
+    }
+
+    /// How deep in calls of script functions the running native call is.
+    pub fn level(&self) -> usize {
+        self.0.level.get()
+    }
+
+    /// Calls a stored function while a native call is at work.
+    pub fn call_back<T>(&self, call: impl FnOnce() -> T) -> T {
+        let was_calling_back = self.0.is_calling_back.replace(true);
+        let result = call();
+        self.0.is_calling_back.set(was_calling_back);
+        result
+    }
+
+    /// Whether a stored function is running, and with it the native call that called it.
+    pub fn is_calling_back(&self) -> bool {
+        self.0.is_calling_back.get()
+    }
+
+    /// Notes how to ask values of a native type whether they are busy.
+    pub fn know(&self, busy: Busy) {
+        self.0.busy.borrow_mut().push(busy);
+    }
+
+    /// Why a value cannot be used now, if so.
+    pub fn busy(&self, value: &Dynamic) -> Option<String> {
+        self.0.busy.borrow().iter().find_map(|busy| busy(value))
+    }
+
+    /// Adds a simulation to the report.
+    pub fn add_reporter(&self, reporter: Box<dyn Reporter>) {
+        self.0.reports.add(reporter);
+    }
+
+    /// Writes what would be lost of the simulations, after a script that did not come to its end.
+    pub fn save_remains(&self) {
+        let (files, note) = self.0.reports.remains();
+        for (name, content) in files {
+            if let Err(ScriptError::Failure(failure)) =
+                self.write_remains(&name, content.as_bytes())
+            {
+                self.tell(&failure.message);
+            }
+        }
+        note.inspect(|note| self.tell(note));
+    }
+
+    /// What would be lost is little, and is written even where the run may write no more.
+    fn write_remains(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
+        self.output().write(name, content).map(|written| self.tell_kept(written))
+    }
+
+    /// Lets go of the simulations that the report would tell of, and of the names of studies: a session has no report, and the
+    /// next input may make a study anew.
+    pub fn forget_reporters(&self) {
+        self.0.study_names.borrow_mut().clear();
+        self.0.reports.forget();
+    }
+
+    /// What all simulations of the run say about themselves; they are let go.
+    pub fn report(&self) -> Vec<serde_json::Value> {
+        self.0.latest_simulation.take();
+        self.0.reports.take()
+    }
+}

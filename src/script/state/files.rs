@@ -1,0 +1,338 @@
+//! Files of a script. It reads below its own folder and the output folder, and writes below the output folder, each
+//! file whole or not at all. Links are not followed, and nothing but ordinary files is opened.
+
+use std::cell::{OnceCell, RefCell};
+use std::collections::HashMap;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+use super::settings::Mode;
+use crate::folders::{Folder, Record, is_plain};
+use crate::output::OutputError;
+use crate::script::words::error::ScriptError;
+
+/// Most bytes of a file that a script reads.
+const LARGEST_INPUT: u64 = 1 << 30;
+
+/// The folder that a script may write into. It is made when the first file is written.
+pub struct OutputFolder {
+    folder: PathBuf,
+    /// The folder of the script, where it may read.
+    beside: PathBuf,
+    mode: Mode,
+    written: RefCell<Vec<PathBuf>>,
+    /// What earlier runs have written into the folder, read before the first file of this one.
+    record: OnceCell<RefCell<Record>>,
+    /// What a dry build would have written to read it again.
+    pretended: RefCell<HashMap<PathBuf, Vec<u8>>>,
+}
+
+/// A file that was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// Where it is.
+    pub path: PathBuf,
+    /// Where a file is kept that had its name and was not written by this program, or was changed since.
+    pub kept: Option<PathBuf>,
+}
+
+impl OutputFolder {
+    pub(super) fn new(folder: PathBuf, beside: PathBuf, mode: Mode) -> Self {
+        Self {
+            folder,
+            beside,
+            mode,
+            written: RefCell::default(),
+            record: OnceCell::new(),
+            pretended: RefCell::default(),
+        }
+    }
+
+    /// Writes the file `name` of the output folder. A dry build only checks the name.
+    ///
+    /// # Errors
+    /// When the name leads out of the folder, or something cannot be written.
+    pub fn write(&self, name: &str, content: &[u8]) -> Result<Written, ScriptError> {
+        let path = self.path_of(name)?;
+        if self.mode == Mode::DryBuild {
+            return Ok(Written { path, kept: None });
+        }
+        let kept = self.put(name, content).map_err(|source| {
+            self.refused(match source.kind() {
+                ErrorKind::InvalidInput => OutputError::NotAFile { path: path.clone() },
+                _ => OutputError::Write { path: path.clone(), source },
+            })
+        })?;
+        let mut written = self.written.borrow_mut();
+        if !written.contains(&path) {
+            written.push(path.clone());
+        }
+        Ok(Written { path, kept })
+    }
+
+    /// Opens the folder anew for each file: somebody may have moved it away while a session waited.
+    fn put(&self, name: &str, content: &[u8]) -> io::Result<Option<PathBuf>> {
+        let folder = Folder::make(&self.folder)?;
+        let record = self.record.get_or_init(|| RefCell::new(Record::of(&folder)));
+        let mut record = record.borrow_mut();
+        let path = Path::new(name);
+        let kept = match record.may_replace(&folder, name) {
+            true => None,
+            false => Some(folder.keep_as(path, |number| kept_name(path, number))?),
+        };
+        folder.write_whole(path, content)?;
+        record.note(&folder, name, content)?;
+        Ok(kept.map(|kept| self.folder.join(kept)))
+    }
+
+    /// Writes a file that the script may [`read`](Self::read) again, which a dry build then can too.
+    ///
+    /// # Errors
+    /// When the name leads out of the folder, or something cannot be written.
+    pub fn write_to_read(&self, name: &str, content: Vec<u8>) -> Result<Written, ScriptError> {
+        let written = self.write(name, &content)?;
+        if self.mode == Mode::DryBuild {
+            self.pretended.borrow_mut().insert(written.path.clone(), content);
+        }
+        Ok(written)
+    }
+
+    /// Reads the file `name` of the output folder or, where there is none, of the folder of the script: at most `most` bytes.
+    ///
+    /// # Errors
+    /// When there is none, or it is no ordinary file of that length.
+    pub fn read(&self, name: &str, most: Option<u64>) -> Result<Vec<u8>, ScriptError> {
+        if let Some(content) = self.pretended.borrow().get(&self.folder.join(name)) {
+            return Ok(content.clone());
+        }
+        let folders = [
+            InputFolder { word: "output folder", path: self.folder.clone(), open: Folder::find },
+            InputFolder::beside(&self.beside),
+        ];
+        let most = most.unwrap_or(LARGEST_INPUT).min(LARGEST_INPUT);
+        InputFolders::new(folders).read(name, most).map_err(|error| match self.mode {
+            Mode::Run => error,
+            Mode::DryBuild => {
+                error.hint("run the script that writes it first; a check writes nothing")
+            }
+        })
+    }
+
+    /// The files written so far.
+    pub fn written(&self) -> Vec<PathBuf> {
+        self.written.borrow().clone()
+    }
+
+    /// The folder itself, which need not exist yet.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The path of the file `name` of the output folder.
+    ///
+    /// # Errors
+    /// When the name leads out of the folder.
+    pub fn path_of(&self, name: &str) -> Result<PathBuf, ScriptError> {
+        if !is_plain(Path::new(name)) {
+            return Err(ScriptError::new(format!(
+                "\"{name}\" is not the name of a file in the output folder"
+            ))
+            .hint("give a plain name such as \"motion.svg\"; --out chooses the folder"));
+        }
+        Ok(self.folder.join(name))
+    }
+
+    fn refused(&self, error: OutputError) -> ScriptError {
+        ScriptError::new(format!(
+            "cannot write into the output folder '{}': {error}",
+            self.folder.display()
+        ))
+        .hint("choose another one with --out DIR")
+    }
+}
+
+/// The name by which somebody else's file is kept.
+fn kept_name(path: &Path, number: usize) -> PathBuf {
+    let mut kept = path.as_os_str().to_owned();
+    kept.push(match number {
+        1 => ".kept".to_owned(),
+        _ => format!(".kept-{number}"),
+    });
+    kept.into()
+}
+
+/// A folder that a script may read from.
+pub struct InputFolder {
+    /// A word for it.
+    pub word: &'static str,
+    /// Where it is.
+    pub path: PathBuf,
+    /// How it is opened.
+    pub open: fn(&Path) -> io::Result<Folder>,
+}
+
+impl InputFolder {
+    /// The folder of a script, which a person has named.
+    pub fn beside(path: &Path) -> Self {
+        Self { word: "script's own folder", path: path.to_owned(), open: Folder::open }
+    }
+}
+
+/// The folders that a script may read from.
+pub struct InputFolders(Vec<InputFolder>);
+
+impl InputFolders {
+    /// Folders in the order in which a file is looked for.
+    pub fn new(folders: impl IntoIterator<Item = InputFolder>) -> Self {
+        Self(folders.into_iter().collect())
+    }
+
+    /// The content of the file `name`, from the first folder that has it: at most `most` bytes.
+    ///
+    /// # Errors
+    /// When no folder has it, a link or the name itself leads elsewhere, or it is no ordinary file.
+    pub fn read(&self, name: &str, most: u64) -> Result<Vec<u8>, ScriptError> {
+        let words = self
+            .0
+            .iter()
+            .map(|InputFolder { word, path, .. }| format!("the {word} '{}'", path.display()));
+        let allowed = words.collect::<Vec<_>>().join(" and ");
+        let path = Path::new(name);
+        if !is_plain(path) {
+            return Err(ScriptError::new(format!("\"{name}\" leads out of {allowed}"))
+                .hint("give a name without .. and without a / at its beginning"));
+        }
+        for folder in &self.0 {
+            match (folder.open)(&folder.path).and_then(|folder| folder.read(path, most)) {
+                Ok(content) => return Ok(content),
+                Err(error) if is_missing(&error) => (),
+                Err(error) => {
+                    return Err(ScriptError::new(format!(
+                        "cannot read \"{name}\" from the {} '{}': {error}",
+                        folder.word,
+                        folder.path.display()
+                    ))
+                    .hint("put an ordinary file there"));
+                }
+            }
+        }
+        Err(ScriptError::new(format!("there is no file \"{name}\" in {allowed}"))
+            .hint("check the name, which is relative to these folders"))
+    }
+}
+
+/// Whether a file, or a folder on the way to it, does not exist.
+fn is_missing(error: &io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[cfg(unix)]
+    #[test]
+    fn links_do_not_lead_out() {
+        use std::os::unix::fs::symlink;
+        let home = tempfile::tempdir().expect("a temporary folder");
+        let (own, other) = (home.path().join("own"), home.path().join("other"));
+        fs::create_dir_all(&own).expect("a folder");
+        fs::create_dir_all(&other).expect("a folder");
+        fs::write(other.join("secret.txt"), "secret").expect("a file");
+        symlink(&other, own.join("way")).expect("a link");
+        symlink(other.join("secret.txt"), own.join("file.txt")).expect("a link");
+        symlink(other.join("new.txt"), own.join("nowhere.txt")).expect("a link");
+
+        let inputs = InputFolders::new([InputFolder::beside(&own)]);
+        for name in ["way/secret.txt", "file.txt"] {
+            assert!(inputs.read(name, 100).is_err(), "{name}");
+        }
+        let output = OutputFolder::new(own.clone(), PathBuf::from("."), Mode::Run);
+        assert!(output.write("way/a.txt", b"x").is_err());
+        assert!(output.write("way/deep/a.txt", b"x").is_err());
+        let written = output.write("nowhere.txt", b"x").expect("the link is put aside");
+        assert_eq!(written.kept, Some(own.join("nowhere.txt.kept")));
+        assert!(!other.join("new.txt").exists() && !other.join("a.txt").exists());
+    }
+
+    #[test]
+    fn files_are_found_in_the_first_folder_that_has_them() {
+        let home = tempfile::tempdir().expect("a temporary folder");
+        let (own, out) = (home.path().join("own"), home.path().join("out"));
+        fs::create_dir_all(own.join("below")).expect("a folder");
+        fs::create_dir_all(&out).expect("a folder");
+        for file in [own.join("below/a"), out.join("b"), home.path().join("c")] {
+            fs::write(file, "found").expect("a file");
+        }
+        let out = InputFolder { word: "output folder", path: out, open: Folder::find };
+        let inputs = InputFolders::new([InputFolder::beside(&own), out]);
+        assert_eq!(inputs.read("below/a", 10).expect("a file"), b"found");
+        assert!(inputs.read("b", 10).is_ok());
+        for name in ["c", "../c", "below/../../c", "/etc/passwd", "", "below/./../../c"] {
+            let Err(ScriptError::Failure(failure)) = inputs.read(name, 10) else {
+                panic!("{name} must be refused")
+            };
+            assert!(failure.message.contains("script's own folder"), "{}", failure.message);
+        }
+    }
+
+    #[test]
+    fn only_names_inside_the_folder_are_written() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let output = OutputFolder::new(folder.path().join("out"), PathBuf::from("."), Mode::Run);
+        for name in ["", "/etc/motion.svg", "../motion.svg", "a/../../b"] {
+            assert!(output.write(name, b"x").is_err(), "{name}");
+        }
+        assert!(!folder.path().join("out").exists());
+        let path = output.write("plots/motion.svg", b"x").expect("a plain name").path;
+        assert_eq!(fs::read(&path).expect("the file"), b"x");
+        assert_eq!(output.written(), [path]);
+    }
+
+    #[test]
+    fn a_folder_that_cannot_be_made_is_named() {
+        let file = tempfile::NamedTempFile::new().expect("a temporary file");
+        let output = OutputFolder::new(file.path().join("out"), PathBuf::from("."), Mode::Run);
+        let Err(ScriptError::Failure(failure)) = output.write("a.csv", b"") else {
+            panic!("must be refused")
+        };
+        assert!(failure.message.contains("output folder"), "{}", failure.message);
+    }
+
+    #[test]
+    fn files_of_somebody_else_are_kept_and_our_own_are_replaced() {
+        let out = tempfile::tempdir().expect("a temporary folder");
+        let file = out.path().join("a.svg");
+        fs::write(&file, "theirs").expect("a file");
+        let run = || OutputFolder::new(out.path().into(), PathBuf::from("."), Mode::Run);
+        let kept = |content: &[u8]| run().write("a.svg", content).expect("a plain name").kept;
+        assert_eq!(kept(b"one"), Some(out.path().join("a.svg.kept")));
+        assert_eq!(kept(b"two"), None, "it was ours");
+        fs::write(&file, "changed").expect("a file");
+        assert_eq!(kept(b"three"), Some(out.path().join("a.svg.kept-2")));
+        let content = |name: &str| fs::read_to_string(out.path().join(name)).expect("a file");
+        assert_eq!(
+            ["a.svg", "a.svg.kept", "a.svg.kept-2"].map(content),
+            ["three", "theirs", "changed"]
+        );
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_in_the_place_of_the_output_folder_is_neither_written_nor_read() {
+        let home = tempfile::tempdir().expect("a temporary folder");
+        let (out, other) = (home.path().join("out"), home.path().join("other"));
+        fs::create_dir(&other).expect("a folder");
+        fs::write(other.join("secret"), "x").expect("a file");
+        std::os::unix::fs::symlink(&other, &out).expect("a link");
+        let output = OutputFolder::new(out, home.path().join("own"), Mode::Run);
+        for refused in
+            [output.write("a.csv", b"x").map(drop), output.read("secret", None).map(drop)]
+        {
+            let Err(ScriptError::Failure(failure)) = refused else { panic!("must be refused") };
+            assert!(failure.message.contains("'out' is a link"), "{}", failure.message);
+        }
+        assert_eq!(fs::read_dir(&other).expect("the folder").count(), 1);
+    }
+}

@@ -1,0 +1,273 @@
+//! What a run may use: time, steps, memory, calls within calls, what is written; and what stopped a run before its end.
+
+use std::cell::Cell;
+use std::io;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
+use std::time::Duration;
+
+use super::watchdog::Watchdog;
+use crate::script::words::stop::{MEGABYTE, Stop};
+
+/// The default limit of memory, in megabytes.
+pub const DEFAULT_MEGABYTES: u64 = 4096;
+/// The default limit of what is written, in megabytes.
+pub const DEFAULT_MEGABYTES_WRITTEN: u64 = 10_000;
+/// The default limit of files written.
+pub const DEFAULT_FILES: u64 = 100_000;
+/// The default limit of calls within calls.
+pub const DEFAULT_DEPTH: usize = 400;
+/// The most calls within calls that can be allowed: they fit [`STACK_BYTES`](crate::script::engine::runner::STACK_BYTES).
+pub const DEEPEST: usize = 1000;
+
+/// What a run may use. `None` is without limit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Time on the clock.
+    pub time: Option<Duration>,
+    /// Steps of all simulations together, failed tries included.
+    pub steps: Option<u64>,
+    /// Memory that the whole process really occupies [bytes].
+    pub memory: Option<u64>,
+    /// Calls of script functions within calls, at most [`DEEPEST`].
+    pub depth: usize,
+    /// What is printed and written into files, all together [bytes].
+    pub written: Option<u64>,
+    /// Files written; one that is written again counts again.
+    pub files: Option<u64>,
+}
+
+/// Ends the whole program: a limit was passed, and what runs did not hear of it or grows too fast.
+pub type LastResort = Arc<dyn Fn(Stop) + Send + Sync>;
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            time: None,
+            steps: None,
+            memory: Some(DEFAULT_MEGABYTES * MEGABYTE),
+            depth: DEFAULT_DEPTH,
+            written: Some(DEFAULT_MEGABYTES_WRITTEN * MEGABYTE),
+            files: Some(DEFAULT_FILES),
+        }
+    }
+}
+
+/// How much of its limits a run has used.
+pub struct Meter {
+    limits: Limits,
+    alarm: Arc<AtomicU8>,
+    resort: Option<LastResort>,
+    steps: Cell<u64>,
+    wants_too_many_steps: Cell<bool>,
+    written: Cell<u64>,
+    files: Cell<u64>,
+    /// What the run stopped itself by.
+    stopped: Cell<Option<Stop>>,
+    /// How often a dry build pretended to go on with a simulation.
+    pretended: Cell<u64>,
+}
+
+/// So often may it do that: a loop that waits for a time is long through by then.
+const MOST_PRETENDED: u64 = 100_000;
+
+/// Whether a run of this process has heard that it was interrupted: it is about to stop, and to keep what ran.
+pub static INTERRUPT_HEARD: AtomicBool = AtomicBool::new(false);
+
+/// What a watchdog has to say.
+pub(super) const QUIET: u8 = 0;
+pub(super) const TOO_LATE: u8 = 1;
+pub(super) const TOO_LARGE: u8 = 2;
+
+impl Meter {
+    /// Nothing is used yet.
+    pub fn new(limits: Limits) -> Self {
+        Self::guarded(limits, None)
+    }
+
+    /// The same, with somebody who ends the program when a limit is passed and nothing hears of it.
+    pub fn guarded(limits: Limits, resort: Option<LastResort>) -> Self {
+        Self {
+            limits,
+            resort,
+            alarm: Arc::default(),
+            steps: Cell::new(0),
+            wants_too_many_steps: Cell::new(false),
+            written: Cell::new(0),
+            files: Cell::new(0),
+            stopped: Cell::new(None),
+            pretended: Cell::new(0),
+        }
+    }
+
+    /// What may be used.
+    pub fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    /// Which limit was passed, if one was.
+    pub fn passed(&self) -> Option<Stop> {
+        match self.alarm.load(Ordering::Relaxed) {
+            TOO_LATE => self.limits.time.map(Stop::Time),
+            TOO_LARGE => self.limits.memory.map(Stop::Memory),
+            _ if self.stopped.get().is_some() => self.stopped.get(),
+            _ if self.wants_too_many_steps.get() => self.limits.steps.map(Stop::Steps),
+            _ if self.pretended.get() > MOST_PRETENDED => Some(Stop::Waiting),
+            _ => None,
+        }
+    }
+
+    /// Counts that a dry build pretends to go on with a simulation.
+    pub fn count_pretended(&self) {
+        self.pretended.set(self.pretended.get() + 1);
+    }
+
+    /// Whether the script has gone by results that a dry build only pretends to have.
+    pub fn has_pretended(&self) -> bool {
+        self.pretended.get() > 0
+    }
+
+    /// Counts a step, or a try of one.
+    pub fn count_step(&self) {
+        self.steps.set(self.steps.get() + 1);
+    }
+
+    /// Counts the steps of a run that was made elsewhere.
+    pub fn count_steps(&self, steps: usize) {
+        self.steps.set(self.steps.get().saturating_add(steps as u64));
+    }
+
+    /// Whether one more step is allowed; if not, the limit counts as passed.
+    pub fn allows_a_step(&self) -> bool {
+        let allowed = self.limits.steps.is_none_or(|limit| self.steps.get() < limit);
+        if !allowed {
+            self.wants_too_many_steps.set(true);
+        }
+        allowed
+    }
+
+    /// Stops the run.
+    pub fn stop(&self, why: Stop) {
+        self.stopped.set(self.stopped.get().or(Some(why)));
+    }
+
+    /// Counts what is to be printed or written, and whether it may be [bytes]; if not, the limit counts as passed.
+    pub fn allows_to_write(&self, bytes: u64) -> bool {
+        self.written.set(self.written.get().saturating_add(bytes));
+        let beyond = self.limits.written.filter(|limit| self.written.get() > *limit);
+        beyond.into_iter().for_each(|limit| self.stop(Stop::Written(limit)));
+        beyond.is_none()
+    }
+
+    /// The same for a file of so many bytes.
+    pub fn allows_a_file(&self, bytes: u64) -> bool {
+        self.files.set(self.files.get() + 1);
+        match self.limits.files.filter(|limit| self.files.get() > *limit) {
+            Some(limit) => {
+                self.stop(Stop::Files(limit));
+                false
+            }
+            None => self.allows_to_write(bytes),
+        }
+    }
+
+    /// Begins to count anew and watches the clock and the memory until the guard is dropped.
+    ///
+    /// # Errors
+    /// When no thread can be started.
+    pub fn watch(&self) -> io::Result<Watchdog> {
+        self.alarm.store(QUIET, Ordering::Relaxed);
+        self.steps.set(0);
+        self.wants_too_many_steps.set(false);
+        self.written.set(0);
+        self.files.set(0);
+        // What is lost stays lost.
+        self.stopped.set(self.stopped.get().filter(|stop| matches!(stop, Stop::OutputLost(_))));
+        Watchdog::start(self.limits, Arc::clone(&self.alarm), self.resort.clone())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::thread;
+    use std::time::Instant;
+
+    fn without_limits() -> Limits {
+        Limits { memory: None, ..Limits::default() }
+    }
+
+    fn wait_for(meter: &Meter) -> Option<Stop> {
+        let begun = Instant::now();
+        while meter.passed().is_none() && begun.elapsed() < Duration::from_secs(5) {
+            thread::sleep(Duration::from_millis(1));
+        }
+        meter.passed()
+    }
+
+    #[test]
+    fn time_passes_and_a_new_watch_begins_anew() {
+        let time = Duration::from_millis(20);
+        let meter = Meter::new(Limits { time: Some(time), ..without_limits() });
+        let watchdog = meter.watch().unwrap();
+        assert_eq!(meter.passed(), None);
+        assert_eq!(wait_for(&meter), Some(Stop::Time(time)));
+        drop(watchdog);
+        let _second = meter.watch().unwrap();
+        assert_eq!(meter.passed(), None);
+    }
+
+    #[test]
+    fn memory_is_that_of_the_process() {
+        let meter = Meter::new(Limits { memory: Some(1), ..without_limits() });
+        let _watchdog = meter.watch().unwrap();
+        assert_eq!(wait_for(&meter), Some(Stop::Memory(1)));
+    }
+
+    #[test]
+    fn the_last_allowed_step_is_taken_and_no_other() {
+        let meter = Meter::new(Limits { steps: Some(2), ..without_limits() });
+        for _ in 0..2 {
+            assert!(meter.allows_a_step());
+            meter.count_step();
+        }
+        assert_eq!(meter.passed(), None);
+        assert!(!meter.allows_a_step());
+        assert_eq!(meter.passed(), Some(Stop::Steps(2)));
+    }
+
+    #[test]
+    fn a_watchdog_ends_at_once() {
+        let limits = Limits { time: Some(Duration::from_secs(3600)), ..without_limits() };
+        let meter = Meter::new(limits);
+        let begun = Instant::now();
+        drop(meter.watch().unwrap());
+        assert!(begun.elapsed() < Duration::from_secs(2));
+    }
+
+    #[test]
+    fn what_is_written_is_counted_with_what_is_printed() {
+        let meter = Meter::new(Limits { written: Some(10), files: Some(2), ..without_limits() });
+        assert!(meter.allows_to_write(6) && meter.allows_a_file(4) && meter.passed().is_none());
+        assert!(!meter.allows_to_write(1));
+        assert_eq!(meter.passed(), Some(Stop::Written(10)));
+        let _watchdog = meter.watch().unwrap();
+        assert!(meter.allows_a_file(1) && meter.allows_a_file(1) && !meter.allows_a_file(1));
+        assert_eq!(meter.passed(), Some(Stop::Files(2)));
+        meter.stop(Stop::OutputLost(io::ErrorKind::StorageFull));
+        assert_eq!(meter.passed(), Some(Stop::Files(2)), "the first reason holds");
+    }
+
+    #[test]
+    fn who_does_not_hear_of_a_limit_is_ended() {
+        let (send, ended) = std::sync::mpsc::channel();
+        let resort: LastResort = Arc::new(move |stop| _ = send.send(stop));
+        let limit = Duration::from_millis(20);
+        let begun = Instant::now();
+        let meter = Meter::guarded(Limits { time: Some(limit), ..without_limits() }, Some(resort));
+        let _watchdog = meter.watch().unwrap();
+        let stop = ended.recv_timeout(Duration::from_secs(20)).unwrap();
+        assert_eq!(stop, Stop::Time(limit));
+        assert!(begun.elapsed() > limit * 2, "whoever hears of it has some time");
+    }
+}

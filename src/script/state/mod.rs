@@ -1,0 +1,8 @@
+//! What the calls of a run share: settings, limits, files, journals, the context that holds them.
+
+pub mod context;
+pub mod files;
+pub mod journals;
+pub mod limits;
+pub mod settings;
+pub mod watchdog;

@@ -1,0 +1,84 @@
+//! How a run talks to the world outside, and what is wanted of it.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use super::limits::{LastResort, Limits};
+use crate::script::words::progress::{NoProgress, Progress};
+
+/// Whether simulations really run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// Everything runs.
+    Run,
+    /// Scenes are built and checked; nothing is stepped, printed, judged or written.
+    DryBuild,
+}
+
+/// How a run talks to the world outside. Made by the command line, the prompt or a test.
+pub struct Settings {
+    /// Whether simulations really run.
+    pub mode: Mode,
+    /// Where files of the script go; made when the first one is written.
+    pub out: PathBuf,
+    /// Where the script is, beside which it may read files.
+    pub folder: PathBuf,
+    /// The memory that each simulation may take for states to go back to, unless the script says otherwise [bytes].
+    pub snapshots: usize,
+    /// Set from outside (Ctrl-C) to stop as soon as possible.
+    pub interrupt: Arc<AtomicBool>,
+    /// What the run may use.
+    pub limits: Limits,
+    /// Where `print` writes.
+    pub printed: Box<dyn Write + Send>,
+    /// Where failed checks and `debug` are told, at once.
+    pub told: Box<dyn Write + Send>,
+    /// What shows how far a simulation is.
+    pub progress: Box<dyn Progress + Send>,
+    /// How studies are made.
+    pub studies: StudyWishes,
+    /// What ends the whole program when a limit is passed and nothing hears of it.
+    pub last_resort: Option<LastResort>,
+}
+
+/// How the studies of a run are made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StudyWishes {
+    /// Whether they can go on where an earlier run of them was interrupted.
+    pub journal: JournalWish,
+    /// How often cases are timed, whatever the script says.
+    pub repeats: Option<usize>,
+}
+
+/// What becomes of finished cases when a study is interrupted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum JournalWish {
+    /// They are lost.
+    #[default]
+    Without,
+    /// They are kept in the output folder, and those that are there are not run again.
+    GoOn,
+    /// They are kept in the output folder; what is there is forgotten first.
+    Anew,
+}
+
+impl Settings {
+    /// A run that writes to nowhere, for dry builds and as a start for others.
+    pub fn silent(mode: Mode) -> Self {
+        Self {
+            mode,
+            out: PathBuf::from("out"),
+            folder: PathBuf::from("."),
+            snapshots: 0,
+            interrupt: Arc::default(),
+            limits: Limits::default(),
+            printed: Box::new(io::sink()),
+            told: Box::new(io::sink()),
+            progress: Box::new(NoProgress),
+            studies: StudyWishes::default(),
+            last_resort: None,
+        }
+    }
+}

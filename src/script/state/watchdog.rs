@@ -1,0 +1,91 @@
+//! Somebody who watches the clock and the memory of a run, and ends the program when the run does not hear.
+
+use std::io;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+use super::limits::{LastResort, Limits, TOO_LARGE, TOO_LATE};
+use crate::script::words::stop::Stop;
+
+/// How often the watchdog looks.
+const INTERVAL: Duration = Duration::from_millis(10);
+
+/// How long a run has to hear of a limit that it has passed: a part of the time allowed, so that the limit holds within twice
+/// its figure, and within these bounds.
+const PATIENCE: f64 = 0.7;
+const LEAST_PATIENCE: Duration = Duration::from_millis(700);
+const MOST_PATIENCE: Duration = Duration::from_secs(5);
+
+/// A thread that watches the clock and the memory; it ends when this is dropped.
+pub struct Watchdog {
+    /// The thread ends when this is let go.
+    leash: Option<Sender<()>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Watchdog {
+    pub(super) fn start(
+        limits: Limits,
+        alarm: Arc<AtomicU8>,
+        resort: Option<LastResort>,
+    ) -> io::Result<Self> {
+        if limits.time.is_none() && limits.memory.is_none() {
+            return Ok(Self { leash: None, thread: None });
+        }
+        let begun = Instant::now();
+        let (leash, held) = channel::<()>();
+        let watch = move || {
+            let mut passed = None;
+            while let Err(RecvTimeoutError::Timeout) = held.recv_timeout(INTERVAL) {
+                let (stop, since) = match passed {
+                    Some(passed) => passed,
+                    None => match first_passed(&limits, begun) {
+                        Some((stop, word)) => {
+                            alarm.store(word, Ordering::Relaxed);
+                            *passed.insert((stop, Instant::now()))
+                        }
+                        None => continue,
+                    },
+                };
+                let Some(resort) = &resort else { return };
+                let grows = limits.memory.is_some_and(|limit| occupied() > limit + limit / 2);
+                if grows || since.elapsed() > patience(&limits) {
+                    return resort(stop);
+                }
+            }
+        };
+        let thread = thread::Builder::new().name("watchdog".into()).spawn(watch)?;
+        Ok(Self { leash: Some(leash), thread: Some(thread) })
+    }
+}
+
+/// The limit that is passed now, and the alarm for it.
+fn first_passed(limits: &Limits, begun: Instant) -> Option<(Stop, u8)> {
+    let late = limits.time.filter(|limit| begun.elapsed() > *limit);
+    let large = || limits.memory.filter(|limit| occupied() > *limit);
+    late.map(|limit| (Stop::Time(limit), TOO_LATE))
+        .or_else(|| large().map(|limit| (Stop::Memory(limit), TOO_LARGE)))
+}
+
+fn patience(limits: &Limits) -> Duration {
+    let part = limits.time.map_or(LEAST_PATIENCE, |limit| limit.mul_f64(PATIENCE));
+    part.clamp(LEAST_PATIENCE, MOST_PATIENCE)
+}
+
+impl Drop for Watchdog {
+    fn drop(&mut self) {
+        self.leash = None;
+        if let Some(thread) = self.thread.take() {
+            // It has nothing to tell, and a panic of it must not become ours.
+            let _ = thread.join();
+        }
+    }
+}
+
+/// The memory that the process occupies [bytes]; nothing where the system does not tell.
+fn occupied() -> u64 {
+    memory_stats::memory_stats().map_or(0, |stats| stats.physical_mem as u64)
+}

@@ -1,0 +1,95 @@
+//! Errors that native bodies report: what is wrong, what to do, and where in the call to point.
+
+use rhai::{Dynamic, EvalAltResult, Position};
+
+use super::brief::brief;
+use super::stop::Stop;
+
+/// Marks errors of the engine that are our own mistakes.
+pub(in crate::script) const BUG: &str = "a bug in withy";
+
+/// Why a native body gave up.
+#[derive(Debug)]
+pub enum ScriptError {
+    /// The script asked for something that is wrong.
+    Failure(Failure),
+    /// The run was interrupted from outside or passed a limit; scripts cannot catch this.
+    Stopped(Stop),
+    /// Our own mistake; the user is asked to report it.
+    Bug(String),
+    /// A script function that was called back failed; its own error is handed on untouched.
+    Engine(Box<EvalAltResult>),
+}
+
+/// A wrong request: the message names the object and the value, the hint says what to do next.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub hint: Option<String>,
+    /// What to underline.
+    pub place: Place,
+}
+
+/// The part of a call that an error is about.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Place {
+    /// The called name.
+    Call,
+    /// The argument with this number, from 0.
+    Argument(usize),
+    /// This key of an option map among the arguments.
+    Key(String),
+}
+
+impl ScriptError {
+    /// A wrong request.
+    pub fn new(message: impl Into<String>) -> Self {
+        let message = brief(message.into());
+        Self::Failure(Failure { message, hint: None, place: Place::Call })
+    }
+
+    /// Our own mistake.
+    pub fn bug(message: impl Into<String>) -> Self {
+        Self::Bug(message.into())
+    }
+
+    /// Adds what to do about it.
+    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+        if let Self::Failure(failure) = &mut self {
+            failure.hint = Some(brief(hint.into()));
+        }
+        self
+    }
+
+    /// Points at an argument or a key instead of the call.
+    pub fn at(mut self, place: Place) -> Self {
+        if let Self::Failure(failure) = &mut self {
+            failure.place = place;
+        }
+        self
+    }
+
+    /// The same error as the engine carries it, at the position of the call.
+    pub fn into_engine(self, call: Position) -> Box<EvalAltResult> {
+        match self {
+            Self::Failure(failure) => {
+                EvalAltResult::ErrorRuntime(Dynamic::from(failure), call).into()
+            }
+            Self::Stopped(stop) => EvalAltResult::ErrorTerminated(Dynamic::from(stop), call).into(),
+            Self::Bug(message) => EvalAltResult::ErrorSystem(message, BUG.into()).into(),
+            Self::Engine(error) => error,
+        }
+    }
+}
+
+/// Errors of the layers below become failures with their own words.
+impl<E: std::error::Error> From<E> for ScriptError {
+    fn from(error: E) -> Self {
+        Self::new(error.to_string())
+    }
+}
+
+/// What the engine's own functions give.
+pub type EngineResult<T> = Result<T, Box<EvalAltResult>>;

@@ -1,0 +1,26 @@
+//! Nouns in messages: their articles, and the names of types.
+
+/// `noun` with its article: `a vector`, `an array`; plurals such as `knots` have none.
+pub fn with_article(noun: &str) -> String {
+    match noun.chars().next() {
+        _ if noun.ends_with('s') => noun.to_owned(),
+        Some('a' | 'e' | 'i' | 'o' | 'A' | 'E' | 'I' | 'O') => format!("an {noun}"),
+        _ => format!("a {noun}"),
+    }
+}
+
+/// A type in our words, also where the engine used the Rust name.
+pub fn type_word(name: &str) -> &str {
+    match name.trim() {
+        "i64" => "whole number",
+        "f64" => "number",
+        "bool" => "truth value",
+        "char" => "character",
+        "string" | "String" | "ImmutableString" | "&str | ImmutableString | String" => "text",
+        "array" => "array",
+        "Fn" | "FnPtr" => "function",
+        "()" => "nothing",
+        range if range.starts_with("core::ops::range::Range") => "range",
+        other => other,
+    }
+}

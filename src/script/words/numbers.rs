@@ -1,0 +1,83 @@
+//! Numbers as people read and write them: conversion from script values, and printing.
+
+use rhai::{Array, Dynamic, Engine, INT, ImmutableString, Map};
+
+use super::nouns::with_article;
+pub use crate::output::format_number;
+
+/// The largest whole number up to which every whole number has its own `f64`.
+const LARGEST_EXACT: f64 = 9_007_199_254_740_992.0;
+
+/// `value` as a number, if it is one; whole numbers are welcome.
+pub fn as_number(value: &Dynamic) -> Option<f64> {
+    value.as_float().ok().or_else(|| value.as_int().ok().map(|n| n as f64))
+}
+
+/// `value` as a whole number, if it is one or a number without a fraction.
+pub fn as_whole(value: &Dynamic) -> Option<INT> {
+    value.as_int().ok().or_else(|| {
+        let x = value.as_float().ok()?;
+        (x.fract() == 0.0 && x.abs() <= LARGEST_EXACT).then_some(x as INT)
+    })
+}
+
+/// `x` with an exponent and `digits` digits after the point: `1.23e-13`.
+pub fn format_scientific(x: f64, digits: usize) -> String {
+    if x.is_finite() { format!("{x:.digits$e}") } else { format_number(x) }
+}
+
+/// `x` with `digits` digits after the point: `0.050`.
+pub fn format_fixed(x: f64, digits: usize) -> String {
+    if x.is_finite() { format!("{x:.digits$}") } else { format_number(x) }
+}
+
+/// `value` in the middle of a message: `the text "abc"`, `-3`, `an array of 3`.
+pub fn describe(engine: &Engine, value: &Dynamic) -> String {
+    if let Ok(text) = value.as_immutable_string_ref() {
+        return format!("the text {}", shortened(&text));
+    }
+    if let Some(x) = as_number(value) {
+        return if value.is_int() { value.to_string() } else { format_number(x) };
+    }
+    if let Ok(truth) = value.as_bool() {
+        return truth.to_string();
+    }
+    if let Some(array) = value.read_lock::<Array>() {
+        return format!("an array of {}", array.len());
+    }
+    if value.is::<Map>() {
+        return "a map of options".into();
+    }
+    if value.is_unit() {
+        return "nothing".into();
+    }
+    with_article(engine.map_type_name(value.type_name()))
+}
+
+fn shortened(text: &ImmutableString) -> String {
+    const LONGEST: usize = 40;
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("\"{}…\"", &text[..end]),
+        None => format!("\"{text}\""),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_can_be_chosen() {
+        assert_eq!(format_scientific(1.234e-13, 2), "1.23e-13");
+        assert_eq!(format_scientific(f64::NAN, 2), "nan");
+        assert_eq!(format_fixed(0.05, 3), "0.050");
+    }
+
+    #[test]
+    fn a_whole_number_may_come_as_a_number_without_fraction() {
+        assert_eq!(as_whole(&Dynamic::from(3.0)), Some(3));
+        assert_eq!(as_whole(&Dynamic::from(3.5)), None);
+        assert_eq!(as_whole(&Dynamic::from(1e300)), None);
+        assert_eq!(as_number(&Dynamic::from(3_i64)), Some(3.0));
+    }
+}

@@ -1,0 +1,68 @@
+//! The wings of the script: one way between them.
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::layering::{named_after, sources};
+
+/// From left to right: a wing may use those to its left.
+const WINGS: &[&str] = &[
+    "words", "source", "state", "rows", "dialect", "library", "diagnose", "engine", "pages",
+    "looks", "handles", "studies", "packages",
+];
+
+fn script() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("src/script")
+}
+
+/// The wing of a file of the script.
+fn wing(path: &Path) -> Option<String> {
+    let first = path.strip_prefix(script()).ok()?.components().next()?;
+    first.as_os_str().to_str().filter(|name| *name != "mod.rs").map(str::to_owned)
+}
+
+/// The text of a file without its unit tests, which may use everything.
+fn without_tests<'t>(path: &Path, text: &'t str) -> &'t str {
+    match path.file_stem().is_some_and(|name| name == "tests") {
+        true => "",
+        false => text.split("#[cfg(test)]\nmod tests {").next().unwrap(),
+    }
+}
+
+/// Uses of a wing by one to its left.
+fn rings(files: &[(PathBuf, String)]) -> Vec<String> {
+    let place = |name: &str| WINGS.iter().position(|wing| *wing == name);
+    let mut found = Vec::new();
+    for (path, text) in files {
+        let Some(own) = wing(path) else { continue };
+        let Some(here) = place(&own) else {
+            found.push(format!("{}: no wing '{own}' in the table", path.display()));
+            continue;
+        };
+        for (line, name) in named_after(without_tests(path, text), "crate::script::") {
+            if place(&name).is_none_or(|other| other > here) {
+                found.push(format!("{}:{line}: {own} uses {name}", path.display()));
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn wings_of_the_script_use_those_to_their_left() {
+    let files = sources();
+    assert!(files.iter().filter(|(path, _)| wing(path).is_some()).count() > 100);
+    let found = rings(&files);
+    assert!(found.is_empty(), "{}", found.join("\n"));
+    let text = "use crate::script::rows::table::Row;\nuse crate::script::words::stop::Stop;\n";
+    let found = rings(&[(script().join("source/program.rs"), text.to_owned())]);
+    assert!(found.len() == 1 && found[0].ends_with("program.rs:1: source uses rows"), "{found:?}");
+}
+
+#[test]
+fn no_file_lies_in_front_of_the_wings() {
+    let entries = fs::read_dir(script()).unwrap().map(|entry| entry.unwrap().path());
+    let files: Vec<_> = entries.filter(|path| path.is_file()).collect();
+    assert_eq!(files, [script().join("mod.rs")]);
+}
