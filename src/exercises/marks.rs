@@ -42,23 +42,25 @@ pub struct MarksFile(File);
 /// Opens a file of marks, or begins one.
 ///
 /// # Errors
-/// When it cannot be read or written, or is there and holds no marks: it is somebody else's.
+/// When it cannot be read or written, another run writes it, or it is there and holds no marks: it is somebody else's.
 pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let (folder, name) = (Folder::open(folder)?, Path::new(path.file_name().unwrap_or_default()));
-    let text = match folder.has(name) {
+    let bytes = match folder.has(name) {
         true => folder.read(name, LARGEST)?,
         false => Vec::new(),
     };
-    let text = String::from_utf8_lossy(&text);
+    let text = String::from_utf8_lossy(&bytes);
     let known: Vec<_> = text.lines().filter_map(read_line).collect();
     if known.is_empty() && !text.trim().is_empty() {
         return Err(io::Error::other("it is there already, and holds no marks"));
     }
-    let mut file = folder.append(name)?;
-    // A line that a kill has cut off must not spoil the next one.
-    if !text.is_empty() && !text.ends_with('\n') {
-        file.write_all(b"\n")?;
+    let file = folder.append(name)?;
+    file.try_lock().map_err(|_| io::Error::other("another run writes its marks there"))?;
+    // A line that a kill has cut off goes: who reads the file reads lines that are whole.
+    let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
+    if whole < bytes.len() {
+        file.set_len(whole as u64)?;
     }
     // Of several marks the last one holds.
     Ok((KnownMarks(known.into_iter().collect()), MarksFile(file)))
@@ -202,6 +204,8 @@ mod tests {
         file.note(&ada, kink, (Mark::Off, "one"), Some("1")).unwrap();
         file.note(&ada, kink, (Mark::Passed, ""), Some("2")).unwrap();
         file.note(&ada, knots, (Mark::Broken, "by us"), None).unwrap();
+        assert!(open(&path).unwrap_err().to_string().contains("another run writes"));
+        drop(file);
         let whole = fs::read_to_string(&path).unwrap();
         fs::write(&path, &whole[..whole.len() - 30]).unwrap();
         for _ in 0..2 {
@@ -211,6 +215,8 @@ mod tests {
             assert!(known.find(&ada, knots, "").is_none());
             file.note(&ada, kink, (Mark::Passed, ""), Some("2")).unwrap();
         }
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(text.lines().count() == 4 && text.lines().all(|line| read_line(line).is_some()));
         fs::write(&path, "my notes").unwrap();
         assert!(open(&path).unwrap_err().to_string().contains("holds no marks"));
         assert_eq!(fs::read_to_string(&path).unwrap(), "my notes");

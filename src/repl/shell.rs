@@ -276,11 +276,19 @@ impl Shell {
     }
 }
 
+/// What names the last simulation where no variable holds it.
+const LATEST: &str = "latest_simulation()";
+
 /// The last simulation, on which commands act.
 impl Shell {
     /// The simulation that was started, loaded, forked or stepped last.
     pub fn latest(&self) -> Option<SimulationHandle> {
         self.session.context().latest_simulation()?.try_cast()
+    }
+
+    /// Whether a variable holds the last simulation.
+    pub fn holds_latest(&self) -> bool {
+        self.name_of_latest().is_ok_and(|name| name != LATEST)
     }
 
     /// How an input names the last simulation: by a variable that holds it, if there is one.
@@ -296,7 +304,7 @@ impl Shell {
             // The last answer will soon be another one.
             *name != ANSWER && is_it(value)
         });
-        Ok(held.map_or_else(|| "latest_simulation()".into(), |(name, ..)| name.to_owned()))
+        Ok(held.map_or_else(|| LATEST.into(), |(name, ..)| name.to_owned()))
     }
 
     /// Says where the last simulation is.

@@ -3,6 +3,7 @@
 use rhai::{AST, ASTFlags, ASTNode, Engine, Scope, Stmt, Token};
 
 use crate::script::dialect::reading::read;
+use crate::script::rows::sources::Sources;
 use crate::script::source::lexing::tokens;
 use crate::script::source::program::Program;
 
@@ -11,8 +12,13 @@ pub fn count(engine: &Engine, text: &str) -> Option<usize> {
     read(engine, &Scope::new(), text, 0).ok().map(|ast| ast.statements().len())
 }
 
-/// The last place where a text can be cut so that `first` of its statements stand before the cut and the others after it.
+/// The last place where a text that could be read can be cut so that `first` of its statements stand before the cut and the others
+/// after it. What stopped the text while it ran does not stop this.
 pub fn boundary(engine: &Engine, text: &str, first: usize) -> Option<usize> {
+    Sources::of(engine).undisturbed(|| boundary_of(engine, text, first))
+}
+
+fn boundary_of(engine: &Engine, text: &str, first: usize) -> Option<usize> {
     let all = count(engine, text)?;
     let is_right = |cut: &usize| {
         let (before, after) = text.split_at(*cut);
@@ -74,6 +80,16 @@ mod tests {
             Some(("// why;\nf(#{ a: 1 });", "\ng();"))
         );
         assert_eq!(cut("1 +", 0), None);
+    }
+
+    #[test]
+    fn a_text_that_was_interrupted_is_cut_like_others() {
+        let context = Context::new(Settings::silent(Mode::Run));
+        let engine = build(&language(), &context).expect("an engine");
+        context.interrupt_flag().store(true, std::sync::atomic::Ordering::Relaxed);
+        let text = format!("let a = [{}]; loop {{ a }}", "1, ".repeat(100));
+        assert_eq!(boundary(&engine, &text, 1), text.find(" loop"));
+        assert_eq!(count(&engine, &text), None, "others are stopped");
     }
 
     #[test]

@@ -339,9 +339,9 @@ fn what_has_effects_is_timed_once_and_that_is_told() {
 fn a_run_of_its_own_is_timed_again_and_the_last_simulation_stays() {
     let mut prompt = Prompt::spinning();
     let reply = prompt.ask(":time { let own = scene.start(#{ dt: 0.1 }); own.step(3); own.t }");
-    // The first run was the user's: it is the last simulation now, and stays it.
     assert!(reply.starts_with("0.3\n") && reply.contains("again: least"), "{reply}");
-    assert_eq!(prompt.ask("latest_simulation().t"), "0.3\n");
+    // What no variable holds is out of reach, and commands act on what was the last one before.
+    assert_eq!(prompt.ask("latest_simulation().t"), "0\n");
     assert_eq!(prompt.ask("sim.steps"), "0\n");
 }
 
@@ -475,4 +475,21 @@ fn help_goes_through_the_pager_and_short_help_is_printed() {
     assert_eq!(reader.0.borrow().len(), 2);
     assert_eq!(prompt.ask("1 + 1"), "2\n");
     assert_eq!(reader.0.borrow().len(), 2, "only help is paged");
+}
+
+#[test]
+fn a_simulation_that_was_made_to_be_timed_is_not_the_last_one() {
+    let mut prompt = Prompt::spinning();
+    prompt.ask(":time { let own = scene.start(#{ dt: 0.01 }); own.run_to(1); }");
+    assert_eq!(prompt.ask("latest_simulation().t == sim.t"), "true\n");
+    prompt.ask(":time let own = scene.start(#{ dt: 0.01 });");
+    assert_eq!(prompt.ask("latest_simulation().dt"), "0.01\n");
+}
+
+#[test]
+fn a_column_without_a_simulation_says_what_is_missing() {
+    let mut prompt = Prompt::new();
+    assert_ne!(prompt.shell.submit(":plot energy"), Outcome::Good);
+    let told = prompt.told.take();
+    assert!(told.contains("there is no simulation yet"), "{told}");
 }

@@ -66,7 +66,13 @@ fn read(shell: &Shell, part: &str) -> Part {
     let words: Vec<String> =
         part.split_whitespace().map(|word| word.trim_matches('"').to_owned()).collect();
     let expression = Part::Expression(part.to_owned());
-    let Some(latest) = shell.latest() else { return expression };
+    let Some(latest) = shell.latest() else {
+        // Without a simulation there is no column; its name means one all the same.
+        return match ENERGIES.contains(&part) && !shell.session().variables().contains(part) {
+            true => Part::Columns(words),
+            false => expression,
+        };
+    };
     let is_column =
         |name: &String| name == "drift" || latest.simulation().history().dimension(name).is_some();
     let is_known = |name: &String| {

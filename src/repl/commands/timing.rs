@@ -15,10 +15,15 @@ pub fn time(shell: &mut Shell, operand: &str) -> Outcome {
         return shell.refuse(&told.with_hint("write :time followed by an input"));
     }
     let before = Footprint::of(shell.session());
+    let earlier = shell.session().context().latest_simulation();
     let clock = shell.clock();
     let begun = clock.now();
     let outcome = shell.submit(operand);
     let took = clock.now().saturating_sub(begun);
+    // A simulation that was made to be timed, and that no variable holds, is nobody's last one.
+    if let Some(earlier) = earlier.filter(|_| !shell.holds_latest()) {
+        shell.session().context().note_simulation(earlier);
+    }
     if outcome != Outcome::Good {
         return outcome;
     }

@@ -65,6 +65,11 @@ impl Sources {
         self.reader.begin();
     }
 
+    /// Lets texts that were read before be read again to their ends, although the run is to stop.
+    pub fn undisturbed<T>(&self, work: impl FnOnce() -> T) -> T {
+        self.reader.undisturbed(work)
+    }
+
     /// What stopped the reading of the last text before its end.
     pub fn reading_stopped(&self) -> Option<Stop> {
         self.reader.stopped()

@@ -65,6 +65,8 @@ pub fn power_name(chain: u8) -> String {
 pub struct Reader {
     nesting: Rc<RefCell<Nesting>>,
     stopped: Rc<Cell<Option<Stop>>>,
+    /// Whether nothing may stop it.
+    is_undisturbed: Rc<Cell<bool>>,
 }
 
 impl Reader {
@@ -72,6 +74,14 @@ impl Reader {
     pub fn begin(&self) {
         *self.nesting.borrow_mut() = Nesting::default();
         self.stopped.set(None);
+    }
+
+    /// Lets texts be read to their ends, although the run is to stop: those that were read before.
+    pub fn undisturbed<T>(&self, work: impl FnOnce() -> T) -> T {
+        let was_undisturbed = self.is_undisturbed.replace(true);
+        let result = work();
+        self.is_undisturbed.set(was_undisturbed);
+        result
     }
 
     /// What stopped the reading of a text before its end.
@@ -107,13 +117,13 @@ pub fn install(
     );
     rounds::install(engine);
     let reader = Reader::default();
-    let Reader { nesting, stopped } = reader.clone();
+    let Reader { nesting, stopped, is_undisturbed } = reader.clone();
     let count = Cell::new(0_u32);
     // "Deprecated" marks the hook as volatile, not as going away.
     #[allow(deprecated)]
     engine.on_parse_token(move |token, _, _| {
         count.set(count.get().wrapping_add(1));
-        if count.get().is_multiple_of(PULSE) {
+        if count.get().is_multiple_of(PULSE) && !is_undisturbed.get() {
             stopped.set(stopped.get().or_else(&stop));
         }
         match stopped.get() {
