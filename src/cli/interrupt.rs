@@ -1,10 +1,9 @@
 //! Ctrl-C, and being asked to end: the run is to stop after its current step; where nothing hears of it, the program ends.
 
-use std::process;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread;
 use std::time::{Duration, Instant};
+use std::{process, thread};
 
 use super::Exit;
 use super::say::tell;

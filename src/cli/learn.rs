@@ -1,14 +1,11 @@
 //! `withy learn`: exercises, for one who learns.
 
-use std::env;
 use std::io::{IsTerminal, stderr, stdout};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread;
+use std::{env, thread};
 
-use super::Exit;
-use super::attempt_process;
 use super::bar::{self, Wish};
 use super::grade::{Form, Wishes, grade};
 use super::interrupt::{self, AtStake};
@@ -17,6 +14,7 @@ use super::limits::LimitOptions;
 use super::run::{last_resort, refuse};
 use super::say::{is_output_lost, say};
 use super::watching::{self, Painter, terminal, trial};
+use super::{Exit, attempt_process};
 use crate::exercises::attempt;
 use crate::exercises::catalogue::{EXERCISES, TRACKS, find};
 use crate::exercises::error::ExerciseError;

@@ -2,9 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::bspline;
 use super::knots::check_inside;
-use super::{BasisValues, GeometryError, KnotVector, LagrangeBasis, Span};
+use super::{BasisValues, GeometryError, KnotVector, LagrangeBasis, Span, bspline};
 
 /// A break closer than this fraction of the domain to an existing knot means that knot.
 const SAME_BREAK: f64 = 1e-10;

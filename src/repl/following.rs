@@ -8,8 +8,7 @@ use super::session::{Reply, Rounds};
 use super::shell::{Outcome, Shell};
 use crate::output::significant;
 use crate::script::diagnose::Diagnostic;
-use crate::script::handles::simulation::Revisit;
-use crate::script::handles::simulation::SimulationHandle;
+use crate::script::handles::simulation::{Revisit, SimulationHandle};
 use crate::script::state::context::Context;
 use crate::script::words::error::ScriptError;
 

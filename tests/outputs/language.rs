@@ -5,8 +5,7 @@ use std::path::Path;
 
 use withy::exercises::catalogue::EXERCISES;
 use withy::script::engine::runner::{Ending, run};
-use withy::script::packages::TABLES;
-use withy::script::packages::language;
+use withy::script::packages::{TABLES, language};
 use withy::script::source::program::Program;
 use withy::script::state::settings::{Mode, Settings};
 

@@ -1,9 +1,7 @@
 //! The editor of the prompt: rustyline with our keys, helpers and history.
 
-use std::env;
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{env, fs, io};
 
 use rustyline::config::BellStyle;
 use rustyline::error::ReadlineError;

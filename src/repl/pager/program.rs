@@ -1,10 +1,9 @@
 //! The pager of the environment.
 
-use std::env;
 use std::io::{self, Write};
 use std::process::{Command, Stdio};
-use std::thread;
 use std::time::Duration;
+use std::{env, thread};
 
 use crate::repl::editor::typed_ahead::TypedAhead;
 

@@ -2,19 +2,16 @@
 
 use rhai::Position;
 
-use super::elsewhere;
-use super::operands;
+use super::{elsewhere, operands};
 use crate::script::dialect::operators;
 use crate::script::library::{ModuleFunction, page_of, pages};
 use crate::script::rows::built_in::BuiltIn;
 use crate::script::rows::catalog::Catalog;
-use crate::script::rows::sources::FOLDER;
-use crate::script::rows::sources::Sources;
+use crate::script::rows::sources::{FOLDER, Sources};
 use crate::script::rows::table::{Form, Row};
 use crate::script::source::outline::Outline;
 use crate::script::source::program::Program;
-use crate::script::words::nouns::type_word;
-use crate::script::words::nouns::with_article;
+use crate::script::words::nouns::{type_word, with_article};
 use crate::script::words::suggest::{nearest, related};
 
 /// What is known, to be held against what was asked for.

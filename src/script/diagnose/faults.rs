@@ -1,7 +1,6 @@
 //! Values that do not fit: of another type, out of bounds, too large.
 
-use crate::script::words::nouns::type_word;
-use crate::script::words::nouns::with_article;
+use crate::script::words::nouns::{type_word, with_article};
 
 /// A value of another type than is asked for.
 pub fn mismatch(wanted: &str, got: &str) -> (String, Option<String>) {

@@ -5,22 +5,19 @@ use std::path::Path;
 use rhai::{Dynamic, Engine, EvalAltResult, ParseErrorType, Position};
 
 use super::calls::{Unknown, of_library};
-use super::elsewhere;
 use super::faults::{arithmetic, bounds, mismatch, too_large};
-use super::{Callee, Diagnostic, Step, habits, locate, parsing};
+use super::{Callee, Diagnostic, Step, elsewhere, habits, locate, parsing};
 use crate::script::dialect::naming::not_visible;
 use crate::script::library;
 use crate::script::rows::catalog::Catalog;
 use crate::script::rows::register::STEERED;
-use crate::script::rows::sources::FOLDER;
-use crate::script::rows::sources::Sources;
+use crate::script::rows::sources::{FOLDER, Sources};
 use crate::script::rows::table::{Form, Row};
 use crate::script::source::outline::Outline;
 use crate::script::source::program::Program;
 use crate::script::words::brief::brief;
 use crate::script::words::error::{BUG, Failure, Place};
-use crate::script::words::nouns::type_word;
-use crate::script::words::nouns::with_article;
+use crate::script::words::nouns::{type_word, with_article};
 use crate::script::words::stop::Stop;
 use crate::script::words::suggest::nearest;
 

@@ -6,8 +6,7 @@ use std::cell::Cell;
 
 use rhai::{Array, Dynamic, Engine, EvalAltResult, FnPtr, INT, Map, NativeCallContext, Position};
 
-use crate::script::words::error::EngineResult;
-use crate::script::words::error::ScriptError;
+use crate::script::words::error::{EngineResult, ScriptError};
 use crate::script::words::numbers::describe;
 
 /// Registers them under the names that they have in Rhai.

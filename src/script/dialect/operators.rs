@@ -13,8 +13,7 @@ use rhai::{Dynamic, Engine, EvalAltResult, INT, NativeCallContext, Position};
 
 use crate::elementary::power;
 use crate::script::source::syntax::{LONGEST_CHAIN, OWN, Operand, REPLACED, power_name};
-use crate::script::words::error::EngineResult;
-use crate::script::words::error::ScriptError;
+use crate::script::words::error::{EngineResult, ScriptError};
 
 /// Registers the operators on numbers, under our own names and where possible under the engine's.
 pub fn install(engine: &mut Engine) {

@@ -9,8 +9,7 @@ use rhai::{Array, Dynamic, Engine, EvalAltResult, FnPtr, NativeCallContext};
 use super::elements::array_of;
 use super::repetitions::PULSE;
 use crate::script::state::context::Context;
-use crate::script::words::error::EngineResult;
-use crate::script::words::error::ScriptError;
+use crate::script::words::error::{EngineResult, ScriptError};
 use crate::script::words::numbers::{as_number, describe};
 
 /// What makes of an order the one that is sorted by.

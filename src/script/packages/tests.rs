@@ -2,8 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::TABLES;
-use super::language;
+use super::{TABLES, language};
 use crate::script::engine::runner::{Ending, run};
 use crate::script::rows::kind::Kind;
 use crate::script::rows::parameter::Parameter;
