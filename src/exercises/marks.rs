@@ -2,7 +2,7 @@
 //! since hold.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -19,6 +19,9 @@ use crate::script::source::lexing::tokens;
 
 /// The largest file of marks that is read [bytes].
 const LARGEST: u64 = 1 << 30;
+
+/// What every mark begins with.
+const HEAD: &str = "{\"student\":";
 
 /// Marks of earlier runs, by student and exercise.
 #[derive(Debug, Default)]
@@ -46,17 +49,20 @@ pub struct MarksFile(File);
 pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let (folder, name) = (Folder::open(folder)?, Path::new(path.file_name().unwrap_or_default()));
-    let bytes = match folder.has(name) {
-        true => folder.read(name, LARGEST)?,
-        false => Vec::new(),
-    };
+    let file = folder.append(name)?;
+    // Before it is read: what another run writes meanwhile must be known here.
+    file.try_lock().map_err(|refused| match refused {
+        TryLockError::WouldBlock => io::Error::other("another run writes its marks there"),
+        TryLockError::Error(error) => error,
+    })?;
+    let bytes = folder.read(name, LARGEST)?;
     let text = String::from_utf8_lossy(&bytes);
     let known: Vec<_> = text.lines().filter_map(read_line).collect();
-    if known.is_empty() && !text.trim().is_empty() {
+    // A kill during the very first mark leaves the beginning of one.
+    let is_begun = text.starts_with(HEAD) || HEAD.starts_with(&*text);
+    if known.is_empty() && !is_begun {
         return Err(io::Error::other("it is there already, and holds no marks"));
     }
-    let file = folder.append(name)?;
-    file.try_lock().map_err(|_| io::Error::other("another run writes its marks there"))?;
     // A line that a kill has cut off goes: who reads the file reads lines that are whole.
     let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
     if whole < bytes.len() {
@@ -217,6 +223,13 @@ mod tests {
         }
         let text = fs::read_to_string(&path).unwrap();
         assert!(text.lines().count() == 4 && text.lines().all(|line| read_line(line).is_some()));
+        fs::write(&path, &whole[..20]).unwrap();
+        drop(open(&path).unwrap());
+        assert_eq!(
+            fs::read_to_string(&path).unwrap(),
+            "",
+            "the beginning of a first mark is cut off"
+        );
         fs::write(&path, "my notes").unwrap();
         assert!(open(&path).unwrap_err().to_string().contains("holds no marks"));
         assert_eq!(fs::read_to_string(&path).unwrap(), "my notes");

@@ -1,8 +1,11 @@
 //! The language: Rhai with numbers as in science, tables of functions, and errors that say what to do.
 //!
-//! A domain is a [`Table`](table::Table) of rows; [`engine`] registers the tables; [`runner`] runs a script on a
-//! large stack; [`diagnose`] turns every error into a message at the script's line and column.
-//! There is no mechanics here: bodies of rows are short and call the library.
+//! A domain is a [`Table`](rows::table::Table) of rows; [`engine`] registers the tables and runs a script on a large stack;
+//! [`diagnose`] turns every error into a message at the script's line and column. There is no mechanics here: bodies of rows are
+//! short and call the library.
+//!
+//! Its wings use one another one way only: [`words`], [`source`], [`state`], [`rows`], [`dialect`], [`library`], [`diagnose`],
+//! [`engine`], [`pages`], [`looks`], [`handles`], [`studies`], [`packages`].
 
 pub mod diagnose;
 pub mod dialect;

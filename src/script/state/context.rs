@@ -13,12 +13,11 @@ use rhai::{Dynamic, Engine, EvalAltResult};
 use super::files::{OutputFolder, Written};
 use super::journals::Journals;
 use super::limits::{INTERRUPT_HEARD, Meter};
-pub use super::settings::{JournalWish, Mode, Settings, StudyWishes};
+use super::settings::{Mode, Settings, StudyWishes};
 use crate::script::words::checks::Checks;
 use crate::script::words::error::ScriptError;
 use crate::script::words::progress::Progress;
-pub use crate::script::words::reports::Reporter;
-use crate::script::words::reports::Reports;
+use crate::script::words::reports::{Reporter, Reports};
 use crate::script::words::stop::{MEGABYTE, Stop};
 
 /// A file that is read takes a few times its length: the bytes, and what is made of them.
