@@ -28,6 +28,7 @@ const BRANCHES: &[(&str, &[&str])] = &[
     ("linalg", &["elementary"]),
     ("elementary", &[]),
     ("folders", &[]),
+    ("panics", &[]),
 ];
 
 /// What a layer may use; none if it is in no table.

@@ -303,10 +303,9 @@ fn explain(error: SimulationError, context: &Context) -> ScriptError {
         SimulationError::Interrupted { .. } => {
             ScriptError::Stopped(context.stopped_by().unwrap_or(Stop::Interrupt))
         }
-        SimulationError::Load { .. } => match context.take_callback_error() {
-            Some(error) => ScriptError::Engine(error),
-            None => ScriptError::from(error).hint("a load needs a finite value at all times"),
-        },
+        SimulationError::Load { .. } => {
+            ScriptError::from(error).hint("a load needs a finite value at all times")
+        }
         SimulationError::Step { .. } | SimulationError::Smallest { .. } => ScriptError::from(error).hint(
             "the history up to there is kept; try a smaller dt or a finer mesh, and check loads, stiffness, units and what is held",
         ),

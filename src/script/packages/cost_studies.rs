@@ -101,7 +101,6 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let patience = patience(call, Patience::default().wall.as_secs_f64());
     let costs = step_costs(&cases, patience, repeats, &mut || context.stopped_by().is_none());
-    context.forget_callback_errors();
     let Some(costs) = costs else {
         return Err(context.why_stopped("a study of costs"));
     };

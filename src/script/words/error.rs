@@ -3,6 +3,7 @@
 use rhai::{Dynamic, EvalAltResult, Position};
 
 use super::brief::brief;
+use super::raised::Raised;
 use super::stop::Stop;
 
 /// Marks errors of the engine that are our own mistakes.
@@ -84,10 +85,10 @@ impl ScriptError {
     }
 }
 
-/// Errors of the layers below become failures with their own words.
-impl<E: std::error::Error> From<E> for ScriptError {
+/// Errors of the layers below become failures with their own words; those that a script function has caused are handed on as its own.
+impl<E: std::error::Error + 'static> From<E> for ScriptError {
     fn from(error: E) -> Self {
-        Self::new(error.to_string())
+        Raised::behind(&error).map_or_else(|| Self::new(error.to_string()), Self::Engine)
     }
 }
 
