@@ -51,9 +51,7 @@ pub enum LoadError {
         allowed: &'static str,
     },
     /// A combination that is too large to be evaluated in every step.
-    #[error(
-        "a schedule of {parts} parts, but at most {most} can be combined; write it as schedule(|t| …)"
-    )]
+    #[error("a schedule of {parts} parts, but at most {most} can be combined")]
     ManyParts {
         /// Its parts.
         parts: usize,
@@ -61,7 +59,7 @@ pub enum LoadError {
         most: usize,
     },
     /// A table with too few rows.
-    #[error("table: {rows} rows, but at least 2 are needed: [[t, factor], …]")]
+    #[error("table: {rows} rows, but at least 2 are needed, each a time and a factor")]
     ShortTable {
         /// Rows given.
         rows: usize,

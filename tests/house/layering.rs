@@ -69,7 +69,7 @@ pub fn sources() -> Vec<(PathBuf, String)> {
     files
 }
 
-fn layer(path: &Path) -> String {
+pub fn layer(path: &Path) -> String {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let first = path.strip_prefix(src).unwrap().components().next().unwrap();
     first.as_os_str().to_string_lossy().into_owned()

@@ -1,5 +1,6 @@
 //! What every other wing says: errors and their places, numbers, nouns, what may have been meant, what was checked, what stops a run.
 
+pub mod advice;
 pub mod brief;
 pub mod checks;
 pub mod error;
