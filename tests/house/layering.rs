@@ -234,6 +234,22 @@ fn a_trespass_is_found() {
 }
 
 #[test]
+fn files_of_folders_hold_a_sentence_and_names() {
+    const CODE: [&str; 6] = ["fn ", "struct ", "enum ", "trait ", "impl ", "macro_rules"];
+    let is_code = |line: &&str| {
+        let item = line.trim_start_matches("pub ").trim_start_matches("const ");
+        CODE.iter().any(|code| item.starts_with(code))
+    };
+    let files = sources();
+    let mut folders = files.iter().filter(|(path, _)| path.ends_with("mod.rs"));
+    assert!(folders.clone().count() > 30);
+    let found = folders.find_map(|(path, text)| Some((path, text.lines().find(is_code)?)));
+    assert_eq!(found, None, "code belongs into a file with a name");
+    assert!(is_code(&"pub fn f() {") && is_code(&"trait T {") && is_code(&"pub const fn f() {"));
+    assert!(!is_code(&"pub const TABLES: &[&str] = &[") && !is_code(&"pub use a::implied;"));
+}
+
+#[test]
 fn no_file_is_longer_than_four_hundred_lines() {
     for (path, text) in sources() {
         let lines = text.lines().count();
