@@ -8,6 +8,7 @@ pub mod call;
 pub mod catalog;
 pub mod instead;
 pub mod kind;
+pub mod option_set;
 pub mod options;
 pub mod parameter;
 pub mod register;
