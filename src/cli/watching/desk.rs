@@ -144,6 +144,7 @@ impl<'a> Desk<'a> {
     }
 
     fn turn_to(&mut self, exercise: &'static Exercise) {
+        // What was read last is shown on; that it cannot be read is told when something is to be noted.
         let progress = self.workbook.progress().unwrap_or_else(|_| self.state.progress.clone());
         self.state = State::open(exercise, shown(&self.workbook.file(exercise)), progress);
         self.solution = self.painter.solution(exercise);

@@ -2,7 +2,6 @@
 
 use super::built_in::{BuiltIn, BuiltInTable};
 use super::builtins;
-use super::kind::Type;
 use super::table::{Form, Row, Table};
 
 /// The tables that make up a language.
@@ -43,11 +42,6 @@ impl Catalog {
     /// Names that can be called as functions.
     pub fn function_names(&self) -> impl Iterator<Item = &'static str> {
         self.rows().filter(|row| matches!(row.form, Form::Function)).map(|row| row.name)
-    }
-
-    /// The type with this display name.
-    pub fn type_named(&self, name: &str) -> Option<Type> {
-        self.tables().flat_map(|table| table.types).find(|of| of.name() == name).copied()
     }
 
     /// Methods and properties of a type.

@@ -131,11 +131,6 @@ impl Parameter {
         self.within(Range::NonNegative)
     }
 
-    /// At least `least`.
-    pub const fn at_least(self, least: f64) -> Self {
-        self.within(Range::AtLeast(least))
-    }
-
     /// From `least` to `most`, both included.
     pub const fn between(self, least: f64, most: f64) -> Self {
         self.within(Range::Between(least, most))

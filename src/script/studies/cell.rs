@@ -4,11 +4,11 @@ use rhai::{Dynamic, EvalAltResult, Map};
 
 use super::options::StabilityOptions;
 use super::parameters::label;
-use super::plan::{STEP_SIZE, step_size};
 use crate::analysis::Case;
 use crate::integrators::Method;
 use crate::newton::Tolerance;
 use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::step_size::{STEP_SIZE, step_size};
 use crate::script::rows::call::Call;
 use crate::script::words::error::{Failure, Place, ScriptError};
 use crate::script::words::numbers::as_number;
@@ -24,6 +24,7 @@ pub fn thrown(call: &Call, error: &EvalAltResult) -> Option<String> {
         EvalAltResult::ErrorInFunctionCall(_, _, inner, _) => thrown(call, inner),
         EvalAltResult::ErrorRuntime(value, _) => Some(match value.read_lock::<Failure>() {
             Some(failure) => failure.message.clone(),
+            // What is no text is shown.
             None => value.clone().into_string().unwrap_or_else(|_| call.show(value)),
         }),
         _ => None,

@@ -11,11 +11,12 @@ use crate::model::Scene;
 use crate::newton::Tolerance;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::station::StationHandle;
+use crate::script::handles::step_size::{STEP_SIZE, step_size};
 use crate::script::rows::accept::readable;
 use crate::script::rows::call::Call;
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::{as_number, format_number};
-use crate::simulation::{History, Settings, StepControl, StepSize};
+use crate::simulation::{History, Settings, StepSize};
 
 /// Everything a study needs but its reference.
 pub struct Plan {
@@ -145,6 +146,7 @@ fn column_of(
 ) -> Result<Observable, ScriptError> {
     let name =
         &readable("columns", name).map_err(|error| error.at(Place::Key("columns".into())))?;
+    // What is no array is a name alone.
     let parts = meant.clone().into_array().unwrap_or_else(|_| vec![meant.clone()]);
     let text = |value: &Dynamic| value.clone().into_string().ok();
     let (column, factor) = match parts.as_slice() {
@@ -231,16 +233,6 @@ pub fn patience(call: &Call, seconds: f64) -> Patience {
         wall: std::time::Duration::from_secs_f64(seconds.min(1e9)),
     }
 }
-
-/// A step size: a positive number, or adaptive(…); none when it is something else.
-pub fn step_size(value: &Dynamic) -> Option<StepSize> {
-    let fixed = as_number(value).filter(|dt| dt.is_finite() && *dt > 0.0);
-    let control = || value.clone().try_cast::<StepControl>().map(StepSize::from);
-    fixed.map(StepSize::from).or_else(control)
-}
-
-/// How a step size is written.
-pub const STEP_SIZE: &str = "give positive numbers, or adaptive(#{ tolerance: 1e-4 })";
 
 /// Step sizes, at least one.
 fn step_sizes(call: &Call, dts: &[Dynamic]) -> Result<Vec<StepSize>, ScriptError> {
