@@ -65,7 +65,7 @@ fn speaks(text: &str) -> bool {
         })
     };
     SIGNS.iter().any(|sign| text.contains(sign))
-        || OBJECTS.iter().any(|object| names_a_member(&object))
+        || OBJECTS.iter().any(|object| names_a_member(object))
 }
 
 #[test]
