@@ -64,8 +64,7 @@ fn speaks(text: &str) -> bool {
                 && behind.is_some_and(|letter| letter.is_ascii_lowercase())
         })
     };
-    SIGNS.iter().any(|sign| text.contains(sign))
-        || OBJECTS.iter().any(|object| names_a_member(object))
+    SIGNS.iter().any(|sign| text.contains(sign)) || OBJECTS.iter().any(names_a_member)
 }
 
 #[test]
