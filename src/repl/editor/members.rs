@@ -86,7 +86,8 @@ mod tests {
         let surroundings = surroundings();
         let ours = surroundings.catalog.tables().flat_map(|table| table.types);
         let plain = ["number", "whole number", "text", "character", "function", "map", "array"];
-        for of in ours.map(|of| of.name()).chain(plain).chain(["timestamp", "truth value"]) {
+        for of in ours.map(|of| of.name()).chain(plain).chain(["timestamp", "truth value", "range"])
+        {
             let (offered, known) = offered_and_known(of);
             assert_eq!(offered, known, "{of}");
         }

@@ -26,6 +26,8 @@ pub enum ValueKind {
     Function,
     /// A time on the clock.
     Timestamp,
+    /// A range of whole numbers.
+    Range,
     /// A map.
     Map,
     /// An array of values of one kind.
@@ -45,6 +47,7 @@ const PLAIN: &[ValueKind] = &[
     ValueKind::Character,
     ValueKind::Function,
     ValueKind::Timestamp,
+    ValueKind::Range,
     ValueKind::Map,
     ValueKind::ARRAY,
 ];
@@ -69,6 +72,7 @@ impl ValueKind {
             Self::Character => "character",
             Self::Function => "function",
             Self::Timestamp => "timestamp",
+            Self::Range => "range",
             Self::Map => "map",
             Self::Array(_) => "array",
             Self::Object(of) => of.name(),
