@@ -12,9 +12,10 @@ use super::force_point::ForcePoint;
 use super::mesh::QuadratureSpan;
 use super::moment_point::MomentPoint;
 use super::parts::{MOST_PARTS, Parts};
+use super::section_forces::Share;
 use super::span_points::{SpanPoints, window_mut};
-use super::{BeamError, Mesh, RotationIncrement, Section};
-use crate::geometry::{Basis, GaussRule, Span, Vec2};
+use super::{BeamError, Mesh, RotationIncrement, Section, SectionForces, SectionPlace};
+use crate::geometry::{Basis, Span, Vec2};
 
 /// The slowest an axis may run along its parameter, relative to its mean.
 const STANDSTILL: f64 = 1e-9;
@@ -100,8 +101,9 @@ impl<const N: usize> DiscreteBeam<N> {
         let inertia_rule = mesh.inertia_rule()?;
         let mut gram = vec![[0.0; N]; control_points.len()];
         let mut spans = Vec::new();
-        for QuadratureSpan { span, force_rule, moment_points } in mesh.quadrature_spans()? {
-            let moment_rule = GaussRule::new(moment_points)?;
+        for quadrature in mesh.quadrature_spans()? {
+            let moment_rule = quadrature.moment_rule()?;
+            let QuadratureSpan { span, force_rule, .. } = quadrature;
             spans.push(SpanPoints {
                 first: span.first,
                 force_points: axis
@@ -336,6 +338,32 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
 
     fn strain_energy(&self) -> f64 {
         self.spans.iter().map(|span| span.strain_energy(&self.section)).sum()
+    }
+
+    fn strain_energies(&self) -> [f64; 3] {
+        let mut sums = [0.0; 3];
+        for span in &self.spans {
+            span.add_strain_energies(&self.section, &mut sums);
+        }
+        sums
+    }
+
+    fn section_forces(&self, place: &SectionPlace) -> SectionForces {
+        let mut forces = SectionForces::default();
+        for &Share { span, point, weight } in &place.of_force {
+            let (strain, force) = self.spans[span].force_points[point].transmitted(&self.section);
+            forces.axial_strain += weight * strain.x;
+            forces.shear_strain += weight * strain.y;
+            forces.axial += weight * force.x;
+            forces.shear += weight * force.y;
+        }
+        for &Share { span, point, weight } in &place.of_moment {
+            let (curvature, moment) =
+                self.spans[span].moment_points[point].transmitted(&self.section);
+            forces.curvature += weight * curvature;
+            forces.moment += weight * moment;
+        }
+        forces
     }
 
     fn lumped_lengths(&self) -> Vec<f64> {

@@ -47,6 +47,12 @@ pub enum ModelError {
         /// The length of the beam.
         length: f64,
     },
+    /// Section forces of what has no section.
+    #[error("{body} has no cross section: give a station of a beam")]
+    NoSection {
+        /// The particle.
+        body: String,
+    },
     /// A joint of a place with itself.
     #[error("{joint}: both stations are the same place of {body}; a joint needs two places")]
     JointWithItself {
