@@ -12,7 +12,6 @@ use super::force_point::ForcePoint;
 use super::mesh::QuadratureSpan;
 use super::moment_point::MomentPoint;
 use super::parts::{MOST_PARTS, Parts};
-use super::section_forces::Share;
 use super::span_points::{SpanPoints, window_mut};
 use super::{BeamError, Mesh, RotationIncrement, Section, SectionForces, SectionPlace};
 use crate::geometry::{Basis, Span, Vec2};
@@ -349,21 +348,19 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
     }
 
     fn section_forces(&self, place: &SectionPlace) -> SectionForces {
-        let mut forces = SectionForces::default();
-        for &Share { span, point, weight } in &place.of_force {
-            let (strain, force) = self.spans[span].force_points[point].transmitted(&self.section);
-            forces.axial_strain += weight * strain.x;
-            forces.shear_strain += weight * strain.y;
-            forces.axial += weight * force.x;
-            forces.shear += weight * force.y;
+        let (mut normal, mut force, mut moment) = (Vec2::zeros(), Vec2::zeros(), 0.0);
+        for share in &place.force_shares {
+            let point = &self.spans[share.span].force_points[share.point];
+            let (at_point, couple) = point.transmitted(&self.section);
+            normal += point.normal() * share.of_normal;
+            force += at_point * share.of_force;
+            moment += couple * share.of_couple;
         }
-        for &Share { span, point, weight } in &place.of_moment {
-            let (curvature, moment) =
-                self.spans[span].moment_points[point].transmitted(&self.section);
-            forces.curvature += weight * curvature;
-            forces.moment += weight * moment;
+        for share in &place.moment_shares {
+            let point = &self.spans[share.span].moment_points[share.point];
+            moment += point.transmitted(&self.section) * share.of_moment;
         }
-        forces
+        SectionForces::of(&self.section, normal, force, moment)
     }
 
     fn lumped_lengths(&self) -> Vec<f64> {

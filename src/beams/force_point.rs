@@ -269,9 +269,10 @@ impl<const N: usize> ForcePoint<N> {
         (if is_known { self.last_force } else { force_of(section, self.strain) }, is_known)
     }
 
-    /// `Γ` and `N` at the start of the step.
-    pub(super) fn transmitted(&self, section: &Section) -> (Vec2, Vec2) {
-        (self.strain, self.present_force(section).0)
+    /// `n` and `w x' × n` at the start of the step.
+    pub(super) fn transmitted(&self, section: &Section) -> (Vec2, f64) {
+        let force = self.rotation.to_space(self.present_force(section).0);
+        (force, self.axis.weight * cross(self.gradient, force))
     }
 
     /// The energies of stretching and of shear [energy].

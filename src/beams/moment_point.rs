@@ -192,13 +192,13 @@ impl<const N: usize> MomentPoint<N> {
         self.curvature += slope * rotations.rate(rotation);
     }
 
-    /// `κ` and `M` at the start of the step: the moment that was an unknown of the last solution, where it is that of the curvature but for
+    /// `M` at the start of the step: the moment that was an unknown of the last solution, where it is that of the curvature but for
     /// rounding.
-    pub(super) fn transmitted(&self, section: &Section) -> (f64, f64) {
+    pub(super) fn transmitted(&self, section: &Section) -> f64 {
         let missing = self.curvature - self.last_moment / section.bending_stiffness;
         let is_known = self.axis.weight * missing.abs() <= SAME_TURN;
         let moment = section.bending_stiffness * self.curvature;
-        (self.curvature, if is_known { self.last_moment } else { moment })
+        if is_known { self.last_moment } else { moment }
     }
 
     pub(super) fn strain_energy(&self, section: &Section) -> f64 {

@@ -68,17 +68,17 @@ fn errors(rest: &Equilibrium, force: Vec2) -> [f64; 3] {
 #[test]
 fn balance_is_found_along_a_strongly_bent_cantilever() {
     let force = at(-1.0, 6.0);
-    // Least orders of the largest error of M and of |(N, Q)| along the beam, over the last doubling.
-    let expected = [
-        ("cubic C2", 0.9, 3.4),
-        ("cubic C1", 0.9, 4.0),
-        ("cubic C0", 2.7, 2.8),
-        ("linear", 0.95, f64::NAN),
-        ("quadratic Lagrange", 1.9, 1.8),
-        ("cubic Lagrange", 2.7, 2.8),
-        ("quadratic C1", 0.95, 3.9),
-        ("degree 4, C3", 0.95, 3.2),
-        ("degree 5, C4", 0.95, 2.9),
+    // Of M, over the last doubling; the force is constant, and found to rounding.
+    let least_order = [
+        ("cubic C2", 2.2),
+        ("cubic C1", 2.2),
+        ("cubic C0", 2.7),
+        ("linear", 0.95),
+        ("quadratic Lagrange", 1.9),
+        ("cubic Lagrange", 2.7),
+        ("quadratic C1", 1.9),
+        ("degree 4, C3", 2.2),
+        ("degree 5, C4", 2.3),
     ];
     let all = [16, 32, 64].map(|spans| {
         let with = |(_, mesh): (_, Mesh)| errors(&loaded(&mesh, 0.3, force), force);
@@ -86,17 +86,21 @@ fn balance_is_found_along_a_strongly_bent_cantilever() {
         let held = meshes(spans).into_iter().filter(|(name, _)| !name.ends_with("2 points"));
         held.map(with).collect::<Vec<_>>()
     });
-    for (index, (name, of_moment, of_force)) in expected.into_iter().enumerate() {
-        for (what, least) in [of_moment, of_force, of_moment].into_iter().enumerate() {
-            let label = ["M", "|(N, Q)|", "M at the clamp"][what];
-            let errors = [0, 1, 2].map(|level| all[level][index][what]);
-            let order = orders(&errors)[1];
-            println!("{name:20} {label:15} {} order {order:.2}", sci(&errors));
-            // Linear elements are free of moment loads but at their nodes: their forces are exact.
-            let is_exact = least.is_nan() && errors[2] < 1e-12;
-            assert!(is_exact || order > least, "{name}: {label} of order {order}");
+    let mut missed = Vec::new();
+    for (index, (name, least)) in least_order.into_iter().enumerate() {
+        let errors_of = |what: usize| [0, 1, 2].map(|level| all[level][index][what]);
+        println!("{name:20} |(N, Q)|       {}", sci(&errors_of(1)));
+        assert!(errors_of(1).iter().all(|error| *error < 1e-12), "{name}");
+        for (what, label) in [(0, "M"), (2, "M at the clamp")] {
+            let order = orders(&errors_of(what));
+            println!("{name:20} {label:14} {} orders {order:.2?}", sci(&errors_of(what)));
+            // At the clamp degree 4 happens to be better by far from the start.
+            if order[1] < least && errors_of(what)[2] > 1e-7 {
+                missed.push(format!("{name}: {label} of order {order:.2?}"));
+            }
         }
     }
+    assert!(missed.is_empty(), "{missed:?}");
 }
 
 #[test]

@@ -40,13 +40,16 @@ impl Model {
         let xi = station
             .parameter(&definition.axis, mesh)
             .map_err(ModelError::geometry(&definition.name))?;
-        Ok(CrossSection { body: beam, place: self.section_points(scene, beam)?.at(xi) })
+        let points = self.section_points(scene, beam)?;
+        let place = points.at(xi).map_err(ModelError::beam(&definition.name))?;
+        Ok(CrossSection { body: beam, place })
     }
 
-    /// Section forces and strains in the present configuration: by the law of the material from the strains there.
+    /// Section forces in the present configuration, by the law of the material from the strains there, as they balance loads and inertia:
+    /// see [`SectionPlace`].
     ///
-    /// At quadrature points that is exact; between them see [`SectionPoints`]. In a step the balance has other ones, which belong to its
-    /// middle: the mean of those at its ends is theirs, for all methods but the damping ones and those that take forces at the ends.
+    /// In a step of the energy-momentum method the balance has those of its middle, which are the mean of those at its ends: where a stiff beam rings
+    /// from step to step, the mean of two neighbouring steps does not.
     pub fn section_forces(&self, at: &CrossSection) -> SectionForces {
         self.bodies()[at.body].dynamics.section_forces(&at.place)
     }
@@ -72,12 +75,11 @@ impl Model {
             Ok(SectionSample { arc_length, forces: dynamics.section_forces(&place) })
         };
         let places = self.section_points(scene, beam)?.along(WITHIN_A_SPAN);
+        let places = places.map_err(ModelError::beam(&definition.name))?;
         places.into_iter().map(sample).collect()
     }
 
     fn section_points(&self, scene: &Scene, beam: usize) -> Result<SectionPoints, ModelError> {
-        let name = &scene.beams[beam].name;
-        SectionPoints::of(&self.meshes()[beam])
-            .map_err(|source| ModelError::Beam { beam: name.clone(), source })
+        SectionPoints::of(&self.meshes()[beam]).map_err(ModelError::beam(&scene.beams[beam].name))
     }
 }

@@ -161,6 +161,11 @@ impl ModelError {
     pub(in crate::model) fn geometry(beam: &str) -> impl Fn(GeometryError) -> Self + '_ {
         move |source| Self::Beam { beam: beam.to_owned(), source: source.into() }
     }
+
+    /// Something wrong with a beam.
+    pub(in crate::model) fn beam(name: &str) -> impl Fn(BeamError) -> Self + '_ {
+        move |source| Self::Beam { beam: name.to_owned(), source }
+    }
 }
 
 /// Refuses numbers that are not finite: a property of an object.
