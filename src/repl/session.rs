@@ -16,8 +16,8 @@ use crate::script::dialect::reading::read;
 use crate::script::engine::host::{Halt, Host};
 use crate::script::engine::parse::{Piece, parse_piece};
 use crate::script::rows::catalog::Catalog;
-use crate::script::source::lexing::tokens;
 use crate::script::source::program::Program;
+use crate::script::source::text::Source;
 use crate::script::state::context::Context;
 use crate::script::state::settings::Settings;
 use crate::script::state::watchdog::Watchdog;
@@ -153,7 +153,7 @@ impl Session {
         };
         self.forget_shadowed();
         let functions: String =
-            functions_of(after).map(|function| format!("\n{function}")).collect();
+            functions_of(&after.into()).map(|function| format!("\n{function}")).collect();
         self.record.worked(&format!("{before}{functions}"));
     }
 
@@ -193,16 +193,13 @@ impl Session {
     }
 
     /// Parses an input at its lines of the session, makes its functions known, and begins to keep the limits.
-    fn begin(&mut self, text: &str, before: usize) -> Result<(AST, Watchdog), Reply> {
+    fn begin(&mut self, text: &Source, before: usize) -> Result<(AST, Watchdog), Reply> {
         let Self { host, transcript, scope, .. } = self;
         let reply = |halt| reply_to(halt, transcript);
         let guard = host.watch().map_err(reply)?;
-        let whole = || transcript.whole();
-        let parse = |engine: &Engine| {
-            let whole = &*whole().text;
-            parse_piece(engine, &Piece { name: PROMPT, text, before, whole, scope })
-        };
-        let ast = host.run(&guard, whole, parse).map_err(reply)?;
+        let piece = Piece { name: PROMPT, text, before, scope };
+        let parse = |engine: &Engine| parse_piece(engine, &piece, || transcript.variables());
+        let ast = host.run(&guard, || transcript.whole(), parse).map_err(reply)?;
         self.library = self.library.merge(&ast.clone_functions_only());
         // Errors in functions are told from those in functions of the same name in files.
         self.library.set_source(PROMPT);
@@ -226,8 +223,9 @@ impl Session {
     }
 
     /// Keeps the value of an input that worked, if it is to be shown.
-    fn answer(&mut self, value: Dynamic, text: &str) -> Reply {
-        if value.is_unit() || is_silenced(text) {
+    fn answer(&mut self, value: Dynamic, text: &Source) -> Reply {
+        // An input that ends in a semicolon is not to show its value.
+        if value.is_unit() || text.ends_in_semicolon() {
             return Reply::Done;
         }
         // A constant of this name belongs to the user.
@@ -303,7 +301,7 @@ impl Session {
     pub fn script(&self) -> Result<String, Diagnostic> {
         let script = self.record.script(self.engine());
         let program = Program::named("the saved session", &script);
-        match read(self.engine(), &Scope::new(), &script, 0) {
+        match read(self.engine(), &Scope::new(), &program.text, 0) {
             Ok(_) => Ok(script),
             Err(error) => Err(self.host.explain(&error, &program)),
         }
@@ -313,11 +311,6 @@ impl Session {
     pub fn folder(&self) -> &Path {
         &self.folder
     }
-}
-
-/// Whether an input ends in a semicolon, which says that its value is not to be shown.
-fn is_silenced(text: &str) -> bool {
-    matches!(tokens(text).last(), Some((rhai::Token::SemiColon, _)))
 }
 
 /// What is said of an input that did not come to its end, with places in the inputs that they are from.

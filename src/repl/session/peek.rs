@@ -46,9 +46,11 @@ impl Session {
     /// # Errors
     /// What came of the round that did not work: the last one.
     pub fn peek_in_rounds(&mut self, text: &str, rounds: &mut dyn Rounds) -> Result<(), Reply> {
-        let before = self.transcript.add(self.transcript.typed(text));
+        let program = self.transcript.typed(text);
+        let text = program.text.clone();
+        let before = self.transcript.add(program);
         let (checkpoint, library) = (self.checkpoint(), self.library.clone());
-        let begun = self.begin(text, before);
+        let begun = self.begin(&text, before);
         let outcome = begun.and_then(|(ast, guard)| self.go_round(&guard, &ast, rounds));
         self.restore(checkpoint);
         self.library = library;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use rhai::{Engine, Token};
+use rhai::Engine;
 
 use super::host::{Halt, Host};
 use super::parse::parse;
@@ -10,7 +10,6 @@ use super::stack::on_large_stack;
 use crate::script::diagnose::Diagnostic;
 use crate::script::rows::catalog::Catalog;
 use crate::script::rows::sources::FOLDER;
-use crate::script::source::lexing::tokens;
 use crate::script::source::program::Program;
 use crate::script::state::context::Context;
 use crate::script::state::settings::Settings;
@@ -88,16 +87,10 @@ pub const SNAPSHOTS: usize = 256_000_000;
 /// Whether a script may go back in time: a scene pays only for what it uses. The library never does; what another imported file does is
 /// not known.
 fn may_go_back(program: &Program) -> bool {
-    let tokens = tokens(&program.text);
-    let is_library = |index: usize| match tokens.get(index) {
-        Some((Token::StringConstant(path), _)) => path.starts_with(FOLDER),
-        _ => false,
-    };
-    tokens.iter().enumerate().any(|(index, (token, _))| match token {
-        Token::Identifier(name) => matches!(name.as_str(), "back" | "rewind"),
-        Token::Import => !is_library(index + 1),
-        _ => false,
-    })
+    let is_library = |path: Option<&str>| path.is_some_and(|path| path.starts_with(FOLDER));
+    let source = &program.text;
+    source.names().any(|name| matches!(name, "back" | "rewind"))
+        || source.imports().any(|path| !is_library(path))
 }
 
 fn run_here(program: &Program, catalog: &Catalog, settings: Settings) -> Outcome {
@@ -135,6 +128,24 @@ fn discard_journals(context: &Context) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::script::packages::language;
+    use crate::script::source::lexing::lexings;
+    use crate::script::state::settings::Mode;
+
+    #[test]
+    fn a_script_is_lexed_once_whether_it_is_right_or_wrong() {
+        for text in [
+            "fn f(x) { for i in 0..x { |y| y + i }; x }\nlet E = 2; f(E); // good",
+            "fn f(x) { x + unknown }\nf(2);",
+            "let a = section(#{ EA: 1, width: 2 });",
+            "let a = [1, 2;",
+        ] {
+            let program = Program::named("a", text);
+            let before = lexings();
+            let _ = run_here(&program, &language(), Settings::silent(Mode::Run));
+            assert_eq!(lexings(), before + 1, "{text}");
+        }
+    }
 
     #[test]
     fn only_scripts_that_may_go_back_pay_for_it() {

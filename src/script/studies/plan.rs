@@ -102,7 +102,7 @@ impl Plan {
     pub fn add_columns(
         &mut self,
         call: &Call,
-        given: Option<&Dynamic>,
+        given: Option<Map>,
         table: Option<&Sheet>,
     ) -> Result<(), ScriptError> {
         let history = self.history()?;
@@ -114,18 +114,7 @@ impl Plan {
                 all.filter(|of| sheet.has(&of.name)).collect()
             }
         };
-        let given = given.map(|given| {
-            given.read_lock::<Map>().map(|map| map.clone()).ok_or_else(|| {
-                let told = format!("columns is {}", call.describe(given));
-                at_key(
-                    call,
-                    "columns",
-                    told,
-                    "write #{ S: \"slider1.position\" }, names and columns",
-                )
-            })
-        });
-        for (name, meant) in given.transpose()?.unwrap_or_default() {
+        for (name, meant) in given.unwrap_or_default() {
             let observable = column_of(call, &name, &meant, &history)?;
             columns.retain(|other| other.name != observable.name);
             columns.push(observable);

@@ -1,6 +1,6 @@
 //! What results are compared with: a table of an independent solution, or a finer run of our own.
 
-use rhai::Dynamic;
+use rhai::{Dynamic, Map};
 
 use super::desk::{Desk, Task};
 use super::labels;
@@ -154,10 +154,20 @@ fn expect_other_steps_if_doubled(call: &Call, finest: &Case) -> Result<(), Scrip
     }
 }
 
+/// The option `columns`, if it is given.
+fn columns_of(call: &Call, options: &ErrorOptions) -> Result<Option<Map>, ScriptError> {
+    let Some(given) = &options.columns else { return Ok(None) };
+    let got = call.describe(given);
+    given.clone().try_cast::<Map>().map(Some).ok_or_else(|| {
+        let hint = "write names of the reference with columns of the history: #{ S: \"slider1.position\" }";
+        at_key(call, "columns", format!("'columns' must be a map, got {got}"), hint)
+    })
+}
+
 impl Reference {
     /// Reads the option `reference`, and looks in the plan at what it can be compared with.
     pub fn read(call: &Call, options: &ErrorOptions, plan: &mut Plan) -> Result<Self, ScriptError> {
-        let columns = options.columns.as_ref();
+        let columns = columns_of(call, options)?;
         let run = match &options.reference {
             Some(Wanted::Table(file)) => {
                 let sheet = read_sheet(call, "reference", file)?;
