@@ -19,7 +19,7 @@ const TRIES: usize = 100;
 #[derive(Debug)]
 pub struct Folder(Dir);
 
-/// Whether `name` goes down only: no root, no `..`.
+/// Whether a name of a file goes down only: no root, no `..`.
 pub fn is_plain(name: &Path) -> bool {
     let mut parts = name.components();
     name.components().next().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
@@ -28,7 +28,7 @@ pub fn is_plain(name: &Path) -> bool {
 impl Folder {
     /// Opens a folder that a person has named; links are followed.
     ///
-    /// # Errors
+    /// When there is no folder at `path`.
     /// When it is not there, or is none.
     pub fn open(path: &Path) -> io::Result<Self> {
         let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
@@ -37,8 +37,7 @@ impl Folder {
 
     /// Opens a folder to write into, and makes it and those above where they are missing. The folder itself may not be a link:
     /// one could have been laid there to lead elsewhere.
-    ///
-    /// # Errors
+    /// When the folder cannot be made, or is a link.
     /// When it cannot be made, or is a link.
     pub fn make(path: &Path) -> io::Result<Self> {
         let above = path.parent().filter(|above| !above.as_os_str().is_empty());
@@ -54,7 +53,7 @@ impl Folder {
 
     /// Opens a folder as [`make`](Self::make) does, but makes nothing.
     ///
-    /// # Errors
+    /// When there is no folder at `path`, or it is a link.
     /// When it is not there, or is a link.
     pub fn find(path: &Path) -> io::Result<Self> {
         match path.components().next_back() {

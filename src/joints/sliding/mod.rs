@@ -21,8 +21,8 @@ pub use relaxed::Relaxed;
 pub use released::Released;
 pub use rule::{RuleClaims, RuleEntry, SLIDING_RULES, SlidingRule};
 
-/// A law of a sliding joint.
+/// A law of a sliding joint: which equations hold in a step.
 pub trait SlidingLaw {
-    /// The five equations of a step for the unknowns of the contact, with their derivatives.
+    /// The five equations of a step for the five unknowns of the contact, with their derivatives.
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS];
 }
