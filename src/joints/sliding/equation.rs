@@ -21,11 +21,11 @@ pub struct Equation {
     pub unit: Unit,
     /// The derivative of the value by the movement of the slave.
     pub by_slave: Vec2,
-    /// The derivative of the value by the movement of control point `i` of the master has three parts: this times `B_i(ξ1)`,
+    /// The part of the value's derivative by the movement of control point `i` of the master that `B_i(ξ1)` multiplies.
     pub by_end: Vec2,
-    /// in the derivative of the value by the movement of control point `i` of the master, the part that `B̄_i` multiplies,
+    /// The part of the value's derivative by the movement of control point `i` of the master that `B̄_i` multiplies.
     pub by_mean: Vec2,
-    /// in the derivative of the value by the movement of control point `i` of the master, the part that `D_i` multiplies.
+    /// The part of the value's derivative by the movement of control point `i` of the master that `D_i` multiplies.
     pub by_difference: Vec2,
     /// The derivatives of the value by the contact's unknowns `λ`, `η` and `Δξ`.
     pub by_unknowns: ContactUnknowns,

@@ -4,7 +4,7 @@ use crate::elementary::atan2;
 use crate::geometry::{Vec2, cross, larger};
 use crate::model::Model;
 
-/// Control points of all bodies, and normals of their sections.
+/// Where everything in a model is: control points of all bodies, and normals of their sections.
 #[derive(Debug, Clone, Default)]
 pub struct Placement {
     points: Vec<Vec2>,
@@ -33,7 +33,7 @@ impl Placement {
 }
 
 impl Model {
-    /// Writes where everything is over what a placement holds.
+    /// Writes where everything in the model is over what a placement holds.
     pub fn write_placement(&self, placement: &mut Placement) {
         placement.points.clear();
         placement.normals.clear();

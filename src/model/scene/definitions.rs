@@ -10,9 +10,9 @@ use crate::geometry::{Curve, Vec2};
 pub struct StartMotion {
     /// The velocity of the point `about` [length/time].
     pub velocity: Vec2,
-    /// The rate of rotation [1/time].
+    /// The rate of rotation of the beam at the start [1/time].
     pub spin: f64,
-    /// The point it turns about; its centre of mass when not given.
+    /// The point the beam turns about; its centre of mass when not given [length].
     pub about: Option<Vec2>,
 }
 
@@ -25,20 +25,20 @@ impl Default for StartMotion {
 /// A beam of a scene.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct BeamDefinition {
-    /// Its name in messages and reports.
+    /// The name of the beam in messages and reports.
     pub name: String,
-    /// Its axis, stress-free as drawn.
+    /// The axis of the beam [length], stress-free as drawn.
     pub axis: Curve,
-    /// Basis and quadrature.
+    /// The mesh of the beam: basis and quadrature.
     pub mesh: Mesh,
-    /// Stiffness and inertia.
+    /// The section of the beam: stiffness and inertia.
     pub section: Section,
-    /// How it moves at the start.
+    /// How the beam moves at the start.
     pub motion: StartMotion,
 }
 
 impl BeamDefinition {
-    /// Its mass, without what stands on it [mass].
+    /// The mass of the beam, without what stands on it [mass].
     pub fn mass(&self) -> f64 {
         self.section.mass_per_length * self.axis.length()
     }

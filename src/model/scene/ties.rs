@@ -9,7 +9,7 @@ use crate::model::words::written;
 /// Largest gap of a joint when the scene starts, relative to the length of its beam and its distance from the origin.
 const CLOSED: f64 = 1e-12;
 
-/// Sets of things that are one: union–find with path halving.
+/// Sets of things, by their numbers, that are one: union–find with path halving.
 pub struct Ties {
     parent: Vec<usize>,
 }

@@ -5,14 +5,14 @@ use crate::joints::{CONTACT_UNKNOWNS, Contact, Equation};
 use crate::linalg::Border;
 use crate::model::bodies::Body;
 
-/// What a slider connects.
+/// What a slider connects, by the places of its unknowns in the vectors of the model.
 #[derive(Debug, Clone, Copy)]
 pub struct Connection {
-    /// The body that is slid on.
+    /// The index of the body that is slid on.
     pub master: usize,
-    /// The body that slides, and its control point.
+    /// The index of the body that slides, and that of its control point.
     pub slave: (usize, usize),
-    /// The number of the slider among those of the model.
+    /// The index of the slider among those of the model.
     pub index: usize,
 }
 
