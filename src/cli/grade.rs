@@ -20,26 +20,26 @@ use crate::exercises::submissions::Submission;
 use crate::folders::Scratch;
 use crate::output::{Cell, Table};
 
-/// How marks are shown.
+/// How the marks of a class are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// A table for people.
+    /// Marks are shown as a table for people.
     Table,
-    /// JSON for programs.
+    /// Marks are shown as JSON for programs.
     Json,
 }
 
-/// What is to be graded, and how.
+/// Which class is to be graded, and how.
 pub struct Wishes<'a> {
     /// The folder of the class.
     pub folder: &'a Path,
     /// How marks are shown.
     pub form: Form,
-    /// A file that gets them as well.
+    /// The file that gets the marks as well.
     pub marks: Option<&'a Path>,
-    /// Attempts judged at the same time.
+    /// How many attempts are judged at the same time.
     pub jobs: Option<u16>,
-    /// What an attempt may use.
+    /// The limits of what an attempt may use.
     pub limits: &'a LimitOptions,
 }
 

@@ -23,7 +23,7 @@ const LARGEST: u64 = 1 << 30;
 /// What every mark begins with.
 const HEAD: &str = "{\"student\":";
 
-/// Marks of earlier runs, by student and exercise.
+/// The marks of earlier runs, by student and exercise.
 #[derive(Debug, Default)]
 pub struct KnownMarks(BTreeMap<Whose, Known>);
 
@@ -42,7 +42,7 @@ struct Known {
 #[derive(Debug)]
 pub struct MarksFile(File);
 
-/// Opens a file of marks, or begins one.
+/// Opens a file of marks for one run of grading, or begins one.
 ///
 /// # Errors
 /// When it cannot be read or written, another run writes it, or it is there and holds no marks: it is somebody else's.
@@ -83,7 +83,7 @@ fn read_line(line: &str) -> Option<(Whose, Known)> {
 }
 
 impl KnownMarks {
-    /// The mark of an attempt that has this fingerprint still.
+    /// The known mark of an attempt that still has this fingerprint.
     pub fn find(
         &self,
         submission: &Submission,
@@ -96,7 +96,7 @@ impl KnownMarks {
 }
 
 impl MarksFile {
-    /// Writes a mark down so that it outlasts whatever comes. Without a fingerprint it is judged again the next time.
+    /// Writes a mark into the file so that it outlasts whatever comes. Without a fingerprint the attempt is judged again the next time.
     ///
     /// # Errors
     /// When it cannot be written.
@@ -119,7 +119,7 @@ impl MarksFile {
     }
 }
 
-/// What the mark of an attempt depends on, as a word: its text, the files that it may read, the exercise, the limits, and this program.
+/// The fingerprint of an attempt, what its mark depends on, as a word: its text, the files that it may read, the exercise, the limits, and this program.
 pub fn fingerprint(submission: &Submission, exercise: &Exercise, limits: &[String]) -> String {
     let file = submission.attempt(exercise);
     let attempt = match file.as_deref().map(|path| attempt::load(path, &submission.folder)) {

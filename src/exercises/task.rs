@@ -2,10 +2,10 @@
 
 use super::exercise::Exercise;
 
-/// How the paragraph begins that says what is to be done.
+/// The words with which the paragraph of a task begins that says what is to be done.
 pub const TO_DO: &str = "To do:";
 
-/// A paragraph of a task.
+/// A paragraph of the task of an exercise.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Paragraph {
     /// Words that may be broken into lines anywhere between them.
@@ -15,7 +15,7 @@ pub enum Paragraph {
 }
 
 impl Exercise {
-    /// The paragraphs below the title; the last one says what is to be done.
+    /// The paragraphs of the exercise's task below its title; the last one says what is to be done.
     pub fn task(&self) -> Vec<Paragraph> {
         let below_title = self.start.lines().skip(1);
         let mut paragraphs = Vec::new();

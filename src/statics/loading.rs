@@ -10,7 +10,7 @@ pub struct Loading {
     pub time: f64,
     /// The load factor at the end: the loads themselves for 1 [-].
     pub factor: f64,
-    /// The number of equal steps in which loads are put on; under arc-length control the size of the first is the whole over this.
+    /// The number of equal steps in which loads are put on; under arc-length control the first step is to the load factor over this.
     pub steps: usize,
     /// The quantity that is prescribed in a step.
     pub control: Control,

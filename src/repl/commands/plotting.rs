@@ -25,7 +25,7 @@ enum Part {
     Expression(String),
 }
 
-/// `:plot [curves]`
+/// The command `:plot [curves]`: draws columns of the history, or curves of expressions.
 pub fn plot(shell: &mut Shell, operand: &str) -> Outcome {
     let found: Vec<Part> = parts(operand).into_iter().map(|part| read(shell, part)).collect();
     let mut columns = Vec::new();
@@ -268,13 +268,13 @@ fn subject(shell: &Shell, text: &str) -> Result<Option<SimulationHandle>, Diagno
     }
 }
 
-/// What an expression is told that goes on.
+/// The error of an expression that should be followed, and itself moves the simulation.
 pub fn moves(text: &str) -> Diagnostic {
     Diagnostic::general(format!("'{text}' moves a simulation"))
         .with_hint("draw what only looks; the simulation that it names stayed where it was")
 }
 
-/// Tells an error that came from no script.
+/// Tells the user an error that came from no script.
 pub fn refuse(shell: &mut Shell, error: ScriptError) -> Outcome {
     match error {
         ScriptError::Failure(failure) => {

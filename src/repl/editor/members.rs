@@ -7,7 +7,7 @@ use crate::script::rows::kind::Kind;
 use crate::script::rows::table::{Form, Row};
 use crate::script::source::keywords::built_in;
 
-/// Members of a value of type `of`. Of an unknown type all members of all types are offered once something is typed; of a
+/// The members of a value of type `of`, as candidates. Of an unknown type all members of all types are offered once something is typed; of a
 /// map held by a variable its keys.
 pub fn members(
     of: Option<&str>,
