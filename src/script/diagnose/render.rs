@@ -16,7 +16,7 @@ impl Diagnostic {
         self.render_within(colours, usize::MAX)
     }
 
-    /// The same with what to do on lines of `width` characters, for a terminal that would break a word at its edge.
+    /// The diagnostic as text, with what to do on lines of `width` characters, for a terminal that would break a word at its edge.
     pub fn render_within(&self, colours: Colours, width: usize) -> String {
         let drawing = match self.blame {
             Blame::User => Drawing::error(),
@@ -120,7 +120,7 @@ impl std::fmt::Display for Step {
 }
 
 impl Location {
-    /// What stands there.
+    /// The text of the piece of the script.
     pub fn text(&self) -> &str {
         &self.program.text[self.bytes()]
     }

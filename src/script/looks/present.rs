@@ -26,7 +26,7 @@ const LEAST_ROOM: usize = 20;
 /// Most lines of a text.
 const MOST_LINES: usize = 200;
 
-/// Shows values on lines of at most so many characters, but for texts that have lines of their own.
+/// Shows values of a script on lines of at most so many characters, but for texts that have lines of their own.
 pub struct Presenter<'a> {
     catalog: &'a Catalog,
     width: usize,
@@ -68,7 +68,7 @@ pub fn present(catalog: &Catalog, value: &Dynamic, width: usize) -> String {
     Presenter { catalog, width: width.max(20) }.show(value)
 }
 
-/// The same in one line: collections elided until they fit, of all else the first line.
+/// Shows a value of a language in one line of `width` characters: collections elided until they fit, of all else the first line.
 pub fn present_in_a_line(catalog: &Catalog, value: &Dynamic, width: usize) -> String {
     let presenter = Presenter { catalog, width };
     if is_collection(value) {

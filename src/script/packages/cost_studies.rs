@@ -17,7 +17,7 @@ use crate::script::studies::desk::print_table;
 use crate::script::studies::plan::{patience, study_name};
 use crate::script::words::error::ScriptError;
 
-/// Costs.
+/// The domain of studies of what the features of a scene cost.
 pub const TABLE: Table = Table {
     name: "costs",
     doc: "What a step costs, and what each feature of a scene adds.",

@@ -9,7 +9,7 @@ use crate::script::rows::table::{Body, Constant, Row, Table, function};
 use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::as_number;
 
-/// Functions and constants of numbers.
+/// The domain of functions and constants of numbers.
 pub const TABLE: Table = Table {
     name: "numbers",
     doc: "Elementary functions. Whole numbers are welcome everywhere, angles are in radians, and infinite or undefined \

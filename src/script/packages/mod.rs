@@ -34,7 +34,7 @@ mod vectors;
 use crate::script::rows::catalog::Catalog;
 use crate::script::rows::table::Table;
 
-/// All domains, in the order of the reference.
+/// The domains of the language, in the order of the reference.
 pub const TABLES: &[&Table] = &[
     &math::TABLE,
     &vectors::TABLE,
@@ -70,7 +70,7 @@ pub const TABLES: &[&Table] = &[
     &help::TABLE,
 ];
 
-/// The language of withy.
+/// The language of withy: all its domains.
 pub fn language() -> Catalog {
     Catalog::of(TABLES)
 }

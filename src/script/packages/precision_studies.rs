@@ -21,7 +21,7 @@ use crate::script::studies::reference::FinestRun;
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::{as_number, format_number};
 
-/// Studies of error against run time.
+/// The domain of studies of error against run time.
 pub const TABLE: Table = Table {
     name: "error against run time",
     doc: "A study runs a scene in many ways and says what they say together. withy study FILE keeps what is finished when it is \
@@ -108,7 +108,7 @@ pub const TABLE: Table = Table {
 };
 
 const PRECISION: Type = Type::of::<PrecisionStudy>();
-/// A reference that is a run of our own, for other domains.
+/// The type of a reference that is a run of our own, for other domains.
 pub(super) const FINEST_RUN: Type = Type::of::<FinestRun>();
 
 /// How examples get a scene, and a study of it.
@@ -123,7 +123,7 @@ const ERRORS: Parameter =
 
 const ERROR: Parameter = number("error").positive().doc("an error");
 
-/// Of all studies of errors.
+/// The parameter for the name of a study of errors.
 pub(super) const NAME: Parameter = name("name").doc("of the study and of its files");
 pub(super) const SCENE_OF: Parameter = callback("scene").doc("|mesh| …, makes the scene on a mesh");
 pub(super) const MESHES: Parameter = array("meshes").doc("what `scene` is called with, one by one");

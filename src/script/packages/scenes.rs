@@ -23,7 +23,7 @@ use crate::script::rows::parameter::{
 use crate::script::rows::table::{Table, function, method, property};
 use crate::script::words::error::{Place, ScriptError};
 
-/// Scenes and what stands in them.
+/// The domain of scenes and what stands in them.
 pub const TABLE: Table = Table {
     name: "scenes",
     doc: "A scene is a description: beams, particles, joints, masses and loads. scene.start(…) makes a simulation of it.",
@@ -131,7 +131,7 @@ pub const TABLE: Table = Table {
     ],
 };
 
-/// How examples get a beam.
+/// The lines by which examples get a beam.
 pub(super) const ROD: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });";

@@ -1,13 +1,13 @@
 //! Words of the language that no table declares: keywords, and what arrays, texts and maps can do by themselves.
 
-/// Keywords.
+/// The keywords of the language.
 pub const KEYWORDS: &[&str] = &[
     "let", "const", "fn", "if", "else", "switch", "while", "until", "loop", "do", "for", "in",
     "break", "continue", "return", "throw", "try", "catch", "import", "export", "as", "private",
     "true", "false", "this", "global",
 ];
 
-/// Functions of the engine itself that a session needs.
+/// Functions of the engine itself that a session needs, each with a line on what it does.
 pub const FUNCTIONS: &[(&str, &str)] = &[
     ("print", "Writes a value and a line end."),
     ("debug", "Writes a value with the line that asked for it."),
@@ -63,7 +63,7 @@ const MAP: &[BuiltIn] = &[
     ("values", "()", "An array of its values."),
 ];
 
-/// What values of an engine's own type can do.
+/// The members of values of an engine's own type, by the word for that type.
 pub fn built_in(of: &str) -> &'static [BuiltIn] {
     match of {
         "array" => ARRAY,

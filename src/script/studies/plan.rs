@@ -17,26 +17,26 @@ use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::{as_number, format_number};
 use crate::simulation::{History, Settings, StepControl, StepSize};
 
-/// Everything a study needs but its reference.
+/// The plan of a study of errors: everything that it needs but its reference.
 pub struct Plan {
     /// The name of the study and of its files.
     pub name: String,
-    /// A scene for each mesh.
+    /// A scene for each mesh of the study.
     pub subjects: Vec<Subject>,
-    /// The integrators.
+    /// The integrators of the study.
     pub methods: Vec<Method>,
-    /// The step sizes.
+    /// The step sizes of the study.
     pub dts: Vec<StepSize>,
-    /// When results are compared, in order [time].
+    /// The times at which results are compared, in order [time].
     pub times: Vec<f64>,
-    /// What errors of positions are relative to [length].
+    /// The length that errors of positions are relative to [length].
     pub length: f64,
-    /// What a case may take.
+    /// How much a case of the study may take.
     pub patience: Patience,
 }
 
 impl Plan {
-    /// Reads the options that all studies of errors have. Every scene is made, and the first is built, so that mistakes show
+    /// Reads the options that all studies of errors have into a plan. Every scene is made, and the first is built, so that mistakes show
     /// before anything runs.
     pub fn read(call: &Call, options: &Options) -> Result<Self, ScriptError> {
         let name = study_name(call, options)?;
@@ -68,12 +68,12 @@ impl Plan {
         Ok(Self { name, subjects, methods, dts, times, length, patience })
     }
 
-    /// The settings for an integrator and a step size.
+    /// The settings of a run with an integrator and a step size.
     pub fn settings(method: Method, dt: StepSize) -> Settings {
         Settings { method, dt, tolerance: Tolerance::default() }
     }
 
-    /// All integrators with all step sizes.
+    /// The settings of all integrators of the study with all its step sizes.
     pub fn all_settings(&self) -> Vec<Settings> {
         let with = |method: &Method| {
             let method = *method;
@@ -82,12 +82,12 @@ impl Plan {
         self.methods.iter().flat_map(with).collect()
     }
 
-    /// What is looked at.
+    /// The observables that the study looks at.
     pub fn observables(&self) -> &[Observable] {
         &self.subjects[0].observables
     }
 
-    /// The history of a run that has just begun, for its columns; the scene is built for it.
+    /// The history of a run of the study that has just begun, for its columns; the scene is built for it.
     pub fn history(&self) -> Result<History, ScriptError> {
         let (scene, stops) = (self.subjects[0].scene.clone(), self.times.clone());
         let case = Case { scene, settings: self.all_settings()[0], stops };
@@ -96,7 +96,7 @@ impl Plan {
         Ok(built.history().clone())
     }
 
-    /// Looks at more than stations: at columns of the history. Those that a table of solutions has are meant by its names: the
+    /// Makes the study look at more than stations: at columns of the history. Those that a table of solutions has are meant by its names: the
     /// symbols E, KE, SE, px, py and Lz, names of columns, or what `given` says they are. Without a table all columns are.
     pub fn add_columns(
         &mut self,
@@ -184,7 +184,7 @@ fn expect_all_different<T: PartialEq>(
     })
 }
 
-/// An error about an option.
+/// An error of a call about one of its options.
 pub fn at_key(
     call: &Call,
     key: &str,
@@ -214,7 +214,7 @@ fn all_of<T: Clone + 'static>(
     }
 }
 
-/// What a case may take: so many seconds, and no more steps than the whole run may take.
+/// How much a case of a study may take: so many seconds, and no more steps than the whole run may take.
 pub fn patience(call: &Call, seconds: f64) -> Patience {
     let steps = call.context().meter().limits().steps;
     Patience {
@@ -223,14 +223,14 @@ pub fn patience(call: &Call, seconds: f64) -> Patience {
     }
 }
 
-/// A step size: a positive number, or adaptive(…); none when it is something else.
+/// The step size that a value stands for: a positive number, or adaptive(…); none when it is something else.
 pub fn step_size(value: &Dynamic) -> Option<StepSize> {
     let fixed = as_number(value).filter(|dt| dt.is_finite() && *dt > 0.0);
     let control = || value.clone().try_cast::<StepControl>().map(StepSize::from);
     fixed.map(StepSize::from).or_else(control)
 }
 
-/// How a step size is written.
+/// The advice on how a step size is written.
 pub const STEP_SIZE: &str = "give positive numbers, or adaptive(#{ tolerance: 1e-4 })";
 
 /// Step sizes, at least one.
@@ -266,7 +266,7 @@ fn label_of(call: &Call, mesh: &Dynamic) -> String {
     mesh.read_lock::<Mesh>().map_or_else(|| call.show(mesh), |mesh| mesh.describe())
 }
 
-/// The scene on a mesh, from the function of the study.
+/// The scene on a mesh, which the function of the study makes.
 pub fn subject_on(call: &Call, options: &Options, mesh: &Dynamic) -> Result<Subject, ScriptError> {
     let made = call.invoke(&options.callback("scene")?, [mesh.clone()])?;
     subject(call, label_of(call, mesh), &made)
@@ -330,7 +330,7 @@ fn usual_stations(scene: &Scene) -> Vec<(String, Station)> {
     ends.chain(particles).collect()
 }
 
-/// Whether other scenes have the stations of the first one; their columns are not looked for yet.
+/// Refuses other scenes of a study without the stations of the first one; their columns are not looked for yet.
 pub fn expect_same_observables(
     call: &Call,
     first: &Subject,

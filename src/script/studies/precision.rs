@@ -13,7 +13,7 @@ use crate::script::rows::options::Options;
 use crate::script::state::settings::Mode;
 use crate::script::words::error::ScriptError;
 
-/// Makes the study that the options ask for; in a dry build nothing runs.
+/// Makes the study of error against run time that the options ask for; in a dry build nothing runs.
 pub fn study(call: &Call, options: &Options) -> Result<Precision, ScriptError> {
     let mut plan = Plan::read(call, options)?;
     let reference = Reference::read(call, options, &mut plan)?;

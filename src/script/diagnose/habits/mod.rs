@@ -16,13 +16,13 @@ use crate::script::rows::catalog::Catalog;
 use crate::script::source::program::Program;
 use spot::Spot;
 
-/// What is wrong, what to write, and where it stands.
+/// The cure for a habit of other languages: what is wrong, what to write, and where it stands.
 pub struct Cure {
-    /// What is wrong.
+    /// What is wrong with the source.
     pub message: String,
-    /// What to write.
+    /// What to write in the source instead.
     pub hint: String,
-    /// The word that is to blame.
+    /// The place of the word that is to blame.
     pub at: Position,
 }
 

@@ -2,7 +2,7 @@
 
 use crate::script::rows::built_in::{BuiltInTable, built_in};
 
-/// Conversions.
+/// The table of Rhai's conversions between kinds of value.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "conversions",
     doc: "Whole numbers become other numbers by themselves where they must; these functions are for the rest.",
