@@ -44,7 +44,7 @@ impl PrecisionRow {
         Self { mesh, settings, trial, timing, error, deviations, is_on_front: false }
     }
 
-    /// Time of the run [s] and error; infinite where there are none.
+    /// The price, the time of the run [s], and the error of the combination [-]; infinite where there are none.
     pub fn price_and_error(&self) -> (f64, f64) {
         let price = self.timing.map_or(f64::INFINITY, |timing| timing.price());
         (price, self.error.map_or(f64::INFINITY, |error| error.error()))

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Case, Patience};
 
-/// How long a case takes.
+/// The times that a case of a study takes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Timing {
     /// The median time to build the scene and its model.

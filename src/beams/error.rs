@@ -47,7 +47,7 @@ pub enum BeamError {
         /// The polynomial degree of the basis whose quadrature was asked for.
         degree: usize,
     },
-    /// Spans for whose lengths there is no patch rule.
+    /// Spans of a mesh that differ so much in length that there is no patch rule.
     #[error(
         "the longest span of a smooth piece of the mesh is {ratio:.1e} times as long as the shortest: strain points that neither lock nor leave modes \
          without energy cannot be found in rounded numbers; grade the spans more gently, or make the basis C0 between long and short ones \

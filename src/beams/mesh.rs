@@ -7,14 +7,14 @@ use crate::geometry::{
     Basis, GaussRule, GeometryError, KnotVector, LagrangeBasis, RunRule, Span, patch_rule,
 };
 
-/// Where axial and shear strain of a beam are sampled.
+/// A rule for where axial and shear strain of a beam are sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Quadrature {
     /// The patch rule: on each piece of the mesh that is smooth, one point for each derivative of a function, at the Gauss points of these
     /// splines ([`patch_rule`]). That neither locks nor leaves zero-energy modes, and passes the patch test.
     #[default]
     Patch,
-    /// The same number of Gauss points in every span: too many lock, too few leave modes without energy.
+    /// Every span has the same number of Gauss points: too many lock, too few leave modes without energy.
     Points(usize),
 }
 

@@ -25,19 +25,19 @@ pub struct Section {
 /// The outline of a cross section; bending is about the horizontal centroidal axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shape {
-    /// A solid rectangle.
+    /// The cross section is a solid rectangle.
     Rectangle {
         /// The width of the rectangle, out of the plane of motion [length].
         width: f64,
         /// The height of the rectangle, in the plane of motion [length].
         height: f64,
     },
-    /// A solid circle.
+    /// The cross section is a solid circle.
     Circle {
         /// The radius of the solid circle [length].
         radius: f64,
     },
-    /// A circular tube.
+    /// The cross section is a circular tube.
     Tube {
         /// The outer radius of the tube [length].
         outer: f64,

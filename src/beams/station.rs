@@ -8,9 +8,9 @@ use crate::geometry::{Curve, GeometryError, MAX_DEGREE, Vec2, corresponding};
 /// One of the bodies of a scene: a beam or a particle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum BodyIndex {
-    /// A beam, by its index among the beams.
+    /// The body is a beam, by its index among the beams of the scene.
     Beam(usize),
-    /// A particle, by its index among the particles.
+    /// The body is a particle, by its index among the particles of the scene.
     Particle(usize),
 }
 

@@ -24,7 +24,7 @@ pub enum ExerciseError {
     Read {
         /// The file or folder that could not be read.
         path: PathBuf,
-        /// The system's reason for not reading it.
+        /// The system's reason for not reading the file or folder.
         source: io::Error,
     },
     /// The file of the marks could not be written.

@@ -2,7 +2,7 @@
 
 use super::judge::Judge;
 
-/// An exercise. Its texts are files of `scripts/exercises`, embedded by [`catalogue`](super::catalogue).
+/// An exercise with its task, solution and judge. The texts are files of `scripts/exercises`, embedded by [`catalogue`](super::catalogue).
 #[derive(Debug, PartialEq, Eq)]
 pub struct Exercise {
     /// The track that the exercise belongs to, a folder.

@@ -42,7 +42,7 @@ pub struct Trouble {
     pub message: String,
     /// What to do about the error.
     pub help: Option<String>,
-    /// The place of the error in its script, if it is known.
+    /// The place of the error in a script, if it is known.
     pub place: Option<Place>,
     /// The calls that led to the error.
     pub calls: Vec<String>,
@@ -55,9 +55,9 @@ pub struct Place {
     pub file: String,
     /// The line of the error, from 1.
     pub line: usize,
-    /// The text of that line, or a part of it about the place.
+    /// The text of the line with the error, or a part of that text about the place.
     pub text: String,
-    /// Where the place begins in that text, in characters from 0.
+    /// Where the place of the error begins in the text of its line, in characters from 0.
     pub at: usize,
     /// The length of the place in characters.
     pub length: usize,

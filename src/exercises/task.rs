@@ -8,9 +8,9 @@ pub const TO_DO: &str = "To do:";
 /// A paragraph of the task of an exercise.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Paragraph {
-    /// Words that may be broken into lines anywhere between them.
+    /// A paragraph of words, which may be broken into lines anywhere between them.
     Words(String),
-    /// Lines that are set as they stand, such as formulas and tables.
+    /// A paragraph of lines that are set as they stand, such as formulas and tables.
     Set(Vec<String>),
 }
 

@@ -11,9 +11,9 @@ const SAME_BREAK: f64 = 1e-10;
 /// Functions `N_i(ξ)` that sum to one, each non-zero on a few spans only.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Basis {
-    /// The B-splines of a knot vector.
+    /// The functions are the B-splines of a knot vector.
     BSpline(KnotVector),
-    /// Lagrange polynomials on elements.
+    /// The functions are Lagrange polynomials on elements.
     Lagrange(LagrangeBasis),
 }
 

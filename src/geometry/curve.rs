@@ -12,11 +12,11 @@ const STANDSTILL: f64 = 1e-12;
 /// A curve `x(ξ)` of the plane. Points are lengths, the parameter ξ is dimensionless.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Curve {
-    /// A straight line.
+    /// The curve is a straight line.
     Line(Line),
-    /// A circular arc.
+    /// The curve is a circular arc.
     Arc(CircularArc),
-    /// A B-spline curve.
+    /// The curve is a B-spline curve.
     Spline(SplineCurve),
 }
 

@@ -3,7 +3,7 @@
 use super::{Interval, StepError};
 use crate::linalg::{BandedMatrix, Border, BorderShape};
 
-/// Where in a step forces are taken. Increments are counted from the start of the step.
+/// The place in a step where forces are taken. Increments are counted from the start of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
     /// Forces are taken at the start of the step, loads as they are just after it.

@@ -41,7 +41,7 @@ pub enum Partner {
     Station(Station),
 }
 
-/// A joint of a scene.
+/// A joint of a scene: what it ties, and to what.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Joint {
     /// The name of the joint, for messages.

@@ -36,7 +36,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// A model made of its parts, at their start.
+    /// A model made of its groups, in the state at its start.
     pub(super) fn new(
         bodies: Bodies,
         elements: Elements,

@@ -15,7 +15,7 @@ const MOST_CORRECTIONS: i32 = 5;
 /// A correction that leaves more than this part of an imbalance has met rounding.
 const STANDSTILL: f64 = 0.1;
 
-/// When a Newton solution is good enough, and when to give up.
+/// The tolerance of Newton's method: when a solution is good enough, and when to give up.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Tolerance {
     /// The largest relative force imbalance [-] at which iteration ends.

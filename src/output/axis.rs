@@ -196,7 +196,7 @@ fn typeset(x: f64, decimals: usize) -> String {
     format!("{x:.decimals$}").replace('-', "−")
 }
 
-/// A power of ten as it is written: `10⁻¹²`.
+/// The text of a power of ten, such as `10⁻¹²`.
 pub(super) fn power_of_ten(power: f64) -> String {
     let digits = format_number(power);
     let raised = digits.chars().map(|c| match c.to_digit(10) {

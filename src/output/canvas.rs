@@ -14,13 +14,13 @@ const FAR: f64 = 20_000.0;
 /// A box with sides along the axes of the picture; `top` is less than `bottom`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Area {
-    /// The least x of the box.
+    /// The least x of the box, its left side.
     pub left: f64,
-    /// The least y of the box, which is at its top.
+    /// The least y of the box, its upper side.
     pub top: f64,
-    /// The greatest x of the box.
+    /// The greatest x of the box, its right side.
     pub right: f64,
-    /// The greatest y of the box, which is at its bottom.
+    /// The greatest y of the box, its lower side.
     pub bottom: f64,
 }
 
@@ -74,7 +74,7 @@ pub struct Text {
 /// One thing that is drawn on a canvas.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// A line through points, with round ends and corners.
+    /// A line through points is drawn, with round ends and corners.
     Line {
         /// The corners of the line [pixels].
         points: Vec<Point>,
@@ -83,7 +83,7 @@ pub enum Shape {
         /// The colour of the line.
         colour: Colour,
     },
-    /// A filled circle.
+    /// A filled circle is drawn.
     Disc {
         /// The centre of the circle [pixels].
         centre: Point,
@@ -92,14 +92,14 @@ pub enum Shape {
         /// The colour of the circle.
         colour: Colour,
     },
-    /// A filled box with sides along the axes.
+    /// A filled box is drawn, with sides along the axes.
     Fill {
         /// The box that is filled.
         area: Area,
         /// The colour of the box.
         colour: Colour,
     },
-    /// A text on its line.
+    /// A text is drawn on its line.
     Text(Text),
 }
 

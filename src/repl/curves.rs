@@ -41,7 +41,7 @@ impl Over {
     }
 }
 
-/// A curve with its name.
+/// A curve that the prompt draws, with its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     /// The name of the curve in the legend.

@@ -189,7 +189,7 @@ fn answering(engine: &Engine, text: &str) -> String {
     terminated(&format!("{before}{space}let {ANSWER} = {}", expression.trim_start()))
 }
 
-/// The functions that a text defines, as they are written there.
+/// The functions that a text defines, each as the text has written it.
 pub fn functions_of(text: &str) -> impl Iterator<Item = &str> {
     definitions(text).into_iter().map(|definition| &text[definition.bytes])
 }

@@ -8,7 +8,7 @@ use rhai::Dynamic;
 use super::clock::Clock;
 use super::session::Rounds;
 
-/// The time of a run above which it is not done again for its time.
+/// The time of a run of an input above which the input is not run again to be timed.
 pub const LONGEST: Duration = Duration::from_secs(1);
 /// So long is it done again at most,
 const PATIENCE: Duration = Duration::from_secs(2);

@@ -4,7 +4,7 @@ use super::Sample;
 use crate::joints::Slider;
 use crate::model::{Model, Scene};
 
-/// A column that every history has.
+/// A column that the history of every run has.
 #[derive(Debug, Clone, Copy)]
 pub struct Column {
     /// The name of the column.

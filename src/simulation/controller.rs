@@ -31,7 +31,7 @@ const LEAST_ERROR: f64 = 1e-4;
 /// How the size of the next step follows from errors: what does not change in a run, such as bounds [time].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Controller {
-    /// The power of its size with which the error of a step goes [-].
+    /// The power of the step size that the error of a step is proportional to [-].
     pub(super) order: f64,
     pub(super) first: f64,
     pub(super) smallest: f64,

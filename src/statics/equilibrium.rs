@@ -22,7 +22,7 @@ pub enum Stability {
     Follower,
 }
 
-/// A scene at rest under its loads, and the path that led there.
+/// An equilibrium: a scene at rest under its loads, and the path that led there.
 ///
 /// Start velocities of the scene play no part. Loads are put on together, in proportion.
 pub struct Equilibrium {
@@ -77,7 +77,7 @@ impl Equilibrium {
         &self.loading
     }
 
-    /// The model in its equilibrium.
+    /// The model at rest in the equilibrium, as a mechanism.
     pub fn model(&self) -> &Model {
         &self.model
     }

@@ -37,7 +37,7 @@ pub struct ArcLength {
     /// The longest step along the path: root mean square of the displacements, relative to the longest beam, and the rotations of all
     /// control points [-, rad].
     pub longest: f64,
-    /// Most points of the path, which ends with them wherever it is.
+    /// The largest number of points of the path, which ends with them wherever it is.
     pub points: usize,
 }
 
@@ -60,6 +60,8 @@ impl Default for ArcLength {
 }
 
 impl Loading {
+    /// Checks the numbers of the loading.
+    ///
     /// # Errors
     /// When a number is out of its range.
     pub(super) fn check(&self) -> Result<(), StaticsError> {

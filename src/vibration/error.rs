@@ -21,7 +21,7 @@ pub enum VibrationError {
         /// The name of the slider.
         slider: String,
     },
-    /// A load that turns with a section: its vibration has no modes of this kind.
+    /// A load that turns with a section, so that the vibration of its scene has no modes of this kind.
     #[error(
         "load '{load}' turns with the beam: its stiffness is not symmetric, and the vibration may grow by itself; give it a fixed direction, or simulate"
     )]

@@ -13,7 +13,7 @@ use crate::model::Model;
 /// A movement whose square is below this part of that of the slowest bending meets no resistance.
 const LOOSE: f64 = 1e-10;
 
-/// A natural vibration.
+/// A natural mode of small vibration: frequency and shape.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
     /// The square `ω²` of the angular frequency: zero for a movement without resistance, and where rounding hides it; negative if the

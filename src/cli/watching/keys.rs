@@ -13,11 +13,11 @@ pub enum Key {
     Down,
     /// The key for a page back.
     PageUp,
-    /// The key for a page on.
+    /// The key for a page forward.
     PageDown,
-    /// The key to the beginning.
+    /// The key to the beginning of a page.
     Home,
-    /// The key to the end.
+    /// The key to the end of a page.
     End,
     /// The return key.
     Enter,

@@ -14,7 +14,7 @@ use crate::model::ModelError;
 /// A further kind is a variant, and a file in `model/elements` with its [`Description`] and its [`ForceElement`].
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum Element {
-    /// A mass at a station.
+    /// The element is a mass at a station.
     PointMass(PointMass),
     /// A load: a force, a moment or a force per length that follows a schedule.
     Load(Load),

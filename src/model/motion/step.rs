@@ -20,7 +20,7 @@ pub struct Step {
 }
 
 impl Step {
-    /// The step of a model with so many degrees of freedom before its first one.
+    /// The present step of a model with so many degrees of freedom, before the first one begins.
     pub fn new(degrees_of_freedom: usize) -> Self {
         Self {
             interval: Interval::between(0.0, 0.0),

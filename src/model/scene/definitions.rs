@@ -43,28 +43,28 @@ impl BeamDefinition {
         self.section.mass_per_length * self.axis.length()
     }
 
-    /// Whether it moves when the scene starts.
+    /// Whether the beam moves when the scene starts.
     pub fn starts_in_motion(&self) -> bool {
         self.motion.velocity != Vec2::zeros() || self.motion.spin != 0.0
     }
 }
 
-/// A point that moves by itself; its mass is one of the masses of the scene.
+/// A particle of a scene: a point that moves by itself; its mass is one of the masses of the scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ParticleDefinition {
-    /// Its name in messages and reports.
+    /// The name of the particle in messages and reports.
     pub name: String,
-    /// Where it starts [length].
+    /// The place where the particle starts [length].
     pub position: Vec2,
 }
 
 /// A velocity at the start of the node at a station alone.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StationVelocity {
-    /// Where.
+    /// The station whose node has the velocity.
     pub station: Station,
-    /// [length/time]
+    /// The velocity of the node at the start [length/time].
     pub velocity: Vec2,
-    /// [1/time]; as the beam has it when not given.
+    /// The rate of rotation of the node at the start [1/time]; as the beam has it when not given.
     pub spin: Option<f64>,
 }

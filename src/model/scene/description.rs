@@ -181,7 +181,7 @@ impl Scene {
         names.find(|name| self.names().all(|(_, other)| other != name)).unwrap_or_default()
     }
 
-    /// The station of a beam at an arc length; it is followed from the start.
+    /// The station of a beam at an arc length [length]; its angle is followed from the start.
     ///
     /// # Errors
     /// When the station lies outside the beam.

@@ -27,7 +27,7 @@ impl Ties {
         at
     }
 
-    /// Makes two things one; false when they were already.
+    /// Makes two things, by their numbers, one; false when they were one already.
     pub fn tie(&mut self, a: usize, b: usize) -> bool {
         let (a, b) = (self.root(a), self.root(b));
         // The smaller index stays the root, so that index 0, the ground, always is one.

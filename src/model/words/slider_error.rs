@@ -7,7 +7,7 @@ pub struct SliderParts {
     pub slider: String,
     /// The slave of the slider, the point that slides, in words.
     pub slave: String,
-    /// The name of the beam that it slides on.
+    /// The name of the slider's master, the beam on which it slides.
     pub beam: String,
 }
 

@@ -54,12 +54,12 @@ impl<'t> Input<'t> {
         Self { text, tokens, last, partners, open }
     }
 
-    /// The text of a token, by its index.
+    /// The text of a token of the input, by the token's index.
     pub fn written(&self, index: usize) -> &'t str {
         self.tokens.get(index).map_or("", |token| token.of(self.text))
     }
 
-    /// The kind of a token, by its index; none where there is no token.
+    /// The kind of a token of the input, by the token's index; none where there is no token.
     pub fn kind(&self, index: usize) -> Option<Kind> {
         self.tokens.get(index).map(|token| token.kind)
     }

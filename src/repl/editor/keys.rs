@@ -12,7 +12,7 @@ use rustyline::{
 use super::completeness::{Completeness, completeness};
 use super::completion::INDENTATION;
 
-/// The entries of the history, as the arrows need to know them.
+/// The entries of the line editor's history, shared with the keys that walk through it.
 pub type Entries = Arc<Mutex<HashSet<String>>>;
 
 /// Binds the keys of the line editor.

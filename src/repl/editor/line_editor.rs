@@ -29,7 +29,7 @@ impl Keys {
     /// The variable of the environment that chooses the keys.
     pub const VARIABLE: &str = "WITHY_KEYS";
 
-    /// The keys called `name`.
+    /// The editing keys of a name, such as `emacs` or `vi`; none for another name.
     pub fn named(name: &str) -> Option<Self> {
         match name.to_ascii_lowercase().as_str() {
             "emacs" => Some(Self::Emacs),
@@ -122,7 +122,7 @@ impl Editor {
         }
     }
 
-    /// Columns and lines of the terminal, if it tells.
+    /// The columns and lines of the terminal; none where the terminal does not tell.
     pub fn size(&mut self) -> Option<(usize, usize)> {
         let (columns, lines) = self.lines.dimensions()?;
         Some((usize::from(columns), usize::from(lines)))

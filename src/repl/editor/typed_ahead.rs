@@ -19,7 +19,7 @@ impl TypedAhead {
     }
 }
 
-/// The terminal while another program has it.
+/// A guard that lasts while another program has the terminal.
 pub struct Lent(bool);
 
 impl Drop for Lent {

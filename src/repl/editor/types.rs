@@ -17,7 +17,7 @@ const DEEPEST: usize = 16;
 pub struct Types<'a, 't> {
     /// The input before the cursor.
     pub input: &'a Input<'t>,
-    /// What the session holds.
+    /// The names that the session holds.
     pub surroundings: &'a Surroundings,
 }
 
@@ -199,7 +199,7 @@ fn element(of: &str) -> Option<String> {
     Some(elements.strip_suffix('s').unwrap_or(elements).to_owned())
 }
 
-/// What an array of something is called when its elements do not matter.
+/// The name of the type of arrays when their elements do not matter; of any other type, its name.
 pub fn family(of: &str) -> &str {
     if of.starts_with("array") { "array" } else { of }
 }

@@ -9,7 +9,7 @@ use crate::script::rows::sources::Sources;
 use crate::script::source::syntax::mark;
 use crate::script::words::error::ScriptError;
 
-/// Most lines of a source, and most characters of a line: a little less than Rhai can count.
+/// The most lines of a source, and the most characters of a line: a little less than Rhai can count.
 pub const MOST: usize = 65_000;
 
 /// Parses `source` as if it stood behind so many empty lines, with the constants of `scope` known.

@@ -113,7 +113,7 @@ fn on_stack<T: Send>(mut bytes: usize, work: impl FnOnce() -> T + Send) -> Resul
     })
 }
 
-/// Parses `program`; imports are looked for beside it.
+/// Parses `program` with an engine, which is told to look for imports beside the program.
 pub fn compile(engine: &mut Engine, program: &Program) -> Result<AST, Box<EvalAltResult>> {
     import_from(engine, &program.folder);
     parse(engine, program)

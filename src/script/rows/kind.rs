@@ -28,7 +28,7 @@ pub trait Scripted: Clone + 'static {
     }
 }
 
-/// Details of a value: labels and values, set as aligned lines.
+/// The details of a value of a script: labels and values, set as aligned lines.
 pub type Details = Vec<(String, String)>;
 
 /// A [`Scripted`] type as a value, for rows of tables.

@@ -30,7 +30,7 @@ pub fn tokens(source: &str) -> Vec<(Token, Position)> {
     found
 }
 
-/// Where a comment begins that is never closed: Rhai would take the rest of the script for a part of it.
+/// The position where a comment begins that is never closed: Rhai would take the rest of the script for a part of it.
 ///
 /// Only for a source that compiles: an open text would look the same.
 pub fn open_comment(source: &str) -> Option<Position> {

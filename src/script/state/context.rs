@@ -23,7 +23,7 @@ use crate::script::words::stop::{MEGABYTE, Stop};
 /// A file that is read takes a few times its length: the bytes, and what is made of them.
 const TIMES_ITS_LENGTH: u64 = 4;
 
-/// Tells why a value cannot be used now, if it is of a certain type and busy.
+/// A function that tells why a value of a native type cannot be used now, if the value is busy.
 pub type Busy = fn(&Dynamic) -> Option<String>;
 
 /// A cheap handle on the state of one run.
@@ -104,7 +104,7 @@ impl Context {
         self.0.studies
     }
 
-    /// What is kept of the studies until the script has come to its end.
+    /// The journals of the run: what is kept of its studies until the script has come to its end.
     pub fn journals(&self) -> &Journals {
         &self.0.journals
     }
@@ -327,12 +327,12 @@ impl Context {
         self.0.engine.borrow().upgrade()
     }
 
-    /// Notes how deep in calls of script functions the running native call is.
+    /// Notes at which depth of calls of script functions the running native call is.
     pub fn enter(&self, level: usize) {
         self.0.level.set(level);
     }
 
-    /// How deep in calls of script functions the running native call is.
+    /// The depth of calls of script functions at which the running native call is.
     pub fn level(&self) -> usize {
         self.0.level.get()
     }
@@ -350,7 +350,7 @@ impl Context {
         self.0.is_calling_back.get()
     }
 
-    /// Notes how to ask values of a native type whether they are busy.
+    /// Keeps a function that tells whether values of a native type are busy.
     pub fn know(&self, busy: Busy) {
         self.0.busy.borrow_mut().push(busy);
     }

@@ -32,7 +32,7 @@ pub struct OutputFolder {
 pub struct Written {
     /// The path of the file that was written.
     pub path: PathBuf,
-    /// Where a file is kept that had its name and was not written by this program, or was changed since.
+    /// The path of an older file of the same name, which is kept because it was not written by this program, or was changed since.
     pub kept: Option<PathBuf>,
 }
 

@@ -45,7 +45,7 @@ impl Journals {
         Ok(Some(JournalNumber(open.len() - 1)))
     }
 
-    /// What a journal knows of a case, by its fingerprint.
+    /// The result of a case that a journal knows, by the case's fingerprint.
     pub fn find<T: DeserializeOwned>(&self, journal: JournalNumber, fingerprint: u64) -> Option<T> {
         let found = self.open.borrow().get(journal.0)?.find(fingerprint);
         self.kept.set(self.kept.get() + usize::from(found.is_some()));

@@ -71,7 +71,7 @@ impl ScriptError {
         self
     }
 
-    /// The same error as the engine carries it, at the position of the call.
+    /// The same error in the form in which the engine carries it, at the position of the call.
     pub fn into_engine(self, call: Position) -> Box<EvalAltResult> {
         match self {
             Self::Failure(failure) => {

@@ -19,7 +19,7 @@ struct Word {
     is_joined: bool,
 }
 
-/// The words around the place where the parser stopped.
+/// The words around the place where the parser stopped, and which of them it stopped at.
 pub struct Spot<'s> {
     /// The names that the language has.
     pub catalog: &'s Catalog,
@@ -112,7 +112,7 @@ impl<'s> Spot<'s> {
         self.word(from_here).starts_with(['"', '`', '\''])
     }
 
-    /// Where a word of the statement stands, up to two words behind the place, that is one of these.
+    /// The place and the text of the first word of the statement, up to two words behind the parser's place, that is one of these.
     pub fn find_word(&self, sought: &[&str]) -> Option<(isize, &str)> {
         let last = (self.here + 3).min(self.words.len());
         let mut words = self.words.get(self.first..last)?.iter().enumerate();
@@ -120,7 +120,7 @@ impl<'s> Spot<'s> {
         Some(((self.first + index) as isize - self.here as isize, word.text.as_str()))
     }
 
-    /// The words from one place to before another, as they are written.
+    /// The words of the statement from one place to before another, as they are written.
     pub fn piece(&self, from: isize, to: isize) -> String {
         let mut piece = String::new();
         for index in from..to {

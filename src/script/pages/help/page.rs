@@ -1,6 +1,6 @@
 //! A page of help as data, and its two drawings: plain, and with the colours of a terminal.
 
-/// The number of columns of a terminal when nothing is known of it.
+/// The number of columns of a page when nothing is known of the terminal.
 pub const WIDTH: usize = 80;
 
 /// No page is drawn narrower, so that there is always room for a word.
