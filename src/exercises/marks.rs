@@ -49,7 +49,7 @@ pub struct MarksFile(File);
 pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let (folder, name) = (Folder::open(folder)?, Path::new(path.file_name().unwrap_or_default()));
-    let file = folder.append(name)?;
+    let mut file = folder.append(name)?;
     // Before it is read: what another run writes meanwhile must be known here.
     file.try_lock().map_err(|refused| match refused {
         TryLockError::WouldBlock => io::Error::other("another run writes its marks there"),
@@ -59,14 +59,16 @@ pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     let text = String::from_utf8_lossy(&bytes);
     let known: Vec<_> = text.lines().filter_map(read_line).collect();
     // A kill during the very first mark leaves the beginning of one.
-    let is_begun = text.starts_with(HEAD) || HEAD.starts_with(&*text);
-    if known.is_empty() && !is_begun {
+    let begun = text.trim();
+    if known.is_empty() && !begun.starts_with(HEAD) && !HEAD.starts_with(begun) {
         return Err(io::Error::other("it is there already, and holds no marks"));
     }
-    // A line that a kill has cut off goes: who reads the file reads lines that are whole.
+    // Who reads the file reads lines that are whole: what a kill has left of the last one goes, unless only its end is missing.
     let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
-    if whole < bytes.len() {
-        file.set_len(whole as u64)?;
+    match &bytes[whole..] {
+        [] => (),
+        rest if read_line(&String::from_utf8_lossy(rest)).is_some() => file.write_all(b"\n")?,
+        _ => file.set_len(whole as u64)?,
     }
     // Of several marks the last one holds.
     Ok((KnownMarks(known.into_iter().collect()), MarksFile(file)))
@@ -223,6 +225,15 @@ mod tests {
         }
         let text = fs::read_to_string(&path).unwrap();
         assert!(text.lines().count() == 4 && text.lines().all(|line| read_line(line).is_some()));
+        fs::write(&path, whole.trim_end()).unwrap();
+        drop(open(&path).unwrap());
+        assert_eq!(
+            fs::read_to_string(&path).unwrap(),
+            whole,
+            "only the end of the line was missing"
+        );
+        fs::write(&path, "\n").unwrap();
+        assert!(open(&path).is_ok(), "there is nothing in it");
         fs::write(&path, &whole[..20]).unwrap();
         drop(open(&path).unwrap());
         assert_eq!(

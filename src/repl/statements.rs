@@ -55,7 +55,6 @@ mod tests {
     use super::*;
     use crate::script::engine::build;
     use crate::script::packages::language;
-
     use crate::script::state::context::Context;
     use crate::script::state::settings::{Mode, Settings};
 

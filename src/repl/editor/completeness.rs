@@ -202,7 +202,6 @@ mod tests {
     use crate::script::dialect::reading::read;
     use crate::script::engine;
     use crate::script::packages::language;
-
     use crate::script::state::context::Context;
     use crate::script::state::settings::{Mode, Settings};
 

@@ -349,7 +349,7 @@ fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (handle, _) = place(call)?;
     let station = call.get::<StationHandle>("station")?;
     let rest = handle.rest();
-    followed(call, &station, rest.model().angle(rest.scene(), &station.station()))
+    followed(call, &station, rest.model().angle(rest.scene(), &station.station))
 }
 
 fn reaction(call: &mut Call) -> Result<Dynamic, ScriptError> {

@@ -300,7 +300,7 @@ fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (handle, _) = place(call)?;
     let station = call.get::<StationHandle>("station")?;
     let simulation = handle.simulation();
-    followed(call, &station, simulation.model().angle(simulation.scene(), &station.station()))
+    followed(call, &station, simulation.model().angle(simulation.scene(), &station.station))
 }
 
 /// The angle of the section at a station [rad], if it was followed from the start.
@@ -309,7 +309,7 @@ pub(super) fn followed(
     station: &StationHandle,
     angle: Option<f64>,
 ) -> Result<Dynamic, ScriptError> {
-    if station.station().beam().is_none() {
+    if station.station.beam().is_none() {
         let told = format!("{} does not turn: it has no angle", station.show());
         return Err(call.error(told).hint("ask for the angle at a station of a beam"));
     }
