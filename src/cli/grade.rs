@@ -14,6 +14,7 @@ use crate::exercises::catalogue::EXERCISES;
 use crate::exercises::class;
 use crate::exercises::error::ExerciseError;
 use crate::exercises::exercise::Exercise;
+use crate::exercises::fingerprint::fingerprint;
 use crate::exercises::grading::{Graded, Mark, Report, Task};
 use crate::exercises::marks::{self, KnownMarks};
 use crate::exercises::submissions::Submission;
@@ -126,8 +127,8 @@ impl Judged {
         room: &Room,
     ) -> Option<Self> {
         let limits = room.limits.words();
-        let fingerprint = || marks::fingerprint(submission, exercise, &limits);
-        let before = fingerprint();
+        let of_attempt = || fingerprint(submission, exercise, &limits);
+        let before = of_attempt();
         if let Some((mark, message)) = known.find(submission, exercise, &before) {
             let origin = Origin::EarlierRun;
             return Some(Self { mark, message, fingerprint: Some(before), origin });
@@ -141,7 +142,7 @@ impl Judged {
             Err(error) => (true, (Mark::Broken, format!("cannot start a process for it: {error}"))),
         };
         // What was changed in the meantime may not be what was judged.
-        let fingerprint = (!is_ours && fingerprint() == before).then_some(before);
+        let fingerprint = (!is_ours && of_attempt() == before).then_some(before);
         Some(Self { mark, message, fingerprint, origin: Origin::ThisRun })
     }
 }

@@ -17,7 +17,7 @@ const TRIES: usize = 100;
 
 /// A folder that is open: whoever renames it or puts a link in its place changes nothing for those who have it.
 #[derive(Debug)]
-pub struct Folder(Dir);
+pub struct Folder(pub(super) Dir);
 
 /// Whether a name of a file goes down only: no root, no `..`.
 pub fn is_plain(name: &Path) -> bool {
@@ -28,8 +28,8 @@ pub fn is_plain(name: &Path) -> bool {
 impl Folder {
     /// Opens a folder that a person has named; links are followed.
     ///
+    /// # Errors
     /// When there is no folder at `path`.
-    /// When it is not there, or is none.
     pub fn open(path: &Path) -> io::Result<Self> {
         let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
         Dir::open_ambient_dir(path, ambient_authority()).map(Self)
@@ -37,8 +37,9 @@ impl Folder {
 
     /// Opens a folder to write into, and makes it and those above where they are missing. The folder itself may not be a link:
     /// one could have been laid there to lead elsewhere.
+    ///
+    /// # Errors
     /// When the folder cannot be made, or is a link.
-    /// When it cannot be made, or is a link.
     pub fn make(path: &Path) -> io::Result<Self> {
         let above = path.parent().filter(|above| !above.as_os_str().is_empty());
         let above = above.unwrap_or(Path::new("."));
@@ -53,8 +54,8 @@ impl Folder {
 
     /// Opens a folder as [`make`](Self::make) does, but makes nothing.
     ///
+    /// # Errors
     /// When there is no folder at `path`, or it is a link.
-    /// When it is not there, or is a link.
     pub fn find(path: &Path) -> io::Result<Self> {
         match path.components().next_back() {
             Some(Component::Normal(name)) => {
@@ -64,7 +65,7 @@ impl Folder {
         }
     }
 
-    fn enter(&self, name: &OsStr) -> io::Result<Self> {
+    pub(super) fn enter(&self, name: &OsStr) -> io::Result<Self> {
         self.0.open_dir_nofollow(name).map(Self).map_err(|error| {
             match self.0.symlink_metadata(name).is_ok_and(|about| about.is_symlink()) {
                 true => io::Error::other(format!(

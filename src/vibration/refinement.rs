@@ -33,9 +33,9 @@ pub(super) struct Refined {
 /// With the pair `(x, n)` of movements and section forces, `ω²` of its energies and `r = ω² M x - Bᵀ (n + k m) - K_g x`, the correction is `δ = A⁻¹ r`,
 /// which takes `x` to `(ω² + σ) A⁻¹ M x`. What other pairs have in it is left out of `δ` and counted in the residual: inverted
 /// stiffness would let a trace of a low one outgrow a high one.
-/// When the refinement is stopped.
+///
 /// # Errors
-/// When it is stopped.
+/// When the refinement is stopped.
 pub(super) fn refine(
     pencil: &Pencil,
     factors: &SymmetricFactors,

@@ -4,5 +4,7 @@
 mod common;
 
 mod documents;
+mod folder_map;
 mod layering;
+mod theory;
 mod wings;

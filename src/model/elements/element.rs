@@ -79,14 +79,14 @@ pub trait Setting {
 pub trait Site {
     /// The place of a station on the mesh of its body.
     ///
+    /// # Errors
     /// When the station lies outside its beam.
-    /// When it lies outside its beam.
     fn place(&self, station: &Station) -> Result<Place, ModelError>;
 
     /// The place of a beam at a parameter of its mesh.
     ///
+    /// # Errors
     /// When the parameter lies outside the mesh.
-    /// When it lies outside the mesh.
     fn place_at(&self, beam: usize, parameter: f64) -> Result<Place, ModelError>;
 
     /// The mesh of a beam, by its index.
