@@ -4,6 +4,7 @@
 mod common;
 
 mod documents;
+mod figures;
 mod folder_map;
 mod layering;
 mod theory;
