@@ -4,7 +4,7 @@ use super::balance::{Rule, StepSolver};
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Keeps energy, linear and angular momentum to rounding, for any step: midpoint kinematics on tangent-scaled
+/// The energy–momentum method: keeps energy, linear and angular momentum to rounding, for any step: midpoint kinematics on tangent-scaled
 /// rotations, averaged section forces.
 ///
 /// `M (v1 - v0)/Δt + F(midpoint) = 0`, `(v0 + v1)/2 = Δq/Δt`. Second order.

@@ -12,7 +12,7 @@ use crate::elementary::{sin, whole_power};
 /// A function of time from outside, such as a closure of a script.
 pub type ScheduleFunction = Rc<dyn Fn(f64) -> Result<f64, String>>;
 
-/// From which side a time is approached: schedules may jump.
+/// The side from which a time is approached: a schedule that jumps there has two values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
     /// A time is approached from earlier times.

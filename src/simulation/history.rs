@@ -239,7 +239,8 @@ impl History {
         }
     }
 
-    /// The largest of the [`drifts`](Self::drifts); NaN when one is NaN or there is no row.
+    /// The largest drift of an invariant over all rows of the history, relative as the [`drifts`](Self::drifts) are; NaN when one is NaN or
+    /// there is no row.
     pub fn drift(&self, invariant: Invariant) -> f64 {
         if self.samples.is_empty() {
             return f64::NAN;

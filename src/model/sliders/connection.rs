@@ -42,7 +42,7 @@ impl Connection {
         of_master.iter().zip(on_master).for_each(|(at, force)| add(*at, force));
     }
 
-    /// Adds the forces on slave and master, and behind the movements the values of the equations.
+    /// Adds the contact forces on slave and master to a residual, and behind the movements the values of the contact's equations.
     pub fn add_values(
         &self,
         bodies: &[Body],

@@ -74,7 +74,7 @@ impl<'t> Input<'t> {
         matches!(self.written(index), "." | "?.")
     }
 
-    /// The name that is being written at the cursor, and where it begins; empty between names.
+    /// The name that is being written at the cursor, and where it begins in the input [bytes]; empty between names.
     pub fn name(&self) -> (usize, &'t str) {
         match self.last {
             Some(token) if token.kind == Kind::Word => (token.start, token.of(self.text)),

@@ -103,37 +103,37 @@ fn register<T: Scripted>(engine: &mut Engine) {
 /// The kind of value that may be given for a parameter.
 #[derive(Clone, Copy)]
 pub enum Kind {
-    /// A number may be given; whole numbers are welcome.
+    /// A number may be given for the parameter; whole numbers are welcome.
     Number(Range),
-    /// Any number may be given, and is left whole if it is whole; infinite and not-a-number included.
+    /// Any number may be given for the parameter, and is left whole if it is whole; infinite and not-a-number included.
     Numeric,
-    /// A whole number may be given; a number without a fraction, such as `3.0`, is welcome.
+    /// A whole number may be given for the parameter; a number without a fraction, such as `3.0`, is welcome.
     Whole(Range),
-    /// A text may be given.
+    /// A text may be given for the parameter.
     Text,
-    /// A text may be given that people can read in tables, and type.
+    /// A text may be given for the parameter that people can read in tables, and type.
     Name,
-    /// One of these texts may be given.
+    /// One of these texts may be given for the parameter.
     Choice(&'static [&'static str]),
-    /// `true` or `false` may be given.
+    /// `true` or `false` may be given for the parameter.
     Boolean,
-    /// A vector or an array `[x, y]` may be given.
+    /// A vector or an array `[x, y]` may be given for the parameter.
     Point,
-    /// An array of anything may be given.
+    /// An array of anything may be given for the parameter.
     Array,
-    /// An array of finite numbers may be given.
+    /// An array of finite numbers may be given for the parameter.
     Numbers,
-    /// An array of points may be given.
+    /// An array of points may be given for the parameter.
     Points,
-    /// A function or closure may be given.
+    /// A function or closure may be given for the parameter.
     Function,
-    /// A map of options with these keys may be given.
+    /// A map of options with these keys may be given for the parameter.
     Options(&'static [Parameter]),
-    /// A value of one of our types may be given.
+    /// A value of one of our types may be given for the parameter.
     Object(Type),
-    /// A value of one of these kinds may be given, tried in order.
+    /// A value of one of these kinds may be given for the parameter, tried in order.
     Either(&'static [Kind]),
-    /// Anything may be given.
+    /// Anything may be given for the parameter.
     Anything,
 }
 
