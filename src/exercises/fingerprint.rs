@@ -1,13 +1,11 @@
 //! Whether the mark of an attempt still holds: a fingerprint of all that the mark depends on.
 
-use rhai::Token;
-
 use super::attempt;
 use super::exercise::Exercise;
 use super::submissions::Submission;
 use crate::analysis::Journal;
 use crate::folders::Folder;
-use crate::script::source::lexing::tokens;
+use crate::script::source::text::Source;
 
 /// The fingerprint of a student's attempt at an exercise, as a word, made of all that its mark depends on: its text, the files that it may
 /// read, the exercise, the limits, and this program.
@@ -16,10 +14,10 @@ pub fn fingerprint(submission: &Submission, exercise: &Exercise, limits: &[Strin
     let attempt = match file.as_deref().map(|path| attempt::load(path, &submission.folder)) {
         None => "missing".to_owned(),
         Some(Err(why)) => format!("unreadable: {}", why.message),
-        Some(Ok(attempt)) => format!("text: {}", attempt.text),
+        Some(Ok(attempt)) => format!("text: {}", &*attempt.text),
     };
     let mut beside = Vec::new();
-    if reads_files(&attempt) {
+    if reads_files(&attempt.as_str().into()) {
         if let Ok(folder) = Folder::open(&submission.folder) {
             note_files(&folder, &mut beside, &mut 0);
         }
@@ -30,14 +28,9 @@ pub fn fingerprint(submission: &Submission, exercise: &Exercise, limits: &[Strin
 }
 
 /// Whether an attempt may read other files.
-fn reads_files(attempt: &str) -> bool {
-    tokens(attempt).iter().any(|(token, _)| match token {
-        Token::Import => true,
-        Token::Identifier(name) => {
-            matches!(name.as_str(), "load_simulation" | "Fn") || name.starts_with("study_")
-        }
-        _ => false,
-    })
+fn reads_files(attempt: &Source) -> bool {
+    let reads = |name: &str| matches!(name, "load_simulation" | "Fn") || name.starts_with("study_");
+    attempt.imports().next().is_some() || attempt.names().any(reads)
 }
 
 /// Most files that are looked at, and the most that is read of each [bytes]: of others the length and the time count.
