@@ -1,5 +1,40 @@
 //! What can be wrong with a schedule.
 
+use std::error::Error;
+use std::fmt;
+use std::rc::Rc;
+
+/// What a function of time from outside failed with, as it was made; it is told as that, and may be taken apart by who knows its type.
+#[derive(Debug, Clone)]
+pub struct FunctionError(Rc<dyn Error>);
+
+impl FunctionError {
+    /// An error of any type, or its words alone.
+    pub fn new(error: impl Into<Box<dyn Error>>) -> Self {
+        Self(error.into().into())
+    }
+}
+
+/// Failures are equal that are told alike.
+impl PartialEq for FunctionError {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.to_string() == other.0.to_string()
+    }
+}
+
+impl fmt::Display for FunctionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+/// It is nothing but its cause.
+impl Error for FunctionError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        Some(&*self.0)
+    }
+}
+
 /// A schedule that makes no sense, or has no value at some time.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LoadError {
@@ -15,18 +50,16 @@ pub enum LoadError {
         /// The values that the refused parameter may have, in words.
         allowed: &'static str,
     },
-    /// A combined schedule that is too large to be evaluated in every step.
-    #[error(
-        "a schedule of {parts} parts, but at most {most} can be combined; write it as schedule(|t| …)"
-    )]
+    /// A combination that is too large to be evaluated in every step.
+    #[error("a schedule of {parts} parts, but at most {most} can be combined")]
     ManyParts {
         /// The number of schedules that the combined one is made of.
         parts: usize,
         /// The largest number of parts that a combined schedule may have.
         most: usize,
     },
-    /// A table of a schedule with too few rows.
-    #[error("table: {rows} rows, but at least 2 are needed: [[t, factor], …]")]
+    /// A table with too few rows.
+    #[error("table: {rows} rows, but at least 2 are needed, each a time and a factor")]
     ShortTable {
         /// The number of rows given for the table of a schedule.
         rows: usize,
@@ -46,9 +79,9 @@ pub enum LoadError {
     /// The stored terms of a schedule of which some are missing or left over.
     #[error("a stored schedule has terms missing or left over")]
     StoredTerms,
-    /// A function of a schedule that failed, with its reason in words.
-    #[error("{0}")]
-    Function(String),
+    /// A function that failed.
+    #[error(transparent)]
+    Function(FunctionError),
     /// A value of a schedule that is not finite.
     #[error("the schedule is {value} at t = {time}, but a load must be finite")]
     NotFinite {

@@ -16,15 +16,13 @@ pub enum SimulationError {
     /// The step size of a run is not positive, or its tolerance cannot be kept.
     #[error(transparent)]
     StepSize(#[from] StepSizeError),
-    /// The end of a run is a time that has passed.
-    #[error("the simulation is at t = {now} and cannot run to t = {end}; {advice}")]
+    /// An end of a run that has passed.
+    #[error("the simulation is at t = {now} and cannot run to t = {end}")]
     End {
         /// The present time of the run that should end in its past [time].
         now: f64,
         /// The end asked for, which has passed [time].
         end: f64,
-        /// What to do instead of running to a time that has passed.
-        advice: &'static str,
     },
     /// No step of any size was solved.
     #[error("no step from t = {time} works, down to dt/{divisions} (dt = {dt:e}): {source}")]
@@ -40,7 +38,7 @@ pub enum SimulationError {
     },
     /// A tolerance asks for steps that are too short.
     #[error(
-        "the tolerance {tolerance} asks for steps below the smallest one, {smallest:e}, at t = {time}: one of dt = {dt:e} errs {error:.3} times as much as is allowed; give a larger tolerance or a smaller step: adaptive(#{{ tolerance: …, smallest: … }})"
+        "the tolerance {tolerance} asks for steps below the smallest one, {smallest:e}, at t = {time}: one of dt = {dt:e} errs {error:.3} times as much as is allowed"
     )]
     Tolerance {
         /// The end of the last good step before steps became too short [time].
@@ -91,37 +89,29 @@ pub enum SimulationError {
         source: StepError,
     },
     /// A slider has reached an end of its master at which the run ends.
-    #[error(
-        "the run has ended: {ending}; give the slider the option ends: \"bounce\" or \"release\" to go on, or ask sim.ended before a step"
-    )]
+    #[error("the run has ended: {ending}")]
     Ended {
         /// The arrival that ended the run, in words.
         ending: String,
     },
     /// A slider that does not get away from an end of its master.
-    #[error(
-        "{arrival}, {most} times within one step of the grid; try ends: \"release\" or \"stop\""
-    )]
+    #[error("{arrival}, {most} times within one step of the grid")]
     Rattles {
         /// The last arrival of the slider, in words.
         arrival: String,
         /// How often the slider arrived within one step.
         most: usize,
     },
-    /// A way back of more steps than were taken.
-    #[error(
-        "cannot go back {steps} steps: only {taken} were taken; sim.rewind(0) leads to the start"
-    )]
+    /// A way back that is longer than the way that was gone.
+    #[error("cannot go back {steps} steps: only {taken} were taken")]
     FewerSteps {
         /// The number of steps to go back.
         steps: usize,
         /// The number of steps that the run has taken.
         taken: usize,
     },
-    /// A way back to a time that is not behind the present.
-    #[error(
-        "cannot go back to t = {time}: the simulation has been from t = 0 to {now}; give a time between, or use sim.run_to(t) to go on"
-    )]
+    /// A way back to a time that is not behind.
+    #[error("cannot go back to t = {time}: the simulation has been from t = 0 to {now}")]
     NotBehind {
         /// The time to go back to, which is not behind [time].
         time: f64,
@@ -130,17 +120,15 @@ pub enum SimulationError {
     },
     /// No state of the run is kept to go back to.
     #[error(
-        "there is no way back: no states are kept{}; start with scene.start(#{{ …, snapshots: 64 }}), in megabytes, or call sim.keep_snapshots(64) before the steps",
+        "there is no way back: no states are kept{}",
         if *limit > 0.0 { format!(", one alone takes more than the limit of {limit} MB") } else { String::new() }
     )]
     NoSnapshots {
         /// The memory that snapshots may take [10⁶ bytes].
         limit: f64,
     },
-    /// Going back to where states were not kept yet.
-    #[error(
-        "cannot go back to {target}: states are kept from t = {first} on; earlier ones are not in a file of sim.save(…), and are not kept before sim.keep_snapshots(…)"
-    )]
+    /// States were not kept yet.
+    #[error("cannot go back to {target}: states are kept from t = {first} on")]
     BeforeFirst {
         /// The state to go back to, in words.
         target: String,
@@ -149,8 +137,7 @@ pub enum SimulationError {
     },
     /// Going back to a state that was forgotten for want of memory.
     #[error(
-        "cannot go back to {target}: with a limit of {limit} MB for snapshots only the last {steps} steps are kept, back to t = {oldest}, and the state at t = {first}; sim.rewind({first}) leads there, and for more start with scene.start(#{{ …, snapshots: {} }})",
-        (4.0 * limit).ceil().max(64.0)
+        "cannot go back to {target}: with a limit of {limit} MB for snapshots only the last {steps} steps are kept, back to t = {oldest}, and the state at t = {first}"
     )]
     Forgotten {
         /// The forgotten state to go back to, in words.

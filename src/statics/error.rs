@@ -18,18 +18,14 @@ pub enum StaticsError {
         /// The schedule's reason for having no value.
         source: LoadError,
     },
-    /// No load acts on the scene.
-    #[error(
-        "no load acts at t = {time}: with nothing to carry, the scene rests as it is drawn; loads are taken as they are at one time, choose it with the option time"
-    )]
+    /// Nothing acts.
+    #[error("no load acts at t = {time}: with nothing to carry, the scene rests as it is drawn")]
     NoLoad {
         /// The time at which loads were taken from their schedules [time].
         time: f64,
     },
-    /// A slider in a scene at rest: statics does not know this joint.
-    #[error(
-        "slider '{slider}': equilibrium of sliding joints is not built; let a damped motion come to rest instead, scene.start(#{{ integrator: energy_decaying(#{{ chi: 1 }}), dt: … }})"
-    )]
+    /// A joint that statics does not know.
+    #[error("slider '{slider}': equilibrium of sliding joints is not built")]
     Slider {
         /// The name of the slider.
         slider: String,
@@ -46,7 +42,7 @@ pub enum StaticsError {
     },
     /// A scene that can move without resistance.
     #[error(
-        "'{scene}' is not held: {movements} of its movements meet no resistance as it is drawn; hold it with scene.clamp(…) or scene.hinge(…), or let a damped motion come to rest, scene.start(#{{ integrator: energy_decaying(#{{ chi: 1 }}), dt: … }})"
+        "'{scene}' is not held: {movements} of its movements meet no resistance as it is drawn"
     )]
     Loose {
         /// The name of the scene that can move.

@@ -7,5 +7,6 @@ mod documents;
 mod figures;
 mod folder_map;
 mod layering;
+mod messages;
 mod theory;
 mod wings;

@@ -51,7 +51,7 @@ impl Motion {
         self.time = step.interval.end;
     }
 
-    /// Takes over a sudden change of all rates.
+    /// Takes over a sudden change of all rates [length/time, 1/time].
     pub fn jump(&mut self, change: &[f64]) {
         self.rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
         self.forecast.jump(change);

@@ -7,10 +7,8 @@ use crate::geometry::GeometryError;
 /// A scene that cannot be described or built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ModelError {
-    /// A scene without beams and particles: there is nothing to simulate.
-    #[error(
-        "the scene '{scene}' has no beams and no particles; add one with scene.beam(#{{ axis: …, section: … }}) or scene.particle([x, y], mass)"
-    )]
+    /// There is nothing to simulate.
+    #[error("the scene '{scene}' has no beams and no particles")]
     Empty {
         /// The name of the scene with nothing in it.
         scene: String,
@@ -35,10 +33,8 @@ pub enum ModelError {
         /// The name that two things would share.
         name: String,
     },
-    /// A station that lies off its beam.
-    #[error(
-        "station {station} is outside [0, {length}] of beam '{beam}'; use beam.end for its end"
-    )]
+    /// A station off its beam.
+    #[error("station {station} is outside [0, {length}] of beam '{beam}'")]
     StationOutside {
         /// The name of the beam whose station was asked for.
         beam: String,
@@ -106,12 +102,12 @@ pub enum ModelError {
         other: String,
     },
     /// A joint, load, inertia or spin that would turn a particle.
-    #[error("{object}: a particle does not turn; {advice}")]
+    #[error("{object}: a particle does not turn")]
     ParticleTurned {
         /// The joint, load, inertia or spin that would turn a particle, in words.
         object: String,
-        /// What to do instead of turning a particle.
-        advice: &'static str,
+        /// What that is.
+        by: Turning,
     },
     /// A sliding joint that is impossible.
     #[error(transparent)]
@@ -154,6 +150,19 @@ pub enum ModelError {
         /// The reason why the beam cannot be put on its mesh.
         source: BeamError,
     },
+}
+
+/// What would turn a particle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Turning {
+    /// A rigid joint.
+    RigidJoint,
+    /// The rotary inertia of a point mass.
+    RotaryInertia,
+    /// A moment, or a force that follows a section.
+    Load,
+    /// A spin at the start.
+    Spin,
 }
 
 impl ModelError {

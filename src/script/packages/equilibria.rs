@@ -297,16 +297,6 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
         Err(StaticsError::Interrupted { .. }) => {
             return Err(context.why_stopped("the search for an equilibrium"));
         }
-        Err(error @ StaticsError::Load { .. }) => {
-            return Err(match context.take_callback_error() {
-                Some(error) => ScriptError::Engine(error),
-                None => error.into(),
-            });
-        }
-        Err(error @ StaticsError::Lost { .. }) => {
-            let hint = "take more load_steps; where the structure snaps through, follow it with control: arc_length(), or stop before with load_factor";
-            return Err(ScriptError::from(error).hint(hint));
-        }
         found => found?,
     };
     let is_unstable =

@@ -10,6 +10,7 @@ pub mod geometry;
 mod help;
 mod histories;
 mod integrators;
+mod language;
 mod loads;
 mod math;
 mod modes;
@@ -31,8 +32,8 @@ mod text;
 mod time_travel;
 mod vectors;
 
-use crate::script::rows::catalog::Catalog;
 use crate::script::rows::table::Table;
+pub use language::language;
 
 /// The domains of the language, in the order of the reference.
 pub const TABLES: &[&Table] = &[
@@ -69,11 +70,6 @@ pub const TABLES: &[&Table] = &[
     &reading_options::TABLE,
     &help::TABLE,
 ];
-
-/// The language of withy: all its domains.
-pub fn language() -> Catalog {
-    Catalog::of(TABLES)
-}
 
 #[cfg(test)]
 mod tests;

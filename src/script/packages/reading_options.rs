@@ -174,6 +174,7 @@ fn accept(
         if words == type_name {
             return Ok(value);
         }
+        // A kind that refuses it is not the one: if all do, that is told below.
         let accept = |kind| call.accept(owner, name, (kind, wanted), value.clone()).ok();
         if let Some(accepted) = kind_named(words).and_then(accept) {
             return Ok(written(accepted));

@@ -172,7 +172,7 @@ const PARTICLE_KEYS: &[Parameter] = &[
 fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let options = call.options("options")?;
-    let named = options.text("name").map(|name| name.to_string());
+    let named = options.text_if_given("name")?;
     let mesh = match mesh_of(&options, "basis") {
         Some(mesh) => mesh,
         None => Mesh::bspline(SPANS, 3, 2)?,
@@ -187,7 +187,7 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
         about: if options.has("about") { Some(options.point("about")?) } else { None },
     };
     let definition = BeamDefinition {
-        name: named.unwrap_or_else(|_| scene.scene().borrow().free_name("beam")),
+        name: named.unwrap_or_else(|| scene.scene().borrow().free_name("beam")),
         axis: Curve::clone(&*options.get::<Rc<Curve>>("axis")?),
         mesh,
         section: options.get("section")?,
@@ -201,9 +201,9 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
 fn particle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let options = call.options_or_defaults("options")?;
-    let name = options.text("name").map(|name| name.to_string());
+    let name = options.text_if_given("name")?;
     let definition = ParticleDefinition {
-        name: name.unwrap_or_else(|_| scene.scene().borrow().free_name("particle")),
+        name: name.unwrap_or_else(|| scene.scene().borrow().free_name("particle")),
         position: call.point("position")?,
     };
     let added = scene.scene().borrow_mut().add_particle(definition, call.number("mass")?);

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use rhai::{Dynamic, EvalAltResult, FnPtr};
 
-use crate::loads::{Operation, Schedule, Side};
+use crate::loads::{FunctionError, Operation, Schedule, Side};
 use crate::script::diagnose::Explainer;
 use crate::script::looks::details;
 use crate::script::rows::arguments::Arguments;
@@ -20,6 +20,7 @@ use crate::script::rows::table::{Table, function, method, operator};
 use crate::script::source::program::Program;
 use crate::script::state::context::Context;
 use crate::script::words::error::ScriptError;
+use crate::script::words::raised::Raised;
 
 /// The domain of schedules: factors of loads over time.
 pub const TABLE: Table = Table {
@@ -79,11 +80,7 @@ pub const TABLE: Table = Table {
             .doc("It is called two or three times a step, never inside the iteration. A jump that is not declared costs accuracy.")
             .example("let load = schedule(|t| exp(-t) * sin(3 * t));\ncheck(load.at(0) == 0);"),
         method(SCHEDULE, "at", &[number("t").unit("time")], |call| {
-            let value = call.receiver::<Schedule>()?.value(call.number("t")?, Side::After);
-            // An error of a script function keeps its own place.
-            value.map(Dynamic::from).map_err(|error| {
-                call.context().take_callback_error().map_or_else(|| error.into(), ScriptError::Engine)
-            })
+            Ok(call.receiver::<Schedule>()?.value(call.number("t")?, Side::After)?.into())
         })
         .returns(Returns::NUMBER)
         .summary("The factor at a time, just after it where it jumps.")
@@ -192,11 +189,9 @@ fn stored(call: &Call, function: FnPtr, breaks: Vec<f64>) -> Result<Schedule, Sc
     let stored = call.store(function, "the function of a schedule");
     let function = Rc::new(move |t| {
         stored.number_of(t).map_err(|error| match error {
-            NoNumber::Other(words) => words,
+            NoNumber::Other(words) => FunctionError::new(words),
             NoNumber::Failed(error) => {
-                let words = words(stored.context(), &error);
-                stored.context().keep_callback_error(error);
-                words
+                FunctionError::new(Raised::new(words(stored.context(), &error), error))
             }
         })
     });

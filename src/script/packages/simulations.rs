@@ -21,6 +21,7 @@ use crate::script::handles::notes::Notes;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::{Goal, SimulationHandle};
 use crate::script::handles::station::StationHandle;
+use crate::script::handles::step_size::step_size;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Kind, Range, Scripted, Type};
 use crate::script::rows::parameter::{
@@ -29,7 +30,7 @@ use crate::script::rows::parameter::{
 use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Row, Table, method, property};
 use crate::script::words::error::ScriptError;
-use crate::simulation::{Invariant, Recording, Settings, Simulation, SimulationError, StepControl};
+use crate::simulation::{Invariant, Recording, Settings, Simulation, SimulationError};
 
 /// The domain of simulations.
 pub const TABLE: Table = Table {
@@ -256,19 +257,18 @@ pub(super) fn begin(
     let options = call.options("options")?;
     let settings = Settings {
         method: options.get_if::<Method>("integrator").unwrap_or_default(),
-        dt: match options.get_if::<StepControl>("dt") {
-            Some(control) => control.into(),
-            None => options.number("dt")?.into(),
-        },
+        dt: step_size(&options.value("dt")?)
+            .ok_or_else(|| ScriptError::bug("a step size is neither a number nor adaptive"))?,
         tolerance: Tolerance::default(),
     };
     let mut simulation = start(settings)?;
-    let name = options.text("name").map(|name| name.to_string());
-    let name = name.unwrap_or_else(|_| simulation.scene().name.clone());
+    let name = options.text_if_given("name")?;
+    let name = name.unwrap_or_else(|| simulation.scene().name.clone());
     let limit = options.number_if_given("snapshots").map(bytes);
     simulation.record(options.get_if::<Recording>("record").unwrap_or_default());
     simulation.keep_snapshots(limit.unwrap_or_else(|| call.context().snapshots()));
-    let printing = options.text("notes").map(|word| meant(&PRINTING, &word)).unwrap_or_default();
+    let printing =
+        options.text_if_given("notes")?.map(|word| meant(&PRINTING, &word)).unwrap_or_default();
     let notes = Notes::new(printing);
     Ok(Dynamic::from(SimulationHandle::new(simulation, of, name, notes, call.context())))
 }

@@ -239,9 +239,9 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let master = call.get::<BeamHandle>("beam")?.own(&handle)?;
     let options = call.options_or_defaults("options")?;
     let at = options.number_if_given("at");
-    let name = options.text("name").map(|name| name.to_string());
+    let name = options.text_if_given("name")?;
     let definition = Slider {
-        name: name.unwrap_or_else(|_| scene.borrow().free_name("slider")),
+        name: name.unwrap_or_else(|| scene.borrow().free_name("slider")),
         slave,
         master,
         arc_length: start(&scene.borrow(), slave, master, at)?,

@@ -27,7 +27,7 @@ pub const TABLE: Table = Table {
             largest: bound("largest"),
         };
         let checked = StepSize::from(control).check();
-        checked.map_err(|error| ScriptError::new(error.to_string()).at(Place::Argument(0)))?;
+        checked.map_err(|error| ScriptError::from(error).at(Place::Argument(0)))?;
         Ok(Dynamic::from(control))
     })
     .returns(Returns::object(STEP_CONTROL))

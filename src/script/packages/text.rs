@@ -46,6 +46,7 @@ fn write(call: &Call, format: fn(f64, usize) -> String) -> Result<Dynamic, Scrip
 
 fn tabulate(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let words = |cell: &Dynamic| {
+        // What is no text is shown.
         let text = cell.clone().into_immutable_string().map(|text| text.to_string());
         text.unwrap_or_else(|_| call.show(cell))
     };

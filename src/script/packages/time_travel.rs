@@ -40,7 +40,7 @@ pub const TABLE: Table = Table {
         .see(&["back", "run_to"]),
         method(SIMULATION, "fork", &[name("name").optional()], |call| {
             let handle = call.receiver::<SimulationHandle>()?;
-            let name = call.text("name").map_or_else(|_| format!("{} fork", handle.name()), |name| name.to_string());
+            let name = call.text_if_given("name")?.unwrap_or_else(|| format!("{} fork", handle.name()));
             Ok(Dynamic::from(handle.fork(name, call.context())?))
         })
         .returns(Returns::object(SIMULATION))

@@ -68,6 +68,14 @@ impl Arguments {
         self.find(name)?.clone().into_immutable_string().map_err(|held| wrong_read(name, held))
     }
 
+    /// A text, if there is one.
+    ///
+    /// # Errors
+    /// When there is something else, which its row must exclude.
+    pub fn text_if_given(&self, name: &str) -> Result<Option<String>, ScriptError> {
+        self.has(name).then(|| self.text(name).map(String::from)).transpose()
+    }
+
     /// The argument as a truth value.
     pub fn boolean(&self, name: &str) -> Result<bool, ScriptError> {
         self.find(name)?.as_bool().map_err(|held| wrong_read(name, held))

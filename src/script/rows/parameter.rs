@@ -133,11 +133,6 @@ impl Parameter {
         self.within(Range::NonNegative)
     }
 
-    /// The parameter for numbers of at least `least` only.
-    pub const fn at_least(self, least: f64) -> Self {
-        self.within(Range::AtLeast(least))
-    }
-
     /// The parameter for numbers from `least` to `most` only, both included.
     pub const fn between(self, least: f64, most: f64) -> Self {
         self.within(Range::Between(least, most))

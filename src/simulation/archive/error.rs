@@ -5,16 +5,14 @@ use crate::simulation::SimulationError;
 /// A simulation that cannot be stored, or bytes that are not a whole and sound one.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ArchiveError {
-    /// A simulation that cannot be stored, for a load follows a function of a script.
-    #[error(
-        "the {load} has a function as its schedule, and functions cannot be stored; use hold_for, ramp, pulse, smooth_pulse, sine or table, or sums and products of them"
-    )]
+    /// A load with a function of a script.
+    #[error("the {load} has a function as its schedule, and functions cannot be stored")]
     Function {
         /// The name of the load that follows a function of a script.
         load: String,
     },
-    /// A file that is not a simulation but something else.
-    #[error("this is no simulation: it does not begin as files of sim.save(…) do")]
+    /// Something else.
+    #[error("this is no simulation: it does not begin as stored simulations do")]
     Foreign,
     /// A file of a simulation of which a part is missing.
     #[error(
@@ -33,7 +31,7 @@ pub enum ArchiveError {
     Newer {
         /// The program that wrote the file, with its version.
         program: String,
-        /// The format of the file.
+        /// The format of the old file.
         format: u16,
         /// This program, with its version.
         own_program: &'static str,
@@ -68,10 +66,8 @@ pub enum ArchiveError {
         /// The number of bytes too many.
         more: u64,
     },
-    /// A whole file of a simulation with a content that makes no sense.
-    #[error(
-        "its content is not that of a simulation: {reason}; it was not written by sim.save(…), or by a withy with a mistake"
-    )]
+    /// A sound file with a content that makes no sense.
+    #[error("its content is not that of a simulation: {reason}")]
     Content {
         /// What is wrong with the content of the file.
         reason: String,

@@ -2,8 +2,8 @@
 
 use rhai::ParseErrorType;
 
+use super::cure::{Cure, Habit};
 use super::spot::Spot;
-use super::{Cure, Habit};
 
 /// Habits of other languages in conditions and loops.
 pub const HABITS: &[Habit] =

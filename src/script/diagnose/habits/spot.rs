@@ -2,7 +2,7 @@
 
 use rhai::{ParseErrorType, Position, Token};
 
-use super::Cure;
+use super::cure::Cure;
 use crate::script::rows::catalog::Catalog;
 use crate::script::source::program::Program;
 
