@@ -44,7 +44,7 @@ impl Invariant {
     /// Its value: a vector for the momentum, else in the first component.
     pub fn value(self, row: &Measures) -> Vec2 {
         match self {
-            Self::Energy => Vec2::new(row.energy.total() - row.work, 0.0),
+            Self::Energy => Vec2::new(row.energy.total() - row.work + row.dissipated, 0.0),
             Self::Momentum => row.momentum - row.impulse,
             Self::AngularMomentum => Vec2::new(row.angular_momentum - row.angular_impulse, 0.0),
             Self::Gap => Vec2::new(row.gap, 0.0),
@@ -54,7 +54,7 @@ impl Invariant {
     /// In words and symbols.
     pub fn describe(self) -> &'static str {
         match self {
-            Self::Energy => "energy E - W",
+            Self::Energy => "energy E - W + D",
             Self::Momentum => "momentum p - ∫F dt",
             Self::AngularMomentum => "angular momentum L - ∫M dt",
             Self::Gap => "gap of joints",
@@ -209,7 +209,7 @@ impl History {
         let motion = (2.0 * mass * kinetic).sqrt();
         let length = if length > 0.0 { length } else { largest(&|row| row.time) * motion / mass };
         match invariant {
-            Invariant::Energy => largest(&|row| row.energy.kinetic + row.energy.strain)
+            Invariant::Energy => largest(&|row| row.energy.kinetic + row.energy.strain + row.energy.stored)
                 .max(largest(&|row| row.energy.potential - first.energy.potential))
                 .max(largest(&|row| row.work - first.work))
                 .max(rounding_energy),

@@ -5,4 +5,5 @@ mod common;
 
 mod equilibria;
 mod modes;
+mod springs;
 mod stiff_modes;

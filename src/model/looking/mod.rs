@@ -4,6 +4,8 @@ mod explain;
 mod placement;
 mod queries;
 mod sliders;
+mod springs;
 
 pub use explain::{Part, Usage};
 pub use placement::{Distance, Placement};
+pub use springs::SpringState;

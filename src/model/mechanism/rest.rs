@@ -24,6 +24,7 @@ impl Model {
     /// Takes the section forces of the last movement for a start of the next.
     pub fn begin_movement(&mut self) {
         self.bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
+        self.elements.begin_movement();
     }
 
     /// Adds the internal forces minus `load_factor` times the loads, with the section forces as they are.
