@@ -6,7 +6,6 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
 use std::path::Path;
 
-use rhai::Token;
 use serde_json::{Value, json};
 
 use super::attempt;
@@ -15,7 +14,7 @@ use super::grading::Mark;
 use super::submissions::Submission;
 use crate::analysis::Journal;
 use crate::folders::{Folder, read_file};
-use crate::script::source::lexing::tokens;
+use crate::script::source::text::Source;
 
 /// The largest file of marks that is read [bytes].
 const LARGEST: u64 = 1 << 30;
@@ -127,10 +126,10 @@ pub fn fingerprint(submission: &Submission, exercise: &Exercise, limits: &[Strin
     let attempt = match file.as_deref().map(|path| attempt::load(path, &submission.folder)) {
         None => "missing".to_owned(),
         Some(Err(why)) => format!("unreadable: {}", why.message),
-        Some(Ok(attempt)) => format!("text: {}", attempt.text),
+        Some(Ok(attempt)) => format!("text: {}", &*attempt.text),
     };
     let mut beside = Vec::new();
-    if reads_files(&attempt) {
+    if reads_files(&attempt.as_str().into()) {
         note_files(&submission.folder, &mut beside, &mut 0);
     }
     let limits = limits.join(" ");
@@ -139,14 +138,9 @@ pub fn fingerprint(submission: &Submission, exercise: &Exercise, limits: &[Strin
 }
 
 /// Whether an attempt may read other files.
-fn reads_files(attempt: &str) -> bool {
-    tokens(attempt).iter().any(|(token, _)| match token {
-        Token::Import => true,
-        Token::Identifier(name) => {
-            matches!(name.as_str(), "load_simulation" | "Fn") || name.starts_with("study_")
-        }
-        _ => false,
-    })
+fn reads_files(attempt: &Source) -> bool {
+    let reads = |name: &str| matches!(name, "load_simulation" | "Fn") || name.starts_with("study_");
+    attempt.imports().next().is_some() || attempt.names().any(reads)
 }
 
 /// Most files that are looked at, and the most that is read of each [bytes]: of others the length and the time count.

@@ -369,7 +369,7 @@ mod tests {
             let chunks = chunks(&script);
             assert_eq!(chunks.last().map(String::as_str), Some(""), "{file:?} ends open");
             for chunk in chunks {
-                let compiled = read(&engine, &rhai::Scope::new(), &chunk, 0);
+                let compiled = read(&engine, &rhai::Scope::new(), &chunk.as_str().into(), 0);
                 compiled.unwrap_or_else(|error| panic!("{file:?}: {error} in\n{chunk}"));
                 count += 1;
             }
