@@ -10,7 +10,7 @@ mod scene;
 mod sliders;
 mod words;
 
-pub use elements::{Anchor, Element, PointMass, RestoringLaw, Spring, SpringKind};
+pub use elements::{Anchor, Element, Origin, PointMass, RestoringLaw, Spring, SpringKind};
 pub use looking::{Distance, Part, Placement, SpringState, Usage};
 pub use mechanism::{Energy, Measures, Model, ModelState, StaticForces, add_resistance};
 pub use motion::Resolution;

@@ -77,7 +77,8 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
             SpringKind::Torsion(_) => ("angle", "rad", "force·length"),
         };
         let of_ledger = OF_SPRINGS.map(|(entry, energy)| column(format!("{entry}.{name}"), energy));
-        let own = [column(format!("{name}.{measure}"), length), column(format!("{name}.force"), force)];
+        let own =
+            [column(format!("{name}.{measure}"), length), column(format!("{name}.force"), force)];
         own.into_iter().chain(of_ledger).collect::<Vec<_>>()
     };
     let sums = OF_SPRINGS.map(|(entry, energy)| column(entry.to_owned(), energy));
@@ -96,8 +97,8 @@ pub(super) fn extra_values(model: &Model) -> impl Iterator<Item = f64> {
     let sum = |of: fn(&SpringState) -> f64| model.springs().map(|spring| of(&spring)).sum::<f64>();
     let sums = [sum(|spring| spring.stored), sum(|spring| spring.dissipated)];
     let sums = sums.into_iter().filter(|_| model.springs().next().is_some());
-    let of_springs = model.springs().flat_map(|spring| {
-        [spring.elongation, spring.force, spring.stored, spring.dissipated]
-    });
+    let of_springs = model
+        .springs()
+        .flat_map(|spring| [spring.elongation, spring.force, spring.stored, spring.dissipated]);
     of_sliders.chain(sums).chain(of_springs)
 }

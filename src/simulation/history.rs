@@ -22,7 +22,7 @@ pub struct Sample {
 /// A quantity that should not change, loads and supports accounted for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Invariant {
-    /// `E - W`
+    /// `E - W + D`
     Energy,
     /// `p - ∫ F dt`
     Momentum,
@@ -209,10 +209,12 @@ impl History {
         let motion = (2.0 * mass * kinetic).sqrt();
         let length = if length > 0.0 { length } else { largest(&|row| row.time) * motion / mass };
         match invariant {
-            Invariant::Energy => largest(&|row| row.energy.kinetic + row.energy.strain + row.energy.stored)
-                .max(largest(&|row| row.energy.potential - first.energy.potential))
-                .max(largest(&|row| row.work - first.work))
-                .max(rounding_energy),
+            Invariant::Energy => {
+                largest(&|row| row.energy.kinetic + row.energy.strain + row.energy.stored)
+                    .max(largest(&|row| row.energy.potential - first.energy.potential))
+                    .max(largest(&|row| row.work - first.work))
+                    .max(rounding_energy)
+            }
             Invariant::Momentum => {
                 motion.max(largest(&|row| row.gross_impulse - first.gross_impulse))
             }
@@ -223,7 +225,7 @@ impl History {
         }
     }
 
-    /// The largest rise of `E - W` above an earlier value, relative as the [`drifts`](Self::drifts) are; NaN when an energy is
+    /// The largest rise of `E - W + D` above an earlier value, relative as the [`drifts`](Self::drifts) are; NaN when an energy is
     /// NaN or there is no row.
     pub fn energy_growth(&self) -> f64 {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return f64::NAN };

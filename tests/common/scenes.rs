@@ -8,7 +8,8 @@ use withy::geometry::{Curve, Vec2};
 use withy::joints::{JointKind, Partner};
 use withy::loads::{Frame, LoadKind, Schedule};
 use withy::model::{
-    Anchor, BeamDefinition, ParticleDefinition, PointMass, RestoringLaw, Scene, Spring, SpringKind, StartMotion,
+    Anchor, BeamDefinition, Origin, ParticleDefinition, PointMass, RestoringLaw, Scene, Spring,
+    SpringKind, StartMotion,
 };
 
 /// The section of the flying spaghetti with `EA = GA` and `EI` as given.
@@ -217,7 +218,7 @@ pub fn towed(mesh: &Mesh) -> Scene {
 /// A spring, with a damper beside it.
 pub fn spring(scene: &mut Scene, kind: SpringKind, law: RestoringLaw, damping: f64) {
     let (name, law) = (scene.free_name("spring"), Some(law));
-    scene.add_spring(Spring { name, kind, law, damping }).unwrap();
+    scene.add_spring(Spring { name, kind, law, origin: Origin::Zero, damping }).unwrap();
 }
 
 fn linear(stiffness: f64, natural: f64) -> RestoringLaw {
@@ -266,7 +267,7 @@ pub fn mounted(mesh: &Mesh) -> Scene {
     spring(&mut scene, twist, linear(5.0, 0.0), 0.3);
     let name = scene.free_name("damper");
     let kind = SpringKind::Way(vec![bead, Anchor::Station(start)]);
-    scene.add_spring(Spring { name, kind, law: None, damping: 1.5 }).unwrap();
+    scene.add_spring(Spring { name, kind, law: None, origin: Origin::Zero, damping: 1.5 }).unwrap();
     force(&mut scene, end, at(1.0, 2.0), Frame::Dead, hold(1.1));
     scene.gravity = at(0.0, -2.0);
     scene

@@ -8,7 +8,7 @@ use withy::beams::{Mesh, Section};
 use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
 use withy::joints::{JointKind, Partner};
 use withy::model::{
-    Anchor, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind, StartMotion,
+    Anchor, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind, StartMotion,
 };
 use withy::simulation::{Invariant, Simulation};
 
@@ -20,7 +20,7 @@ fn linear(stiffness: f64, natural: f64) -> Option<RestoringLaw> {
 
 fn add(scene: &mut Scene, anchors: Vec<Anchor>, law: Option<RestoringLaw>, damping: f64) {
     let (name, kind) = (scene.free_name("spring"), SpringKind::Way(anchors));
-    scene.add_spring(Spring { name, kind, law, damping }).unwrap();
+    scene.add_spring(Spring { name, kind, law, origin: Origin::Zero, damping }).unwrap();
 }
 
 /// A mass of 2 on a spring along x, `stretch` beyond its ease, with a damper beside it.
@@ -107,7 +107,8 @@ fn springs_and_dampers_of_any_stiffness_keep_the_ledger_in_as_many_iterations() 
     for stiffness in [1e-2, 1e4, 1e10, 1e16] {
         for damping in [0.0, 1.0, 1e6] {
             let label = format!("stiffness {stiffness:e}, damping {damping:e}");
-            let simulation = simulate(braced(stiffness, damping), Method::EnergyMomentum, 0.05, 5.0);
+            let simulation =
+                simulate(braced(stiffness, damping), Method::EnergyMomentum, 0.05, 5.0);
             let history = simulation.history();
             let drifts: Vec<f64> =
                 Invariant::ALL.iter().map(|(_, invariant)| history.drift(*invariant)).collect();
@@ -177,11 +178,18 @@ fn door(stiffness: f64, damping: f64, angle: f64) -> Scene {
         mass_per_length: 1.0,
         rotary_inertia: 1e-6,
     };
-    let bar = scenes::add_beam(&mut scene, scenes::line(at(0.0, 0.0), at(1.0, 0.0)), &mesh, section);
+    let bar =
+        scenes::add_beam(&mut scene, scenes::line(at(0.0, 0.0), at(1.0, 0.0)), &mesh, section);
     let foot = scene.station(bar, 0.0).unwrap();
     scene.join(JointKind::Hinge, foot, Partner::Ground).unwrap();
     let kind = SpringKind::Torsion([Anchor::Ground(at(0.0, 0.0)), Anchor::Station(foot)]);
-    let spring = Spring { name: "torsion".to_owned(), kind, law: linear(stiffness, angle), damping };
+    let spring = Spring {
+        name: "torsion".to_owned(),
+        kind,
+        law: linear(stiffness, angle),
+        origin: Origin::Zero,
+        damping,
+    };
     scene.add_spring(spring).unwrap();
     scene
 }

@@ -7,7 +7,7 @@ use withy::integrators::Mechanism;
 use withy::joints::{JointKind, Partner};
 use withy::loads::{Frame, LoadKind, Schedule};
 use withy::model::{
-    Anchor, Model, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind,
+    Anchor, Model, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind,
 };
 use withy::statics::{Equilibrium, Loading};
 use withy::vibration::{Mode, Modes};
@@ -18,7 +18,7 @@ fn linear(stiffness: f64, natural: f64) -> Option<RestoringLaw> {
 
 fn add(scene: &mut Scene, kind: SpringKind, law: Option<RestoringLaw>, damping: f64) {
     let name = scene.free_name("spring");
-    scene.add_spring(Spring { name, kind, law, damping }).unwrap();
+    scene.add_spring(Spring { name, kind, law, origin: Origin::Zero, damping }).unwrap();
 }
 
 /// A slender cantilever of length 2 along x.
@@ -69,7 +69,8 @@ fn a_torsion_spring_turns_the_tip_back() {
     let (mut scene, tip) = cantilever();
     let kind = SpringKind::Torsion([Anchor::Ground(at(0.0, 0.0)), Anchor::Station(tip)]);
     add(&mut scene, kind, linear(4.0, 0.0), 0.0);
-    scene.add_load(LoadKind::Moment { station: tip, moment: 0.3 }, Schedule::constant(1.0).unwrap());
+    scene
+        .add_load(LoadKind::Moment { station: tip, moment: 0.3 }, Schedule::constant(1.0).unwrap());
     // Pure bending: θ = M L/EI of what the spring leaves, however large.
     let angle = rest(scene).model().springs().next().unwrap().elongation;
     assert!((angle - 0.3 / (5.0 / 2.0 + 4.0)).abs() < 1e-9, "{angle}");
@@ -113,7 +114,8 @@ fn a_mass_between_springs_has_the_frequencies_of_their_stiffness_and_of_their_te
 }
 
 #[test]
-fn the_lowest_frequency_of_a_beam_with_a_spring_at_its_tip_is_that_of_the_characteristic_equation() {
+fn the_lowest_frequency_of_a_beam_with_a_spring_at_its_tip_is_that_of_the_characteristic_equation()
+{
     // cos β cosh β + 1 + κ (sin β cosh β - cos β sinh β)/β³ = 0, κ = k L³/EI (Blevins 1979, spring at the tip).
     for stiffness in [0.1, 10.0, 1e7] {
         let (mut scene, tip) = cantilever();
@@ -121,7 +123,8 @@ fn the_lowest_frequency_of_a_beam_with_a_spring_at_its_tip_is_that_of_the_charac
         add(&mut scene, way, linear(stiffness, 1e4), 0.0);
         let kappa = stiffness * 8.0 / 5.0;
         let equation = |b: f64| {
-            b.powi(3) * (b.cos() * b.cosh() + 1.0) + kappa * (b.sin() * b.cosh() - b.cos() * b.sinh())
+            b.powi(3) * (b.cos() * b.cosh() + 1.0)
+                + kappa * (b.sin() * b.cosh() - b.cos() * b.sinh())
         };
         let (mut low, mut high) = (1.0, 3.9266);
         for _ in 0..80 {

@@ -86,7 +86,9 @@ impl Numbering {
                 let place = place(&station)?;
                 let points = place.weights().map(|(point, _)| offsets[place.body] + 3 * point);
                 let components = points.flat_map(|first| first..first + 3);
-                group.extend(components.map(|at| number[ties.root(at)]).filter(|&n| n != usize::MAX));
+                group.extend(
+                    components.map(|at| number[ties.root(at)]).filter(|&n| n != usize::MAX),
+                );
             }
             group.sort_unstable();
             group.dedup();

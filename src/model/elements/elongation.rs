@@ -250,7 +250,8 @@ impl Part {
     fn new(start: Vec2, moved: Vec2, rotations: RotationIncrement) -> Self {
         let end = start + moved;
         let (before, after) = (start.norm(), end.norm());
-        let direction = |d: Vec2, length: f64| if length > 0.0 { d / length } else { Vec2::zeros() };
+        let direction =
+            |d: Vec2, length: f64| if length > 0.0 { d / length } else { Vec2::zeros() };
         let both = before + after;
         let mean = direction(start + end, both);
         let slope = direction(end, after);

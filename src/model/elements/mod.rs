@@ -24,6 +24,6 @@ pub use force_element::{ForceElement, Iterate, collocation};
 pub use point_mass::PointMass;
 pub use resistance::Resistance;
 pub use restoring::RestoringLaw;
-pub use spring::{Anchor, Spring, SpringKind};
+pub use spring::{Anchor, Origin, Spring, SpringKind};
 pub use supports::{Support, Supports};
 pub use weight::Weight;

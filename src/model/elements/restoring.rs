@@ -54,9 +54,7 @@ impl RestoringLaw {
     /// The stored energy `U(q)`: of a linear law zero at ease, of a table zero at its first point [energy].
     pub fn energy(&self, q: f64) -> f64 {
         match self {
-            Self::Linear { stiffness, natural } => {
-                0.5 * stiffness * (q - natural) * (q - natural)
-            }
+            Self::Linear { stiffness, natural } => 0.5 * stiffness * (q - natural) * (q - natural),
             Self::Table { points } => self.work(points, points[0].0, q),
         }
     }
@@ -93,6 +91,18 @@ impl RestoringLaw {
         }
     }
 
+    /// The same law with its elongations counted from another origin, which is this far below.
+    pub fn shifted(&self, by: f64) -> Self {
+        match self {
+            Self::Linear { stiffness, natural } => {
+                Self::Linear { stiffness: *stiffness, natural: natural + by }
+            }
+            Self::Table { points } => {
+                Self::Table { points: points.iter().map(|(q, force)| (q + by, *force)).collect() }
+            }
+        }
+    }
+
     /// The law in words.
     pub fn describe(&self) -> String {
         match self {
@@ -116,10 +126,7 @@ mod tests {
 
     fn laws() -> [RestoringLaw; 2] {
         let points = vec![(-1.0, -3.0), (0.0, 0.0), (0.5, 0.0), (2.0, 6.0)];
-        [
-            RestoringLaw::Linear { stiffness: 40.0, natural: 0.3 },
-            RestoringLaw::Table { points },
-        ]
+        [RestoringLaw::Linear { stiffness: 40.0, natural: 0.3 }, RestoringLaw::Table { points }]
     }
 
     #[test]

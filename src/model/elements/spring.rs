@@ -28,6 +28,15 @@ pub enum SpringKind {
     Torsion([Anchor; 2]),
 }
 
+/// What the elongations of a law are counted from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Origin {
+    /// Nothing: they are lengths and angles.
+    Zero,
+    /// The length or the angle in the scene as it is built on its meshes: at zero it is as at the start.
+    AsBuilt,
+}
+
 /// A spring, a damper, or both: a force along what it measures.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Spring {
@@ -37,6 +46,8 @@ pub struct Spring {
     pub kind: SpringKind,
     /// The force over what it measures; none of a damper alone.
     pub law: Option<RestoringLaw>,
+    /// What the elongations of the law are counted from.
+    pub origin: Origin,
     /// The damping constant `c` of `c q̇` [force·time/length; of torsion force·length·time/rad].
     pub damping: f64,
 }
@@ -86,13 +97,15 @@ impl Description for Spring {
                     return refused("stiffness", *stiffness, "a positive finite number");
                 }
                 let is_angle = matches!(self.kind, SpringKind::Torsion(_));
-                if !(natural.is_finite() && (is_angle || *natural >= 0.0)) {
+                let is_length = !is_angle && self.origin == Origin::Zero;
+                if !(natural.is_finite() && (*natural >= 0.0 || !is_length)) {
                     let allowed = "zero or a positive finite number [length]";
                     return refused("length", *natural, allowed);
                 }
             }
             Some(RestoringLaw::Table { points }) => {
-                if let Some(wrong) = points.iter().flat_map(|(q, f)| [q, f]).find(|x| !x.is_finite())
+                if let Some(wrong) =
+                    points.iter().flat_map(|(q, f)| [q, f]).find(|x| !x.is_finite())
                 {
                     return refused("table", *wrong, "finite numbers");
                 }
@@ -100,7 +113,11 @@ impl Description for Spring {
                     return refused("table", points.len() as f64, "at least two points");
                 }
                 if let Some(pair) = points.windows(2).find(|pair| pair[1].0 <= pair[0].0) {
-                    return refused("table", pair[1].0, "elongations that rise from point to point");
+                    return refused(
+                        "table",
+                        pair[1].0,
+                        "elongations that rise from point to point",
+                    );
                 }
             }
             None if self.damping == 0.0 => {
@@ -141,18 +158,23 @@ impl Description for Spring {
             }
             _ => Elongation::way(terminals, &at),
         };
+        let origin = match self.origin {
+            Origin::Zero => 0.0,
+            Origin::AsBuilt => elongation.value(),
+        };
         Ok(Assembled::Resistance(Box::new(SpringDamper::new(
             self.name.clone(),
             elongation,
             grounds,
-            self.law.clone(),
+            self.law.as_ref().map(|law| law.shifted(origin)),
             self.damping,
         ))))
     }
 }
 
 impl Spring {
-    fn object(&self) -> String {
+    /// What it is, and its name.
+    pub fn object(&self) -> String {
         match (&self.kind, &self.law) {
             (_, None) => format!("damper '{}'", self.name),
             (SpringKind::Torsion(_), _) => format!("torsion spring '{}'", self.name),

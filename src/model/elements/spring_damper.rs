@@ -39,7 +39,8 @@ impl HiddenForce {
     /// Compares it with a configuration; how far it is off, as a part of such a length or angle.
     fn compare(&mut self, target: Target, extent: f64) -> f64 {
         self.mismatch = target.force - self.force;
-        let size = larger(target.stiffness.abs() * extent, larger(target.force.abs(), self.force.abs()));
+        let size =
+            larger(target.stiffness.abs() * extent, larger(target.force.abs(), self.force.abs()));
         if self.mismatch == 0.0 { 0.0 } else { self.mismatch.abs() / size }
     }
 
@@ -118,9 +119,7 @@ impl SpringDamper {
         let (q, change) = (self.elongation.value(), self.elongation.change);
         match stage {
             Stage::Start => Target { force: law.force(q), stiffness: 0.0 },
-            Stage::End => {
-                Target { force: law.force(q + change), stiffness: law.slope(q + change) }
-            }
+            Stage::End => Target { force: law.force(q + change), stiffness: law.slope(q + change) },
             Stage::Midpoint => {
                 let mean = law.mean(q, change);
                 Target { force: mean.force, stiffness: mean.slope }
@@ -192,8 +191,7 @@ impl SpringDamper {
 
     fn summary(&self, mismatch: f64) -> ForceSummary {
         let force = self.spring.force.abs() + self.damper.force.abs();
-        let (force, moment) =
-            if self.elongation.is_angle() { (0.0, force) } else { (force, 0.0) };
+        let (force, moment) = if self.elongation.is_angle() { (0.0, force) } else { (force, 0.0) };
         ForceSummary { strain_mismatch: mismatch, force, moment, rotation: 0.0 }
     }
 }

@@ -187,7 +187,10 @@ impl Model {
         let one = |spring: &dyn Resistance| Part::used(spring.name(), spring.explain());
         let mut parts: Vec<Part> = all.clone().take(MOST).map(one).collect();
         if parts.is_empty() {
-            return vec![Part::left_out("springs", "nothing beside the beams stores energy, nothing damps")];
+            return vec![Part::left_out(
+                "springs",
+                "nothing beside the beams stores energy, nothing damps",
+            )];
         }
         let rest = all.skip(MOST).count();
         if rest > 0 {

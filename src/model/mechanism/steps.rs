@@ -52,7 +52,8 @@ impl Model {
         for body in self.bodies.iter_mut() {
             body.add_linearised_forces(collocation(stage), increments, weight, out, tangent);
         }
-        let (at, unknowns) = (Iterate { bodies: &self.bodies, stage, increments, weight }, self.unknowns.count());
+        let (at, unknowns) =
+            (Iterate { bodies: &self.bodies, stage, increments, weight }, self.unknowns.count());
         self.elements.add_linearised_resistance(at, out, unknowns, tangent);
         self.subtract_loads(stage, increments, share, out);
         let at = Iterate { bodies: &self.bodies, stage, increments, weight: share };
