@@ -5,6 +5,7 @@ mod back;
 mod content;
 mod explain;
 mod landing;
+mod looking_inside;
 mod noting;
 mod recording;
 mod revisit;

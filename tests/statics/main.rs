@@ -5,5 +5,6 @@ mod common;
 
 mod equilibria;
 mod modes;
+mod section_forces;
 mod springs;
 mod stiff_modes;

@@ -3,9 +3,14 @@
 mod explain;
 mod placement;
 mod queries;
+mod section_forces;
 mod sliders;
 mod springs;
 
 pub use explain::{Part, Usage};
 pub use placement::{Distance, Placement};
+<<<<<<< HEAD
 pub use springs::SpringState;
+=======
+pub use section_forces::{CrossSection, SectionSample};
+>>>>>>> main

@@ -48,7 +48,7 @@ pub const TABLE: Table = Table {
         .example("let s1 = scene.spring(rod.end, bead, #{ stiffness: 100, length: 0.5, damping: 0.5 });\n\
                   scene.spring([2, -2], bead, #{ stiffness: 20, acts: \"pull\" });\n\
                   let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\n\
-                  check(sim.drift().energy < 1e-12);\ncheck(sim.history.last(\"dissipated\") > 0);")
+                  check(sim.history.drift(\"energy\") < 1e-12);\ncheck(sim.history.last(\"dissipated\") > 0);")
         .see(&["damper", "tendon", "torsion_spring", "spring_force"]),
         method(SCENE, "damper", &[FROM, TO, options("options", DAMPER_KEYS)], |call| {
             let anchors = vec![anchor(call, "from")?, anchor(call, "to")?];
