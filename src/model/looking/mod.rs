@@ -9,8 +9,5 @@ mod springs;
 
 pub use explain::{Part, Usage};
 pub use placement::{Distance, Placement};
-<<<<<<< HEAD
-pub use springs::SpringState;
-=======
 pub use section_forces::{CrossSection, SectionSample};
->>>>>>> main
+pub use springs::SpringState;
