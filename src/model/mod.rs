@@ -10,8 +10,8 @@ mod scene;
 mod sliders;
 mod words;
 
-pub use elements::{Element, PointMass};
-pub use looking::{CrossSection, Distance, Part, Placement, SectionSample, Usage};
+pub use elements::{Anchor, Element, Origin, PointMass, RestoringLaw, Spring, SpringKind};
+pub use looking::{CrossSection, Distance, Part, Placement, SectionSample, SpringState, Usage};
 pub use mechanism::{Energy, Measures, Model, ModelState, StaticForces, add_resistance};
 pub use motion::Resolution;
 pub use scene::{BeamDefinition, ParticleDefinition, Scene, StartMotion, StationVelocity};

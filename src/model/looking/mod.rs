@@ -5,7 +5,9 @@ mod placement;
 mod queries;
 mod section_forces;
 mod sliders;
+mod springs;
 
 pub use explain::{Part, Usage};
 pub use placement::{Distance, Placement};
 pub use section_forces::{CrossSection, SectionSample};
+pub use springs::SpringState;

@@ -10,7 +10,7 @@ use crate::geometry::Vec2;
 use crate::joints::{Joint, JointKind, Partner, Slider};
 use crate::loads::{Load, LoadKind, Schedule};
 use crate::model::ModelError;
-use crate::model::elements::{Element, PointMass, Setting};
+use crate::model::elements::{Element, PointMass, Setting, Spring};
 use crate::model::words::{refusal, rounded};
 
 /// What is simulated: beams, particles, joints, masses and loads.
@@ -31,7 +31,7 @@ pub struct Scene {
     pub sliders: Vec<Slider>,
     /// The start velocities of single nodes.
     pub velocities: Vec<StationVelocity>,
-    /// The elements of the scene: masses and loads, in the order in which they were added.
+    /// Masses, loads and springs, in the order in which they were added.
     pub elements: Vec<Element>,
     /// The acceleration of free fall [length/time²].
     pub gravity: Vec2,
@@ -90,6 +90,14 @@ impl Scene {
     pub fn loads(&self) -> impl Iterator<Item = &Load> + Clone {
         self.elements.iter().filter_map(|element| match element {
             Element::Load(load) => Some(load),
+            _ => None,
+        })
+    }
+
+    /// Springs, dampers and tendons, in the order in which they were added.
+    pub fn springs(&self) -> impl Iterator<Item = &Spring> + Clone {
+        self.elements.iter().filter_map(|element| match element {
+            Element::Spring(spring) => Some(spring),
             _ => None,
         })
     }
@@ -158,7 +166,8 @@ impl Scene {
         let beams = self.beams.iter().map(|beam| ("beam", &beam.name));
         let particles = self.particles.iter().map(|particle| ("particle", &particle.name));
         let sliders = self.sliders.iter().map(|slider| ("slider", &slider.name));
-        beams.chain(particles).chain(sliders)
+        let springs = self.springs().map(|spring| ("spring", &spring.name));
+        beams.chain(particles).chain(sliders).chain(springs)
     }
 
     pub(in crate::model) fn check_name(
@@ -236,6 +245,15 @@ impl Scene {
         element.description().check(self)?;
         self.elements.push(element);
         Ok(())
+    }
+
+    /// Adds a spring, a damper or a tendon.
+    ///
+    /// # Errors
+    /// When something of that name exists, a number of it is out of its range, or a station is none of the scene.
+    pub fn add_spring(&mut self, spring: Spring) -> Result<(), ModelError> {
+        self.check_name("spring", &spring.name)?;
+        self.add_element(Element::Spring(spring))
     }
 
     /// Adds a load to the scene; its name is made of its kind.

@@ -44,7 +44,7 @@ pub const TABLE: Table = Table {
             .returns(Returns::NUMBER)
             .summary("The largest change of an invariant since the first row, relative to its scale.")
             .doc(
-                "energy: E - W relative to the largest energy; momentum: p - ∫F dt and angular_momentum: L - ∫M dt relative to \
+                "energy: E - W + D relative to the largest energy; momentum: p - ∫F dt and angular_momentum: L - ∫M dt relative to \
                  the largest momenta that the energy allows; gap: the largest gap of a joint, a length.",
             )
             .example("sim.run_to(1);\ncheck(sim.history.drift(\"energy\") < 1e-12);")

@@ -26,6 +26,7 @@ mod schedules;
 mod sections;
 mod simulations;
 mod sliding;
+mod springs;
 mod stability_studies;
 mod step_sizes;
 mod text;
@@ -51,6 +52,7 @@ pub const TABLES: &[&Table] = &[
     &step_sizes::TABLE,
     &scenes::TABLE,
     &loads::TABLE,
+    &springs::TABLE,
     &equilibria::TABLE,
     &modes::TABLE,
     &simulations::TABLE,
