@@ -66,10 +66,13 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
             dimension,
         })
     };
-    scene.sliders.iter().flat_map(of_slider).collect()
+    let sensors = scene.sensors.iter();
+    let sensors = sensors
+        .map(|sensor| ExtraColumn { name: sensor.name.clone(), dimension: sensor.dimension() });
+    scene.sliders.iter().flat_map(of_slider).chain(sensors).collect()
 }
 
-/// The values of these columns at the present state of the model, in the same order.
+/// The values of those of the sliders at the present state of the model, in the same order.
 pub(super) fn extra_values(model: &Model) -> impl Iterator<Item = f64> {
     (0..model.slider_names().count()).flat_map(|slider| {
         let force = model.contact_force(slider);

@@ -104,6 +104,17 @@ impl Elements {
         self.masses.iter().for_each(|mass| *sum += mass.momenta(bodies, rates));
     }
 
+    /// Twice the kinetic energy of the masses on a body [energy].
+    pub fn twice_kinetic_on(&self, bodies: &[Body], body: usize, rates: &[f64]) -> f64 {
+        let on_body = self.masses.iter().filter(|mass| mass.place.body == body);
+        on_body.map(|mass| mass.momenta(bodies, rates).twice_kinetic).sum()
+    }
+
+    /// The potential of the weight of a body and what stands on it [energy].
+    pub fn potential_of(&self, bodies: &[Body], body: usize) -> f64 {
+        self.weight.as_ref().map_or(0.0, |weight| weight.energy_of(bodies, body))
+    }
+
     /// Subtracts the forces of an iterate; the largest force and the largest moment of an element on a control point.
     pub fn subtract_from(&mut self, at: Iterate<'_>, out: &mut [f64]) -> (f64, f64) {
         let weight = self.weight.iter_mut().map(|weight| weight as &mut dyn ForceElement);

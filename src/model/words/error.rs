@@ -53,6 +53,36 @@ pub enum ModelError {
         /// The particle.
         body: String,
     },
+    /// Forces at a moment at which there are none.
+    #[error("forces and accelerations at t = {time} cannot be had: {reason}")]
+    NoInstant {
+        /// When.
+        time: f64,
+        /// Why.
+        reason: String,
+    },
+    /// The force of a joint that is not the only way round.
+    #[error(
+        "the force of the {joint} is not determined: other joints there hold the same; ask for sim.reaction(station), or tie fewer places"
+    )]
+    SharedForce {
+        /// The joint.
+        joint: String,
+    },
+    /// A quantity to record that there is not.
+    #[error("there is no quantity '{name}' to record: {why}")]
+    NoSensor {
+        /// What was asked for.
+        name: String,
+        /// What is wrong with it.
+        why: String,
+    },
+    /// A quantity that is recorded already.
+    #[error("'{name}' is a column of the history already; give this one another name")]
+    DuplicateSensor {
+        /// Its name.
+        name: String,
+    },
     /// A joint of a place with itself.
     #[error("{joint}: both stations are the same place of {body}; a joint needs two places")]
     JointWithItself {

@@ -13,6 +13,14 @@ pub enum ArchiveError {
         /// The load.
         load: String,
     },
+    /// A column that a function of a script fills.
+    #[error(
+        "the column '{column}' is filled by a function, and functions cannot be stored; record ready quantities such as \"rod.end.x\""
+    )]
+    Sensor {
+        /// The column.
+        column: String,
+    },
     /// Something else.
     #[error("this is no simulation: it does not begin as files of sim.save(…) do")]
     Foreign,
