@@ -16,5 +16,6 @@ mod notes;
 mod orders;
 mod same_bits;
 mod saving;
+mod sensors;
 mod unused_features;
 mod work_counts;

@@ -267,7 +267,9 @@ pub(super) fn begin(
     simulation.keep_snapshots(limit.unwrap_or_else(|| call.context().snapshots()));
     let printing = options.text("notes").map(|word| meant(&PRINTING, &word)).unwrap_or_default();
     let notes = Notes::new(printing);
-    Ok(Dynamic::from(SimulationHandle::new(simulation, of, name, notes, call.context())))
+    let started = SimulationHandle::new(simulation, of, name, notes, call.context());
+    started.sense()?;
+    Ok(Dynamic::from(started))
 }
 
 fn measures(handle: &SimulationHandle) -> Measures {

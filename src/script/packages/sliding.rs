@@ -143,7 +143,7 @@ pub const TABLE: Table = Table {
 /// The type of rules.
 const RULE: Type = Type::of::<SlidingRule>();
 /// The slider type.
-const SLIDER: Type = Type::of::<SliderHandle>();
+pub(super) const SLIDER: Type = Type::of::<SliderHandle>();
 
 const WHICH: Parameter = object("slider", SLIDER);
 const ENDS: [(&str, EndAction); 3] =
@@ -178,7 +178,7 @@ impl SliderHandle {
     }
 
     /// Its index in a simulation, if that is one of its scene.
-    fn on(&self, handle: &SimulationHandle) -> Result<usize, ScriptError> {
+    pub(super) fn on(&self, handle: &SimulationHandle) -> Result<usize, ScriptError> {
         handle.scene().expect_same(&self.scene, "slider")?;
         if self.index < handle.simulation().scene().sliders.len() {
             return Ok(self.index);

@@ -67,6 +67,11 @@ impl StoredFunction {
         })
     }
 
+    /// What it is called in messages.
+    pub fn role(&self) -> &str {
+        &self.role
+    }
+
     /// What the calls of its run share.
     pub fn context(&self) -> &Context {
         &self.context
