@@ -24,11 +24,6 @@ fn with_all_sensors(mut scene: Scene) -> Scene {
     scene
 }
 
-/// Joints of a ring have no forces of their own.
-fn is_ring(scene: &Scene) -> bool {
-    ["flying four-bar loop", "hoop"].contains(&scene.name.as_str())
-}
-
 #[test]
 fn reading_changes_no_bit_of_the_motion() {
     let mesh = smooth(5);
@@ -36,7 +31,7 @@ fn reading_changes_no_bit_of_the_motion() {
     for scene in scenes::all(&mesh).into_iter().chain(sliding) {
         for entry in INTEGRATORS {
             let plain = simulate(scene.clone(), entry.method, 0.02, 0.2);
-            let watched = with_all_sensors_that_are_determined(&scene);
+            let watched = with_all_sensors(scene.clone());
             let watched = simulate(watched, entry.method, 0.02, 0.2);
             let label = format!("{}, {}", scene.name, entry.name);
             assert!(watched.history().columns().count() > plain.history().columns().count() + 10);
@@ -53,25 +48,6 @@ fn reading_changes_no_bit_of_the_motion() {
                 assert!(column.iter().all(|value| value.is_finite()), "{label}: {name}");
             }
         }
-    }
-}
-
-fn with_all_sensors_that_are_determined(scene: &Scene) -> Scene {
-    let mut watched = with_all_sensors(scene.clone());
-    if is_ring(scene) {
-        let joints = watched.joint_names();
-        let of_joint = |name: &String| joints.iter().any(|joint| name.starts_with(joint.as_str()));
-        watched.sensors.retain(|sensor| !of_joint(&sensor.name));
-    }
-    watched
-}
-
-#[test]
-fn the_force_of_a_joint_in_a_ring_is_not_determined() {
-    for scene in scenes::all(&smooth(4)).into_iter().filter(is_ring) {
-        let started = Simulation::start(with_all_sensors(scene), settings(Method::default(), 0.1));
-        let Err(error) = started else { panic!("it has no force") };
-        assert!(error.to_string().contains("is not determined"), "{error}");
     }
 }
 
@@ -107,7 +83,7 @@ fn forces_and_accelerations_are_those_of_a_very_short_step() {
             .filter(|joint| joint.partner == Partner::Ground)
             .map(|joint| joint.station)
             .collect();
-        let weight = scene.gravity * scene.mass();
+        let gravity = scene.gravity;
         let has_loads = scene.loads().count() > 0;
         let mut simulation = simulate(scene, Method::default(), 0.02, 0.4);
         let read = |simulation: &mut Simulation| {
@@ -130,7 +106,7 @@ fn forces_and_accelerations_are_those_of_a_very_short_step() {
         println!("{name:20} acceleration {:.1e}", (accelerated - told).norm() / scale);
         assert!((accelerated - told).norm() < 1e-6 * scale, "{name}: {accelerated} {told}");
         if !has_loads {
-            let given = (after.3 - before.3) / short - weight;
+            let given = (after.3 - before.3) / short - gravity * simulation.model().total_mass();
             let told = (before.2 + after.2) * 0.5;
             assert!((given - told).norm() < 1e-6 * (1.0 + told.norm()), "{name}: {given} {told}");
         }
@@ -142,11 +118,11 @@ fn forces_and_accelerations_are_those_of_a_very_short_step() {
 fn joints_give_what_sections_transmit() {
     let errors = [8, 16, 32].map(|spans| {
         let mut worst = [0.0_f64; 2];
-        for scene in
-            [scenes::four_bar_linkage(&smooth(spans)), scenes::curved_pendulum(&smooth(spans))]
-        {
+        let mut linkage = scenes::four_bar_linkage(&smooth(spans));
+        linkage.elements.clear();
+        for scene in [linkage, scenes::curved_pendulum(&smooth(spans))] {
             let joints = scene.joints.clone();
-            let mut simulation = simulate(scene, Method::default(), 0.005, 0.25);
+            let mut simulation = simulate(scene, Method::EnergyDecaying { chi: 1.0 }, 0.02, 4.0);
             let now = simulation.instant().unwrap();
             for (index, joint) in joints.iter().enumerate() {
                 let model = simulation.model();
@@ -174,11 +150,11 @@ fn a_clamp_gives_the_moment_that_the_section_transmits() {
     scene.gravity = at(0.0, -0.1);
     scene.record("clamp1.moment").unwrap();
     scene.record("beam1.start.M").unwrap();
-    let simulation = simulate(scene, Method::default(), 0.02, 3.0);
+    let simulation = simulate(scene, Method::EnergyDecaying { chi: 1.0 }, 0.05, 10.0);
     let [given, section] =
         ["clamp1.moment", "beam1.start.M"].map(|name| simulation.history().column(name).unwrap());
     let largest = given.iter().fold(0.0_f64, |largest, moment| largest.max(moment.abs()));
-    for (row, (given, section)) in given.iter().zip(&section).enumerate().skip(20) {
+    for (row, (given, section)) in given.iter().zip(&section).enumerate().skip(100) {
         // What follows pushes on what is before; the clamp is before the beam.
         assert!((given + section).abs() < 5e-3 * largest, "{row}: {given} {section}");
     }
@@ -204,14 +180,14 @@ fn a_pendulum_pulls_at_its_hinge_as_a_rigid_rod_does() {
     ["hinge1.fx", "hinge1.fy", "beam1.end.angle", "beam1.end.spin"]
         .iter()
         .for_each(|name| scene.record(name).unwrap());
-    let simulation = simulate(scene, Method::default(), 0.001, 0.8);
+    // What a sudden start lets ring is damped; the swing itself is not.
+    let simulation = simulate(scene, Method::EnergyDecaying { chi: 1.0 }, 0.001, 0.8);
     let history = simulation.history();
-    // Stiff rods ring from step to step; the mean of two rows does not.
     let [fx, fy, angle, spin] = ["hinge1.fx", "hinge1.fy", "beam1.end.angle", "beam1.end.spin"]
-        .map(|name| history.averaged(name).unwrap());
+        .map(|name| history.column(name).unwrap());
     let inertia = length / 3.0 + 1e-4;
     let mut worst = 0.0_f64;
-    for row in 50..angle.len() {
+    for row in 200..angle.len() {
         let (along, across) =
             (at(angle[row].cos(), angle[row].sin()), at(-angle[row].sin(), angle[row].cos()));
         let turning = -g * 0.5 * length * angle[row].cos() / inertia;
@@ -255,7 +231,7 @@ fn a_bead_accelerates_as_its_contact_force_says() {
         mean / of_three.count() as f64
     });
     println!("bead: acceleration against differences {} {:.2?}", sci(&errors), orders(&errors));
-    assert!(orders(&errors)[1] > 1.5, "{errors:?}");
+    assert!(orders(&errors).iter().all(|order| *order > 1.2), "{errors:?}");
 }
 
 #[test]

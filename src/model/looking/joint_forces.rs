@@ -1,7 +1,8 @@
 //! What joints transmit.
 //!
 //! A joint holds two sets of nodes at one place together. What it gives to one of them is what joints and supports give to all nodes of that side,
-//! as other joints on the same side only pass on among them; with the ground on that side, it is the opposite of what the other gets.
+//! as other joints on the same side only pass on among them; with the ground on that side, it is the opposite of what the other gets. A scene refuses
+//! joints that hold a place twice, so that no other joint leads from one side to the other.
 
 use crate::geometry::Vec2;
 use crate::joints::{Joint, JointKind, Partner};
@@ -41,7 +42,7 @@ impl Model {
     /// What a joint holds together, by its index in the scene.
     ///
     /// # Errors
-    /// When other joints hold the same, or a station is off its beam.
+    /// When a station is off its beam, which it was not when the scene was described.
     pub fn transmission(&self, scene: &Scene, joint: usize) -> Result<Transmission, ModelError> {
         let ends = |joint: &Joint| -> Result<(Node, Node), ModelError> {
             let node = |station| -> Result<Node, ModelError> {
@@ -62,20 +63,17 @@ impl Model {
             let pairs: Vec<(Node, Node)> = pairs.map(|(_, (_, ends))| *ends).collect();
             let (here, there) = all[joint].1;
             let near = reached(here, &pairs);
-            if near.contains(&there) {
-                return Err(ModelError::SharedForce { joint: scene.joints[joint].name.clone() });
-            }
             let (side, sign) = match near.contains(&None) {
                 false => (near, 1.0),
                 true => (reached(there, &pairs), -1.0),
             };
-            Ok(Side { nodes: side.into_iter().flatten().collect(), sign })
+            Side { nodes: side.into_iter().flatten().collect(), sign }
         };
         let moment = match scene.joints[joint].kind {
             JointKind::Hinge => None,
-            JointKind::Rigid => Some(side(&|kind| kind == JointKind::Rigid)?),
+            JointKind::Rigid => Some(side(&|kind| kind == JointKind::Rigid)),
         };
-        Ok(Transmission { force: side(&|_| true)?, moment })
+        Ok(Transmission { force: side(&|_| true), moment })
     }
 }
 

@@ -61,14 +61,6 @@ pub enum ModelError {
         /// Why.
         reason: String,
     },
-    /// The force of a joint that is not the only way round.
-    #[error(
-        "the force of the {joint} is not determined: other joints there hold the same; ask for sim.reaction(station), or tie fewer places"
-    )]
-    SharedForce {
-        /// The joint.
-        joint: String,
-    },
     /// A quantity to record that there is not.
     #[error("there is no quantity '{name}' to record: {why}")]
     NoSensor {
