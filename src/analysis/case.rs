@@ -156,7 +156,7 @@ mod tests {
     use super::super::patience::is_out_of_patience;
     use super::super::samples::{never, spinning};
     use super::*;
-    use crate::loads::{LoadKind, Schedule};
+    use crate::loads::{FunctionError, LoadKind, Schedule};
 
     #[test]
     fn a_case_is_looked_at_at_its_stops_in_another_life_too() {
@@ -218,7 +218,7 @@ mod tests {
         let function = Rc::new(|t: f64| match t {
             0.5.. => {
                 while !is_out_of_patience() {}
-                Err("stopped".to_owned())
+                Err(FunctionError::new("stopped"))
             }
             _ => Ok(0.0),
         });

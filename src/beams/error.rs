@@ -36,9 +36,7 @@ pub enum BeamError {
         outer: f64,
     },
     /// A quadrature with too few or too many points.
-    #[error(
-        "quadrature: {points} points a span, but allowed are 1 to {most} for degree {degree}, or \"patch\""
-    )]
+    #[error("quadrature: {points} points a span, but allowed are 1 to {most} for degree {degree}")]
     Quadrature {
         /// Points asked for.
         points: usize,

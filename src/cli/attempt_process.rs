@@ -226,7 +226,6 @@ pub(super) fn judge_one(
 /// Limits of the system for this process: a net below our own, which are kept first.
 #[cfg(unix)]
 fn confine(limits: &Limits) -> nix::Result<()> {
-    use crate::script::engine::runner::stack_for;
     use nix::sys::resource::{Resource, getrlimit, setrlimit};
     let cores = thread::available_parallelism().map_or(1, usize::from) as u64;
     let set = |resource, most: u64| {
@@ -237,10 +236,8 @@ fn confine(limits: &Limits) -> nix::Result<()> {
         set(Resource::RLIMIT_CPU, (time * 2 + START).as_secs().saturating_mul(cores) + 1)?;
     }
     if let Some(memory) = limits.memory {
-        set(
-            Resource::RLIMIT_AS,
-            memory.saturating_mul(2).saturating_add(stack_for(limits) as u64 + CODE),
-        )?;
+        let stack = limits.stack() as u64;
+        set(Resource::RLIMIT_AS, memory.saturating_mul(2).saturating_add(stack + CODE))?;
     }
     if let Some(written) = limits.written {
         set(Resource::RLIMIT_FSIZE, written)?;

@@ -22,9 +22,9 @@ use crate::exercises::exercise::Exercise;
 use crate::exercises::judging::{Verdict, judge};
 use crate::exercises::watch::{INTERVAL, Watcher};
 use crate::exercises::workbook::{Advice, Workbook};
+use crate::panics;
 use crate::script::diagnose::{Colours, Diagnostic};
 use crate::script::state::settings::{Mode, Settings};
-use crate::script::words::panics;
 
 /// Does what was asked for.
 pub fn learn(options: &LearnOptions) -> Exit {

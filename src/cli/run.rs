@@ -12,6 +12,7 @@ use super::interrupt::{self, AtStake};
 use super::say::tell;
 use crate::folders::read_file;
 use crate::output::write_whole;
+use crate::panics;
 use crate::repl::editor::typed_ahead;
 use crate::script::diagnose::{Colours, Diagnostic};
 use crate::script::engine::runner::{self, Ending, Outcome};
@@ -19,7 +20,6 @@ use crate::script::packages::language;
 use crate::script::source::program::Program;
 use crate::script::state::limits::LastResort;
 use crate::script::state::settings::{JournalWish, Mode, Settings, StudyWishes};
-use crate::script::words::panics;
 use crate::script::words::stop::Stop;
 
 /// The largest report that is looked at before it is replaced [bytes].

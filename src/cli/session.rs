@@ -10,17 +10,17 @@ use super::interrupt::{self, AtStake};
 use super::run::{last_resort, refuse};
 use super::say::tell;
 use crate::output::{Glyphs, Style};
+use crate::panics;
 use crate::repl::editor::{self, Editor};
 use crate::repl::pager::TerminalPager;
 use crate::repl::session::Session;
 use crate::repl::shell::{Outcome, Screen, Shell};
 use crate::repl::{batch, prompt};
 use crate::script::diagnose::Diagnostic;
-use crate::script::engine::runner::on_large_stack;
+use crate::script::engine::stack::on_large_stack;
 use crate::script::packages::language;
 use crate::script::source::program::Program;
 use crate::script::state::settings::{Mode, Settings};
-use crate::script::words::panics;
 use crate::script::words::stop::{MEGABYTE, Stop};
 
 /// Opens a session in which a file may have been evaluated first.

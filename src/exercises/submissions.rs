@@ -48,6 +48,7 @@ impl Submission {
     }
 
     fn new(folder: &Path) -> Self {
+        // A path that cannot be followed names the student all the same; that it cannot is told when its files are read.
         let real = folder.canonicalize().unwrap_or_else(|_| folder.into());
         let name = real.file_name().map(|name| name.to_string_lossy().into_owned());
         Self { student: name.unwrap_or_else(|| ".".into()), folder: folder.into() }

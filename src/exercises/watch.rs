@@ -51,6 +51,7 @@ impl<'a> Watcher<'a> {
     }
 }
 
+/// What stands in a file; nothing where it cannot be read: the run that this starts tells why.
 fn content(workbook: &Workbook, exercise: &Exercise) -> Option<Vec<u8>> {
     read_file(&workbook.file(exercise), LARGEST).ok()
 }

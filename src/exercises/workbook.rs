@@ -40,6 +40,7 @@ impl Workbook {
     /// The folder of a student who is in `here`: that one or one above, if it is a folder of exercises, else one below. Writes
     /// nothing.
     pub fn near(here: &Path) -> Self {
+        // A folder that cannot be followed is asked as it is written; that it cannot is told when it is read.
         let real = here.canonicalize().unwrap_or_else(|_| here.into());
         let is_workbook = |folder: &&Path| folder.join(progress::FILE).exists();
         match real.ancestors().find(is_workbook) {

@@ -22,6 +22,7 @@ pub struct Record {
 impl Record {
     /// Reads the record of a folder; one that is damaged knows less.
     pub fn of(folder: &Folder) -> Self {
+        // Where there is none, or none that can be read, files count as somebody else's, and are kept.
         let text = folder.read(Path::new(FILE), LARGEST).unwrap_or_default();
         let text = String::from_utf8_lossy(&text);
         Self { files: text.lines().filter_map(entry).collect() }

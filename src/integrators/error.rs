@@ -2,20 +2,22 @@
 
 use std::error::Error;
 use std::fmt;
-use std::sync::Arc;
+use std::rc::Rc;
 
 use super::{Interval, Overshoot};
 use crate::newton::NewtonError;
 
 /// An error from outside of the mechanics of a step, as the one who caused it made it; it is told as that one, and may be taken apart
 /// by who knows its type.
+///
+/// It stays on its thread: who caused it may be a function of a script, whose errors do.
 #[derive(Debug, Clone)]
-pub struct Cause(Arc<dyn Error + Send + Sync>);
+pub struct Cause(Rc<dyn Error>);
 
 impl Cause {
     /// An error of any type.
-    pub fn new(error: impl Error + Send + Sync + 'static) -> Self {
-        Self(Arc::new(error))
+    pub fn new(error: impl Error + 'static) -> Self {
+        Self(Rc::new(error))
     }
 
     /// The error itself, if it is of that type.

@@ -5,12 +5,12 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use std::rc::Rc;
 
-use super::LoadError;
 use super::stored_schedule::StoredTerm;
+use super::{FunctionError, LoadError};
 use crate::elementary::{sin, whole_power};
 
 /// A function of time from outside, such as a closure of a script.
-pub type ScheduleFunction = Rc<dyn Fn(f64) -> Result<f64, String>>;
+pub type ScheduleFunction = Rc<dyn Fn(f64) -> Result<f64, FunctionError>>;
 
 /// From which side a time is approached: schedules may jump.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -23,4 +23,6 @@ pub use scene::{
     StationVelocity, Value,
 };
 pub use sliders::{Blow, SliderState, TrackEnd, TrackLimit};
-pub use words::{ModelError, SliderError, SliderParts, refusal as refusal_of_name};
+pub use words::{
+    Approach, ModelError, SliderError, SliderParts, Turning, refusal as refusal_of_name,
+};

@@ -35,6 +35,7 @@ mod svg;
 mod table;
 mod terminal;
 mod timebar;
+mod width;
 
 #[cfg(test)]
 mod samples;
@@ -58,3 +59,4 @@ pub use records::CsvRecords;
 pub use stroke::Stroke;
 pub use table::{Cell, Table};
 pub use terminal::{Colours, ConfigurationPicture, Glyphs, Mark, Style};
+pub use width::{beginning, columns, columns_of, cut, padded};

@@ -3,31 +3,24 @@
 mod peek;
 
 use std::collections::BTreeMap;
-use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
 use std::sync::atomic::Ordering;
 
-use rhai::{
-    AST, Caches, Dynamic, Engine, EvalAltResult, GlobalRuntimeState, ImmutableString, Scope, Stmt,
-};
+use rhai::{AST, Caches, Dynamic, Engine, GlobalRuntimeState, ImmutableString, Scope, Stmt};
 
 use super::record::{Record, Whereabouts, functions_of, whereabouts};
 use super::transcript::{PROMPT, Transcript};
 use super::{scope, statements};
-use crate::script::diagnose::{Diagnostic, Explainer, is_interrupt};
-use crate::script::dialect::naming;
+use crate::script::diagnose::Diagnostic;
 use crate::script::dialect::reading::read;
-use crate::script::engine;
+use crate::script::engine::host::{Halt, Host};
+use crate::script::engine::parse::{Piece, parse_piece};
 use crate::script::rows::catalog::Catalog;
-use crate::script::rows::sources::Sources;
-use crate::script::source::lexing::{open_comment, tokens};
 use crate::script::source::program::Program;
+use crate::script::source::text::Source;
 use crate::script::state::context::Context;
 use crate::script::state::settings::Settings;
 use crate::script::state::watchdog::Watchdog;
-use crate::script::words::error::ScriptError;
-use crate::script::words::panics;
 
 pub use peek::Rounds;
 
@@ -59,12 +52,9 @@ struct Checkpoint {
     whereabouts: Vec<Whereabouts>,
 }
 
-/// Variables, functions, constants and imports, and the engine that knows the language.
+/// Variables, functions, constants and imports, and the host that knows the language.
 pub struct Session {
-    catalog: Catalog,
-    context: Context,
-    /// Shared with the functions that scenes and simulations store.
-    engine: Rc<Engine>,
+    host: Host,
     folder: PathBuf,
     scope: Scope<'static>,
     global: GlobalRuntimeState,
@@ -81,18 +71,11 @@ impl Session {
     /// Only by a mistake of this program.
     pub fn new(catalog: Catalog, settings: Settings) -> Result<Self, Diagnostic> {
         let folder = settings.folder.clone();
-        let context = Context::new(settings);
-        let mut engine = engine::build(&catalog, &context).map_err(Diagnostic::bug)?;
-        engine::import_from(&mut engine, &folder);
-        let global = engine.new_global_runtime_state();
-        let engine = Rc::new(engine);
-        context.lend(&engine);
+        let host = Host::open(catalog, settings)?;
         Ok(Self {
-            catalog,
-            context,
-            engine,
             scope: Scope::new(),
-            global,
+            global: host.engine().new_global_runtime_state(),
+            host,
             library: AST::empty(),
             transcript: Transcript::new(folder.clone()),
             record: Record::default(),
@@ -103,17 +86,17 @@ impl Session {
     /// Forgets everything that was typed and what came of it.
     pub fn reset(&mut self) {
         self.scope.clear();
-        self.global = self.engine.new_global_runtime_state();
+        self.global = self.host.engine().new_global_runtime_state();
         self.library = AST::empty();
         self.transcript = Transcript::new(self.folder.clone());
         self.record = Record::default();
-        self.context.forget_simulations();
+        self.context().forget_simulations();
     }
 
     /// Forgets a Ctrl-C that came while nothing was evaluated. What comes after this stops all that is evaluated until it is
     /// called again.
     pub fn forget_interrupt(&mut self) {
-        self.context.interrupt_flag().store(false, Ordering::Relaxed);
+        self.context().interrupt_flag().store(false, Ordering::Relaxed);
     }
 
     /// Evaluates what was typed.
@@ -127,7 +110,7 @@ impl Session {
         let text = program.text.clone();
         let before = self.transcript.add(program);
         let library = self.library.clone();
-        let (ast, _watchdog) = match self.begin(&text, before) {
+        let (ast, guard) = match self.begin(&text, before) {
             Ok(begun) => begun,
             Err(reply) => {
                 self.transcript.strike_last();
@@ -140,7 +123,7 @@ impl Session {
         let mut value = Dynamic::UNIT;
         for (number, piece) in ast.statements().chunks(pieces).enumerate() {
             let checkpoint = self.checkpoint();
-            match self.run(piece) {
+            match self.run(&guard, piece) {
                 Ok(result) => value = result,
                 Err(reply) => {
                     self.restore(checkpoint.clone());
@@ -163,14 +146,14 @@ impl Session {
 
     /// Of an input that failed, keeps the statements that worked, and its functions if there are any.
     fn keep_part(&mut self, text: &str, worked: usize, library: AST) {
-        let cut = statements::boundary(&self.engine, text, worked).filter(|_| worked > 0);
+        let cut = statements::boundary(self.engine(), text, worked).filter(|_| worked > 0);
         let Some((before, after)) = cut.map(|cut| text.split_at(cut)) else {
             self.library = library;
             return self.transcript.strike_last();
         };
         self.forget_shadowed();
         let functions: String =
-            functions_of(after).map(|function| format!("\n{function}")).collect();
+            functions_of(&after.into()).map(|function| format!("\n{function}")).collect();
         self.record.worked(&format!("{before}{functions}"));
     }
 
@@ -186,7 +169,7 @@ impl Session {
 
     /// Where the simulations are that an input can name.
     pub fn whereabouts(&self) -> Vec<Whereabouts> {
-        let latest = self.context.latest_simulation();
+        let latest = self.context().latest_simulation();
         whereabouts(&self.scope, latest.and_then(|latest| latest.try_cast()))
     }
 
@@ -209,71 +192,40 @@ impl Session {
         }
     }
 
-    /// Parses an input, makes its functions known, and begins to keep the limits.
-    fn begin(&mut self, text: &str, before: usize) -> Result<(AST, Watchdog), Reply> {
-        let watchdog = self.context.meter().watch().map_err(|error| {
-            let told = format!("cannot start a thread that keeps the limits: {error}");
-            Reply::Failed(Diagnostic::general(told))
-        })?;
-        let ast = self.compile(text, before).map_err(|error| match is_interrupt(&error) {
-            true => Reply::Interrupted,
-            false => Reply::Failed(self.explain(&error)),
-        })?;
+    /// Parses an input at its lines of the session, makes its functions known, and begins to keep the limits.
+    fn begin(&mut self, text: &Source, before: usize) -> Result<(AST, Watchdog), Reply> {
+        let Self { host, transcript, scope, .. } = self;
+        let reply = |halt| reply_to(halt, transcript);
+        let guard = host.watch().map_err(reply)?;
+        let piece = Piece { name: PROMPT, text, before, scope };
+        let parse = |engine: &Engine| parse_piece(engine, &piece, || transcript.variables());
+        let ast = host.run(&guard, || transcript.whole(), parse).map_err(reply)?;
         self.library = self.library.merge(&ast.clone_functions_only());
         // Errors in functions are told from those in functions of the same name in files.
         self.library.set_source(PROMPT);
         self.global.source = Some(PROMPT.into());
         self.global.lib.clear();
         self.global.lib.push(self.library.shared_lib().clone());
-        Ok((ast, watchdog))
+        Ok((ast, guard))
     }
 
     /// Runs statements.
-    fn run(&mut self, statements: &[Stmt]) -> Result<Dynamic, Reply> {
-        // A panic in a native body is our mistake: the session must survive it.
-        let outcome = panic::catch_unwind(AssertUnwindSafe(|| {
+    fn run(&mut self, guard: &Watchdog, statements: &[Stmt]) -> Result<Dynamic, Reply> {
+        let Self { host, transcript, scope, global, .. } = self;
+        let whole = || transcript.whole();
+        let outcome = host.run(guard, whole, |engine| {
             // The only way to keep imports and constants from one input to the next; deprecated in favour of nothing.
             #[allow(deprecated)]
-            self.engine.eval_statements_raw(
-                &mut self.global,
-                &mut Caches::new(),
-                &mut self.scope,
-                statements,
-            )
-        }));
-        self.context.progress().end();
-        self.context.forget_reporters();
-        self.context.flush();
-        match outcome {
-            _ if self.context.is_pipe_closed() => Err(Reply::PipeClosed),
-            Ok(Ok(value)) => Ok(value),
-            Ok(Err(error)) if is_interrupt(&error) => Err(Reply::Interrupted),
-            Ok(Err(error)) => Err(Reply::Failed(self.explain(&error))),
-            Err(panic) => Err(Reply::Failed(Diagnostic::bug(panics::message(&*panic)))),
-        }
-    }
-
-    /// Parses an input at its lines of the session.
-    fn compile(&self, text: &str, before: usize) -> Result<AST, Box<EvalAltResult>> {
-        let ast = read(&self.engine, &self.scope, text, before)?;
-        Sources::of(&self.engine).note(&ast, PROMPT);
-        let placed = format!("{}{text}", "\n".repeat(before));
-        naming::judge(&self.engine, &placed, &self.transcript.whole().text)?;
-        match open_comment(text) {
-            Some(at) => {
-                let line = (at.line().unwrap_or(1) + before).try_into().unwrap_or(u16::MAX);
-                let column = at.position().unwrap_or(1).try_into().unwrap_or(u16::MAX);
-                Err(ScriptError::new("a comment that begins with /* is never closed")
-                    .hint("write */ where it ends")
-                    .into_engine(rhai::Position::new(line, column)))
-            }
-            None => Ok(ast),
-        }
+            engine.eval_statements_raw(global, &mut Caches::new(), scope, statements)
+        });
+        host.context().forget_reporters();
+        outcome.map_err(|halt| reply_to(halt, transcript))
     }
 
     /// Keeps the value of an input that worked, if it is to be shown.
-    fn answer(&mut self, value: Dynamic, text: &str) -> Reply {
-        if value.is_unit() || is_silenced(text) {
+    fn answer(&mut self, value: Dynamic, text: &Source) -> Reply {
+        // An input that ends in a semicolon is not to show its value.
+        if value.is_unit() || text.ends_in_semicolon() {
             return Reply::Done;
         }
         // A constant of this name belongs to the user.
@@ -298,30 +250,23 @@ impl Session {
             self.scope = visible;
         }
     }
-
-    fn explain(&self, error: &EvalAltResult) -> Diagnostic {
-        let program = self.transcript.whole();
-        let explainer =
-            Explainer { program: &program, catalog: &self.catalog, engine: &self.engine };
-        self.transcript.relocate(explainer.explain(error))
-    }
 }
 
 /// Looking at a session from outside.
 impl Session {
     /// The language that is spoken.
     pub fn catalog(&self) -> &Catalog {
-        &self.catalog
+        self.host.catalog()
     }
 
     /// What the calls of the session share.
     pub fn context(&self) -> &Context {
-        &self.context
+        self.host.context()
     }
 
     /// The engine, for showing values.
     pub fn engine(&self) -> &Engine {
-        &self.engine
+        self.host.engine()
     }
 
     /// Variables and constants.
@@ -354,14 +299,11 @@ impl Session {
     /// # Errors
     /// When it cannot be one, with the reason.
     pub fn script(&self) -> Result<String, Diagnostic> {
-        let script = self.record.script(&self.engine);
+        let script = self.record.script(self.engine());
         let program = Program::named("the saved session", &script);
-        match read(&self.engine, &Scope::new(), &script, 0) {
+        match read(self.engine(), &Scope::new(), &program.text, 0) {
             Ok(_) => Ok(script),
-            Err(error) => {
-                let (catalog, engine) = (&self.catalog, &*self.engine);
-                Err(Explainer { program: &program, catalog, engine }.explain(&error))
-            }
+            Err(error) => Err(self.host.explain(&error, &program)),
         }
     }
 
@@ -371,14 +313,13 @@ impl Session {
     }
 }
 
-/// Whether an input ends in a semicolon, which says that its value is not to be shown.
-fn is_silenced(text: &str) -> bool {
-    matches!(tokens(text).last(), Some((rhai::Token::SemiColon, _)))
-}
-
-/// Simulations hold functions that hold the context, which holds the last simulation.
-impl Drop for Session {
-    fn drop(&mut self) {
-        self.context.forget_simulations();
+/// What is said of an input that did not come to its end, with places in the inputs that they are from.
+fn reply_to(halt: Halt, transcript: &Transcript) -> Reply {
+    match halt {
+        Halt::Failed(diagnostic) | Halt::Undecided(diagnostic) => {
+            Reply::Failed(transcript.relocate(diagnostic))
+        }
+        Halt::Interrupted => Reply::Interrupted,
+        Halt::PipeClosed => Reply::PipeClosed,
     }
 }

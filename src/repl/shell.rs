@@ -1,5 +1,6 @@
 //! What a line at the prompt does: an input of the language, or a command. Replies go to where the session prints.
 
+mod refusing;
 mod watching;
 
 use std::collections::HashMap;

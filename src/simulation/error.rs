@@ -17,14 +17,12 @@ pub enum SimulationError {
     #[error(transparent)]
     StepSize(#[from] StepSizeError),
     /// An end of a run that has passed.
-    #[error("the simulation is at t = {now} and cannot run to t = {end}; {advice}")]
+    #[error("the simulation is at t = {now} and cannot run to t = {end}")]
     End {
         /// Where it is.
         now: f64,
         /// Where it should go.
         end: f64,
-        /// What would be right.
-        advice: &'static str,
     },
     /// No step of any size worked.
     #[error("no step from t = {time} works, down to dt/{divisions} (dt = {dt:e}): {source}")]
@@ -40,7 +38,7 @@ pub enum SimulationError {
     },
     /// A tolerance asks for steps that are too short.
     #[error(
-        "the tolerance {tolerance} asks for steps below the smallest one, {smallest:e}, at t = {time}: one of dt = {dt:e} errs {error:.3} times as much as is allowed; give a larger tolerance or a smaller step: adaptive(#{{ tolerance: …, smallest: … }})"
+        "the tolerance {tolerance} asks for steps below the smallest one, {smallest:e}, at t = {time}: one of dt = {dt:e} errs {error:.3} times as much as is allowed"
     )]
     Tolerance {
         /// The end of the last good step.
@@ -91,17 +89,13 @@ pub enum SimulationError {
         source: StepError,
     },
     /// A slider has reached an end of its master at which the run ends.
-    #[error(
-        "the run has ended: {ending}; give the slider the option ends: \"bounce\" or \"release\" to go on, or ask sim.ended before a step"
-    )]
+    #[error("the run has ended: {ending}")]
     Ended {
         /// What ended it.
         ending: String,
     },
     /// A slider that does not get away from an end of its master.
-    #[error(
-        "{arrival}, {most} times within one step of the grid; try ends: \"release\" or \"stop\""
-    )]
+    #[error("{arrival}, {most} times within one step of the grid")]
     Rattles {
         /// The last arrival.
         arrival: String,
@@ -109,9 +103,7 @@ pub enum SimulationError {
         most: usize,
     },
     /// A way back that is longer than the way that was gone.
-    #[error(
-        "cannot go back {steps} steps: only {taken} were taken; sim.rewind(0) leads to the start"
-    )]
+    #[error("cannot go back {steps} steps: only {taken} were taken")]
     FewerSteps {
         /// Steps to go back.
         steps: usize,
@@ -119,9 +111,7 @@ pub enum SimulationError {
         taken: usize,
     },
     /// A way back to a time that is not behind.
-    #[error(
-        "cannot go back to t = {time}: the simulation has been from t = 0 to {now}; give a time between, or use sim.run_to(t) to go on"
-    )]
+    #[error("cannot go back to t = {time}: the simulation has been from t = 0 to {now}")]
     NotBehind {
         /// Where it should go.
         time: f64,
@@ -130,7 +120,7 @@ pub enum SimulationError {
     },
     /// No state is kept.
     #[error(
-        "there is no way back: no states are kept{}; start with scene.start(#{{ …, snapshots: 64 }}), in megabytes, or call sim.keep_snapshots(64) before the steps",
+        "there is no way back: no states are kept{}",
         if *limit > 0.0 { format!(", one alone takes more than the limit of {limit} MB") } else { String::new() }
     )]
     NoSnapshots {
@@ -138,9 +128,7 @@ pub enum SimulationError {
         limit: f64,
     },
     /// States were not kept yet.
-    #[error(
-        "cannot go back to {target}: states are kept from t = {first} on; earlier ones are not in a file of sim.save(…), and are not kept before sim.keep_snapshots(…)"
-    )]
+    #[error("cannot go back to {target}: states are kept from t = {first} on")]
     BeforeFirst {
         /// Where it should go, in words.
         target: String,
@@ -149,8 +137,7 @@ pub enum SimulationError {
     },
     /// The state there was forgotten for want of memory.
     #[error(
-        "cannot go back to {target}: with a limit of {limit} MB for snapshots only the last {steps} steps are kept, back to t = {oldest}, and the state at t = {first}; sim.rewind({first}) leads there, and for more start with scene.start(#{{ …, snapshots: {} }})",
-        (4.0 * limit).ceil().max(64.0)
+        "cannot go back to {target}: with a limit of {limit} MB for snapshots only the last {steps} steps are kept, back to t = {oldest}, and the state at t = {first}"
     )]
     Forgotten {
         /// Where it should go, in words.

@@ -116,7 +116,7 @@ impl fmt::Display for Note {
                 }
                 write!(
                     f,
-                    "; take dt below {}, or energy_decaying(…) where that vibration does not matter",
+                    "; take dt below {}, or the method energy_decaying where that vibration does not matter",
                     short(shown / ENOUGH)
                 )
             }

@@ -208,16 +208,12 @@ impl Simulation {
     fn check_end(&self, end: f64) -> Result<(), SimulationError> {
         let now = self.time();
         if !end.is_finite() {
-            return Err(SimulationError::End { now, end, advice: "give a finite time" });
+            return Err(SimulationError::End { now, end });
         }
-        if end < now - self.slack() {
-            return Err(SimulationError::End {
-                now,
-                end,
-                advice: "give a later time, or go back with sim.rewind(t)",
-            });
+        match end < now - self.slack() {
+            true => Err(SimulationError::End { now, end }),
+            false => Ok(()),
         }
-        Ok(())
     }
 
     /// Lets time pass as steps would, without solving anything: the history gets rows in which nothing happens.

@@ -19,17 +19,13 @@ pub enum StaticsError {
         source: LoadError,
     },
     /// Nothing acts.
-    #[error(
-        "no load acts at t = {time}: with nothing to carry, the scene rests as it is drawn; loads are taken as they are at one time, choose it with the option time"
-    )]
+    #[error("no load acts at t = {time}: with nothing to carry, the scene rests as it is drawn")]
     NoLoad {
         /// When loads were taken.
         time: f64,
     },
     /// A joint that statics does not know.
-    #[error(
-        "slider '{slider}': equilibrium of sliding joints is not built; let a damped motion come to rest instead, scene.start(#{{ integrator: energy_decaying(#{{ chi: 1 }}), dt: … }})"
-    )]
+    #[error("slider '{slider}': equilibrium of sliding joints is not built")]
     Slider {
         /// Its name.
         slider: String,
@@ -46,7 +42,7 @@ pub enum StaticsError {
     },
     /// A scene that moves without resistance.
     #[error(
-        "'{scene}' is not held: {movements} of its movements meet no resistance as it is drawn; hold it with scene.clamp(…) or scene.hinge(…), or let a damped motion come to rest, scene.start(#{{ integrator: energy_decaying(#{{ chi: 1 }}), dt: … }})"
+        "'{scene}' is not held: {movements} of its movements meet no resistance as it is drawn"
     )]
     Loose {
         /// Its name.

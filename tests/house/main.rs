@@ -5,4 +5,5 @@ mod common;
 
 mod documents;
 mod layering;
+mod messages;
 mod wings;

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::element::{Assembled, Description, Setting, Site};
 use crate::beams::{Place, Station};
 use crate::geometry::{Vec2, cross};
-use crate::model::ModelError;
 use crate::model::bodies::{Body, Momenta};
+use crate::model::{ModelError, Turning};
 
 /// A mass at a station.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -35,8 +35,8 @@ impl Description for PointMass {
             return refused("rotary inertia", *rotary_inertia, allowed);
         }
         if *rotary_inertia > 0.0 && station.beam().is_none() {
-            let advice = "leave out the rotary inertia";
-            return Err(ModelError::ParticleTurned { object: object(), advice });
+            let by = Turning::RotaryInertia;
+            return Err(ModelError::ParticleTurned { object: object(), by });
         }
         Ok(())
     }

@@ -8,9 +8,7 @@ use crate::geometry::GeometryError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ModelError {
     /// There is nothing to simulate.
-    #[error(
-        "the scene '{scene}' has no beams and no particles; add one with scene.beam(#{{ axis: …, section: … }}) or scene.particle([x, y], mass)"
-    )]
+    #[error("the scene '{scene}' has no beams and no particles")]
     Empty {
         /// Its name.
         scene: String,
@@ -36,9 +34,7 @@ pub enum ModelError {
         name: String,
     },
     /// A station off its beam.
-    #[error(
-        "station {station} is outside [0, {length}] of beam '{beam}'; use beam.end for its end"
-    )]
+    #[error("station {station} is outside [0, {length}] of beam '{beam}'")]
     StationOutside {
         /// The beam.
         beam: String,
@@ -128,12 +124,12 @@ pub enum ModelError {
         other: String,
     },
     /// A joint, load, inertia or spin that would turn a particle.
-    #[error("{object}: a particle does not turn; {advice}")]
+    #[error("{object}: a particle does not turn")]
     ParticleTurned {
-        /// What would turn it.
+        /// The name of what would turn it.
         object: String,
-        /// What would be right.
-        advice: &'static str,
+        /// What that is.
+        by: Turning,
     },
     /// A sliding joint that cannot be.
     #[error(transparent)]
@@ -176,6 +172,19 @@ pub enum ModelError {
         /// Why.
         source: BeamError,
     },
+}
+
+/// What would turn a particle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Turning {
+    /// A rigid joint.
+    RigidJoint,
+    /// The rotary inertia of a point mass.
+    RotaryInertia,
+    /// A moment, or a force that follows a section.
+    Load,
+    /// A spin at the start.
+    Spin,
 }
 
 impl ModelError {

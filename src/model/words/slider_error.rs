@@ -1,5 +1,7 @@
 //! What can be wrong with a sliding joint.
 
+use std::fmt;
+
 /// The parts of a slider in words.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SliderParts {
@@ -9,6 +11,34 @@ pub struct SliderParts {
     pub slave: String,
     /// The name of the beam that it slides on.
     pub beam: String,
+}
+
+/// The place of a beam that is nearest to a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Approach {
+    /// The point lies on the beam.
+    On {
+        /// Where, as a part of the length of the beam [-].
+        place: f64,
+    },
+    /// It does not.
+    Apart {
+        /// The nearest place, as a part of the length of the beam [-].
+        place: f64,
+        /// How far that is [length].
+        distance: f64,
+    },
+}
+
+impl fmt::Display for Approach {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::On { place } => write!(f, "it lies on that beam at {place} of its length"),
+            Self::Apart { place, distance } => {
+                write!(f, "the beam comes no nearer than {distance:.3e}, at {place} of its length")
+            }
+        }
+    }
 }
 
 /// A sliding joint that cannot be described or built.
@@ -22,7 +52,7 @@ pub enum SliderError {
     OnItself(SliderParts),
     /// A slave that is not on its master.
     #[error(
-        "slider '{}': {} is at {from}, {gap:.3e} from its place {to} on the beam '{}'; {advice}",
+        "slider '{}': {} is at {from}, {gap:.3e} from its place {to} on the beam '{}'; {nearest}",
         parts.slider, parts.slave, parts.beam
     )]
     Open {
@@ -34,8 +64,8 @@ pub enum SliderError {
         to: String,
         /// How far that is [length].
         gap: f64,
-        /// What would be right.
-        advice: String,
+        /// Where the beam comes nearest to it.
+        nearest: Approach,
     },
     /// A slave that slides on the same master already.
     #[error(
@@ -51,7 +81,7 @@ pub enum SliderError {
     Tied(SliderParts),
     /// Start velocities that would leave the master.
     #[error(
-        "slider '{slider}': at the start its point moves across its beam with a speed of {speed}; start it with the velocity of the beam there and whatever it has along the beam, or give the slider the option velocities: \"project\", which takes the nearest velocities that fit"
+        "slider '{slider}': at the start its point moves across its beam with a speed of {speed}"
     )]
     LeavesMaster {
         /// The slider.

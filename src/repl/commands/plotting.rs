@@ -5,16 +5,15 @@ use std::collections::BTreeSet;
 use super::looking::draw;
 use crate::output::{LineChart, Series};
 use crate::repl::curves::{Curve, Over, Shape, parts, shape, summary};
-use crate::repl::following::{Followed, follow};
+use crate::repl::following::{Followed, follow, moves};
 use crate::repl::session::Reply;
-use crate::repl::shell::{Outcome, Screen, Shell};
+use crate::repl::shell::{Outcome, Screen, Shell, no_simulation};
 use crate::script::diagnose::Diagnostic;
 use crate::script::handles::simulation::{Revisit, SimulationHandle};
 use crate::script::looks::sight;
 use crate::script::source::scanner::{Kind, scan};
-use crate::script::words::error::ScriptError;
 use crate::script::words::nouns::with_article;
-use crate::script::words::stop::Stop;
+use crate::simulation::History;
 
 /// What is drawn when nothing is named.
 const ENERGIES: [&str; 3] = ["kinetic", "strain", "energy"];
@@ -64,26 +63,24 @@ fn plot_columns(shell: &mut Shell, columns: &[String]) -> Outcome {
 fn read(shell: &Shell, part: &str) -> Part {
     let words: Vec<String> =
         part.split_whitespace().map(|word| word.trim_matches('"').to_owned()).collect();
-    let expression = Part::Expression(part.to_owned());
-    let Some(latest) = shell.latest() else {
-        // Without a simulation there is no column; its name means one all the same.
-        return match ENERGIES.contains(&part) && !shell.session().variables().contains(part) {
-            true => Part::Columns(words),
-            false => expression,
-        };
-    };
-    let is_column =
-        |name: &String| name == "drift" || latest.simulation().history().dimension(name).is_some();
+    let latest = shell.latest();
     let is_known = |name: &String| {
         shell.session().variables().contains(name)
             || shell.session().catalog().constants().any(|constant| constant == name.as_str())
     };
+    // Without a simulation, what every history has is a column all the same.
+    let is_column = |name: &String| match &latest {
+        Some(latest) => name == "drift" || latest.simulation().history().dimension(name).is_some(),
+        None => History::COLUMNS.iter().any(|column| column.name == name) && !is_known(name),
+    };
     let is_word = |name: &String| {
-        matches!(scan(name).as_slice(), [token] if token.kind == Kind::Word) && !is_known(name)
+        matches!(scan(name).as_slice(), [token] if token.kind == Kind::Word)
+            && !is_known(name)
+            && (latest.is_some() || words.len() > 1)
     };
     match words.iter().all(|word| is_column(word) || is_word(word)) {
         true => Part::Columns(words),
-        false => expression,
+        false => Part::Expression(part.to_owned()),
     }
 }
 
@@ -130,7 +127,7 @@ fn plot_expressions(shell: &mut Shell, found: Vec<Part>) -> Outcome {
 type Drawn = Result<(Vec<Curve>, Option<String>), Outcome>;
 
 fn columns(shell: &mut Shell, names: &[String]) -> Drawn {
-    let Some(latest) = shell.latest() else { return Err(Outcome::Failed) };
+    let Some(latest) = shell.latest() else { return Err(shell.refuse(&no_simulation())) };
     let simulation = latest.simulation();
     let history = simulation.history();
     let mut curves = Vec::new();
@@ -156,7 +153,7 @@ fn expression(shell: &mut Shell, text: &str) -> Drawn {
     let before = shell.session().whereabouts();
     // Even what goes on by mistake moves a copy only.
     let present = subject.as_ref().map(Revisit::at_present).transpose();
-    let present = present.map_err(|error| refuse(shell, error))?;
+    let present = present.map_err(|error| shell.refuse_native(error))?;
     let place = present.as_ref().map(Revisit::place);
     let reply = shell.session_mut().peek(text);
     let has_moved = present.as_ref().map(Revisit::place) != place;
@@ -265,24 +262,5 @@ fn subject(shell: &Shell, text: &str) -> Result<Option<SimulationHandle>, Diagno
         }
         (Some(one), None) => Ok(Some(one)),
         _ => Ok(shell.latest()),
-    }
-}
-
-/// What an expression is told that goes on.
-pub fn moves(text: &str) -> Diagnostic {
-    Diagnostic::general(format!("'{text}' moves a simulation"))
-        .with_hint("draw what only looks; the simulation that it names stayed where it was")
-}
-
-/// Tells an error that came from no script.
-pub fn refuse(shell: &mut Shell, error: ScriptError) -> Outcome {
-    match error {
-        ScriptError::Failure(failure) => {
-            let hint = failure.hint.clone();
-            shell.refuse(&Diagnostic { hint, ..Diagnostic::general(failure.message) })
-        }
-        ScriptError::Stopped(Stop::Interrupt) => shell.tell(Reply::Interrupted),
-        ScriptError::Stopped(stop) => shell.refuse(&Diagnostic::general(stop.words().0)),
-        other => shell.refuse(&Diagnostic::bug(format!("{other:?}"))),
     }
 }

@@ -3,6 +3,7 @@
 use rhai::{AST, Dynamic};
 
 use super::{Reply, Session};
+use crate::script::state::watchdog::Watchdog;
 
 /// Somebody who has an input evaluated again and again, each time from the same variables.
 pub trait Rounds {
@@ -45,21 +46,28 @@ impl Session {
     /// # Errors
     /// What came of the round that did not work: the last one.
     pub fn peek_in_rounds(&mut self, text: &str, rounds: &mut dyn Rounds) -> Result<(), Reply> {
-        let before = self.transcript.add(self.transcript.typed(text));
+        let program = self.transcript.typed(text);
+        let text = program.text.clone();
+        let before = self.transcript.add(program);
         let (checkpoint, library) = (self.checkpoint(), self.library.clone());
-        let outcome =
-            self.begin(text, before).and_then(|(ast, _watchdog)| self.go_round(&ast, rounds));
+        let begun = self.begin(&text, before);
+        let outcome = begun.and_then(|(ast, guard)| self.go_round(&guard, &ast, rounds));
         self.restore(checkpoint);
         self.library = library;
         self.transcript.forget_last();
         outcome
     }
 
-    fn go_round(&mut self, ast: &AST, rounds: &mut dyn Rounds) -> Result<(), Reply> {
+    fn go_round(
+        &mut self,
+        guard: &Watchdog,
+        ast: &AST,
+        rounds: &mut dyn Rounds,
+    ) -> Result<(), Reply> {
         // With the functions of the input, which its closures are.
         let start = self.checkpoint();
         while rounds.begin() {
-            let value = self.run(ast.statements())?;
+            let value = self.run(guard, ast.statements())?;
             rounds.end(value);
             self.restore(start.clone());
         }

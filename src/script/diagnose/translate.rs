@@ -332,6 +332,7 @@ fn source(program: &Program, named: &str) -> Program {
     if let Some(Ok(module)) = library::find(named) {
         return module.program();
     }
+    // A file that is gone by now has no lines to show: the error is told with its name.
     Program::load(Path::new(named)).unwrap_or_else(|_| Program {
         name: named.into(),
         text: "".into(),

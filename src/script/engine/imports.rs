@@ -9,7 +9,7 @@ use rhai::{
     Engine, EvalAltResult, GlobalRuntimeState, Module, ModuleResolver, Position, Scope, Shared,
 };
 
-use super::runner::parse;
+use super::parse::parse;
 use crate::script::library;
 use crate::script::source::program::{LARGEST_SCRIPT, Program};
 use crate::script::state::files::{InputFolder, InputFolders};

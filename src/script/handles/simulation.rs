@@ -316,21 +316,11 @@ impl SimulationHandle {
     }
 }
 
-/// An error of a run in the words of the script: interrupts stay interrupts, errors of closures keep their place.
+/// An error of a run in the words of the script: interrupts stay interrupts.
 fn explain(error: SimulationError, context: &Context) -> ScriptError {
     match error {
         SimulationError::Interrupted { .. } => {
             ScriptError::Stopped(context.stopped_by().unwrap_or(Stop::Interrupt))
-        }
-        SimulationError::Load { .. } => match context.take_callback_error() {
-            Some(error) => ScriptError::Engine(error),
-            None => ScriptError::from(error).hint("a load needs a finite value at all times"),
-        },
-        SimulationError::Step { .. } | SimulationError::Smallest { .. } => ScriptError::from(error).hint(
-            "the history up to there is kept; try a smaller dt or a finer mesh, and check loads, stiffness, units and what is held",
-        ),
-        SimulationError::Tolerance { .. } => {
-            ScriptError::from(error).hint("the history up to there is kept; adaptive steps land on jumps of schedules by themselves, but a function that jumps needs its breaks: schedule(|t| …, [t1, t2])")
         }
         error => error.into(),
     }

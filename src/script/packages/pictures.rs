@@ -203,7 +203,7 @@ fn motion(
             .error(format!("{count} snapshots are too many for a picture"))
             .hint("choose a larger `every`"));
     }
-    let title = options.text("title").map_or_else(|_| of.name().to_owned(), |t| t.to_string());
+    let title = options.text_if_given("title")?.unwrap_or_else(|| of.name().to_owned());
     let mut picture = MotionPicture::new(title)
         .beams(simulation.scene().beams.iter().map(|beam| beam.name.clone()));
     let times = (0..=count as usize).map(|index| from + index as f64 * every);
@@ -263,9 +263,9 @@ fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
         whose.into_iter().try_for_each(|of| expect_all_rows(call, of, "`average`"))?;
     }
     let names = columns(call, &histories)?;
+    let title = options.text_if_given("title")?;
     let chart = |of: &HistoryHandle| {
-        let title = options.text("title");
-        let title = title.map_or_else(|_| of.of.name().to_owned(), |title| title.to_string());
+        let title = title.clone().unwrap_or_else(|| of.of.name().to_owned());
         let values = |history: &History, name: &str| {
             read(history, name).map(|values| values.into_iter().map(shown).collect())
         };

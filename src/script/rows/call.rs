@@ -12,7 +12,7 @@ use super::stored::StoredFunction;
 use super::table::Row;
 use crate::script::state::context::Context;
 use crate::script::words::error::ScriptError;
-use crate::script::words::numbers::{as_number, describe};
+use crate::script::words::numbers::describe;
 
 /// One call of a row, in progress.
 pub struct Call<'c, 'r> {
@@ -89,24 +89,6 @@ impl<'c, 'r> Call<'c, 'r> {
         function.call_raw(self.native, None, arguments).map_err(ScriptError::Engine)
     }
 
-    /// Calls a script function back for a finite number; `role` says what the function stands for, such as `load`.
-    pub fn invoke_for_number(
-        &self,
-        function: &FnPtr,
-        arguments: impl AsMut<[Dynamic]>,
-        role: &str,
-    ) -> Result<f64, ScriptError> {
-        let value = self.invoke(function, arguments)?;
-        as_number(&value).filter(|x| x.is_finite()).ok_or_else(|| {
-            let got = self.describe(&value);
-            ScriptError::new(format!(
-                "{}: the {role} must give a finite number, got {got}",
-                self.row.name
-            ))
-            .hint("the last expression of a function is what it gives")
-        })
-    }
-
     /// Refuses a script function that takes another number of arguments; `shape` shows the right one.
     pub fn expect_arguments(
         &self,
@@ -174,6 +156,7 @@ impl<'c, 'r> Call<'c, 'r> {
     pub fn show(&self, value: &Dynamic) -> String {
         let mut value = value.clone();
         let shown = self.native.call_native_fn_raw("to_debug", true, &mut [&mut value]);
+        // What has no words of its own is shown as the engine shows it.
         shown.map_or_else(|_| value.to_string(), |text| text.to_string())
     }
 }

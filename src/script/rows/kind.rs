@@ -146,8 +146,6 @@ pub enum Range {
     Positive,
     /// Zero or greater.
     NonNegative,
-    /// At least this.
-    AtLeast(f64),
     /// From the first to the second, both included.
     Between(f64, f64),
     /// Infinite and not-a-number included.
@@ -162,7 +160,6 @@ impl Range {
             Self::Finite => true,
             Self::Positive => x > 0.0,
             Self::NonNegative => x >= 0.0,
-            Self::AtLeast(least) => x >= least,
             Self::Between(least, most) => (least..=most).contains(&x),
         };
         x.is_finite() && bounded
@@ -174,7 +171,6 @@ impl Range {
             Self::Finite | Self::Unlimited => format!("a {noun}"),
             Self::Positive => format!("a positive {noun}"),
             Self::NonNegative => format!("a {noun} of zero or more"),
-            Self::AtLeast(least) => format!("a {noun} of at least {least}"),
             Self::Between(least, most) => format!("a {noun} from {least} to {most}"),
         }
     }
@@ -234,7 +230,7 @@ mod tests {
 
     #[test]
     fn ranges_refuse_what_is_not_finite() {
-        for range in [Range::Finite, Range::Positive, Range::NonNegative, Range::AtLeast(1.0)] {
+        for range in [Range::Finite, Range::Positive, Range::NonNegative] {
             assert!(!range.contains(f64::NAN) && !range.contains(f64::INFINITY), "{range:?}");
         }
         assert!(Range::Unlimited.contains(f64::NAN));

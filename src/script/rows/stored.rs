@@ -57,7 +57,7 @@ impl StoredFunction {
     /// Calls it with a number for a number.
     ///
     /// # Errors
-    /// Its own, or that it gives something else; of its own the context keeps place and trace.
+    /// Its own, with place and trace, or that it gives something else.
     pub fn number_of(&self, argument: f64) -> Result<f64, NoNumber> {
         let value = self.call([Dynamic::from(argument)]).map_err(NoNumber::Failed)?;
         as_number(&value).ok_or_else(|| {

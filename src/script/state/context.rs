@@ -8,7 +8,7 @@ use std::rc::{Rc, Weak};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use rhai::{Dynamic, Engine, EvalAltResult};
+use rhai::{Dynamic, Engine};
 
 use super::files::{OutputFolder, Written};
 use super::journals::Journals;
@@ -43,7 +43,6 @@ struct Shared {
     output: OutputFolder,
     checks: RefCell<Checks>,
     reports: Reports,
-    callback_error: RefCell<Option<Box<EvalAltResult>>>,
     /// The names of studies so far.
     study_names: RefCell<HashSet<PathBuf>>,
     snapshots: usize,
@@ -72,7 +71,6 @@ impl Context {
             output: OutputFolder::new(settings.out, settings.folder, settings.mode),
             checks: RefCell::default(),
             reports: Reports::default(),
-            callback_error: RefCell::default(),
             study_names: RefCell::default(),
             snapshots: settings.snapshots,
             latest_simulation: RefCell::default(),
@@ -279,21 +277,6 @@ impl Context {
     /// Changes the record of checks.
     pub fn with_checks<T>(&self, change: impl FnOnce(&mut Checks) -> T) -> T {
         change(&mut self.0.checks.borrow_mut())
-    }
-
-    /// Keeps the error of a script function that was called from inside a native loop.
-    pub fn keep_callback_error(&self, error: Box<EvalAltResult>) {
-        self.0.callback_error.replace(Some(error));
-    }
-
-    /// The error that was kept last, if there is one.
-    pub fn take_callback_error(&self) -> Option<Box<EvalAltResult>> {
-        self.0.callback_error.take()
-    }
-
-    /// Forgets errors of script functions that are told otherwise: those in the cases of a study.
-    pub fn forget_callback_errors(&self) {
-        self.0.callback_error.take();
     }
 
     /// The memory that a simulation may take for states to go back to, unless the script says otherwise [bytes].

@@ -17,8 +17,12 @@ pub const DEFAULT_MEGABYTES_WRITTEN: u64 = 10_000;
 pub const DEFAULT_FILES: u64 = 100_000;
 /// The default limit of calls within calls.
 pub const DEFAULT_DEPTH: usize = 400;
-/// The most calls within calls that can be allowed: they fit [`STACK_BYTES`](crate::script::engine::runner::STACK_BYTES).
+/// The most calls within calls that can be allowed: they fit [`LEAST_STACK`].
 pub const DEEPEST: usize = 1000;
+/// Address space for the stack of [`DEEPEST`] calls within calls; memory is used only as deep as a script really goes [bytes].
+pub const LEAST_STACK: usize = 256 << 20;
+/// Most address space for the stack that values need when they are let go [bytes].
+const LARGEST_FOR_VALUES: usize = 16 << 30;
 
 /// What a run may use. `None` is without limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +43,18 @@ pub struct Limits {
 
 /// Ends the whole program: a limit was passed, and what runs did not hear of it or grows too fast.
 pub type LastResort = Arc<dyn Fn(Stop) + Send + Sync>;
+
+impl Limits {
+    /// Address space for a stack that a script within these limits cannot exhaust [bytes].
+    ///
+    /// Closures that hold closures that hold closures … are let go one within the other. A link of such a chain takes less stack than
+    /// twice its memory, so the memory allowed bounds the stack that it may need.
+    pub fn stack(&self) -> usize {
+        let memory = self.memory.unwrap_or(DEFAULT_MEGABYTES * MEGABYTE);
+        let memory = usize::try_from(memory).unwrap_or(LARGEST_FOR_VALUES);
+        LEAST_STACK + 2 * memory.min(LARGEST_FOR_VALUES)
+    }
+}
 
 impl Default for Limits {
     fn default() -> Self {

@@ -6,6 +6,7 @@ use super::convergence_chart::chart;
 use super::convergence_table::{head, summary};
 use super::desk::{Desk, print_table};
 use super::labels;
+use super::options::ErrorOptions;
 use super::plan::{Plan, at_key};
 use super::reference::{self, Reference};
 use crate::analysis::{
@@ -14,18 +15,17 @@ use crate::analysis::{
 use crate::integrators::Method;
 use crate::output::{CsvRecords, Panel, format_number};
 use crate::script::rows::call::Call;
-use crate::script::rows::options::Options;
 use crate::script::state::settings::Mode;
 use crate::script::words::error::ScriptError;
 use crate::simulation::{Settings, StepSize};
 
 /// Makes the study that the options ask for; in a dry build nothing runs.
-pub fn study(call: &Call, options: &Options) -> Result<Convergence, ScriptError> {
+pub fn study(call: &Call, options: &ErrorOptions) -> Result<Convergence, ScriptError> {
     let mut plan = Plan::read(call, options)?;
     let refined = refined(call, &plan)?;
     let reference = Reference::read(call, options, &mut plan)?;
     if plan.subjects.len() > 1 {
-        reference::expect_finer_than_all_meshes(call, options)?;
+        reference::expect_finer_than_all_meshes(call, options.reference.as_ref())?;
     }
     let desk = Desk::open(call.context(), &plan.name)?;
     let combinations = all_combinations(&plan.subjects, &plan.all_settings());

@@ -3,6 +3,7 @@
 use rhai::{Dynamic, FnPtr, Map};
 
 use super::labels;
+use super::options::CostOptions;
 use crate::analysis::{Case, CostCase, FEATURES, StepCost};
 use crate::integrators::{INTEGRATORS, Method};
 use crate::model::Scene;
@@ -10,7 +11,6 @@ use crate::newton::Tolerance;
 use crate::output::{BarChart, Cell, CsvRecords, Table, format_number, significant};
 use crate::script::handles::scene::SceneHandle;
 use crate::script::rows::call::Call;
-use crate::script::rows::options::Options;
 use crate::script::words::error::{Place, ScriptError};
 use crate::simulation::{Recording, Settings};
 
@@ -52,11 +52,11 @@ impl Way {
 }
 
 /// The rows of a study: the scene alone, twice; with each feature; and in each other way.
-pub fn cases(call: &Call, options: &Options, way: Way) -> Result<Vec<CostCase>, ScriptError> {
-    let make = options.callback("scene")?;
-    call.expect_arguments(&make, 0, "|| …, a function that makes the scene")?;
+pub fn cases(call: &Call, options: &CostOptions, way: Way) -> Result<Vec<CostCase>, ScriptError> {
+    let make = &options.scene;
+    call.expect_arguments(make, 0, "|| …, a function that makes the scene")?;
     let handle = || {
-        let given = call.invoke(&make, [])?;
+        let given = call.invoke(make, [])?;
         given.clone().try_cast::<SceneHandle>().ok_or_else(|| {
             let got = call.describe(&given);
             call.error(format!("the function gives {got} instead of a scene"))
@@ -69,9 +69,9 @@ pub fn cases(call: &Call, options: &Options, way: Way) -> Result<Vec<CostCase>, 
     for name in PLAIN {
         cases.push(way.case(name, fresh()?));
     }
-    match options.has("features") {
-        true => {
-            let features: Map = options.value("features")?.try_cast().ok_or_else(|| {
+    match &options.features {
+        Some(features) => {
+            let features: Map = features.clone().try_cast().ok_or_else(|| {
                 call.error("features must be a map of names and functions")
                     .hint("for example #{ gravity: |scene| scene.gravity([0, -9.81]) }")
                     .at(Place::Key("features".into()))
@@ -90,7 +90,7 @@ pub fn cases(call: &Call, options: &Options, way: Way) -> Result<Vec<CostCase>, 
                 cases.push(way.case(name.as_str(), scene));
             }
         }
-        false => {
+        None => {
             let has_beams = !cases[0].case.scene.beams.is_empty();
             for feature in FEATURES.iter().filter(|_| has_beams) {
                 let mut scene = fresh()?;

@@ -120,7 +120,6 @@ impl<'c> Desk<'c> {
             },
         );
         context.progress().end();
-        context.forget_callback_errors();
         trouble.map_or(Ok(()), Err)?;
         for (at, result) in unknown.into_iter().zip(found) {
             results[at] = result;
@@ -158,7 +157,6 @@ impl<'c> Desk<'c> {
         let results = results.collect();
         // The bar ends before a reason to stop is told.
         context.progress().end();
-        context.forget_callback_errors();
         results
     }
 

@@ -7,7 +7,6 @@ use crate::integrators::Method;
 use crate::output::significant;
 use crate::script::rows::accept::readable;
 use crate::script::rows::call::Call;
-use crate::script::rows::options::Options;
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::{as_number, format_number};
 
@@ -26,16 +25,16 @@ pub struct Swept {
 }
 
 impl Swept {
-    /// Reads an option that is a map of one key, such as `#{ dt: [0.1, 0.2] }`.
-    pub fn read(call: &Call, options: &Options, key: &str) -> Result<Self, ScriptError> {
+    /// Reads the value of the option `key`, which is a map of one name, such as `#{ dt: [0.1, 0.2] }`.
+    pub fn read(call: &Call, key: &str, given: &Dynamic) -> Result<Self, ScriptError> {
         let wrong = |told: String| {
             call.error(told)
                 .hint(format!("write {key}: #{{ dt: [0.1, 0.2] }}, a name and its values"))
                 .at(Place::Key(key.to_owned()))
         };
-        let given = options.value(key)?;
-        let got = call.describe(&given);
-        let given = given.try_cast::<Map>().ok_or_else(|| wrong(format!("{key} is {got}")))?;
+        let got = call.describe(given);
+        let given =
+            given.clone().try_cast::<Map>().ok_or_else(|| wrong(format!("{key} is {got}")))?;
         let (1, Some((name, values))) = (given.len(), given.iter().next()) else {
             return Err(wrong(format!("{key} has {} names, but one is expected", given.len())));
         };

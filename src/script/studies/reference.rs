@@ -1,9 +1,10 @@
 //! What results are compared with: a table of an independent solution, or a finer run of our own.
 
-use rhai::Dynamic;
+use rhai::{Dynamic, Map};
 
 use super::desk::{Desk, Task};
 use super::labels;
+use super::options::{ErrorOptions, Wanted};
 use super::plan::{Plan, at_key, expect_same_observables, subject_on};
 use crate::analysis::{
     Case, Outcome, PART_OF_THE_SMALLEST_STEP, Sheet, Trial, Truth, finest_mesh, highest_order,
@@ -13,7 +14,6 @@ use crate::geometry::Vec2;
 use crate::integrators::Method;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Scripted;
-use crate::script::rows::options::Options;
 use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::format_number;
 use crate::simulation::{StepControl, StepSize};
@@ -90,11 +90,14 @@ pub fn read_sheet(call: &Call, key: &str, file: &str) -> Result<Sheet, ScriptErr
 }
 
 /// Refuses to judge meshes by a run on one of them, whose own error would be taken for none.
-pub fn expect_finer_than_all_meshes(call: &Call, options: &Options) -> Result<(), ScriptError> {
-    let is_table = options.text("reference").is_ok();
-    let run = options.get_if::<FinestRun>("reference");
-    if is_table || run.is_some_and(|run| run.mesh.is_some()) {
-        return Ok(());
+pub fn expect_finer_than_all_meshes(
+    call: &Call,
+    reference: Option<&Wanted>,
+) -> Result<(), ScriptError> {
+    match reference {
+        Some(Wanted::Table(_)) => return Ok(()),
+        Some(Wanted::Run(run)) if run.mesh.is_some() => return Ok(()),
+        _ => (),
     }
     let told = "the errors of meshes cannot be told from a run on the finest of them";
     let hint =
@@ -151,26 +154,39 @@ fn expect_other_steps_if_doubled(call: &Call, finest: &Case) -> Result<(), Scrip
     }
 }
 
+/// The option `columns`, if it is given.
+fn columns_of(call: &Call, options: &ErrorOptions) -> Result<Option<Map>, ScriptError> {
+    let Some(given) = &options.columns else { return Ok(None) };
+    let got = call.describe(given);
+    given.clone().try_cast::<Map>().map(Some).ok_or_else(|| {
+        let hint = "write names of the reference with columns of the history: #{ S: \"slider1.position\" }";
+        at_key(call, "columns", format!("'columns' must be a map, got {got}"), hint)
+    })
+}
+
 impl Reference {
     /// Reads the option `reference`, and looks in the plan at what it can be compared with.
-    pub fn read(call: &Call, options: &Options, plan: &mut Plan) -> Result<Self, ScriptError> {
-        let columns = options.get_if::<rhai::Map>("columns");
-        if let Ok(file) = options.text("reference") {
-            let sheet = read_sheet(call, "reference", &file)?;
-            plan.add_columns(call, columns, Some(&sheet))?;
-            let reference = Self::Table(file.to_string(), sheet);
-            // A wrong table is told of before anything runs.
-            reference.truth(call, plan, &[])?;
-            return Ok(reference);
-        }
-        let run = options.get_if::<FinestRun>("reference").unwrap_or_default();
+    pub fn read(call: &Call, options: &ErrorOptions, plan: &mut Plan) -> Result<Self, ScriptError> {
+        let columns = columns_of(call, options)?;
+        let run = match &options.reference {
+            Some(Wanted::Table(file)) => {
+                let sheet = read_sheet(call, "reference", file)?;
+                plan.add_columns(call, columns, Some(&sheet))?;
+                let reference = Self::Table(file.clone(), sheet);
+                // A wrong table is told of before anything runs.
+                reference.truth(call, plan, &[])?;
+                return Ok(reference);
+            }
+            Some(Wanted::Run(run)) => run.clone(),
+            None => FinestRun::default(),
+        };
         let dt = run.dt.map_or_else(|| finer(&plan.dts), StepSize::from);
         let method = run.method.or_else(|| highest_order(&plan.methods)).unwrap_or_default();
         let finest = finest_mesh(&plan.subjects).unwrap_or(0);
         let subject = match run.mesh {
             None => plan.subjects[finest].clone(),
             Some(mesh) => {
-                let own = [subject_on(call, options, &mesh)?];
+                let own = [subject_on(call, &options.scene, &mesh)?];
                 expect_same_observables(call, &plan.subjects[0], &own)?;
                 let [own] = own;
                 own

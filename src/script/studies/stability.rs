@@ -1,9 +1,10 @@
 //! Stability maps: a run for every combination of parameters, and what became of each.
 
-use rhai::{Dynamic, FnPtr, INT, Map};
+use rhai::{Dynamic, INT, Map};
 
 use super::cell::{case, thrown};
 use super::labels;
+use super::options::StabilityOptions;
 use super::parameters::Swept;
 use super::plan::{at_key, study_name};
 use crate::analysis::{Case, Outcome, Verdict};
@@ -12,7 +13,6 @@ use crate::output::{
     significant,
 };
 use crate::script::rows::call::Call;
-use crate::script::rows::options::Options;
 use crate::script::words::error::ScriptError;
 
 /// Columns of text that a map on a terminal may take.
@@ -85,13 +85,13 @@ pub struct StabilityMap {
 
 impl StabilityPlan {
     /// Reads the options of a study.
-    pub fn read(call: &Call, options: &Options) -> Result<Self, ScriptError> {
-        let maps = match options.has("maps") {
-            true => Swept::read(call, options, "maps")?,
-            false => Swept::none(),
+    pub fn read(call: &Call, options: &StabilityOptions) -> Result<Self, ScriptError> {
+        let maps = match &options.maps {
+            Some(maps) => Swept::read(call, "maps", maps)?,
+            None => Swept::none(),
         };
-        let rows = Swept::read(call, options, "rows")?;
-        let columns = Swept::read(call, options, "columns")?;
+        let rows = Swept::read(call, "rows", &options.rows)?;
+        let columns = Swept::read(call, "columns", &options.columns)?;
         let axes = [("maps", &maps), ("rows", &rows), ("columns", &columns)];
         for (at, (key, axis)) in axes.iter().enumerate() {
             let name = &axis.name;
@@ -105,7 +105,7 @@ impl StabilityPlan {
                 return Err(at_key(call, key, told, "a cell has one value under each name"));
             }
         }
-        Ok(Self { name: study_name(call, options)?, maps, rows, columns })
+        Ok(Self { name: study_name(call, &options.name)?, maps, rows, columns })
     }
 
     /// Numbers of map, row and column of all cells, in order.
@@ -143,14 +143,13 @@ impl StabilityPlan {
     pub fn cases(
         &self,
         call: &Call,
-        options: &Options,
-        scene: &FnPtr,
+        options: &StabilityOptions,
     ) -> Result<Vec<Result<Case, String>>, ScriptError> {
         let mut first = None;
         let mut made = Vec::new();
         for at in self.cells() {
             let values = self.values(at);
-            made.push(match call.invoke(scene, [Dynamic::from(values.clone())]) {
+            made.push(match call.invoke(&options.scene, [Dynamic::from(values.clone())]) {
                 Ok(given) => Ok(case(call, options, &values, given)?),
                 Err(ScriptError::Engine(error)) => match thrown(call, &error) {
                     Some(reason) => {

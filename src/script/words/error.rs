@@ -2,7 +2,9 @@
 
 use rhai::{Dynamic, EvalAltResult, Position};
 
+use super::advice;
 use super::brief::brief;
+use super::raised::Raised;
 use super::stop::Stop;
 
 /// Marks errors of the engine that are our own mistakes.
@@ -63,6 +65,14 @@ impl ScriptError {
         self
     }
 
+    /// Adds what to do about an error of the layers below that caused it, if there is advice on that.
+    pub fn advised(self, cause: &(dyn std::error::Error + 'static)) -> Self {
+        match advice::on(cause) {
+            Some(advice) => self.hint(advice),
+            None => self,
+        }
+    }
+
     /// Points at an argument or a key instead of the call.
     pub fn at(mut self, place: Place) -> Self {
         if let Self::Failure(failure) = &mut self {
@@ -84,10 +94,14 @@ impl ScriptError {
     }
 }
 
-/// Errors of the layers below become failures with their own words.
-impl<E: std::error::Error> From<E> for ScriptError {
+/// Errors of the layers below become failures with their own words and what to do about them; those that a script function has caused are
+/// handed on as its own.
+impl<E: std::error::Error + 'static> From<E> for ScriptError {
     fn from(error: E) -> Self {
-        Self::new(error.to_string())
+        match Raised::behind(&error) {
+            Some(raised) => Self::Engine(raised),
+            None => Self::new(error.to_string()).advised(&error),
+        }
     }
 }
 

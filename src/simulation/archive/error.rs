@@ -6,9 +6,7 @@ use crate::simulation::SimulationError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ArchiveError {
     /// A load with a function of a script.
-    #[error(
-        "the {load} has a function as its schedule, and functions cannot be stored; use hold_for, ramp, pulse, smooth_pulse, sine or table, or sums and products of them"
-    )]
+    #[error("the {load} has a function as its schedule, and functions cannot be stored")]
     Function {
         /// The load.
         load: String,
@@ -22,7 +20,7 @@ pub enum ArchiveError {
         column: String,
     },
     /// Something else.
-    #[error("this is no simulation: it does not begin as files of sim.save(…) do")]
+    #[error("this is no simulation: it does not begin as stored simulations do")]
     Foreign,
     /// A part is missing.
     #[error(
@@ -77,9 +75,7 @@ pub enum ArchiveError {
         more: u64,
     },
     /// A sound file with a content that makes no sense.
-    #[error(
-        "its content is not that of a simulation: {reason}; it was not written by sim.save(…), or by a withy with a mistake"
-    )]
+    #[error("its content is not that of a simulation: {reason}")]
     Content {
         /// What is wrong.
         reason: String,

@@ -1,6 +1,6 @@
 //! Names of Python, MATLAB, JavaScript and C.
 
-use super::{Elsewhere, entry};
+use super::entry::{Elsewhere, entry};
 
 /// Values, functions and methods.
 pub const WORDS: &[Elsewhere] = &[

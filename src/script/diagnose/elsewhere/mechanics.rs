@@ -1,6 +1,6 @@
 //! Words of mechanics and of other programs for it.
 
-use super::{Elsewhere, entry};
+use super::entry::{Elsewhere, entry};
 
 /// Words of mechanics.
 pub const WORDS: &[Elsewhere] = &[

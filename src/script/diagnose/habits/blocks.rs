@@ -2,8 +2,8 @@
 
 use rhai::ParseErrorType;
 
+use super::cure::{Cure, Habit};
 use super::spot::Spot;
-use super::{Cure, Habit};
 
 /// Conditions and loops.
 pub const HABITS: &[Habit] =

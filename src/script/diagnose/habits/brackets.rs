@@ -2,8 +2,8 @@
 
 use rhai::ParseErrorType;
 
+use super::cure::{Cure, Habit};
 use super::spot::Spot;
-use super::{Cure, Habit};
 
 /// Brackets.
 pub const HABITS: &[Habit] = &[map_without_sign, assigned_key, unclosed];

@@ -2,8 +2,8 @@
 
 use rhai::ParseErrorType;
 
+use super::cure::{Cure, Habit};
 use super::spot::Spot;
-use super::{Cure, Habit};
 use crate::script::rows::table::Form;
 
 /// Values.

@@ -2,8 +2,8 @@
 
 use rhai::{LexError, ParseErrorType};
 
+use super::cure::{Cure, Habit};
 use super::spot::Spot;
-use super::{Cure, Habit};
 
 /// Signs and quotes.
 pub const HABITS: &[Habit] = &[comment, sign, dotted_operator, quotes, formatted_text];

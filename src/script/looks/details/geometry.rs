@@ -1,6 +1,6 @@
 //! Details of curves, knots, meshes and vectors.
 
-use super::{line, number, numbers, pair};
+use super::entries::{line, number, numbers, pair};
 use crate::beams::{Mesh, PointCounts};
 use crate::elementary::atan2;
 use crate::geometry::{Basis, Curve, KnotVector, Vec2};

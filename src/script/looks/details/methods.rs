@@ -1,6 +1,6 @@
 //! Details of integrators, sliding rules, schedules and errors.
 
-use super::{line, number, numbers};
+use super::entries::{line, number, numbers};
 use crate::integrators::{EnergyClaim, Method};
 use crate::joints::SlidingRule;
 use crate::loads::{Schedule, Side};

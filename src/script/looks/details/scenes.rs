@@ -1,6 +1,6 @@
 //! Details of scenes and what stands in them.
 
-use super::{line, listed, number, pair};
+use super::entries::{line, listed, number, pair};
 use crate::beams::{BodyIndex, Section, Station};
 use crate::geometry::Vec2;
 use crate::joints::{EndAction, StartVelocities};

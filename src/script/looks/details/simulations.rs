@@ -1,6 +1,6 @@
 //! Details of simulations and histories.
 
-use super::{line, listed, number, pair};
+use super::entries::{line, listed, number, pair};
 use crate::output::{scientific, significant};
 use crate::script::rows::kind::Details;
 use crate::simulation::{History, Invariant, Simulation, StepSize};
