@@ -11,14 +11,14 @@ use super::patience::{Patience, Wait};
 use crate::model::{Scene, Sensor};
 use crate::simulation::{Monitor, Recording, Settings, Simulation, SimulationError, StepSize};
 
-/// A run to be made.
+/// A run of a study that is to be made, as data.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Case {
-    /// What is simulated.
+    /// The scene that is simulated.
     pub scene: Scene,
-    /// How.
+    /// How the scene is simulated: integrator, step size, tolerance.
     pub settings: Settings,
-    /// When it is looked at, in order; the last one ends the run [time].
+    /// The times at which the simulation is looked at, in order; the last one ends the run [time].
     pub stops: Vec<f64>,
 }
 
@@ -61,7 +61,7 @@ impl Case {
         postcard::from_bytes(bytes).ok()
     }
 
-    /// Runs it and looks at it at every stop; the simulation as it was at its end is given too, unless it could not
+    /// Runs the case and looks at the simulation at every stop; the simulation as it was at its end is given too, unless it could not
     /// start. A study that is stopped meanwhile leaves an unfinished run, whose outcome means nothing.
     pub fn run(
         &self,
@@ -101,7 +101,7 @@ impl Case {
         every.map_or_else(Recording::default, Recording::Every)
     }
 
-    /// The simulation at its start, or why there is none. It keeps to one thread: the cores are busy with other cases, or
+    /// The simulation of the case at its start, or why there is none. It keeps to one thread: the cores are busy with other cases, or
     /// the time of this one is taken.
     pub fn start(&self, patience: Patience) -> Result<Simulation, Outcome> {
         let wait = patience.begin();

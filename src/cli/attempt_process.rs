@@ -35,13 +35,13 @@ const LONGEST_MESSAGE: usize = 4000;
 /// The most that is read of what a process says [bytes].
 const LONGEST_VERDICT: u64 = 1 << 20;
 
-/// What the processes of a class have in common.
+/// What the processes that judge the attempts of a class have in common.
 pub(super) struct Room<'a> {
-    /// Each gets a folder in it.
+    /// The folder in which each process gets one of its own.
     pub scratch: &'a Scratch,
-    /// What each may use.
+    /// The limits of what each process may use.
     pub limits: &'a LimitOptions,
-    /// Ends them all.
+    /// The flag that ends all the processes.
     pub stop: &'a AtomicBool,
 }
 
@@ -194,7 +194,7 @@ fn stopped_hard(stop: Stop) {
     process::exit(0)
 }
 
-/// Judges one attempt in this process, which is for nothing else, and says the verdict.
+/// Judges one attempt in this process, which is for nothing else, and prints the verdict.
 pub(super) fn judge_one(
     folder: &Path,
     file: &Path,

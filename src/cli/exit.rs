@@ -5,13 +5,13 @@ use std::process::ExitCode;
 /// The exit codes, the same for all commands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
-    /// All is well; also when the reader of the output went away.
+    /// Exit code: all is well; also when the reader of the output went away.
     Good = 0,
-    /// A `check` in the script failed.
+    /// Exit code: a `check` in the script failed.
     CheckFailed = 1,
-    /// The script or the arguments are wrong.
+    /// Exit code: the script or the arguments are wrong, or output could not be written.
     Wrong = 2,
-    /// Stopped by Ctrl-C.
+    /// Exit code: the program was stopped by Ctrl-C.
     Interrupted = 130,
 }
 

@@ -26,7 +26,7 @@ use crate::panics;
 use crate::script::diagnose::{Colours, Diagnostic};
 use crate::script::state::settings::{Mode, Settings};
 
-/// Does what was asked for.
+/// Does what `withy learn` asks for.
 pub fn learn(options: &LearnOptions) -> Exit {
     panics::silence();
     let workbook = Workbook::near(Path::new("."));
@@ -326,7 +326,7 @@ fn watch_in_lines(workbook: &Workbook, limits: &LimitOptions, flag: &Arc<AtomicB
     show_next(workbook)
 }
 
-/// A path as one would type it here.
+/// A path as one would type it in the present folder.
 pub(super) fn shown(path: &Path) -> String {
     let path: PathBuf = path.strip_prefix(".").unwrap_or(path).into();
     if path.as_os_str().is_empty() { "this folder".into() } else { path.display().to_string() }

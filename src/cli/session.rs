@@ -23,7 +23,7 @@ use crate::script::source::program::Program;
 use crate::script::state::settings::{Mode, Settings};
 use crate::script::words::stop::{MEGABYTE, Stop};
 
-/// Opens a session in which a file may have been evaluated first.
+/// Does what `withy repl` asks for: opens a session in which a file may be evaluated first.
 pub fn open(options: &ReplOptions) -> Exit {
     panics::silence();
     if is_conversation(&options.session) {
@@ -35,7 +35,7 @@ pub fn open(options: &ReplOptions) -> Exit {
     }
 }
 
-/// A session without a file.
+/// Opens a session without a file.
 pub fn start(options: SessionOptions) -> Exit {
     open(&ReplOptions { file: None, session: options })
 }

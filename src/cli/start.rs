@@ -8,7 +8,7 @@ use clap::Parser;
 use super::args::{Arguments, Command};
 use super::{Exit, docs, learn, run, say, session};
 
-/// Reads the command line and does what it says.
+/// Runs the program: reads the command line and does what it says.
 pub fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,

@@ -24,22 +24,22 @@ use crate::script::words::nouns::with_article;
 /// How long an attempt may take, and its judge as well, unless a limit is set.
 pub const PATIENCE: Duration = Duration::from_secs(20);
 
-/// What came of an attempt.
+/// The verdict on an attempt at an exercise.
 #[derive(Debug)]
 pub enum Verdict {
-    /// It does what the exercise asks for.
+    /// The attempt does what the exercise asks for.
     Passed,
-    /// It runs, and this is off, in the judge's words.
+    /// The attempt runs, and this is off, in the judge's words.
     Off(Vec<String>),
-    /// It does not run to its end.
+    /// The attempt does not run to its end.
     Broken(Diagnostic),
-    /// It was stopped by a limit.
+    /// The attempt was stopped by a limit.
     Stopped(Diagnostic),
-    /// It was stopped from outside.
+    /// The attempt was stopped from outside.
     Interrupted,
 }
 
-/// Runs an attempt, then its judge. What the attempt prints goes where the settings say.
+/// Runs an attempt at an exercise, then its judge. What the attempt prints goes where the settings say.
 pub fn judge(exercise: &Exercise, attempt: &Program, settings: Settings) -> Verdict {
     let mut limits = settings.limits;
     limits.time = limits.time.or(Some(PATIENCE));

@@ -3,7 +3,7 @@
 use super::{Interval, Mechanism, StepError};
 use crate::newton::NewtonReport;
 
-/// One way to take a step.
+/// A time integrator: one way to take a step of a mechanism.
 pub trait Integrator {
     /// Advances the mechanism over the interval; on an error it is left as it was.
     ///

@@ -17,11 +17,11 @@ const MOST_STATES: usize = 1000;
 /// Digits of a time in words.
 const DIGITS: usize = 6;
 
-/// What an expression was.
+/// What an expression was in the states of a simulation.
 pub struct Followed {
-    /// Times and values, in the order of time.
+    /// The times and values of the expression, in the order of time.
     pub points: Vec<(f64, Shape)>,
-    /// In which states, in words.
+    /// In which states the expression was followed, in words.
     pub words: String,
 }
 

@@ -24,22 +24,22 @@ use crate::script::state::watchdog::Watchdog;
 
 pub use peek::Rounds;
 
-/// The name of the value of the last expression.
+/// The name of the variable with the value of the last expression.
 pub const ANSWER: &str = "ans";
 
-/// What came of an input.
+/// The reply to an input of a session.
 #[derive(Debug)]
 pub enum Reply {
-    /// It worked, and there is nothing to show.
+    /// The input worked, and there is nothing to show.
     Done,
-    /// It is an expression with this value.
+    /// The input is an expression with this value.
     Value(Dynamic),
-    /// A statement of it is wrong. Those before it have worked; of itself only what it did to scenes and simulations stays, and
+    /// A statement of the input is wrong. Those before it have worked; of itself only what it did to scenes and simulations stays, and
     /// to variables that closures share.
     Failed(Diagnostic),
-    /// A statement of it was stopped by Ctrl-C; else as after a failure.
+    /// A statement of the input was stopped by Ctrl-C; else as after a failure.
     Interrupted,
-    /// Nobody reads what is printed any more.
+    /// The input was stopped, for nobody reads what is printed any more.
     PipeClosed,
 }
 
@@ -52,7 +52,7 @@ struct Checkpoint {
     whereabouts: Vec<Whereabouts>,
 }
 
-/// Variables, functions, constants and imports, and the host that knows the language.
+/// A session: its variables, functions, constants and imports, and the engine that knows the language.
 pub struct Session {
     host: Host,
     folder: PathBuf,
@@ -83,7 +83,7 @@ impl Session {
         })
     }
 
-    /// Forgets everything that was typed and what came of it.
+    /// Forgets everything that was typed in the session and what came of it.
     pub fn reset(&mut self) {
         self.scope.clear();
         self.global = self.host.engine().new_global_runtime_state();
@@ -99,13 +99,13 @@ impl Session {
         self.context().interrupt_flag().store(false, Ordering::Relaxed);
     }
 
-    /// Evaluates what was typed.
+    /// Evaluates an input that was typed.
     pub fn eval(&mut self, text: &str) -> Reply {
         let program = self.transcript.typed(text);
         self.eval_program(program)
     }
 
-    /// Evaluates a program, such as a file, as if it had been typed.
+    /// Evaluates a program, such as a file, as if it had been typed in the session.
     pub fn eval_program(&mut self, program: Program) -> Reply {
         let text = program.text.clone();
         let before = self.transcript.add(program);
@@ -157,12 +157,12 @@ impl Session {
         self.record.worked(&format!("{before}{functions}"));
     }
 
-    /// Writes into the record that an input worked which was evaluated in another way.
+    /// Writes into the session's record that an input worked which was evaluated in another way.
     pub fn note_worked(&mut self, text: &str) {
         self.record.worked(text);
     }
 
-    /// Writes into the record how far simulations have moved by what is not written there itself; gives whether any has.
+    /// Writes into the session's record how far simulations have moved by what is not written there itself; gives whether any has.
     pub fn note_moved(&mut self, before: &[Whereabouts]) -> bool {
         self.record.moved(before)
     }
@@ -254,47 +254,47 @@ impl Session {
 
 /// Looking at a session from outside.
 impl Session {
-    /// The language that is spoken.
+    /// The language that the session speaks.
     pub fn catalog(&self) -> &Catalog {
         self.host.catalog()
     }
 
-    /// What the calls of the session share.
+    /// The state that all calls of the session share.
     pub fn context(&self) -> &Context {
         self.host.context()
     }
 
-    /// The engine, for showing values.
+    /// The engine of the session, for showing values.
     pub fn engine(&self) -> &Engine {
         self.host.engine()
     }
 
-    /// Variables and constants.
+    /// The variables and constants of the session.
     pub fn variables(&self) -> &Scope<'static> {
         &self.scope
     }
 
-    /// The functions that were typed, without closures.
+    /// The functions that were typed in the session, without closures.
     pub fn functions(&self) -> impl Iterator<Item = rhai::ScriptFnMetadata<'_>> {
         self.library.iter_functions().filter(|function| !function.name.starts_with("anon$"))
     }
 
-    /// Imported modules by the names they were given, the last import first.
+    /// The imported modules of the session by the names they were given, the last import first.
     pub fn modules(&self) -> impl Iterator<Item = (&str, &rhai::Module)> {
         self.global.iter_imports()
     }
 
-    /// The line that will be typed next, from 1.
+    /// The number of the line that will be typed next, from 1.
     pub fn next_line(&self) -> usize {
         self.transcript.next_line()
     }
 
-    /// What worked so far.
+    /// What worked in the session so far.
     pub fn record(&self) -> &Record {
         &self.record
     }
 
-    /// What worked so far as a script.
+    /// What worked in the session so far as a script.
     ///
     /// # Errors
     /// When it cannot be one, with the reason.
@@ -307,7 +307,7 @@ impl Session {
         }
     }
 
-    /// Where imports and inputs are looked for.
+    /// The folder in which the session looks for imports and inputs.
     pub fn folder(&self) -> &Path {
         &self.folder
     }

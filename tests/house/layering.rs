@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// From left to right (design: main → cli → repl, exercises → script → output, analysis → simulation → … → model): a layer may use
+/// From left to right (docs/architecture.md: main → cli → repl, exercises → script → output, analysis → simulation → … → model): a layer may use
 /// those of the groups after its own, and everything below the model.
 const CHAIN: &[&[&str]] = &[
     &["cli"],

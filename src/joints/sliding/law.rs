@@ -2,8 +2,8 @@
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation};
 
-/// A law of a sliding joint.
+/// A law of a sliding joint: which equations hold in a step.
 pub trait SlidingLaw {
-    /// The five equations of a step for the unknowns of the contact, with their derivatives.
+    /// The five equations of a step for the five unknowns of the contact, with their derivatives.
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS];
 }

@@ -44,7 +44,7 @@ impl Shared {
 }
 
 impl Assembly<'_> {
-    /// The rates of the unknowns at the start [length/time, 1/time].
+    /// The rates of the unknown movements at the start, which fit joints and start velocities [length/time, 1/time].
     pub fn start_rates(&self, numbering: &Numbering) -> Result<Vec<f64>, ModelError> {
         let mut shared = Shared { rates: vec![None; numbering.unknowns] };
         for index in 0..self.scene.beams.len() {

@@ -17,7 +17,7 @@ const MOST_SLIDERS: usize = 2000;
 /// Most quantities that a stored scene records.
 const MOST_SENSORS: usize = 10_000;
 
-/// A [`Scene`] as it is stored, not yet checked.
+/// A [`Scene`] as it is stored in a file, not yet checked.
 #[derive(Deserialize)]
 pub struct StoredScene {
     name: String,

@@ -9,7 +9,7 @@ use crate::model::words::{Turning, written};
 /// Largest gap of a joint when the scene starts, relative to the length of its beam and its distance from the origin.
 const CLOSED: f64 = 1e-12;
 
-/// Sets of things that are one: union–find with path halving.
+/// Sets of things, by their numbers, that are one: union–find with path halving.
 pub struct Ties {
     parent: Vec<usize>,
 }
@@ -27,7 +27,7 @@ impl Ties {
         at
     }
 
-    /// Makes two things one; false when they were already.
+    /// Makes two things, by their numbers, one; false when they were one already.
     pub fn tie(&mut self, a: usize, b: usize) -> bool {
         let (a, b) = (self.root(a), self.root(b));
         // The smaller index stays the root, so that index 0, the ground, always is one.

@@ -24,7 +24,7 @@ enum Part {
     Expression(String),
 }
 
-/// `:plot [curves]`
+/// The command `:plot [curves]`: draws columns of the history, or curves of expressions.
 pub fn plot(shell: &mut Shell, operand: &str) -> Outcome {
     let found: Vec<Part> = parts(operand).into_iter().map(|part| read(shell, part)).collect();
     let mut columns = Vec::new();

@@ -8,21 +8,21 @@ use crate::script::words::suggest::nearest;
 
 /// A command of the prompt.
 pub struct Command {
-    /// Its name, with the colon.
+    /// The name of the command, with the colon.
     pub name: &'static str,
-    /// What follows it.
+    /// What follows the name of the command.
     pub operand: Operand,
-    /// How that is written in the help; empty for nothing.
+    /// How the operand of the command is written in the help; empty for nothing.
     pub placeholder: &'static str,
-    /// One line on what it does.
+    /// One line on what the command does.
     pub summary: &'static str,
     /// More, where a line is not enough.
     pub doc: &'static str,
-    /// What it does, given what follows its name.
+    /// The function that does the command, given what follows its name.
     pub body: fn(&mut Shell, &str) -> Outcome,
 }
 
-/// What `?` stands for.
+/// The command that `?` stands for: help.
 pub const HELP: Command = Command {
     name: ":help",
     operand: Operand::Name,
@@ -32,7 +32,7 @@ pub const HELP: Command = Command {
     body: help::help,
 };
 
-/// What leaves the prompt.
+/// The command that leaves the prompt.
 pub const QUIT: Command = Command {
     name: ":quit",
     operand: Operand::Nothing,
@@ -42,7 +42,7 @@ pub const QUIT: Command = Command {
     body: session::quit,
 };
 
-/// All commands, in the order of the help.
+/// All commands of the prompt, in the order of the help.
 pub const COMMANDS: &[Command] = &[
     HELP,
     Command {
@@ -161,7 +161,7 @@ pub const COMMANDS: &[Command] = &[
 ];
 
 impl Command {
-    /// How it is written: `:run TIME`.
+    /// How the command is written: `:run TIME`.
     pub fn usage(&self) -> String {
         format!("{} {}", self.name, self.placeholder).trim_end().to_owned()
     }

@@ -5,11 +5,11 @@ use rhai::{AST, Dynamic};
 use super::{Reply, Session};
 use crate::script::state::watchdog::Watchdog;
 
-/// Somebody who has an input evaluated again and again, each time from the same variables.
+/// Somebody who has an input of a session evaluated again and again, each time from the same variables.
 pub trait Rounds {
-    /// Makes ready for the next round; `false` when there were enough.
+    /// Makes ready for the next round of evaluation; `false` when there were enough.
     fn begin(&mut self) -> bool;
-    /// Takes what came of a round.
+    /// Takes the value that a round of evaluation has given.
     fn end(&mut self, value: Dynamic);
 }
 
@@ -31,7 +31,7 @@ impl Rounds for Once {
 }
 
 impl Session {
-    /// Evaluates an expression that leaves nothing behind but what it does to scenes and simulations.
+    /// Evaluates an expression that leaves nothing behind in the session but what it does to scenes and simulations.
     pub fn peek(&mut self, text: &str) -> Reply {
         let mut once = Once::default();
         match self.peek_in_rounds(text, &mut once) {
@@ -41,10 +41,10 @@ impl Session {
         }
     }
 
-    /// The same in rounds: the text is read once, and variables are before each round what they were before the first.
+    /// Evaluates an expression in rounds: the text is read once, and variables are before each round what they were before the first.
     ///
     /// # Errors
-    /// What came of the round that did not work: the last one.
+    /// The reply to the round that did not work: the last one.
     pub fn peek_in_rounds(&mut self, text: &str, rounds: &mut dyn Rounds) -> Result<(), Reply> {
         let program = self.transcript.typed(text);
         let text = program.text.clone();

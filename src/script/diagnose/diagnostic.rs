@@ -7,47 +7,47 @@ use super::render::Colours;
 use crate::script::source::program::{Program, Unreadable};
 use crate::script::words::brief::brief;
 
-/// An error as it is shown to people.
+/// A diagnostic: an error as it is shown to people.
 #[derive(Clone, Debug)]
 pub struct Diagnostic {
     /// What is wrong.
     pub message: String,
     /// What to do.
     pub hint: Option<String>,
-    /// Where, if it is about a place in a script.
+    /// The place of the error, if it is about one in a script.
     pub location: Option<Location>,
-    /// The calls of script functions that led there, innermost first.
+    /// The calls of script functions that led to the error, innermost first.
     pub trace: Vec<Step>,
-    /// Whose mistake it is.
+    /// Whose mistake the error is.
     pub blame: Blame,
 }
 
 /// Whose mistake an error is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Blame {
-    /// The script, or the way it was called.
+    /// The error is a mistake in the script, or in the way it was called.
     User,
-    /// This program.
+    /// The error is a mistake of this program.
     Us,
 }
 
 /// A piece of one line of a script.
 #[derive(Clone, Debug)]
 pub struct Location {
-    /// The script it is in.
+    /// The script that the piece is in.
     pub program: Arc<Program>,
-    /// Line, from 1.
+    /// The line of the piece, from 1.
     pub line: usize,
-    /// Column in characters, from 1.
+    /// The column where the piece begins, in characters from 1.
     pub column: usize,
-    /// Length in characters.
+    /// The length of the piece in characters.
     pub length: usize,
 }
 
 /// One call on the way to an error.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Step {
-    /// What was called.
+    /// What the call has called.
     pub callee: Callee,
     /// The line of the call, if it is known.
     pub line: Option<usize>,
@@ -58,13 +58,13 @@ pub struct Step {
 /// What a call on the way to an error has called.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Callee {
-    /// A function by its name.
+    /// A function was called by its name.
     Function(String),
-    /// A function without a name.
+    /// A function without a name was called.
     Closure,
-    /// A file that was imported.
+    /// A file was imported.
     File(String),
-    /// Nothing: the line of the standard library at which the error arose.
+    /// Nothing was called: this is the line of the standard library at which the error arose.
     Library,
 }
 
@@ -80,7 +80,7 @@ impl Diagnostic {
         }
     }
 
-    /// A mistake of this program.
+    /// The diagnostic of a mistake of this program.
     pub fn bug(message: impl fmt::Display) -> Self {
         let mut diagnostic = Self::general(format!("withy has made a mistake: {message}"));
         diagnostic.hint = Some(
@@ -90,14 +90,14 @@ impl Diagnostic {
         diagnostic
     }
 
-    /// Adds what to do.
+    /// Adds to the diagnostic what to do.
     #[must_use]
     pub fn with_hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(brief(hint.into()));
         self
     }
 
-    /// What is wrong and where, in one line: for tables.
+    /// The diagnostic in one line, what is wrong and where: for tables.
     pub fn line(&self) -> String {
         let told = self.message.split_whitespace().collect::<Vec<_>>().join(" ");
         match self.location.as_ref().filter(|at| !at.program.name.is_empty()) {
@@ -106,14 +106,14 @@ impl Diagnostic {
         }
     }
 
-    /// Adds something else to do, on a line of its own.
+    /// Adds something else to do to the diagnostic, on a line of its own.
     #[must_use]
     pub fn with_another_hint(mut self, hint: &str) -> Self {
         self.hint = Some(self.hint.map_or_else(|| hint.into(), |first| format!("{first}\n{hint}")));
         self
     }
 
-    /// `file:line:column`, for tests and editors.
+    /// The place of the error as `file:line:column`, for tests and editors.
     pub fn place(&self) -> Option<String> {
         self.location.as_ref().map(|at| format!("{}:{}:{}", at.program.name, at.line, at.column))
     }

@@ -37,7 +37,7 @@ pub enum Halt {
     Undecided(Diagnostic),
     /// It was stopped from outside.
     Interrupted,
-    /// The reader of its output went away.
+    /// The run was stopped, for the reader of its output went away.
     PipeClosed,
 }
 
@@ -111,7 +111,7 @@ impl Host {
         Explainer { program, catalog: &self.catalog, engine: &self.engine }.explain(error)
     }
 
-    /// The language that is spoken.
+    /// The language that the session speaks.
     pub fn catalog(&self) -> &Catalog {
         &self.catalog
     }

@@ -34,7 +34,7 @@ struct ReadModule {
 }
 
 impl FolderResolver {
-    /// Files in a folder and below.
+    /// A resolver of modules that are files in a folder and below.
     pub fn new(folder: &Path) -> Self {
         Self {
             folder: folder.to_owned(),

@@ -17,18 +17,18 @@ use crate::script::words::checks::Checks;
 use crate::script::words::error::ScriptError;
 use crate::script::words::stop::Stop;
 
-/// How a run ended.
+/// How the run of a script ended.
 #[derive(Debug)]
 pub enum Ending {
     /// The script came to its end.
     Finished,
-    /// It is wrong.
+    /// The script is wrong.
     Failed(Diagnostic),
     /// A dry build came to a loop that waits for what a simulation finds; nothing before it is wrong.
     Undecided,
-    /// It was stopped from outside.
+    /// The run was stopped from outside.
     Interrupted,
-    /// The reader of its output went away.
+    /// The run was stopped, for the reader of its output went away.
     PipeClosed,
 }
 
@@ -43,20 +43,20 @@ impl From<Halt> for Ending {
     }
 }
 
-/// What is left after a run.
+/// What is left after the run of a script.
 #[derive(Debug)]
 pub struct Outcome {
-    /// How it ended.
+    /// How the run ended.
     pub ending: Ending,
-    /// What the script checked.
+    /// The checks that the script made.
     pub checks: Checks,
-    /// What each simulation says about itself.
+    /// What each simulation of the run says about itself.
     pub simulations: Vec<serde_json::Value>,
-    /// The files written.
+    /// The files that the run has written.
     pub files: Vec<PathBuf>,
-    /// What stopped it before its end, if something from outside or a limit did.
+    /// What stopped the run before its end, if something from outside or a limit did.
     pub stopped_by: Option<Stop>,
-    /// Finished cases of studies that another run of the same script will not repeat.
+    /// The number of finished cases of studies that another run of the same script will not repeat.
     pub kept_cases: usize,
 }
 
@@ -74,14 +74,14 @@ impl Outcome {
     }
 }
 
-/// Runs `program` in the language of `catalog`.
+/// Runs `program` in the language of `catalog`; gives what is left after the run.
 pub fn run(program: &Program, catalog: &Catalog, settings: Settings) -> Outcome {
     let limits = settings.limits;
     let run = || run_here(program, catalog, settings);
     on_large_stack(&limits, run).unwrap_or_else(Outcome::refused)
 }
 
-/// What a simulation may keep to go back to, in a script that goes back [bytes].
+/// The memory that a simulation may take for states to go back to, in a script that goes back [bytes].
 pub const SNAPSHOTS: usize = 256_000_000;
 
 /// Whether a script may go back in time: a scene pays only for what it uses. The library never does; what another imported file does is

@@ -18,7 +18,7 @@ use crate::script::studies::convergence_table::table;
 use crate::script::studies::options::ErrorOptions;
 use crate::script::words::error::ScriptError;
 
-/// Studies of convergence.
+/// The domain of studies of convergence.
 pub const TABLE: Table = Table {
     name: "convergence",
     doc: "How errors fall when the step size or the mesh is refined, for every quantity, and at which order.",

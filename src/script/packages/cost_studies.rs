@@ -16,7 +16,7 @@ use crate::script::studies::options::CostOptions;
 use crate::script::studies::plan::{patience, study_name};
 use crate::script::words::error::ScriptError;
 
-/// Costs.
+/// The domain of studies of what the features of a scene cost.
 pub const TABLE: Table = Table {
     name: "costs",
     doc: "What a step costs, and what each feature of a scene adds.",

@@ -3,7 +3,7 @@
 use super::TABLES;
 use crate::script::rows::catalog::Catalog;
 
-/// The language of withy.
+/// The language of withy: all its domains.
 pub fn language() -> Catalog {
     Catalog::of(TABLES)
 }

@@ -37,7 +37,7 @@ mod vectors;
 use crate::script::rows::table::Table;
 pub use language::language;
 
-/// All domains, in the order of the reference.
+/// The domains of the language, in the order of the reference.
 pub const TABLES: &[&Table] = &[
     &math::TABLE,
     &vectors::TABLE,

@@ -25,7 +25,7 @@ use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::format_number;
 use crate::simulation::{Configuration, History};
 
-/// Pictures and files.
+/// The domain of pictures and files.
 pub const TABLE: Table = Table {
     name: "pictures",
     doc: "Pictures are SVG or PNG by the ending of the file name, tables are CSV; all go into the output folder. Given an \
@@ -137,7 +137,7 @@ fn as_history(value: &Dynamic) -> Option<HistoryHandle> {
     value.clone().try_cast::<HistoryHandle>().or_else(|| as_simulation(value).map(whole))
 }
 
-/// Writes a picture in the format that the ending of its name asks for.
+/// Writes a picture into the output folder, in the format that the ending of its name asks for; gives nothing to the script.
 pub(super) fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic, ScriptError> {
     let file = call.text("file")?;
     let kind = PictureKind::of(Path::new(file.as_str()))?;
@@ -164,12 +164,12 @@ fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
 }
 
-/// A point as it is drawn.
+/// A point in plain numbers, as it is drawn.
 pub(super) fn plain(point: &Vec2) -> (f64, f64) {
     (point.x, point.y)
 }
 
-/// A configuration as it is drawn.
+/// A configuration as a snapshot that is drawn.
 pub(super) fn snapshot(configuration: &Configuration) -> Snapshot {
     let plain_line = |line: &Vec<Vec2>| line.iter().map(plain).collect();
     Snapshot {
@@ -294,7 +294,7 @@ fn plot_drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
     write_charts(call, histories_over_time(call)?.iter().map(chart).collect())
 }
 
-/// Writes a table, if the name of its file ends as it should.
+/// Writes a table into the output folder, if the name of its file ends as it should; gives nothing to the script.
 pub(super) fn write_csv(call: &Call, table: CsvTable) -> Result<Dynamic, ScriptError> {
     let file = call.text("file")?;
     if !file.ends_with(".csv") {

@@ -19,7 +19,7 @@ use crate::script::studies::reference::FinestRun;
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::{as_number, format_number};
 
-/// Studies of error against run time.
+/// The domain of studies of error against run time.
 pub const TABLE: Table = Table {
     name: "error against run time",
     doc: "A study runs a scene in many ways and says what they say together. withy study FILE keeps what is finished when it is \

@@ -18,7 +18,7 @@ use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
 use crate::simulation::Outline;
 
-/// Pictures of equilibria and modes.
+/// The domain of pictures of equilibria and modes.
 pub const TABLE: Table = Table {
     name: "pictures of equilibria and modes",
     doc: "Like pictures of simulations: SVG or PNG by the ending of the file name, tables as CSV, into the output folder.",

@@ -22,7 +22,7 @@ use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::suggest::nearest;
 use crate::simulation::Simulation;
 
-/// Saving and loading.
+/// The domain of saving and loading simulations.
 pub const TABLE: Table = Table {
     name: "saving",
     doc: "A simulation can be saved and loaded, also by another script, and goes on bit for bit. What a loaded scene holds is found by name.",

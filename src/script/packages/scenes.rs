@@ -24,7 +24,7 @@ use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function, method, property};
 use crate::script::words::error::{Place, ScriptError};
 
-/// Scenes and what stands in them.
+/// The domain of scenes and what stands in them.
 pub const TABLE: Table = Table {
     name: "scenes",
     doc: "A scene is a description: beams, particles, joints, masses and loads. scene.start(…) makes a simulation of it.",
@@ -132,7 +132,7 @@ pub const TABLE: Table = Table {
     ],
 };
 
-/// How examples get a beam.
+/// The lines by which examples get a beam.
 pub(super) const ROD: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });";

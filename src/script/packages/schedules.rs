@@ -22,7 +22,7 @@ use crate::script::state::context::Context;
 use crate::script::words::error::ScriptError;
 use crate::script::words::raised::Raised;
 
-/// Schedules.
+/// The domain of schedules: factors of loads over time.
 pub const TABLE: Table = Table {
     name: "schedules",
     doc: "A schedule is a factor over time that multiplies a load. Steps end where a schedule jumps or bends.",
@@ -131,7 +131,7 @@ pub const TABLE: Table = Table {
 
 /// The schedule type, for other domains.
 pub const SCHEDULE: Type = Type::of::<Schedule>();
-/// What may stand for a schedule: one, a number that is constant, or a function of time.
+/// The kinds of value that may stand for a schedule: one, a number that is constant, or a function of time.
 pub const SCHEDULE_KINDS: &[Kind] =
     &[Kind::Object(SCHEDULE), Kind::Number(Range::Finite), Kind::Function];
 
@@ -207,7 +207,7 @@ fn words(context: &Context, error: &EvalAltResult) -> String {
     Explainer { program: &program, catalog: &catalog, engine: &engine }.explain(error).line()
 }
 
-/// The schedule of a load: given in one of [`SCHEDULE_KINDS`], or always 1.
+/// The schedule of a load from the arguments of a call: given in one of [`SCHEDULE_KINDS`], or always 1.
 pub(super) fn schedule_of(
     call: &Call,
     arguments: &Arguments,

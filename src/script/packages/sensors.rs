@@ -7,6 +7,7 @@ use super::scenes::{BEAM, SCENE, STATION};
 use super::simulations::SIMULATION;
 use super::sliding::{SLIDER, SliderHandle};
 use super::statistics::map;
+use super::vectors::VECTOR;
 use crate::beams::{SectionForces, Station};
 use crate::geometry::Vec2;
 use crate::model::{Instant, ModelError, Scene, SectionSample};
@@ -17,6 +18,7 @@ use crate::script::handles::station::StationHandle;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Scripted;
 use crate::script::rows::parameter::{Parameter, callback, number, object, text};
+use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Table, method};
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::suggest::nearest;
@@ -55,7 +57,7 @@ pub const TABLE: Table = Table {
                 None => Ok(along(&simulation.section_forces_along(index)?)),
             }
         })
-        .returns("a map, or an array of maps")
+        .returns(Returns::one_of(&[ValueKind::Map, ValueKind::Array(&ValueKind::Map)]))
         .summary("Axial force, shear force and moment of a beam: at an arc length, or along all of it.")
         .doc(
             "The map holds N (positive in tension), Q (positive to the left of the axis) and M (positive counter-clockwise) [force, force, force·length], which the part of the beam that follows puts on \
@@ -78,7 +80,7 @@ pub const TABLE: Table = Table {
                 None => Ok(along(&rest.section_forces_along(index)?)),
             }
         })
-        .returns("a map, or an array of maps")
+        .returns(Returns::one_of(&[ValueKind::Map, ValueKind::Array(&ValueKind::Map)]))
         .summary("Axial force, shear force and moment of a beam at rest: at an arc length, or along all of it.")
         .doc("As those of a simulation.")
         .example(
@@ -99,13 +101,13 @@ pub const TABLE: Table = Table {
             };
             reaction.map(force_and_moment).ok_or_else(nothing)
         })
-        .returns("a map")
+        .returns(Returns::MAP)
         .summary("What the support at a station gives at the present moment: force, a vector, and moment.")
         .doc("By the equations of motion, with loads as they are just after the present.")
         .example("let sim = scene.start(#{ dt: 0.01 });\ncheck_close(sim.reaction(rod.start).force.y, 2 * 9.81 / 4, 0.02);")
         .see(&["joint_force", "section_forces", "record"]),
         method(SIMULATION, "joint_force", &[text("joint").doc("hinge1, clamp1 or rigid1: its kind, and the how-manieth of that")], joint_force)
-            .returns("a map")
+            .returns(Returns::MAP)
             .summary("What a joint gives to the station that was named first: force, a vector, and moment.")
             .doc("At the present moment, by the equations of motion. A joint with the ground is a support.")
             .example("let sim = scene.start(#{ dt: 0.01 });\ncheck(sim.joint_force(\"hinge1\").force == sim.reaction(rod.start).force);")
@@ -116,7 +118,7 @@ pub const TABLE: Table = Table {
             let now = handle.look(|simulation| simulation.instant())?;
             Ok(Dynamic::from(now.contact(slider)))
         })
-        .returns("a vector [force]")
+        .returns(Returns::object(VECTOR).unit("force"))
         .summary("The force of a slider on its master at the present moment.")
         .doc(
             "By the equations of motion, of second order like the motion. contact_force and the columns NAME.force are those of the steps: \
@@ -136,7 +138,7 @@ pub const TABLE: Table = Table {
             })?;
             Ok(Dynamic::from(acceleration))
         })
-        .returns("a vector [length/time²]")
+        .returns(Returns::object(VECTOR).unit("length/time²"))
         .summary("How a station accelerates at the present moment, by the equations of motion.")
         .example("let sim = scene.start(#{ dt: 0.01 });\ncheck(norm(sim.acceleration(rod.start)) == 0);\ncheck(sim.acceleration(rod.end).y < -9.81);")
         .see(&["velocity", "spin"]),
@@ -149,7 +151,7 @@ pub const TABLE: Table = Table {
             }
             Ok(handle.simulation().model().spin(&place).into())
         })
-        .returns("a number [1/time]")
+        .returns(Returns::NUMBER.unit("1/time"))
         .summary("The angular velocity of the section at a station, counter-clockwise.")
         .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.1);\ncheck(sim.spin(rod.end) < 0);")
         .see(&["angle", "acceleration"]),
@@ -168,7 +170,7 @@ pub const TABLE: Table = Table {
                 ("potential", energy.potential),
             ]))
         })
-        .returns("a map [energy]")
+        .returns(Returns::MAP.unit("energy"))
         .summary("The energy of a beam and of what stands on it, by kind: those of all bodies add up to that of the scene.")
         .doc("The map holds energy, kinetic, strain, axial, shear, bending and potential.")
         .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.1);\ncheck_close(sim.energies(rod).energy, sim.energy, 1e-12);")

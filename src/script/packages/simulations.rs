@@ -32,7 +32,7 @@ use crate::script::rows::table::{Row, Table, method, property};
 use crate::script::words::error::ScriptError;
 use crate::simulation::{Invariant, Recording, Settings, Simulation, SimulationError};
 
-/// Simulations.
+/// The domain of simulations.
 pub const TABLE: Table = Table {
     name: "simulations",
     doc: "A simulation is live: step it, look, step on. Everything it went through is in its history.",
@@ -154,7 +154,7 @@ pub const TABLE: Table = Table {
     ],
 };
 
-/// How examples get a simulation.
+/// The lines by which examples get a simulation.
 pub(super) const SPINNING: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s, spin: 1 });\n\
@@ -248,7 +248,7 @@ fn start(call: &mut Call) -> Result<Dynamic, ScriptError> {
     begin(call, handle, |settings| Simulation::start(scene, settings))
 }
 
-/// A simulation as the options ask for it.
+/// Starts a simulation as the options of a call ask for it.
 pub(super) fn begin(
     call: &Call,
     of: SceneHandle,
@@ -308,7 +308,7 @@ fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     followed(call, &station, simulation.model().angle(simulation.scene(), &station.station))
 }
 
-/// The angle at a station, if it was followed from the start.
+/// The angle of the section at a station [rad], if it was followed from the start.
 pub(super) fn followed(
     call: &Call,
     station: &StationHandle,

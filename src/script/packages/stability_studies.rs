@@ -16,7 +16,7 @@ use crate::script::studies::plan::patience;
 use crate::script::studies::stability::{Shown, StabilityMap, StabilityPlan};
 use crate::script::words::error::ScriptError;
 
-/// Stability maps.
+/// The domain of stability maps.
 pub const TABLE: Table = Table {
     name: "stability maps",
     doc: "What becomes of a simulation on the edge: a run for every combination of parameters, on all cores.",

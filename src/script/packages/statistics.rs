@@ -7,6 +7,7 @@ use super::simulations::SPINNING;
 use crate::script::handles::history::HistoryHandle;
 use crate::script::rows::call::Call;
 use crate::script::rows::parameter::{Parameter, Presence, number, text, whole};
+use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Table, method};
 use crate::script::words::error::ScriptError;
 use crate::simulation::{History, Peak, Series};
@@ -20,7 +21,7 @@ pub const TABLE: Table = Table {
     constants: &[],
     rows: &[
         method(HISTORY, "statistics", &[COLUMN], statistics)
-            .returns("a map")
+            .returns(Returns::MAP)
             .summary("The extremes of a column with their times, its means and its integral over time.")
             .doc("The map holds min, min_at, max, max_at, mean (over time), rms (root mean square) and integral.")
             .example(
@@ -30,7 +31,7 @@ pub const TABLE: Table = Table {
             )
             .see(&["largest", "spectrum", "crossings", "derivative"]),
         method(HISTORY, "derivative", &[COLUMN], |call| Ok(numbers(series(call)?.derivative())))
-            .returns("an array of numbers")
+            .returns(Returns::NUMBERS)
             .summary("The derivative of a column by time, for each row.")
             .doc(
                 "That of the parabola through a row and its neighbours: of second order, also where steps vary. Where two rows have one time, at a jump, \
@@ -41,12 +42,12 @@ pub const TABLE: Table = Table {
         method(HISTORY, "crossings", &[COLUMN, number("level").or(Presence::Number(0.0))], |call| {
             Ok(numbers(series(call)?.crossings(call.number("level")?)))
         })
-        .returns("an array of numbers [time]")
+        .returns(Returns::NUMBERS.unit("time"))
         .summary("When a column passes a level, up or down.")
         .example("sim.run_to(1);\ncheck_close(sim.history.crossings(\"t\", 0.25)[0], 0.25, 1e-12);")
         .see(&["statistics", "spectrum"]),
         method(HISTORY, "spectrum", &[COLUMN, whole("most").positive().or(Presence::Whole(5))], spectrum)
-            .returns("an array of maps")
+            .returns(Returns::array_of(&ValueKind::Map))
             .summary("The strongest vibrations in a column, the strongest first: frequency and amplitude of each.")
             .doc(
                 "The frequency is in periods a unit of time; the circular one is 2π times as much. The mean is no vibration. Rows must be evenly spaced: with \

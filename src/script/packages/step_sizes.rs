@@ -10,7 +10,7 @@ use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
 use crate::simulation::{StepControl, StepSize};
 
-/// Step sizes.
+/// The domain of step sizes.
 pub const TABLE: Table = Table {
     name: "step sizes",
     doc: "A scene is started with a step size, dt: 0.1, or with a tolerance, dt: adaptive(#{ tolerance: 1e-4 }).",

@@ -10,7 +10,7 @@ use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::{format_fixed, format_scientific};
 
-/// Formats for numbers.
+/// The domain of formats for numbers.
 pub const TABLE: Table = Table {
     name: "text",
     doc: "Numbers print with as many digits as they need: 0.05, 3, 1e-12. These functions choose the digits, and \

@@ -31,7 +31,7 @@ pub fn thrown(call: &Call, error: &EvalAltResult) -> Option<String> {
     }
 }
 
-/// A case from a scene, or from a map of the scene and how it is simulated; what it leaves open is taken from the values of
+/// A case of a study from a scene, or from a map of the scene and how it is simulated; what it leaves open is taken from the values of
 /// the cell, then from the options of the study.
 pub fn case(
     call: &Call,

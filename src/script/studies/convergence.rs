@@ -97,7 +97,7 @@ fn write(call: &Call, study: &Convergence) -> Result<(), ScriptError> {
     Ok(())
 }
 
-/// What sizes are sizes of.
+/// What the sizes of the study are sizes of: steps or meshes.
 pub(super) fn size_name(study: &Convergence) -> &'static str {
     match study.refined {
         Refined::Step => "dt",
@@ -133,7 +133,7 @@ fn records(study: &Convergence) -> CsvRecords {
     }
 }
 
-/// A ladder as a map of a script.
+/// The errors of one quantity as a map of a script.
 pub fn map_of(study: &Convergence, ladder: &Ladder) -> Map {
     let array = |values: Vec<f64>| -> Dynamic {
         values.into_iter().map(Dynamic::from).collect::<rhai::Array>().into()
@@ -153,7 +153,7 @@ pub fn map_of(study: &Convergence, ladder: &Ladder) -> Map {
     facts.into_iter().map(|(name, value)| (name.into(), value)).collect()
 }
 
-/// Whether a study has a quantity; the names that there are where not.
+/// Refuses a quantity that the study has not, with the names that there are.
 pub fn expect_quantity(
     call: &Call,
     study: &Convergence,
@@ -167,7 +167,7 @@ pub fn expect_quantity(
     Err(call.error(told).hint(format!("quantities: {}", known.join(", "))))
 }
 
-/// The ladder of a quantity with an integrator; none in a dry build, which has not seen all quantities.
+/// The errors of a quantity with an integrator; none in a dry build, which has not seen all quantities.
 ///
 /// # Errors
 /// When the study has no such quantity or integrator; they name those that there are.

@@ -23,18 +23,18 @@ const PLAIN: [&str; 2] = ["the scene alone", "the same again"];
 /// Times of the same work that differ by more than this factor cast doubt on all ratios.
 const TRUSTED_RATIO: f64 = 1.1;
 
-/// How the steps of all rows are taken, unless a row is about that.
+/// How the steps of all rows of a study of costs are taken, unless a row is about that.
 #[derive(Clone, Copy)]
 pub struct Way {
-    /// The integrator.
+    /// The integrator of the study's steps.
     pub method: Method,
-    /// [time]
+    /// The step size of the study [time].
     pub dt: f64,
-    /// How many.
+    /// The number of steps of each run of the study.
     pub steps: usize,
 }
 
-/// What the features of a scene cost.
+/// A table of what the features of a scene cost.
 #[derive(Clone)]
 pub struct CostTable {
     name: String,
@@ -113,7 +113,7 @@ pub fn cases(call: &Call, options: &CostOptions, way: Way) -> Result<Vec<CostCas
 }
 
 impl CostTable {
-    /// The table of some costs, that of the scene alone first.
+    /// The table of some costs of steps, that of the scene alone first.
     pub fn new(name: String, costs: Vec<StepCost>) -> Self {
         Self { name, costs }
     }
@@ -129,7 +129,7 @@ impl CostTable {
         cost.shortest.as_secs_f64() / alone
     }
 
-    /// A map for each row.
+    /// The rows of the study as maps of a script.
     pub fn rows(&self) -> Vec<Map> {
         let row = |cost: &StepCost| {
             let whole = |count: usize| Dynamic::from(count as rhai::INT);
@@ -151,7 +151,7 @@ impl CostTable {
         self.costs.iter().map(row).collect()
     }
 
-    /// The table as text.
+    /// The table of the study as text.
     pub fn text(&self) -> String {
         let heads = [
             "feature",
@@ -214,7 +214,7 @@ impl CostTable {
         })
     }
 
-    /// The table for other programs.
+    /// The table of the study for other programs.
     pub fn records(&self) -> CsvRecords {
         let rows = self.rows();
         let names = [
@@ -241,7 +241,7 @@ impl CostTable {
         }
     }
 
-    /// The times as bars, the scene alone marked.
+    /// The times of the study as bars, the scene alone marked.
     pub fn chart(&self) -> BarChart {
         let micro = |cost: &StepCost| cost.shortest.as_secs_f64() * 1e6;
         let empty =

@@ -18,26 +18,26 @@ use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::{as_number, format_number};
 use crate::simulation::{History, Settings, StepSize};
 
-/// Everything a study needs but its reference.
+/// The plan of a study of errors: everything that it needs but its reference.
 pub struct Plan {
     /// The name of the study and of its files.
     pub name: String,
-    /// A scene for each mesh.
+    /// A scene for each mesh of the study.
     pub subjects: Vec<Subject>,
-    /// The integrators.
+    /// The integrators of the study.
     pub methods: Vec<Method>,
-    /// The step sizes.
+    /// The step sizes of the study.
     pub dts: Vec<StepSize>,
-    /// When results are compared, in order [time].
+    /// The times at which results are compared, in order [time].
     pub times: Vec<f64>,
-    /// What errors of positions are relative to [length].
+    /// The length that errors of positions are relative to [length].
     pub length: f64,
-    /// What a case may take.
+    /// How much a case of the study may take.
     pub patience: Patience,
 }
 
 impl Plan {
-    /// Reads the options that all studies of errors have. Every scene is made, and the first is built, so that mistakes show
+    /// Reads the options that all studies of errors have into a plan. Every scene is made, and the first is built, so that mistakes show
     /// before anything runs.
     pub fn read(call: &Call, options: &ErrorOptions) -> Result<Self, ScriptError> {
         let name = study_name(call, &options.name)?;
@@ -69,12 +69,12 @@ impl Plan {
         Ok(Self { name, subjects, methods, dts, times, length, patience })
     }
 
-    /// The settings for an integrator and a step size.
+    /// The settings of a run with an integrator and a step size.
     pub fn settings(method: Method, dt: StepSize) -> Settings {
         Settings { method, dt, tolerance: Tolerance::default() }
     }
 
-    /// All integrators with all step sizes.
+    /// The settings of all integrators of the study with all its step sizes.
     pub fn all_settings(&self) -> Vec<Settings> {
         let with = |method: &Method| {
             let method = *method;
@@ -83,12 +83,12 @@ impl Plan {
         self.methods.iter().flat_map(with).collect()
     }
 
-    /// What is looked at.
+    /// The observables that the study looks at.
     pub fn observables(&self) -> &[Observable] {
         &self.subjects[0].observables
     }
 
-    /// The history of a run that has just begun, for its columns; the scene is built for it.
+    /// The history of a run of the study that has just begun, for its columns; the scene is built for it.
     pub fn history(&self) -> Result<History, ScriptError> {
         let (scene, stops) = (self.subjects[0].scene.clone(), self.times.clone());
         let case = Case { scene, settings: self.all_settings()[0], stops };
@@ -97,7 +97,7 @@ impl Plan {
         Ok(built.history().clone())
     }
 
-    /// Looks at more than stations: at columns of the history. Those that a table of solutions has are meant by its names: the
+    /// Makes the study look at more than stations: at columns of the history. Those that a table of solutions has are meant by its names: the
     /// symbols E, KE, SE, px, py and Lz, names of columns, or what `given` says they are. Without a table all columns are.
     pub fn add_columns(
         &mut self,
@@ -185,7 +185,7 @@ fn expect_all_different<T: PartialEq>(
     })
 }
 
-/// An error about an option.
+/// An error of a call about one of its options.
 pub fn at_key(
     call: &Call,
     key: &str,
@@ -214,7 +214,7 @@ fn all_of<T: Clone + 'static>(
     }
 }
 
-/// What a case may take: so many seconds, and no more steps than the whole run may take.
+/// How much a case of a study may take: so many seconds, and no more steps than the whole run may take.
 pub fn patience(call: &Call, seconds: f64) -> Patience {
     let steps = call.context().meter().limits().steps;
     Patience {
@@ -319,7 +319,7 @@ fn usual_stations(scene: &Scene) -> Vec<(String, Station)> {
     ends.chain(particles).collect()
 }
 
-/// Whether other scenes have the stations of the first one; their columns are not looked for yet.
+/// Refuses other scenes of a study without the stations of the first one; their columns are not looked for yet.
 pub fn expect_same_observables(
     call: &Call,
     first: &Subject,

@@ -18,14 +18,14 @@ use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::format_number;
 use crate::simulation::{StepControl, StepSize};
 
-/// A run of our own as a reference, as far as the script says how it is made.
+/// A reference that is a run of our own, as far as the script says how it is made.
 #[derive(Clone, Default)]
 pub struct FinestRun {
-    /// What the function of the study makes the scene of; the finest mesh of the study unless given.
+    /// The mesh of the reference run, from which the function of the study makes the scene; the finest mesh of the study unless given.
     pub mesh: Option<Dynamic>,
-    /// A quarter of the smallest step size of the study unless given [time].
+    /// The step size of the reference run [time]; a quarter of the smallest step size of the study unless given.
     pub dt: Option<f64>,
-    /// That of the highest order in the study unless given.
+    /// The integrator of the reference run; that of the highest order in the study unless given.
     pub method: Option<Method>,
 }
 
@@ -71,11 +71,11 @@ fn doubled(dt: StepSize) -> StepSize {
     }
 }
 
-/// What results are compared with, before anything runs.
+/// The reference of a study, before anything runs.
 pub enum Reference {
-    /// A table of an independent solution, and the name of its file.
+    /// The reference is a table of an independent solution, from a file of this name.
     Table(String, Sheet),
-    /// A run of our own: what is told of it, its case, and the same with twice the step, which shows how well it is known.
+    /// The reference is a run of our own: what is told of it, its case, and the same with twice the step, which shows how well it is known.
     /// Where all runs of the study have its very settings, errors in time are common to all, and there is no second one.
     OwnRun(String, Vec<Case>),
 }
@@ -253,7 +253,7 @@ impl Reference {
         }
     }
 
-    /// Runs all cases, and those of the reference with them: what each showed, and what it should have.
+    /// Runs all cases of a study, and those of the reference with them: what each showed, and what it should have.
     pub fn trials(
         &self,
         call: &Call,

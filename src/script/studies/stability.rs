@@ -23,19 +23,19 @@ const RESULTS: [&str; 7] =
 /// Maps beside each other on a page.
 const ABREAST: usize = 2;
 
-/// What colours the cells.
+/// What colours the cells of a stability map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shown {
-    /// The largest relative growth of the energy.
+    /// The largest relative growth of the energy colours the cells.
     EnergyGrowth,
-    /// Newton iterations of a step, on average.
+    /// The Newton iterations of a step, on average, colour the cells.
     Iterations,
-    /// Failed tries.
+    /// The failed tries of steps colour the cells.
     Retries,
 }
 
 impl Shown {
-    /// All of them, by their names in scripts.
+    /// All that may colour the cells, by their names in scripts.
     pub const ALL: [(&'static str, Self); 3] = [
         ("energy growth", Self::EnergyGrowth),
         ("iterations", Self::Iterations),
@@ -61,20 +61,20 @@ impl Shown {
     }
 }
 
-/// What is studied: maps of rows and columns of cells.
+/// The plan of a stability study: maps of rows and columns of cells.
 #[derive(Clone, Debug)]
 pub struct StabilityPlan {
     /// The name of the study and of its files.
     pub name: String,
-    /// One map for each value.
+    /// The swept parameter with one map for each value.
     pub maps: Swept,
-    /// From above.
+    /// The swept parameter of the rows of a map, from above.
     pub rows: Swept,
-    /// From the left.
+    /// The swept parameter of the columns of a map, from the left.
     pub columns: Swept,
 }
 
-/// A plan with what became of its cells.
+/// A stability map: a plan with what became of its cells.
 #[derive(Clone, Debug)]
 pub struct StabilityMap {
     plan: StabilityPlan,
@@ -136,7 +136,7 @@ impl StabilityPlan {
         axes.map(|(of, at)| (of.name.as_str(), of.labels[at].as_str())).collect()
     }
 
-    /// The run of each cell, from what the function of the script gives for its values, or what it throws.
+    /// The run of each cell of the plan, from what the function of the script gives for its values, or what it throws.
     ///
     /// # Errors
     /// When it gives something wrong, fails otherwise, or throws at every cell: then it is the function that is wrong.
@@ -167,7 +167,7 @@ impl StabilityPlan {
         }
     }
 
-    /// The study with its results.
+    /// The stability map of the plan with the verdicts on its cells.
     pub fn judged(self, shown: Shown, verdicts: Vec<Verdict>) -> StabilityMap {
         StabilityMap { plan: self, shown, verdicts }
     }
@@ -178,7 +178,7 @@ impl StabilityMap {
         self.plan.cells().zip(&self.verdicts)
     }
 
-    /// How many cells there are, and how many came to their end.
+    /// How many cells the map has, and how many came to their end.
     pub fn counts(&self) -> (usize, usize) {
         let finished = self.verdicts.iter().filter(|verdict| verdict.outcome.is_finished());
         (self.verdicts.len(), finished.count())
@@ -189,7 +189,7 @@ impl StabilityMap {
         &self.plan.name
     }
 
-    /// A map for each cell: its values, and what became of it.
+    /// The cells of the map as maps of a script: the values, and what became of each.
     pub fn cells(&self) -> Vec<Map> {
         let cell = |(at, verdict): ([usize; 3], &Verdict)| {
             let mut cell = self.plan.values(at);
@@ -275,14 +275,14 @@ impl StabilityMap {
         format!("{} {}{halved}", self.coloured(verdict), significant(verdict.mean_iterations, 2))
     }
 
-    /// All maps on one page.
+    /// All maps of the study on one page.
     pub fn page(&self) -> Page {
         let maps = self.heat_maps(Self::in_lines);
         let page = Page::grid(ABREAST.min(maps.len()));
         maps.into_iter().fold(page.title(&self.plan.name), Page::panel)
     }
 
-    /// The maps as text, and why cells did not come to their end.
+    /// The maps of the study as text, and why cells did not come to their end.
     pub fn text(&self) -> String {
         let style =
             Style { glyphs: Glyphs::Braille, colours: Colours::None, width: WIDTH, height: 1 };
@@ -312,7 +312,7 @@ impl StabilityMap {
         text
     }
 
-    /// All cells as a table for other programs.
+    /// All cells of the study as a table for other programs.
     pub fn records(&self) -> CsvRecords {
         let numbers = ["energy growth", "mean iterations", "most iterations", "retries", "steps"];
         let first = self.plan.labels([0; 3]);

@@ -85,6 +85,7 @@ fn on_model(error: &ModelError) -> Option<String> {
         ModelError::Empty { .. } => {
             "add one with scene.beam(#{ axis: …, section: … }) or scene.particle([x, y], mass)"
         }
+        ModelError::NoSection { .. } => "give a station of a beam",
         ModelError::StationOutside { .. } => "use beam.end for its end",
         ModelError::ParticleTurned { by, .. } => match by {
             Turning::RigidJoint => "use scene.hinge(…), or scene.mass(…) on the beam",
@@ -117,6 +118,7 @@ fn on_archive(error: &ArchiveError) -> Option<String> {
         ArchiveError::Function { .. } => {
             "use hold_for, ramp, pulse, smooth_pulse, sine or table, or sums and products of them"
         }
+        ArchiveError::Sensor { .. } => "record ready quantities such as \"rod.end.x\"",
         ArchiveError::Foreign => "files of simulations are those that sim.save(…) has written",
         ArchiveError::Content { .. } => {
             "it was not written by sim.save(…), or by a withy with a mistake"

@@ -2,14 +2,14 @@
 
 use super::{languages, mechanics};
 
-/// Some names that mean the same elsewhere.
+/// Some names that mean the same in other programs and languages, and what is written here.
 #[derive(Debug, PartialEq)]
 pub struct Elsewhere {
-    /// The names.
+    /// The names of other programs.
     pub words: &'static [&'static str],
-    /// What is written here.
+    /// What is written here in the place of these names.
     pub cure: &'static str,
-    /// Names that have help on it.
+    /// The names of this language that have help on it.
     pub see: &'static [&'static str],
 }
 
@@ -22,13 +22,13 @@ pub fn find(name: &str) -> Option<&'static Elsewhere> {
     })
 }
 
-/// The same, where capital letters count.
+/// What is written here for a name of other programs, where capital letters count.
 pub fn find_exactly(name: &str) -> Option<&'static Elsewhere> {
     all().find(|entry| entry.words.contains(&name))
 }
 
 impl Elsewhere {
-    /// What is written here, and which names have help on it.
+    /// What is written here in the place of the names, and which names have help on it.
     pub fn told(&self) -> String {
         match self.see {
             [] => self.cure.to_owned(),

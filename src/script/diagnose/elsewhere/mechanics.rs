@@ -2,7 +2,7 @@
 
 use super::entry::{Elsewhere, entry};
 
-/// Words of mechanics.
+/// The words of other programs for mechanics.
 pub const WORDS: &[Elsewhere] = &[
     entry(
         &[

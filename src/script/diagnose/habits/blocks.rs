@@ -5,7 +5,7 @@ use rhai::ParseErrorType;
 use super::cure::{Cure, Habit};
 use super::spot::Spot;
 
-/// Conditions and loops.
+/// Habits of other languages in conditions and loops.
 pub const HABITS: &[Habit] =
     &[else_if, word_operator, counting_loop, colon, body, handler, case, end];
 

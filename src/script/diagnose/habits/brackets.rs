@@ -5,7 +5,7 @@ use rhai::ParseErrorType;
 use super::cure::{Cure, Habit};
 use super::spot::Spot;
 
-/// Brackets.
+/// Habits of other languages with brackets.
 pub const HABITS: &[Habit] = &[map_without_sign, assigned_key, unclosed];
 
 /// `{ EA: 1e4 }`.

@@ -7,13 +7,13 @@ use super::{blocks, brackets, declarations, expressions, signs};
 use crate::script::rows::catalog::Catalog;
 use crate::script::source::program::Program;
 
-/// What is wrong, what to write, and where it stands.
+/// The cure for a habit of other languages: what is wrong, what to write, and where it stands.
 pub struct Cure {
     /// What is wrong.
     pub message: String,
-    /// What to write.
+    /// What to write in the source instead.
     pub hint: String,
-    /// The word that is to blame.
+    /// The place of the word that is to blame.
     pub at: Position,
 }
 

@@ -6,7 +6,7 @@ use super::cure::{Cure, Habit};
 use super::spot::Spot;
 use crate::script::words::suggest::nearest;
 
-/// Declarations.
+/// Habits of other languages in declarations.
 pub const HABITS: &[Habit] = &[
     function,
     function_body,

@@ -6,7 +6,7 @@ use super::cure::{Cure, Habit};
 use super::spot::Spot;
 use crate::script::rows::table::Form;
 
-/// Values.
+/// Habits of other languages in values.
 pub const HABITS: &[Habit] = &[
     choice,
     whole_division,

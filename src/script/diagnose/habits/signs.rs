@@ -5,7 +5,7 @@ use rhai::{LexError, ParseErrorType};
 use super::cure::{Cure, Habit};
 use super::spot::Spot;
 
-/// Signs and quotes.
+/// Habits of other languages with signs and quotes.
 pub const HABITS: &[Habit] = &[comment, sign, dotted_operator, quotes, formatted_text];
 
 /// `# …` and, where a statement begins, `% …`.
