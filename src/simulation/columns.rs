@@ -83,11 +83,15 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
     };
     let sums = OF_SPRINGS.map(|(entry, energy)| column(entry.to_owned(), energy));
     let sums = sums.into_iter().filter(|_| scene.springs().next().is_some());
+    let sensors = scene.sensors.iter();
+    let sensors = sensors
+        .map(|sensor| ExtraColumn { name: sensor.name.clone(), dimension: sensor.dimension() });
     let of_sliders = scene.sliders.iter().flat_map(of_slider);
-    of_sliders.chain(sums).chain(scene.springs().flat_map(of_spring)).collect()
+    let of_springs = scene.springs().flat_map(of_spring);
+    of_sliders.chain(sums).chain(of_springs).chain(sensors).collect()
 }
 
-/// The values of the columns that a scene adds, at the present state of the model, in the same order.
+/// The values of those of the sliders at the present state of the model, in the same order.
 pub(super) fn extra_values(model: &Model) -> impl Iterator<Item = f64> {
     let of_sliders = (0..model.slider_names().count()).flat_map(|slider| {
         let force = model.contact_force(slider);

@@ -115,6 +115,18 @@ impl History {
         self.extra.truncate(rows * self.extra_columns.len());
     }
 
+    /// How many columns it has besides those of every history.
+    pub(super) fn extra_width(&self) -> usize {
+        self.extra_columns.len()
+    }
+
+    /// Fills in one of the extra columns of the last row, by its number among these.
+    pub(super) fn fill_in(&mut self, column: usize, value: f64) {
+        if let Some(first) = self.extra.len().checked_sub(self.extra_columns.len()) {
+            self.extra[first + column] = value;
+        }
+    }
+
     /// The values of the extra columns of the history, row after row.
     pub(super) fn extra_values(&self) -> &[f64] {
         &self.extra

@@ -95,7 +95,7 @@ impl Simulation {
         };
         let pace = adaptive.as_ref().map(|adaptive| adaptive.controller.start());
         Ok(Self {
-            record: Record::new(&scene, &mut model),
+            record: Record::new(&scene, &mut model)?,
             clock: Clock::new(grid, pace),
             scene,
             settings,

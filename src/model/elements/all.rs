@@ -113,6 +113,17 @@ impl Elements {
         self.masses.iter().for_each(|mass| *sum += mass.momenta(bodies, rates));
     }
 
+    /// Twice the kinetic energy of the masses on a body [energy].
+    pub fn twice_kinetic_on(&self, bodies: &[Body], body: usize, rates: &[f64]) -> f64 {
+        let on_body = self.masses.iter().filter(|mass| mass.place.body == body);
+        on_body.map(|mass| mass.momenta(bodies, rates).twice_kinetic).sum()
+    }
+
+    /// The potential of the weight of a body and what stands on it [energy].
+    pub fn potential_of(&self, bodies: &[Body], body: usize) -> f64 {
+        self.weight.as_ref().map_or(0.0, |weight| weight.energy_of(bodies, body))
+    }
+
     /// Subtracts the forces of all elements in an iterate; gives the largest force and the largest moment of an element on a control point.
     pub fn subtract_from(&mut self, at: Iterate<'_>, out: &mut [f64]) -> (f64, f64) {
         let weight = self.weight.iter_mut().map(|weight| weight as &mut dyn ForceElement);
@@ -173,6 +184,18 @@ impl Elements {
     /// What dampers have dissipated since the start [energy].
     pub fn dissipated(&self) -> f64 {
         self.resistances().map(Resistance::dissipated).fold(0.0, |sum, dissipated| sum + dissipated)
+    }
+
+    /// The forces in springs and dampers at the start of the step with such rates of the unknowns [force, force·length].
+    pub fn resisting(&self, bodies: &[Body], rates: &[f64]) -> Vec<f64> {
+        self.resistances().map(|resistance| resistance.force_now(bodies, rates)).collect()
+    }
+
+    /// Adds such forces in springs and dampers to those on bodies, at the start of the step.
+    pub fn add_resisting(&self, bodies: &[Body], forces: &[f64], out: &mut [f64]) {
+        for (resistance, force) in self.resistances().zip(forces) {
+            resistance.add_force(bodies, *force, out);
+        }
     }
 
     /// Gives how springs resist small movements at rest: degrees of freedom, and their rows.

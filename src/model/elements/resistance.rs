@@ -57,6 +57,12 @@ pub trait Resistance {
     /// What it measures at the start of the step: a length [length] or an angle [rad].
     fn elongation(&self) -> f64;
 
+    /// The force in it, or the moment, at the start of the step with such rates of the unknowns [force, force·length].
+    fn force_now(&self, bodies: &[Body], rates: &[f64]) -> f64;
+
+    /// Adds a force in it to those on bodies, at the start of the step.
+    fn add_force(&self, bodies: &[Body], force: f64, out: &mut [f64]);
+
     /// Gives how it resists small movements at rest: degrees of freedom, and its rows.
     fn at_rest(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanAtRest));
 

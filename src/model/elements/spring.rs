@@ -8,7 +8,7 @@ use super::restoring::RestoringLaw;
 use super::spring_damper::SpringDamper;
 use crate::beams::Station;
 use crate::geometry::Vec2;
-use crate::model::ModelError;
+use crate::model::{ModelError, Turning};
 
 /// Where a spring is attached.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -77,8 +77,8 @@ impl Description for Spring {
         for station in self.stations() {
             setting.check_station("a spring", station)?;
             if matches!(self.kind, SpringKind::Torsion(_)) && station.beam().is_none() {
-                let advice = "put a torsion spring between sections of beams";
-                return Err(ModelError::ParticleTurned { object: self.object(), advice });
+                let by = Turning::TorsionSpring;
+                return Err(ModelError::ParticleTurned { object: self.object(), by });
             }
         }
         for anchor in self.anchors() {

@@ -329,6 +329,19 @@ impl Resistance for SpringDamper {
         self.elongation.value()
     }
 
+    fn force_now(&self, bodies: &[Body], rates: &[f64]) -> f64 {
+        let mut elongation = self.elongation.clone();
+        elongation.rest();
+        let rate = elongation.along(&elongation.slope, bodies, rates);
+        self.restoring_at_start() + self.damping * rate
+    }
+
+    fn add_force(&self, bodies: &[Body], force: f64, out: &mut [f64]) {
+        let mut elongation = self.elongation.clone();
+        elongation.rest();
+        self.scatter(bodies, &elongation.slope, force, out);
+    }
+
     fn at_rest(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanAtRest)) {
         let Some(law) = &self.law else { return };
         let mut elongation = self.elongation.clone();

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::stored::StoredScene;
 use super::ties::check_ties;
-use super::{BeamDefinition, ParticleDefinition, StationVelocity};
+use super::{BeamDefinition, ParticleDefinition, Sensor, StationVelocity};
 use crate::beams::{BodyIndex, Mesh, Place, Station};
 use crate::geometry::Vec2;
 use crate::joints::{Joint, JointKind, Partner, Slider};
@@ -35,6 +35,8 @@ pub struct Scene {
     pub elements: Vec<Element>,
     /// The acceleration of free fall [length/time²].
     pub gravity: Vec2,
+    /// Quantities that are recorded besides those that every history has.
+    pub sensors: Vec<Sensor>,
 }
 
 impl Scene {
@@ -119,6 +121,7 @@ impl Scene {
             velocities: Vec::new(),
             elements: Vec::new(),
             gravity: Vec2::zeros(),
+            sensors: Vec::new(),
         }
     }
 

@@ -115,7 +115,8 @@ fn drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(drift.ok_or_else(|| history.no_rows(call))?.into())
 }
 
-fn column(
+/// A column of the history that is called, by the name that is given.
+pub(super) fn column(
     call: &Call,
     read: fn(&History, &str) -> Option<Vec<f64>>,
 ) -> Result<Vec<f64>, ScriptError> {

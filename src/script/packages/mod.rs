@@ -24,10 +24,12 @@ mod saving;
 mod scenes;
 mod schedules;
 mod sections;
+mod sensors;
 mod simulations;
 mod sliding;
 mod springs;
 mod stability_studies;
+mod statistics;
 mod step_sizes;
 mod text;
 mod time_travel;
@@ -58,10 +60,12 @@ pub const TABLES: &[&Table] = &[
     &simulations::TABLE,
     &notes::TABLE,
     &recording::TABLE,
+    &sensors::TABLE,
     &time_travel::TABLE,
     &saving::TABLE,
     &sliding::TABLE,
     &histories::TABLE,
+    &statistics::TABLE,
     &explaining::TABLE,
     &pictures::TABLE,
     &rest_pictures::TABLE,

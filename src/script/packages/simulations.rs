@@ -270,7 +270,9 @@ pub(super) fn begin(
     let printing =
         options.text_if_given("notes")?.map(|word| meant(&PRINTING, &word)).unwrap_or_default();
     let notes = Notes::new(printing);
-    Ok(Dynamic::from(SimulationHandle::new(simulation, of, name, notes, call.context())))
+    let started = SimulationHandle::new(simulation, of, name, notes, call.context());
+    started.sense()?;
+    Ok(Dynamic::from(started))
 }
 
 fn measures(handle: &SimulationHandle) -> Measures {
