@@ -3,6 +3,8 @@
 //! ```text
 //! chart, heat_map, bars, motion → page → frame, hatching, legend, timebar → axis, curve, stroke, marker → canvas → figure → svg, png → files
 //! chart, heat_map → terminal → axis, curve
+//! motion → animation → figure
+//! viewer (a page for browsers) → canvas, colour
 //! ```
 //!
 //! Pictures look the same on every machine: text is drawn from an embedded font, and equal data gives equal bytes.
@@ -35,6 +37,7 @@ mod svg;
 mod table;
 mod terminal;
 mod timebar;
+pub mod viewer;
 
 #[cfg(test)]
 mod samples;

@@ -30,6 +30,7 @@ mod step_sizes;
 mod text;
 mod time_travel;
 mod vectors;
+mod viewers;
 
 use crate::script::rows::catalog::Catalog;
 use crate::script::rows::table::Table;
@@ -62,6 +63,7 @@ pub const TABLES: &[&Table] = &[
     &explaining::TABLE,
     &pictures::TABLE,
     &rest_pictures::TABLE,
+    &viewers::TABLE,
     &stability_studies::TABLE,
     &cost_studies::TABLE,
     &precision_studies::TABLE,
