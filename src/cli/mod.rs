@@ -12,6 +12,8 @@ mod limits;
 mod run;
 mod say;
 mod session;
+mod view;
+mod view_options;
 mod watching;
 
 use std::io::{ErrorKind, Write, stdout};
@@ -50,6 +52,7 @@ pub fn main() -> ExitCode {
         Some(Command::Run(options)) => run::run(&options),
         Some(Command::Study(options)) => run::study(&options),
         Some(Command::Check(options)) => run::check(&options),
+        Some(Command::View(options)) => view::view(&options),
         Some(Command::Repl(options)) => session::open(&options),
         Some(Command::Docs(options)) => docs::docs(&options),
         Some(Command::Learn(options)) => learn::learn(&options),

@@ -11,6 +11,7 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+mod animation;
 mod axis;
 mod bars;
 mod canvas;
@@ -42,6 +43,7 @@ pub mod viewer;
 #[cfg(test)]
 mod samples;
 
+pub use animation::Animation;
 pub use axis::{DEFAULT_FLOOR, Scale};
 pub use bars::BarChart;
 pub use canvas::{Align, Area, Canvas, Direction, Point, Shape, Text};

@@ -7,7 +7,7 @@ use super::packing::{FINEST, Scale, pack};
 use super::thinning::rows_to_keep;
 use crate::output::OutputError;
 use crate::output::canvas::Point;
-use crate::output::colour::{HUE_COUNT, hue};
+use crate::output::colour::{Colour, HUE_COUNT, hue};
 
 const TEMPLATE: &str = include_str!("page/template.html");
 const STYLE: &str = include_str!("page/style.css");
@@ -47,23 +47,26 @@ impl Viewer {
     /// When the films cannot be packed.
     pub fn to_html(&self) -> Result<String, OutputError> {
         let films = self.films.iter().map(packed_film).collect::<Result<Vec<_>, _>>()?;
-        let hues: Vec<String> = (0..HUE_COUNT)
+        let hues: Vec<[u8; 3]> = (0..HUE_COUNT)
             .map(|index| {
-                let colour = hue(index);
-                format!("rgb({}, {}, {})", colour.0, colour.1, colour.2)
+                let Colour(red, green, blue) = hue(index);
+                [red, green, blue]
             })
             .collect();
         let data = json!({ "title": self.title, "hues": hues, "films": films });
         // Within a script element nothing but a `<` could end the data.
         let data = data.to_string().replace('<', "\\u003c");
         let title = escaped(&self.title);
-        Ok(filled(TEMPLATE, &[
-            ("{{title}}", &title),
-            ("{{style}}", STYLE.trim_end()),
-            ("{{title}}", &title),
-            ("{{data}}", &data),
-            ("{{program}}", PROGRAMS.join("\n").trim_end()),
-        ]))
+        Ok(filled(
+            TEMPLATE,
+            &[
+                ("{{title}}", &title),
+                ("{{style}}", STYLE.trim_end()),
+                ("{{title}}", &title),
+                ("{{data}}", &data),
+                ("{{program}}", PROGRAMS.join("\n").trim_end()),
+            ],
+        ))
     }
 }
 
@@ -97,7 +100,8 @@ fn escaped(text: &str) -> String {
 fn packed_film(film: &Film) -> Result<Value, OutputError> {
     let mut shapes: Vec<Value> = Vec::new();
     let beams: Vec<Value> = film.beams.iter().map(|beam| packed_beam(beam, &mut shapes)).collect();
-    let particle = |particle: &super::Particle| json!({ "name": particle.name, "at": place(&particle.at, 0) });
+    let particle =
+        |particle: &super::Particle| json!({ "name": particle.name, "at": place(&particle.at, 0) });
     let symbol = |symbol: &super::Symbol| {
         let kind = match symbol.kind {
             SymbolKind::Support => "support",
@@ -151,7 +155,8 @@ fn place(place: &Place, from: usize) -> Value {
 
 /// The coordinates of all points, with the same step along both axes.
 fn packed_points(film: &Film) -> Result<(Value, Value), OutputError> {
-    let along = |pick: fn(&Point) -> f64| Scale::over(film.points.iter().flatten().map(pick), FINEST);
+    let along =
+        |pick: fn(&Point) -> f64| Scale::over(film.points.iter().flatten().map(pick), FINEST);
     let (x, y) = (along(|point| point.0), along(|point| point.1));
     let step = x.step.max(y.step);
     let shape = (film.points.first().map_or(0, Vec::len), film.points.len());
@@ -171,7 +176,7 @@ fn packed_arrows(arrows: &[Arrow], frames: usize) -> Result<Value, OutputError> 
     let sizes = arrows.iter().map(|arrow| largest(arrow.kind)).collect::<Vec<_>>();
     let value = |number: usize, frame: usize| {
         let (x, y) = arrows[number / 2].values[frame];
-        (if number % 2 == 0 { x } else { y }) / sizes[number / 2]
+        [x, y][number % 2] / sizes[number / 2]
     };
     let scale = Scale { origin: -1.0, step: 2.0 / f64::from(LOAD_STEPS - 1) };
     let arrow = |arrow: &Arrow| {
@@ -200,7 +205,9 @@ fn packed_history(film: &Film) -> Result<Value, OutputError> {
     let kept = rows_to_keep(film.rows.len(), &columns);
     let column = |column: &Column| {
         let values = || kept.iter().map(|row| column.values[*row]);
-        let packed = pack(Scale::over(values(), FINEST), (1, kept.len()), |_, row| column.values[kept[row]])?;
+        let packed = pack(Scale::over(values(), FINEST), (1, kept.len()), |_, row| {
+            column.values[kept[row]]
+        })?;
         Ok(json!({ "name": column.name, "unit": column.unit, "values": packed }))
     };
     let times: Vec<f64> = kept.iter().map(|row| film.rows[*row]).collect();

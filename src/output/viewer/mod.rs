@@ -13,4 +13,6 @@ mod packing;
 mod thinning;
 
 pub use document::Viewer;
-pub use film::{Arrow, ArrowKind, Beam, Column, Field, Film, Particle, Place, Symbol, SymbolKind, Trail};
+pub use film::{
+    Arrow, ArrowKind, Beam, Column, Field, Film, Particle, Place, Symbol, SymbolKind, Trail,
+};

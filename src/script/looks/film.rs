@@ -209,11 +209,7 @@ fn fields(
         values: match *name {
             "stretch" => everywhere(AxisStation::stretch),
             "curvature" => everywhere(AxisStation::curvature),
-            _ => shown
-                .indices
-                .iter()
-                .map(|&index| speeds(simulation, &stations, index))
-                .collect(),
+            _ => shown.indices.iter().map(|&index| speeds(simulation, &stations, index)).collect(),
         },
     };
     Ok(FIELDS.iter().filter(|(name, _)| names.contains(name)).map(field).collect())

@@ -1,5 +1,6 @@
 //! The domains of the language, one file each. A new domain is a new file and a line in [`TABLES`].
 
+mod animations;
 mod arrays;
 mod checking;
 mod convergence_studies;
@@ -64,6 +65,7 @@ pub const TABLES: &[&Table] = &[
     &pictures::TABLE,
     &rest_pictures::TABLE,
     &viewers::TABLE,
+    &animations::TABLE,
     &stability_studies::TABLE,
     &cost_studies::TABLE,
     &precision_studies::TABLE,

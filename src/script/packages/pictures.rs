@@ -317,8 +317,7 @@ fn write_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 fn write_states(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let [of] =
-        simulations(call)?.try_into().map_err(|_| call.error("takes one simulation"))?;
+    let [of] = simulations(call)?.try_into().map_err(|_| call.error("takes one simulation"))?;
     let simulation = of.simulation();
     let trajectory = simulation.trajectory();
     let scene = simulation.scene();

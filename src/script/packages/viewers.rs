@@ -40,7 +40,7 @@ pub const TABLE: Table = Table {
                  let fine = scene.start(#{ dt: 0.05, name: \"half the step\" });\nfine.run_to(2);\n\
                  write_viewer([sim, fine], \"steps.html\", #{ labels: [\"dt = 0.1\", \"dt = 0.05\"] });",
             )
-            .see(&["plot_motion", "plot_history"]),
+            .see(&["write_animation", "plot_motion", "plot_history"]),
     ],
 };
 
@@ -69,7 +69,10 @@ fn write_viewer(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let file = call.text("file")?;
     if !file.ends_with(".html") {
         let told = format!("\"{file}\" does not end in .html");
-        return Err(call.error(told).hint("a viewer is a page: \"run.html\"").at(Place::Argument(1)));
+        return Err(call
+            .error(told)
+            .hint("a viewer is a page: \"run.html\"")
+            .at(Place::Argument(1)));
     }
     let simulations = simulations(call)?;
     let options = call.options_or_defaults("options")?;

@@ -58,7 +58,7 @@ class Chart {
       const colour = theme.hue(hues, index);
       sheet.line(film.rows.map((at, row) => [x(at), y(values.at(0, row))]), colour, 1.5, index < hues.length ? [] : [5, 4]);
       sheet.disc([x(film.rows[row]), y(values.at(0, row))], 3, colour);
-      this.values[index].value.textContent = shown(values.at(0, row), 5);
+      this.values[index].value.textContent = shown(known(values.at(0, row), values.step), 6);
       this.values[index].item.querySelector("i").style.background = colour;
     });
     sheet.line([[x(time), top], [x(time), bottom]], theme.ink, 1);

@@ -13,10 +13,10 @@ class Theme {
     this.isDark = matchMedia("(prefers-color-scheme: dark)").matches;
   }
 
-  /** The colour of a beam or column: on dark paper the last of the hues, which is dark, becomes pale. */
+  /** The colour of a beam or column: paler on dark paper. */
   hue(hues, index) {
     const hue = hues[index % hues.length];
-    return this.isDark && index % hues.length === hues.length - 1 ? "rgb(200, 200, 200)" : hue;
+    return `rgb(${this.isDark ? hue.map((part) => Math.round(part + 0.3 * (255 - part))) : hue})`;
   }
 
   /** The colour at a part of a range; ranges with both signs have a middle. What stands out from the paper is the large. */
@@ -36,6 +36,13 @@ function shown(value, digits = 4) {
   const size = Math.abs(value);
   if (size !== 0 && (size < 1e-3 || size >= 1e6)) return value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e");
   return String(Number(value.toPrecision(digits)));
+}
+
+/** A number that is known to a step, rounded to a power of ten that is not below it. */
+function known(value, step) {
+  if (!(step > 0)) return value;
+  const unit = 10 ** Math.ceil(Math.log10(step));
+  return Math.round(value / unit) * unit;
 }
 
 /** Round places of an axis from `low` to `high`, about so many, each with its number. */

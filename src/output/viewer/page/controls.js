@@ -21,6 +21,7 @@ const ACTIONS = [
   { keys: ["s"], switch: "symbols", words: "supports, joints, sliders" },
   { keys: ["l"], switch: "loads", words: "loads" },
   { keys: [..."123456789"], label: "1 … 9", words: "show or hide a simulation, where there are several", run: (viewer, key) => toggleCase(viewer, Number(key) - 1) },
+  { keys: ["m"], name: "more", label: "m", words: "more or fewer buttons, on a narrow screen", run: () => byId("bar").classList.toggle("open") },
   { keys: ["?"], name: "help", label: "?", words: "these keys", run: () => (byId("help").open ? byId("help").close() : byId("help").showModal()) },
 ];
 
