@@ -1,8 +1,8 @@
 //! Pictures one after the other in one file: an animated PNG, which browsers and Markdown play.
 //!
-//! All frames share a palette of at most 256 colours, and of each only the box in which it differs from the one before is kept.
+//! All frames share a palette, the 256 colours that are met most, to which all others go that are nearest; of each only the box in which it differs from the one before is kept.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use png::{BitDepth, BlendOp, ColorType, Compression, DisposeOp, Encoder, FilterType};
 
@@ -10,12 +10,12 @@ use super::{OutputError, figure::Figure};
 
 /// Most colours of a palette.
 const MOST_COLOURS: usize = 256;
-/// Steps in which a part of a colour is told, finer ones first; the coarsest always fit into a palette.
-const STEPS: [u16; 7] = [255, 127, 63, 31, 15, 7, 5];
 /// Most pixels of all frames together.
 const MOST_PIXELS: f64 = 2e9;
 
-/// The pixels of a picture, each as an index of the palette or as red, green and blue.
+/// Red, green and blue.
+type Rgb = [u8; 3];
+/// The pixels of a picture, each as an index of the palette.
 type Pixels = Vec<u8>;
 
 /// So many pictures of the same size, drawn when they are asked for.
@@ -80,61 +80,46 @@ impl Animation<'_> {
         Ok(bytes)
     }
 
-    /// The colours of all frames, in the finest steps in which there are few enough.
+    /// The colours that are met most in all frames.
     fn palette(&self) -> Result<Palette, OutputError> {
-        let mut seen = vec![false; 1 << 24];
+        let mut counts: BTreeMap<Rgb, u64> = BTreeMap::new();
         for frame in 0..self.frames {
-            for pixel in (self.draw)(frame)?.to_pixels()?.chunks_exact(3) {
-                seen[number(pixel)] = true;
+            let pixels = (self.draw)(frame)?.to_pixels()?;
+            // Most pixels have the colour of the one before.
+            for run in pixels.as_chunks().0.chunk_by(|a: &Rgb, b| a == b) {
+                *counts.entry(run[0]).or_default() += run.len() as u64;
             }
         }
-        let colours: Vec<[u8; 3]> = (0..1u32 << 24)
-            .filter(|colour| seen[*colour as usize])
-            .map(|colour| [(colour >> 16) as u8, (colour >> 8) as u8, colour as u8])
-            .collect();
-        let in_steps = |steps: u16| {
-            let told = colours.iter().map(|colour| told(*colour, steps)).collect::<BTreeSet<_>>();
-            Palette { steps, colours: told.into_iter().collect() }
+        let mut colours: Vec<(Rgb, u64)> = counts.iter().map(|(of, count)| (*of, *count)).collect();
+        colours.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+        colours.truncate(MOST_COLOURS);
+        let colours: Vec<Rgb> = colours.into_iter().map(|(colour, _)| colour).collect();
+        let near = |of: &Rgb| {
+            let distances =
+                colours.iter().enumerate().map(|(index, other)| (distance(*of, *other), index));
+            (*of, distances.min().map_or(0, |(_, index)| index as u8))
         };
-        let palettes = STEPS.into_iter().map(in_steps);
-        let few = palettes.into_iter().find(|palette| palette.colours.len() <= MOST_COLOURS);
-        few.ok_or_else(|| refused("it has too many colours"))
+        Ok(Palette { nearest: counts.keys().map(near).collect(), colours })
     }
 }
 
-/// A colour as one number.
-fn number(pixel: &[u8]) -> usize {
-    pixel.iter().fold(0, |number, part| number << 8 | usize::from(*part))
-}
-
-/// A colour whose parts are told in so many steps; black and white stay what they are.
-fn told(colour: [u8; 3], steps: u16) -> [u8; 3] {
-    colour.map(|part| {
-        let step = (u32::from(part) * u32::from(steps) + 127) / 255;
-        ((step * 255 + u32::from(steps) / 2) / u32::from(steps)) as u8
-    })
+/// The square of the distance of two colours.
+fn distance(a: Rgb, b: Rgb) -> u32 {
+    a.iter().zip(b).map(|(a, b)| u32::from(a.abs_diff(b)).pow(2)).sum()
 }
 
 struct Palette {
-    steps: u16,
-    /// In increasing order.
-    colours: Vec<[u8; 3]>,
+    colours: Vec<Rgb>,
+    /// The index of the nearest of them, for each colour that there is.
+    nearest: BTreeMap<Rgb, u8>,
 }
 
 impl Palette {
     /// The indices of the colours of a picture that was looked at for the palette.
     fn indices(&self, pixels: &[u8]) -> Pixels {
-        let of = |colour| self.colours.binary_search(&told(colour, self.steps)).unwrap_or(0) as u8;
-        // Most pixels have the colour of the one before.
-        let mut last = ([0; 3], of([0; 3]));
-        let indices = pixels.chunks_exact(3).map(|pixel| {
-            let colour = [pixel[0], pixel[1], pixel[2]];
-            if colour != last.0 {
-                last = (colour, of(colour));
-            }
-            last.1
-        });
-        indices.collect()
+        let runs = pixels.as_chunks().0.chunk_by(|a: &Rgb, b| a == b);
+        let index = |colour: &Rgb| self.nearest.get(colour).copied().unwrap_or(0);
+        runs.flat_map(|run| std::iter::repeat_n(index(&run[0]), run.len())).collect()
     }
 }
 
@@ -215,26 +200,27 @@ mod tests {
     }
 
     #[test]
-    fn many_colours_become_few_and_white_stays_white() {
+    fn of_many_colours_those_that_are_met_most_stay() {
         let many = |frame: usize| {
             let mut canvas = Canvas::default();
             for column in 0..100u8 {
                 let colour = crate::output::Colour(column * 2, 255 - column, (frame * 80) as u8);
-                let x = f64::from(column);
-                let area = crate::output::Area { left: x, top: 20.0, right: x + 1.0, bottom: 80.0 };
+                let (left, top) = (f64::from(column), 20.0);
+                let bottom = if column == 7 { 90.0 } else { 60.0 };
+                let area = crate::output::Area { left, top, right: left + 1.0, bottom };
                 canvas.fill(area, colour);
             }
             Figure::new(canvas, (120.0, 100.0))
         };
         let animation = Animation { frames: 3, frames_per_second: 10, draw: &many };
         let palette = animation.palette().unwrap();
-        assert!(palette.colours.len() <= MOST_COLOURS && palette.colours.contains(&[255; 3]));
+        assert_eq!((palette.colours.len(), palette.colours[0]), (MOST_COLOURS, [255; 3]));
+        assert_eq!(palette.nearest.len(), 301);
+        assert!(palette.colours.contains(&[14, 248, 160]), "it is met more than others");
         let pixels = many(1).unwrap().to_pixels().unwrap();
-        let largest = 255 / palette.steps as usize + 1;
-        for (pixel, index) in pixels.chunks_exact(3).zip(palette.indices(&pixels)) {
-            let colour = palette.colours[index as usize];
-            let off = pixel.iter().zip(colour).map(|(a, b)| a.abs_diff(b)).max().unwrap();
-            assert!(usize::from(off) <= largest, "{pixel:?} is shown as {colour:?}");
+        for (pixel, index) in pixels.as_chunks().0.iter().zip(palette.indices(&pixels)) {
+            let near = palette.colours[index as usize];
+            assert!(distance(*pixel, near) <= 100 * 100, "{pixel:?} is shown as {near:?}");
         }
         assert!(animation.to_png().is_ok());
     }

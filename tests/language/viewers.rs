@@ -125,7 +125,9 @@ fn places_are_where_the_solver_says() {
     let (printed, page) = written(script, "page.html");
     let data = data(&page);
     let film = &data["films"][0];
-    assert_eq!(film["times"].as_array().unwrap().len(), 101);
+    let times: Vec<_> =
+        film["times"].as_array().unwrap().iter().map(|t| t.as_f64().unwrap()).collect();
+    assert!(times.len() >= 101, "every step is a frame, and every bounce of the ring");
     let step = film["x"]["step"].as_f64().unwrap();
     let extent = step * 65534.0;
     assert!(extent > 3.0 && extent < 10.0, "{extent}");
@@ -133,8 +135,7 @@ fn places_are_where_the_solver_says() {
     let mut compared = 0;
     for line in printed.lines() {
         let numbers: Vec<f64> = line.split(' ').map(|number| number.parse().unwrap()).collect();
-        let frame = (numbers[0] / 0.02).round() as usize;
-        assert_eq!(film["times"][frame].as_f64(), Some(numbers[0]));
+        let frame = times.iter().position(|time| *time == numbers[0]).unwrap();
         for (path, at) in paths.iter().zip([&numbers[1..3], &numbers[3..5]]) {
             let off = (path[frame].0 - at[0]).abs().max((path[frame].1 - at[1]).abs());
             // Half a step, and the roundings of at most three weights.

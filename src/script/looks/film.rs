@@ -34,7 +34,8 @@ pub struct Wishes<'a> {
 /// A quantity along beams by name, with its dimension.
 type FieldEntry = (&'static str, &'static str);
 
-/// How fast a place moves, by what is longer, and what bends.
+/// What beams can be coloured by. Speed: from the configurations before and after [length/time]. Stretch: how much longer the axis is than as
+/// drawn [-]. Curvature: how much more it bends than as drawn [1/length].
 pub const FIELDS: [FieldEntry; 3] =
     [("speed", "length/time"), ("stretch", "-"), ("curvature", "1/length")];
 

@@ -109,7 +109,7 @@ fn write_animation(call: &mut Call) -> Result<Dynamic, ScriptError> {
     });
     let reels = framed(reels.collect::<Result<Vec<_>, ScriptError>>()?);
     let usual = if reels.len() == 1 { WIDTHS.0 } else { WIDTHS.1 };
-    let width = options.number_if_given("width").unwrap_or(usual);
+    let width = options.count("width").map_or(usual, |width| width as f64);
     let decimals = decimals(&times);
     let draw = |frame: usize| -> Result<Figure, OutputError> {
         call.proceed().map_err(|_| OutputError::Paint { reason: "it was stopped".into() })?;

@@ -43,6 +43,10 @@ class Series {
 
   /** The least and the greatest of all numbers. */
   range() {
+    return (this.limits ??= this.found());
+  }
+
+  found() {
     let least = Infinity;
     let greatest = -Infinity;
     for (const code of this.codes) {
