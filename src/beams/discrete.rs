@@ -13,8 +13,8 @@ use super::mesh::QuadratureSpan;
 use super::moment_point::MomentPoint;
 use super::parts::{MOST_PARTS, Parts};
 use super::span_points::{SpanPoints, window_mut};
-use super::{BeamError, Mesh, RotationIncrement, Section};
-use crate::geometry::{Basis, GaussRule, Span, Vec2};
+use super::{BeamError, Mesh, RotationIncrement, Section, SectionForces, SectionPlace};
+use crate::geometry::{Basis, Span, Vec2};
 
 /// The slowest an axis may run along its parameter, relative to its mean.
 const STANDSTILL: f64 = 1e-9;
@@ -100,8 +100,9 @@ impl<const N: usize> DiscreteBeam<N> {
         let inertia_rule = mesh.inertia_rule()?;
         let mut gram = vec![[0.0; N]; control_points.len()];
         let mut spans = Vec::new();
-        for QuadratureSpan { span, force_rule, moment_points } in mesh.quadrature_spans()? {
-            let moment_rule = GaussRule::new(moment_points)?;
+        for quadrature in mesh.quadrature_spans()? {
+            let moment_rule = quadrature.moment_rule()?;
+            let QuadratureSpan { span, force_rule, .. } = quadrature;
             spans.push(SpanPoints {
                 first: span.first,
                 force_points: axis
@@ -336,6 +337,30 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
 
     fn strain_energy(&self) -> f64 {
         self.spans.iter().map(|span| span.strain_energy(&self.section)).sum()
+    }
+
+    fn strain_energies(&self) -> [f64; 3] {
+        let mut sums = [0.0; 3];
+        for span in &self.spans {
+            span.add_strain_energies(&self.section, &mut sums);
+        }
+        sums
+    }
+
+    fn section_forces(&self, place: &SectionPlace) -> SectionForces {
+        let (mut normal, mut force, mut moment) = (Vec2::zeros(), Vec2::zeros(), 0.0);
+        for share in &place.force_shares {
+            let point = &self.spans[share.span].force_points[share.point];
+            let (at_point, couple) = point.transmitted(&self.section);
+            normal += point.normal() * share.of_normal;
+            force += at_point * share.of_force;
+            moment += couple * share.of_couple;
+        }
+        for share in &place.moment_shares {
+            let point = &self.spans[share.span].moment_points[share.point];
+            moment += point.transmitted(&self.section) * share.of_moment;
+        }
+        SectionForces::of(&self.section, normal, force, moment)
     }
 
     fn lumped_lengths(&self) -> Vec<f64> {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::at_rest::SpanAtRest;
-use super::{RotationIncrement, Section};
+use super::{RotationIncrement, Section, SectionForces, SectionPlace};
 use crate::geometry::{Vec2, larger};
 
 /// Components of a control point: x, y and rotation.
@@ -126,6 +126,12 @@ pub trait BodyDynamics: Sync {
 
     /// The strain energy at the start of the step [energy].
     fn strain_energy(&self) -> f64;
+
+    /// That of stretching, of shear and of bending [energy].
+    fn strain_energies(&self) -> [f64; 3];
+
+    /// Section forces and strains at a place, at the start of the step; zero where nothing is strained.
+    fn section_forces(&self, place: &SectionPlace) -> SectionForces;
 
     /// `∫ N_a dX` for every control point [length].
     fn lumped_lengths(&self) -> Vec<f64>;

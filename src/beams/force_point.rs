@@ -249,11 +249,7 @@ impl<const N: usize> ForcePoint<N> {
         for (stiffness, (axis, turned)) in stiffness.into_iter().zip(axes) {
             span.add_strain(w * stiffness, row(self.rotation.to_space(axis), -turned));
         }
-        // The section force that was an unknown of the last solution is known to its own rounding, that of the strain to the stiffness
-        // times the rounding of a number of size one.
-        let missing = self.strain - strain_from(section, self.last_force);
-        let is_known = larger(missing.x.abs(), missing.y.abs()) <= SAME_STRAIN;
-        let force = if is_known { self.last_force } else { force_of(section, self.strain) };
+        let (force, is_known) = self.present_force(section);
         if force != Vec2::zeros() {
             let rounding = force_of(section, Vec2::new(SAME_STRAIN, SAME_STRAIN)).norm();
             let doubt = if is_known { 0.0 } else { (rounding / force.norm()).min(1.0) };
@@ -261,6 +257,28 @@ impl<const N: usize> ForcePoint<N> {
             let p = row(perpendicular(force), -0.5 * self.gradient.dot(&force));
             span.add_twist(doubt, p, row(Vec2::zeros(), 1.0));
         }
+    }
+
+    /// The section force of the present strain, and whether it is the one of the last solution.
+    ///
+    /// The section force that was an unknown of the last solution is known to its own rounding, that of the strain to the stiffness times the
+    /// rounding of a number of size one.
+    fn present_force(&self, section: &Section) -> (Vec2, bool) {
+        let missing = self.strain - strain_from(section, self.last_force);
+        let is_known = larger(missing.x.abs(), missing.y.abs()) <= SAME_STRAIN;
+        (if is_known { self.last_force } else { force_of(section, self.strain) }, is_known)
+    }
+
+    /// `n` and `w x' × n` at the start of the step.
+    pub(super) fn transmitted(&self, section: &Section) -> (Vec2, f64) {
+        let force = self.rotation.to_space(self.present_force(section).0);
+        (force, self.axis.weight * cross(self.gradient, force))
+    }
+
+    /// The energies of stretching and of shear [energy].
+    pub(super) fn strain_energies(&self, section: &Section) -> [f64; 2] {
+        let energies = self.strain.component_mul(&force_of(section, self.strain));
+        [0.5 * self.axis.weight * energies.x, 0.5 * self.axis.weight * energies.y]
     }
 
     pub(super) fn advance(&mut self, moved: &[Movement; N], rotations: RotationIncrement) {

@@ -45,6 +45,13 @@ pub(super) struct QuadratureSpan {
     pub(super) moment_points: usize,
 }
 
+impl QuadratureSpan {
+    /// The rule for `κ`.
+    pub(super) fn moment_rule(&self) -> Result<GaussRule, GeometryError> {
+        GaussRule::new(self.moment_points)
+    }
+}
+
 /// From basis and quadrature, as stored.
 impl TryFrom<(Basis, Quadrature)> for Mesh {
     type Error = BeamError;
@@ -190,10 +197,14 @@ impl Mesh {
 
     /// The spans, cut where the basis is C⁰ only: pieces whose strains have nothing to do with each other.
     fn runs(&self) -> Vec<Vec<Span>> {
-        // Neighbours that are C⁰ share a single function.
-        let is_smooth = |a: &Span, b: &Span| b.first < a.first + self.basis.degree();
         let spans = self.basis.spans();
-        spans.chunk_by(is_smooth).map(<[Span]>::to_vec).collect()
+        spans.chunk_by(|a, b| self.is_smooth(a, b)).map(<[Span]>::to_vec).collect()
+    }
+
+    /// Whether neighbouring spans are joined at least C¹.
+    pub(super) fn is_smooth(&self, a: &Span, b: &Span) -> bool {
+        // Neighbours that are C⁰ share a single function.
+        b.first < a.first + self.basis.degree()
     }
 
     /// Points and weights for `Γ` on each span of a run.

@@ -15,6 +15,7 @@ mod particle;
 mod parts;
 mod rotation;
 mod section;
+mod section_forces;
 mod span_points;
 mod station;
 
@@ -27,4 +28,5 @@ pub use particle::Particle;
 pub use parts::at_once;
 pub use rotation::{Rotation, RotationIncrement};
 pub use section::{Section, Shape, Solid};
+pub use section_forces::{SectionForces, SectionPlace, SectionPoints};
 pub use station::{BodyIndex, Place, Station};

@@ -15,6 +15,9 @@ use super::block::Block;
 use super::dynamics::{Collocation, ForceSummary, Movement};
 use super::{RotationIncrement, Section};
 
+/// Curvatures that turn a section less, over the length they stand for, are the same but for rounding [rad].
+const SAME_TURN: f64 = 64.0 * f64::EPSILON;
+
 #[derive(Debug, Clone)]
 pub(super) struct MomentPoint<const N: usize> {
     axis: AxisPoint<N>,
@@ -187,6 +190,15 @@ impl<const N: usize> MomentPoint<N> {
         let (slope, rotation) = self.interpolate(moved);
         self.last_moment = self.moment;
         self.curvature += slope * rotations.rate(rotation);
+    }
+
+    /// `M` at the start of the step: the moment that was an unknown of the last solution, where it is that of the curvature but for
+    /// rounding.
+    pub(super) fn transmitted(&self, section: &Section) -> f64 {
+        let missing = self.curvature - self.last_moment / section.bending_stiffness;
+        let is_known = self.axis.weight * missing.abs() <= SAME_TURN;
+        let moment = section.bending_stiffness * self.curvature;
+        if is_known { self.last_moment } else { moment }
     }
 
     pub(super) fn strain_energy(&self, section: &Section) -> f64 {

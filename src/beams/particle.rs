@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::at_rest::SpanAtRest;
 use super::discrete::move_compensated;
 use super::dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Movement};
-use super::{RotationIncrement, Section};
+use super::{RotationIncrement, Section, SectionForces, SectionPlace};
 use crate::geometry::Vec2;
 
 /// A point that moves by itself.
@@ -94,6 +94,14 @@ impl BodyDynamics for Particle {
 
     fn strain_energy(&self) -> f64 {
         0.0
+    }
+
+    fn strain_energies(&self) -> [f64; 3] {
+        [0.0; 3]
+    }
+
+    fn section_forces(&self, _place: &SectionPlace) -> SectionForces {
+        SectionForces::default()
     }
 
     fn lumped_lengths(&self) -> Vec<f64> {

@@ -123,4 +123,14 @@ impl<const N: usize> SpanPoints<N> {
             self.moment_points.iter().map(|point| point.strain_energy(section)).sum::<f64>();
         force + moment
     }
+
+    /// Adds the energies of stretching, of shear and of bending.
+    pub(super) fn add_strain_energies(&self, section: &Section, sums: &mut [f64; 3]) {
+        for point in &self.force_points {
+            let [axial, shear] = point.strain_energies(section);
+            sums[0] += axial;
+            sums[1] += shear;
+        }
+        sums[2] += self.moment_points.iter().map(|point| point.strain_energy(section)).sum::<f64>();
+    }
 }

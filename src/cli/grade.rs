@@ -18,7 +18,7 @@ use crate::exercises::grading::{Graded, Mark, Report, Task};
 use crate::exercises::marks::{self, KnownMarks};
 use crate::exercises::submissions::Submission;
 use crate::folders::Scratch;
-use crate::output::{Cell, Table};
+use crate::output::{Cell, Table, columns, padded};
 
 /// How marks are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -154,12 +154,12 @@ struct Sheet {
     reports: Vec<Report>,
 }
 
-/// Characters of the widest student's name that lines are made for.
+/// Columns of the widest student's name that lines are made for.
 const WIDEST: usize = 40;
 
 impl Sheet {
     fn begin(form: Form, submissions: &[Submission]) -> Self {
-        let names = submissions.iter().map(|of| of.student.chars().count());
+        let names = submissions.iter().map(|of| columns(&of.student));
         let student_width = names.max().unwrap_or(0).clamp("student".len(), WIDEST);
         let exercise_width = EXERCISES.iter().map(|it| it.id().len()).max().unwrap_or(0);
         let sheet = Self { form, student_width, exercise_width, reports: Vec::new() };
@@ -174,7 +174,7 @@ impl Sheet {
 
     fn line(&self, student: &str, exercise: &str, result: &str, off: &str) {
         let (first, second) = (self.student_width, self.exercise_width);
-        let line = format!("{student:<first$}  {exercise:<second$}  {result:<9}  {off}");
+        let line = format!("{}  {exercise:<second$}  {result:<9}  {off}", padded(student, first));
         say(line.trim_end());
     }
 

@@ -6,7 +6,6 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
 use std::path::Path;
 
-use rhai::Token;
 use serde_json::{Value, json};
 
 use super::attempt;
@@ -15,7 +14,7 @@ use super::grading::Mark;
 use super::submissions::Submission;
 use crate::analysis::Journal;
 use crate::folders::{Folder, read_file};
-use crate::script::source::lexing::tokens;
+use crate::script::source::text::Source;
 
 /// The largest file of marks that is read [bytes].
 const LARGEST: u64 = 1 << 30;
@@ -49,7 +48,7 @@ pub struct MarksFile(File);
 pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let (folder, name) = (Folder::open(folder)?, Path::new(path.file_name().unwrap_or_default()));
-    let file = folder.append(name)?;
+    let mut file = folder.append(name)?;
     // Before it is read: what another run writes meanwhile must be known here.
     file.try_lock().map_err(|refused| match refused {
         TryLockError::WouldBlock => io::Error::other("another run writes its marks there"),
@@ -59,14 +58,16 @@ pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     let text = String::from_utf8_lossy(&bytes);
     let known: Vec<_> = text.lines().filter_map(read_line).collect();
     // A kill during the very first mark leaves the beginning of one.
-    let is_begun = text.starts_with(HEAD) || HEAD.starts_with(&*text);
-    if known.is_empty() && !is_begun {
+    let begun = text.trim();
+    if known.is_empty() && !begun.starts_with(HEAD) && !HEAD.starts_with(begun) {
         return Err(io::Error::other("it is there already, and holds no marks"));
     }
-    // A line that a kill has cut off goes: who reads the file reads lines that are whole.
+    // Who reads the file reads lines that are whole: what a kill has left of the last one goes, unless only its end is missing.
     let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
-    if whole < bytes.len() {
-        file.set_len(whole as u64)?;
+    match &bytes[whole..] {
+        [] => (),
+        rest if read_line(&String::from_utf8_lossy(rest)).is_some() => file.write_all(b"\n")?,
+        _ => file.set_len(whole as u64)?,
     }
     // Of several marks the last one holds.
     Ok((KnownMarks(known.into_iter().collect()), MarksFile(file)))
@@ -125,10 +126,10 @@ pub fn fingerprint(submission: &Submission, exercise: &Exercise, limits: &[Strin
     let attempt = match file.as_deref().map(|path| attempt::load(path, &submission.folder)) {
         None => "missing".to_owned(),
         Some(Err(why)) => format!("unreadable: {}", why.message),
-        Some(Ok(attempt)) => format!("text: {}", attempt.text),
+        Some(Ok(attempt)) => format!("text: {}", &*attempt.text),
     };
     let mut beside = Vec::new();
-    if reads_files(&attempt) {
+    if reads_files(&attempt.as_str().into()) {
         note_files(&submission.folder, &mut beside, &mut 0);
     }
     let limits = limits.join(" ");
@@ -137,14 +138,9 @@ pub fn fingerprint(submission: &Submission, exercise: &Exercise, limits: &[Strin
 }
 
 /// Whether an attempt may read other files.
-fn reads_files(attempt: &str) -> bool {
-    tokens(attempt).iter().any(|(token, _)| match token {
-        Token::Import => true,
-        Token::Identifier(name) => {
-            matches!(name.as_str(), "load_simulation" | "Fn") || name.starts_with("study_")
-        }
-        _ => false,
-    })
+fn reads_files(attempt: &Source) -> bool {
+    let reads = |name: &str| matches!(name, "load_simulation" | "Fn") || name.starts_with("study_");
+    attempt.imports().next().is_some() || attempt.names().any(reads)
 }
 
 /// Most files that are looked at, and the most that is read of each [bytes]: of others the length and the time count.
@@ -223,6 +219,15 @@ mod tests {
         }
         let text = fs::read_to_string(&path).unwrap();
         assert!(text.lines().count() == 4 && text.lines().all(|line| read_line(line).is_some()));
+        fs::write(&path, whole.trim_end()).unwrap();
+        drop(open(&path).unwrap());
+        assert_eq!(
+            fs::read_to_string(&path).unwrap(),
+            whole,
+            "only the end of the line was missing"
+        );
+        fs::write(&path, "\n").unwrap();
+        assert!(open(&path).is_ok(), "there is nothing in it");
         fs::write(&path, &whole[..20]).unwrap();
         drop(open(&path).unwrap());
         assert_eq!(

@@ -17,6 +17,7 @@ mod nearest;
 mod passage;
 mod planar;
 mod quadrature;
+mod reproduction;
 #[cfg(test)]
 mod samples;
 mod spline_curve;
@@ -36,6 +37,7 @@ pub use nearest::nearest;
 pub use passage::Passage;
 pub use planar::{Vec2, cross, perpendicular, unit};
 pub use quadrature::GaussRule;
+pub use reproduction::{LowerSplines, Reproduction};
 pub use spline_curve::SplineCurve;
 pub use spline_rule::{RunRule, patch_rule};
 pub use values::BasisValues;

@@ -66,7 +66,7 @@ fn middles(run: &[Span]) -> Option<Vec<Vec<f64>>> {
 
 /// The splines of one degree less, as sums of derivatives: `T_t = -Σ_(a ≤ t) N'_a` is a positive multiple of a B-spline. Those that are not zero
 /// on a span have the numbers of its functions but the last.
-fn lower_splines(values: &BasisValues) -> impl Iterator<Item = f64> + '_ {
+pub(super) fn lower_splines(values: &BasisValues) -> impl Iterator<Item = f64> + '_ {
     let partial = values.slopes().iter().scan(0.0, |sum, slope| {
         *sum -= slope;
         Some(*sum)
@@ -75,7 +75,7 @@ fn lower_splines(values: &BasisValues) -> impl Iterator<Item = f64> + '_ {
 }
 
 /// The number of lower splines of a run, one fewer than its functions.
-fn lower_count(basis: &Basis, run: &[Span]) -> Option<usize> {
+pub(super) fn lower_count(basis: &Basis, run: &[Span]) -> Option<usize> {
     Some(run.last()?.first + basis.degree() - run.first()?.first)
 }
 

@@ -39,6 +39,7 @@ mod table;
 mod terminal;
 mod timebar;
 pub mod viewer;
+mod width;
 
 #[cfg(test)]
 mod samples;
@@ -63,3 +64,4 @@ pub use records::CsvRecords;
 pub use stroke::Stroke;
 pub use table::{Cell, Table};
 pub use terminal::{Colours, ConfigurationPicture, Glyphs, Mark, Style};
+pub use width::{beginning, columns, columns_of, cut, padded};

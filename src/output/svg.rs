@@ -28,9 +28,24 @@ pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<String, OutputE
     backend.present().map_err(refused)?;
     drop(backend);
 
-    let drawn = body.split_once(">\n").map_or("", |(_, drawn)| drawn).replace(" opacity=\"1\"", "");
-    Ok(head(canvas, width, height, size) + drawn.as_str())
+    let opening = opening(size);
+    let drawn =
+        body.strip_prefix(&opening).ok_or_else(|| refused("the document begins otherwise"))?;
+    // All is opaque; no text stands in the document, so this can only be the attribute.
+    Ok(head(canvas, width, height, size) + drawn.replace(" opacity=\"1\"", "").as_str())
 }
+
+/// How plotters begins a document on a grid of this size, which is what it writes of an empty one but the end. It takes the grid for
+/// the pixels and knows neither title nor description, so [`head`] stands in its place.
+fn opening(grid: (u32, u32)) -> String {
+    let mut empty = String::new();
+    drop(SVGBackend::with_string(&mut empty, grid));
+    empty.truncate(empty.rfind(END).unwrap_or(0));
+    empty
+}
+
+/// How a document ends.
+const END: &str = "</svg>";
 
 /// The opening of the document: its size in pixels, round corners for all lines, and all of its text.
 fn head(canvas: &Canvas, width: u32, height: u32, grid: (u32, u32)) -> String {

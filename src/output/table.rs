@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::number::format_number;
+use super::width::{columns, padded};
 
 /// One entry of a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -130,23 +131,22 @@ fn write_line<'a>(
 ) -> fmt::Result {
     let padded = cells.zip(widths).map(|((text, right), &width)| {
         let text = one_line(text);
-        // Rust's own widths end at 65 535.
-        let blanks = " ".repeat(width.saturating_sub(width_of(&text)));
         match right {
-            true => format!("{blanks}{text}"),
-            false => format!("{text}{blanks}"),
+            true => format!("{}{text}", " ".repeat(width.saturating_sub(columns(&text)))),
+            false => padded(&text, width),
         }
     });
     writeln!(f, "{}", padded.collect::<Vec<_>>().join("  ").trim_end())
 }
 
+/// The columns that a cell takes when it is on its line.
+fn width_of(text: &str) -> usize {
+    columns(&one_line(text))
+}
+
 /// A cell stays on its line whatever it holds.
 fn one_line(text: &str) -> String {
     text.replace(char::is_control, " ")
-}
-
-fn width_of(text: &str) -> usize {
-    text.chars().count()
 }
 
 #[cfg(test)]
@@ -163,6 +163,14 @@ mod tests {
                         ───────────────  ──────  ─────\n\
                         midpoint           0.05  0.003\n\
                         energy_momentum     0.1  1e-15\n";
+        assert_eq!(table.to_string(), expected);
+    }
+
+    #[test]
+    fn wide_characters_stand_in_two_columns() {
+        let mut table = Table::new(&["梁", "EI"]);
+        table.row::<Cell>(["長い梁".into(), 1.0.into()]).row::<Cell>(["arm".into(), 10.0.into()]);
+        let expected = "梁      EI\n──────  ──\n長い梁   1\narm     10\n";
         assert_eq!(table.to_string(), expected);
     }
 

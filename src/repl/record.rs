@@ -3,13 +3,13 @@
 use std::fmt::Write;
 use std::ops::Range;
 
-use rhai::{Engine, Scope, Token};
+use rhai::{Engine, Scope};
 
 use super::session::ANSWER;
 use super::statements;
 use crate::script::handles::simulation::SimulationHandle;
-use crate::script::source::lexing::tokens;
-use crate::script::source::program::Program;
+use crate::script::source::definitions::{Definition, definitions};
+use crate::script::source::text::Source;
 use crate::script::words::numbers::format_number;
 
 /// The first line of every saved session.
@@ -19,13 +19,13 @@ const HEADER: &str = "//! A session of withy: what worked of it.";
 #[derive(Clone, Debug, PartialEq)]
 enum Entry {
     /// Statements that worked.
-    Statements(String),
+    Statements(Source),
     /// Statements of which the last is an expression, whose value was kept as `ans`.
-    Expression(String),
+    Expression(Source),
     /// Statements that leave their input by `return`, which would end a script.
-    Returning(String),
+    Returning(Source),
     /// How far a statement that did not come to its end had moved a simulation.
-    Moved(String),
+    Moved(Source),
 }
 
 /// A simulation that an input can name, and where it was.
@@ -46,17 +46,17 @@ pub struct Record {
 impl Record {
     /// Adds statements without a value.
     pub fn worked(&mut self, text: &str) {
-        self.entries.push(Entry::Statements(text.trim().to_owned()));
+        self.entries.push(Entry::Statements(text.trim().into()));
     }
 
     /// Adds an input with a value.
     pub fn answered(&mut self, text: &str) {
-        self.entries.push(Entry::Expression(text.trim().to_owned()));
+        self.entries.push(Entry::Expression(text.trim().into()));
     }
 
     /// Adds an input that returns.
     pub fn returned(&mut self, text: &str) {
-        self.entries.push(Entry::Returning(text.trim().to_owned()));
+        self.entries.push(Entry::Returning(text.trim().into()));
     }
 
     /// Adds what a statement that failed has done to simulations, given where they were before; gives whether there is anything.
@@ -68,7 +68,7 @@ impl Record {
                 let method = if time > was.time { "run_to" } else { "rewind" };
                 // An event on the way may throw again.
                 let call = format!("{}.{method}({});", was.name, format_number(time));
-                self.entries.push(Entry::Moved(format!("try {{ {call} }} catch {{ }}")));
+                self.entries.push(Entry::Moved(format!("try {{ {call} }} catch {{ }}").into()));
             }
         }
         self.entries.len() > known
@@ -76,9 +76,10 @@ impl Record {
 
     /// The script; `engine` knows the syntax, and must not optimise statements away.
     pub fn script(&self, engine: &Engine) -> String {
-        let texts = || self.entries.iter().map(Entry::text);
-        let asked: Vec<bool> = texts().map(mentions_answer).collect();
-        let defined: Vec<Vec<Definition>> = texts().map(definitions).collect();
+        let asked: Vec<bool> =
+            self.sources().map(|source| source.is_some_and(mentions_answer)).collect();
+        let defined: Vec<Vec<Written>> =
+            self.sources().map(|source| source.map(written).unwrap_or_default()).collect();
         let mut script = format!("{HEADER}\n\n");
         for (index, entry) in self.entries.iter().enumerate() {
             // A value is asked for until the next one takes its place.
@@ -96,13 +97,13 @@ impl Record {
                     let lines = statements.lines().map(|line| format!("\n// {line}"));
                     format!("// Not done again, because it returns:{}", lines.collect::<String>())
                 }
-                Entry::Moved(line) => format!("// A statement was stopped here.\n{line}"),
+                Entry::Moved(line) => format!("// A statement was stopped here.\n{}", &**line),
             };
-            let replaced = |definition: &Definition| {
+            let replaced = |definition: &Written| {
                 defined[index + 1..].iter().flatten().any(|later| later.name == definition.name)
             };
             // Writing to a text cannot fail.
-            let _ = writeln!(script, "{}", without(line, replaced));
+            let _ = writeln!(script, "{}", without(&line.into(), replaced));
         }
         script
     }
@@ -111,7 +112,7 @@ impl Record {
     pub fn redefined(&self) -> Vec<String> {
         let mut seen = Vec::new();
         let mut twice = Vec::new();
-        for definition in self.entries.iter().flat_map(|entry| definitions(entry.text())) {
+        for definition in self.sources().flatten().flat_map(written) {
             let shown = definition.name.0.clone();
             if seen.contains(&definition.name) && !twice.contains(&shown) {
                 twice.push(shown);
@@ -123,11 +124,15 @@ impl Record {
 
     /// The text of the function that was defined last under a name.
     pub fn definition(&self, name: &str) -> Option<String> {
-        self.entries.iter().rev().find_map(|entry| {
-            let text = entry.text();
-            let found = definitions(text).into_iter().rev();
-            found.filter(|one| one.name.0 == name).map(|one| text[one.bytes].to_owned()).next()
+        self.entries.iter().rev().filter_map(Entry::source).find_map(|source| {
+            let found = written(source).into_iter().rev();
+            found.filter(|one| one.name.0 == name).map(|one| source[one.bytes].to_owned()).next()
         })
+    }
+
+    /// The texts of all entries, where they can define functions and ask for values.
+    fn sources(&self) -> impl Iterator<Item = Option<&Source>> {
+        self.entries.iter().map(Entry::source)
     }
 
     /// Whether an input returned, and so is not done again.
@@ -137,12 +142,12 @@ impl Record {
 }
 
 impl Entry {
-    fn text(&self) -> &str {
+    fn source(&self) -> Option<&Source> {
         match self {
-            Self::Statements(text) | Self::Expression(text) => text,
+            Self::Statements(text) | Self::Expression(text) => Some(text),
             // What is not done again defines nothing and asks for nothing.
-            Self::Returning(_) => "",
-            Self::Moved(line) => line,
+            Self::Returning(_) => None,
+            Self::Moved(line) => Some(line),
         }
     }
 }
@@ -164,19 +169,17 @@ pub fn whereabouts(scope: &Scope, latest: Option<SimulationHandle>) -> Vec<Where
     found
 }
 
-fn mentions_answer(text: &str) -> bool {
-    let is_answer =
-        |token: &Token| matches!(token, Token::Identifier(name) if name.as_str() == ANSWER);
-    tokens(text).iter().any(|(token, _)| is_answer(token))
+fn mentions_answer(source: &Source) -> bool {
+    source.names().any(|name| name == ANSWER)
 }
 
 /// The statements with a semicolon at their end, which comments may follow.
-fn terminated(statements: &str) -> String {
-    let is_closed = matches!(tokens(statements).last(), None | Some((Token::SemiColon, _)));
+fn terminated(statements: &Source) -> String {
+    let is_closed = statements.tokens().is_empty() || statements.ends_in_semicolon();
     match (is_closed, statements.lines().last().is_some_and(|last| last.contains("//"))) {
-        (true, _) => statements.to_owned(),
-        (false, true) => format!("{statements}\n;"),
-        (false, false) => format!("{statements};"),
+        (true, _) => statements.to_string(),
+        (false, true) => format!("{}\n;", &**statements),
+        (false, false) => format!("{};", &**statements),
     }
 }
 
@@ -186,64 +189,31 @@ fn answering(engine: &Engine, text: &str) -> String {
     let cut = last.and_then(|first| statements::boundary(engine, text, first)).unwrap_or(0);
     let (before, expression) = text.split_at(cut);
     let space = &expression[..expression.len() - expression.trim_start().len()];
-    terminated(&format!("{before}{space}let {ANSWER} = {}", expression.trim_start()))
+    terminated(&format!("{before}{space}let {ANSWER} = {}", expression.trim_start()).into())
 }
 
 /// The functions that a text defines, as they are written there.
-pub fn functions_of(text: &str) -> impl Iterator<Item = &str> {
-    definitions(text).into_iter().map(|definition| &text[definition.bytes])
+pub fn functions_of(source: &Source) -> impl Iterator<Item = &str> {
+    written(source).into_iter().map(|definition| &source[definition.bytes])
 }
 
-/// A function definition in a text.
-struct Definition {
+/// A function definition as it is written in a text.
+struct Written {
     /// With its number of parameters, and the type in front of a method's name.
     name: (String, usize),
     /// From `private`, or the comments that document it, to its closing brace.
     bytes: Range<usize>,
 }
 
-fn definitions(text: &str) -> Vec<Definition> {
-    let program = Program::named("", text);
-    let tokens = tokens(text);
-    let offset = |index: usize| {
-        let position = tokens[index].1;
-        program.offset(position.line().unwrap_or(1), position.position().unwrap_or(1))
+fn written(source: &Source) -> Vec<Written> {
+    let tokens = source.tokens();
+    let written = |definition: Definition| {
+        let from = documented_from(source, source.offset_of(&tokens[definition.first]));
+        let end = source.offset_of(tokens.get(definition.end.checked_sub(1)?)?) + 1;
+        let name = (definition.full_name(), definition.parameters().count());
+        Some(Written { name, bytes: from..end })
     };
-    let is = |index: usize, wanted: fn(&Token) -> bool| {
-        tokens.get(index).is_some_and(|(token, _)| wanted(token))
-    };
-    let definition = |start: usize| {
-        // Empty parentheses are one token.
-        let opens = |token: &Token| matches!(token, Token::LeftParen | Token::Unit);
-        let opening = (start..tokens.len()).find(|at| is(*at, opens))?;
-        let body =
-            (opening..tokens.len()).find(|at| is(*at, |token| *token == Token::LeftBrace))?;
-        let words = |range: Range<usize>| {
-            tokens[range].iter().filter_map(|(token, _)| match token {
-                Token::Identifier(name) => Some(name.to_string()),
-                Token::StringConstant(name) => Some(name.to_string()),
-                _ => None,
-            })
-        };
-        let name = words(start + 1..opening).collect::<Vec<_>>().join(".");
-        let mut depth = 0_usize;
-        let end = (body..tokens.len()).find(|index| {
-            match tokens[*index].0 {
-                Token::LeftBrace | Token::MapStart => depth += 1,
-                Token::RightBrace => depth = depth.saturating_sub(1),
-                _ => (),
-            }
-            depth == 0
-        })?;
-        let first = match start.checked_sub(1) {
-            Some(before) if is(before, |token| *token == Token::Private) => before,
-            _ => start,
-        };
-        let bytes = documented_from(text, offset(first))..offset(end) + 1;
-        Some(Definition { name: (name, words(opening..body).count()), bytes })
-    };
-    let starts = (0..tokens.len()).filter(|index| is(*index, |token| *token == Token::Fn));
-    starts.filter_map(definition).collect()
+    definitions(tokens).filter_map(written).collect()
 }
 
 /// Where the lines of documentation begin that end at `end`.
@@ -258,9 +228,9 @@ fn documented_from(text: &str, end: usize) -> usize {
 }
 
 /// A text without some of its functions.
-fn without(text: String, is_replaced: impl Fn(&Definition) -> bool) -> String {
-    let mut text = text;
-    for definition in definitions(&text).into_iter().rev().filter(is_replaced) {
+fn without(source: &Source, is_replaced: impl Fn(&Written) -> bool) -> String {
+    let mut text = source.to_string();
+    for definition in written(source).into_iter().rev().filter(is_replaced) {
         let note = format!("/* {} is defined anew below */", definition.name.0);
         text.replace_range(definition.bytes, &note);
     }
@@ -272,7 +242,6 @@ mod tests {
     use super::*;
     use crate::script::engine::build;
     use crate::script::packages::language;
-
     use crate::script::state::context::Context;
     use crate::script::state::settings::{Mode, Settings};
 

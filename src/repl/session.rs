@@ -21,8 +21,8 @@ use crate::script::dialect::reading::read;
 use crate::script::engine;
 use crate::script::rows::catalog::Catalog;
 use crate::script::rows::sources::Sources;
-use crate::script::source::lexing::{open_comment, tokens};
 use crate::script::source::program::Program;
+use crate::script::source::text::{Source, behind};
 use crate::script::state::context::Context;
 use crate::script::state::settings::Settings;
 use crate::script::state::watchdog::Watchdog;
@@ -170,7 +170,7 @@ impl Session {
         };
         self.forget_shadowed();
         let functions: String =
-            functions_of(after).map(|function| format!("\n{function}")).collect();
+            functions_of(&after.into()).map(|function| format!("\n{function}")).collect();
         self.record.worked(&format!("{before}{functions}"));
     }
 
@@ -210,7 +210,7 @@ impl Session {
     }
 
     /// Parses an input, makes its functions known, and begins to keep the limits.
-    fn begin(&mut self, text: &str, before: usize) -> Result<(AST, Watchdog), Reply> {
+    fn begin(&mut self, text: &Source, before: usize) -> Result<(AST, Watchdog), Reply> {
         let watchdog = self.context.meter().watch().map_err(|error| {
             let told = format!("cannot start a thread that keeps the limits: {error}");
             Reply::Failed(Diagnostic::general(told))
@@ -254,26 +254,22 @@ impl Session {
     }
 
     /// Parses an input at its lines of the session.
-    fn compile(&self, text: &str, before: usize) -> Result<AST, Box<EvalAltResult>> {
+    fn compile(&self, text: &Source, before: usize) -> Result<AST, Box<EvalAltResult>> {
         let ast = read(&self.engine, &self.scope, text, before)?;
         Sources::of(&self.engine).note(&ast, PROMPT);
-        let placed = format!("{}{text}", "\n".repeat(before));
-        naming::judge(&self.engine, &placed, &self.transcript.whole().text)?;
-        match open_comment(text) {
-            Some(at) => {
-                let line = (at.line().unwrap_or(1) + before).try_into().unwrap_or(u16::MAX);
-                let column = at.position().unwrap_or(1).try_into().unwrap_or(u16::MAX);
-                Err(ScriptError::new("a comment that begins with /* is never closed")
-                    .hint("write */ where it ends")
-                    .into_engine(rhai::Position::new(line, column)))
-            }
+        naming::judge(&self.engine, text, before, || self.transcript.variables())?;
+        match text.open_comment() {
+            Some(at) => Err(ScriptError::new("a comment that begins with /* is never closed")
+                .hint("write */ where it ends")
+                .into_engine(behind(at, before))),
             None => Ok(ast),
         }
     }
 
     /// Keeps the value of an input that worked, if it is to be shown.
-    fn answer(&mut self, value: Dynamic, text: &str) -> Reply {
-        if value.is_unit() || is_silenced(text) {
+    fn answer(&mut self, value: Dynamic, text: &Source) -> Reply {
+        // An input that ends in a semicolon is not to show its value.
+        if value.is_unit() || text.ends_in_semicolon() {
             return Reply::Done;
         }
         // A constant of this name belongs to the user.
@@ -356,7 +352,7 @@ impl Session {
     pub fn script(&self) -> Result<String, Diagnostic> {
         let script = self.record.script(&self.engine);
         let program = Program::named("the saved session", &script);
-        match read(&self.engine, &Scope::new(), &script, 0) {
+        match read(&self.engine, &Scope::new(), &program.text, 0) {
             Ok(_) => Ok(script),
             Err(error) => {
                 let (catalog, engine) = (&self.catalog, &*self.engine);
@@ -369,11 +365,6 @@ impl Session {
     pub fn folder(&self) -> &Path {
         &self.folder
     }
-}
-
-/// Whether an input ends in a semicolon, which says that its value is not to be shown.
-fn is_silenced(text: &str) -> bool {
-    matches!(tokens(text).last(), Some((rhai::Token::SemiColon, _)))
 }
 
 /// Simulations hold functions that hold the context, which holds the last simulation.

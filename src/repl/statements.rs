@@ -4,12 +4,11 @@ use rhai::{AST, ASTFlags, ASTNode, Engine, Scope, Stmt, Token};
 
 use crate::script::dialect::reading::read;
 use crate::script::rows::sources::Sources;
-use crate::script::source::lexing::tokens;
-use crate::script::source::program::Program;
+use crate::script::source::text::Source;
 
 /// How many statements a text has, functions apart; none if it is not correct.
 pub fn count(engine: &Engine, text: &str) -> Option<usize> {
-    read(engine, &Scope::new(), text, 0).ok().map(|ast| ast.statements().len())
+    read(engine, &Scope::new(), &text.into(), 0).ok().map(|ast| ast.statements().len())
 }
 
 /// The last place where a text that could be read can be cut so that `first` of its statements stand before the cut and the others
@@ -24,10 +23,10 @@ fn boundary_of(engine: &Engine, text: &str, first: usize) -> Option<usize> {
         let (before, after) = text.split_at(*cut);
         count(engine, before) == Some(first) && count(engine, after) == all.checked_sub(first)
     };
-    let program = Program::named("", text);
-    let ends = tokens(text).into_iter().filter_map(|(token, position)| {
-        let at = program.offset(position.line()?, position.position()?);
-        matches!(token, Token::SemiColon | Token::RightBrace).then_some(at + 1)
+    let source = Source::from(text);
+    let ends = source.tokens().iter().filter_map(|lexeme| {
+        let ends = matches!(lexeme.0, Token::SemiColon | Token::RightBrace);
+        ends.then(|| source.offset_of(lexeme) + 1)
     });
     // The engine's places are those of an engine: what is no place in the text is none to cut it.
     let ends = ends.filter(|end| text.is_char_boundary(*end));
@@ -55,7 +54,6 @@ mod tests {
     use super::*;
     use crate::script::engine::build;
     use crate::script::packages::language;
-
     use crate::script::state::context::Context;
     use crate::script::state::settings::{Mode, Settings};
 

@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use crate::script::diagnose::{Diagnostic, Location};
+use crate::script::source::outline::Outline;
 use crate::script::source::program::Program;
 
 /// The name of what is typed at the prompt, in messages.
@@ -88,6 +89,26 @@ impl Transcript {
         self.typed(&text)
     }
 
+    /// The variables that inputs declare outside functions, with their lines in [`Transcript::whole`].
+    pub fn variables(&self) -> Vec<(String, usize)> {
+        let shown = self.shown();
+        let of_piece = |piece: &Piece| {
+            let before = piece.before;
+            let own = Outline::of(&piece.program.text).top_level.into_iter();
+            own.map(move |(name, line)| (name, line + before))
+        };
+        shown.flat_map(of_piece).collect()
+    }
+
+    /// The inputs that count: those that did not work do not, but for the last one.
+    fn shown(&self) -> impl Iterator<Item = &Piece> {
+        let last = self.pieces.len().saturating_sub(1);
+        let pieces = self.pieces.iter().enumerate();
+        pieces
+            .filter(move |(index, piece)| piece.is_valid || *index == last)
+            .map(|(_, piece)| piece)
+    }
+
     /// The same diagnostic with places in the inputs that they are from: files that were read in count their own lines.
     pub fn relocate(&self, mut diagnostic: Diagnostic) -> Diagnostic {
         for step in &mut diagnostic.trace {
@@ -129,6 +150,9 @@ mod tests {
         assert_eq!(transcript.add(transcript.typed("let a = 1;")), 0);
         assert_eq!(transcript.add(transcript.typed("fn f() {\n  2\n}")), 1);
         assert_eq!(transcript.next_line(), 5);
+        transcript.add(transcript.typed("let b = 2;"));
+        assert_eq!(transcript.variables(), [("a".to_owned(), 1), ("b".to_owned(), 5)]);
+        transcript.forget_last();
         assert_eq!(&*transcript.whole().text, "let a = 1;\nfn f() {\n  2\n}\n");
     }
 

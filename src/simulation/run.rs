@@ -6,6 +6,7 @@ mod content;
 mod explain;
 mod frames;
 mod landing;
+mod looking_inside;
 mod noting;
 mod recording;
 mod revisit;

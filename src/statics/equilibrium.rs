@@ -2,11 +2,11 @@
 
 use super::tracer::Tracer;
 use super::{Control, Loading, Path, PathPoint, StaticsError};
-use crate::beams::{Place, Section};
+use crate::beams::{Place, Section, SectionForces, Station};
 use crate::elementary::square;
 use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
-use crate::model::{Element, Model, Scene};
+use crate::model::{Element, Model, ModelError, Scene, SectionSample};
 use crate::vibration::{Modes, VibrationError, loose_movements};
 
 /// What becomes of a small disturbance of an equilibrium.
@@ -107,6 +107,23 @@ impl Equilibrium {
         self.model.begin_movement();
         self.model.add_static_forces(&standstill, self.path.load_factor(), &mut forces);
         self.model.support_force(place, &forces)
+    }
+
+    /// Section forces and strains at a station.
+    ///
+    /// # Errors
+    /// When the station lies outside its beam, or on a particle.
+    pub fn section_forces(&self, station: &Station) -> Result<SectionForces, ModelError> {
+        let at = self.model.cross_section(&self.scene, station)?;
+        Ok(self.model.section_forces(&at))
+    }
+
+    /// The section forces along a beam, from its start to its end.
+    ///
+    /// # Errors
+    /// When an axis has a point without a tangent.
+    pub fn section_forces_along(&self, beam: usize) -> Result<Vec<SectionSample>, ModelError> {
+        self.model.section_forces_along(&self.scene, beam)
     }
 
     /// What becomes of a small disturbance, by the signs of the pivots of the stiffness, and where these are not sure by the lowest mode.

@@ -2,6 +2,7 @@
 #![allow(dead_code, clippy::unwrap_used)]
 
 pub mod corpus;
+pub mod fingerprint;
 pub mod fixed_way;
 pub mod notepad;
 pub mod probe;

@@ -11,6 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::common::fingerprint::fingerprint;
 use crate::common::sliding::{Support, free_sliding_mass, kicked_sliding_particle};
 use crate::common::{at, meshes, rails, run, scenes, settings, sliding_scenes};
 use withy::beams::{Mesh, Section, Shape, Solid};
@@ -30,11 +31,9 @@ const PLAIN: (&str, &str) = (
     "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F,-AVX2_Usable,-FMA_Usable,-FMA4_Usable,-AVX512F_Usable",
 );
 
-/// FNV-1a (Fowler, Noll & Vo 1991) of all digits of a value: numbers are written so that no bit is lost.
+/// A fingerprint of all digits of a value: numbers are written so that no bit is lost.
 fn hash(value: &impl Debug) -> u64 {
-    format!("{value:?}").bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
+    fingerprint(format!("{value:?}").bytes())
 }
 
 /// Runs a scene: the state at the end, the history, and the refusal if a step had no solution, which is an outcome like others.

@@ -74,40 +74,89 @@ fn layer(path: &Path) -> String {
     first.as_os_str().to_string_lossy().into_owned()
 }
 
-/// The layers named after `crate::` (or, in the binary, `withy::`) in the code of a file, comments apart.
-fn used(text: &str) -> Vec<(usize, String)> {
+/// The names after a path in the code of a file, those in braces one by one, with the line of each; comments are no code.
+pub fn named_after(text: &str, path: &str) -> Vec<(usize, String)> {
     let mut found = Vec::new();
-    for (number, line) in text.lines().enumerate() {
-        let code = line.split("//").next().unwrap_or_default();
-        for marker in ["crate::", "withy::"] {
-            for (at, _) in code.match_indices(marker) {
-                let name = code[at + marker.len()..]
-                    .split(|c: char| !c.is_alphanumeric() && c != '_')
-                    .next()
-                    .unwrap_or_default();
-                found.push((number + 1, name.to_owned()));
-            }
+    for (at, _) in text.match_indices(path) {
+        let is_comment = text[..at].rsplit('\n').next().unwrap().contains("//");
+        let is_part = text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_');
+        if !is_comment && !is_part {
+            let line = text[..at].matches('\n').count() + 1;
+            let names = first_names(&text[at + path.len()..]);
+            found.extend(names.into_iter().map(|name| (line, name)));
         }
     }
     found
 }
 
-/// Uses that the table does not allow, as `file:line: layer uses layer`.
-fn trespasses(files: &[(PathBuf, String)]) -> Vec<String> {
-    let mut found = Vec::new();
-    for (path, text) in files {
-        let own = layer(path);
-        let Some(allowed) = allowed(&own) else {
-            found.push(format!("{}: no layer '{own}' in the table", path.display()));
-            continue;
-        };
-        for (line, name) in used(text) {
-            if name != own && !allowed.contains(&name.as_str()) {
-                found.push(format!("{}:{line}: {own} uses {name}", path.display()));
-            }
+/// The first name of what is written behind a path, or those of each part of a list in braces, which may hold further lists.
+fn first_names(rest: &str) -> Vec<String> {
+    let word = |text: &str| {
+        let name = text.trim().split(|c: char| !c.is_alphanumeric() && c != '_').next();
+        name.unwrap_or_default().to_owned()
+    };
+    let Some(list) = rest.strip_prefix('{') else { return vec![word(rest)] };
+    let (mut depth, mut part, mut names) = (0_usize, String::new(), Vec::new());
+    for letter in list.chars() {
+        match letter {
+            ',' if depth == 0 => names.push(word(&std::mem::take(&mut part))),
+            '}' if depth == 0 => break,
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            _ if depth == 0 => part.push(letter),
+            _ => (),
         }
     }
-    found
+    names.push(word(&part));
+    names.retain(|name| !name.is_empty());
+    names
+}
+
+/// Walls between parts of the code.
+pub struct Walls<'w> {
+    /// What one part is, in words.
+    pub part: &'static str,
+    /// The part that a file stands in; none for files that are in no part.
+    pub of_file: &'w dyn Fn(&Path) -> Option<String>,
+    /// The paths that names of parts stand behind.
+    pub paths: &'static [&'static str],
+    /// The part that a name stands for.
+    pub of_name: &'w dyn Fn(&str) -> String,
+    /// Whether a part may use another; none for a part that is in no table.
+    pub may_use: &'w dyn Fn(&str, &str) -> Option<bool>,
+}
+
+impl Walls<'_> {
+    /// Uses that are not allowed, as `file:line: part uses part`.
+    pub fn breaches(&self, files: &[(PathBuf, String)]) -> Vec<String> {
+        let mut found = Vec::new();
+        for (path, text) in files {
+            let Some(own) = (self.of_file)(path) else { continue };
+            if (self.may_use)(&own, &own).is_none() {
+                found.push(format!("{}: no {} '{own}' in the table", path.display(), self.part));
+                continue;
+            }
+            for (line, name) in self.paths.iter().flat_map(|of| named_after(text, of)) {
+                let other = (self.of_name)(&name);
+                if other != own && (self.may_use)(&own, &other) != Some(true) {
+                    found.push(format!("{}:{line}: {own} uses {other}", path.display()));
+                }
+            }
+        }
+        found
+    }
+}
+
+/// Uses of layers that the table does not allow.
+fn trespasses(files: &[(PathBuf, String)]) -> Vec<String> {
+    let walls = Walls {
+        part: "layer",
+        of_file: &|path| Some(layer(path)),
+        paths: &["crate::", "withy::"],
+        of_name: &str::to_owned,
+        may_use: &|own, other| Some(allowed(own)?.contains(&other)),
+    };
+    walls.breaches(files)
 }
 
 #[test]
@@ -129,29 +178,6 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("words", &[]),
 ];
 
-/// The names after a path in a file, those in braces one by one, with the line of each.
-pub fn named_after(text: &str, path: &str) -> Vec<(usize, String)> {
-    let mut found = Vec::new();
-    for (at, _) in text.match_indices(path) {
-        let line = text[..at].lines().count();
-        let is_comment = text[..at].rsplit('\n').next().unwrap().contains("//");
-        let rest = &text[at + path.len()..];
-        let word = |text: &str| {
-            let name = text.trim().split(|c: char| !c.is_alphanumeric() && c != '_').next();
-            name.unwrap_or_default().to_owned()
-        };
-        let list = rest.strip_prefix('{').and_then(|rest| rest.split('}').next());
-        let names: Vec<String> = match list {
-            Some(list) => list.split(',').map(word).filter(|name| !name.is_empty()).collect(),
-            None => vec![word(rest)],
-        };
-        if !is_comment {
-            found.extend(names.into_iter().map(|name| (line, name)));
-        }
-    }
-    found
-}
-
 /// The room of a file of the model, by its folder or, for the file beside a folder, its name.
 fn room(path: &Path) -> Option<String> {
     let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/model");
@@ -162,22 +188,17 @@ fn room(path: &Path) -> Option<String> {
 
 /// Uses of one room by another that the table does not allow; `exports` are the rooms of names that the model hands on.
 fn strangers(files: &[(PathBuf, String)], exports: &[(String, String)]) -> Vec<String> {
-    let mut found = Vec::new();
-    for (path, text) in files {
-        let Some(own) = room(path) else { continue };
-        let Some((_, allowed)) = ROOMS.iter().find(|(name, _)| **name == own) else {
-            found.push(format!("{}: no room '{own}' in the table", path.display()));
-            continue;
-        };
-        for (line, name) in named_after(text, "crate::model::") {
-            let of = exports.iter().find(|(export, _)| *export == name);
-            let other = of.map_or(&name, |(_, room)| room);
-            if *other != own && !allowed.contains(&other.as_str()) {
-                found.push(format!("{}:{line}: {own} uses {other}", path.display()));
-            }
-        }
-    }
-    found
+    let of_name = |name: &str| {
+        let of = exports.iter().find(|(export, _)| export == name);
+        of.map_or_else(|| name.to_owned(), |(_, room)| room.clone())
+    };
+    let may_use = |own: &str, other: &str| {
+        let (_, allowed) = ROOMS.iter().find(|(name, _)| *name == own)?;
+        Some(allowed.contains(&other))
+    };
+    let (of_name, may_use) = (&of_name, &may_use);
+    let paths = &["crate::model::"];
+    Walls { part: "room", of_file: &room, paths, of_name, may_use }.breaches(files)
 }
 
 /// What `model/mod.rs` hands on: names with their rooms.
@@ -230,6 +251,12 @@ fn a_trespass_is_found() {
         found.len() == 1 && found[0].ends_with("mesh.rs:3: beams uses integrators"),
         "{found:?}"
     );
+}
+
+#[test]
+fn names_in_lists_of_lists_are_found() {
+    let text = "use crate::{\n    model::{Model, words::finite},\n    beams::Mesh,\n};\nlet a = mycrate::x;\n";
+    assert_eq!(named_after(text, "crate::"), [(1, "model".to_owned()), (1, "beams".to_owned())]);
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::layering::{named_after, sources};
+use crate::layering::{Walls, sources};
 
 /// From left to right: a wing may use those to its left.
 const WINGS: &[&str] = &[
@@ -31,32 +31,33 @@ fn without_tests<'t>(path: &Path, text: &'t str) -> &'t str {
 }
 
 /// Uses of a wing by one to its left.
-fn rings(files: &[(PathBuf, String)]) -> Vec<String> {
+fn trespasses(files: &[(PathBuf, String)]) -> Vec<String> {
     let place = |name: &str| WINGS.iter().position(|wing| *wing == name);
-    let mut found = Vec::new();
-    for (path, text) in files {
-        let Some(own) = wing(path) else { continue };
-        let Some(here) = place(&own) else {
-            found.push(format!("{}: no wing '{own}' in the table", path.display()));
-            continue;
-        };
-        for (line, name) in named_after(without_tests(path, text), "crate::script::") {
-            if place(&name).is_none_or(|other| other > here) {
-                found.push(format!("{}:{line}: {own} uses {name}", path.display()));
-            }
-        }
-    }
-    found
+    let code: Vec<_> = files
+        .iter()
+        .map(|(path, text)| (path.clone(), without_tests(path, text).to_owned()))
+        .collect();
+    let walls = Walls {
+        part: "wing",
+        of_file: &wing,
+        paths: &["crate::script::"],
+        of_name: &str::to_owned,
+        may_use: &|own, other| {
+            let own = place(own)?;
+            Some(place(other).is_some_and(|other| other < own))
+        },
+    };
+    walls.breaches(&code)
 }
 
 #[test]
 fn wings_of_the_script_use_those_to_their_left() {
     let files = sources();
     assert!(files.iter().filter(|(path, _)| wing(path).is_some()).count() > 100);
-    let found = rings(&files);
+    let found = trespasses(&files);
     assert!(found.is_empty(), "{}", found.join("\n"));
     let text = "use crate::script::rows::table::Row;\nuse crate::script::words::stop::Stop;\n";
-    let found = rings(&[(script().join("source/program.rs"), text.to_owned())]);
+    let found = trespasses(&[(script().join("source/program.rs"), text.to_owned())]);
     assert!(found.len() == 1 && found[0].ends_with("program.rs:1: source uses rows"), "{found:?}");
 }
 

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use crate::common::notepad::Notepad;
 use withy::output::{Colours, Glyphs, Style};
 use withy::repl::clock::Clock;
 use withy::repl::pager::{Pager, Shown};
@@ -14,8 +15,6 @@ use withy::repl::session::Session;
 use withy::repl::shell::{Outcome, Screen, Shell};
 use withy::script::packages::language;
 use withy::script::state::settings::{Mode, Settings};
-
-use crate::common::notepad::Notepad;
 
 /// A shell, and what it has printed and told.
 struct Prompt {
@@ -489,7 +488,10 @@ fn a_simulation_that_was_made_to_be_timed_is_not_the_last_one() {
 #[test]
 fn a_column_without_a_simulation_says_what_is_missing() {
     let mut prompt = Prompt::new();
-    assert_ne!(prompt.shell.submit(":plot energy"), Outcome::Good);
-    let told = prompt.told.take();
-    assert!(told.contains("there is no simulation yet"), "{told}");
+    for input in
+        [":plot energy", ":plot kinetic strain", ":plot momentum_x", ":plot energy, [1, 2]"]
+    {
+        let told = prompt.refusal(input);
+        assert!(told.contains("there is no simulation yet"), "{input}: {told}");
+    }
 }

@@ -5,6 +5,8 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
+use crate::fingerprint::fingerprint;
+
 /// Outputs by name.
 #[derive(Default)]
 pub struct Book(BTreeMap<String, Vec<u8>>);
@@ -45,8 +47,13 @@ impl Book {
         if let Ok(folder) = std::env::var("WITHY_OUTPUTS") {
             self.write_to(Path::new(&folder));
         }
-        let found: BTreeMap<_, _> =
-            self.0.iter().map(|(name, output)| (name.as_str(), fingerprint(output))).collect();
+        let found: BTreeMap<_, _> = self
+            .0
+            .iter()
+            .map(|(name, output)| {
+                (name.as_str(), format!("{:016x}", fingerprint(output.iter().copied())))
+            })
+            .collect();
         if std::env::var_os("WITHY_UPDATE").is_some() {
             let lines = found.iter().fold(String::new(), |mut lines, (name, print)| {
                 let _ = writeln!(lines, "{print} {name}");
@@ -82,12 +89,4 @@ impl Book {
             fs::write(folder.join(file), output).unwrap();
         }
     }
-}
-
-/// FNV-1a (Fowler, Noll & Vo 1991).
-fn fingerprint(output: &[u8]) -> String {
-    let hash = output.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    });
-    format!("{hash:016x}")
 }

@@ -3,15 +3,14 @@
 use std::fs;
 use std::path::Path;
 
+use crate::book::Book;
+use crate::notepad::Notepad;
+use crate::times;
 use withy::exercises::catalogue::EXERCISES;
 use withy::script::engine::runner::{Ending, run};
 use withy::script::packages::{TABLES, language};
 use withy::script::source::program::Program;
 use withy::script::state::settings::{Mode, Settings};
-
-use crate::book::Book;
-use crate::notepad::Notepad;
-use crate::times;
 
 pub fn record(book: &mut Book) {
     suite(book);

@@ -5,6 +5,8 @@
 //! outputs` and reads the difference: with `WITHY_OUTPUTS=FOLDER` everything is written there in full, for a comparison of two versions.
 #![allow(clippy::unwrap_used)]
 
+#[path = "../common/fingerprint.rs"]
+mod fingerprint;
 #[path = "../common/notepad.rs"]
 #[allow(dead_code)]
 mod notepad;

@@ -1,12 +1,11 @@
 //! Help, reference, definition files, and the pages of the library.
 
+use crate::book::Book;
 use withy::script::library;
 use withy::script::packages::language;
 use withy::script::pages::definitions::definitions;
 use withy::script::pages::help::{self, WIDTH};
 use withy::script::pages::reference::reference;
-
-use crate::book::Book;
 
 /// Names that mean nothing, and what is said about them.
 const UNKNOWN: &[&str] = &["", "bspilne", "sim.rnu_to", "spring.pull", "%", "gravity.x"];

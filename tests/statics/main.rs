@@ -5,4 +5,5 @@ mod common;
 
 mod equilibria;
 mod modes;
+mod section_forces;
 mod stiff_modes;

@@ -3,10 +3,9 @@
 use std::borrow::Cow;
 use std::fmt::Write;
 
-use textwrap::core::display_width;
 use textwrap::{Options, WordSplitter};
 
-use crate::output::Colours;
+use crate::output::{Colours, columns_of};
 
 /// How a piece is drawn, as numbers of an ANSI sequence.
 pub type Style = Cow<'static, str>;
@@ -50,7 +49,7 @@ impl Line {
 
     /// Columns that it takes.
     pub fn width(&self) -> usize {
-        self.0.iter().map(|(text, _)| display_width(text)).sum()
+        self.0.iter().map(|(text, _)| crate::output::columns(text)).sum()
     }
 
     /// As it is written to a terminal.
@@ -113,7 +112,7 @@ impl Line {
 fn fitting(characters: &[(char, &Style)], columns: usize) -> usize {
     let mut taken = 0;
     let is_beyond = |(character, _): &(char, &Style)| {
-        taken += display_width(character.encode_utf8(&mut [0; 4]));
+        taken += columns_of(*character);
         taken > columns
     };
     characters.iter().position(is_beyond).unwrap_or(characters.len())
@@ -138,7 +137,7 @@ fn push(lines: &mut [Line], piece: String, style: &Style) {
 /// Text as lines of at most so many columns, broken between words; all but the first begin with `indent`.
 pub fn wrapped(text: &str, indent: &str, columns: usize) -> Vec<String> {
     let options = Options::new(columns.max(1))
-        .subsequent_indent(if display_width(indent) * 2 < columns { indent } else { "" })
+        .subsequent_indent(if crate::output::columns(indent) * 2 < columns { indent } else { "" })
         .word_splitter(WordSplitter::NoHyphenation);
     let wrap = |line: &str| {
         let line = clean(line);

@@ -5,6 +5,7 @@ use super::state::State;
 use crate::exercises::catalogue::EXERCISES;
 use crate::exercises::overheard::Overheard;
 use crate::exercises::report::{Outcome, Place, Report, Trouble};
+use crate::output::columns_of;
 
 /// Lines of what is printed that are shown.
 const PRINTED: usize = 12;
@@ -87,22 +88,31 @@ fn excerpt(place: &Place, columns: usize) -> Vec<Line> {
     let mut text = String::new();
     let (mut at, mut length) = (0, 0);
     for (index, character) in place.text.chars().enumerate() {
-        let width = if character == '\t' { TAB } else { 1 };
+        let width = if character == '\t' { TAB } else { columns_of(character) };
         at += if index < place.at { width } else { 0 };
         let is_inside = (place.at..place.at + place.length).contains(&index);
         length += if is_inside { width } else { 0 };
         text += &if character == '\t' { " ".repeat(TAB) } else { character.to_string() };
     }
     let number = format!("{:>5} │ ", place.line);
-    let room = columns.saturating_sub(number.chars().count() + 1).max(8);
+    let room = columns.saturating_sub(crate::output::columns(&number) + 1).max(8);
     // What stands before the place is left out where the place would not be seen.
     let skipped = if at + length.max(1) <= room { 0 } else { at.saturating_sub(room / 3) };
-    let (before, seen) = if skipped > 0 { ("…", skipped + 1) } else { ("", 0) };
-    let seen: String = text.chars().skip(seen).collect();
+    let (before, seen) = if skipped > 0 { ("…", behind(&text, skipped + 1)) } else { ("", text) };
     let line = Line::of(&number, FAINT).and(before, FAINT).and(&seen, PLAIN).cut(columns);
     let marks = "^".repeat(length.clamp(1, room - (at - skipped).min(room - 1)));
     let mark = format!("{}{marks}", " ".repeat(at - skipped));
     vec![line, Line::of("      │ ", FAINT).and(&mark, BAD).cut(columns)]
+}
+
+/// A text without its first columns; of a character that takes two and stands on their end a blank is left.
+fn behind(text: &str, columns: usize) -> String {
+    let (mut left_out, mut rest) = (0, text.chars());
+    while left_out < columns {
+        let Some(letter) = rest.next() else { break };
+        left_out += columns_of(letter);
+    }
+    format!("{}{}", " ".repeat(left_out.saturating_sub(columns)), rest.as_str())
 }
 
 fn printed(state: &State, printed: &Overheard, columns: usize) -> Vec<Line> {
@@ -140,6 +150,11 @@ mod tests {
             (line.as_str(), mark.as_str()),
             ("    7 │ let b = todo(\"b\");", "      │         ^^^^")
         );
+        let [line, mark] = shown("let a = \"漢字\" + x;", 15, 1, 40);
+        let before = |text: &str, what: char| {
+            text.split_once(what).map(|(before, _)| crate::output::columns(before))
+        };
+        assert_eq!(before(&line, 'x'), before(&mark, '^'));
         let [line, mark] = shown("\tx = 1;", 1, 1, 40);
         assert_eq!(line.find('x').unwrap() + 2, mark.find('^').unwrap() + 2);
     }

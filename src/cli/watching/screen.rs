@@ -129,7 +129,7 @@ fn head(state: &State, columns: usize) -> Vec<Line> {
         Page::Task => {
             let tail = " and save: it is judged here";
             let whole = format!("Edit {}{tail}", state.file);
-            let whole = if whole.chars().count() <= columns {
+            let whole = if crate::output::columns(&whole) <= columns {
                 whole
             } else {
                 format!("Edit {}", state.file)
@@ -260,7 +260,7 @@ fn foot(state: &State, window: Window, columns: usize) -> Vec<Line> {
     let mut line = Line::default();
     for (key, does) in keys {
         let between = if line.width() > 0 { "   " } else { "" };
-        let wide = line.width() + between.len() + key.chars().count() + 1 + does.len();
+        let wide = line.width() + between.len() + crate::output::columns(key) + 1 + does.len();
         if wide > columns && line.width() > 0 {
             lines.push(std::mem::take(&mut line).and("", PLAIN));
             line = Line::of(key, LOOK).and(&format!(" {does}"), PLAIN);

@@ -3,7 +3,9 @@
 mod explain;
 mod placement;
 mod queries;
+mod section_forces;
 mod sliders;
 
 pub use explain::{Part, Usage};
 pub use placement::{Distance, Placement};
+pub use section_forces::{CrossSection, SectionSample};

@@ -47,6 +47,12 @@ pub enum ModelError {
         /// The length of the beam.
         length: f64,
     },
+    /// Section forces of what has no section.
+    #[error("{body} has no cross section: give a station of a beam")]
+    NoSection {
+        /// The particle.
+        body: String,
+    },
     /// A joint of a place with itself.
     #[error("{joint}: both stations are the same place of {body}; a joint needs two places")]
     JointWithItself {
@@ -154,6 +160,11 @@ impl ModelError {
     /// For `map_err`: a geometry error of a beam.
     pub(in crate::model) fn geometry(beam: &str) -> impl Fn(GeometryError) -> Self + '_ {
         move |source| Self::Beam { beam: beam.to_owned(), source: source.into() }
+    }
+
+    /// Something wrong with a beam.
+    pub(in crate::model) fn beam(name: &str) -> impl Fn(BeamError) -> Self + '_ {
+        move |source| Self::Beam { beam: name.to_owned(), source }
     }
 }
 

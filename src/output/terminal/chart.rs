@@ -6,6 +6,7 @@ use super::{Colours, Glyphs, Style};
 use crate::output::axis::{Axis, Factor, Tick};
 use crate::output::chart::LineChart;
 use crate::output::frame::Frame;
+use crate::output::width::columns;
 
 /// Characters per labelled place along the horizontal axis, lines along the vertical one.
 const TICK_EVERY: (usize, usize) = (9, 4);
@@ -69,13 +70,13 @@ impl Layout {
         let (frame, glyphs) = (chart.frame(), style.glyphs);
         let has_letters = chart.has_letters(style);
         let (y_ticks, factor) = frame.y.ticks((style.height / TICK_EVERY.1).clamp(2, 8));
-        let gutter = y_ticks.iter().map(|tick| width(&glyphs.typeset(&tick.label))).max();
+        let gutter = y_ticks.iter().map(|tick| columns(&glyphs.typeset(&tick.label))).max();
         let gutter = gutter.unwrap_or(0) + 1;
         let heading = heading(&frame, &factor, style);
         let legend = if frame.legend.is_empty() { vec![] } else { legend(chart, style) };
         let (_, x_factor) = frame.x.ticks(6);
         let x_label = glyphs.fit(&x_factor.after(&frame.x_label), style.width / 4);
-        let beside = gutter + 1 + if x_label.is_empty() { 0 } else { width(&x_label) + 1 };
+        let beside = gutter + 1 + if x_label.is_empty() { 0 } else { columns(&x_label) + 1 };
         let top = usize::from(!heading.is_empty()) + legend.len();
         let (columns, rows) =
             (style.width.saturating_sub(beside), style.height.saturating_sub(top + 2));
@@ -125,7 +126,7 @@ impl Layout {
             let row = ((1.0 - tick.place) * (DOWN * self.rows - 1) as f64).round() as usize / DOWN;
             if row != last {
                 let label = glyphs.typeset(&tick.label);
-                let start = self.gutter.saturating_sub(1 + width(&label));
+                let start = self.gutter.saturating_sub(1 + columns(&label));
                 sheet.write(start, self.top + row, &label, Ink::Plain);
                 sheet.put(self.gutter, self.top + row, mark, Ink::Plain);
             }
@@ -147,11 +148,11 @@ impl Layout {
             let at = self.gutter + 1 + dot / ACROSS;
             sheet.put(at, row, mark, Ink::Plain);
             let label = glyphs.typeset(&tick.label);
-            let room = self.style.width.saturating_sub(width(&label));
-            let start = at.saturating_sub(width(&label) / 2).min(room);
+            let room = self.style.width.saturating_sub(columns(&label));
+            let start = at.saturating_sub(columns(&label) / 2).min(room);
             if start >= free {
                 sheet.write(start, row + 1, &label, Ink::Plain);
-                free = start + width(&label) + 1;
+                free = start + columns(&label) + 1;
             }
         }
     }
@@ -164,7 +165,7 @@ impl Layout {
             .collect();
         if rasters.iter().all(|dots| dots.drawn().next().is_none()) {
             let told = glyphs.fit("no data", self.columns);
-            let start = left + (self.columns - width(&told)) / 2;
+            let start = left + (self.columns - columns(&told)) / 2;
             sheet.write(start, top + self.rows / 2, &told, Ink::Plain);
         }
         let all = self.raster(&self.frame.x, &self.frame.y, chart, 0..chart.series.len());
@@ -236,7 +237,7 @@ fn legend(chart: &LineChart, style: &Style) -> Vec<Vec<(usize, usize, String)>> 
     let mut column = 0;
     for (index, series) in chart.series.iter().enumerate().filter(|(_, one)| !one.name.is_empty()) {
         let entry = glyphs.fit(&format!("{} {}", sample(index), series.name), style.width);
-        if column + width(&entry) > style.width {
+        if column + columns(&entry) > style.width {
             if rows.len() == MOST_ROWS {
                 let end = style.width.saturating_sub(3);
                 let more = (column.min(end), index, glyphs.choose("…", "...").to_owned());
@@ -246,7 +247,7 @@ fn legend(chart: &LineChart, style: &Style) -> Vec<Vec<(usize, usize, String)>> 
             rows.push(vec![]);
             column = 0;
         }
-        let next = column + width(&entry) + BETWEEN;
+        let next = column + columns(&entry) + BETWEEN;
         rows.iter_mut()
             .next_back()
             .into_iter()
@@ -254,10 +255,6 @@ fn legend(chart: &LineChart, style: &Style) -> Vec<Vec<(usize, usize, String)>> 
         column = next;
     }
     rows
-}
-
-fn width(text: &str) -> usize {
-    text.chars().count()
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use super::sheet::{Ink, Sheet};
 use super::{Glyphs, Style};
 use crate::output::heat_map::{HeatCell, HeatMap};
+use crate::output::width::columns;
 
 /// Blanks between columns.
 const BETWEEN: usize = 2;
@@ -18,12 +19,12 @@ impl HeatMap {
             .iter()
             .map(|row| row.iter().map(|cell| self.set(cell, glyphs)).collect())
             .collect();
-        let names = self.rows.1.iter().map(|name| count(&glyphs.typeset(name)));
-        let gutter = names.chain([count(&glyphs.typeset(&self.rows.0))]).max().unwrap_or(0);
+        let names = self.rows.1.iter().map(|name| columns(&glyphs.typeset(name)));
+        let gutter = names.chain([columns(&glyphs.typeset(&self.rows.0))]).max().unwrap_or(0);
         let width_of = |(column, name): (usize, &String)| {
             let texts = cells.iter().filter_map(|row| row.get(column));
-            let widest = texts.map(|(_, _, text)| BLOCK + count(text)).max().unwrap_or(0);
-            widest.max(count(&glyphs.typeset(name)))
+            let widest = texts.map(|(_, _, text)| BLOCK + columns(text)).max().unwrap_or(0);
+            widest.max(columns(&glyphs.typeset(name)))
         };
         let widths: Vec<usize> = self.columns.1.iter().enumerate().map(width_of).collect();
         let mut sheet = Sheet::new(&style.sized(style.width, self.rows.1.len() + 4));
@@ -70,10 +71,6 @@ impl HeatMap {
             if has_hatched { format!("   {cross} {}", self.hatched) } else { String::new() };
         format!("{}: {low} {ramp} {high}{hatched}", self.scale.0)
     }
-}
-
-fn count(text: &str) -> usize {
-    text.chars().count()
 }
 
 /// From nothing to dark.

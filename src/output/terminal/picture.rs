@@ -6,6 +6,7 @@ use super::sheet::{Ink, Sheet};
 use crate::output::axis::extent;
 use crate::output::canvas::Point;
 use crate::output::number::significant;
+use crate::output::width::columns;
 
 /// A place that is marked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -190,8 +191,8 @@ impl ConfigurationPicture {
     fn write_into(&self, sheet: &mut Sheet, style: &Style, row: usize, left: &str, right: &str) {
         let room = style.width - 6;
         let right = style.glyphs.typeset(right);
-        let beside = if right.is_empty() { 0 } else { right.chars().count() + 3 };
-        let wanted = style.glyphs.typeset(left).chars().count();
+        let beside = if right.is_empty() { 0 } else { columns(&right) + 3 };
+        let wanted = columns(&style.glyphs.typeset(left));
         let is_room = beside + wanted.min(room / 2) <= room;
         let left = style.glyphs.fit(left, if is_room { room - beside } else { room });
         if !left.trim().is_empty() {

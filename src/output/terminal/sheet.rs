@@ -1,6 +1,7 @@
 //! A sheet of characters, each with its ink, and how it becomes lines of text.
 
 use super::{Colours, Style};
+use crate::output::width::columns_of;
 
 /// What a character is drawn with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -16,6 +17,9 @@ pub enum Ink {
 
 /// Colours of series that a dark and a light terminal both show: cyan, yellow, magenta, green, blue, red.
 const HUES: [u8; 6] = [36, 33, 35, 32, 34, 31];
+
+/// The place behind a character that takes two columns.
+const COVERED: char = '\0';
 
 /// Characters in lines and columns; what is written beyond them is lost.
 #[derive(Clone, Debug)]
@@ -39,8 +43,19 @@ impl Sheet {
 
     /// Writes a text from a place to the right, typeset in the characters of the style.
     pub fn write(&mut self, column: usize, row: usize, text: &str, ink: Ink) {
-        for (offset, letter) in self.style.glyphs.typeset(text).chars().enumerate() {
-            self.put(column + offset, row, letter, ink);
+        let mut column = column;
+        for letter in self.style.glyphs.typeset(text).chars() {
+            match columns_of(letter) {
+                // A place holds one character: an accent of its own would need another.
+                0 => continue,
+                // Half a character cannot be seen.
+                wide if column + wide > self.style.width => return,
+                wide => {
+                    self.put(column, row, letter, ink);
+                    (1..wide).for_each(|beside| self.put(column + beside, row, COVERED, ink));
+                    column += wide;
+                }
+            }
         }
     }
 
@@ -58,7 +73,8 @@ fn line(row: &[(char, Ink)], colours: Colours) -> String {
     let end = row.iter().rposition(|(letter, _)| *letter != ' ').map_or(0, |last| last + 1);
     let mut line = String::new();
     for run in row[..end].chunk_by(|(_, a), (_, b)| a == b) {
-        let text: String = run.iter().map(|(letter, _)| letter).collect();
+        let text: String =
+            run.iter().map(|(letter, _)| letter).filter(|l| **l != COVERED).collect();
         match (colours, run[0].1) {
             (Colours::None, _) | (_, Ink::Plain) => line.push_str(&text),
             (Colours::Ansi, Ink::Faint) => line.push_str(&format!("\x1b[2m{text}\x1b[0m")),
@@ -75,6 +91,15 @@ fn line(row: &[(char, Ink)], colours: Colours) -> String {
 mod tests {
     use super::*;
     use crate::output::terminal::Glyphs;
+
+    #[test]
+    fn wide_characters_take_two_places() {
+        let style = Style { glyphs: Glyphs::Braille, colours: Colours::None, width: 6, height: 2 };
+        let mut sheet = Sheet::new(&style);
+        sheet.write(0, 0, "梁a長い", Ink::Plain);
+        sheet.write(0, 1, "cafe\u{301}!", Ink::Plain);
+        assert_eq!(sheet.render(), "梁a長\ncafe!");
+    }
 
     #[test]
     fn inks_are_colours_only_where_there_are_some() {

@@ -1,5 +1,7 @@
 //! What a terminal can show, and how much room there is.
 
+use crate::output::width::cut;
+
 /// The characters that pictures are made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Glyphs {
@@ -59,12 +61,7 @@ impl Glyphs {
 
     /// `text` typeset, and cut where it is wider than `width`.
     pub(super) fn fit(self, text: &str, width: usize) -> String {
-        let text = self.typeset(text);
-        if text.chars().count() <= width {
-            return text;
-        }
-        let kept = text.chars().take(width.saturating_sub(1));
-        kept.chain((width > 0).then_some(self.choose('…', '~'))).collect()
+        cut(&self.typeset(text), width, self.choose('…', '~'))
     }
 }
 

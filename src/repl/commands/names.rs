@@ -68,7 +68,7 @@ fn text_of(shell: &Shell, name: &str) -> Option<String> {
 pub fn in_language(shell: &Shell, name: &str) -> String {
     let surroundings = shell.surroundings();
     if let Some((owner, member)) = name.rsplit_once('.')
-        && let Some(of) = type_before(owner, &surroundings)
+        && let Some(of) = type_before(owner, &surroundings).and_then(|kind| kind.type_name())
     {
         return format!("{of}.{member}");
     }

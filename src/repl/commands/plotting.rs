@@ -7,7 +7,7 @@ use crate::output::{LineChart, Series};
 use crate::repl::curves::{Curve, Over, Shape, parts, shape, summary};
 use crate::repl::following::{Followed, follow};
 use crate::repl::session::Reply;
-use crate::repl::shell::{Outcome, Screen, Shell};
+use crate::repl::shell::{Outcome, Screen, Shell, no_simulation};
 use crate::script::diagnose::Diagnostic;
 use crate::script::handles::simulation::{Revisit, SimulationHandle};
 use crate::script::looks::sight;
@@ -15,6 +15,7 @@ use crate::script::source::scanner::{Kind, scan};
 use crate::script::words::error::ScriptError;
 use crate::script::words::nouns::with_article;
 use crate::script::words::stop::Stop;
+use crate::simulation::History;
 
 /// What is drawn when nothing is named.
 const ENERGIES: [&str; 3] = ["kinetic", "strain", "energy"];
@@ -64,26 +65,24 @@ fn plot_columns(shell: &mut Shell, columns: &[String]) -> Outcome {
 fn read(shell: &Shell, part: &str) -> Part {
     let words: Vec<String> =
         part.split_whitespace().map(|word| word.trim_matches('"').to_owned()).collect();
-    let expression = Part::Expression(part.to_owned());
-    let Some(latest) = shell.latest() else {
-        // Without a simulation there is no column; its name means one all the same.
-        return match ENERGIES.contains(&part) && !shell.session().variables().contains(part) {
-            true => Part::Columns(words),
-            false => expression,
-        };
-    };
-    let is_column =
-        |name: &String| name == "drift" || latest.simulation().history().dimension(name).is_some();
+    let latest = shell.latest();
     let is_known = |name: &String| {
         shell.session().variables().contains(name)
             || shell.session().catalog().constants().any(|constant| constant == name.as_str())
     };
+    // Without a simulation, what every history has is a column all the same.
+    let is_column = |name: &String| match &latest {
+        Some(latest) => name == "drift" || latest.simulation().history().dimension(name).is_some(),
+        None => History::COLUMNS.iter().any(|column| column.name == name) && !is_known(name),
+    };
     let is_word = |name: &String| {
-        matches!(scan(name).as_slice(), [token] if token.kind == Kind::Word) && !is_known(name)
+        matches!(scan(name).as_slice(), [token] if token.kind == Kind::Word)
+            && !is_known(name)
+            && (latest.is_some() || words.len() > 1)
     };
     match words.iter().all(|word| is_column(word) || is_word(word)) {
         true => Part::Columns(words),
-        false => expression,
+        false => Part::Expression(part.to_owned()),
     }
 }
 
@@ -130,7 +129,7 @@ fn plot_expressions(shell: &mut Shell, found: Vec<Part>) -> Outcome {
 type Drawn = Result<(Vec<Curve>, Option<String>), Outcome>;
 
 fn columns(shell: &mut Shell, names: &[String]) -> Drawn {
-    let Some(latest) = shell.latest() else { return Err(Outcome::Failed) };
+    let Some(latest) = shell.latest() else { return Err(shell.refuse(&no_simulation())) };
     let simulation = latest.simulation();
     let history = simulation.history();
     let mut curves = Vec::new();

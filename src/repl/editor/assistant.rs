@@ -14,7 +14,7 @@ use super::completeness::{Completeness, completeness};
 use super::completion::complete;
 use super::highlight::{Vocabulary, highlight};
 use super::hints::{self, Hint};
-use crate::output::Colours;
+use crate::output::{Colours, columns, cut, padded};
 
 /// Lists as short as this have a line for each candidate, with what it is.
 const SHORT_LIST: usize = 12;
@@ -54,10 +54,10 @@ impl Assistant {
         if hint.insertable.is_some() {
             return Some(hint);
         }
-        let last = line.rsplit('\n').next().unwrap_or_default().chars().count();
+        let last = columns(line.rsplit('\n').next().unwrap_or_default());
         let prompt = if line.contains('\n') { 0 } else { self.prompt_width };
         let room = self.columns.checked_sub(last + prompt + 1).filter(|room| *room >= 10)?;
-        Some(Hint { shown: cut(&hint.shown, room), insertable: None })
+        Some(Hint { shown: cut(&hint.shown, room, '…'), insertable: None })
     }
 }
 
@@ -94,30 +94,21 @@ impl Completer for Assistant {
 }
 
 /// Candidates for a terminal of so many columns.
-fn list(candidates: Vec<Candidate>, columns: usize) -> Vec<Listed> {
-    let widest =
-        candidates.iter().map(|candidate| candidate.display.chars().count()).max().unwrap_or(0);
+fn list(candidates: Vec<Candidate>, room: usize) -> Vec<Listed> {
+    let widest = candidates.iter().map(|candidate| columns(&candidate.display)).max().unwrap_or(0);
     let is_described = candidates.len() <= SHORT_LIST
         && candidates.iter().any(|candidate| !candidate.summary.is_empty());
     let listed = candidates.into_iter().map(|candidate| {
         let display = match is_described {
-            true => format!("{:<widest$}  {}", candidate.display, candidate.summary),
+            true => format!("{}  {}", padded(&candidate.display, widest), candidate.summary),
             false => candidate.display,
         };
         Listed {
-            display: cut(display.trim_end(), columns.saturating_sub(2)),
+            display: cut(display.trim_end(), room.saturating_sub(2), '…'),
             replacement: candidate.replacement,
         }
     });
     listed.collect()
-}
-
-/// The first letters of a text that is too long, and an ellipsis.
-fn cut(text: &str, width: usize) -> String {
-    if text.chars().count() <= width {
-        return text.to_owned();
-    }
-    text.chars().take(width.saturating_sub(1)).chain(std::iter::once('…')).collect()
 }
 
 impl hint::Hint for Hint {

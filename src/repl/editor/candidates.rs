@@ -1,5 +1,6 @@
 //! Candidates of a completion, and which of them fit what is typed.
 
+use crate::script::rows::built_in::{BuiltIn, Ending, Written};
 use crate::script::rows::parameter::Parameter;
 use crate::script::rows::table::{Form, Row};
 
@@ -38,6 +39,16 @@ impl Candidate {
             Form::Function | Form::Method(_) => {
                 let rest = row.parameters.get(before_dot..).unwrap_or_default();
                 Self::call(row.name, &arguments(rest), row.summary)
+            }
+        }
+    }
+
+    /// A function of Rhai's own, as it is written.
+    pub fn built_in((known, form): (&'static BuiltIn, Written)) -> Self {
+        match form.ending {
+            Ending::Property => Self::word(form.name, known.summary),
+            Ending::Arguments | Ending::Repeated => {
+                Self::call(form.name, form.arguments, known.summary)
             }
         }
     }

@@ -202,7 +202,6 @@ mod tests {
     use crate::script::dialect::reading::read;
     use crate::script::engine;
     use crate::script::packages::language;
-
     use crate::script::state::context::Context;
     use crate::script::state::settings::{Mode, Settings};
 
@@ -370,7 +369,7 @@ mod tests {
             let chunks = chunks(&script);
             assert_eq!(chunks.last().map(String::as_str), Some(""), "{file:?} ends open");
             for chunk in chunks {
-                let compiled = read(&engine, &rhai::Scope::new(), &chunk, 0);
+                let compiled = read(&engine, &rhai::Scope::new(), &chunk.as_str().into(), 0);
                 compiled.unwrap_or_else(|error| panic!("{file:?}: {error} in\n{chunk}"));
                 count += 1;
             }

@@ -11,7 +11,7 @@ use super::surroundings::{Function, Surroundings};
 use super::types::Types;
 use crate::script::rows::kind;
 use crate::script::rows::table::Form;
-use crate::script::source::keywords::{FUNCTIONS, KEYWORDS};
+use crate::script::source::keywords::KEYWORDS;
 use crate::script::source::scanner::{Bracket, Kind, Token, scan};
 
 /// What may stand in `line` at `position`: where the word that is typed begins, and what it may become.
@@ -65,7 +65,7 @@ fn complete_language(
                 count.checked_sub(2).and_then(|end| Types { input: &input, surroundings }.of(end));
             let variable =
                 surroundings.variable(before(2)).filter(|_| !matches!(before(3), "." | "?."));
-            members(of.as_deref(), variable, typed, surroundings)
+            members(of, variable, typed, surroundings)
         }
         "::" => module_members(before(2), surroundings),
         word if DECLARING.contains(&word) => Vec::new(),
@@ -89,6 +89,8 @@ fn names(surroundings: &Surroundings) -> Vec<Candidate> {
     let own =
         surroundings.variables.iter().map(|variable| Candidate::word(&variable.name, &variable.of));
     let functions = catalog.rows().filter(|row| matches!(row.form, Form::Function));
+    let built_ins =
+        catalog.built_ins().filter_map(|known| Some((known, known.form_of_function()?)));
     let constants = catalog.tables().flat_map(|table| table.constants);
     let modules = surroundings
         .modules
@@ -98,7 +100,7 @@ fn names(surroundings: &Surroundings) -> Vec<Candidate> {
         .chain(modules)
         .chain(functions.map(|row| Candidate::row(row, 0)))
         .chain(constants.map(|constant| Candidate::word(constant.name, constant.summary)))
-        .chain(FUNCTIONS.iter().map(|(name, summary)| Candidate::call(name, "(value)", summary)))
+        .chain(built_ins.map(Candidate::built_in))
         .chain(KEYWORDS.iter().map(|word| Candidate::word(word, "")))
         .collect()
 }

@@ -3,6 +3,7 @@
 use super::input::{Callee, Input, Level};
 use super::surroundings::Surroundings;
 use super::types::Types;
+use crate::script::rows::built_in::{BuiltIn, Ending, Written};
 use crate::script::rows::kind::Kind;
 use crate::script::rows::parameter::Parameter;
 use crate::script::rows::table::{Form, Row};
@@ -83,11 +84,27 @@ impl<'a, 't> Expected<'a, 't> {
             (Form::Function, Some(_)) => Some(Called { row, before_dot: 1 }),
             (Form::Method(_), Some(None)) => Some(Called { row, before_dot: 0 }),
             (Form::Method(of), Some(Some(known))) => {
-                (of.name() == known).then_some(Called { row, before_dot: 0 })
+                (known.type_name() == Some(of.name())).then_some(Called { row, before_dot: 0 })
             }
             _ => None,
         });
         fitting.collect()
+    }
+
+    /// The functions of Rhai that a call may mean, each in the way in which it is written there.
+    pub fn built_ins(&self, callee: &Callee) -> Vec<(&'static BuiltIn, Written)> {
+        if callee.module.is_some() {
+            return Vec::new();
+        }
+        let receiver = callee.receiver.map(|end| self.types.of(end));
+        let fits = |form: &Written| match (receiver, form.receiver) {
+            (None, None) | (Some(None), Some(_)) => true,
+            (Some(Some(kind)), Some(_)) => kind.type_name().is_some_and(|of| form.is_of(of)),
+            _ => false,
+        };
+        let known = self.types.surroundings.catalog.built_ins_named(callee.name);
+        let forms = known.flat_map(|known| known.written().map(move |form| (known, form)));
+        forms.filter(|(_, form)| form.ending != Ending::Property && fits(form)).collect()
     }
 
     fn at(&self, depth: usize) -> Vec<&'static Parameter> {

@@ -7,6 +7,7 @@ use super::completion::complete;
 use super::expected::{Called, Expected};
 use super::input::{Callee, Input, Level};
 use super::surroundings::{Function, Operand, Surroundings};
+use crate::script::rows::built_in::{BuiltIn, Written};
 use crate::script::rows::parameter::{Parameter, Presence};
 use crate::script::source::scanner::{Bracket, Kind};
 use crate::script::words::numbers::format_number;
@@ -93,14 +94,17 @@ fn call_hint(
         |called: &&Called| level.commas + called.before_dot < called.row.parameters.len();
     match rows.iter().find(is_long_enough).or(rows.first()) {
         Some(called) => Hint::note(signature(called, &level)),
-        None => Hint::note(script_signature(script_function(&callee, surroundings)?, &level)),
+        None => match script_function(&callee, surroundings) {
+            Some(function) => Hint::note(script_signature(function, &level)),
+            None => Hint::note(built_in_signature(&expected.built_ins(&callee), &level)?),
+        },
     }
 }
 
 /// A signature with the current parameter in angle quotes, and what it may be.
 fn signature(called: &Called, level: &Level) -> String {
     let parameters = called.row.parameters.get(called.before_dot..).unwrap_or_default();
-    let mut names: Vec<String> = parameters
+    let names: Vec<String> = parameters
         .iter()
         .map(|parameter| match parameter.is_required() {
             true => parameter.name.to_owned(),
@@ -109,11 +113,27 @@ fn signature(called: &Called, level: &Level) -> String {
         .collect();
     match parameters.get(level.commas) {
         Some(current) => {
-            names[level.commas] = format!("‹{}›", names[level.commas]);
+            let names = marked(names, level.commas);
             format!("{}({})  {}", called.row.name, names.join(", "), describe(current))
         }
         None => format!("{}{}", called.row.name, arguments(parameters)),
     }
+}
+
+/// The signature of a function of Rhai with the current argument in angle quotes, and what the function does.
+fn built_in_signature(known: &[(&BuiltIn, Written)], level: &Level) -> Option<String> {
+    let is_long_enough = |(_, form): &&(&BuiltIn, Written)| level.commas < form.listed().len();
+    let (known, form) = known.iter().find(is_long_enough).or(known.first())?;
+    let names = marked(form.listed(), level.commas);
+    Some(format!("{}({})  {}", form.name, names.join(", "), known.summary))
+}
+
+/// Names of arguments, the current one in angle quotes.
+fn marked(mut names: Vec<String>, current: usize) -> Vec<String> {
+    if let Some(name) = names.get_mut(current) {
+        *name = format!("‹{name}›");
+    }
+    names
 }
 
 /// What a parameter may be: `t: a number [time]; 0 unless given; doc`.
@@ -147,12 +167,8 @@ fn script_function<'s>(callee: &Callee, surroundings: &'s Surroundings) -> Optio
 }
 
 fn script_signature(function: &Function, level: &Level) -> String {
-    let marked =
-        function.parameters.iter().enumerate().map(|(index, name)| match index == level.commas {
-            true => format!("‹{name}›"),
-            false => name.clone(),
-        });
-    format!("{}({})", function.name, marked.collect::<Vec<_>>().join(", "))
+    let names = marked(function.parameters.clone(), level.commas);
+    format!("{}({})", function.name, names.join(", "))
 }
 
 #[cfg(test)]
@@ -188,6 +204,12 @@ mod tests {
         assert!(shown("print(\"a\"); sim.run_to(2 * (1 + ").starts_with("run_to(‹t›)"));
         assert_eq!(shown("sim.run_to(1)"), "");
         assert_eq!(shown("unknown("), "");
+        assert_eq!(
+            shown("values.insert(1, "),
+            "insert(index, ‹value›)  Puts a value before the element at an index."
+        );
+        assert!(shown("\"a b\".split(").starts_with("split(‹[separator]›, [count])"));
+        assert!(shown("parse_int(").starts_with("parse_int(‹text›, [radix])"));
     }
 
     #[test]

@@ -107,7 +107,7 @@ impl Editor {
         let assistant = Assistant::new(
             Vocabulary::of(surroundings),
             columns,
-            prompt.chars().count(),
+            crate::output::columns(prompt),
             self.colours,
         );
         self.lines.set_helper(Some(assistant));

@@ -2,33 +2,43 @@
 
 use super::candidates::Candidate;
 use super::surroundings::{Surroundings, Variable};
-use super::types::family;
 use crate::script::rows::kind::Kind;
+use crate::script::rows::returns::ValueKind;
 use crate::script::rows::table::{Form, Row};
-use crate::script::source::keywords::built_in;
+use crate::script::source::scanner::is_name;
 
-/// Members of a value of type `of`. Of an unknown type all members of all types are offered once something is typed; of a
-/// map held by a variable its keys.
+/// Members of a value. Of an unknown kind all members of all types are offered once something is typed; of a map held by a
+/// variable its keys.
 pub fn members(
-    of: Option<&str>,
+    of: Option<ValueKind>,
     variable: Option<&Variable>,
     typed: &str,
     surroundings: &Surroundings,
 ) -> Vec<Candidate> {
     let catalog = &surroundings.catalog;
-    let Some(of) = of else {
-        let all = catalog.rows().filter(|row| !typed.is_empty() && row.receiver().is_some());
-        return all.map(|row| Candidate::row(row, 0)).collect();
+    let Some(of) = of.and_then(|kind| kind.type_name()) else {
+        return if typed.is_empty() { Vec::new() } else { all_members(surroundings) };
     };
     let own = catalog.members(of).into_iter().map(|row| Candidate::row(row, 0));
     let functions =
         catalog.rows().filter(|row| takes_first(row, of)).map(|row| Candidate::row(row, 1));
-    let engine = built_in(family(of)).iter();
+    let built_ins = catalog.built_in_members(of).map(Candidate::built_in);
     let keys = variable.map_or(&[][..], |map| &map.keys);
     own.chain(functions)
-        .chain(engine.map(|(name, arguments, summary)| Candidate::call(name, arguments, summary)))
+        .chain(built_ins)
         .chain(keys.iter().filter(|key| is_plain(key)).map(|key| Candidate::word(key, "a key")))
         .collect()
+}
+
+/// The members of all types.
+fn all_members(surroundings: &Surroundings) -> Vec<Candidate> {
+    let catalog = &surroundings.catalog;
+    let own = catalog.rows().filter(|row| row.receiver().is_some());
+    let built_ins = catalog.built_ins().filter_map(|known| {
+        let form = known.written().find(|form| form.receiver.is_some())?;
+        Some((known, form))
+    });
+    own.map(|row| Candidate::row(row, 0)).chain(built_ins.map(Candidate::built_in)).collect()
 }
 
 /// Whether a function is about values of a type, so that it may be written as a method of them.
@@ -37,12 +47,66 @@ fn takes_first(row: &Row, of: &str) -> bool {
     first.is_some_and(|parameter| match parameter.kind {
         Kind::Object(first) => first.name() == of,
         Kind::Point => of == "vector",
+        Kind::Array | Kind::Numbers | Kind::Points => of == "array",
         _ => false,
     })
 }
 
 /// Whether a key can be written after a dot.
 fn is_plain(key: &str) -> bool {
-    key.chars().all(crate::script::source::scanner::is_name)
-        && !key.starts_with(|letter: char| letter.is_numeric())
+    key.chars().all(is_name) && !key.starts_with(|letter: char| letter.is_numeric())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::super::samples::surroundings;
+    use super::*;
+
+    /// The names that completion offers after a value of a type, and those that the catalogue has for it.
+    fn offered_and_known(of: &str) -> (BTreeSet<String>, BTreeSet<String>) {
+        let surroundings = surroundings();
+        let catalog = &surroundings.catalog;
+        let kind = catalog.kind_named(of).expect("a kind");
+        let bare = |name: &str| name.trim_end_matches(['(', ')']).to_owned();
+        let offered = members(Some(kind), None, "", &surroundings);
+        let offered = offered.iter().map(|candidate| bare(&candidate.replacement)).collect();
+        let rows = catalog.members(of).into_iter().map(|row| row.name.to_owned());
+        let functions = catalog.rows().filter(|row| takes_first(row, of));
+        let built_ins = catalog.built_ins().filter(|known| known.is_of(of));
+        let known = rows
+            .chain(functions.map(|row| row.name.to_owned()))
+            .chain(built_ins.map(|known| known.name().to_owned()));
+        (offered, known.collect())
+    }
+
+    #[test]
+    fn every_member_that_the_catalogue_has_is_offered_and_no_other() {
+        let surroundings = surroundings();
+        let ours = surroundings.catalog.tables().flat_map(|table| table.types);
+        let plain = ["number", "whole number", "text", "character", "function", "map", "array"];
+        for of in ours.map(|of| of.name()).chain(plain).chain(["timestamp", "truth value", "range"])
+        {
+            let (offered, known) = offered_and_known(of);
+            assert_eq!(offered, known, "{of}");
+        }
+        let count = |of| offered_and_known(of).0.len();
+        assert!(count("array") > 39 && count("text") > 27 && count("map") > 14);
+    }
+
+    #[test]
+    fn what_is_offered_is_known_to_the_engine() {
+        let engine = crate::script::dialect::foundation::engine();
+        let signatures = engine.gen_fn_signatures(true);
+        let has = |opening: &str| signatures.iter().any(|known| known.starts_with(opening));
+        for of in ["array", "text", "map"] {
+            for (known, _) in surroundings().catalog.built_in_members(of) {
+                let name = known.name();
+                // Properties, and those that every value has, are known under other names or from the core of the engine.
+                let is_known = has(&format!("{name}(")) || has(&format!("get {name}("));
+                assert!(is_known || known.is_of("beam"), "{of}.{name}");
+            }
+        }
+    }
 }

@@ -2,7 +2,8 @@
 
 use super::input::Input;
 use super::surroundings::Surroundings;
-use crate::script::rows::table::{Form, Row};
+use crate::script::rows::returns::{Returns, ValueKind};
+use crate::script::rows::table::Form;
 use crate::script::source::keywords;
 use crate::script::source::scanner::{Bracket, Kind};
 
@@ -23,12 +24,12 @@ pub struct Types<'a, 't> {
 
 /// A value with its type, and the token at which it begins.
 struct Typed {
-    of: Option<String>,
+    of: Option<ValueKind>,
     start: usize,
 }
 
-/// The type of the value that `text` ends with, in the words of the language.
-pub fn type_before(text: &str, surroundings: &Surroundings) -> Option<String> {
+/// The kind of the value that `text` ends with.
+pub fn type_before(text: &str, surroundings: &Surroundings) -> Option<ValueKind> {
     let input = Input::before(text, text.len());
     let last = input.tokens.len().checked_sub(1)?;
     Types { input: &input, surroundings }.of(last)
@@ -42,7 +43,7 @@ enum Step<'t> {
 
 impl<'t> Types<'_, 't> {
     /// The type of the value that ends with token `end`.
-    pub fn of(&self, end: usize) -> Option<String> {
+    pub fn of(&self, end: usize) -> Option<ValueKind> {
         self.value(end, 0)?.of
     }
 
@@ -57,8 +58,8 @@ impl<'t> Types<'_, 't> {
                 return None;
             }
             match self.input.kind(at)? {
-                Kind::Text => break Typed { of: Some("text".into()), start: at },
-                Kind::Number => break Typed { of: Some("number".into()), start: at },
+                Kind::Text => break Typed { of: Some(ValueKind::Text), start: at },
+                Kind::Number => break Typed { of: Some(ValueKind::Number), start: at },
                 Kind::Word => match self.receiver(at) {
                     Some(receiver) => {
                         steps.push(Step::Property(self.input.written(at)));
@@ -88,18 +89,18 @@ impl<'t> Types<'_, 't> {
                             steps.push(Step::Index);
                             at = indexed;
                         }
-                        None => break Typed { of: Some("array".into()), start: opener },
+                        None => break Typed { of: Some(ValueKind::ARRAY), start: opener },
                     }
                 }
                 Kind::Close(Bracket::Curly) => {
                     let opener = self.input.partner(at)?;
                     let is_map = self.input.kind(opener) == Some(Kind::Open(Bracket::Map));
-                    break Typed { of: is_map.then(|| "map".into()), start: opener };
+                    break Typed { of: is_map.then_some(ValueKind::Map), start: opener };
                 }
                 _ => return None,
             }
         };
-        let of = steps.iter().rev().try_fold(first.of?, |of, step| self.after(&of, step));
+        let of = steps.iter().rev().try_fold(first.of?, |of, step| self.after(of, step));
         Some(Typed { of, start: first.start })
     }
 
@@ -117,13 +118,13 @@ impl<'t> Types<'_, 't> {
     }
 
     /// The type of `( … )`, if it is one chain of members.
-    fn group(&self, opener: usize, closer: usize, depth: usize) -> Option<String> {
+    fn group(&self, opener: usize, closer: usize, depth: usize) -> Option<ValueKind> {
         let inside = self.value(closer.checked_sub(1)?, depth + 1)?;
         inside.of.filter(|_| inside.start == opener + 1)
     }
 
     /// A name: declared in this very input, a variable of the session, a constant of the language.
-    fn variable(&self, at: usize, depth: usize) -> Option<String> {
+    fn variable(&self, at: usize, depth: usize) -> Option<ValueKind> {
         let name = self.input.written(at);
         if at.checked_sub(1).is_some_and(|before| self.input.written(before) == "::") {
             return None;
@@ -131,13 +132,15 @@ impl<'t> Types<'_, 't> {
         if let Some(declared) = self.declared(name, at, depth) {
             return declared;
         }
-        let held = self.surroundings.variable(name).map(|variable| variable.of.clone());
-        let mut constants = self.surroundings.catalog.constants();
-        held.or_else(|| constants.any(|constant| constant == name).then(|| "number".into()))
+        let catalog = &self.surroundings.catalog;
+        match self.surroundings.variable(name) {
+            Some(variable) => catalog.kind_named(&variable.of),
+            None => catalog.constants().any(|known| known == name).then_some(ValueKind::Number),
+        }
     }
 
     /// What the last `let name = value;` before token `at` declares: `None` if there is none.
-    fn declared(&self, name: &str, at: usize, depth: usize) -> Option<Option<String>> {
+    fn declared(&self, name: &str, at: usize, depth: usize) -> Option<Option<ValueKind>> {
         let input = self.input;
         let is_declared = |place: &usize| {
             matches!(input.written(place - 1), "let" | "const") && input.written(*place) == name
@@ -153,55 +156,41 @@ impl<'t> Types<'_, 't> {
         Some(value.filter(|value| value.start == place + 2).and_then(|value| value.of))
     }
 
-    fn called(&self, name: &str) -> Option<String> {
-        let is_redefined = self.surroundings.functions.iter().any(|function| function.name == name);
-        let mut rows = self.surroundings.catalog.named(name);
-        let row = rows.find(|row| matches!(row.form, Form::Function)).filter(|_| !is_redefined)?;
-        returned(row)
+    fn called(&self, name: &str) -> Option<ValueKind> {
+        if self.surroundings.functions.iter().any(|function| function.name == name) {
+            return None;
+        }
+        let catalog = &self.surroundings.catalog;
+        let mut rows = catalog.named(name).filter(|row| matches!(row.form, Form::Function));
+        let mut built_ins = catalog.built_ins_named(name);
+        let row = rows.next().map(|row| row.returns);
+        known(row.or_else(|| built_ins.find(|of| of.is_function()).map(|of| of.returns))?)
     }
 
-    fn after(&self, of: &str, step: &Step<'t>) -> Option<String> {
+    fn after(&self, of: ValueKind, step: &Step<'t>) -> Option<ValueKind> {
         let (name, is_call) = match step {
-            Step::Index => return element(of),
+            Step::Index => return known(Returns::of(of.element()?)),
             Step::Property(name) => (*name, false),
             Step::Call(name) => (*name, true),
         };
-        let members = self.surroundings.catalog.members(of).into_iter();
+        let of = of.type_name()?;
+        let catalog = &self.surroundings.catalog;
+        let members = catalog.members(of).into_iter();
         let mut matching = members
             .filter(|row| row.name == name && matches!(row.form, Form::Method(_)) == is_call);
-        match matching.next() {
-            Some(row) => returned(row),
+        let mut built_ins = catalog.built_ins_named(name).filter(|known| known.is_of(of));
+        let row = matching.next().map(|row| row.returns);
+        match row.or_else(|| built_ins.next().map(|of| of.returns)) {
+            Some(returns) => known(returns),
             None if is_call => self.called(name),
             None => None,
         }
     }
 }
 
-/// The type that a row gives back, without article, unit and explanation.
-fn returned(row: &Row) -> Option<String> {
-    let words = row.returns.split(['[', ',', '#']).next()?.trim();
-    let of = words.strip_prefix("a ").or_else(|| words.strip_prefix("an ")).unwrap_or(words);
-    let of = match of {
-        _ if row.returns.starts_with("an array [") => "array",
-        "true or false" => "truth value",
-        // Of whatever type.
-        "value" => return None,
-        _ if of.starts_with("map ") => "map",
-        _ if of.starts_with("angle ") => "number",
-        of => of,
-    };
-    (!of.is_empty()).then(|| of.to_owned())
-}
-
-/// The type of the elements of an array.
-fn element(of: &str) -> Option<String> {
-    let elements = of.strip_prefix("array of ")?;
-    Some(elements.strip_suffix('s').unwrap_or(elements).to_owned())
-}
-
-/// What an array of something is called when its elements do not matter.
-pub fn family(of: &str) -> &str {
-    if of.starts_with("array") { "array" } else { of }
+/// The kind of what is given back, if something can be said of it.
+fn known(returns: Returns) -> Option<ValueKind> {
+    Some(returns.kind.likely()).filter(|kind| kind.type_name().is_some())
 }
 
 #[cfg(test)]
@@ -209,8 +198,8 @@ mod tests {
     use super::super::samples::surroundings;
     use super::*;
 
-    fn type_of(text: &str) -> Option<String> {
-        type_before(text, &surroundings())
+    fn type_of(text: &str) -> Option<&'static str> {
+        type_before(text, &surroundings()).and_then(|kind| kind.type_name())
     }
 
     #[test]
@@ -225,10 +214,14 @@ mod tests {
             ("line([0, 0], [1, 1])", "curve"),
             ("f(scene.beam(#{ axis: a }))", ""),
             ("(rod.start)", "station"),
-            ("sim.history.column(\"t\")", "array of numbers"),
+            ("sim.history.column(\"t\")", "array"),
             ("sim.history.column(\"t\")[0]", "number"),
             ("sim.events[0]", "map"),
             ("[1, 2]", "array"),
+            ("[1, 2].len", "whole number"),
+            ("\"a b\".split(\" \")", "array"),
+            ("sim.history.column(\"t\").map(|t| 2 * t)", "array"),
+            ("parse_int(\"3\")", "whole number"),
             ("\"text\"", "text"),
             ("#{ a: 1 }", "map"),
             ("unknown", ""),
@@ -241,35 +234,29 @@ mod tests {
 
     #[test]
     fn what_the_input_itself_declares_comes_first() {
-        assert_eq!(type_of("let arm = scene.beam(#{ }); arm").as_deref(), Some("beam"));
-        assert_eq!(type_of("let rod = 1; rod").as_deref(), Some("number"));
+        assert_eq!(type_of("let arm = scene.beam(#{ }); arm"), Some("beam"));
+        assert_eq!(type_of("let rod = 1; rod"), Some("number"));
         assert_eq!(type_of("let rod = 1 + x; rod"), None);
-        assert_eq!(type_of("let a = line([0, 0], [1, 1]); let b = a; b").as_deref(), Some("curve"));
+        assert_eq!(type_of("let a = line([0, 0], [1, 1]); let b = a; b"), Some("curve"));
         assert_eq!(type_of("let a = a; a"), None);
     }
 
     #[test]
     fn deep_nesting_is_given_up() {
         let deep = |count: usize| format!("{}rod{}", "(".repeat(count), ")".repeat(count));
-        assert_eq!(type_of(&deep(10)).as_deref(), Some("beam"));
+        assert_eq!(type_of(&deep(10)), Some("beam"));
         assert_eq!(type_of(&deep(100_000)), None);
         assert_eq!(type_of(&format!("{}a", "let a = a; ".repeat(10_000))), None);
         assert_eq!(type_of(&format!("rod{}", ".end".repeat(10_000))), None);
     }
 
     #[test]
-    fn every_type_that_rows_return_is_known_or_has_no_members() {
-        let surroundings = surroundings();
-        let catalog = &surroundings.catalog;
-        for row in catalog.rows() {
-            let Some(of) = returned(row) else { continue };
-            let family = family(&of);
-            let plain = ["number", "whole number", "truth value", "text", "map", "array"];
-            assert!(
-                plain.contains(&family) || catalog.type_named(&of).is_some(),
-                "{}: {of}",
-                row.name
-            );
+    fn every_type_that_rows_return_is_one_of_the_language() {
+        let catalog = surroundings().catalog;
+        let built_ins = catalog.built_ins().map(|known| (known.name(), known.returns));
+        for (name, returns) in catalog.rows().map(|row| (row.name, row.returns)).chain(built_ins) {
+            let Some(of) = known(returns).and_then(|kind| kind.type_name()) else { continue };
+            assert!(catalog.kind_named(of).is_some(), "{name}: {of}");
         }
     }
 }

@@ -25,7 +25,8 @@ enum Wish {
 
 /// Lines of a terminal of so many columns that a text takes.
 pub fn rows(text: &str, columns: usize) -> usize {
-    text.lines().map(|line| letters(line).chars().count().div_ceil(columns).max(1)).sum()
+    let width = |line: &str| crate::output::columns(&letters(line));
+    text.lines().map(|line| width(line).div_ceil(columns).max(1)).sum()
 }
 
 /// A line without its colours.

@@ -45,10 +45,12 @@ impl Session {
     /// # Errors
     /// What came of the round that did not work: the last one.
     pub fn peek_in_rounds(&mut self, text: &str, rounds: &mut dyn Rounds) -> Result<(), Reply> {
-        let before = self.transcript.add(self.transcript.typed(text));
+        let program = self.transcript.typed(text);
+        let text = program.text.clone();
+        let before = self.transcript.add(program);
         let (checkpoint, library) = (self.checkpoint(), self.library.clone());
         let outcome =
-            self.begin(text, before).and_then(|(ast, _watchdog)| self.go_round(&ast, rounds));
+            self.begin(&text, before).and_then(|(ast, _watchdog)| self.go_round(&ast, rounds));
         self.restore(checkpoint);
         self.library = library;
         self.transcript.forget_last();

@@ -7,8 +7,9 @@ use rhai::{Position, Token};
 use super::Location;
 use crate::script::rows::catalog::Catalog;
 use crate::script::rows::table::Form;
-use crate::script::source::lexing::tokens;
+use crate::script::source::definitions::{closing, nesting};
 use crate::script::source::program::Program;
+use crate::script::source::text::Lexeme;
 use crate::script::words::error::Place;
 
 /// The word, number, text or sign at `position`; nothing if the engine gave no position.
@@ -67,41 +68,17 @@ fn word_length(program: &Program, line: usize, column: usize) -> usize {
 }
 
 /// The tokens from the opening parenthesis of the call at `position` to the closing one, both included.
-fn inside_call(program: &Program, position: Position) -> Option<(Vec<(Token, Position)>, bool)> {
-    let tokens = tokens(&program.text);
+fn inside_call(program: &Program, position: Position) -> Option<(&[Lexeme], bool)> {
+    let tokens = program.text.tokens();
     let called = tokens.iter().position(|(_, at)| *at == position)?;
     let dotted = called > 0 && matches!(tokens[called - 1].0, Token::Period | Token::Elvis);
     let opening = called + 1;
     if !matches!(tokens.get(opening)?.0, Token::LeftParen) {
         return None;
     }
-    let mut depth = 0_usize;
-    for (index, (token, _)) in tokens.iter().enumerate().skip(opening) {
-        depth = match token {
-            token if opens(token) => depth + 1,
-            token if closes(token) => depth.saturating_sub(1),
-            _ => depth,
-        };
-        if depth == 0 {
-            return Some((tokens[opening..=index].to_vec(), dotted));
-        }
-    }
-    None
-}
-
-fn opens(token: &Token) -> bool {
-    matches!(
-        token,
-        Token::LeftParen
-            | Token::LeftBracket
-            | Token::LeftBrace
-            | Token::MapStart
-            | Token::QuestionBracket
-    )
-}
-
-fn closes(token: &Token) -> bool {
-    matches!(token, Token::RightParen | Token::RightBracket | Token::RightBrace)
+    let call = &tokens[opening..closing(tokens, opening)];
+    let is_closed = call.iter().map(|(token, _)| nesting(token)).sum::<isize>() == 0;
+    is_closed.then_some((call, dotted))
 }
 
 fn argument(
@@ -115,11 +92,11 @@ fn argument(
     let is_function = catalog.named(called.text()).any(|row| matches!(row.form, Form::Function));
     // In `a.norm()` the first argument of the function stands before the dot.
     let number = if dotted && is_function { number.checked_sub(1)? } else { number };
-    let mut depth = 0_usize;
+    let mut depth = 0;
     let mut seen = 0;
     let mut start = None;
-    for (token, at) in &call {
-        let at_end = depth == 1 && (matches!(token, Token::Comma) || closes(token));
+    for (token, at) in call {
+        let at_end = depth == 1 && (matches!(token, Token::Comma) || nesting(token) < 0);
         if at_end && let Some(start) = start {
             return span(program, start, *at);
         }
@@ -128,11 +105,7 @@ fn argument(
         } else if start.is_none() && depth >= 1 && seen == number {
             start = Some(*at);
         }
-        depth = match token {
-            token if opens(token) => depth + 1,
-            token if closes(token) => depth.saturating_sub(1),
-            _ => depth,
-        };
+        depth += nesting(token);
     }
     None
 }

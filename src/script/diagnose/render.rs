@@ -9,6 +9,7 @@ use codespan_reporting::term::{self, Config};
 
 use super::{Blame, Callee, Diagnostic, Location, Step};
 pub use crate::output::Colours;
+use crate::output::columns;
 
 impl Diagnostic {
     /// The diagnostic as text that ends with a newline.
@@ -16,7 +17,7 @@ impl Diagnostic {
         self.render_within(colours, usize::MAX)
     }
 
-    /// The same with what to do on lines of `width` characters, for a terminal that would break a word at its edge.
+    /// The same with what to do on lines of `width` columns, for a terminal that would break a word at its edge.
     pub fn render_within(&self, colours: Colours, width: usize) -> String {
         let drawing = match self.blame {
             Blame::User => Drawing::error(),
@@ -64,12 +65,12 @@ const BESIDE_HINT: usize = 10;
 /// Hints are not wrapped to less.
 const NARROWEST: usize = 30;
 
-/// A line in lines of at most `width` characters, broken at blanks; a longer word stays whole.
+/// A line in lines of at most `width` columns, broken at blanks; a longer word stays whole.
 fn wrapped(line: &str, width: usize) -> Vec<String> {
     let mut lines = Vec::new();
     let mut current = String::new();
     for word in line.split(' ') {
-        if !current.is_empty() && current.chars().count() + 1 + word.chars().count() > width {
+        if !current.is_empty() && columns(&current) + 1 + columns(word) > width {
             lines.push(std::mem::take(&mut current));
         }
         if !current.is_empty() {

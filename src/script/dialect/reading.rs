@@ -7,6 +7,7 @@ use rhai::{AST, Engine, EvalAltResult, Position, Scope};
 
 use crate::script::rows::sources::Sources;
 use crate::script::source::syntax::mark;
+use crate::script::source::text::Source;
 use crate::script::words::error::ScriptError;
 
 /// Most lines of a source, and most characters of a line: a little less than Rhai can count.
@@ -19,7 +20,7 @@ pub const MOST: usize = 65_000;
 pub fn read(
     engine: &Engine,
     scope: &Scope,
-    source: &str,
+    source: &Source,
     lines_before: usize,
 ) -> Result<AST, Box<EvalAltResult>> {
     refuse_uncountable(source).map_err(|error| error.into_engine(Position::NONE))?;
@@ -62,7 +63,6 @@ mod tests {
     use super::*;
     use crate::script::engine::build;
     use crate::script::packages::language;
-
     use crate::script::state::context::Context;
     use crate::script::state::settings::{Mode, Settings};
 
@@ -72,7 +72,7 @@ mod tests {
     }
 
     fn value(engine: &Engine, source: &str) -> Result<String, String> {
-        read(engine, &Scope::new(), source, 0)
+        read(engine, &Scope::new(), &source.into(), 0)
             .and_then(|ast| engine.eval_ast::<rhai::Dynamic>(&ast))
             .map(|value| value.to_string())
             .map_err(|error| match *error {

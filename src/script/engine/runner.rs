@@ -6,7 +6,7 @@ use std::rc::Rc;
 use std::sync::Mutex;
 use std::thread;
 
-use rhai::{AST, Engine, EvalAltResult, Scope, Token};
+use rhai::{AST, Engine, EvalAltResult, Scope};
 
 use super::{build, import_from};
 use crate::script::diagnose::{Diagnostic, Explainer, is_interrupt, is_waiting};
@@ -14,7 +14,7 @@ use crate::script::dialect::naming;
 use crate::script::dialect::reading::read;
 use crate::script::rows::catalog::Catalog;
 use crate::script::rows::sources::{FOLDER, Sources};
-use crate::script::source::lexing::{open_comment, tokens};
+use crate::script::source::outline::Outline;
 use crate::script::source::program::Program;
 use crate::script::state::context::Context;
 use crate::script::state::limits::{DEFAULT_MEGABYTES, Limits};
@@ -124,8 +124,9 @@ pub fn parse(engine: &Engine, program: &Program) -> Result<AST, Box<EvalAltResul
     let mut ast = read(engine, &Scope::new(), &program.text, 0)?;
     ast.set_source(program.name.as_str());
     Sources::of(engine).note(&ast, &program.name);
-    naming::judge(engine, &program.text, &program.text)?;
-    match open_comment(&program.text) {
+    let variables = || Outline::of(&program.text).top_level;
+    naming::judge(engine, &program.text, 0, variables)?;
+    match program.text.open_comment() {
         Some(position) => Err(ScriptError::new("a comment that begins with /* is never closed")
             .hint("write */ where it ends")
             .into_engine(position)),
@@ -143,16 +144,10 @@ pub const SNAPSHOTS: usize = 256_000_000;
 /// Whether a script may go back in time: a scene pays only for what it uses. The library never does; what another imported file does is
 /// not known.
 fn may_go_back(program: &Program) -> bool {
-    let tokens = tokens(&program.text);
-    let is_library = |index: usize| match tokens.get(index) {
-        Some((Token::StringConstant(path), _)) => path.starts_with(FOLDER),
-        _ => false,
-    };
-    tokens.iter().enumerate().any(|(index, (token, _))| match token {
-        Token::Identifier(name) => matches!(name.as_str(), "back" | "rewind"),
-        Token::Import => !is_library(index + 1),
-        _ => false,
-    })
+    let is_library = |path: Option<&str>| path.is_some_and(|path| path.starts_with(FOLDER));
+    let source = &program.text;
+    source.names().any(|name| matches!(name, "back" | "rewind"))
+        || source.imports().any(|path| !is_library(path))
 }
 
 fn run_here(program: &Program, catalog: &Catalog, settings: Settings) -> Outcome {
@@ -226,6 +221,24 @@ fn evaluate(program: &Program, catalog: &Catalog, context: &Context) -> Ending {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::script::packages::language;
+    use crate::script::source::lexing::lexings;
+    use crate::script::state::settings::Mode;
+
+    #[test]
+    fn a_script_is_lexed_once_whether_it_is_right_or_wrong() {
+        for text in [
+            "fn f(x) { for i in 0..x { |y| y + i }; x }\nlet E = 2; f(E); // good",
+            "fn f(x) { x + unknown }\nf(2);",
+            "let a = section(#{ EA: 1, width: 2 });",
+            "let a = [1, 2;",
+        ] {
+            let program = Program::named("a", text);
+            let before = lexings();
+            let _ = run_here(&program, &language(), Settings::silent(Mode::Run));
+            assert_eq!(lexings(), before + 1, "{text}");
+        }
+    }
 
     #[test]
     fn only_scripts_that_may_go_back_pay_for_it() {

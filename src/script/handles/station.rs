@@ -22,11 +22,6 @@ pub struct StationHandle {
 }
 
 impl StationHandle {
-    /// The station itself.
-    pub fn station(&self) -> Station {
-        self.station
-    }
-
     /// Its place in a simulation, if that is one of its scene.
     pub fn on(&self, handle: &SimulationHandle) -> Result<beams::Place, ScriptError> {
         let simulation = handle.simulation();

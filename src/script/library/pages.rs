@@ -177,7 +177,6 @@ mod tests {
     use super::*;
     use crate::script::engine::runner::{Ending, run};
     use crate::script::packages::language;
-
     use crate::script::source::program::Program;
     use crate::script::state::settings::{Mode, Settings};
 

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::script::rows::catalog::Catalog;
 use crate::script::rows::table::Form;
-use crate::script::source::keywords::{FUNCTIONS, is_keyword};
+use crate::script::source::keywords::is_keyword;
 use crate::script::source::scanner::{Kind, Token, pair, scan};
 
 /// How a piece of an input is drawn, as numbers of an ANSI sequence.
@@ -30,10 +30,6 @@ pub const PARTNER: Style = Style("1;4");
 /// What does not belong there.
 pub const STRAY: Style = Style("31");
 
-/// Members that every value has.
-const UNIVERSAL: &[&str] =
-    &["to_string", "to_debug", "type_of", "print", "debug", "is_shared", "call"];
-
 /// Names that are drawn in colours of their own; made once for many texts, as lines are drawn at each key.
 pub struct Vocabulary {
     functions: HashSet<String>,
@@ -48,12 +44,17 @@ pub struct Vocabulary {
 impl Vocabulary {
     /// The names of the language itself: enough for a file.
     pub fn of_language(catalog: &Catalog) -> Self {
-        let built_in = FUNCTIONS.iter().map(|(name, _)| (*name).to_owned());
+        let built_in = catalog.built_ins().filter(|known| known.is_function());
+        let built_in = built_in.map(|known| known.name().to_owned());
         let functions = catalog.function_names().map(str::to_owned).chain(built_in).collect();
         let mut members: HashMap<&str, HashSet<&str>> = HashMap::new();
         for row in catalog.rows() {
             if let Some(receiver) = row.receiver().filter(|_| !matches!(row.form, Form::Operator)) {
-                members.entry(receiver.name()).or_default().insert(row.name);
+                let of_rhai = || {
+                    let known = catalog.built_in_members(receiver.name());
+                    known.map(|(known, _)| known.name()).collect()
+                };
+                members.entry(receiver.name()).or_insert_with(of_rhai).insert(row.name);
             }
         }
         let constants = catalog.constants().map(str::to_owned).collect();
@@ -80,9 +81,7 @@ impl Vocabulary {
     /// Whether the value called `variable` has no member `name`; not if either is unknown.
     fn lacks(&self, variable: &str, name: &str) -> bool {
         let members = self.variables.get(variable).and_then(|of| self.members.get(of));
-        members.is_some_and(|members| !members.contains(name))
-            && !self.functions.contains(name)
-            && !UNIVERSAL.contains(&name)
+        members.is_some_and(|members| !members.contains(name)) && !self.functions.contains(name)
     }
 
     fn style_of_member(&self, value: &str, name: &str) -> Option<Style> {

@@ -5,7 +5,7 @@ use std::ops::{Range, RangeInclusive};
 use rhai::{Array, Dynamic, FnPtr, INT, Map};
 
 use crate::geometry::Vec2;
-use crate::output::significant;
+use crate::output::{beginning, columns, cut, padded, significant};
 use crate::script::rows::catalog::Catalog;
 use crate::script::rows::kind::{Details, Type};
 
@@ -21,12 +21,12 @@ const MOST_KEYS: usize = 12;
 const DEEPEST: usize = 4;
 /// Most letters of a text within something else.
 const LONGEST_TEXT: usize = 40;
-/// Details have at least so many characters in a line, however long their labels are.
+/// Details have at least so many columns in a line, however long their labels are.
 const LEAST_ROOM: usize = 20;
 /// Most lines of a text.
 const MOST_LINES: usize = 200;
 
-/// Shows values on lines of at most so many characters, but for texts that have lines of their own.
+/// Shows values on lines of at most so many columns, but for texts that have lines of their own.
 pub struct Presenter<'a> {
     catalog: &'a Catalog,
     width: usize,
@@ -44,25 +44,24 @@ impl Line {
     }
 
     fn write(&mut self, text: &str) {
-        let count = text.chars().count();
-        self.text.extend(text.chars().take(self.room + 1));
-        self.room = self.room.saturating_sub(count);
+        // Enough to see that it is too much, also where a character takes two columns.
+        self.text.push_str(beginning(text, self.room + 2));
+        self.room = self.room.saturating_sub(columns(text));
     }
 
     fn is_full(&self) -> bool {
         self.room == 0
     }
 
-    /// What was written in at most `width` characters, and whether that is all of it.
+    /// What was written in at most `width` columns, and whether that is all of it.
     fn cut(self, width: usize) -> (String, bool) {
-        if self.text.chars().count() <= width {
-            return (self.text, true);
-        }
-        (self.text.chars().take(width - 1).chain(['…']).collect(), false)
+        let shown = cut(&self.text, width, '…');
+        let is_whole = shown == self.text;
+        (shown, is_whole)
     }
 }
 
-/// Shows a value of a language on lines of `width` characters: numbers with up to ten digits, long arrays and maps elided, what
+/// Shows a value of a language on lines of `width` columns: numbers with up to ten digits, long arrays and maps elided, what
 /// is ours with its details below. Nothing is an empty text.
 pub fn present(catalog: &Catalog, value: &Dynamic, width: usize) -> String {
     Presenter { catalog, width: width.max(20) }.show(value)
@@ -114,14 +113,13 @@ impl Presenter<'_> {
     }
 
     fn with_details(&self, shown: &str, details: &Details) -> String {
-        let widest = details.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
+        let widest = details.iter().map(|(label, _)| columns(label)).max().unwrap_or(0);
         let room = self.width.saturating_sub(widest + 4).max(LEAST_ROOM);
         let mut text = shown.to_owned();
         for (label, value) in details {
             for (number, part) in wrapped(value, room).into_iter().enumerate() {
                 let label = if number == 0 { label } else { "" };
-                let blanks = " ".repeat(widest.saturating_sub(label.chars().count()));
-                text.push_str(&format!("\n  {label}{blanks}  {part}"));
+                text.push_str(&format!("\n  {}  {part}", padded(label, widest)));
             }
         }
         text
@@ -231,12 +229,12 @@ impl Presenter<'_> {
     }
 }
 
-/// A text in lines of at most `room` characters, broken between words where there are some.
+/// A text in lines of at most `room` columns, broken between words where there are some.
 fn wrapped(text: &str, room: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     let mut used = 0;
     for word in text.split(' ').flat_map(|word| pieces(word, room)) {
-        let length = word.chars().count();
+        let length = columns(&word);
         if used > 0 && used + 1 + length > room {
             lines.push(word);
             used = length;
@@ -249,10 +247,18 @@ fn wrapped(text: &str, room: usize) -> Vec<String> {
     lines
 }
 
-/// A word in pieces of at most `room` characters.
+/// A word in pieces of at most `room` columns.
 fn pieces(word: &str, room: usize) -> Vec<String> {
-    let letters: Vec<char> = word.chars().collect();
-    letters.chunks(room).map(|piece| piece.iter().collect()).collect()
+    let mut rest = word;
+    let mut pieces = Vec::new();
+    while !rest.is_empty() {
+        // A piece has a character at least, however narrow the room is.
+        let least = rest.chars().next().map_or(0, char::len_utf8);
+        let (piece, behind) = rest.split_at(beginning(rest, room).len().max(least));
+        pieces.push(piece.to_owned());
+        rest = behind;
+    }
+    pieces
 }
 
 /// The items that are shown, none where some are left out.

@@ -4,6 +4,7 @@ use rhai::{Array, Dynamic};
 
 use crate::script::rows::call::Call;
 use crate::script::rows::parameter::{Parameter, number, numbers, whole};
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
 
@@ -20,25 +21,25 @@ pub const TABLE: Table = Table {
             &[number("from"), number("to"), whole("count").between(2.0, 1e6)],
             linspace,
         )
-        .returns("an array of numbers")
+        .returns(Returns::NUMBERS)
         .summary("Numbers at equal distances, both ends included.")
         .example(
             "check(linspace(0, 1, 3) == [0, 0.5, 1]);\nfor t in linspace(0, 2, 5) { print(t); }",
         ),
         function("sum", &[VALUES], |call| Ok(call.numbers("values")?.iter().sum::<f64>().into()))
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("The sum of the numbers.")
             .example("check(sum([1, 2, 3.5]) == 6.5);"),
         function("mean", &[VALUES], mean)
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("The mean of the numbers.")
             .example("check(mean([1, 2, 3]) == 2);"),
         function("min", &[VALUES], |call| extreme(call, f64::min))
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("The smallest number of an array.")
             .example("check(min([3, 1, 2]) == 1);"),
         function("max", &[VALUES], |call| extreme(call, f64::max))
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("The largest number of an array.")
             .example("check(max([3, 1, 2]) == 3);"),
     ],

@@ -6,6 +6,7 @@ use crate::script::looks::details;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Details, Scripted, Type};
 use crate::script::rows::parameter::{Parameter, boolean, number, text};
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function, property};
 use crate::script::state::settings::Mode;
 use crate::script::words::brief::brief;
@@ -35,11 +36,11 @@ pub const TABLE: Table = Table {
             .example("try { todo(\"a stiffness\") } catch (problem) { check(problem.message == \"still to do: a stiffness\"); }")
             .see(&["check"]),
         property(PROBLEM, "message", |call| Ok(call.receiver::<Failure>()?.message.into()))
-            .returns("a text")
+            .returns(Returns::TEXT)
             .summary("What went wrong.")
             .example("try { sqrt(\"two\") } catch (problem) { print(problem.message); }"),
         property(PROBLEM, "hint", |call| Ok(call.receiver::<Failure>()?.hint.unwrap_or_default().into()))
-            .returns("a text, empty if there is nothing to advise")
+            .returns(Returns::TEXT.note(", empty if there is nothing to advise"))
             .summary("What to do about it.")
             .example("try { mean([]) } catch (problem) { print(problem.hint); }"),
     ],

@@ -13,6 +13,7 @@ use crate::integrators::Method;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Details, Scripted, Type};
 use crate::script::rows::parameter::{Parameter, object, options, text};
+use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Table, function, method, property};
 use crate::script::studies::convergence::{expect_quantity, find, map_of, study};
 use crate::script::studies::convergence_chart::chart;
@@ -31,7 +32,7 @@ pub const TABLE: Table = Table {
             let study = study(call, &call.options("options")?)?;
             Ok(Dynamic::from(ConvergenceStudy(Rc::new(study))))
         })
-        .returns("a convergence study")
+        .returns(Returns::object(CONVERGENCE))
         .summary("Runs a scene with several step sizes on one mesh, or on several meshes with one step size: errors and orders.")
         .doc(
             "scene, stations, reference and columns are as of study_work_precision. With a table as reference the quantities are \
@@ -42,24 +43,24 @@ pub const TABLE: Table = Table {
         .example("check_close(ladder.order(\"positions\", energy_momentum()), 2, 0.1);")
         .see(&["study_work_precision", "finest_run", "order"]),
         property(CONVERGENCE, "table", |call| Ok(table(&call.receiver::<ConvergenceStudy>()?.0).into()))
-            .returns("a text")
+            .returns(Returns::TEXT)
             .summary("Errors and observed orders of every quantity; the order of all sizes together, by least squares, below.")
             .example("print(ladder.table);"),
         property(CONVERGENCE, "rows", |call| {
             let ConvergenceStudy(study) = call.receiver()?;
             Ok(study.ladders.iter().map(|of| map_of(&study, of).into()).collect::<Array>().into())
         })
-        .returns("an array of maps")
+        .returns(Returns::array_of(&ValueKind::Map))
         .summary("For every integrator and quantity: sizes, errors, orders, order and claimed.")
         .example("for row in ladder.rows { check(row.errors.len() == 3 && row.orders.len() == 2); }"),
         property(CONVERGENCE, "reference", |call| {
             Ok(call.receiver::<ConvergenceStudy>()?.0.truth.source.clone().into())
         })
-        .returns("a text")
+        .returns(Returns::TEXT)
         .summary("What the errors are measured against.")
         .example("check(ladder.reference.contains(\"own finest run\"));"),
         method(CONVERGENCE, "order", &[QUANTITY, object("integrator", INTEGRATOR)], order)
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("The order of a quantity with an integrator, by least squares over all sizes; NaN where none can be told.")
             .example("check_close(ladder.order(\"positions\", fourth_order()), 4, 0.1);")
             .see(&["study_convergence"]),

@@ -10,6 +10,7 @@ use crate::script::rows::kind::{Scripted, Type};
 use crate::script::rows::parameter::{
     Parameter, Presence, anything, callback, name, number, object, options, whole,
 };
+use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Table, function, property};
 use crate::script::state::settings::Mode;
 use crate::script::studies::cost::{CostTable, Way, cases};
@@ -31,7 +32,7 @@ pub const TABLE: Table = Table {
     constants: &[],
     rows: &[
         function("study_cost", &[options("options", STUDY)], study)
-            .returns("a table of costs")
+            .returns(Returns::object(COST_TABLE))
             .summary("Measures what a step of a scene costs, alone and with features added one by one.")
             .doc(
                 "`scene` is a function that makes the scene; each feature is a function of such a scene that adds something to it. \
@@ -49,7 +50,7 @@ pub const TABLE: Table = Table {
             let rows = call.receiver::<CostTable>()?.rows();
             Ok(Dynamic::from(rows.into_iter().map(Dynamic::from).collect::<Array>()))
         })
-        .returns("an array of maps")
+        .returns(Returns::array_of(&ValueKind::Map))
         .summary(
             "A map for each row: feature, outcome, shortest and median time of a step in seconds, ratio to the scene alone, iterations, factorisations, unknowns, half_bandwidth, border and columns.",
         )

@@ -5,9 +5,12 @@ use std::rc::Rc;
 
 use rhai::{Array, Dynamic, INT, Map};
 
+use super::modes::MODES;
 use super::modes::{COUNT, ModesHandle, expect_room, look as look_for_modes};
 use super::scenes::{SCENE, STATION};
+use super::simulations::SIMULATION;
 use super::simulations::{START, begin, followed};
+use super::vectors::VECTOR;
 use crate::beams::Place;
 use crate::output::significant;
 use crate::script::handles::scene::SceneHandle;
@@ -15,6 +18,7 @@ use crate::script::handles::station::StationHandle;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Details, Scripted, Type};
 use crate::script::rows::parameter::{Parameter, Presence, number, object, options, whole};
+use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Body, Row, Table, function, method, property};
 use crate::script::state::settings::Mode;
 use crate::script::words::error::ScriptError;
@@ -31,7 +35,7 @@ pub const TABLE: Table = Table {
     constants: &[],
     rows: &[
         method(SCENE, "equilibrium", &[options("options", LOADING).optional()], find)
-            .returns("an equilibrium")
+            .returns(Returns::object(EQUILIBRIUM))
             .summary("Finds where the scene rests under its loads and its weight.")
             .doc(
                 "Something must act, and nothing may slide. The scene must be held: supports must leave it no movement without resistance. A load step that finds nothing \
@@ -44,7 +48,7 @@ pub const TABLE: Table = Table {
             )
             .see(&["load_control", "arc_length", "modes", "start", "plot_equilibrium"]),
         function("load_control", &[], |_| Ok(Dynamic::from(Control::Load)))
-            .returns("a load control")
+            .returns(Returns::object(CONTROL))
             .summary("Prescribes the load in each step: equal parts of it.")
             .example("let rest = scene.equilibrium(#{ load_steps: 4, control: load_control() });\ncheck(rest.load_factors == [0, 0.25, 0.5, 0.75, 1]);")
             .see(&["arc_length", "equilibrium"]),
@@ -53,7 +57,7 @@ pub const TABLE: Table = Table {
             let arc = ArcLength { longest: options.number("longest")?, points: options.count("points")? };
             Ok(Dynamic::from(Control::ArcLength(arc)))
         })
-        .returns("a load control")
+        .returns(Returns::object(CONTROL))
         .summary("Prescribes how far the scene moves in each step; the load follows, and may fall.")
         .doc(
             "So a path of equilibria is followed through its limit points, until the whole load is reached for the first time. \
@@ -69,7 +73,7 @@ pub const TABLE: Table = Table {
             let position = rest.rest().model().position(&place);
             Ok(Dynamic::from(position))
         })
-        .returns("a vector [length]")
+        .returns(Returns::object(VECTOR).unit("length"))
         .summary("Where a station rests.")
         .example("let rest = scene.equilibrium();\ncheck(rest.position(rod.end).y > 1);")
         .see(&["positions", "angle"]),
@@ -78,17 +82,17 @@ pub const TABLE: Table = Table {
             let positions = rest.rest().along_path(|model| model.position(&place))?;
             Ok(positions.into_iter().map(Dynamic::from).collect::<Array>().into())
         })
-        .returns("an array of vectors [length]")
+        .returns(Returns::array_of(&ValueKind::Object(VECTOR)).unit("length"))
         .summary("Where a station was at every point of the path, beginning with the unloaded scene.")
         .example("let rest = scene.equilibrium(#{ load_steps: 4 });\ncheck(rest.positions(rod.end).len() == 5);")
         .see(&["load_factors", "plot_load_path"]),
         method(EQUILIBRIUM, "angle", &[AT], angle)
-            .returns("a number [rad]")
+            .returns(Returns::NUMBER.unit("rad"))
             .summary("The angle of the section at a station, counter-clockwise and not wrapped.")
             .doc("Stations inside a beam are followed if they were made before the equilibrium was found.")
             .example("let rest = scene.equilibrium();\ncheck_close(rest.angle(rod.start), 0, 1e-12);"),
         method(EQUILIBRIUM, "reaction", &[AT], reaction)
-            .returns("a map")
+            .returns(Returns::MAP)
             .summary("What the support at a station gives.")
             .doc("The map holds force, a vector, and moment. A joint between beams is no support: only what the ground gives is told.")
             .example("let rest = scene.equilibrium();\ncheck_close(rest.reaction(rod.start).moment, -s.EI * 3.14159265358979 / 4, 1e-6);"),
@@ -100,7 +104,7 @@ pub const TABLE: Table = Table {
             })?;
             Ok(Dynamic::from(ModesHandle::new(handle.0.scene.clone(), handle.rest().scene(), modes)))
         })
-        .returns("modes")
+        .returns(Returns::object(MODES))
         .summary("The lowest natural frequencies and shapes of vibration about the equilibrium.")
         .doc("A configuration that is not stable has modes that grow instead: see growth_rates. There are none where a load turns with the beam.")
         .example("let rest = scene.equilibrium();\ncheck(rest.modes(2).is_stable);")
@@ -111,7 +115,7 @@ pub const TABLE: Table = Table {
                 Simulation::start_at_rest(&handle.rest(), settings)
             })
         })
-        .returns("a simulation")
+        .returns(Returns::object(SIMULATION))
         .summary("Puts the scene at t = 0 where it rests, without velocity.")
         .doc(
             "Its loads follow their schedules from there: what was bent by hold_for(1) is let go at t = 1. Options are those of \
@@ -122,30 +126,30 @@ pub const TABLE: Table = Table {
              check(norm(sim.position(rod.end) - rest.position(rod.end)) < 1e-9);",
         )
         .see(&["hold_for"]),
-        told("is_stable", "true or false", is_stable)
+        told("is_stable", Returns::TRUTH, is_stable)
         .summary("Whether every small disturbance meets resistance; a structure leaves an equilibrium that is not stable.")
         .example("check(scene.equilibrium().is_stable);")
         .see(&["modes", "limit_points"]),
-        told("load_factor", "a number [-]", |call| look(call, |of| of.path().load_factor().into()))
+        told("load_factor", Returns::NUMBER.unit("-"), |call| look(call, |of| of.path().load_factor().into()))
             .summary("The part of the loads that acts: what was asked for, unless a path ended before.")
             .example("check(scene.equilibrium().load_factor == 1);"),
-        told("load_factors", "an array of numbers [-]", |call| look(call, |of| {
+        told("load_factors", Returns::NUMBERS.unit("-"), |call| look(call, |of| {
             of.path().points().iter().map(|point| point.load_factor.into()).collect::<Array>().into()
         }))
         .summary("That at every point of the path, beginning with 0.")
         .example("check(scene.equilibrium(#{ load_steps: 2 }).load_factors == [0, 0.5, 1]);"),
-        told("limit_points", "an array of numbers [-]", |call| look(call, |of| {
+        told("limit_points", Returns::NUMBERS.unit("-"), |call| look(call, |of| {
             of.path().limit_points().into_iter().map(Dynamic::from).collect::<Array>().into()
         }))
         .summary("The load factors at which the path turns: where the structure would snap through.")
         .example("check(scene.equilibrium().limit_points.len() == 0);")
         .see(&["arc_length"]),
-        told("strain", "a number [energy]", |call| look(call, |of| {
+        told("strain", Returns::NUMBER.unit("energy"), |call| look(call, |of| {
             of.path().points().last().map_or(0.0, |point| point.strain_energy).into()
         }))
         .summary("The strain energy.")
         .example("check_close(scene.equilibrium().strain, (s.EI * 3.14159265358979 / 4)^2 * rod.length / s.EI / 2, 1e-6);"),
-        told("iterations", "a whole number", |call| look(call, |of| {
+        told("iterations", Returns::WHOLE, |call| look(call, |of| {
             let taken = of.path().points().iter().map(|point| point.iterations).sum::<usize>();
             Dynamic::from(taken as INT)
         }))
@@ -255,7 +259,7 @@ impl Scripted for Control {
     }
 }
 
-const fn told(name: &'static str, returns: &'static str, body: Body) -> Row {
+const fn told(name: &'static str, returns: Returns, body: Body) -> Row {
     property(EQUILIBRIUM, name, body).returns(returns)
 }
 
@@ -349,7 +353,7 @@ fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (handle, _) = place(call)?;
     let station = call.get::<StationHandle>("station")?;
     let rest = handle.rest();
-    followed(call, &station, rest.model().angle(rest.scene(), &station.station()))
+    followed(call, &station, rest.model().angle(rest.scene(), &station.station))
 }
 
 fn reaction(call: &mut Call) -> Result<Dynamic, ScriptError> {

@@ -11,6 +11,7 @@ use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::looks::present::present;
 use crate::script::rows::parameter::{anything, object};
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function, method};
 
 /// Characters in a line of a description.
@@ -28,7 +29,7 @@ pub const TABLE: Table = Table {
             let shown = present(&language(), &call.value("value")?, WIDTH);
             Ok(if shown.is_empty() { "nothing".into() } else { shown.into() })
         })
-        .returns("a text")
+        .returns(Returns::TEXT)
         .summary("A value as the prompt shows it: with what a person wants to know at a glance, in a few aligned lines.")
         .doc("Numbers have up to ten digits; long arrays and maps are elided.")
         .example("print(describe(rod));\ncheck(describe(0.1 + 0.2) == \"0.3\");")
@@ -38,7 +39,7 @@ pub const TABLE: Table = Table {
             let is_like = own.scene().borrow().is_like(&other.scene().borrow());
             Ok(is_like.into())
         })
-        .returns("true or false")
+        .returns(Returns::TRUTH)
         .summary("Whether another scene has the same beams, joints, masses, velocities and loads, in the same order.")
         .doc(
             "Names do not count, nor do differences of a billionth. Functions of scripts cannot be compared: a scene with a load that \
@@ -54,7 +55,7 @@ pub const TABLE: Table = Table {
             let parts = call.receiver::<SceneHandle>()?.scene().borrow().explain()?;
             Ok(written(&parts))
         })
-        .returns("a text")
+        .returns(Returns::TEXT)
         .summary("What a simulation of the scene uses and what it therefore leaves out, as a table.")
         .doc("A scene pays only for what it uses. The scene is built for this, as scene.start(…) would build it.")
         .example("print(scene.explain());\ncheck(scene.explain().contains(\"plain band\"));")
@@ -62,7 +63,7 @@ pub const TABLE: Table = Table {
         method(SIMULATION, "explain", &[], |call| {
             Ok(written(&call.receiver::<SimulationHandle>()?.simulation().explain()))
         })
-        .returns("a text")
+        .returns(Returns::TEXT)
         .summary("The same for a simulation, with its integrator and its steps.")
         .example("print(sim.explain());\ncheck(sim.explain().contains(\"energy_momentum\"));")
         .see(&["invariants"]),

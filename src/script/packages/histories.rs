@@ -9,6 +9,7 @@ use crate::script::handles::history::HistoryHandle;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Type;
 use crate::script::rows::parameter::{Parameter, choice, number, text};
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Row, Table, method, property};
 use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::format_number;
@@ -25,22 +26,22 @@ pub const TABLE: Table = Table {
     constants: &[],
     rows: &[
         method(HISTORY, "after", &[T], |call| window(call, |call| Ok((call.number("t")?, f64::INFINITY))))
-            .returns("a history")
+            .returns(Returns::object(HISTORY))
             .summary("The rows from a time on.")
             .example("sim.run_to(1);\ncheck(sim.history.after(0.5).first(\"t\") == 0.5);")
             .see(&["before", "between"]),
         method(HISTORY, "before", &[T], |call| window(call, |call| Ok((f64::NEG_INFINITY, call.number("t")?))))
-            .returns("a history")
+            .returns(Returns::object(HISTORY))
             .summary("The rows up to a time.")
             .example("sim.run_to(1);\ncheck(sim.history.before(0.5).last(\"t\") == 0.5);"),
         method(HISTORY, "between", &[number("from").unit("time"), number("to").unit("time")], |call| {
             window(call, |call| Ok((call.number("from")?, call.number("to")?)))
         })
-        .returns("a history")
+        .returns(Returns::object(HISTORY))
         .summary("The rows between two times, both included.")
         .example("sim.run_to(1);\ncheck(sim.history.between(0.2, 0.4).rows == 3);"),
         method(HISTORY, "drift", &[choice("invariant", &["energy", "momentum", "angular_momentum", "gap"])], drift)
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("The largest change of an invariant since the first row, relative to its scale.")
             .doc(
                 "energy: E - W relative to the largest energy; momentum: p - ∫F dt and angular_momentum: L - ∫M dt relative to \
@@ -49,12 +50,12 @@ pub const TABLE: Table = Table {
             .example("sim.run_to(1);\ncheck(sim.history.drift(\"energy\") < 1e-12);")
             .see(&["invariants"]),
         method(HISTORY, "column", &[COLUMN], |call| Ok(numbers(column(call, History::column)?)))
-            .returns("an array of numbers")
+            .returns(Returns::NUMBERS)
             .summary("A column by name.")
             .example("sim.step(4);\ncheck(sim.history.column(\"t\").len() == 5);")
             .see(&["averaged"]),
         method(HISTORY, "averaged", &[COLUMN], averaged)
-            .returns("an array of numbers")
+            .returns(Returns::NUMBERS)
             .summary("A column in which each value is the mean of it and the value in the row before.")
             .doc(
                 "This removes a sawtooth, an alternation from step to step, as a force of constraint may have. A mean belongs to \
@@ -71,7 +72,7 @@ pub const TABLE: Table = Table {
             let rows = call.receiver::<HistoryHandle>()?.read(|history| history.samples().len());
             Ok(Dynamic::from(rows as INT))
         })
-        .returns("a whole number")
+        .returns(Returns::WHOLE)
         .summary("The number of rows; the start is one.")
         .example("sim.step(4);\ncheck(sim.history.rows == 5);"),
     ],
@@ -88,7 +89,7 @@ const fn statistic(
     body: crate::script::rows::table::Body,
 ) -> Row {
     method(HISTORY, name, &[COLUMN], body)
-        .returns("a number")
+        .returns(Returns::NUMBER)
         .summary(summary)
         .example("sim.run_to(1);\nlet h = sim.history;\ncheck(h.first(\"t\") == 0 && h.last(\"t\") == 1);\ncheck(h.largest(\"kinetic\") >= h.smallest(\"kinetic\"));")
 }

@@ -6,6 +6,7 @@ use crate::integrators::Method;
 use crate::script::looks::details;
 use crate::script::rows::kind::{Details, Scripted, Type};
 use crate::script::rows::parameter::{Parameter, Presence, number, options};
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function};
 
 /// Integrators.
@@ -18,13 +19,13 @@ pub const TABLE: Table = Table {
     constants: &[],
     rows: &[
         function("energy_momentum", &[], |_| Ok(Dynamic::from(Method::EnergyMomentum)))
-            .returns("an integrator")
+            .returns(Returns::object(INTEGRATOR))
             .summary("Keeps energy and both momenta to rounding, at any step size; the default.")
             .doc("Second order. Stander & Stein, Eng. Comput. 13 (1996) 60-85.")
             .example("print(`thrown with ${energy_momentum()}`);")
             .see(&["fourth_order", "energy_decaying", "trapezoidal", "start"]),
         function("trapezoidal", &[], |_| Ok(Dynamic::from(Method::Trapezoidal)))
-            .returns("an integrator")
+            .returns(Returns::object(INTEGRATOR))
             .summary(
                 "Newmark's method with β = 1/4, γ = 1/2; its energy wanders in nonlinear problems.",
             )
@@ -35,7 +36,7 @@ pub const TABLE: Table = Table {
             let chi = call.options_or_defaults("options")?.number("chi")?;
             Ok(Dynamic::from(Method::EnergyDecaying { chi }))
         })
-        .returns("an integrator")
+        .returns(Returns::object(INTEGRATOR))
         .summary("Keeps both momenta to rounding and damps vibration: the energy never grows, at any step size.")
         .doc(
             "Section forces are those of the mean strain of a step and χ/2 of its change; a step loses exactly the energy χ/2 \
@@ -44,7 +45,7 @@ pub const TABLE: Table = Table {
         .example("let damped = scene.start(#{ integrator: energy_decaying(#{ chi: 0.2 }), dt: 0.1 });\nprint(energy_decaying());")
         .see(&["energy_momentum", "generalized_alpha"]),
         function("fourth_order", &[], |_| Ok(Dynamic::from(Method::FourthOrder)))
-            .returns("an integrator")
+            .returns(Returns::object(INTEGRATOR))
             .summary("Seven energy-momentum steps in one, for accuracy: keeps energy and both momenta to rounding, at any step size.")
             .doc(
                 "Fourth order where loads and motion are smooth. A step costs seven, one of them backwards in time, and pays where a \
@@ -57,7 +58,7 @@ pub const TABLE: Table = Table {
             let rho_infinity = call.options_or_defaults("options")?.number("rho_infinity")?;
             Ok(Dynamic::from(Method::GeneralizedAlpha { rho_infinity }))
         })
-        .returns("an integrator")
+        .returns(Returns::object(INTEGRATOR))
         .summary("For comparison: damps fast vibration, and keeps neither energy nor momenta exactly.")
         .doc("Second order. Chung & Hulbert, J. Appl. Mech. 60 (1993) 371-375.")
         .example("let damped = scene.start(#{ integrator: generalized_alpha(#{ rho_infinity: 0.8 }), dt: 0.1 });\nprint(generalized_alpha());")

@@ -5,6 +5,7 @@ use rhai::{Dynamic, INT};
 use crate::elementary;
 use crate::script::rows::call::Call;
 use crate::script::rows::parameter::{Parameter, number, numeric, whole};
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Body, Constant, Row, Table, function};
 use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::as_number;
@@ -117,7 +118,7 @@ pub const TABLE: Table = Table {
         function("log", &[ANY_X, number("base")], |call| {
             Ok(elementary::log(x(call)?, call.number("base")?).into())
         })
-        .returns("a number")
+        .returns(Returns::NUMBER)
         .summary("The logarithm to a base of your choice, which must be given.")
         .example("check_close(log(81, 3), 4, 1e-15);")
         .see(&["ln", "log10", "log2"]),
@@ -178,66 +179,66 @@ pub const TABLE: Table = Table {
             "Whether x is undefined.",
             "check(is_nan(0 / 0));",
         )
-        .returns("true or false"),
+        .returns(Returns::TRUTH),
         of_x(
             "is_finite",
             |call| Ok(x(call)?.is_finite().into()),
             "Whether x is neither infinite nor undefined.",
             "check(!is_finite(1 / 0));",
         )
-        .returns("true or false"),
+        .returns(Returns::TRUTH),
         of_x(
             "is_infinite",
             |call| Ok(x(call)?.is_infinite().into()),
             "Whether x is infinite.",
             "check(is_infinite(1 / 0));",
         )
-        .returns("true or false"),
+        .returns(Returns::TRUTH),
         function("abs", &[numeric("x")], absolute)
-            .returns("a number, whole if x is")
+            .returns(Returns::NUMBER.note(", whole if x is"))
             .summary("The magnitude of a number.")
             .example("check(abs(-3) == 3);"),
         function("hypot", &[ANY_X, ANY_Y], |call| {
             Ok(elementary::hypot(x(call)?, call.number("y")?).into())
         })
-        .returns("a number")
+        .returns(Returns::NUMBER)
         .summary("The length of the vector with components x and y, without overflow.")
         .example("check(hypot(3, 4) == 5);")
         .see(&["norm"]),
         function("atan2", &[ANY_Y, ANY_X], |call| {
             Ok(elementary::atan2(call.number("y")?, x(call)?).into())
         })
-        .returns("an angle from -PI to PI")
+        .returns(Returns::NUMBER.words("an angle from -PI to PI"))
         .summary("The angle of the vector with components x and y; y comes first.")
         .example("check(atan2(1, 0) == PI / 2);")
         .see(&["angle"]),
         function("min", &[numeric("x"), numeric("y")], |call| choose(call, |x, y| x < y))
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("The smaller of two numbers; undefined if one of them is.")
             .example("check(min(2, 0.5) == 0.5);"),
         function("max", &[numeric("x"), numeric("y")], |call| choose(call, |x, y| x > y))
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("The larger of two numbers; undefined if one of them is.")
             .example("check(max(2, 0.5) == 2);"),
         function("quotient", &[whole("n"), whole("d")], quotient)
-            .returns("a whole number")
+            .returns(Returns::WHOLE)
             .summary("How often d goes into n, rounded down: whole-number division, for indices.")
             .example("check(quotient(7, 2) == 3);\ncheck(7 / 2 == 3.5);"),
         function("round_to", &[ANY_X, whole("digits").between(0.0, 15.0)], round_to)
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("x rounded to this many digits after the point.")
             .example("check(round_to(PI, 2) == 3.14);")
             .see(&["round", "fixed"]),
     ],
 };
 
-const WHOLE: &str = "a whole number, or x itself if it is too large for one";
+const WHOLE: Returns = Returns::WHOLE.note(", or x itself if it is too large for one");
 const ANY_X: Parameter = number("x").any_number();
 const ANY_Y: Parameter = number("y").any_number();
 
 /// A function of one number `x`.
 const fn of_x(name: &'static str, body: Body, summary: &'static str, example: &'static str) -> Row {
-    function(name, &[ANY_X], body).returns("a number").summary(summary).example(example)
+    function(name, &[ANY_X], body).returns(Returns::NUMBER).summary(summary).example(example)
 }
 
 fn x(call: &Call) -> Result<f64, ScriptError> {

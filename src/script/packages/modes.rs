@@ -6,6 +6,7 @@ use rhai::{Array, Dynamic, INT};
 
 use super::scenes::{SCENE, STATION};
 use super::simulations::SIMULATION;
+use super::vectors::VECTOR;
 use crate::model::{Model, Scene};
 use crate::output::{Cell, Table as TextTable, significant};
 use crate::script::handles::scene::SceneHandle;
@@ -14,6 +15,7 @@ use crate::script::handles::station::StationHandle;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Scripted, Type};
 use crate::script::rows::parameter::{Parameter, Presence, object, whole};
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Body, Row, Table, method, property};
 use crate::script::words::error::{Place, ScriptError};
 use crate::vibration::{Mode, Modes, VibrationError};
@@ -35,7 +37,7 @@ pub const TABLE: Table = Table {
             let modes = look(call, |count, goes_on| Modes::of(&model, count, goes_on))?;
             Ok(Dynamic::from(ModesHandle::new(handle, &scene, modes)))
         })
-        .returns("modes")
+        .returns(Returns::object(MODES))
         .summary("The lowest natural frequencies and shapes of the scene as it is drawn.")
         .doc(
             "Each comes with a residual; what cannot be had with one below 1e-6 is refused. With up to 240 unknowns all modes are found at \
@@ -51,24 +53,24 @@ pub const TABLE: Table = Table {
             let simulation = handle.simulation();
             Ok(Dynamic::from(ModesHandle::new(handle.scene().clone(), simulation.scene(), modes)))
         })
-        .returns("modes")
+        .returns(Returns::object(MODES))
         .summary("Those about the present configuration of a simulation, as if it stood still there.")
         .example("let sim = scene.start(#{ dt: 0.1 });\nlet drawn = scene.modes(1).angular_frequencies;\ncheck(sim.modes(1).angular_frequencies == drawn);"),
-        told("angular_frequencies", "an array of numbers [rad/time]", |call| list(call, Mode::angular_frequency))
+        told("angular_frequencies", Returns::NUMBERS.unit("rad/time"), |call| list(call, Mode::angular_frequency))
             .summary("ω of each mode; 0 where nothing vibrates.")
             .example("let modes = scene.modes(2);\ncheck(modes.angular_frequencies[1] > modes.angular_frequencies[0]);")
             .see(&["frequencies", "periods"]),
-        told("frequencies", "an array of numbers [1/time]", |call| list(call, Mode::frequency))
+        told("frequencies", Returns::NUMBERS.unit("1/time"), |call| list(call, Mode::frequency))
             .summary("ω/2π of each mode: vibrations in a unit of time.")
             .example("let modes = scene.modes(1);\ncheck_close(modes.frequencies[0] * modes.periods[0], 1, 1e-12);"),
-        told("periods", "an array of numbers [time]", |call| list(call, Mode::period))
+        told("periods", Returns::NUMBERS.unit("time"), |call| list(call, Mode::period))
             .summary("2π/ω of each mode; infinite where nothing vibrates.")
             .example("let half = scene.modes(1).periods[0] / 2;\nlet sim = scene.start(#{ dt: half / 20 });\nsim.run_to(half);"),
-        told("growth_rates", "an array of numbers [1/time]", |call| list(call, Mode::growth_rate))
+        told("growth_rates", Returns::NUMBERS.unit("1/time"), |call| list(call, Mode::growth_rate))
             .summary("How fast each mode grows if the configuration is unstable; 0 for what vibrates.")
             .example("check(scene.modes(1).growth_rates == [0]);")
             .see(&["is_stable"]),
-        told("residuals", "an array of numbers [-]", |call| list(call, |mode| mode.residual))
+        told("residuals", Returns::NUMBERS.unit("-"), |call| list(call, |mode| mode.residual))
             .summary("How far each mode is from balance: its ω² + σ is not wrong by more than this part of itself.")
             .doc(
                 "σ is about the square of the slowest bending. The next correction of the shape and its section forces would change so much, in \
@@ -76,10 +78,10 @@ pub const TABLE: Table = Table {
             )
             .example("check(scene.modes(3).residuals.all(|residual| residual < 1e-6));")
             .see(&["angular_frequencies"]),
-        told("is_stable", "true or false", |call| Ok(modes(call)?.0.modes.is_stable().into()))
+        told("is_stable", Returns::TRUTH, |call| Ok(modes(call)?.0.modes.is_stable().into()))
             .summary("Whether none of the modes grows by itself.")
             .example("check(scene.modes(1).is_stable);"),
-        told("count", "a whole number", |call| Ok(Dynamic::from(modes(call)?.0.modes.all().len() as INT)))
+        told("count", Returns::WHOLE, |call| Ok(Dynamic::from(modes(call)?.0.modes.all().len() as INT)))
             .summary("How many modes there are.")
             .example("check(scene.modes(4).count == 4);"),
         method(MODES, "displacement", &[whole("mode").non_negative(), object("station", STATION)], |call| {
@@ -93,7 +95,7 @@ pub const TABLE: Table = Table {
             let place = station.within(&handle.0.of, &handle.0.scene, handle.0.modes.meshes())?;
             Ok(Dynamic::from(handle.0.modes.displacement(mode, &place)))
         })
-        .returns("a vector [-]")
+        .returns(Returns::object(VECTOR).unit("-"))
         .summary("How far a station moves in a mode, the first being mode 0, relative to the control point that moves most.")
         .example("let modes = scene.modes(2);\ncheck_close(norm(modes.displacement(0, rod.end)), 1, 1e-9);\ncheck(norm(modes.displacement(1, rod.start)) < 1e-12);"),
     ],
@@ -180,7 +182,7 @@ pub(super) fn look(
     }
 }
 
-const fn told(name: &'static str, returns: &'static str, body: Body) -> Row {
+const fn told(name: &'static str, returns: Returns, body: Body) -> Row {
     property(MODES, name, body).returns(returns)
 }
 

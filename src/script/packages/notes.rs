@@ -5,6 +5,7 @@ use rhai::{Array, Dynamic};
 use super::simulations::{SIMULATION, SPINNING};
 use crate::script::handles::notes::Printing;
 use crate::script::handles::simulation::SimulationHandle;
+use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Table, property};
 
 /// Notes.
@@ -23,7 +24,7 @@ pub const TABLE: Table = Table {
         let texts = notes.iter().map(|note| Dynamic::from(note.to_string()));
         Ok(texts.collect::<Array>().into())
     })
-    .returns("an array of texts")
+    .returns(Returns::array_of(&ValueKind::Text))
     .summary("What the steps so far do not resolve; empty when all is well.")
     .doc(
         "They are about the steps that led to the present: going back takes the notes on the steps undone away, forks and saved \

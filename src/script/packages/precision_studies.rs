@@ -12,6 +12,7 @@ use crate::script::rows::parameter::{
     Parameter, Presence, anything, array, callback, either, name, number, numbers, object, options,
     text, whole,
 };
+use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Row, Table, function, method, property};
 use crate::script::state::settings::Mode;
 use crate::script::studies::precision::study;
@@ -34,7 +35,7 @@ pub const TABLE: Table = Table {
             let study = study(call, &call.options("options")?)?;
             Ok(Dynamic::from(PrecisionStudy(Rc::new(study))))
         })
-        .returns("a precision study")
+        .returns(Returns::object(PRECISION))
         .summary("Runs a scene with all meshes, integrators and step sizes: the error of each, and the time it takes.")
         .doc(
             "scene is a function that makes the scene on a mesh and gives it, or #{ scene: scene, stations: #{ tip: rod.end } }; \
@@ -50,7 +51,7 @@ pub const TABLE: Table = Table {
         )
         .see(&["finest_run", "study_convergence", "cheapest", "front"]),
         function("finest_run", &[options("options", FINEST_KEYS).optional()], finest_run)
-            .returns("a finest run")
+            .returns(Returns::object(FINEST_RUN))
             .summary("As a reference of a study: a run of our own, marked as such in the results.")
             .doc(
                 "Unless told otherwise it is made on the finest mesh of the study, with its integrator of the highest order and a \
@@ -66,30 +67,30 @@ pub const TABLE: Table = Table {
             )
             .see(&["study_work_precision", "study_convergence"]),
         of_study("table", |call| Ok(table(&call.receiver::<PrecisionStudy>()?.0).into()))
-            .returns("a text")
+            .returns(Returns::TEXT)
             .summary("All combinations, mesh by mesh: errors, times, work and the drift of energy; ● marks those on the front.")
             .example("print(study.table);"),
         of_study("rows", |call| {
             let PrecisionStudy(study) = call.receiver()?;
             Ok(study.rows.iter().map(|row| map_of(&study, row).into()).collect::<Array>().into())
         })
-        .returns("an array of maps")
+        .returns(Returns::array_of(&ValueKind::Map))
         .summary("All combinations: mesh, integrator, dt, error, run_time, steps, energy_drift, outcome and more.")
         .example("for row in study.rows { check(row.outcome == \"finished\" && row.energy_drift < 1e-12); }"),
         of_study("front", |call| {
             let PrecisionStudy(study) = call.receiver()?;
             Ok(study.front().into_iter().map(|row| map_of(&study, row).into()).collect::<Array>().into())
         })
-        .returns("an array of maps")
+        .returns(Returns::array_of(&ValueKind::Map))
         .summary("The combinations that are worth their time: none is both faster and better. The fastest comes first.")
         .example("check(study.front[0].on_front);")
         .see(&["cheapest"]),
         of_study("reference", |call| Ok(call.receiver::<PrecisionStudy>()?.0.truth.source.clone().into()))
-            .returns("a text")
+            .returns(Returns::TEXT)
             .summary("What the errors are measured against.")
             .example("print(study.reference);"),
         method(PRECISION, "cheapest", &[ERRORS], cheapest)
-            .returns("a map, () or a text")
+            .returns(Returns::one_of(&[ValueKind::Map, ValueKind::Nothing, ValueKind::Text]).words("a map, () or a text"))
             .summary("The fastest combination with at most this error; of several errors a table, with rivals beside.")
             .doc("For one error it is a map such as those of rows, or () when no combination is so good.")
             .example("let best = study.cheapest(0.5);\nprint(best.run_time);\nprint(study.cheapest([0.5, 0.01]));")
@@ -99,7 +100,7 @@ pub const TABLE: Table = Table {
             let found = study.cheapest_confirmed(call.number("error")?);
             Ok(found.map_or(Dynamic::UNIT, |row| map_of(&study, row).into()))
         })
-        .returns("a map or ()")
+        .returns(Returns::one_of(&[ValueKind::Map, ValueKind::Nothing]).words("a map or ()"))
         .summary("The fastest combination with at most this error of which all smaller steps on its mesh err no more.")
         .doc("Errors of mesh and step may cancel; what smaller steps contradict is right by luck. () where there is none.")
         .example("print(study.cheapest_confirmed(0.5));")

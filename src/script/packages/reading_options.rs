@@ -6,6 +6,7 @@ use crate::geometry::Vec2;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Kind, Range};
 use crate::script::rows::parameter::{anything, text};
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::nouns::with_article;
@@ -28,7 +29,7 @@ pub const TABLE: Table = Table {
             ],
             read_options,
         )
-        .returns("a map")
+        .returns(Returns::MAP)
         .summary("The options of a function, those left out filled in; refused when one is unknown, missing or of the wrong kind.")
         .doc(
             "The words for what an option must be are those of read_argument. Points come as vectors, whatever they were given as. \
@@ -50,7 +51,7 @@ pub const TABLE: Table = Table {
             ],
             read_argument,
         )
-        .returns("a value")
+        .returns(Returns::ANYTHING)
         .summary("An argument of a function, a point as a vector, refused when it is of the wrong kind.")
         .doc(
             "Kinds are told in words: \"a number\", \"a positive number\", \"a number of zero or more\", \"any number\" (infinite ones \

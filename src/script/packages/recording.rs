@@ -9,6 +9,7 @@ use crate::script::handles::simulation::SimulationHandle;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Scripted, Type};
 use crate::script::rows::parameter::whole;
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function};
 use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::format_number;
@@ -29,12 +30,12 @@ pub const TABLE: Table = Table {
             let steps = NonZeroUsize::new(call.count("steps")?).unwrap_or(NonZeroUsize::MIN);
             Ok(Dynamic::from(Recording::Every(steps)))
         })
-        .returns("a recording")
+        .returns(Returns::object(RECORDING))
         .summary("Records the states after every so many steps.")
         .example("let long = scene.start(#{ dt: 0.1, record: every(10) });\nlong.run_to(5);\ncheck(long.steps == 50 && long.history.rows == 6);")
         .see(&["nothing", "start"]),
         function("nothing", &[], |_| Ok(Dynamic::from(Recording::Nothing)))
-            .returns("a recording")
+            .returns(Returns::object(RECORDING))
             .summary("Records the start and the ends of runs, and nothing between.")
             .example("let quiet = scene.start(#{ dt: 0.1, record: nothing() });\nquiet.run_to(5);\ncheck(quiet.history.rows == 2 && quiet.history.drift(\"energy\") < 1e-12);")
             .see(&["every", "start"]),

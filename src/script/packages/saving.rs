@@ -2,8 +2,11 @@
 
 use rhai::Dynamic;
 
+use super::scenes::BEAM;
 use super::scenes::SCENE;
+use super::scenes::STATION;
 use super::simulations::{SIMULATION, SPINNING};
+use super::sliding::SLIDER;
 use super::sliding::SliderHandle;
 use crate::beams::Station;
 use crate::script::handles::beam::BeamHandle;
@@ -13,6 +16,7 @@ use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::rows::call::Call;
 use crate::script::rows::parameter::{Parameter, text};
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function, method, property};
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::suggest::nearest;
@@ -35,7 +39,7 @@ pub const TABLE: Table = Table {
             .example("sim.run_to(1);\nsim.save(\"spinning.withy\");\nlet again = load_simulation(\"spinning.withy\");\ncheck(again.t == 1 && again.energy == sim.energy);")
             .see(&["load_simulation", "fork"]),
         function("load_simulation", &[text("file")], load)
-            .returns("a simulation")
+            .returns(Returns::object(SIMULATION))
             .summary("A simulation from a file that sim.save wrote, in the output folder or beside the script.")
             .doc("A file that is cut off, damaged, of a later withy or something else is refused with the reason.")
             .example("sim.run_to(1);\nsim.save(\"half.withy\");\nlet on = load_simulation(\"half.withy\");\non.run_to(2);\nprint(on.position(on.scene.beam_named(\"rod\").end));")
@@ -45,12 +49,12 @@ pub const TABLE: Table = Table {
                 call.error("there is no simulation yet").hint("start one: let sim = scene.start(#{ dt: 0.01 });")
             })
         })
-        .returns("a simulation")
+        .returns(Returns::object(SIMULATION))
         .summary("The simulation that was started, loaded, forked, stepped or taken back last.")
         .example("check(latest_simulation().name == sim.name);")
         .see(&["start", "load_simulation"]),
         property(SIMULATION, "scene", |call| Ok(Dynamic::from(call.receiver::<SimulationHandle>()?.scene().clone())))
-            .returns("a scene")
+            .returns(Returns::object(SCENE))
             .summary("The scene that was started; for a loaded simulation, the scene that was saved with it.")
             .example("check(sim.scene.name == \"example\");")
             .see(&["beam_named", "particle_named", "slider_named"]),
@@ -59,7 +63,7 @@ pub const TABLE: Table = Table {
             let index = find(call, "beam", |held| held.beams.iter().map(|beam| &beam.name).collect())?;
             Ok(Dynamic::from(BeamHandle { scene, index }))
         })
-        .returns("a beam")
+        .returns(Returns::object(BEAM))
         .summary("The beam of that name.")
         .example("check(scene.beam_named(\"rod\").length == 2);")
         .see(&["beam", "scene"]),
@@ -68,7 +72,7 @@ pub const TABLE: Table = Table {
             let index = find(call, "particle", |held| held.particles.iter().map(|particle| &particle.name).collect())?;
             Ok(Dynamic::from(StationHandle { scene, station: Station::on_particle(index) }))
         })
-        .returns("a station")
+        .returns(Returns::object(STATION))
         .summary("The particle of that name.")
         .example("scene.particle([0, 3], 0.5, #{ name: \"stone\" });\nprint(scene.particle_named(\"stone\"));")
         .see(&["particle", "scene"]),
@@ -77,7 +81,7 @@ pub const TABLE: Table = Table {
             let index = find(call, "slider", |held| held.sliders.iter().map(|slider| &slider.name).collect())?;
             Ok(Dynamic::from(SliderHandle { scene, index }))
         })
-        .returns("a slider")
+        .returns(Returns::object(SLIDER))
         .summary("The slider of that name.")
         .example("scene.slider(scene.particle([1, 0], 1), rod, #{ name: \"ring\" });\nprint(scene.slider_named(\"ring\"));")
         .see(&["slider", "scene"]),

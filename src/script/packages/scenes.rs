@@ -20,6 +20,7 @@ use crate::script::rows::kind::Type;
 use crate::script::rows::parameter::{
     Parameter, Presence, either, name, number, object, options, point, text,
 };
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function, method, property};
 use crate::script::words::error::{Place, ScriptError};
 
@@ -34,12 +35,12 @@ pub const TABLE: Table = Table {
         function("new_scene", &[name("name").or(Presence::Text("scene"))], |call| {
             Ok(Dynamic::from(SceneHandle::new(Scene::new(call.text("name")?.as_str()))))
         })
-        .returns("a scene")
+        .returns(Returns::object(SCENE))
         .summary("An empty scene; its name appears in messages and reports.")
         .example("let scene = new_scene(\"pendulum\");")
         .see(&["beam", "start"]),
         method(SCENE, "beam", &[options("options", BEAM_KEYS)], beam)
-            .returns("a beam")
+            .returns(Returns::object(BEAM))
             .summary("Adds a beam, free of stress as drawn.")
             .doc(
                 "axis is a curve; basis a mesh or a knot vector (16 cubic C2 spans unless given); velocity and spin are the \
@@ -49,7 +50,7 @@ pub const TABLE: Table = Table {
             .example("let mast = scene.beam(#{ name: \"mast\", axis: line([0, 0], [0, 3]), section: s });\nprint(mast);")
             .see(&["section", "bspline", "line"]),
         method(SCENE, "particle", &[point("position").unit("length"), number("mass").unit("mass"), options("options", PARTICLE_KEYS).optional()], particle)
-            .returns("a station")
+            .returns(Returns::object(STATION))
             .summary("Adds a point mass that moves by itself; what is returned is its only station.")
             .doc(
                 "The station takes forces, hinges, velocities and sliders; a particle does not turn, so it takes no moment, clamp or \
@@ -61,30 +62,30 @@ pub const TABLE: Table = Table {
             )
             .see(&["slider", "mass"]),
         property(BEAM, "start", |call| station(call, |_| 0.0))
-            .returns("a station")
+            .returns(Returns::object(STATION))
             .summary("The station at its start.")
             .example("print(rod.start);"),
         property(BEAM, "end", |call| station(call, |length| length))
-            .returns("a station")
+            .returns(Returns::object(STATION))
             .summary("The station at its end.")
             .example("scene.clamp(rod.end);"),
         method(BEAM, "at", &[number("s").unit("length").doc("arc length from the start, as drawn")], |call| {
             let s = call.number("s")?;
             station(call, |_| s)
         })
-        .returns("a station")
+        .returns(Returns::object(STATION))
         .summary("The station at an arc length from its start, measured on the beam as drawn.")
         .example("scene.hinge(rod.at(rod.length / 2));"),
         property(BEAM, "length", |call| Ok(call.receiver::<BeamHandle>()?.length().into()))
-            .returns("a number [length]")
+            .returns(Returns::NUMBER.unit("length"))
             .summary("Its length as drawn.")
             .example("check(rod.length == 2);"),
         property(BEAM, "name", |call| Ok(call.receiver::<BeamHandle>()?.name().into()))
-            .returns("a text")
+            .returns(Returns::TEXT)
             .summary("Its name.")
             .example("check(rod.name == \"rod\");"),
         property(SCENE, "name", |call| Ok(call.receiver::<SceneHandle>()?.scene().borrow().name.clone().into()))
-            .returns("a text")
+            .returns(Returns::TEXT)
             .summary("Its name.")
             .example("check(new_scene(\"pendulum\").name == \"pendulum\");"),
         method(SCENE, "clamp", &[AT], |call| join(call, JointKind::Rigid))
@@ -160,6 +161,7 @@ const BEAM_KEYS: &[Parameter] = &[
     point("about")
         .unit("length")
         .doc("the point it turns about at the start; its centre of mass unless given")
+        .beside("spin")
         .optional(),
 ];
 const PARTICLE_KEYS: &[Parameter] = &[

@@ -13,6 +13,7 @@ use crate::script::rows::kind::{Details, Kind, Range, Scripted, Type};
 use crate::script::rows::parameter::{
     Parameter, Presence, array, callback, number, numbers, object,
 };
+use crate::script::rows::returns::Returns;
 use crate::script::rows::sources::Sources;
 use crate::script::rows::stored::NoNumber;
 use crate::script::rows::table::{Table, function, method, operator};
@@ -31,49 +32,49 @@ pub const TABLE: Table = Table {
         function("constant", &[number("factor").or(Presence::Number(1.0))], |call| {
             schedule(Schedule::constant(call.number("factor")?)?)
         })
-        .returns("a schedule")
+        .returns(Returns::object(SCHEDULE))
         .summary("The same factor at all times; what a load has when no schedule is given.")
         .example("check(constant(2).at(5) == 2);")
         .see(&["hold_for"]),
         function("hold_for", &[TIME], |call| schedule(Schedule::hold_for(call.number("time")?)?))
-            .returns("a schedule")
+            .returns(Returns::object(SCHEDULE))
             .summary("1 up to a time, then 0; the time grid is cut there.")
             .example("let torque = hold_for(2.5);\ncheck(torque.at(2.4) == 1 && torque.at(2.5) == 0);")
             .see(&["pulse", "ramp"]),
         function("ramp", &[FROM, TO], |call| {
             schedule(Schedule::ramp(call.number("from")?, call.number("to")?)?)
         })
-        .returns("a schedule")
+        .returns(Returns::object(SCHEDULE))
         .summary("0 before the first time, 1 after the last, a straight line between.")
         .example("check(ramp(0, 4).at(1) == 0.25);")
         .see(&["table"]),
         function("pulse", &[FROM, TO], |call| {
             schedule(Schedule::pulse(call.number("from")?, call.number("to")?)?)
         })
-        .returns("a schedule")
+        .returns(Returns::object(SCHEDULE))
         .summary("1 between two times, else 0.")
         .example("check(pulse(1, 2).at(1.5) == 1);")
         .see(&["smooth_pulse", "hold_for"]),
         function("smooth_pulse", &[number("duration").positive().unit("time")], |call| {
             schedule(Schedule::smooth_pulse(call.number("duration")?)?)
         })
-        .returns("a schedule")
+        .returns(Returns::object(SCHEDULE))
         .summary("16/5 sin(PI t / duration)^6 up to the duration, then 0: unit mean, five continuous derivatives.")
         .example("check_close(smooth_pulse(2).at(1), 3.2, 1e-15);")
         .see(&["pulse"]),
         function("sine", &[number("amplitude"), number("rate").unit("rad/time"), PHASE], |call| {
             schedule(Schedule::sine(call.number("amplitude")?, call.number("rate")?, call.number("phase")?)?)
         })
-        .returns("a schedule")
+        .returns(Returns::object(SCHEDULE))
         .summary("amplitude sin(rate t + phase).")
         .example("check_close(sine(2, PI, 0).at(0.5), 2, 1e-15);"),
         function("table", &[array("rows").doc("[time, factor] pairs; a time given twice is a jump")], table)
-            .returns("a schedule")
+            .returns(Returns::object(SCHEDULE))
             .summary("Straight lines between [time, factor] points, constant before the first and after the last.")
             .example("let load = table([[0, 0], [1, 1], [1, 0.5], [3, 0]]);\ncheck(load.at(2) == 0.25);")
             .see(&["ramp"]),
         function("schedule", &[callback("function"), BREAKS], closure)
-            .returns("a schedule")
+            .returns(Returns::object(SCHEDULE))
             .summary("Any function of time; give the times at which it jumps or bends, if there are any.")
             .doc("It is called two or three times a step, never inside the iteration. A jump that is not declared costs accuracy.")
             .example("let load = schedule(|t| exp(-t) * sin(3 * t));\ncheck(load.at(0) == 0);"),
@@ -84,48 +85,48 @@ pub const TABLE: Table = Table {
                 call.context().take_callback_error().map_or_else(|| error.into(), ScriptError::Engine)
             })
         })
-        .returns("a number")
+        .returns(Returns::NUMBER)
         .summary("The factor at a time, just after it where it jumps.")
         .example("check(hold_for(1).at(0.5) == 1);"),
         operator("+", &[object("a", SCHEDULE), object("b", SCHEDULE)], |call| {
             schedule(Schedule::combined(Operation::Sum, call.get("a")?, call.get("b")?)?)
         })
-        .returns("a schedule")
+        .returns(Returns::object(SCHEDULE))
         .summary("The sum of schedules.")
         .example("let both = hold_for(1) + pulse(2, 3);\ncheck(both.at(2.5) == 1);"),
         operator("*", &[object("a", SCHEDULE), object("b", SCHEDULE)], |call| {
             schedule(Schedule::combined(Operation::Product, call.get("a")?, call.get("b")?)?)
         })
-        .returns("a schedule")
+        .returns(Returns::object(SCHEDULE))
         .summary("The product of schedules.")
         .example("let half = hold_for(2) * ramp(0, 2);\ncheck(half.at(1) == 0.5);"),
         operator("*", &[number("a"), object("b", SCHEDULE)], |call| {
             schedule(scaled(call, call.number("a")?, "b")?)
         })
-            .returns("a schedule")
+            .returns(Returns::object(SCHEDULE))
             .summary("A schedule scaled.")
             .example("check((3 * hold_for(1)).at(0) == 3);"),
         operator("*", &[object("a", SCHEDULE), number("b")], |call| {
             schedule(scaled(call, call.number("b")?, "a")?)
         })
-            .returns("a schedule")
+            .returns(Returns::object(SCHEDULE))
             .summary("A schedule scaled.")
             .example("check((hold_for(1) * 3).at(0) == 3);"),
         operator("/", &[object("a", SCHEDULE), number("b")], |call| {
             schedule(scaled(call, 1.0 / call.number("b")?, "a")?)
         })
-        .returns("a schedule")
+        .returns(Returns::object(SCHEDULE))
         .summary("A schedule divided by a number.")
         .example("check((hold_for(1) / 2).at(0) == 0.5);"),
         operator("-", &[object("a", SCHEDULE), object("b", SCHEDULE)], |call| {
             let opposite = scaled(call, -1.0, "b")?;
             schedule(Schedule::combined(Operation::Sum, call.get("a")?, opposite)?)
         })
-        .returns("a schedule")
+        .returns(Returns::object(SCHEDULE))
         .summary("The difference of schedules.")
         .example("let later = hold_for(2) - hold_for(1);\ncheck(later.at(0.5) == 0 && later.at(1.5) == 1);"),
         operator("-", &[object("a", SCHEDULE)], |call| schedule(scaled(call, -1.0, "a")?))
-            .returns("a schedule")
+            .returns(Returns::object(SCHEDULE))
             .summary("The opposite schedule.")
             .example("check((-hold_for(1)).at(0) == -1);"),
     ],

@@ -12,9 +12,11 @@ use crate::output::significant;
 use crate::script::looks::details;
 use crate::script::rows::arguments::Arguments;
 use crate::script::rows::call::Call;
+use crate::script::rows::key_sets::{KeySet, KeySets};
 use crate::script::rows::kind::{Details, Kind, Range, Scripted, Type};
 use crate::script::rows::options::Options;
 use crate::script::rows::parameter::{Parameter, Presence, choice, either, number, options, whole};
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function, property};
 use crate::script::words::error::{Place, ScriptError};
 
@@ -30,7 +32,7 @@ pub const TABLE: Table = Table {
     constants: &[],
     rows: &[
         function("section", &[SECTION_OPTIONS], section)
-            .returns("a section")
+            .returns(Returns::object(SECTION))
             .summary("A cross section, from its stiffness and inertia or from a material and a shape.")
             .doc(
                 "Either EA, GA, EI, rho_A and rho_I; or E, nu, density and a shape: \"rectangle\" with width and height \
@@ -44,27 +46,27 @@ pub const TABLE: Table = Table {
             )
             .see(&["beam"]),
         property(SECTION, "EA", |call| Ok(call.receiver::<Section>()?.axial_stiffness.into()))
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("The axial stiffness [force].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.EA == 1e4);"),
         property(SECTION, "GA", |call| Ok(call.receiver::<Section>()?.shear_stiffness.into()))
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("The shear stiffness, correction factor included [force].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.GA == 1e4);"),
         property(SECTION, "EI", |call| Ok(call.receiver::<Section>()?.bending_stiffness.into()))
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("The bending stiffness [force·length²].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.EI == 100);"),
         property(SECTION, "rho_A", |call| Ok(call.receiver::<Section>()?.mass_per_length.into()))
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("The mass per length [mass/length].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.rho_A == 1);"),
         property(SECTION, "rho_I", |call| Ok(call.receiver::<Section>()?.rotary_inertia.into()))
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("The rotary inertia per length [mass·length].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.rho_I == 10);"),
         function("bspline", &[either("spans", &[COUNT, Kind::Options(BSPLINE)])], bspline)
-            .returns("a mesh")
+            .returns(Returns::object(MESH))
             .summary("A mesh of B-splines; cubic and C2 unless told otherwise.")
             .doc(
                 "bspline(14) has 14 equal spans. Options: spans, degree (3), continuity (degree - 1), quadrature. The \
@@ -78,20 +80,20 @@ pub const TABLE: Table = Table {
             )
             .see(&["lagrange", "knots", "beam"]),
         function("lagrange", &[either("elements", &[COUNT, Kind::Options(LAGRANGE)])], lagrange)
-            .returns("a mesh")
+            .returns(Returns::object(MESH))
             .summary("A mesh of Lagrange elements of degree 1 (unless told otherwise), 2 or 3.")
             .example("let mesh = lagrange(#{ elements: 5, degree: 3 });\ncheck(mesh.degree == 3);")
             .see(&["bspline"]),
         property(MESH, "spans", |call| whole_number(call.receiver::<Mesh>()?.spans()))
-            .returns("a whole number")
+            .returns(Returns::WHOLE)
             .summary("The number of spans or elements.")
             .example("check(bspline(7).spans == 7);"),
         property(MESH, "degree", |call| whole_number(call.receiver::<Mesh>()?.basis().degree()))
-            .returns("a whole number")
+            .returns(Returns::WHOLE)
             .summary("The degree of its functions.")
             .example("check(bspline(7).degree == 3);"),
         property(MESH, "functions", |call| whole_number(call.receiver::<Mesh>()?.basis().functions()))
-            .returns("a whole number")
+            .returns(Returns::WHOLE)
             .summary("The number of its functions, and of control points or nodes.")
             .example("check(bspline(#{ spans: 7, continuity: 1 }).functions == 16);"),
     ],
@@ -120,6 +122,45 @@ const SECTION_KEYS: &[Parameter] = &[
     number("outer").unit("length").doc("outer radius of a tube").optional(),
     number("inner").unit("length").doc("inner radius of a tube").optional(),
 ];
+
+/// What a section is given by.
+#[derive(Clone, Copy)]
+enum GivenBy {
+    Stiffness,
+    Rectangle,
+    Circle,
+    Tube,
+}
+
+const GIVEN_BY: KeySets<GivenBy> = KeySets {
+    told: "a section is given by EA, GA, EI, rho_A, rho_I, or by E, nu, density and a shape",
+    sets: &[
+        KeySet {
+            meaning: GivenBy::Stiffness,
+            told: "its stiffness and inertia",
+            keys: &["EA", "GA", "EI", "rho_A", "rho_I"],
+            chosen_by: None,
+        },
+        KeySet {
+            meaning: GivenBy::Rectangle,
+            told: "a material and the shape \"rectangle\"",
+            keys: &["shape", "width", "height", "E", "nu", "density"],
+            chosen_by: Some(("shape", "rectangle")),
+        },
+        KeySet {
+            meaning: GivenBy::Circle,
+            told: "a material and the shape \"circle\"",
+            keys: &["shape", "radius", "E", "nu", "density"],
+            chosen_by: Some(("shape", "circle")),
+        },
+        KeySet {
+            meaning: GivenBy::Tube,
+            told: "a material and the shape \"tube\"",
+            keys: &["shape", "outer", "inner", "E", "nu", "density"],
+            chosen_by: Some(("shape", "tube")),
+        },
+    ],
+};
 const QUADRATURE: Parameter = either("quadrature", &[Kind::Choice(&["patch"]), COUNT])
     .doc("points for axial and shear strain")
     .or(Presence::Text("patch"));
@@ -178,56 +219,29 @@ fn whole_number(count: usize) -> Result<Dynamic, ScriptError> {
 
 fn section(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options("options")?;
-    let section = if options.has("shape") || options.has("E") {
-        solid(&options).and_then(|solid| Section::from_solid(solid).map_err(blamed))
-    } else {
-        from_numbers(&options)
+    let number = |name: &str| options.number(name);
+    let shape = match GIVEN_BY.choose("section", &options)? {
+        GivenBy::Stiffness => return Ok(Dynamic::from(from_stiffness(&options)?)),
+        GivenBy::Rectangle => {
+            Shape::Rectangle { width: number("width")?, height: number("height")? }
+        }
+        GivenBy::Circle => Shape::Circle { radius: number("radius")? },
+        GivenBy::Tube => Shape::Tube { outer: number("outer")?, inner: number("inner")? },
     };
-    Ok(Dynamic::from(section?))
+    let (young, poisson, density) = (number("E")?, number("nu")?, number("density")?);
+    let solid = Solid { young, poisson, density, shape };
+    Ok(Dynamic::from(Section::from_solid(solid).map_err(blamed)?))
 }
 
-fn from_numbers(options: &Options) -> Result<Section, ScriptError> {
+fn from_stiffness(options: &Options) -> Result<Section, ScriptError> {
     let section = Section {
-        axial_stiffness: required(options, "EA")?,
-        shear_stiffness: required(options, "GA")?,
-        bending_stiffness: required(options, "EI")?,
-        mass_per_length: required(options, "rho_A")?,
-        rotary_inertia: required(options, "rho_I")?,
+        axial_stiffness: options.number("EA")?,
+        shear_stiffness: options.number("GA")?,
+        bending_stiffness: options.number("EI")?,
+        mass_per_length: options.number("rho_A")?,
+        rotary_inertia: options.number("rho_I")?,
     };
     section.validated().map_err(blamed)
-}
-
-fn solid(options: &Options) -> Result<Solid, ScriptError> {
-    let shape = match options.text("shape").unwrap_or_default().as_str() {
-        "rectangle" => Shape::Rectangle {
-            width: required(options, "width")?,
-            height: required(options, "height")?,
-        },
-        "circle" => Shape::Circle { radius: required(options, "radius")? },
-        "tube" => {
-            Shape::Tube { outer: required(options, "outer")?, inner: required(options, "inner")? }
-        }
-        _ => return Err(missing("shape", "one of \"rectangle\", \"circle\", \"tube\"")),
-    };
-    Ok(Solid {
-        young: required(options, "E")?,
-        poisson: required(options, "nu")?,
-        density: required(options, "density")?,
-        shape,
-    })
-}
-
-fn required(options: &Arguments, name: &'static str) -> Result<f64, ScriptError> {
-    let parameter = SECTION_KEYS.iter().find(|key| key.name == name);
-    let what =
-        parameter.map(|key| format!("{} ({})", key.expectation(), key.doc)).unwrap_or_default();
-    options.number_if_given(name).ok_or_else(|| missing(name, &what))
-}
-
-fn missing(name: &str, what: &str) -> ScriptError {
-    ScriptError::new(format!("section: the option '{name}' is missing")).hint(format!(
-        "add {name}: {what}; a section is given by EA, GA, EI, rho_A, rho_I, or by E, nu, density and a shape"
-    ))
 }
 
 /// Points at the option that is wrong.

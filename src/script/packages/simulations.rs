@@ -2,6 +2,7 @@
 
 use rhai::{Dynamic, INT};
 
+use super::histories::HISTORY;
 use super::integrators::INTEGRATOR;
 use super::notes::PRINTING;
 use super::recording::RECORDING;
@@ -9,6 +10,7 @@ use super::scenes::{SCENE, STATION};
 use super::sliding::meant;
 use super::step_sizes::STEP_CONTROL;
 use super::time_travel::bytes;
+use super::vectors::VECTOR;
 use crate::beams::Place;
 use crate::integrators::Method;
 use crate::model::Measures;
@@ -24,6 +26,7 @@ use crate::script::rows::kind::{Kind, Range, Scripted, Type};
 use crate::script::rows::parameter::{
     Parameter, Presence, callback, choice, either, name, number, object, options, whole,
 };
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Row, Table, method, property};
 use crate::script::words::error::ScriptError;
 use crate::simulation::{Invariant, Recording, Settings, Simulation, SimulationError, StepControl};
@@ -37,7 +40,7 @@ pub const TABLE: Table = Table {
     constants: &[],
     rows: &[
         method(SCENE, "start", &[options("options", START)], start)
-            .returns("a simulation")
+            .returns(Returns::object(SIMULATION))
             .summary("Builds the scene and puts it at its start, t = 0.")
             .doc("Changes of the scene after that do not reach the simulation; start it again for another one.")
             .example("let again = scene.start(#{ integrator: trapezoidal(), dt: 0.05 });\nprint(again);")
@@ -66,7 +69,7 @@ pub const TABLE: Table = Table {
         .summary("Calls a function with the simulation when a time is reached; a step ends there.")
         .example("sim.at(0.25, |sim| print(`energy ${sim.energy} at t = ${sim.t}`));\nsim.run_to(0.5);"),
         property(SIMULATION, "t", |call| Ok(call.receiver::<SimulationHandle>()?.time().into()))
-            .returns("a number [time]")
+            .returns(Returns::NUMBER.unit("time"))
             .summary("Where the simulation is.")
             .example("sim.run_to(0.3);\ncheck(sim.t == 0.3);"),
         measure("energy", "Kinetic, strain and potential energy together [energy].", |call| last(call, |m| m.energy.total()))
@@ -87,18 +90,18 @@ pub const TABLE: Table = Table {
             let momentum = measures(&simulation).momentum;
             Ok(Dynamic::from(momentum))
         })
-        .returns("a vector [mass·length/time]")
+        .returns(Returns::object(VECTOR).unit("mass·length/time"))
         .summary("The linear momentum.")
         .example("check(norm(sim.momentum) < 1e-12);"),
         property(SIMULATION, "history", |call| {
             let of = call.receiver::<SimulationHandle>()?;
             Ok(Dynamic::from(HistoryHandle { of, from: f64::NEG_INFINITY, to: f64::INFINITY }))
         })
-        .returns("a history")
+        .returns(Returns::object(HISTORY))
         .summary("All steps so far.")
         .example("sim.run_to(1);\ncheck(sim.history.drift(\"energy\") < 1e-12);"),
         method(SIMULATION, "invariants", &[], |call| Ok(Dynamic::from(Invariants::of(&call.receiver()?))))
-            .returns("invariants")
+            .returns(Returns::object(INVARIANTS))
             .summary("How well energy, momenta and gap were kept so far; prints as a table.")
             .doc("The values are E - W, p - ∫F dt and L - ∫M dt, with what loads, gravity and supports have given taken off.")
             .example("sim.run_to(1);\nprint(sim.invariants());\ncheck(sim.invariants().energy < 1e-12);")
@@ -112,7 +115,7 @@ pub const TABLE: Table = Table {
             let position = handle.simulation().model().position(&place);
             Ok(Dynamic::from(position))
         })
-        .returns("a vector [length]")
+        .returns(Returns::object(VECTOR).unit("length"))
         .summary("Where a station is.")
         .example("check(norm(sim.position(rod.start)) < 1e-15);"),
         method(SIMULATION, "velocity", &[AT], |call| {
@@ -120,11 +123,11 @@ pub const TABLE: Table = Table {
             let velocity = handle.simulation().model().velocity(&place);
             Ok(Dynamic::from(velocity))
         })
-        .returns("a vector [length/time]")
+        .returns(Returns::object(VECTOR).unit("length/time"))
         .summary("How fast a station moves.")
         .example("check_close(sim.velocity(rod.end).y, 1, 1e-12);"),
         method(SIMULATION, "angle", &[AT], angle)
-            .returns("a number [rad]")
+            .returns(Returns::NUMBER.unit("rad"))
             .summary("The angle of the section at a station, counter-clockwise and not wrapped.")
             .doc("Stations inside a beam are followed if they were made before the scene was started.")
             .example("sim.run_to(1);\ncheck_close(sim.angle(rod.end), 1, 0.01);"),
@@ -139,12 +142,12 @@ pub const TABLE: Table = Table {
             .see(&["adaptive"]),
         count("unknowns", |call| counted(call, Simulation::unknowns)).summary("Unknowns of a step."),
         property(SIMULATION, "dt", |call| Ok(call.receiver::<SimulationHandle>()?.simulation().dt().into()))
-            .returns("a number [time]")
+            .returns(Returns::NUMBER.unit("time"))
             .summary("The step size of the grid; with adaptive steps that of the next step, if nothing cuts it.")
             .example("check(sim.dt == 0.1);")
             .see(&["adaptive"]),
         property(SIMULATION, "name", |call| Ok(call.receiver::<SimulationHandle>()?.name().into()))
-            .returns("a text")
+            .returns(Returns::TEXT)
             .summary("Its name: that of the scene unless given.")
             .example("check(sim.name == \"example\");"),
     ],
@@ -223,18 +226,18 @@ const fn measure(
     summary: &'static str,
     body: crate::script::rows::table::Body,
 ) -> Row {
-    property(SIMULATION, name, body).returns("a number").summary(summary)
+    property(SIMULATION, name, body).returns(Returns::NUMBER).summary(summary)
 }
 
 const fn invariant(name: &'static str, body: crate::script::rows::table::Body) -> Row {
     property(INVARIANTS, name, body)
-        .returns("a number")
+        .returns(Returns::NUMBER)
         .example("sim.run_to(0.5);\nlet kept = sim.invariants();\ncheck(kept.energy < 1e-12 && kept.momentum < 1e-12);\ncheck(kept.angular_momentum < 1e-12 && kept.gap == 0);")
 }
 
 const fn count(name: &'static str, body: crate::script::rows::table::Body) -> Row {
     property(SIMULATION, name, body)
-        .returns("a whole number")
+        .returns(Returns::WHOLE)
         .example("sim.step(2);\ncheck(sim.steps == 2 && sim.newton_iterations <= 8 && sim.retries == 0 && sim.rejected == 0 && sim.unknowns == 21);")
 }
 
@@ -300,7 +303,7 @@ fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (handle, _) = place(call)?;
     let station = call.get::<StationHandle>("station")?;
     let simulation = handle.simulation();
-    followed(call, &station, simulation.model().angle(simulation.scene(), &station.station()))
+    followed(call, &station, simulation.model().angle(simulation.scene(), &station.station))
 }
 
 /// The angle at a station, if it was followed from the start.
@@ -309,7 +312,7 @@ pub(super) fn followed(
     station: &StationHandle,
     angle: Option<f64>,
 ) -> Result<Dynamic, ScriptError> {
-    if station.station().beam().is_none() {
+    if station.station.beam().is_none() {
         let told = format!("{} does not turn: it has no angle", station.show());
         return Err(call.error(told).hint("ask for the angle at a station of a beam"));
     }

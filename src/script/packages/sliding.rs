@@ -4,6 +4,7 @@ use rhai::{Array, Dynamic, Map};
 
 use super::scenes::{BEAM, SCENE, STATION};
 use super::simulations::SIMULATION;
+use super::vectors::VECTOR;
 use crate::beams::Station;
 use crate::joints::{EndAction, Slider, SlidingRule, StartVelocities};
 use crate::model::{Model, ModelError, Scene, SliderError};
@@ -16,6 +17,7 @@ use crate::script::looks::details;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Details, Scripted, Type};
 use crate::script::rows::parameter::{Parameter, Presence, choice, number, object, options, text};
+use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Row, Table, function, method, property};
 use crate::script::words::error::{Place, ScriptError};
 use crate::simulation::Arrival;
@@ -50,7 +52,7 @@ pub const TABLE: Table = Table {
             .doc("With energy_momentum(): keeps energy, linear momentum and angular momentum to rounding. Sibileau & Muñoz, equations 11 to 14.")
             .see(&["conserving", "exact"]),
         method(SCENE, "slider", &[object("station", STATION), object("beam", BEAM), options("options", SLIDER_KEYS).optional()], slider)
-            .returns("a slider")
+            .returns(Returns::object(SLIDER))
             .summary("Lets a station, the end of another beam or a particle, slide along a beam.")
             .doc(
                 "The joint must close at the start: the station lies on the beam as drawn, at `at`, to six digits, and is moved \
@@ -72,13 +74,13 @@ pub const TABLE: Table = Table {
             )
             .see(&["particle", "conserving", "contact_force"]),
         property(SLIDER, "name", |call| Ok(call.receiver::<SliderHandle>()?.name().into()))
-            .returns("a text")
+            .returns(Returns::TEXT)
             .summary("Its name.")
             .example("check(ring.name == \"ring\");"),
         method(SIMULATION, "contact_force", &[WHICH], |call| {
             asked(call, |model, slider| Dynamic::from(model.contact_force(slider)))
         })
-        .returns("a vector [force]")
+        .returns(Returns::object(VECTOR).unit("force"))
         .summary("The force that a slider put on its beam in the last step, the mean of the step; its station got the opposite.")
         .doc(
             "Zero before the first step and after a release. On splines and with the conserving rule it is smooth where the motion \
@@ -90,7 +92,7 @@ pub const TABLE: Table = Table {
         method(SIMULATION, "slider_position", &[WHICH], |call| {
             asked(call, |model, slider| model.slider_position(slider).into())
         })
-        .returns("a number")
+        .returns(Returns::NUMBER)
         .summary("Where a slider is on its beam: 0 at the start, 1 at the end, by length as drawn.")
         .doc(
             "Times the length of the beam as drawn it is slider_arc_length, whose rate is slider_speed: in the history NAME.speed is \
@@ -101,7 +103,7 @@ pub const TABLE: Table = Table {
         method(SIMULATION, "slider_arc_length", &[WHICH], |call| {
             asked(call, |model, slider| model.slider_arc_length(slider).into())
         })
-        .returns("a number [length]")
+        .returns(Returns::NUMBER.unit("length"))
         .summary("How far a slider is from the start of its beam, by length as drawn; slider_speed is its rate.")
         .example(
             "check_close(sim.slider_arc_length(ring), 0.5, 1e-12);\n\
@@ -111,12 +113,12 @@ pub const TABLE: Table = Table {
         method(SIMULATION, "slider_speed", &[WHICH], |call| {
             asked(call, |model, slider| model.slider_speed(slider).into())
         })
-        .returns("a number [length/time]")
+        .returns(Returns::NUMBER.unit("length/time"))
         .summary("How fast a slider moves along its beam as drawn, positive towards the end.")
         .example("check_close(sim.slider_speed(ring), 1, 1e-12);")
         .see(&["slider_arc_length", "slider_position"]),
         property(SIMULATION, "ended", |call| Ok(call.receiver::<SimulationHandle>()?.simulation().has_ended().into()))
-            .returns("true or false")
+            .returns(Returns::TRUTH)
             .summary("Whether a slider has reached the end of its beam and ended the run.")
             .doc("After that run_to returns at once, step is an error, and functions set for later times are not called.")
             .example("while !sim.ended {\n    sim.step();\n}\ncheck(sim.ended);\ncheck_close(sim.slider_position(ring), 1, 1e-12);")
@@ -124,12 +126,12 @@ pub const TABLE: Table = Table {
         property(SIMULATION, "ending", |call| {
             Ok(call.receiver::<SimulationHandle>()?.simulation().ending().unwrap_or_default().into())
         })
-        .returns("a text, empty while the run goes on")
+        .returns(Returns::TEXT.note(", empty while the run goes on"))
         .summary("Why the run has ended.")
         .example("check(sim.ending == \"\");\nsim.run_to(5);\nprint(sim.ending);")
         .see(&["ended", "events"]),
         property(SIMULATION, "events", events)
-            .returns("an array of maps #{ t, slider, end, what }")
+            .returns(Returns::array_of(&ValueKind::Map).note(" #{ t, slider, end, what }"))
             .summary("When sliders reached ends of their beams so far, and what happened there.")
             .doc(
                 "slider is its name; end is \"start\" or \"end\"; what is \"stopped\", \"bounced\", \"rested\" (it stays against the \
@@ -143,7 +145,7 @@ pub const TABLE: Table = Table {
 /// The type of rules.
 const RULE: Type = Type::of::<SlidingRule>();
 /// The slider type.
-const SLIDER: Type = Type::of::<SliderHandle>();
+pub(super) const SLIDER: Type = Type::of::<SliderHandle>();
 
 const WHICH: Parameter = object("slider", SLIDER);
 const ENDS: [(&str, EndAction); 3] =
@@ -227,7 +229,7 @@ impl Scripted for SlidingRule {
 
 const fn rule(name: &'static str, body: crate::script::rows::table::Body) -> Row {
     function(name, &[], body)
-        .returns("a sliding rule")
+        .returns(Returns::object(RULE))
         .example("for rule in [conserving(), exact(), relaxed()] {\n    print(rule);\n}")
 }
 

@@ -10,6 +10,7 @@ use crate::script::rows::kind::{Scripted, Type};
 use crate::script::rows::parameter::{
     Parameter, Presence, anything, callback, choice, name, number, object, options,
 };
+use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Table, function, property};
 use crate::script::state::settings::Mode;
 use crate::script::studies::desk::{Desk, Task, print_table};
@@ -31,7 +32,7 @@ pub const TABLE: Table = Table {
     constants: &[],
     rows: &[
         function("study_stability", &[options("options", STUDY)], study)
-            .returns("a stability map")
+            .returns(Returns::object(STABILITY_MAP))
             .summary("Runs a scene for all combinations of parameters and shows which runs come to their end, and whose energy grows.")
             .doc(
                 "`scene` is a function of a map that has the values of a cell under their names. It gives a scene, or a map of the scene \
@@ -50,7 +51,7 @@ pub const TABLE: Table = Table {
             let cells = call.receiver::<StabilityMap>()?.cells();
             Ok(Dynamic::from(cells.into_iter().map(Dynamic::from).collect::<Array>()))
         })
-        .returns("an array of maps")
+        .returns(Returns::array_of(&ValueKind::Map))
         .summary("A map for each cell: its values, and finished, outcome, energy_growth, iterations, most_iterations, retries and steps.")
         .example(
             "let map = study_stability(#{ name: \"spin\", scene: spinning, end: 1, rows: #{ dt: [0.1] }, columns: #{ integrator: [fourth_order()] } });\n\

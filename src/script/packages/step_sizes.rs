@@ -5,6 +5,7 @@ use rhai::Dynamic;
 use crate::script::looks::details;
 use crate::script::rows::kind::{Details, Scripted, Type};
 use crate::script::rows::parameter::{Parameter, Presence, number, options};
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
 use crate::simulation::{StepControl, StepSize};
@@ -29,7 +30,7 @@ pub const TABLE: Table = Table {
         checked.map_err(|error| ScriptError::new(error.to_string()).at(Place::Argument(0)))?;
         Ok(Dynamic::from(control))
     })
-    .returns("a step control")
+    .returns(Returns::object(STEP_CONTROL))
     .summary("Steps as long as a tolerance allows, with any integrator: dt: adaptive(#{ tolerance: 1e-4 }).")
     .doc(
         "A step is two equal ones of the integrator, compared with a single one as long as both, which is thrown away: 3 solves for 2. \

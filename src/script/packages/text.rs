@@ -5,6 +5,7 @@ use rhai::{Array, Dynamic};
 use crate::output::{Cell, Table as TextTable};
 use crate::script::rows::call::Call;
 use crate::script::rows::parameter::{Parameter, Presence, array, number, whole};
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::{format_fixed, format_scientific};
@@ -19,17 +20,17 @@ pub const TABLE: Table = Table {
     constants: &[],
     rows: &[
         function("sci", &[X, DIGITS.or(Presence::Whole(2))], |call| write(call, format_scientific))
-            .returns("a text")
+            .returns(Returns::TEXT)
             .summary("A number with an exponent; two digits after the point unless told otherwise.")
             .example("check(sci(1.234e-13) == \"1.23e-13\");\ncheck(sci(1250, 1) == \"1.2e3\");")
             .see(&["fixed"]),
         function("fixed", &[X, DIGITS.or(Presence::Whole(3))], |call| write(call, format_fixed))
-            .returns("a text")
+            .returns(Returns::TEXT)
             .summary("A number with a fixed count of digits after the point; three unless told otherwise.")
             .example("check(fixed(0.05) == \"0.050\");\ncheck(fixed(PI, 1) == \"3.1\");")
             .see(&["sci", "round_to", "tabulate"]),
         function("tabulate", &[array("headings"), array("rows").doc("arrays of numbers, texts or anything that prints")], tabulate)
-            .returns("a text")
+            .returns(Returns::TEXT)
             .summary("A table with aligned columns: words to the left, numbers to the right.")
             .example("print(tabulate([\"rule\", \"drift\"], [[\"conserving\", sci(2e-14)], [\"exact\", sci(3e-4)]]));")
             .see(&["sci", "fixed"]),

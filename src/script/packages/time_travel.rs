@@ -6,6 +6,7 @@ use super::simulations::{SIMULATION, SPINNING};
 use crate::script::handles::simulation::{Goal, SimulationHandle};
 use crate::script::rows::call::Call;
 use crate::script::rows::parameter::{Presence, name, number, whole};
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, method};
 use crate::script::words::error::ScriptError;
 
@@ -42,7 +43,7 @@ pub const TABLE: Table = Table {
             let name = call.text("name").map_or_else(|_| format!("{} fork", handle.name()), |name| name.to_string());
             Ok(Dynamic::from(handle.fork(name, call.context())?))
         })
-        .returns("a simulation")
+        .returns(Returns::object(SIMULATION))
         .summary("A copy that has been through the same and goes its own way from here.")
         .doc("It has a history of its own, can go back as far, and calls the functions that were set with sim.at. Stations, beams and sliders of the scene work with both.")
         .example("sim.run_to(0.5);\nlet other = sim.fork(\"what if\");\nother.run_to(1);\ncheck(sim.t == 0.5 && other.t == 1);\nsim.run_to(1);\ncheck(sim.energy == other.energy);")

@@ -9,6 +9,7 @@ use crate::script::looks::details;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Details, Scripted, Type};
 use crate::script::rows::parameter::{Parameter, number, object, point};
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function, operator, property};
 use crate::script::words::error::ScriptError;
 
@@ -21,84 +22,84 @@ pub const TABLE: Table = Table {
     constants: &[],
     rows: &[
         function("vec", &[number("x"), number("y")], cartesian)
-            .returns("a vector")
+            .returns(Returns::object(VECTOR))
             .summary("The vector with components x and y.")
             .doc("An array [x, y] will do wherever a point is asked for; a vector can also be added and scaled.")
             .example("let a = vec(1, 2) + [3, 4];\ncheck(a == vec(4, 6));")
             .see(&["polar", "norm"]),
         function("polar", &[number("length").doc("its length"), number("angle").unit("rad")], polar)
-            .returns("a vector")
+            .returns(Returns::object(VECTOR))
             .summary("The vector of this length at this angle from the first axis.")
             .example("check(norm(polar(2, PI / 2) - [0, 2]) < 1e-15);")
             .see(&["angle"]),
         property(VECTOR, "x", |call| Ok(call.receiver::<Vec2>()?.x.into()))
             .writable(&[number("value")], |call| set(call, |vector, x| vector.x = x))
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("The first component.")
             .example("let a = vec(1, 2);\na.x = 5;\ncheck(a.x == 5);"),
         property(VECTOR, "y", |call| Ok(call.receiver::<Vec2>()?.y.into()))
             .writable(&[number("value")], |call| set(call, |vector, y| vector.y = y))
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("The second component.")
             .example("check(vec(1, 2).y == 2);"),
         function("dot", &[A, B], |call| Ok(a(call)?.dot(&b(call)?).into()))
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("The scalar product.")
             .example("check(dot([1, 2], [3, 4]) == 11);"),
         function("cross", &[A, B], |call| Ok(cross(a(call)?, b(call)?).into()))
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("a1 b2 - a2 b1, positive when b lies counter-clockwise of a.")
             .example("check(cross([1, 0], [0, 1]) == 1);"),
         function("norm", &[A], |call| Ok(call.point("a")?.norm().into()))
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("The length of a vector.")
             .example("check(norm([3, 4]) == 5);\ncheck(vec(3, 4).norm() == 5);")
             .see(&["hypot", "distance"]),
         function("angle", &[A], angle)
-            .returns("an angle from -PI to PI")
+            .returns(Returns::NUMBER.words("an angle from -PI to PI"))
             .summary("The angle of a vector from the first axis, counter-clockwise.")
             .example("check(angle([0, 2]) == PI / 2);")
             .see(&["polar", "atan2"]),
         function("distance", &[A, B], |call| Ok((b(call)? - a(call)?).norm().into()))
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("The distance of two points.")
             .example("check(distance([1, 1], [4, 5]) == 5);"),
         operator("+", &[A, B], |call| vector(a(call)? + b(call)?))
-            .returns("a vector")
+            .returns(Returns::object(VECTOR))
             .summary("The sum; one of the two may be an array [x, y].")
             .example("check(vec(1, 2) + [1, 1] == vec(2, 3));"),
         operator("-", &[A, B], |call| vector(a(call)? - b(call)?))
-            .returns("a vector")
+            .returns(Returns::object(VECTOR))
             .summary("The difference; one of the two may be an array [x, y].")
             .example("check(vec(1, 2) - [1, 1] == vec(0, 1));"),
         operator("-", &[object("a", VECTOR)], |call| vector(-call.point("a")?))
-            .returns("a vector")
+            .returns(Returns::object(VECTOR))
             .summary("The opposite vector.")
             .example("check(-vec(1, 2) == vec(-1, -2));"),
         operator("*", &[object("a", VECTOR), number("factor")], scaled)
-            .returns("a vector")
+            .returns(Returns::object(VECTOR))
             .summary("The vector scaled.")
             .example("check(vec(1, 2) * 3 == vec(3, 6));"),
         operator("*", &[number("factor"), object("a", VECTOR)], scaled)
-            .returns("a vector")
+            .returns(Returns::object(VECTOR))
             .summary("The vector scaled.")
             .example("check(3 * vec(1, 2) == vec(3, 6));"),
         operator("/", &[object("a", VECTOR), number("divisor")], divided)
-            .returns("a vector")
+            .returns(Returns::object(VECTOR))
             .summary("The vector divided by a number.")
             .example("check(vec(1, 2) / 2 == vec(0.5, 1));"),
         operator("==", &[A, B], |call| Ok((a(call)? == b(call)?).into()))
-            .returns("true or false")
+            .returns(Returns::TRUTH)
             .summary("Whether both components are equal.")
             .example("check(vec(1, 2) == [1, 2]);"),
         operator("!=", &[A, B], |call| Ok((a(call)? != b(call)?).into()))
-            .returns("true or false")
+            .returns(Returns::TRUTH)
             .summary("Whether a component differs.")
             .example("check(vec(1, 2) != [1, 3]);"),
     ],
 };
 
-const VECTOR: Type = Type::of::<Vec2>();
+pub(super) const VECTOR: Type = Type::of::<Vec2>();
 const A: Parameter = point("a");
 const B: Parameter = point("b");
 

@@ -11,7 +11,7 @@ use super::reference::{describe_parameter, gives};
 use crate::script::rows::built_in::{BuiltIn, BuiltInTable, Ending, Written};
 use crate::script::rows::catalog::Catalog;
 use crate::script::rows::table::{Form, Row, Table};
-use types::{for_kind, for_words, identifier};
+use types::{for_kind, for_value, identifier};
 
 /// A definition file: its name and its text.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,32 +26,32 @@ pub struct DefinitionFile {
 pub fn definitions(catalog: &Catalog) -> Vec<DefinitionFile> {
     let mut files =
         vec![DefinitionFile { name: "types.d.rhai".into(), text: types::file(catalog) }];
-    files.extend(catalog.tables().map(|table| of_table(catalog, table)));
-    files.extend(catalog.built_in_tables().map(|table| of_built_ins(catalog, table)));
+    files.extend(catalog.tables().map(of_table));
+    files.extend(catalog.built_in_tables().map(of_built_ins));
     files
 }
 
 const HEADER: &str = "module static;\n";
 
-fn of_table(catalog: &Catalog, table: &Table) -> DefinitionFile {
+fn of_table(table: &Table) -> DefinitionFile {
     let mut text = format!("/// {}\n{HEADER}", table.doc);
     for constant in table.constants {
         let _ = writeln!(text, "\n/// {}\nconst {}: number;", constant.summary, constant.name);
     }
     for row in table.rows {
         let comment = comment(&row_comment(table, row));
-        for declaration in declarations(catalog, row) {
+        for declaration in declarations(row) {
             let _ = write!(text, "\n{comment}{declaration};\n");
         }
     }
     DefinitionFile { name: format!("{}.d.rhai", identifier(table.name)), text }
 }
 
-fn of_built_ins(catalog: &Catalog, table: &BuiltInTable) -> DefinitionFile {
+fn of_built_ins(table: &BuiltInTable) -> DefinitionFile {
     let mut text = format!("/// {}\n{HEADER}", table.doc);
     for built_in in table.rows {
         let comment = comment(&built_in_comment(built_in));
-        let returns = for_words(catalog, built_in.returns);
+        let returns = for_value(&built_in.returns.kind);
         for declaration in built_in.written().flat_map(|form| built_in_declarations(&form)) {
             let _ = write!(text, "\n{comment}{declaration} -> {returns};\n");
         }
@@ -59,8 +59,8 @@ fn of_built_ins(catalog: &Catalog, table: &BuiltInTable) -> DefinitionFile {
     DefinitionFile { name: format!("rhai_{}.d.rhai", table.name), text }
 }
 
-fn declarations(catalog: &Catalog, row: &Row) -> Vec<String> {
-    let returns = for_words(catalog, row.returns);
+fn declarations(row: &Row) -> Vec<String> {
+    let returns = for_value(&row.returns.kind);
     let typed = |count: usize| {
         let parameters = row.parameters[..count].iter();
         parameters.map(|known| format!("{}: {}", identifier(known.name), for_kind(&known.kind)))
@@ -108,7 +108,7 @@ fn built_in_declarations(form: &Written) -> Vec<String> {
 }
 
 fn row_comment(table: &Table, row: &Row) -> String {
-    let mut text = format!("`{}`{}\n\n{}\n", row.signature(), gives(row.returns), row.summary);
+    let mut text = format!("`{}`{}\n\n{}\n", row.signature(), gives(&row.returns), row.summary);
     if !row.doc.is_empty() {
         let _ = writeln!(text, "\n{}", row.doc);
     }
@@ -124,7 +124,7 @@ fn row_comment(table: &Table, row: &Row) -> String {
 fn built_in_comment(built_in: &BuiltIn) -> String {
     let forms: Vec<_> = built_in.forms.iter().map(|form| format!("`{form}`")).collect();
     let mut text =
-        format!("{}{}\n\n{}\n", forms.join(", "), gives(built_in.returns), built_in.summary);
+        format!("{}{}\n\n{}\n", forms.join(", "), gives(&built_in.returns), built_in.summary);
     if !built_in.doc.is_empty() {
         let _ = writeln!(text, "\n{}", built_in.doc);
     }

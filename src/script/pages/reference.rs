@@ -6,6 +6,7 @@ use super::help::{maps, presence};
 use crate::script::rows::built_in::BuiltInTable;
 use crate::script::rows::catalog::Catalog;
 use crate::script::rows::parameter::Parameter;
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Row, Table};
 use crate::script::rows::topics::{TOPICS, Topic};
 
@@ -112,7 +113,8 @@ fn describe_table(text: &mut String, table: &Table) {
 }
 
 fn describe_row(text: &mut String, row: &Row) {
-    let _ = writeln!(text, "\n#### `{}`{}\n\n{}", row.signature(), gives(row.returns), row.summary);
+    let _ =
+        writeln!(text, "\n#### `{}`{}\n\n{}", row.signature(), gives(&row.returns), row.summary);
     if let Some(setter) = row.setter {
         let [value] = setter.value;
         let _ = writeln!(text, "\nIt can be assigned: {}.", value.expectation());
@@ -139,7 +141,7 @@ fn describe_built_ins(text: &mut String, table: &BuiltInTable) {
             text,
             "- {}{}: {}{doc}\n\n  ```rhai example\n  {}\n  ```\n",
             forms.join(", "),
-            gives(built_in.returns),
+            gives(&built_in.returns),
             built_in.summary,
             built_in.example.replace('\n', "\n  ")
         );
@@ -160,8 +162,8 @@ fn see(text: &mut String, names: &[&str]) {
 }
 
 /// What is given back, to be put behind a signature.
-pub(super) fn gives(returns: &str) -> String {
-    if returns.is_empty() { String::new() } else { format!(" → {returns}") }
+pub(super) fn gives(returns: &Returns) -> String {
+    if returns.is_nothing() { String::new() } else { format!(" → {returns}") }
 }
 
 /// A parameter as an entry of a list, and below it the keys of its map of options.

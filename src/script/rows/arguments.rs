@@ -32,6 +32,17 @@ impl Arguments {
         self.find(name).is_ok()
     }
 
+    /// The names of the values that are there.
+    pub fn given(&self) -> impl Iterator<Item = &'static str> {
+        let pairs = self.parameters.iter().zip(&self.values);
+        pairs.filter(|(_, value)| value.is_some()).map(|(parameter, _)| parameter.name)
+    }
+
+    /// What is known of a parameter.
+    pub(super) fn parameter(&self, name: &str) -> Option<&'static Parameter> {
+        self.parameters.iter().find(|parameter| parameter.name == name)
+    }
+
     /// A number.
     pub fn number(&self, name: &str) -> Result<f64, ScriptError> {
         self.find(name)?.as_float().map_err(|held| wrong_read(name, held))

@@ -1,5 +1,7 @@
 //! A function of Rhai's own that the language keeps: documented as rows are, registered by the engine.
 
+use super::returns::Returns;
+
 /// Functions of Rhai about one kind of value.
 pub struct BuiltInTable {
     /// The kind of value in the plural, a heading in the reference.
@@ -14,8 +16,8 @@ pub struct BuiltInTable {
 pub struct BuiltIn {
     /// How it is written: `array.push(value)`, `parse_int(text, [radix])`, `text.len`. All have the same name.
     pub forms: &'static [&'static str],
-    /// What it gives back, in words; empty for nothing.
-    pub returns: &'static str,
+    /// What it gives back.
+    pub returns: Returns,
     /// One line.
     pub summary: &'static str,
     /// More, where a line is not enough.
@@ -33,6 +35,8 @@ pub struct Written {
     pub receiver: Option<&'static str>,
     /// Its name.
     pub name: &'static str,
+    /// Its arguments in parentheses; empty for a property.
+    pub arguments: &'static str,
     /// Names of the arguments that must be given; of a property there are none.
     pub required: Vec<&'static str>,
     /// Names of the arguments that may be given after them.
@@ -58,12 +62,12 @@ pub const fn built_in(
     summary: &'static str,
     example: &'static str,
 ) -> BuiltIn {
-    BuiltIn { forms, returns: "", summary, doc: "", example, see: &[] }
+    BuiltIn { forms, returns: Returns::NOTHING, summary, doc: "", example, see: &[] }
 }
 
 impl BuiltIn {
     /// Says what it gives back.
-    pub const fn returns(mut self, returns: &'static str) -> Self {
+    pub const fn returns(mut self, returns: Returns) -> Self {
         self.returns = returns;
         self
     }
@@ -92,16 +96,37 @@ impl BuiltIn {
 
     /// Whether it is a method or a property of values of this type.
     pub fn is_of(&self, type_name: &str) -> bool {
-        self.written().any(|form| form.receiver.is_some_and(|kind| kind_includes(kind, type_name)))
+        self.form_of(type_name).is_some()
+    }
+
+    /// The first way to write it after the dot of a value of this type.
+    pub fn form_of(&self, type_name: &str) -> Option<Written> {
+        self.written().find(|form| form.is_of(type_name))
+    }
+
+    /// The first way to write it without a value before a dot.
+    pub fn form_of_function(&self) -> Option<Written> {
+        self.written().find(|form| form.receiver.is_none())
     }
 
     /// Whether it is called as a function, without a value before a dot.
     pub fn is_function(&self) -> bool {
-        self.written().any(|form| form.receiver.is_none())
+        self.form_of_function().is_some()
     }
 }
 
 impl Written {
+    /// Whether it is written after the dot of a value of this type.
+    pub fn is_of(&self, type_name: &str) -> bool {
+        self.receiver.is_some_and(|kind| kind_includes(kind, type_name))
+    }
+
+    /// The arguments one by one, optional ones in brackets.
+    pub fn listed(&self) -> Vec<String> {
+        let inside = self.arguments.trim_matches(['(', ')']).split(", ");
+        inside.filter(|name| !name.is_empty()).map(str::to_owned).collect()
+    }
+
     /// Whether a call with this many values fits, the receiver counted as one.
     pub fn takes(&self, count: usize) -> bool {
         let receiver = usize::from(self.receiver.is_some());
@@ -140,6 +165,7 @@ fn written(form: &'static str) -> Written {
     Written {
         receiver,
         name,
+        arguments: &form[called.len()..],
         required,
         optional: optional.into_iter().map(|name| name.trim_matches(['[', ']'])).collect(),
         ending: match (inside, repeated.is_empty()) {
@@ -158,6 +184,7 @@ mod tests {
     fn forms_are_taken_apart() {
         let form = written("array.extract(start, [count])");
         assert_eq!((form.receiver, form.name), (Some("array"), "extract"));
+        assert_eq!(form.arguments, "(start, [count])");
         assert_eq!(
             (form.required.as_slice(), form.optional.as_slice()),
             (&["start"][..], &["count"][..])

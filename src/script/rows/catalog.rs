@@ -1,8 +1,9 @@
 //! All tables of a language together: what is known under which name, for messages, help and completion.
 
-use super::built_in::{BuiltIn, BuiltInTable};
+use super::built_in::{BuiltIn, BuiltInTable, Written};
 use super::builtins;
 use super::kind::Type;
+use super::returns::ValueKind;
 use super::table::{Form, Row, Table};
 
 /// The tables that make up a language.
@@ -57,18 +58,31 @@ impl Catalog {
             .collect()
     }
 
+    /// The kind of the values whose type has this display name.
+    pub fn kind_named(&self, name: &str) -> Option<ValueKind> {
+        ValueKind::plain(name).or_else(|| self.type_named(name).map(ValueKind::Object))
+    }
+
+    /// The methods and properties that values of a type have from Rhai, each as it is written on them first of all.
+    pub fn built_in_members<'a>(
+        &self,
+        of: &'a str,
+    ) -> impl Iterator<Item = (&'static BuiltIn, Written)> + use<'a> {
+        self.built_ins().filter_map(move |known| Some((known, known.form_of(of)?)))
+    }
+
     /// Names with a fixed value.
     pub fn constants(&self) -> impl Iterator<Item = &str> {
         self.tables().flat_map(|table| table.constants).map(|constant| constant.name)
     }
 
     /// What it takes over from Rhai, in the order of the reference.
-    pub fn built_in_tables(&self) -> impl Iterator<Item = &'static BuiltInTable> {
+    pub fn built_in_tables(&self) -> impl Iterator<Item = &'static BuiltInTable> + use<> {
         self.built_ins.iter().copied()
     }
 
     /// The functions of Rhai.
-    pub fn built_ins(&self) -> impl Iterator<Item = &'static BuiltIn> {
+    pub fn built_ins(&self) -> impl Iterator<Item = &'static BuiltIn> + use<> {
         self.built_in_tables().flat_map(|table| table.rows)
     }
 

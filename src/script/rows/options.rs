@@ -43,9 +43,23 @@ impl Options {
         {
             return Err(unknown_key(owner, keys, unknown));
         }
+        let is_alone = |key: &&Parameter| {
+            map.contains_key(key.name) && !key.beside.is_empty() && !map.contains_key(key.beside)
+        };
+        if let Some(key) = keys.iter().find(is_alone) {
+            return Err(alone(owner, keys, key));
+        }
         let values =
             keys.iter().map(|key| value_of(engine, owner, key, map)).collect::<Result<_, _>>()?;
         Ok(Self { arguments: Arguments::new(keys, values) })
+    }
+
+    /// The error about an option that must be given here, with a sentence on what the options are.
+    pub(super) fn missing(&self, owner: &str, name: &str, told: &str) -> ScriptError {
+        match self.arguments.parameter(name) {
+            Some(key) => missing(owner, name, &format!("{}; {told}", asked_for(key))),
+            None => ScriptError::bug(format!("{owner} has no option '{name}'")),
+        }
     }
 }
 
@@ -73,12 +87,28 @@ fn unknown_key(owner: &str, keys: &[Parameter], unknown: &str) -> ScriptError {
 }
 
 fn missing_key(owner: &str, key: &Parameter) -> ScriptError {
+    missing(owner, key.name, &asked_for(key))
+}
+
+fn missing(owner: &str, name: &str, what_to_add: &str) -> ScriptError {
+    ScriptError::new(format!("{owner}: the option '{name}' is missing"))
+        .hint(format!("add {what_to_add}"))
+}
+
+/// A key that means something only beside another one, which is not given.
+fn alone(owner: &str, keys: &[Parameter], key: &Parameter) -> ScriptError {
+    let Parameter { name, beside, .. } = key;
+    let other = keys.iter().find(|other| other.name == *beside);
+    let other = other.map_or_else(|| (*beside).to_owned(), asked_for);
+    ScriptError::new(format!("{owner}: the option '{name}' has no meaning without '{beside}'"))
+        .hint(format!("add {other}, or leave {name} out"))
+        .at(Place::Key((*name).to_owned()))
+}
+
+/// A key, what may be given for it, and what it is.
+fn asked_for(key: &Parameter) -> String {
     let meaning = if key.doc.is_empty() { String::new() } else { format!(" ({})", key.doc) };
-    ScriptError::new(format!("{owner}: the option '{}' is missing", key.name)).hint(format!(
-        "add {}: {}{meaning}",
-        key.name,
-        key.expectation()
-    ))
+    format!("{}: {}{meaning}", key.name, key.expectation())
 }
 
 /// The keys in a line, with the ones that must be given marked.

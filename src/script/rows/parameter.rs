@@ -17,6 +17,8 @@ pub struct Parameter {
     pub doc: &'static str,
     /// Whether it may be left out, and what then holds.
     pub presence: Presence,
+    /// The key of the same map without which it has no meaning; empty if it has one by itself.
+    pub beside: &'static str,
 }
 
 /// Whether a parameter must be given.
@@ -118,7 +120,7 @@ pub const fn anything(name: &'static str) -> Parameter {
 
 impl Parameter {
     const fn new(name: &'static str, kind: Kind) -> Self {
-        Self { name, kind, unit: "", doc: "", presence: Presence::Required }
+        Self { name, kind, unit: "", doc: "", presence: Presence::Required, beside: "" }
     }
 
     /// Greater than zero.
@@ -176,6 +178,12 @@ impl Parameter {
     /// It may be left out and then is `default`.
     pub const fn or(mut self, default: Presence) -> Self {
         self.presence = default;
+        self
+    }
+
+    /// It has a meaning only beside another key of the same map, and is refused without it.
+    pub const fn beside(mut self, other: &'static str) -> Self {
+        self.beside = other;
         self
     }
 

@@ -9,6 +9,7 @@ use rhai::Dynamic;
 use super::call::Call;
 use super::kind::Type;
 use super::parameter::Parameter;
+use super::returns::Returns;
 use crate::script::words::error::ScriptError;
 
 /// The native body of a row. Its arguments were counted, converted and range-checked before it is called.
@@ -61,8 +62,8 @@ pub struct Row {
     pub form: Form,
     /// What it takes; optional parameters stand last.
     pub parameters: &'static [Parameter],
-    /// What it gives back, in words; empty for nothing.
-    pub returns: &'static str,
+    /// What it gives back.
+    pub returns: Returns,
     /// One line.
     pub summary: &'static str,
     /// More, where a line is not enough.
@@ -122,7 +123,7 @@ impl Row {
             name,
             form,
             parameters,
-            returns: "",
+            returns: Returns::NOTHING,
             summary: "",
             doc: "",
             example: "",
@@ -133,7 +134,7 @@ impl Row {
     }
 
     /// Says what the row gives back.
-    pub const fn returns(mut self, returns: &'static str) -> Self {
+    pub const fn returns(mut self, returns: Returns) -> Self {
         self.returns = returns;
         self
     }

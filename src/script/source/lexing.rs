@@ -1,17 +1,29 @@
-//! Tokens of a script with their positions, as the engine's own lexer sees them (a volatile interface of Rhai).
+//! From a text to its tokens, as the engine's own lexer sees them (a volatile interface of Rhai).
 
-use rhai::{Engine, Position, Token};
+use rhai::{Engine, Token};
 
-/// All tokens of `source`, comments left out. Text after a lexical error is lexed as well as it can be.
-pub fn tokens(source: &str) -> Vec<(Token, Position)> {
+use super::text::Lexeme;
+
+/// What the lexer finds in a text.
+pub(super) struct Lexed {
+    /// All tokens, comments left out.
+    pub tokens: Vec<Lexeme>,
+    /// Whether the text ends within a block comment.
+    pub ends_in_comment: bool,
+}
+
+/// Lexes `text`, the only place where it is done: [`Source`](super::text::Source) keeps what is found.
+pub(super) fn lex(text: &str) -> Lexed {
+    #[cfg(test)]
+    LEXINGS.set(LEXINGS.get() + 1);
     let engine = Engine::new_raw();
-    let inputs = [source];
-    let (stream, control) = engine.lex(&inputs);
+    let inputs = [text];
+    let (mut stream, control) = engine.lex(&inputs);
     let mut depth = 0_usize;
     // Depths at which an interpolation `${ … }` was opened: its closing brace leads back into the text.
     let mut interpolations = Vec::new();
-    let mut found = Vec::new();
-    for (token, position) in stream {
+    let mut tokens = Vec::new();
+    for (token, position) in stream.by_ref() {
         match token {
             Token::EOF => break,
             Token::InterpolatedString(_) => interpolations.push(depth),
@@ -25,54 +37,31 @@ pub fn tokens(source: &str) -> Vec<(Token, Position)> {
             }
             _ => (),
         }
-        found.push((token, position));
+        tokens.push((token, position));
     }
-    found
+    Lexed { tokens, ends_in_comment: stream.state.comment_level > 0 }
 }
 
-/// Where a comment begins that is never closed: Rhai would take the rest of the script for a part of it.
-///
-/// Only for a source that compiles: an open text would look the same.
-pub fn open_comment(source: &str) -> Option<Position> {
-    const PROBE: &str = "end_of_script";
-    let probed = tokens(&format!("{source}\n{PROBE}"));
-    let is_seen =
-        matches!(probed.last(), Some((Token::Identifier(name), _)) if name.as_str() == PROBE);
-    if is_seen {
-        return None;
-    }
-    let before = &source[..source.rfind("/*")?];
-    let column = before.chars().rev().take_while(|letter| *letter != '\n').count() + 1;
-    let line = before.matches('\n').count() + 1;
-    // The engine counts lines and columns no further.
-    let counted = |number: usize| number.try_into().unwrap_or(u16::MAX);
-    Some(Position::new(counted(line), counted(column)))
+#[cfg(test)]
+thread_local! {
+    static LEXINGS: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
+}
+
+/// How many texts this thread has lexed.
+#[cfg(test)]
+pub fn lexings() -> usize {
+    LEXINGS.get()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_comment_that_is_never_closed_is_found() {
-        assert_eq!(open_comment("let a = 1;\n  /* lost"), Some(Position::new(2, 3)));
-        assert!(open_comment(&"/*".repeat(100_000)).is_some());
-        for closed in
-            ["", "let a = 1; // end", "/* a /* b */ */ 1", "`text /* ${ 1 }`", "let t = \"/*\";"]
-        {
-            assert_eq!(open_comment(closed), None, "{closed}");
-        }
-    }
+    use crate::script::source::text::name_of;
 
     #[test]
     fn interpolated_texts_do_not_confuse_the_lexer() {
-        let names: Vec<_> = tokens("let a = `x ${ #{b: c}.b } / ${d} y`; e")
-            .into_iter()
-            .filter_map(|(token, _)| match token {
-                Token::Identifier(name) => Some(name.to_string()),
-                _ => None,
-            })
-            .collect();
+        let found = lex("let a = `x ${ #{b: c}.b } / ${d} y`; e").tokens;
+        let names: Vec<_> = found.iter().filter_map(|(token, _)| name_of(token)).collect();
         assert_eq!(names, ["a", "b", "c", "b", "d", "e"]);
     }
 }

@@ -1,5 +1,6 @@
-//! From the text of a script to its tokens: the text, the lexer, names that a text declares, tokens and rounds that Rhai has not.
+//! From the text of a script to its tokens: the text, the lexer, what a text declares, tokens and rounds that Rhai has not.
 
+pub mod definitions;
 pub mod keywords;
 pub mod lexing;
 pub mod outline;
@@ -7,3 +8,4 @@ pub mod program;
 pub mod rounds;
 pub mod scanner;
 pub mod syntax;
+pub mod text;

@@ -2,7 +2,8 @@
 
 use rhai::{Position, Token};
 
-use super::lexing::tokens;
+use super::definitions::{Definition, definitions};
+use super::text::{Lexeme, Source, name_of};
 
 /// Declared names of a script.
 #[derive(Debug, Default)]
@@ -21,14 +22,14 @@ pub struct Outline {
 
 impl Outline {
     /// Reads `source`, which need not be correct.
-    pub fn of(source: &str) -> Self {
-        let tokens = tokens(source);
+    pub fn of(source: &Source) -> Self {
+        let tokens = source.tokens();
         let mut outline = Self::default();
+        let mut functions = definitions(tokens);
         let mut depth = 0_usize;
         for (index, (token, position)) in tokens.iter().enumerate() {
-            let name = |ahead: usize| match tokens.get(index + ahead) {
-                Some((Token::Identifier(name), _)) => Some(name.to_string()),
-                _ => None,
+            let name = |ahead: usize| {
+                tokens.get(index + ahead).and_then(|(token, _)| name_of(token)).map(str::to_owned)
             };
             match token {
                 Token::LeftBrace | Token::MapStart => depth += 1,
@@ -37,7 +38,7 @@ impl Outline {
                     outline.declare(token, name(1), depth, *position)
                 }
                 Token::As => outline.imported(&tokens[..index], name(1)),
-                Token::Fn => outline.define(name(1), parameters(&tokens[index..])),
+                Token::Fn => functions.next().into_iter().for_each(|one| outline.define(&one)),
                 Token::Identifier(key)
                     if matches!(tokens.get(index + 1), Some((Token::Colon, _))) =>
                 {
@@ -57,48 +58,37 @@ impl Outline {
         self.variables.push(name);
     }
 
-    fn imported(&mut self, before: &[(Token, Position)], name: Option<String>) {
+    fn imported(&mut self, before: &[Lexeme], name: Option<String>) {
         if let (Some((Token::StringConstant(path), _)), Some(name)) = (before.last(), name) {
             self.imports.push((name, path.to_string()));
         }
     }
 
-    fn define(&mut self, name: Option<String>, parameters: Vec<String>) {
-        if let Some(name) = name {
-            self.functions.push((name, parameters.len()));
+    fn define(&mut self, function: &Definition) {
+        let parameters = || function.parameters().map(str::to_owned);
+        if let Some((name, _)) = function.name() {
+            self.functions.push((name.to_owned(), parameters().count()));
         }
-        self.variables.extend(parameters);
+        self.variables.extend(parameters());
     }
-}
-
-/// The names between the parentheses after `fn name`.
-fn parameters(tokens: &[(Token, Position)]) -> Vec<String> {
-    let inside = tokens
-        .iter()
-        .map(|(token, _)| token)
-        .skip_while(|token| !matches!(token, Token::LeftParen));
-    inside
-        .take_while(|token| !matches!(token, Token::RightParen))
-        .filter_map(|token| match token {
-            Token::Identifier(name) => Some(name.to_string()),
-            _ => None,
-        })
-        .collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn outline(text: &str) -> Outline {
+        Outline::of(&Source::from(text))
+    }
+
     #[test]
     fn declarations_are_found() {
-        let outline =
-            Outline::of("let a = 1;\nfn f(x, y) { let b = #{ key: x }; b }\nfor i in 0..3 { }");
-        assert_eq!(outline.top_level, [("a".to_owned(), 1)]);
-        assert_eq!(outline.functions, [("f".to_owned(), 2)]);
-        assert_eq!(outline.variables, ["a", "x", "y", "b", "i"]);
-        assert_eq!(outline.keys, ["key"]);
-        let outline = Outline::of("import \"std/checks\" as c;");
-        assert_eq!(outline.imports, [("c".to_owned(), "std/checks".to_owned())]);
+        let found = outline("let a = 1;\nfn f(x, y) { let b = #{ key: x }; b }\nfor i in 0..3 { }");
+        assert_eq!(found.top_level, [("a".to_owned(), 1)]);
+        assert_eq!(found.functions, [("f".to_owned(), 2)]);
+        assert_eq!(found.variables, ["a", "x", "y", "b", "i"]);
+        assert_eq!(found.keys, ["key"]);
+        let found = outline("import \"std/checks\" as c;");
+        assert_eq!(found.imports, [("c".to_owned(), "std/checks".to_owned())]);
     }
 }

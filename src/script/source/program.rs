@@ -1,8 +1,8 @@
 //! The text of a script and where it came from.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
+use super::text::Source;
 use crate::folders::read_file;
 
 /// The largest script, or file that one imports [bytes]: more is data, and takes a lot of memory to be read as a script.
@@ -13,8 +13,8 @@ pub const LARGEST_SCRIPT: u64 = 16 << 20;
 pub struct Program {
     /// Name in messages.
     pub name: String,
-    /// Source text.
-    pub text: Arc<str>,
+    /// Its text.
+    pub text: Source,
     /// Where imports are found.
     pub folder: PathBuf,
 }
@@ -79,15 +79,6 @@ impl Program {
 
     /// The byte offset of a line and column, both from 1 and columns in characters.
     pub fn offset(&self, line: usize, column: usize) -> usize {
-        let mut start = 0;
-        for (index, text) in self.text.split_inclusive('\n').enumerate() {
-            if index + 1 == line {
-                let inside =
-                    text.char_indices().nth(column.saturating_sub(1)).map(|(offset, _)| offset);
-                return start + inside.unwrap_or(text.trim_end_matches(['\n', '\r']).len());
-            }
-            start += text.len();
-        }
-        self.text.len()
+        self.text.offset(line, column)
     }
 }

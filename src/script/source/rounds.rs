@@ -8,6 +8,9 @@
 
 use rhai::{Dynamic, Engine, EvalContext, Position, Token};
 
+use super::definitions::{closing, nesting};
+use super::text::{Lexeme, name_of};
+
 /// The private-use character that stands for the statement in a loop with one variable.
 pub const ONE: char = '\u{E003}';
 /// The one in a loop that counts as well.
@@ -46,39 +49,36 @@ fn declare_again(context: &mut EvalContext, variables: usize) {
 }
 
 /// Where bodies of loops begin that need the statement, with its character.
-pub fn bodies(tokens: &[(Token, Position)]) -> Vec<(Position, char)> {
+pub fn bodies(tokens: &[Lexeme]) -> Vec<(Position, char)> {
     let loops = tokens.iter().enumerate().filter(|(_, (token, _))| matches!(token, Token::For));
     loops.filter_map(|(start, _)| body(tokens, start)).collect()
 }
 
-fn body(tokens: &[(Token, Position)], start: usize) -> Option<(Position, char)> {
+fn body(tokens: &[Lexeme], start: usize) -> Option<(Position, char)> {
     let token = |index: usize| tokens.get(index).map(|(token, _)| token);
-    let name = |index: usize| match token(index) {
-        Some(Token::Identifier(name)) => Some(name.as_str()),
-        _ => None,
-    };
+    let name = |index: usize| token(index).and_then(name_of);
     let (names, after) = match token(start + 1)? {
         Token::LeftParen => (vec![name(start + 2)?, name(start + 4)?], start + 6),
         _ => (vec![name(start + 1)?], start + 2),
     };
     let open = opening(tokens, after)?;
     let close = closing(tokens, open);
-    let is_closure = |(token, _): &(Token, Position)| matches!(token, Token::Pipe | Token::Or);
+    let is_closure = |(token, _): &Lexeme| matches!(token, Token::Pipe | Token::Or);
     let closure = open + tokens[open..close].iter().position(is_closure)?;
-    let is_captured = tokens[closure..close].iter().any(
-        |(token, _)| matches!(token, Token::Identifier(name) if names.contains(&name.as_str())),
-    );
+    let is_captured = tokens[closure..close]
+        .iter()
+        .any(|(token, _)| name_of(token).is_some_and(|name| names.contains(&name)));
     let letter = if names.len() == 1 { ONE } else { TWO };
     is_captured.then_some((tokens[open].1, letter))
 }
 
 /// Whether a brace belongs to a text `${…}`.
-fn is_interpolation(tokens: &[(Token, Position)], index: usize) -> bool {
+fn is_interpolation(tokens: &[Lexeme], index: usize) -> bool {
     matches!(tokens.get(index.wrapping_sub(1)), Some((Token::InterpolatedString(_), _)))
 }
 
 /// The brace that opens the body of a loop whose `in` stands at `after`; none where what is gone over has blocks of its own.
-fn opening(tokens: &[(Token, Position)], after: usize) -> Option<usize> {
+fn opening(tokens: &[Lexeme], after: usize) -> Option<usize> {
     let mut depth = 0_usize;
     for (index, (token, _)) in tokens.iter().enumerate().skip(after) {
         match token {
@@ -90,31 +90,6 @@ fn opening(tokens: &[(Token, Position)], after: usize) -> Option<usize> {
         }
     }
     None
-}
-
-/// The index behind the block that opens at `open`.
-fn closing(tokens: &[(Token, Position)], open: usize) -> usize {
-    let mut depth = 0;
-    for (index, (token, _)) in tokens.iter().enumerate().skip(open) {
-        depth += nesting(token);
-        if depth == 0 {
-            return index + 1;
-        }
-    }
-    tokens.len()
-}
-
-/// By how much a token changes the depth of brackets.
-pub fn nesting(token: &Token) -> isize {
-    match token {
-        Token::LeftBrace
-        | Token::MapStart
-        | Token::LeftParen
-        | Token::LeftBracket
-        | Token::QuestionBracket => 1,
-        Token::RightBrace | Token::RightParen | Token::RightBracket => -1,
-        _ => 0,
-    }
 }
 
 /// Puts the statement behind the brace at `column`, from 0, of a line: in the place of blanks where there are some.
@@ -132,10 +107,10 @@ pub fn put(line: &mut Vec<char>, column: usize, letter: char) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::script::source::lexing::tokens;
+    use crate::script::source::text::Source;
 
     fn letters(source: &str) -> Vec<char> {
-        bodies(&tokens(source)).into_iter().map(|(_, letter)| letter).collect()
+        bodies(Source::from(source).tokens()).into_iter().map(|(_, letter)| letter).collect()
     }
 
     #[test]

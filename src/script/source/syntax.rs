@@ -17,8 +17,8 @@ use std::rc::Rc;
 
 use rhai::{Dynamic, Engine, LexError, Position, Token};
 
-use super::lexing::tokens;
 use super::rounds;
+use super::text::Source;
 use crate::script::words::stop::Stop;
 
 /// Prefix of the operators that stand in for Rhai's own.
@@ -136,8 +136,8 @@ pub fn install(
 
 /// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` so that they lex as an operator and a wrapper of what follows, and marks the rounds of loops;
 /// columns do not move.
-pub fn mark(source: &str) -> Cow<'_, str> {
-    let tokens = tokens(source);
+pub fn mark(source: &Source) -> Cow<'_, str> {
+    let tokens = source.tokens();
     let halves = |token: &Token| -> &[char] {
         match token {
             Token::DivideAssign => &[DIVIDE_HALF, OPERAND_HALF],
@@ -149,7 +149,7 @@ pub fn mark(source: &str) -> Cow<'_, str> {
         }
     };
     let mut marks: Vec<(Position, Mark)> =
-        rounds::bodies(&tokens).into_iter().map(|(at, letter)| (at, Mark::Round(letter))).collect();
+        rounds::bodies(tokens).into_iter().map(|(at, letter)| (at, Mark::Round(letter))).collect();
     let assignments = tokens.iter().map(|(token, at)| (*at, halves(token)));
     marks.extend(
         assignments.filter(|(_, halves)| !halves.is_empty()).map(|(at, h)| (at, Mark::Assign(h))),

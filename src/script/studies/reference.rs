@@ -1,6 +1,6 @@
 //! What results are compared with: a table of an independent solution, or a finer run of our own.
 
-use rhai::Dynamic;
+use rhai::{Dynamic, Map};
 
 use super::desk::{Desk, Task};
 use super::labels;
@@ -151,10 +151,20 @@ fn expect_other_steps_if_doubled(call: &Call, finest: &Case) -> Result<(), Scrip
     }
 }
 
+/// The option `columns`, if it is given.
+fn columns_of(call: &Call, options: &Options) -> Result<Option<Map>, ScriptError> {
+    let Ok(given) = options.value("columns") else { return Ok(None) };
+    let got = call.describe(&given);
+    given.try_cast::<Map>().map(Some).ok_or_else(|| {
+        let hint = "write names of the reference with columns of the history: #{ S: \"slider1.position\" }";
+        at_key(call, "columns", format!("'columns' must be a map, got {got}"), hint)
+    })
+}
+
 impl Reference {
     /// Reads the option `reference`, and looks in the plan at what it can be compared with.
     pub fn read(call: &Call, options: &Options, plan: &mut Plan) -> Result<Self, ScriptError> {
-        let columns = options.get_if::<rhai::Map>("columns");
+        let columns = columns_of(call, options)?;
         if let Ok(file) = options.text("reference") {
             let sheet = read_sheet(call, "reference", &file)?;
             plan.add_columns(call, columns, Some(&sheet))?;

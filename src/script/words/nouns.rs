@@ -2,8 +2,10 @@
 
 /// `noun` with its article: `a vector`, `an array`; plurals such as `knots` have none.
 pub fn with_article(noun: &str) -> String {
+    // Of a table of costs there is one.
+    let head = noun.split(" of ").next().unwrap_or(noun);
     match noun.chars().next() {
-        _ if noun.ends_with('s') => noun.to_owned(),
+        _ if head.ends_with('s') => noun.to_owned(),
         Some('a' | 'e' | 'i' | 'o' | 'A' | 'E' | 'I' | 'O') => format!("an {noun}"),
         _ => format!("a {noun}"),
     }

@@ -48,7 +48,7 @@ fn members_follow_from_the_type_of_the_receiver() {
     let curve = names("line([0,0],[1,1]).");
     assert!(curve.iter().any(|name| name == "curvature("), "{curve:?}");
     assert!(!curve.iter().any(|name| name == "step("), "{curve:?}");
-    assert_eq!(offered("values.ma"), ["values.map("]);
+    assert_eq!(offered("values.ma"), ["values.map(", "values.max()"]);
     assert_eq!(offered("sim.history.column(\"t\").fil"), ["sim.history.column(\"t\").filter("]);
     assert_eq!(offered("settings.sp"), ["settings.spans"]);
     assert!(!names("settings.").contains(&"two words".to_owned()));

@@ -4,7 +4,6 @@ use rhai::{ParseErrorType, Position, Token};
 
 use super::Cure;
 use crate::script::rows::catalog::Catalog;
-use crate::script::source::lexing::tokens;
 use crate::script::source::program::Program;
 
 /// So many words are looked at before the place, and as many behind it.
@@ -42,25 +41,24 @@ impl<'s> Spot<'s> {
         place: Position,
     ) -> Self {
         let order = |at: Position| (at.line().unwrap_or(0), at.position().unwrap_or(0));
-        let mut all = tokens(&program.text);
+        let all = program.text.tokens();
         let found = match place.is_none() {
             true => all.len(),
             false => all.partition_point(|(_, at)| order(*at) < order(place)),
         };
         let start = found.saturating_sub(REACH);
-        all.truncate(found + REACH);
-        let ends: Vec<usize> = all
+        let near = &all[start..all.len().min(found + REACH)];
+        let ends: Vec<usize> = near
             .iter()
-            .skip(start)
             .map(|(_, at)| program.offset(order(*at).0, order(*at).1))
             .chain([program.text.len()])
             .collect();
         let mut words: Vec<Word> = Vec::new();
-        for ((token, at), place) in all.drain(..).skip(start).zip(ends.windows(2)) {
+        for ((token, at), place) in near.iter().zip(ends.windows(2)) {
             let (from, to) = (place[0], place[1].max(place[0]));
-            let text = written(&token, &program.text[from..to]);
+            let text = written(token, &program.text[from..to]);
             let is_joined = !program.text[..from].ends_with(char::is_whitespace);
-            words.push(Word { text, token, at, is_joined });
+            words.push(Word { text, token: token.clone(), at: *at, is_joined });
         }
         let here = found - start;
         let gap = here.checked_sub(1).and_then(|last| {

@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use rhai::{Array, Dynamic};
 
+use super::super::vectors::VECTOR;
 use super::knots::{KNOTS, shared as shared_knots};
 use super::{ORDER, TIMES, XI, blame, brief, brief_point, pair, plural, vector};
 use crate::geometry::{Curve, GeometryError, KnotVector, SplineCurve, Vec2};
@@ -11,6 +12,7 @@ use crate::script::looks::details;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Details, Scripted, Type};
 use crate::script::rows::parameter::{Parameter, Presence, number, object, point, points};
+use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Table, function, method, operator, property};
 use crate::script::words::error::ScriptError;
 use crate::script::words::nouns::with_article;
@@ -32,7 +34,7 @@ pub const TABLE: Table = Table {
             ],
             |call| Ok(shared(Curve::line(call.point("from")?, call.point("to")?)?)),
         )
-        .returns("a curve")
+        .returns(Returns::object(CURVE))
         .summary("The straight line between two points.")
         .example("let rod = line([0, 8], [6, 0]);\ncheck(rod.length == 10 && rod.at(0.5) == [3, 4]);")
         .see(&["arc", "through", "curve"]),
@@ -46,12 +48,12 @@ pub const TABLE: Table = Table {
             ],
             arc,
         )
-        .returns("a curve")
+        .returns(Returns::object(CURVE))
         .summary("The arc of a circle between two angles, at most a full turn.")
         .example("let quarter = arc([0, 0], 2, 0, PI / 2);\ncheck_close(quarter.length, PI, 1e-15);\ncheck(quarter.curvature(0.5) == 0.5);")
         .see(&["line", "through"]),
         function("through", &[points("points").unit("length").doc("two or more")], through)
-            .returns("a curve")
+            .returns(Returns::object(CURVE))
             .summary("The smooth cubic spline through points, by local interpolation.")
             .doc("Through n + 1 points it has 2 n + 2 control points, double interior knots and a continuous tangent (The NURBS Book, section 9.3.4).")
             .example("let c = through([[0, 0], [1, 1], [2, 0]]);\ncheck(c.control_points.len() == 6);\ncheck_close(distance(c.at(0.5), [1, 1]), 0, 1e-12);")
@@ -64,80 +66,80 @@ pub const TABLE: Table = Table {
             ],
             spline,
         )
-        .returns("a curve")
+        .returns(Returns::object(CURVE))
         .summary("The spline with these knots and control points.")
         .example("let parabola = curve(knots(#{ spans: 1, degree: 2 }), [[0, 0], [0.5, 0], [1, 1]]);\ncheck(parabola.at(0.5) == [0.5, 0.25]);")
         .see(&["knots", "through"]),
         property(CURVE, "length", |call| Ok(curve(call)?.length().into()))
-            .returns("a number [length]")
+            .returns(Returns::NUMBER.unit("length"))
             .summary("The length.")
             .example("check(line([0, 0], [3, 4]).length == 5);")
             .see(&["length_to", "parameter"]),
         property(CURVE, "start", |call| Ok(vector(ends(&*curve(call)?)?[0])))
-            .returns("a vector")
+            .returns(Returns::object(VECTOR))
             .summary("The point where it starts.")
             .example("check(line([0, 8], [6, 0]).start == [0, 8]);")
             .see(&["end", "at"]),
         property(CURVE, "end", |call| Ok(vector(ends(&*curve(call)?)?[1])))
-            .returns("a vector")
+            .returns(Returns::object(VECTOR))
             .summary("The point where it ends.")
             .example("check(line([0, 8], [6, 0]).end == [6, 0]);")
             .see(&["start", "at"]),
         property(CURVE, "domain", |call| Ok(pair(curve(call)?.domain())))
-            .returns("an array [a, b]")
+            .returns(Returns::ARRAY.note(" [a, b]"))
             .summary("The interval of the parameter ξ.")
             .example("check(line([0, 8], [6, 0]).domain == [0, 1]);"),
         property(CURVE, "knots", |call| Ok(shared_knots(of_spline(&*curve(call)?, call)?.knots().clone())))
-            .returns("knots")
+            .returns(Returns::object(KNOTS))
             .summary("The knots of a spline; lines and arcs have none.")
             .example("check(through([[0, 0], [1, 1], [2, 0]]).knots.continuity == 1);")
             .see(&["control_points"]),
         property(CURVE, "control_points", control_points)
-            .returns("an array of vectors")
+            .returns(Returns::array_of(&ValueKind::Object(VECTOR)))
             .summary("The control points of a spline; lines and arcs have none.")
             .example("let c = through([[0, 0], [1, 1], [2, 0]]);\ncheck(c.control_points[0] == [0, 0]);")
             .see(&["knots"]),
         method(CURVE, "at", &[XI], |call| Ok(vector(at_xi(call, Curve::point)?)))
-            .returns("a vector")
+            .returns(Returns::object(VECTOR))
             .summary("The point at ξ.")
             .example("check(line([0, 8], [6, 0]).at(0.5) == [3, 4]);")
             .see(&["derivative", "parameter"]),
         method(CURVE, "derivative", &[XI, ORDER.or(Presence::Whole(1))], derivative)
-            .returns("a vector")
+            .returns(Returns::object(VECTOR))
             .summary("The derivative by ξ, the first or of the order given; at knots from the right.")
             .example("let c = line([0, 8], [6, 0]);\ncheck(c.derivative(0.5) == [6, -8]);\ncheck(c.derivative(0.5, 2) == [0, 0]);")
             .see(&["angle", "curvature"]),
         method(CURVE, "angle", &[XI], |call| Ok(at_xi(call, Curve::tangent_angle)?.into()))
-            .returns("an angle from -PI to PI")
+            .returns(Returns::NUMBER.words("an angle from -PI to PI"))
             .summary("The angle of the tangent from the first axis.")
             .example("check(line([0, 0], [0, 2]).angle(0.5) == PI / 2);")
             .see(&["derivative"]),
         method(CURVE, "curvature", &[XI], |call| Ok(at_xi(call, Curve::curvature)?.into()))
-            .returns("a number [1/length]")
+            .returns(Returns::NUMBER.unit("1/length"))
             .summary("The curvature, positive where the curve turns counter-clockwise.")
             .example("check(arc([0, 0], 2, 0, -PI).curvature(0.5) == -0.5);")
             .see(&["derivative"]),
         method(CURVE, "length_to", &[XI], |call| Ok(at_xi(call, Curve::length_to)?.into()))
-            .returns("a number [length]")
+            .returns(Returns::NUMBER.unit("length"))
             .summary("The length from the start to ξ.")
             .example("check(line([0, 8], [6, 0]).length_to(0.5) == 5);")
             .see(&["parameter", "length"]),
         method(CURVE, "parameter", &[number("s").unit("length").doc("the length from the start")], parameter)
-            .returns("a number")
+            .returns(Returns::NUMBER)
             .summary("The parameter ξ at this length from the start.")
             .example("let c = line([0, 8], [6, 0]);\ncheck(c.at(c.parameter(5)) == [3, 4]);")
             .see(&["length_to", "at"]),
         method(CURVE, "insert", &[XI, TIMES], insert)
-            .returns("a curve")
+            .returns(Returns::object(CURVE))
             .summary("The same spline with a knot inserted, once or several times: the curve stays, the control points follow.")
             .example("let c = through([[0, 0], [1, 1], [2, 0]]);\nlet finer = c.insert(0.3);\ncheck(finer.control_points.len() == 7);\ncheck_close(distance(finer.at(0.7), c.at(0.7)), 0, 1e-14);")
             .see(&["knots"]),
         operator("==", &[A, B], |call| Ok((a(call)? == b(call)?).into()))
-            .returns("true or false")
+            .returns(Returns::TRUTH)
             .summary("Whether two curves are of one kind and given by equal numbers.")
             .example("check(line([0, 0], [1, 0]) == line([0, 0], [1, 0]));"),
         operator("!=", &[A, B], |call| Ok((a(call)? != b(call)?).into()))
-            .returns("true or false")
+            .returns(Returns::TRUTH)
             .summary("Whether two curves are of different kinds or a number differs.")
             .example("check(line([0, 0], [1, 0]) != line([0, 0], [2, 0]));"),
     ],

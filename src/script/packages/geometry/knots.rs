@@ -11,6 +11,7 @@ use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Details, Kind, Range, Scripted, Type};
 use crate::script::rows::options::Options;
 use crate::script::rows::parameter::{self, Parameter, Presence, either, object, whole};
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function, method, operator, property};
 use crate::script::words::error::{Place, ScriptError};
 
@@ -25,78 +26,78 @@ pub const TABLE: Table = Table {
     constants: &[],
     rows: &[
         function("knots", &[UNIFORM], uniform)
-            .returns("knots")
+            .returns(Returns::object(KNOTS))
             .summary("Knots of equal spans on [0, 1], from a number of spans or from options.")
             .doc("knots(7) has cubic splines with two continuous derivatives; options choose another degree or continuity.")
             .example("let smooth = knots(7);\nlet paper = knots(#{ spans: 7, continuity: 1 });\ncheck(smooth.functions == 10 && paper.functions == 16);")
             .see(&["curve", "basis"]),
         function("knots", &[DEGREE, VALUES], explicit)
-            .returns("knots")
+            .returns(Returns::object(KNOTS))
             .summary("Knots from an array, in which repeated knots stand as often as they count.")
             .example("let k = knots(2, [0, 0, 0, 0.5, 1, 1, 1]);\ncheck(k.functions == 4 && k.multiplicity(0.5) == 1);")
             .see(&["curve", "basis"]),
         property(KNOTS, "degree", |call| Ok(count(knots(call)?.degree())))
-            .returns("a whole number")
+            .returns(Returns::WHOLE)
             .summary("The polynomial degree.")
             .example("check(knots(7).degree == 3);"),
         property(KNOTS, "values", |call| Ok(numbers(knots(call)?.knots().iter().copied())))
-            .returns("an array of numbers")
+            .returns(Returns::NUMBERS)
             .summary("All knots, repeated ones as often as they count.")
             .example("check(knots(#{ spans: 2, degree: 1 }).values == [0, 0, 0.5, 1, 1]);")
             .see(&["breaks"]),
         property(KNOTS, "functions", |call| Ok(count(knots(call)?.functions())))
-            .returns("a whole number")
+            .returns(Returns::WHOLE)
             .summary("The number of basis functions, and of control points of a curve.")
             .example("check(knots(7).functions == 10);"),
         property(KNOTS, "spans", |call| Ok(count(knots(call)?.spans().len())))
-            .returns("a whole number")
+            .returns(Returns::WHOLE)
             .summary("The number of spans between distinct knots.")
             .example("check(knots(7).spans == 7);")
             .see(&["span"]),
         property(KNOTS, "continuity", |call| Ok(count(basis(call)?.continuity())))
-            .returns("a whole number")
+            .returns(Returns::WHOLE)
             .summary("The number of continuous derivatives at the least smooth interior knot; the degree if there is none.")
             .example("check(knots(7).continuity == 2);\ncheck(knots(7).insert(0.5, 3).continuity == 0);"),
         property(KNOTS, "domain", |call| Ok(pair(knots(call)?.domain())))
-            .returns("an array [a, b]")
+            .returns(Returns::ARRAY.note(" [a, b]"))
             .summary("The first and the last knot.")
             .example("check(knots(7).domain == [0, 1]);"),
         property(KNOTS, "breaks", |call| Ok(numbers(knots(call)?.breaks())))
-            .returns("an array of numbers")
+            .returns(Returns::NUMBERS)
             .summary("The distinct knots: the ends of the spans.")
             .example("check(knots(2).breaks == [0, 0.5, 1]);")
             .see(&["values"]),
         property(KNOTS, "greville", |call| Ok(numbers(knots(call)?.greville())))
-            .returns("an array of numbers")
+            .returns(Returns::NUMBERS)
             .summary("The Greville abscissae, one parameter for each function.")
             .doc("Control points on a line at these places draw it with uniform speed; they are good places to interpolate at.")
             .example("check(knots(#{ spans: 2, degree: 2 }).greville == [0, 0.25, 0.75, 1]);"),
         method(KNOTS, "basis", &[XI, ORDER.or(Presence::Whole(0))], |call| all_functions(&basis(call)?, call))
-            .returns("an array of numbers, one for each function")
+            .returns(Returns::NUMBERS.note(", one for each function"))
             .summary("The values of all basis functions at ξ, or their derivatives of the order given.")
             .doc("At most degree + 1 of them are not zero, from number span(xi).first on. At interior knots derivatives are those from the right.")
             .example("let k = knots(4);\ncheck_close(sum(k.basis(0.3)), 1, 1e-15);\ncheck_close(sum(k.basis(0.3, 1)), 0, 1e-13);\ncheck(k.basis(0)[0] == 1);")
             .see(&["span", "greville", "gauss"]),
         method(KNOTS, "span", &[XI], span)
-            .returns("a map with first, start and end")
+            .returns(Returns::MAP.note(" with first, start and end"))
             .summary("The span that holds ξ: its ends, and the number of the first function that is not zero there.")
             .doc("A knot belongs to the span on its right, the last one to the last span.")
             .example("let s = knots(4).span(0.3);\ncheck(s.first == 1 && s.start == 0.25 && s.end == 0.5);")
             .see(&["spans", "basis"]),
         method(KNOTS, "multiplicity", &[XI], multiplicity)
-            .returns("a whole number")
+            .returns(Returns::WHOLE)
             .summary("How often ξ occurs among the knots.")
             .example("check(knots(4).multiplicity(0) == 4 && knots(4).multiplicity(0.3) == 0);"),
         method(KNOTS, "insert", &[XI, TIMES], insert)
-            .returns("knots")
+            .returns(Returns::object(KNOTS))
             .summary("The same knots with ξ in addition, once or several times.")
             .example("let k = knots(4).insert(0.3, 2);\ncheck(k.functions == 9 && k.multiplicity(0.3) == 2);"),
         operator("==", &[A, B], |call| Ok((a(call)? == b(call)?).into()))
-            .returns("true or false")
+            .returns(Returns::TRUTH)
             .summary("Whether degree and all knots are equal.")
             .example("check(knots(#{ spans: 1, degree: 1 }) == knots(1, [0, 0, 1, 1]));"),
         operator("!=", &[A, B], |call| Ok((a(call)? != b(call)?).into()))
-            .returns("true or false")
+            .returns(Returns::TRUTH)
             .summary("Whether the degree or a knot differs.")
             .example("check(knots(3) != knots(4));"),
     ],

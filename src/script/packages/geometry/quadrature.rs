@@ -6,6 +6,7 @@ use super::{blame, numbers};
 use crate::geometry::GaussRule;
 use crate::script::rows::call::Call;
 use crate::script::rows::parameter::{Presence, number, whole};
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function};
 use crate::script::words::error::ScriptError;
 
@@ -25,7 +26,7 @@ pub const TABLE: Table = Table {
         ],
         gauss,
     )
-    .returns("a map with the arrays points and weights")
+    .returns(Returns::MAP.note(" with the arrays points and weights"))
     .summary("The Gauss-Legendre rule with this many points, on [-1, 1] or another interval.")
     .doc("With n points it integrates polynomials up to degree 2 n - 1 exactly.")
     .example(

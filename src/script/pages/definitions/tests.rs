@@ -1,9 +1,10 @@
 //! Definition files say everything that the tables say, in lines that the language server can read.
 
-use super::types::{for_words, identifier};
+use super::types::{for_value, identifier};
 use super::{DefinitionFile, definitions};
 use crate::script::packages::language;
-use crate::script::source::lexing::tokens;
+use crate::script::rows::returns::ValueKind;
+use crate::script::source::text::Source;
 
 fn file(name: &str) -> DefinitionFile {
     let files = definitions(&language());
@@ -45,7 +46,8 @@ fn every_line_is_a_comment_or_a_whole_declaration() {
             let count = |letter| line.matches(letter).count();
             assert_eq!(count('('), count(')'), "{name}: {line}");
             // An arrow and a type ? are not known to scripts.
-            for (token, _) in tokens(&line.replace("->", "").replace('?', "unknown")) {
+            let line_of_script = Source::from(line.replace("->", "").replace('?', "unknown"));
+            for (token, _) in line_of_script.tokens() {
                 assert!(!matches!(token, rhai::Token::LexError(_)), "{name}: {line}: {token}");
             }
         }
@@ -86,18 +88,17 @@ fn optional_arguments_are_declared_in_turn() {
 }
 
 #[test]
-fn words_become_types() {
-    let catalog = language();
-    for (words, of) in [
-        ("a vector [force]", "vector"),
-        ("a whole number", "whole_number"),
-        ("a sliding rule", "sliding_rule"),
-        ("an array of numbers", "array"),
-        ("a value or nothing", "?"),
-        ("a character or nothing", "?"),
-        ("true or false", "truth_value"),
-        ("", "()"),
+fn what_is_given_back_has_a_type() {
+    for (kind, of) in [
+        (ValueKind::Whole, "whole_number"),
+        (ValueKind::Array(&ValueKind::Number), "array"),
+        (ValueKind::OneOf(&[ValueKind::Character, ValueKind::Nothing]), "?"),
+        (ValueKind::Truth, "truth_value"),
+        (ValueKind::Nothing, "()"),
     ] {
-        assert_eq!(for_words(&catalog, words), of, "{words}");
+        assert_eq!(for_value(&kind), of);
     }
+    let catalog = language();
+    let rule = catalog.type_named("sliding rule").expect("a type");
+    assert_eq!(for_value(&ValueKind::Object(rule)), "sliding_rule");
 }

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use crate::script::rows::catalog::Catalog;
 use crate::script::rows::kind::Kind;
+use crate::script::rows::returns::ValueKind;
 
 /// Types of every script, by the words that messages use, with what the language server calls them.
 const COMMON: &[(&str, &str, &str)] = &[
@@ -63,27 +64,11 @@ pub fn for_receiver(word: &str) -> String {
     if word == "value" { "?".into() } else { identifier(word) }
 }
 
-/// The type for what a row says that it gives back: `a vector [force]` is a vector.
-pub fn for_words(catalog: &Catalog, returns: &str) -> String {
-    if returns.is_empty() {
-        return "()".into();
+/// The type for what a row gives back.
+pub fn for_value(kind: &ValueKind) -> String {
+    match (kind, kind.type_name()) {
+        (ValueKind::Nothing, _) => "()".into(),
+        (_, Some(name)) => identifier(name),
+        (_, None) => "?".into(),
     }
-    if returns.starts_with("true or false") {
-        return "truth_value".into();
-    }
-    if returns.starts_with("an angle") {
-        return "number".into();
-    }
-    let noun = returns.trim_start_matches("an ").trim_start_matches("a ");
-    let ours = catalog.tables().flat_map(|table| table.types).map(|of| of.name());
-    let common = COMMON.iter().map(|(words, ..)| *words);
-    // The longest: "sliding rule" before "sliding", "whole number" before "number".
-    let known = ours.chain(common).filter(|name| begins_with_word(noun, name));
-    known.max_by_key(|name| name.len()).map_or_else(|| "?".into(), identifier)
-}
-
-fn begins_with_word(text: &str, word: &str) -> bool {
-    text.strip_prefix(word).is_some_and(|rest| {
-        !rest.starts_with(|letter: char| letter.is_alphanumeric()) && !rest.starts_with(" or ")
-    })
 }

@@ -12,7 +12,6 @@ use crate::script::rows::kind::Type;
 use crate::script::rows::parameter::Parameter;
 use crate::script::rows::table::{Constant, Row, Table};
 use crate::script::rows::topics::{TOPICS, Topic};
-use crate::script::words::nouns::with_article;
 use crate::script::words::numbers::format_number;
 
 /// The page on `name`; without a name, an overview.
@@ -128,7 +127,7 @@ fn describe_type(page: &mut Page, catalog: &Catalog, of: Type) {
     }
     let makers: Vec<_> = catalog
         .rows()
-        .filter(|row| row.returns.starts_with(&with_article(of.name())))
+        .filter(|row| row.returns.kind.type_name() == Some(of.name()))
         .map(Row::signature)
         .collect();
     if !makers.is_empty() {

@@ -1,5 +1,7 @@
 //! A page of help as data, and its two drawings: plain, and with the colours of a terminal.
 
+use crate::output::{columns, columns_of};
+
 /// Columns of a terminal when nothing is known of it.
 pub const WIDTH: usize = 80;
 
@@ -142,7 +144,7 @@ fn wrap(
     let mut column = indent;
     *text += &" ".repeat(indent);
     for (number, word) in words(spans).into_iter().enumerate() {
-        let length: usize = word.iter().map(|span| span.text.chars().count()).sum();
+        let length: usize = word.iter().map(|span| columns(&span.text)).sum();
         if number > 0 && column + 1 + length > width {
             *text += &format!("\n{}", " ".repeat(hang));
             column = hang;
@@ -180,7 +182,7 @@ fn words(spans: &[Span]) -> Vec<Vec<Span>> {
 pub(super) fn broken(line: &str, width: usize) -> Vec<String> {
     let mut pieces = Vec::new();
     let mut rest = line.to_owned();
-    while rest.chars().count() > width && !line.contains("//") {
+    while columns(&rest) > width && !line.contains("//") {
         let Some(at) = last_break(&rest, width) else { break };
         let tail = format!("    {}", rest[at..].trim_start());
         pieces.push(rest[..at].trim_end().to_owned());
@@ -195,10 +197,12 @@ fn last_break(line: &str, width: usize) -> Option<usize> {
     let mut quote = None;
     let mut previous = ' ';
     let mut found = None;
-    for (count, (at, letter)) in line.char_indices().enumerate() {
+    let mut count = 0;
+    for (at, letter) in line.char_indices() {
         if count > width {
             break;
         }
+        count += columns_of(letter);
         match (quote, letter) {
             (None, '"' | '`') => quote = Some(letter),
             (Some(open), _) if open == letter && previous != '\\' => quote = None,

@@ -4,11 +4,12 @@ use super::page::{Page, Span};
 use crate::script::rows::built_in::BuiltIn;
 use crate::script::rows::kind::Kind;
 use crate::script::rows::parameter::{Parameter, Presence};
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Row, Table};
 
 /// Describes a row of ours.
 pub fn row(page: &mut Page, table: &Table, row: &Row) {
-    page.words(0, signature(&row.signature(), row.returns));
+    page.words(0, signature(&row.signature(), &row.returns));
     page.paragraph(row.summary);
     if let Some(setter) = row.setter {
         let [value] = setter.value;
@@ -29,7 +30,7 @@ pub fn row(page: &mut Page, table: &Table, row: &Row) {
 /// Describes a function of Rhai.
 pub fn built_in(page: &mut Page, built_in: &BuiltIn) {
     for form in built_in.forms {
-        page.words(0, signature(form, built_in.returns));
+        page.words(0, signature(form, &built_in.returns));
     }
     page.paragraph(built_in.summary);
     if !built_in.doc.is_empty() {
@@ -104,9 +105,9 @@ pub fn maps(kind: &Kind) -> Vec<&'static [Parameter]> {
     }
 }
 
-fn signature(written: &str, returns: &str) -> Vec<Span> {
+fn signature(written: &str, returns: &Returns) -> Vec<Span> {
     let mut spans = vec![Span::name(written)];
-    if !returns.is_empty() {
+    if !returns.is_nothing() {
         spans.push(Span::plain(format!(" → {returns}")));
     }
     spans

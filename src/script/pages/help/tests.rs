@@ -3,7 +3,7 @@
 use super::page::broken;
 use super::{WIDTH, find, names, page};
 use crate::script::packages::language;
-use crate::script::source::lexing::tokens;
+use crate::script::source::text::Source;
 
 fn shown(name: &str) -> String {
     page(&language(), name).unwrap().plain(WIDTH)
@@ -122,8 +122,9 @@ fn broken_examples_are_the_same_scripts() {
     let examples = rows.chain(catalog.built_ins().map(|known| known.example));
     for example in examples {
         let broken: Vec<String> = example.lines().flat_map(|line| broken(line, 40)).collect();
-        let words =
-            |text: &str| tokens(text).into_iter().map(|(token, _)| token).collect::<Vec<_>>();
+        let words = |text: &str| {
+            Source::from(text).tokens().iter().map(|(token, _)| token.clone()).collect::<Vec<_>>()
+        };
         assert_eq!(words(&broken.join("\n")), words(example));
     }
 }

@@ -1,6 +1,7 @@
 //! Arrays: what is in them, and changing them.
 
 use crate::script::rows::built_in::{BuiltInTable, built_in};
+use crate::script::rows::returns::Returns;
 
 /// Methods of arrays that look at single elements or change the array.
 pub const TABLE: BuiltInTable = BuiltInTable {
@@ -9,15 +10,15 @@ pub const TABLE: BuiltInTable = BuiltInTable {
           array change the variable they are called on; a + b makes a new array of both.",
     rows: &[
         built_in(&["array.len"], "How many elements the array has.", "check([1, 2, 3].len == 3);")
-            .returns("a whole number"),
+            .returns(Returns::WHOLE),
         built_in(&["array.is_empty"], "Whether the array has no elements.", "check([].is_empty);")
-            .returns("true or false"),
+            .returns(Returns::TRUTH),
         built_in(
             &["array.get(index)"],
             "The element at an index, or nothing if there is none; array[index] is an error then.",
             "check([5, 6].get(1) == 6);\ncheck([5, 6].get(9) == ());",
         )
-        .returns("a value or nothing"),
+        .returns(Returns::ANYTHING_OR_NOTHING),
         built_in(
             &["array.set(index, value)"],
             "Changes the element at an index, if there is one; array[index] = value does the same.",
@@ -46,21 +47,21 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "Takes the last element off and gives it; nothing if there is none.",
             "let a = [1, 2];\ncheck(a.pop() == 2 && a == [1]);",
         )
-        .returns("a value or nothing")
+        .returns(Returns::ANYTHING_OR_NOTHING)
         .see(&["shift", "push"]),
         built_in(
             &["array.shift()"],
             "Takes the first element off and gives it; nothing if there is none.",
             "let a = [1, 2];\ncheck(a.shift() == 1 && a == [2]);",
         )
-        .returns("a value or nothing")
+        .returns(Returns::ANYTHING_OR_NOTHING)
         .see(&["pop"]),
         built_in(
             &["array.remove(index)"],
             "Takes the element at an index out and gives it; nothing if there is none.",
             "let a = [1, 2, 3];\ncheck(a.remove(1) == 2 && a == [1, 3]);",
         )
-        .returns("a value or nothing"),
+        .returns(Returns::ANYTHING_OR_NOTHING),
         built_in(
             &["array.clear()"],
             "Takes all elements out.",
@@ -93,14 +94,14 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "A piece as a new array; without a count, all from start on.",
             "check([1, 2, 3, 4].extract(1, 2) == [2, 3]);\ncheck([1, 2, 3, 4].extract(2..4) == [3, 4]);",
         )
-        .returns("an array")
+        .returns(Returns::ARRAY)
         .see(&["drain", "split"]),
         built_in(
             &["array.split(index)"],
             "Cuts the array at an index: keeps what stands before, and gives the rest.",
             "let a = [1, 2, 3];\ncheck(a.split(1) == [2, 3] && a == [1]);",
         )
-        .returns("an array"),
+        .returns(Returns::ARRAY),
         built_in(
             &["array.splice(start, count, other)", "array.splice(range, other)"],
             "Replaces a piece by the elements of another array.",
@@ -112,14 +113,14 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "Takes out the elements that pass a test, or a piece, and gives them.",
             "let a = [1, 2, 3, 4];\ncheck(a.drain(|x| x > 2) == [3, 4] && a == [1, 2]);",
         )
-        .returns("an array")
+        .returns(Returns::ARRAY)
         .see(&["retain", "filter"]),
         built_in(
             &["array.retain(test)", "array.retain(start, count)", "array.retain(range)"],
             "Keeps the elements that pass a test, or a piece, and gives the others.",
             "let a = [1, 2, 3, 4];\ncheck(a.retain(|x| x > 2) == [1, 2] && a == [3, 4]);",
         )
-        .returns("an array")
+        .returns(Returns::ARRAY)
         .see(&["drain", "filter"]),
         built_in(
             &["array.dedup([same])"],

@@ -1,6 +1,7 @@
 //! Functions as values.
 
 use crate::script::rows::built_in::{BuiltInTable, built_in};
+use crate::script::rows::returns::Returns;
 
 /// Functions and closures as values.
 pub const TABLE: BuiltInTable = BuiltInTable {
@@ -13,40 +14,40 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "Calls the function that a variable holds.",
             "let twice = |x| 2 * x;\ncheck(twice.call(4) == 8);",
         )
-        .returns("what the function gives")
+        .returns(Returns::ANYTHING.words("what the function gives"))
         .see(&["curry", "Fn"]),
         built_in(
             &["function.curry(values…)"],
             "A function of fewer arguments, the first of which are fixed.",
             "let power = |n, x| x^n;\nlet cube = power.curry(3);\ncheck(cube.call(2) == 8);",
         )
-        .returns("a function")
+        .returns(Returns::FUNCTION)
         .see(&["call"]),
         built_in(
             &["Fn(name)"],
             "The function with this name as a value.",
             "fn twice(x) { 2 * x }\ncheck([1, 2].map(Fn(\"twice\")) == [2, 4]);",
         )
-        .returns("a function")
+        .returns(Returns::FUNCTION)
         .see(&["call"]),
         built_in(
             &["function.name"],
             "The name of the function.",
             "check(Fn(\"sin\").name == \"sin\");",
         )
-        .returns("a text"),
+        .returns(Returns::TEXT),
         built_in(
             &["function.is_anonymous"],
             "Whether the function was written as |x| … .",
             "check((|x| x).is_anonymous);",
         )
-        .returns("true or false"),
+        .returns(Returns::TRUTH),
         built_in(
             &["is_def_fn(name, count)", "is_def_fn(type, name, count)"],
             "Whether the script defines a function with this name and so many parameters.",
             "fn twice(x) { 2 * x }\ncheck(is_def_fn(\"twice\", 1) && !is_def_fn(\"twice\", 2));",
         )
-        .returns("true or false")
+        .returns(Returns::TRUTH)
         .see(&["is_def_var"]),
     ],
 };

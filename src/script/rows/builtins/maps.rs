@@ -1,6 +1,7 @@
 //! Maps.
 
 use crate::script::rows::built_in::{BuiltInTable, built_in};
+use crate::script::rows::returns::{Returns, ValueKind};
 
 /// Methods of maps.
 pub const TABLE: BuiltInTable = BuiltInTable {
@@ -9,31 +10,31 @@ pub const TABLE: BuiltInTable = BuiltInTable {
           to assign it adds it. Options are given as maps. Methods are written with parentheses: map.len().",
     rows: &[
         built_in(&["map.len()"], "How many keys the map has.", "check(#{ a: 1, b: 2 }.len() == 2);")
-            .returns("a whole number"),
+            .returns(Returns::WHOLE),
         built_in(&["map.is_empty()"], "Whether the map has no keys.", "check(#{}.is_empty());")
-            .returns("true or false"),
+            .returns(Returns::TRUTH),
         built_in(&["map.keys()"], "The keys, in the order of the alphabet.", "check(#{ b: 2, a: 1 }.keys() == [\"a\", \"b\"]);")
-            .returns("an array of texts")
+            .returns(Returns::array_of(&ValueKind::Text))
             .see(&["values"]),
         built_in(
             &["map.values()"],
             "The values, in the order of their keys.",
             "check(#{ b: 2, a: 1 }.values() == [1, 2]);",
         )
-        .returns("an array")
+        .returns(Returns::ARRAY)
         .see(&["keys"]),
         built_in(
             &["map.contains(key)"],
             "Whether there is such a key; the same as key in map.",
             "let m = #{ dt: 0.1 };\ncheck(m.contains(\"dt\") && \"t\" !in m);",
         )
-        .returns("true or false"),
+        .returns(Returns::TRUTH),
         built_in(
             &["map.get(key)"],
             "The value of a key, or nothing if there is none.",
             "let m = #{ dt: 0.1 };\ncheck(m.get(\"dt\") == 0.1 && m.get(\"t\") == ());\ncheck((m.get(\"t\") ?? 5) == 5);",
         )
-        .returns("a value or nothing"),
+        .returns(Returns::ANYTHING_OR_NOTHING),
         built_in(
             &["map.set(key, value)"],
             "Adds a key or changes its value; map.key = value does the same.",
@@ -44,7 +45,7 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "Takes a key out and gives its value; nothing if there is none.",
             "let m = #{ a: 1, b: 2 };\ncheck(m.remove(\"a\") == 1 && m.len() == 1);",
         )
-        .returns("a value or nothing"),
+        .returns(Returns::ANYTHING_OR_NOTHING),
         built_in(
             &["map.clear()"],
             "Takes all keys out.",
@@ -67,33 +68,33 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "A map with the same keys, and what function(key, value) makes of each value.",
             "check(#{ a: 1, b: 2 }.map(|key, value| value * 10).b == 20);",
         )
-        .returns("a map"),
+        .returns(Returns::MAP),
         built_in(
             &["map.filter(test)"],
             "A map of the keys that pass test(key, value).",
             "check(#{ a: 1, b: 2 }.filter(|key, value| value > 1).keys() == [\"b\"]);",
         )
-        .returns("a map")
+        .returns(Returns::MAP)
         .see(&["retain"]),
         built_in(
             &["map.drain(test)"],
             "Takes out the keys that pass test(key, value), and gives them as a map.",
             "let m = #{ a: 1, b: 2 };\ncheck(m.drain(|key, value| value > 1).keys() == [\"b\"] && m.keys() == [\"a\"]);",
         )
-        .returns("a map")
+        .returns(Returns::MAP)
         .see(&["retain"]),
         built_in(
             &["map.retain(test)"],
             "Keeps the keys that pass test(key, value), and gives the others as a map.",
             "let m = #{ a: 1, b: 2 };\ncheck(m.retain(|key, value| value > 1).keys() == [\"a\"] && m.keys() == [\"b\"]);",
         )
-        .returns("a map")
+        .returns(Returns::MAP)
         .see(&["drain", "filter"]),
         built_in(
             &["map.to_json()"],
             "The map as JSON text.",
             "check(#{ dt: 0.5 }.to_json() == \"{\\\"dt\\\":0.5}\");",
         )
-        .returns("a text"),
+        .returns(Returns::TEXT),
     ],
 };

@@ -1,6 +1,7 @@
 //! Ranges.
 
 use crate::script::rows::built_in::{BuiltInTable, built_in};
+use crate::script::rows::returns::Returns;
 
 /// Ranges of numbers.
 pub const TABLE: BuiltInTable = BuiltInTable {
@@ -13,33 +14,33 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "let found = [];\nfor n in range(10, 0, -4) { found.push(n); }\ncheck(found == [10, 6, 2]);\n\
              for n in range(0..10, 5) { print(n); }",
         )
-        .returns("numbers for a loop")
+        .returns(Returns::ANYTHING.words("numbers for a loop"))
         .see(&["linspace"]),
         built_in(&["range.start"], "Where the range begins.", "check((2..5).start == 2);")
-            .returns("a whole number"),
+            .returns(Returns::WHOLE),
         built_in(&["range.end"], "Where the range ends.", "check((2..5).end == 5);")
-            .returns("a whole number"),
+            .returns(Returns::WHOLE),
         built_in(
             &["range.contains(n)"],
             "Whether a whole number is in the range; the same as n in range.",
             "check((0..3).contains(2));\ncheck(3 !in 0..3);",
         )
-        .returns("true or false"),
+        .returns(Returns::TRUTH),
         built_in(&["range.is_empty"], "Whether nothing is in the range.", "check((3..3).is_empty);")
-            .returns("true or false"),
+            .returns(Returns::TRUTH),
         built_in(
             &["range.is_inclusive"],
             "Whether the end belongs to the range.",
             "check((0..=3).is_inclusive && !(0..3).is_inclusive);",
         )
-        .returns("true or false")
+        .returns(Returns::TRUTH)
         .see(&["is_exclusive"]),
         built_in(
             &["range.is_exclusive"],
             "Whether the end does not belong to the range.",
             "check((0..3).is_exclusive);",
         )
-        .returns("true or false")
+        .returns(Returns::TRUTH)
         .see(&["is_inclusive"]),
     ],
 };

@@ -1,6 +1,7 @@
 //! Texts.
 
 use crate::script::rows::built_in::{BuiltInTable, built_in};
+use crate::script::rows::returns::{Returns, ValueKind};
 
 /// Methods of texts and characters.
 pub const TABLE: BuiltInTable = BuiltInTable {
@@ -9,36 +10,36 @@ pub const TABLE: BuiltInTable = BuiltInTable {
           0, and -1 is the last. Methods that change a text change the variable they are called on.",
     rows: &[
         built_in(&["text.len"], "How many characters the text has.", "check(\"spline\".len == 6);")
-            .returns("a whole number")
+            .returns(Returns::WHOLE)
             .see(&["bytes"]),
         built_in(
             &["text.bytes"],
             "How many bytes the text takes as UTF-8.",
             "check(\"°\".bytes == 2 && \"°\".len == 1);",
         )
-        .returns("a whole number"),
+        .returns(Returns::WHOLE),
         built_in(&["text.is_empty"], "Whether the text has no characters.", "check(\"\".is_empty);")
-            .returns("true or false"),
+            .returns(Returns::TRUTH),
         built_in(
             &["text.contains(part)"],
             "Whether a text or character occurs in the text; the same as part in text.",
             "check(\"flying spaghetti\".contains(\"spa\"));\ncheck(\"spa\" in \"spaghetti\");",
         )
-        .returns("true or false")
+        .returns(Returns::TRUTH)
         .see(&["index_of", "starts_with"]),
         built_in(
             &["text.starts_with(part)"],
             "Whether the text begins so.",
             "check(\"beam1\".starts_with(\"beam\"));",
         )
-        .returns("true or false")
+        .returns(Returns::TRUTH)
         .see(&["ends_with"]),
         built_in(
             &["text.ends_with(part)"],
             "Whether the text ends so.",
             "check(\"out.svg\".ends_with(\".svg\"));",
         )
-        .returns("true or false")
+        .returns(Returns::TRUTH)
         .see(&["starts_with"]),
         built_in(
             &["text.index_of(part, [start])"],
@@ -46,13 +47,13 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "check(\"a-b-c\".index_of(\"-\") == 1);\ncheck(\"a-b-c\".index_of(\"-\", 2) == 3);\n\
              check(\"abc\".index_of('x') == -1);",
         )
-        .returns("a whole number"),
+        .returns(Returns::WHOLE),
         built_in(
             &["text.sub_string(start, [count])", "text.sub_string(range)"],
             "A piece of the text; without a count, all from start on.",
             "check(\"spaghetti\".sub_string(0, 3) == \"spa\");\ncheck(\"spaghetti\".sub_string(3..6) == \"ghe\");",
         )
-        .returns("a text")
+        .returns(Returns::TEXT)
         .see(&["crop", "split"]),
         built_in(
             &["text.split([separator], [count])", "text.split(index)"],
@@ -60,7 +61,7 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "check(\"1, 2, 3\".split(\", \") == [\"1\", \"2\", \"3\"]);\ncheck(\"two words\".split().len == 2);\n\
              check(\"abcd\".split(1) == [\"a\", \"bcd\"]);",
         )
-        .returns("an array of texts")
+        .returns(Returns::array_of(&ValueKind::Text))
         .doc("With a count there are at most so many pieces, the last with all the rest.")
         .see(&["split_rev"]),
         built_in(
@@ -68,28 +69,28 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "The pieces between separators, the last one first.",
             "check(\"a.b.c\".split_rev(\".\", 2) == [\"c\", \"a.b\"]);",
         )
-        .returns("an array of texts")
+        .returns(Returns::array_of(&ValueKind::Text))
         .see(&["split"]),
         built_in(
             &["text.to_chars()"],
             "The characters as an array.",
             "check(\"abc\".to_chars() == ['a', 'b', 'c']);",
         )
-        .returns("an array of characters")
+        .returns(Returns::array_of(&ValueKind::Character))
         .see(&["chars"]),
         built_in(
             &["text.chars([start], [count])", "text.chars(range)", "text.chars"],
             "The characters, to be gone over by for.",
             "let letters = 0;\nfor letter in \"abc\".chars() { letters += 1; }\ncheck(letters == 3);",
         )
-        .returns("characters")
+        .returns(Returns::ANYTHING.words("characters"))
         .see(&["to_chars"]),
         built_in(
             &["text.get(index)"],
             "The character at an index, or nothing if there is none; text[index] is an error then.",
             "check(\"abc\".get(-1) == 'c');\ncheck(\"abc\".get(7) == ());\ncheck(\"abc\"[0] == 'a');",
         )
-        .returns("a character or nothing"),
+        .returns(Returns::one_of(&[ValueKind::Character, ValueKind::Nothing])),
         built_in(
             &["text.set(index, character)"],
             "Changes the character at an index, if there is one.",
@@ -100,14 +101,14 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "The same in capital letters.",
             "check(\"beam\".to_upper() == \"BEAM\" && 'a'.to_upper() == 'A');",
         )
-        .returns("a text, or a character of a character")
+        .returns(Returns::TEXT.note(", or a character of a character"))
         .see(&["to_lower", "make_upper"]),
         built_in(
             &["text.to_lower()", "character.to_lower()"],
             "The same in small letters.",
             "check(\"BEAM\".to_lower() == \"beam\");",
         )
-        .returns("a text, or a character of a character")
+        .returns(Returns::TEXT.note(", or a character of a character"))
         .see(&["to_upper", "make_lower"]),
         built_in(
             &["text.make_upper()", "character.make_upper()"],
@@ -162,7 +163,7 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "Takes the last character, or so many, off the end and gives them.",
             "let word = \"beams\";\ncheck(word.pop() == 's');\ncheck(word.pop(2) == \"am\" && word == \"be\");",
         )
-        .returns("a character, or a text if a count is given"),
+        .returns(Returns::CHARACTER.note(", or a text if a count is given")),
         built_in(
             &["text.clear()"],
             "Makes the text empty.",

@@ -1,6 +1,7 @@
 //! Printing, and questions about any value.
 
 use crate::script::rows::built_in::{BuiltInTable, built_in};
+use crate::script::rows::returns::Returns;
 
 /// Functions for values of any kind, and the clock.
 pub const TABLE: BuiltInTable = BuiltInTable {
@@ -24,33 +25,33 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "The name of the type of a value.",
             "check(type_of(0.5) == \"number\" && type_of(2) == \"whole number\");\ncheck(type_of(vec(1, 2)) == \"vector\");",
         )
-        .returns("a text"),
+        .returns(Returns::TEXT),
         built_in(
             &["is_def_var(name)"],
             "Whether there is a variable with this name here.",
             "let dt = 0.1;\ncheck(is_def_var(\"dt\") && !is_def_var(\"tip\"));",
         )
-        .returns("true or false")
+        .returns(Returns::TRUTH)
         .see(&["is_def_fn"]),
         built_in(
             &["is_shared(variable)"],
             "Whether a closure holds the variable as well.",
             "let count = 0;\nlet add = || count += 1;\ncheck(is_shared(count));",
         )
-        .returns("true or false"),
+        .returns(Returns::TRUTH),
         built_in(
             &["timestamp()"],
             "The time on the clock now, to measure how long something takes.",
             "let began = timestamp();\ncheck(began.elapsed >= 0);",
         )
-        .returns("a timestamp")
+        .returns(Returns::TIMESTAMP)
         .see(&["elapsed"]),
         built_in(
             &["timestamp.elapsed", "timestamp.elapsed()"],
             "Seconds on the clock since a timestamp was taken.",
             "let began = timestamp();\nfor i in 0..100 { sqrt(i); }\nprint(`${sci(began.elapsed)} s`);",
         )
-        .returns("a number")
+        .returns(Returns::NUMBER)
         .see(&["timestamp"]),
     ],
 };

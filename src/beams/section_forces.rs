@@ -1,0 +1,236 @@
+//! Section forces at any place of a beam.
+//!
+//! What the balance knows of the section forces are their integrals with the derivatives of the functions, by the quadrature of the beam:
+//!
+//! ```text
+//! Σ w N_a' n = F_a          Σ w N_a' M - Σ w N_a (x' × n) = T_a          F_a, T_a: loads minus inertia, exact
+//! ```
+//!
+//! Forces `n`, `M` at the quadrature points balance that; at the ends of a beam they differ from those that balance it by exact
+//! integrals at first order in the length of a span, since the rules take few points. Told are the latter: of all derivatives `T` of the functions of a run of smoothly joined spans, the ones with
+//!
+//! ```text
+//! ∫ t n̂ dξ = Σ w t n               for all t in T
+//! ∫ t M̂ dξ = Σ w t M + ∫ v (Π m) dξ - Σ w v m      for all t in T, v' = t;  m = x' × n,  ∫ t Π m dξ = Σ w t m
+//! ```
+//!
+//! which are the projections of the true section forces, up to the ends: `n` with an error of order `p` in the length of a span, `M` of order 2 at least
+//! (1 on linear elements, where it is constant). With the reproducing kernel of
+//! `T` they are weighted sums over the points, whose weights fall off within a few spans. Runs know nothing of each
+//! other: where they meet, at a joint or a node of Lagrange elements, both have a value.
+
+use super::{BeamError, Mesh, Section};
+use crate::geometry::{LowerSplines, Reproduction, Span, Vec2, cross, larger};
+
+/// Weights that are smaller than this part of the largest are zero but for rounding.
+const NO_WEIGHT: f64 = 1e-14;
+
+/// What a cross section transmits, and how it is strained by that.
+///
+/// In the frame of the section, whose first axis is its normal: these are forces of the part of the beam that follows on the part before.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SectionForces {
+    /// `N`, along the normal of the section: positive in tension [force].
+    pub axial: f64,
+    /// `Q`, across the normal, positive to its left [force].
+    pub shear: f64,
+    /// `M`, positive counter-clockwise [force·length].
+    pub moment: f64,
+    /// `Γ1 = N/EA` [-]
+    pub axial_strain: f64,
+    /// `Γ2 = Q/GA` [-]
+    pub shear_strain: f64,
+    /// `κ = M/EI`, the change of curvature since drawn [1/length].
+    pub curvature: f64,
+}
+
+impl SectionForces {
+    /// Those of a force in space [force] and a moment [force·length], where the section has a normal of any length.
+    pub(super) fn of(section: &Section, normal: Vec2, force: Vec2, moment: f64) -> Self {
+        let normal = normal.normalize();
+        let (axial, shear) = (normal.dot(&force), cross(normal, force));
+        Self {
+            axial,
+            shear,
+            moment,
+            axial_strain: axial / section.axial_stiffness,
+            shear_strain: shear / section.shear_stiffness,
+            curvature: moment / section.bending_stiffness,
+        }
+    }
+}
+
+/// A place of a beam among its quadrature points: by which weights their values add up to what is transmitted there.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SectionPlace {
+    pub(super) force_shares: Vec<ForceShare>,
+    pub(super) moment_shares: Vec<MomentShare>,
+}
+
+/// The part of a point for `Γ`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ForceShare {
+    pub(super) span: usize,
+    pub(super) point: usize,
+    /// Of its normal.
+    pub(super) of_normal: f64,
+    /// Of its force.
+    pub(super) of_force: f64,
+    /// Of `w x' × n`, in the moment.
+    pub(super) of_couple: f64,
+}
+
+/// The part of a point for `κ`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct MomentShare {
+    pub(super) span: usize,
+    pub(super) point: usize,
+    pub(super) of_moment: f64,
+}
+
+/// The quadrature points of a beam in the order of the parameter of its mesh, run by run.
+#[derive(Debug, Clone)]
+pub struct SectionPoints {
+    runs: Vec<Run>,
+    /// The most points that a polynomial for the normal goes through: as many on either side.
+    most: usize,
+}
+
+/// Spans that join smoothly.
+#[derive(Debug, Clone)]
+struct Run {
+    splines: LowerSplines,
+    spans: Vec<Span>,
+    of_force: Vec<PointAt>,
+    of_moment: Vec<PointAt>,
+}
+
+/// A quadrature point: its parameter and weight, its span by its number in the run and in the beam, and which of the points of the span it is.
+#[derive(Debug, Clone, Copy)]
+struct PointAt {
+    xi: f64,
+    weight: f64,
+    of_run: usize,
+    span: usize,
+    point: usize,
+}
+
+impl SectionPoints {
+    /// The quadrature points of a beam on a mesh.
+    ///
+    /// # Errors
+    /// When the mesh has no quadrature.
+    pub fn of(mesh: &Mesh) -> Result<Self, BeamError> {
+        let numbered: Vec<_> = mesh.quadrature_spans()?.into_iter().enumerate().collect();
+        let mut runs = Vec::new();
+        for run in numbered.chunk_by(|(_, a), (_, b)| mesh.is_smooth(&a.span, &b.span)) {
+            let (mut of_force, mut of_moment) = (Vec::new(), Vec::new());
+            for (of_run, (index, quadrature)) in run.iter().enumerate() {
+                let at =
+                    |(point, (xi, weight))| PointAt { xi, weight, of_run, span: *index, point };
+                of_force.extend(quadrature.force_rule.iter().copied().enumerate().map(at));
+                let rule = quadrature.moment_rule()?;
+                let span = quadrature.span;
+                of_moment.extend(rule.iter_on(span.start, span.end).enumerate().map(at));
+            }
+            let spans: Vec<Span> = run.iter().map(|(_, quadrature)| quadrature.span).collect();
+            let splines = LowerSplines::of(mesh.basis(), &spans)?;
+            runs.push(Run { splines, spans, of_force, of_moment });
+        }
+        Ok(Self { runs, most: (mesh.basis().degree() + 1).next_multiple_of(2) })
+    }
+
+    /// The place at a parameter of the mesh; where two runs meet, on the one that begins there.
+    ///
+    /// # Errors
+    /// None that [`of`](Self::of) did not meet.
+    pub fn at(&self, xi: f64) -> Result<SectionPlace, BeamError> {
+        let run = self.runs.partition_point(|run| run.end() <= xi).min(self.runs.len() - 1);
+        self.runs[run].place(xi, self.most)
+    }
+
+    /// Places along the whole beam, with their parameters: so many in each span besides the knots. Where two runs meet there are two, the first
+    /// on the run that ends.
+    ///
+    /// # Errors
+    /// None that [`of`](Self::of) did not meet.
+    pub fn along(&self, within: usize) -> Result<Vec<(f64, SectionPlace)>, BeamError> {
+        let pieces = (within + 1) as f64;
+        let of_run = |run: &Run| {
+            let inside = |span: &Span| {
+                let (start, length) = (span.start, span.end - span.start);
+                (0..=within).map(move |i| start + length * i as f64 / pieces)
+            };
+            let parameters = run.spans.iter().flat_map(inside).chain([run.end()]);
+            let places = parameters.map(|xi| Ok((xi, run.place(xi, self.most)?)));
+            places.collect::<Vec<Result<_, BeamError>>>()
+        };
+        self.runs.iter().flat_map(of_run).collect()
+    }
+}
+
+impl Run {
+    fn end(&self) -> f64 {
+        self.spans[self.spans.len() - 1].end
+    }
+
+    fn place(&self, xi: f64, most: usize) -> Result<SectionPlace, BeamError> {
+        let span = self.spans.partition_point(|span| span.end <= xi).min(self.spans.len() - 1);
+        let here = self.splines.at(&self.spans[span], xi)?;
+        let nearest = nearest(&self.of_force, most, xi);
+        let share = |(index, at): (usize, &PointAt)| {
+            let on = &self.spans[at.of_run];
+            let is_near = nearest.contains(&index);
+            ForceShare {
+                span: at.span,
+                point: at.point,
+                of_normal: if is_near {
+                    lagrange(&self.of_force[nearest.clone()], at, xi)
+                } else {
+                    0.0
+                },
+                of_force: at.weight * here.kernel(on, at.xi),
+                of_couple: here.missed(on, at.xi),
+            }
+        };
+        let mut force_shares: Vec<ForceShare> =
+            self.of_force.iter().enumerate().map(share).collect();
+        let largest = |of: fn(&ForceShare) -> f64, shares: &[ForceShare]| {
+            NO_WEIGHT * shares.iter().map(|share| of(share).abs()).fold(0.0, larger)
+        };
+        let least_force = largest(|share| share.of_force, &force_shares);
+        let least_couple = largest(|share| share.of_couple, &force_shares);
+        force_shares.retain(|share| {
+            share.of_normal != 0.0
+                || share.of_force.abs() > least_force
+                || share.of_couple.abs() > least_couple
+        });
+        Ok(SectionPlace { force_shares, moment_shares: self.moment_shares(&here) })
+    }
+
+    fn moment_shares(&self, here: &Reproduction<'_>) -> Vec<MomentShare> {
+        let share = |at: &PointAt| MomentShare {
+            span: at.span,
+            point: at.point,
+            of_moment: at.weight * here.kernel(&self.spans[at.of_run], at.xi),
+        };
+        let mut shares: Vec<MomentShare> = self.of_moment.iter().map(share).collect();
+        let largest = shares.iter().map(|share| share.of_moment.abs()).fold(0.0, larger);
+        shares.retain(|share| share.of_moment.abs() > NO_WEIGHT * largest);
+        shares
+    }
+}
+
+/// The points nearest to a parameter, half of them on either side where there are as many.
+fn nearest(points: &[PointAt], most: usize, xi: f64) -> std::ops::Range<usize> {
+    let count = most.min(points.len());
+    let next = points.partition_point(|point| point.xi <= xi);
+    let first = next.saturating_sub(count / 2).min(points.len() - count);
+    first..first + count
+}
+
+/// The share of one of some points in the polynomial through them.
+fn lagrange(points: &[PointAt], of: &PointAt, xi: f64) -> f64 {
+    let others = points.iter().filter(|other| other.xi != of.xi);
+    others.map(|other| (xi - other.xi) / (of.xi - other.xi)).product()
+}

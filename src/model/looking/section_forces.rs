@@ -1,0 +1,85 @@
+//! What the cross sections of a beam transmit.
+
+use crate::beams::{BodyIndex, SectionForces, SectionPlace, SectionPoints, Station};
+use crate::geometry::corresponding;
+use crate::model::{Model, ModelError, Scene};
+
+/// Places in each span of [`Model::section_forces_along`], besides the knots.
+const WITHIN_A_SPAN: usize = 3;
+
+/// A station of a beam, found among the quadrature points once, to be asked often.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CrossSection {
+    body: usize,
+    place: SectionPlace,
+}
+
+/// The section forces at a place along a beam.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SectionSample {
+    /// From the start of the beam as drawn [length].
+    pub arc_length: f64,
+    /// What is transmitted there.
+    pub forces: SectionForces,
+}
+
+impl Model {
+    /// A station of a beam as section forces need it; where a joint cuts the beam, the side that begins there.
+    ///
+    /// # Errors
+    /// When the station lies outside its beam, or on a particle.
+    pub fn cross_section(
+        &self,
+        scene: &Scene,
+        station: &Station,
+    ) -> Result<CrossSection, ModelError> {
+        let BodyIndex::Beam(beam) = station.body else {
+            return Err(ModelError::NoSection { body: scene.name_of_body(station) });
+        };
+        let (definition, mesh) = (&scene.beams[beam], &self.meshes()[beam]);
+        let xi = station
+            .parameter(&definition.axis, mesh)
+            .map_err(ModelError::geometry(&definition.name))?;
+        let points = self.section_points(scene, beam)?;
+        let place = points.at(xi).map_err(ModelError::beam(&definition.name))?;
+        Ok(CrossSection { body: beam, place })
+    }
+
+    /// Section forces in the present configuration, by the law of the material from the strains there, as they balance loads and inertia:
+    /// see [`SectionPlace`].
+    ///
+    /// In a step of the energy-momentum method the balance has those of its middle, which are the mean of those at its ends: where a stiff beam rings
+    /// from step to step, the mean of two neighbouring steps does not.
+    pub fn section_forces(&self, at: &CrossSection) -> SectionForces {
+        self.bodies()[at.body].dynamics.section_forces(&at.place)
+    }
+
+    /// The section forces along a beam, from its start to its end: at the knots and at three places between. Where a joint cuts the beam there are two
+    /// rows of the same arc length, that of the part before and that of the part behind.
+    ///
+    /// # Errors
+    /// When an axis has a point without a tangent.
+    pub fn section_forces_along(
+        &self,
+        scene: &Scene,
+        beam: usize,
+    ) -> Result<Vec<SectionSample>, ModelError> {
+        let (definition, mesh) = (&scene.beams[beam], &self.meshes()[beam]);
+        let dynamics = &self.bodies()[beam].dynamics;
+        let (from, onto) = (mesh.basis().domain(), definition.axis.domain());
+        let sample = |(xi, place): (f64, SectionPlace)| {
+            let arc_length = definition
+                .axis
+                .length_to(corresponding(xi, from, onto))
+                .map_err(ModelError::geometry(&definition.name))?;
+            Ok(SectionSample { arc_length, forces: dynamics.section_forces(&place) })
+        };
+        let places = self.section_points(scene, beam)?.along(WITHIN_A_SPAN);
+        let places = places.map_err(ModelError::beam(&definition.name))?;
+        places.into_iter().map(sample).collect()
+    }
+
+    fn section_points(&self, scene: &Scene, beam: usize) -> Result<SectionPoints, ModelError> {
+        SectionPoints::of(&self.meshes()[beam]).map_err(ModelError::beam(&scene.beams[beam].name))
+    }
+}

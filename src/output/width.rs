@@ -1,0 +1,63 @@
+//! How many columns a text takes at a terminal, where 漢 stands in two and a combining accent in none.
+//!
+//! Widths are those of Unicode Standard Annex #11 (East Asian Width), of characters one by one, as terminals count.
+
+use unicode_width::UnicodeWidthChar;
+
+/// The columns that a character takes; what moves the cursor, such as a tab, takes none.
+pub fn columns_of(letter: char) -> usize {
+    letter.width().unwrap_or(0)
+}
+
+/// The columns that a text of one line takes.
+pub fn columns(text: &str) -> usize {
+    text.chars().map(columns_of).sum()
+}
+
+/// The longest beginning of a text that takes no more than so many columns.
+pub fn beginning(text: &str, most: usize) -> &str {
+    let mut taken = 0;
+    let beyond = text.char_indices().find(|(_, letter)| {
+        taken += columns_of(*letter);
+        taken > most
+    });
+    beyond.map_or(text, |(end, _)| &text[..end])
+}
+
+/// A text that takes no more than so many columns: one that is wider ends with `mark` in the last of them.
+pub fn cut(text: &str, most: usize, mark: char) -> String {
+    match beginning(text, most) {
+        whole if whole.len() == text.len() => text.to_owned(),
+        _ if most == 0 => String::new(),
+        _ => format!("{}{mark}", beginning(text, most - columns_of(mark))),
+    }
+}
+
+/// A text with blanks behind it up to so many columns.
+pub fn padded(text: &str, width: usize) -> String {
+    // Rust's own widths count characters, and end at 65 535.
+    format!("{text}{}", " ".repeat(width.saturating_sub(columns(text))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn characters_take_the_columns_that_terminals_give_them() {
+        for (text, width) in [("arm", 3), ("梁", 2), ("e\u{301}", 1), ("ξ → 10⁻¹²…", 10), ("", 0)]
+        {
+            assert_eq!(columns(text), width, "{text}");
+        }
+    }
+
+    #[test]
+    fn texts_are_cut_and_filled_up_by_columns() {
+        assert_eq!(cut("漢字の梁", 8, '…'), "漢字の梁");
+        assert_eq!(cut("漢字の梁", 7, '…'), "漢字の…");
+        assert_eq!(cut("漢字の梁", 6, '…'), "漢字…");
+        assert_eq!((cut("ab", 1, '~'), cut("ab", 0, '~')), ("~".into(), String::new()));
+        assert_eq!(padded("梁", 4), "梁  ");
+        assert_eq!(padded("long", 2), "long");
+    }
+}

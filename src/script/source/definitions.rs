@@ -1,0 +1,129 @@
+//! The functions that a text defines, found in its tokens; and the brackets around them.
+
+use rhai::Token;
+
+use super::text::{Lexeme, name_of};
+
+/// A function, as its tokens stand in a text.
+#[derive(Clone, Copy, Debug)]
+pub struct Definition<'t> {
+    tokens: &'t [Lexeme],
+    /// The number of its first token: `fn`, or `private` before that.
+    pub first: usize,
+    start: usize,
+    /// The number of the bracket before its parameters; where there is none, of its body.
+    opening: usize,
+    body: usize,
+    /// The number of the token behind it.
+    pub end: usize,
+}
+
+/// All functions that a text with these tokens defines, in their order. The text need not be right.
+pub fn definitions(tokens: &[Lexeme]) -> impl DoubleEndedIterator<Item = Definition<'_>> {
+    let starts = tokens.iter().enumerate().filter(|(_, (token, _))| matches!(token, Token::Fn));
+    starts.map(|(start, _)| Definition::at(tokens, start))
+}
+
+impl<'t> Definition<'t> {
+    fn at(tokens: &'t [Lexeme], start: usize) -> Self {
+        let find = |from: usize, wanted: fn(&Token) -> bool| {
+            let found = tokens[from..].iter().position(|(token, _)| wanted(token));
+            found.map_or(tokens.len(), |ahead| from + ahead)
+        };
+        let opens = |token: &Token| {
+            // Empty parentheses are one token.
+            matches!(token, Token::LeftParen | Token::Unit | Token::LeftBrace)
+        };
+        let opening = find(start + 1, opens);
+        let body = find(opening, |token| matches!(token, Token::LeftBrace));
+        let is_private =
+            start.checked_sub(1).is_some_and(|before| matches!(tokens[before].0, Token::Private));
+        let first = start - usize::from(is_private);
+        Self { tokens, first, start, opening, body, end: closing(tokens, body) }
+    }
+
+    /// Its name and where it stands; none for a method of a type, which is no function of its name.
+    pub fn name(&self) -> Option<(&'t str, &'t Lexeme)> {
+        match &self.tokens[self.start + 1..self.opening] {
+            [lexeme] => Some((name_of(&lexeme.0)?, lexeme)),
+            _ => None,
+        }
+    }
+
+    /// Its name, for a method of a type with that before it: `number.twice`.
+    pub fn full_name(&self) -> String {
+        let words =
+            self.tokens[self.start + 1..self.opening].iter().filter_map(|(token, _)| match token {
+                Token::StringConstant(of) => Some(of.as_str()),
+                other => name_of(other),
+            });
+        words.collect::<Vec<_>>().join(".")
+    }
+
+    /// The names of its parameters.
+    pub fn parameters(&self) -> impl Iterator<Item = &'t str> + use<'t> {
+        self.tokens[self.opening..self.body].iter().filter_map(|(token, _)| name_of(token))
+    }
+
+    /// From the bracket before its parameters to the end of its body.
+    pub fn inside(&self) -> &'t [Lexeme] {
+        &self.tokens[self.opening..self.end]
+    }
+}
+
+/// By how much a token changes the depth of brackets.
+pub fn nesting(token: &Token) -> isize {
+    match token {
+        Token::LeftBrace
+        | Token::MapStart
+        | Token::LeftParen
+        | Token::LeftBracket
+        | Token::QuestionBracket => 1,
+        Token::RightBrace | Token::RightParen | Token::RightBracket => -1,
+        _ => 0,
+    }
+}
+
+/// The number of the token behind the bracket that closes the one at `open`; of all tokens, if none does.
+pub fn closing(tokens: &[Lexeme], open: usize) -> usize {
+    let mut depth = 0;
+    for (index, (token, _)) in tokens.iter().enumerate().skip(open) {
+        depth += nesting(token);
+        if depth == 0 {
+            return index + 1;
+        }
+    }
+    tokens.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::script::source::text::Source;
+
+    #[test]
+    fn functions_are_found_with_their_names_and_parameters() {
+        let source = Source::from(
+            "fn a() { f(1) } private fn b(x, y) { |z| #{ k: x } } fn \"whole number\".c(x) { x }",
+        );
+        let found: Vec<_> = definitions(source.tokens())
+            .map(|f| (f.full_name(), f.name().is_some(), f.parameters().count()))
+            .collect();
+        let expected = [("a", true, 0), ("b", true, 2), ("whole number.c", false, 1)];
+        assert_eq!(found, expected.map(|(name, plain, count)| (name.to_owned(), plain, count)));
+        let second = definitions(source.tokens()).nth(1).expect("two functions");
+        assert_eq!(source.tokens()[second.first].0, Token::Private);
+        assert_eq!(source.tokens()[second.end].0, Token::Fn);
+    }
+
+    #[test]
+    fn what_is_not_finished_is_looked_at_as_well() {
+        for text in ["fn", "fn f", "fn f(", "fn f(x", "fn f(x)", "fn f(x) {", "private fn f() { {"]
+        {
+            let source = Source::from(text);
+            let counts: Vec<_> =
+                definitions(source.tokens()).map(|f| f.parameters().count()).collect();
+            assert_eq!(counts, [usize::from(text.contains('x'))], "{text}");
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! The text of a script with its tokens: who reads tokens asks here, so that a text is lexed once, however many read it.
+//!
+//! Rhai's parser has its own pass over the text, with the tokens of [`syntax`](super::syntax) put in; there is no way to hand it
+//! tokens. That one more pass is all.
+
+use std::fmt;
+use std::ops::Deref;
+use std::sync::{Arc, OnceLock};
+
+use rhai::{Position, Token};
+
+use super::lexing::{Lexed, lex};
+
+/// A token and where it stands.
+pub type Lexeme = (Token, Position);
+
+/// A text of the language. Its copies are one text, and share its tokens, which are found when somebody asks for them first.
+#[derive(Clone)]
+pub struct Source(Arc<Held>);
+
+struct Held {
+    text: Box<str>,
+    lexed: OnceLock<Lexed>,
+}
+
+impl Source {
+    /// All tokens, comments left out. Text after a lexical error is lexed as well as it can be.
+    pub fn tokens(&self) -> &[Lexeme] {
+        &self.lexed().tokens
+    }
+
+    /// Where a comment begins that is never closed: Rhai would take the rest of the script for a part of it.
+    pub fn open_comment(&self) -> Option<Position> {
+        if !self.lexed().ends_in_comment {
+            return None;
+        }
+        let before = &self[..self.rfind("/*")?];
+        let column = before.chars().rev().take_while(|letter| *letter != '\n').count() + 1;
+        Some(position(before.matches('\n').count() + 1, column))
+    }
+
+    /// All names, of whatever they are names, in their order.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.tokens().iter().filter_map(|(token, _)| name_of(token))
+    }
+
+    /// What is imported: the path, where it is written as a text.
+    pub fn imports(&self) -> impl Iterator<Item = Option<&str>> {
+        let tokens = self.tokens();
+        let starts = (0..tokens.len()).filter(|index| matches!(tokens[*index].0, Token::Import));
+        starts.map(|import| match tokens.get(import + 1) {
+            Some((Token::StringConstant(path), _)) => Some(path.as_str()),
+            _ => None,
+        })
+    }
+
+    /// Whether the last token is a semicolon.
+    pub fn ends_in_semicolon(&self) -> bool {
+        matches!(self.tokens().last(), Some((Token::SemiColon, _)))
+    }
+
+    /// The byte offset of a line and column, both from 1 and columns in characters.
+    pub fn offset(&self, line: usize, column: usize) -> usize {
+        let mut start = 0;
+        for (index, text) in self.split_inclusive('\n').enumerate() {
+            if index + 1 == line {
+                let inside =
+                    text.char_indices().nth(column.saturating_sub(1)).map(|(offset, _)| offset);
+                return start + inside.unwrap_or(text.trim_end_matches(['\n', '\r']).len());
+            }
+            start += text.len();
+        }
+        self.len()
+    }
+
+    /// The byte offset of a token.
+    pub fn offset_of(&self, (_, at): &Lexeme) -> usize {
+        self.offset(at.line().unwrap_or(1), at.position().unwrap_or(1))
+    }
+
+    fn lexed(&self) -> &Lexed {
+        self.0.lexed.get_or_init(|| lex(self))
+    }
+}
+
+/// The name that a token is, if it is one.
+pub fn name_of(token: &Token) -> Option<&str> {
+    match token {
+        Token::Identifier(name) => Some(name.as_str()),
+        _ => None,
+    }
+}
+
+/// A place of the engine, which counts lines and columns up to 65 535 and no further.
+pub fn position(line: usize, column: usize) -> Position {
+    let counted = |number: usize| number.try_into().unwrap_or(u16::MAX);
+    Position::new(counted(line), counted(column))
+}
+
+/// The place in a text that stands behind so many lines.
+pub fn behind(at: Position, lines: usize) -> Position {
+    match (at.line(), at.position()) {
+        (Some(line), column) if lines > 0 => position(line + lines, column.unwrap_or(1)),
+        _ => at,
+    }
+}
+
+impl Deref for Source {
+    type Target = str;
+
+    fn deref(&self) -> &str {
+        &self.0.text
+    }
+}
+
+impl<T: Into<Box<str>>> From<T> for Source {
+    fn from(text: T) -> Self {
+        Self(Arc::new(Held { text: text.into(), lexed: OnceLock::new() }))
+    }
+}
+
+impl fmt::Debug for Source {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(&**self, f)
+    }
+}
+
+impl PartialEq for Source {
+    fn eq(&self, other: &Self) -> bool {
+        **self == **other
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::lexing::lexings;
+    use super::*;
+
+    fn source(text: &str) -> Source {
+        Source::from(text)
+    }
+
+    #[test]
+    fn copies_are_lexed_once_and_only_when_asked() {
+        let before = lexings();
+        let text = source("let a = b; import \"std/checks\" as c;");
+        let copy = text.clone();
+        assert_eq!(lexings(), before);
+        assert_eq!(copy.names().collect::<Vec<_>>(), ["a", "b", "c"]);
+        assert_eq!(text.imports().collect::<Vec<_>>(), [Some("std/checks")]);
+        assert!(text.ends_in_semicolon() && copy.open_comment().is_none());
+        assert_eq!(lexings(), before + 1);
+    }
+
+    #[test]
+    fn a_comment_that_is_never_closed_is_found() {
+        let open = |text: &str| source(text).open_comment();
+        assert_eq!(open("let a = 1;\n  /* lost"), Some(Position::new(2, 3)));
+        assert!(open(&"/*".repeat(100_000)).is_some());
+        for closed in
+            ["", "let a = 1; // end", "/* a /* b */ */ 1", "`text /* ${ 1 }`", "let t = \"/*\";"]
+        {
+            assert_eq!(open(closed), None, "{closed}");
+        }
+    }
+
+    #[test]
+    fn places_are_counted_from_the_lines_before() {
+        assert_eq!(behind(Position::new(2, 3), 10), Position::new(12, 3));
+        assert_eq!(behind(Position::NONE, 10), Position::NONE);
+        assert_eq!(source("ab\nξc").offset(2, 2), "ab\nξ".len());
+    }
+}

@@ -1,0 +1,8 @@
+//! Fingerprints of outputs and states.
+
+/// FNV-1a (Fowler, Noll & Vo 1991).
+pub fn fingerprint(bytes: impl IntoIterator<Item = u8>) -> u64 {
+    bytes.into_iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}

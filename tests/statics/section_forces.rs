@@ -1,0 +1,198 @@
+//! Section forces: against balance, on every mesh, turned and mirrored, where beams are cut, and on a bar that turns.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::{at, meshes, orders, scenes, sci, settings};
+use withy::beams::{Mesh, Section, SectionForces};
+use withy::geometry::{Curve, Vec2, cross};
+use withy::integrators::Method;
+use withy::joints::{JointKind, Partner};
+use withy::loads::{Frame, LoadKind, Schedule};
+use withy::model::{Scene, StartMotion};
+use withy::simulation::{Simulation, Unwatched};
+use withy::statics::{Equilibrium, Loading};
+
+const LENGTH: f64 = 10.0;
+
+fn section() -> Section {
+    Section {
+        axial_stiffness: 1e4,
+        shear_stiffness: 4e3,
+        bending_stiffness: 100.0,
+        mass_per_length: 1.0,
+        rotary_inertia: 0.1,
+    }
+}
+
+fn turned(v: Vec2, angle: f64) -> Vec2 {
+    at(angle.cos() * v.x - angle.sin() * v.y, angle.sin() * v.x + angle.cos() * v.y)
+}
+
+/// Drawn from the origin in a direction, clamped there, with a force at its tip.
+fn loaded(mesh: &Mesh, direction: f64, force: Vec2) -> Equilibrium {
+    let mut scene = Scene::new("cantilever");
+    let axis = Curve::line(Vec2::zeros(), turned(at(LENGTH, 0.0), direction)).unwrap();
+    let beam = scenes::add_beam(&mut scene, axis, mesh, section());
+    let start = scene.station(beam, 0.0).unwrap();
+    scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
+    let station = scenes::end_of(&mut scene, beam);
+    let load = LoadKind::Force { station, force, frame: Frame::Dead };
+    scene.add_load(load, Schedule::constant(1.0).unwrap());
+    let loading = Loading { steps: 40, ..Loading::default() };
+    Equilibrium::find(scene, loading, &mut |_| true)
+        .unwrap_or_else(|error| panic!("{}: {error}", mesh.describe()))
+}
+
+/// The largest errors along the beam of moment and force, relative to their largest, and that of the moment at the clamp.
+fn errors(rest: &Equilibrium, force: Vec2) -> [f64; 3] {
+    let position = |s: f64| {
+        let station = withy::beams::Station::on_beam(0, s);
+        let place = rest.scene().place(&station, rest.model().meshes()).unwrap();
+        rest.model().position(&place)
+    };
+    let tip = position(LENGTH);
+    let largest = cross(tip, force).abs();
+    let mut worst = [0.0_f64; 3];
+    for sample in rest.section_forces_along(0).unwrap() {
+        let exact = cross(tip - position(sample.arc_length), force);
+        let SectionForces { axial, shear, moment, .. } = sample.forces;
+        let error = (moment - exact).abs() / largest;
+        worst[0] = worst[0].max(error);
+        worst[1] = worst[1].max((axial.hypot(shear) / force.norm() - 1.0).abs());
+        if sample.arc_length == 0.0 {
+            worst[2] = worst[2].max(error);
+        }
+    }
+    worst
+}
+
+#[test]
+fn balance_is_found_along_a_strongly_bent_cantilever() {
+    let force = at(-1.0, 6.0);
+    // Of M, over the last doubling; the force is constant, and found to rounding.
+    let least_order = [
+        ("cubic C2", 2.2),
+        ("cubic C1", 2.2),
+        ("cubic C0", 2.7),
+        ("linear", 0.95),
+        ("quadratic Lagrange", 1.9),
+        ("cubic Lagrange", 2.7),
+        ("quadratic C1", 1.9),
+        ("degree 4, C3", 2.2),
+        ("degree 5, C4", 2.3),
+    ];
+    let all = [16, 32, 64].map(|spans| {
+        let with = |(_, mesh): (_, Mesh)| errors(&loaded(&mesh, 0.3, force), force);
+        // Two points a span leave modes without energy, in which nothing rests.
+        let held = meshes(spans).into_iter().filter(|(name, _)| !name.ends_with("2 points"));
+        held.map(with).collect::<Vec<_>>()
+    });
+    let mut missed = Vec::new();
+    for (index, (name, least)) in least_order.into_iter().enumerate() {
+        let errors_of = |what: usize| [0, 1, 2].map(|level| all[level][index][what]);
+        println!("{name:20} |(N, Q)|       {}", sci(&errors_of(1)));
+        assert!(errors_of(1).iter().all(|error| *error < 1e-12), "{name}");
+        for (what, label) in [(0, "M"), (2, "M at the clamp")] {
+            let order = orders(&errors_of(what));
+            println!("{name:20} {label:14} {} orders {order:.2?}", sci(&errors_of(what)));
+            // At the clamp degree 4 happens to be better by far from the start.
+            if order[1] < least && errors_of(what)[2] > 1e-7 {
+                missed.push(format!("{name}: {label} of order {order:.2?}"));
+            }
+        }
+    }
+    assert!(missed.is_empty(), "{missed:?}");
+}
+
+#[test]
+fn turning_changes_nothing_and_mirroring_the_signs_of_shear_and_moment() {
+    let mesh = Mesh::bspline(8, 3, 2).unwrap();
+    let force = at(-1.0, 4.0);
+    let along = |direction: f64, force: Vec2| {
+        loaded(&mesh, direction, force).section_forces_along(0).unwrap()
+    };
+    let here = along(0.0, force);
+    assert_eq!(here.len(), 8 * 4 + 1);
+    let there = along(1.1, turned(force, 1.1));
+    let mirrored = along(0.0, at(force.x, -force.y));
+    let numbers = |of: &SectionForces, sign: f64| {
+        [
+            [of.axial, sign * of.shear, sign * of.moment],
+            [of.axial_strain, sign * of.shear_strain, sign * of.curvature],
+        ]
+    };
+    for ((here, there), mirrored) in here.iter().zip(&there).zip(&mirrored) {
+        let expected = numbers(&here.forces, 1.0);
+        for other in [numbers(&there.forces, 1.0), numbers(&mirrored.forces, -1.0)] {
+            for (a, b) in expected.as_flattened().iter().zip(other.as_flattened()) {
+                assert!((a - b).abs() < 1e-9 * (1.0 + a.abs()), "{expected:?} {other:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_law_of_the_material_holds_between_the_points_as_at_them() {
+    let rest = loaded(&Mesh::bspline(7, 3, 2).unwrap(), 0.0, at(1.0, 3.0));
+    for sample in rest.section_forces_along(0).unwrap() {
+        let SectionForces { axial, shear, moment, .. } = sample.forces;
+        let SectionForces { axial_strain, shear_strain, curvature, .. } = sample.forces;
+        assert!((axial - 1e4 * axial_strain).abs() < 1e-10, "{sample:?}");
+        assert!((shear - 4e3 * shear_strain).abs() < 1e-10, "{sample:?}");
+        assert!((moment - 100.0 * curvature).abs() < 1e-10, "{sample:?}");
+    }
+}
+
+/// A straight beam on two supports with a third between, where the shear force jumps.
+#[test]
+fn where_a_support_cuts_the_beam_both_sides_are_told() {
+    let mut scene = Scene::new("continuous beam");
+    let axis = Curve::line(Vec2::zeros(), at(2.0, 0.0)).unwrap();
+    let beam = scenes::add_beam(&mut scene, axis, &Mesh::bspline(8, 3, 2).unwrap(), section());
+    for s in [0.0, 1.0, 2.0] {
+        let station = scene.station(beam, s).unwrap();
+        scene.join(JointKind::Hinge, station, Partner::Ground).unwrap();
+    }
+    let line = LoadKind::Line { beam, force: at(0.0, -1e-3), frame: Frame::Dead };
+    scene.add_load(line, Schedule::constant(1.0).unwrap());
+    let rest = Equilibrium::find(scene, Loading::default(), &mut |_| true).unwrap();
+    let along = rest.section_forces_along(0).unwrap();
+    let middle: Vec<_> = along.iter().filter(|sample| sample.arc_length == 1.0).collect();
+    assert_eq!(middle.len(), 2);
+    let [before, behind] = [middle[0].forces, middle[1].forces];
+    // Of two spans ql²/8 over the support with shear rigidity; 5/8 ql of shear on either side, but for the shear's own share.
+    assert!((before.shear + behind.shear).abs() < 1e-9 && behind.shear * before.shear < 0.0);
+    assert!((before.moment - behind.moment).abs() < 1e-9);
+    let jump = (behind.shear - before.shear).abs();
+    assert!(jump > 1.1e-3 && jump < 1.3e-3, "{jump}");
+    let here = rest.section_forces(&withy::beams::Station::on_beam(0, 1.0)).unwrap();
+    assert_eq!(here, behind);
+}
+
+#[test]
+fn a_bar_that_turns_is_pulled_by_its_own_inertia() {
+    let errors = [4, 8, 16].map(|spans| {
+        let mesh = Mesh::bspline(spans, 3, 2).unwrap();
+        let stiff = Section { axial_stiffness: 1e6, shear_stiffness: 1e6, ..section() };
+        let mut scene = scenes::free_beam(&mesh, stiff);
+        let start = scene.station(0, 0.0).unwrap();
+        scene.join(JointKind::Hinge, start, Partner::Ground).unwrap();
+        scene.beams[0].motion =
+            StartMotion { spin: 0.5, about: Some(Vec2::zeros()), ..StartMotion::default() };
+        // The stretch is put on suddenly: it rings until that is damped.
+        let damped = Method::EnergyDecaying { chi: 1.0 };
+        let mut simulation = Simulation::start(scene, settings(damped, 0.02)).unwrap();
+        simulation.run_to(4.0, &mut Unwatched).unwrap();
+        let spin = simulation.history().samples().last().unwrap().measures.angular_momentum
+            / (LENGTH.powi(3) / 3.0 + 0.1 * LENGTH);
+        let largest = 0.5 * spin * spin * LENGTH * LENGTH;
+        let along = simulation.section_forces_along(0).unwrap();
+        let errors = along.iter().map(|sample| {
+            let exact = largest * (1.0 - (sample.arc_length / LENGTH).powi(2));
+            (sample.forces.axial - exact).abs() / largest
+        });
+        errors.fold(0.0, f64::max)
+    });
+    println!("turning bar, N against ½ρAω²(L² - s²): {}", sci(&errors));
+    // The exact solution is that of a bar that does not stretch: by 1.2e-5 here.
+    assert!(errors.iter().all(|error| *error < 1e-4), "{errors:?}");
+}
