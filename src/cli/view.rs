@@ -50,10 +50,10 @@ fn prepare(options: &ViewOptions) -> Result<Run, Diagnostic> {
         let program = Program::load(file)?;
         let text = format!(
             "{}\n;\nwrite_viewer(latest_simulation(), {});\n",
-            program.text,
+            &*program.text,
             literal(&page)
         );
-        let program = Program { text: text.into(), ..program };
+        let program = Program { text: text.as_str().into(), ..program };
         return Ok(Run { program, out: options.out.clone(), page, _scratch: None });
     }
     let parent = file.parent().filter(|parent| !parent.as_os_str().is_empty());

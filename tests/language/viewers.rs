@@ -135,7 +135,7 @@ fn places_are_where_the_solver_says() {
     let mut compared = 0;
     for line in printed.lines() {
         let numbers: Vec<f64> = line.split(' ').map(|number| number.parse().unwrap()).collect();
-        let frame = times.iter().position(|time| *time == numbers[0]).unwrap();
+        let frame = times.iter().position(|time| (time - numbers[0]).abs() < 1e-12).unwrap();
         for (path, at) in paths.iter().zip([&numbers[1..3], &numbers[3..5]]) {
             let off = (path[frame].0 - at[0]).abs().max((path[frame].1 - at[1]).abs());
             // Half a step, and the roundings of at most three weights.

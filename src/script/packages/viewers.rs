@@ -154,7 +154,7 @@ fn assigned(
         }
     }
     let of = |simulation| {
-        given.iter().filter(|at| at.on(simulation).is_ok()).map(StationHandle::station).collect()
+        given.iter().filter(|at| at.on(simulation).is_ok()).map(|at| at.station).collect()
     };
     Ok(simulations.iter().map(of).collect())
 }
