@@ -82,7 +82,10 @@ fn asked(browser: &Path, page: &Path, script: &str, options: &[&str]) -> (Value,
          const element = document.body.appendChild(document.createElement('pre'));
          element.id = 'found'; element.textContent = JSON.stringify(found); }})</script></body>"
     );
-    let text = fs::read_to_string(page).expect("a page").replace("</body>", &added);
+    // Without a screen nothing asks for frames: a clock does.
+    let clock = "<body><script>window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 16);</script>";
+    let text = fs::read_to_string(page).expect("a page");
+    let text = text.replace("<body>", clock).replace("</body>", &added);
     let asking = home.path().join("asking.html");
     fs::write(&asking, text).expect("a page");
     let output = Command::new(browser)
@@ -166,7 +169,10 @@ fn the_tip_on_the_screen_is_where_the_solver_says() {
             assert!(frame["off"].as_f64().is_some_and(|off| off < 0.5), "{frame}");
             assert!(frame["scale"].as_f64().is_some_and(|scale| scale > 50.0), "{frame}");
             assert_eq!(frame["inside"], true);
-            assert_eq!(red("beyond"), paper, "beyond the tip is paper: {frame}");
+            assert!(
+                red("beyond").abs_diff(paper) < 30,
+                "beyond the tip is paper, or a line of the grid: {frame}"
+            );
             assert!(red("at").abs_diff(paper) > 40, "at the tip is the rod: {frame}");
         }
     }
