@@ -11,6 +11,7 @@ pub mod geometry;
 mod help;
 mod histories;
 mod integrators;
+mod language;
 mod loads;
 mod math;
 mod modes;
@@ -33,10 +34,10 @@ mod time_travel;
 mod vectors;
 mod viewers;
 
-use crate::script::rows::catalog::Catalog;
 use crate::script::rows::table::Table;
+pub use language::language;
 
-/// All domains, in the order of the reference.
+/// The domains of the language, in the order of the reference.
 pub const TABLES: &[&Table] = &[
     &math::TABLE,
     &vectors::TABLE,
@@ -73,11 +74,6 @@ pub const TABLES: &[&Table] = &[
     &reading_options::TABLE,
     &help::TABLE,
 ];
-
-/// The language of withy.
-pub fn language() -> Catalog {
-    Catalog::of(TABLES)
-}
 
 #[cfg(test)]
 mod tests;
