@@ -15,12 +15,12 @@ use super::say::tell;
 use super::view_options::ViewOptions;
 use crate::folders::Scratch;
 use crate::output::write_whole;
+use crate::panics;
 use crate::script::diagnose::Diagnostic;
 use crate::script::engine::runner::{self, Ending};
 use crate::script::packages::language;
 use crate::script::source::program::Program;
 use crate::script::state::settings::{Mode, Settings};
-use crate::script::words::panics;
 
 /// What is run, and where it may write.
 struct Run {
