@@ -14,6 +14,8 @@ mod run;
 mod say;
 mod session;
 mod start;
+mod view;
+mod view_options;
 mod watching;
 
 pub use exit::Exit;

@@ -3,6 +3,7 @@
 mod adaptive;
 mod archive;
 mod arrival;
+mod axis;
 mod clock;
 mod columns;
 mod controller;
@@ -29,6 +30,7 @@ mod trajectory;
 
 pub use archive::ArchiveError;
 pub use arrival::{Arrival, ArrivalKind};
+pub use axis::{Axes, AxisStation};
 pub use columns::{Column, ExtraColumn};
 pub use cores::cores;
 pub use error::SimulationError;

@@ -4,6 +4,7 @@ mod adapting;
 mod back;
 mod content;
 mod explain;
+mod frames;
 mod landing;
 mod looking_inside;
 mod noting;

@@ -13,3 +13,4 @@ mod prompt;
 mod session;
 mod standard_library;
 mod suite;
+mod viewers;

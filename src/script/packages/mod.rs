@@ -1,5 +1,6 @@
 //! The domains of the language, one file each. A new domain is a new file and a line in [`TABLES`].
 
+mod animations;
 mod arrays;
 mod checking;
 mod convergence_studies;
@@ -34,6 +35,7 @@ mod step_sizes;
 mod text;
 mod time_travel;
 mod vectors;
+mod viewers;
 
 use crate::script::rows::table::Table;
 pub use language::language;
@@ -69,6 +71,8 @@ pub const TABLES: &[&Table] = &[
     &explaining::TABLE,
     &pictures::TABLE,
     &rest_pictures::TABLE,
+    &viewers::TABLE,
+    &animations::TABLE,
     &stability_studies::TABLE,
     &cost_studies::TABLE,
     &precision_studies::TABLE,
