@@ -181,6 +181,31 @@ impl LineChart {
         self
     }
 
+    /// All series of charts in the axes of the first; each has the name of its chart, and its own where a chart has several.
+    pub fn shared(
+        title: impl Into<String>,
+        charts: impl IntoIterator<Item = (String, Self)>,
+    ) -> Self {
+        let mut charts = charts.into_iter().peekable();
+        let empty = charts.peek().map_or_else(|| Self::new(""), |(_, first)| first.clone());
+        let empty = Self { title: title.into(), series: Vec::new(), ..empty };
+        charts.fold(empty, |shared, (whose, chart)| {
+            let is_alone = chart.series.len() == 1;
+            chart.series.into_iter().fold(shared, |shared, series| {
+                let name =
+                    if is_alone { whose.clone() } else { format!("{whose}: {}", series.name) };
+                shared.series(Series { name, ..series })
+            })
+        })
+    }
+
+    /// Changes each series, given with its number.
+    pub fn each(mut self, change: impl Fn(usize, Series) -> Series) -> Self {
+        let series = self.series.into_iter().enumerate();
+        self.series = series.map(|(index, series)| change(index, series)).collect();
+        self
+    }
+
     /// Adds a line of small words below the title.
     pub fn caption(mut self, words: impl Into<String>) -> Self {
         self.captions.push(words.into());

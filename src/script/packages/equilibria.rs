@@ -204,6 +204,11 @@ impl EquilibriumHandle {
         self.0.rest.borrow()
     }
 
+    /// The scene of which it is one.
+    pub fn scene(&self) -> &SceneHandle {
+        &self.0.scene
+    }
+
     /// The place of a station of its scene.
     pub fn place(&self, station: &StationHandle) -> Result<Place, ScriptError> {
         let rest = self.rest();

@@ -1,9 +1,12 @@
 //! The domains of the language, one file each. A new domain is a new file and a line in [`TABLES`].
 
+mod along_pictures;
 mod arrays;
+mod chart_options;
 mod checking;
 mod convergence_studies;
 mod cost_studies;
+mod curve_pictures;
 mod equilibria;
 mod explaining;
 pub mod geometry;
@@ -13,6 +16,7 @@ mod integrators;
 mod loads;
 mod math;
 mod modes;
+pub mod motion_pictures;
 mod notes;
 mod pictures;
 mod precision_studies;
@@ -60,7 +64,9 @@ pub const TABLES: &[&Table] = &[
     &sliding::TABLE,
     &histories::TABLE,
     &explaining::TABLE,
+    &curve_pictures::TABLE,
     &pictures::TABLE,
+    &along_pictures::TABLE,
     &rest_pictures::TABLE,
     &stability_studies::TABLE,
     &cost_studies::TABLE,
