@@ -133,6 +133,12 @@ impl LineChart {
         }
     }
 
+    /// Says what stands above it.
+    pub fn title(mut self, title: impl Into<String>) -> Self {
+        self.title = title.into();
+        self
+    }
+
     /// Says what the horizontal axis shows.
     pub fn x_label(mut self, label: impl Into<String>) -> Self {
         self.x_label = label.into();

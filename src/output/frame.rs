@@ -14,6 +14,8 @@ const LABEL: f64 = 13.0;
 const NUMBER: f64 = 12.0;
 /// Free paper around a panel.
 const EDGE: f64 = 14.0;
+/// A text is set in several lines before it is set smaller than this part of its size.
+const SMALLEST: f64 = 0.8;
 /// A text with more lines than this would leave no paper for the data.
 const MOST_LINES: usize = 12;
 /// Pixels per labelled place along a horizontal and along a vertical axis.
@@ -193,7 +195,7 @@ struct Words {
 impl Words {
     fn of(text: &str, size: f64, room: f64) -> Self {
         let full = size;
-        let size = fonts::shrunk(text, full, room);
+        let size = fonts::shrunk(text, full, room).max(SMALLEST * full);
         let mut lines = fonts::lines(text, size, room);
         lines.truncate(MOST_LINES);
         Self { lines, size, full }

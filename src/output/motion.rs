@@ -230,10 +230,11 @@ impl Panel for MotionPicture {
     }
 
     fn margins(&self, width: f64, height: f64) -> Margins {
-        let margins = self
-            .frame((width - 140.0).max(50.0), (height - 110.0).max(50.0))
-            .margins(width, height);
-        Margins { right: margins.right.max(self.time_bar().width()), ..margins }
+        let frame = self.frame((width - 140.0).max(50.0), (height - 110.0).max(50.0));
+        let right = frame.margins(width, height).right.max(self.time_bar().width());
+        // The bar narrows the plot, and with it the legend.
+        let beside = right - frame.margins(width, height).right;
+        Margins { right, ..frame.margins(width - beside, height) }
     }
 
     fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {

@@ -185,14 +185,31 @@ impl StripPicture {
         }
     }
 
-    /// Writes the extremes of a beam beside their ordinates, where no other number is.
+    /// Places along the beams on paper, so close that nothing written passes between them.
+    fn on_beams(&self, frame: &Frame, plot: &Area) -> Vec<Point> {
+        let lines = self.strips.iter().flat_map(|strip| frame.curve(plot, &strip.line));
+        let dense = |run: Vec<Point>| {
+            let between = |pair: &[Point]| {
+                let (a, b) = (pair[0], pair[1]);
+                let count = (hypot(b.0 - a.0, b.1 - a.1) / NUMBER * 2.0).ceil().clamp(1.0, 500.0);
+                (0..=count as usize).map(move |index| {
+                    let part = index as f64 / count;
+                    (a.0 + part * (b.0 - a.0), a.1 + part * (b.1 - a.1))
+                })
+            };
+            run.windows(2).flat_map(between).collect::<Vec<_>>()
+        };
+        lines.flat_map(dense).collect()
+    }
+
+    /// Writes the extremes of a beam beside their ordinates, where no beam and no other number is.
     fn draw_extremes(
         &self,
         canvas: &mut Canvas,
         frame: &Frame,
         plot: &Area,
         ordinates: &[Ordinate],
-        taken: &mut Vec<Area>,
+        (on_beams, taken): (&[Point], &mut Vec<Area>),
     ) {
         let finite = || ordinates.iter().filter(|ordinate| ordinate.value.is_finite());
         let most = finite().max_by(|a, b| a.value.total_cmp(&b.value)).filter(|at| at.value > 0.0);
@@ -207,14 +224,17 @@ impl StripPicture {
             let length = hypot(tip.0 - foot.0, tip.1 - foot.1).max(1e-9);
             let outwards = ((tip.0 - foot.0) / length, (tip.1 - foot.1) / length);
             let half = (fonts::width(&text, NUMBER) / 2.0, 0.5 * NUMBER);
-            let free = [1.0, 2.5, 4.0].into_iter().map(|far| {
+            let free = [1.0, 2.5, 4.0, 6.0, 9.0, 13.0].into_iter().map(|far| {
                 let reach = 5.0 * far + half.0 * outwards.0.abs() + half.1 * outwards.1.abs();
                 let (x, y) = (tip.0 + reach * outwards.0, tip.1 + reach * outwards.1);
                 let x = x.clamp(plot.left + half.0 + 2.0, plot.right - half.0 - 2.0);
                 let y = y.clamp(plot.top + half.1, plot.bottom - half.1 - 2.0);
                 Area { left: x - half.0, top: y - half.1, right: x + half.0, bottom: y + half.1 }
             });
-            let is_free = |area: &Area| !taken.iter().any(|other| overlap(area, other));
+            let is_free = |area: &Area| {
+                let is_clear = |at: &Point| !overlap(area, &Area::around(*at, 1.0));
+                on_beams.iter().all(is_clear) && !taken.iter().any(|other| overlap(area, other))
+            };
             let Some(area) = free.into_iter().find(is_free) else { continue };
             let paper = Area { left: area.left - 2.0, right: area.right + 2.0, ..area };
             canvas.fill(paper, super::colour::WHITE);
@@ -277,9 +297,10 @@ impl Panel for StripPicture {
             }
         }
         self.symbols.iter().for_each(|symbol| symbol.draw(canvas, &frame, plot));
+        let on_beams = self.on_beams(&frame, plot);
         let mut taken = Vec::new();
         for runs in &runs {
-            self.draw_extremes(canvas, &frame, plot, &runs.concat(), &mut taken);
+            self.draw_extremes(canvas, &frame, plot, &runs.concat(), (&on_beams, &mut taken));
         }
     }
 }

@@ -104,26 +104,28 @@ impl Inside {
         self.beams.iter().map(of_beam).fold(picture, StripPicture::strip)
     }
 
-    /// The quantity over the arc lengths of the beams.
+    /// The quantity over the arc lengths of the beams; without a title, to stand beside strips that have it.
     pub fn chart(&self, quantity: &Quantity) -> LineChart {
-        let chart = LineChart::new(self.heading(quantity))
+        let chart = LineChart::new("")
             .x_label("s, from the start of the beam [length]")
             .y_label(quantity.label());
         self.beams.iter().fold(chart, |chart, beam| {
             let points = beam.along.iter().map(|at| (at.arc_length, (quantity.of)(at)));
-            chart.series(Series::new(beam.name.clone(), points.collect()))
+            // A lone beam needs no legend.
+            let name = if self.beams.len() > 1 { beam.name.clone() } else { String::new() };
+            chart.series(Series::new(name, points.collect()))
         })
     }
 
     /// The magnitude of the quantity as colours and widths of the beams.
     pub fn field(&self, quantity: &Quantity) -> FieldPicture {
-        let is_signed = !matches!(quantity.name, "strain_energy" | "speed");
-        let label = match is_signed {
-            true => format!("|{}| [{}]", quantity.sign, quantity.dimension),
-            false => quantity.label(),
+        let label = match quantity.sign {
+            sign if sign.len() == 1 => format!("|{sign}| [{}]", quantity.dimension),
+            // The title says it.
+            _ => format!("[{}]", quantity.dimension),
         };
-        let heading = self.heading(quantity);
-        let picture = FieldPicture::new(heading, label).symbols(self.symbols.iter().copied());
+        let picture =
+            FieldPicture::new(self.heading(quantity), label).symbols(self.symbols.iter().copied());
         self.beams.iter().fold(picture, |picture, beam| {
             let value = |at: &AlongSample| (plain(&at.position), (quantity.of)(at).abs());
             picture.beam(beam.along.iter().map(value).collect())
@@ -132,7 +134,7 @@ impl Inside {
 
     /// The chart as text for a terminal.
     pub fn text(&self, quantity: &Quantity, style: &Style) -> String {
-        self.chart(quantity).x_label("s").text(style)
+        self.chart(quantity).title(self.heading(quantity)).x_label("s").text(style)
     }
 
     /// What the chart would show, in lines: where there is no terminal.
