@@ -1,7 +1,7 @@
 //! Axes: from numbers to places along a side of a chart, and to the labels beside it.
 
 use super::number::format_number;
-use crate::elementary::{log10, whole_power};
+use crate::elementary::{log10, power, whole_power};
 
 /// How numbers are laid out along an axis of a chart.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -48,6 +48,12 @@ enum Cut {
     Below,
 }
 
+impl Default for Axis {
+    fn default() -> Self {
+        Self::between(0.0, 1.0)
+    }
+}
+
 impl Axis {
     /// A linear axis from the least to the greatest finite value, with `margin` times its length to spare at each end.
     pub fn linear(values: impl IntoIterator<Item = f64>, margin: f64) -> Self {
@@ -88,6 +94,12 @@ impl Axis {
         Self { scale: Scale::Logarithmic, low, high: high.max(low + 1.0), cut }
     }
 
+    /// A logarithmic axis with the given ends, both positive.
+    pub fn powers_between(low: f64, high: f64) -> Self {
+        let (low, high) = (log10(low), log10(high));
+        Self { scale: Scale::Logarithmic, low, high, cut: Cut::Nothing }
+    }
+
     /// The place of `x` on the axis, from 0 at the low end to 1 at the high end; beyond them outside the range, `nan` for `nan`.
     pub fn place(&self, x: f64) -> f64 {
         match self.scale {
@@ -103,6 +115,7 @@ impl Axis {
         let count = count.max(2) as f64;
         match self.scale {
             Scale::Linear => self.linear_ticks(count),
+            Scale::Logarithmic if self.high - self.low < 1.0 => self.ticks_within_a_power(count),
             Scale::Logarithmic => (self.power_ticks(count), Factor(0)),
         }
     }
@@ -143,6 +156,16 @@ impl Axis {
         let mut ticks: Vec<Tick> = free.map(tick).collect();
         ticks.splice(0..0, bottom);
         ticks
+    }
+
+    /// Round numbers, where there is no power of ten or one alone.
+    fn ticks_within_a_power(&self, count: f64) -> (Vec<Tick>, Factor) {
+        let ends = [self.low, self.high].map(|exponent| power(10.0, exponent));
+        let even = Self::between(ends[0], ends[1]);
+        let (ticks, factor) = even.linear_ticks(count);
+        let place = |tick: &Tick| self.place(ends[0] + tick.place * (ends[1] - ends[0]));
+        let placed = ticks.into_iter().map(|tick| Tick { place: place(&tick).min(1.0), ..tick });
+        (placed.collect(), factor)
     }
 
     fn place_of_power(&self, power: f64) -> f64 {
@@ -238,6 +261,18 @@ mod tests {
         assert_eq!(axis.place(0.0), 0.0);
         assert_eq!(axis.place(1e-11), 1.0);
         assert_eq!(ends(Axis::logarithmic([0.0, -1.0], DEFAULT_FLOOR)), (-18.0, -17.0));
+    }
+
+    #[test]
+    fn a_logarithmic_axis_within_a_power_has_round_numbers() {
+        assert_eq!(
+            labels(Axis::powers_between(2.0, 5.0)),
+            ["2.0", "2.5", "3.0", "3.5", "4.0", "4.5", "5.0"]
+        );
+        assert_eq!(labels(Axis::powers_between(1e-2, 1e1)), ["10⁻²", "10⁻¹", "10⁰", "10¹"]);
+        let (ticks, _) = Axis::powers_between(2.0, 8.0).ticks(4);
+        let four = ticks.iter().find(|tick| tick.label == "4").unwrap();
+        assert!((four.place - 0.5).abs() < 1e-12);
     }
 
     #[test]

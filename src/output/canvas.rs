@@ -25,6 +25,11 @@ pub struct Area {
 }
 
 impl Area {
+    /// The square around a point with sides twice as long as `reach`.
+    pub fn around((x, y): Point, reach: f64) -> Self {
+        Self { left: x - reach, top: y - reach, right: x + reach, bottom: y + reach }
+    }
+
     /// The length of the box in x.
     pub fn width(&self) -> f64 {
         self.right - self.left

@@ -1,13 +1,14 @@
 //! Line charts: series of points over a horizontal axis, linear or logarithmic.
 
 use super::{
-    axis::{Axis, DEFAULT_FLOOR, Scale, extent},
+    axis::{Axis, DEFAULT_FLOOR, Scale},
     canvas::{Align, Area, Canvas, Point},
     colour::{Colour, GREY, HUE_COUNT, INK, hue, tint},
     frame::{Frame, Margins},
     legend::Entry,
     marker::Marker,
     page::Panel,
+    plane::Limits,
     stroke::Stroke,
 };
 
@@ -107,7 +108,7 @@ pub struct LineChart {
     x_scale: Scale,
     y_scale: Scale,
     floor: f64,
-    y_range: Option<(f64, f64)>,
+    limits: Limits,
     size: (f64, f64),
     pub(super) series: Vec<Series>,
     captions: Vec<String>,
@@ -124,12 +125,18 @@ impl LineChart {
             x_scale: Scale::Linear,
             y_scale: Scale::Linear,
             floor: DEFAULT_FLOOR,
-            y_range: None,
+            limits: Limits::default(),
             size: (900.0, 560.0),
             series: Vec::new(),
             captions: Vec::new(),
             notes: Vec::new(),
         }
+    }
+
+    /// Says what stands above it.
+    pub fn title(mut self, title: impl Into<String>) -> Self {
+        self.title = title.into();
+        self
     }
 
     /// Sets the label of the horizontal axis of the chart.
@@ -162,9 +169,9 @@ impl LineChart {
         self
     }
 
-    /// Fixes the ends of the vertical axis of the chart; what lies beyond is cut off. Without it the axis fits the series.
-    pub fn y_range(mut self, low: f64, high: f64) -> Self {
-        self.y_range = Some((low, high));
+    /// Fixes the ends of axes; what lies beyond is cut off. An axis without limits fits what is seen of the series.
+    pub fn limits(mut self, limits: Limits) -> Self {
+        self.limits = limits;
         self
     }
 
@@ -177,6 +184,31 @@ impl LineChart {
     /// Adds a series to the chart.
     pub fn series(mut self, series: Series) -> Self {
         self.series.push(series);
+        self
+    }
+
+    /// All series of charts in the axes of the first; each has the name of its chart, and its own where a chart has several.
+    pub fn shared(
+        title: impl Into<String>,
+        charts: impl IntoIterator<Item = (String, Self)>,
+    ) -> Self {
+        let mut charts = charts.into_iter().peekable();
+        let empty = charts.peek().map_or_else(|| Self::new(""), |(_, first)| first.clone());
+        let empty = Self { title: title.into(), series: Vec::new(), ..empty };
+        charts.fold(empty, |shared, (whose, chart)| {
+            let is_alone = chart.series.len() == 1;
+            chart.series.into_iter().fold(shared, |shared, series| {
+                let name =
+                    if is_alone { whose.clone() } else { format!("{whose}: {}", series.name) };
+                shared.series(Series { name, ..series })
+            })
+        })
+    }
+
+    /// Changes each series, given with its number.
+    pub fn each(mut self, change: impl Fn(usize, Series) -> Series) -> Self {
+        let series = self.series.into_iter().enumerate();
+        self.series = series.map(|(index, series)| change(index, series)).collect();
         self
     }
 
@@ -203,22 +235,28 @@ impl LineChart {
             Scale::Linear => Axis::linear(values, margin),
             Scale::Logarithmic => Axis::logarithmic(values, self.floor),
         };
-        let y_range =
-            self.y_range.and_then(|(low, high)| extent([low, high])).map(|(low, high)| [low, high]);
-        let y = match y_range {
-            Some(ends) => axis(self.y_scale, &mut ends.into_iter(), 0.0),
-            None => axis(self.y_scale, &mut self.points().map(|point| point.1), 0.06),
+        let fixed = |scale, ends: Option<(f64, f64)>| {
+            let (low, high) = ends.filter(|(low, high)| low < high)?;
+            Some(match scale {
+                Scale::Linear => Axis::between(low, high),
+                Scale::Logarithmic if low > 0.0 => Axis::powers_between(low, high),
+                Scale::Logarithmic => Axis::logarithmic([low, high], self.floor),
+            })
         };
+        let is_between = |x: f64| self.limits.x.is_none_or(|(low, high)| (low..=high).contains(&x));
+        let mut seen = self.points().filter(|(x, _)| is_between(*x)).map(|point| point.1);
+        let x_margin = if marked { 0.04 } else { 0.0 };
+        let x = fixed(self.x_scale, self.limits.x).unwrap_or_else(|| {
+            axis(self.x_scale, &mut self.points().map(|point| point.0), x_margin)
+        });
+        let y = fixed(self.y_scale, self.limits.y)
+            .unwrap_or_else(|| axis(self.y_scale, &mut seen, 0.06));
         Frame {
             title: self.title.clone(),
             captions: self.captions.clone(),
             x_label: self.x_label.clone(),
             y_label: self.y_label.clone(),
-            x: axis(
-                self.x_scale,
-                &mut self.points().map(|point| point.0),
-                if marked { 0.04 } else { 0.0 },
-            ),
+            x,
             y,
             legend: self.legend(),
         }

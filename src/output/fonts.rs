@@ -48,6 +48,28 @@ pub fn fit(text: &str, size: f64, room: f64) -> String {
     }
 }
 
+/// `text` in as many lines as `room` asks for, broken between words, and within those that are longer than a line.
+pub fn lines(text: &str, size: f64, room: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    let mut line = String::new();
+    for word in text.chars().take(LONGEST).collect::<String>().split(' ') {
+        let joined = if line.is_empty() { word.to_owned() } else { format!("{line} {word}") };
+        if width(&joined, size) <= room {
+            line = joined;
+            continue;
+        }
+        lines.extend((!line.is_empty()).then(|| std::mem::take(&mut line)));
+        for letter in word.chars() {
+            if !line.is_empty() && width(&format!("{line}{letter}"), size) > room {
+                lines.push(std::mem::take(&mut line));
+            }
+            line.push(letter);
+        }
+    }
+    lines.extend((!line.trim().is_empty()).then_some(line));
+    lines
+}
+
 /// The glyphs of `text`, set with `size` pixels per em, ready to be drawn as pixels.
 pub fn glyphs(text: &str, size: f64) -> Vec<OutlinedGlyph> {
     let Some(face) = FACE.as_ref() else { return Vec::new() };
@@ -147,6 +169,17 @@ mod tests {
         assert_eq!(glyphs.len(), 1);
         assert_eq!(glyphs[0].len(), 2);
         assert!(turn(&glyphs[0][0]) * turn(&glyphs[0][1]) < 0.0);
+    }
+
+    #[test]
+    fn lines_hold_all_words_and_fit() {
+        let text = "drift of energy, momenta and gap of the flying spaghetti";
+        assert_eq!(lines(text, 12.0, 1000.0), [text]);
+        let broken = lines(text, 12.0, 120.0);
+        assert!(broken.len() > 2 && broken.iter().all(|line| width(line, 12.0) <= 120.0));
+        assert_eq!(broken.join(" "), text);
+        assert_eq!(lines(&"x".repeat(100), 12.0, 120.0).concat(), "x".repeat(100));
+        assert!(lines("", 12.0, 120.0).is_empty());
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The frame around the data of a panel: title, grid, axis lines, labels and legend.
 
 use super::{
-    axis::{Axis, Tick},
+    axis::{Axis, Factor, Tick},
     canvas::{Align, Area, Canvas, Point},
     colour::{AXIS, GREY, GRID, INK},
     curve, fonts, legend,
@@ -14,6 +14,10 @@ const LABEL: f64 = 13.0;
 const NUMBER: f64 = 12.0;
 /// Free paper around a panel.
 const EDGE: f64 = 14.0;
+/// A text is set in several lines before it is set smaller than this part of its size.
+const SMALLEST: f64 = 0.8;
+/// A text with more lines than this would leave no paper for the data.
+const MOST_LINES: usize = 12;
 /// Pixels per labelled place along a horizontal and along a vertical axis.
 const TICK_EVERY: (f64, f64) = (85.0, 50.0);
 
@@ -50,7 +54,7 @@ impl Margins {
 }
 
 /// The frame of a panel: everything around the data.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Frame {
     /// The title above the panel.
     pub title: String,
@@ -76,28 +80,32 @@ impl Frame {
         let numbers =
             y_ticks.iter().map(|tick| fonts::width(&tick.label, NUMBER)).fold(0.0, f64::max);
         let last = x_ticks.last().map_or(0.0, |tick| fonts::width(&tick.label, NUMBER));
-        let left = EDGE + numbers + 10.0 + if self.has_y_label() { LABEL + 10.0 } else { 0.0 };
+        let y_label = Words::of(&self.y_ticks(height).after(&self.y_label), LABEL, height - 90.0);
+        let left = EDGE + numbers + 10.0 + y_label.height(10.0);
         let right = (EDGE + last / 2.0).max(24.0);
-        let title = if self.title.is_empty() { 0.0 } else { TITLE + 10.0 };
-        let title = title + self.captions.len() as f64 * (CAPTION + 5.0);
+        let x_label =
+            Words::of(&self.x_ticks(width).after(&self.x_label), LABEL, width - left - right);
+        let title = Words::of(&self.title, TITLE, width - left - EDGE).height(10.0);
+        let title = title + self.caption_lines(width - left - EDGE).len() as f64 * (CAPTION + 5.0);
         Margins {
             left,
             top: EDGE + title + legend::height(&self.legend, width - left - right) + 6.0,
             right,
-            bottom: EDGE + NUMBER + 8.0 + if self.has_x_label() { LABEL + 8.0 } else { 0.0 },
+            bottom: EDGE + NUMBER + 8.0 + x_label.height(8.0),
         }
     }
 
     /// Draws the frame, all but the data; `plot` is what the margins leave of `area`.
     pub fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
         let room = area.right - plot.left - EDGE;
-        let size = fonts::shrunk(&self.title, TITLE, room);
-        let title = fonts::fit(&self.title, size, room);
-        canvas.text(&title, (plot.left, area.top + EDGE + TITLE * 0.8), size, Align::Start, INK);
+        let title = Words::of(&self.title, TITLE, room);
         let mut baseline = area.top + EDGE + TITLE * 0.8;
-        for caption in &self.captions {
+        for (index, line) in title.lines.iter().enumerate() {
+            baseline += if index == 0 { 0.0 } else { title.apart() };
+            canvas.text(line, (plot.left, baseline), title.size, Align::Start, INK);
+        }
+        for caption in self.caption_lines(room) {
             baseline += CAPTION + 5.0;
-            let caption = fonts::fit(caption, CAPTION, area.right - plot.left - EDGE);
             canvas.text(&caption, (plot.left, baseline + 2.0), CAPTION, Align::Start, GREY);
         }
         let legend_top = plot.top - 6.0 - legend::height(&self.legend, plot.width());
@@ -139,15 +147,12 @@ impl Frame {
                 canvas.text(&tick.label, (x, baseline), NUMBER, Align::Middle, INK);
             }
         }
-        let label = fonts::fit(&factor.after(&self.x_label), LABEL, plot.width());
+        let label = Words::of(&factor.after(&self.x_label), LABEL, plot.width());
         let middle = (plot.left + plot.right) / 2.0;
-        canvas.text(
-            &label,
-            (middle, area.bottom.min(baseline + LABEL + 11.0)),
-            LABEL,
-            Align::Middle,
-            GREY,
-        );
+        for (index, line) in label.lines.iter().enumerate() {
+            let y = baseline + LABEL + 11.0 + index as f64 * label.apart();
+            canvas.text(line, (middle, area.bottom.min(y)), label.size, Align::Middle, GREY);
+        }
     }
 
     fn draw_y_axis(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
@@ -157,23 +162,56 @@ impl Frame {
             canvas.line([(plot.left, y), (plot.right, y)].map(crisp), 1.0, GRID);
             canvas.text(&tick.label, (plot.left - 8.0, y + NUMBER * 0.36), NUMBER, Align::End, INK);
         }
-        let label = fonts::fit(&factor.after(&self.y_label), LABEL, plot.height() + 20.0);
+        let label = Words::of(&factor.after(&self.y_label), LABEL, plot.height() + 20.0);
         let middle = (plot.top + plot.bottom) / 2.0;
-        canvas.text_upwards(
-            &label,
-            (area.left + EDGE + LABEL * 0.8, middle),
-            LABEL,
-            Align::Middle,
-            GREY,
-        );
+        for (index, line) in label.lines.iter().enumerate() {
+            let x = area.left + EDGE + LABEL * 0.8 + index as f64 * label.apart();
+            canvas.text_upwards(line, (x, middle), label.size, Align::Middle, GREY);
+        }
     }
 
-    fn has_x_label(&self) -> bool {
-        !self.x.ticks(6).1.after(&self.x_label).is_empty()
+    fn x_ticks(&self, width: f64) -> Factor {
+        self.x.ticks(count(width - 120.0, TICK_EVERY.0)).1
     }
 
-    fn has_y_label(&self) -> bool {
-        !self.y.ticks(6).1.after(&self.y_label).is_empty()
+    fn y_ticks(&self, height: f64) -> Factor {
+        self.y.ticks(count(height - 110.0, TICK_EVERY.1)).1
+    }
+
+    fn caption_lines(&self, room: f64) -> Vec<String> {
+        let lines = |caption: &String| fonts::lines(caption, CAPTION, room);
+        self.captions.iter().flat_map(lines).take(MOST_LINES).collect()
+    }
+}
+
+/// A title or a label: set smaller where it is too long for a line, and then in several.
+struct Words {
+    lines: Vec<String>,
+    /// The size of its letters, and that of a text which is not too long.
+    size: f64,
+    full: f64,
+}
+
+impl Words {
+    fn of(text: &str, size: f64, room: f64) -> Self {
+        let full = size;
+        let size = fonts::shrunk(text, full, room).max(SMALLEST * full);
+        let mut lines = fonts::lines(text, size, room);
+        lines.truncate(MOST_LINES);
+        Self { lines, size, full }
+    }
+
+    /// The distance of its lines.
+    fn apart(&self) -> f64 {
+        1.25 * self.size
+    }
+
+    /// What it takes with some paper; nothing where there are no words.
+    fn height(&self, paper: f64) -> f64 {
+        match self.lines.len() {
+            0 => 0.0,
+            count => self.full + paper + (count - 1) as f64 * self.apart(),
+        }
     }
 }
 
@@ -193,15 +231,7 @@ mod tests {
     #[test]
     fn a_long_title_is_set_smaller_before_it_is_cut() {
         let title = "drift of energy, momenta and gap of the flying spaghetti";
-        let frame = Frame {
-            title: title.into(),
-            captions: Vec::new(),
-            x_label: String::new(),
-            y_label: String::new(),
-            x: Axis::between(0.0, 1.0),
-            y: Axis::between(0.0, 1.0),
-            legend: Vec::new(),
-        };
+        let frame = Frame { title: title.into(), ..Frame::default() };
         let area = Area { left: 0.0, top: 0.0, right: 500.0, bottom: 300.0 };
         assert!(fonts::width(title, TITLE) > 440.0);
         let mut canvas = Canvas::default();

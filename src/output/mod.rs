@@ -1,7 +1,7 @@
 //! Tables, files and pictures from plain data. Nothing here knows what a simulation is.
 //!
 //! ```text
-//! chart, heat_map, bars, motion → page → frame, hatching, legend, timebar → axis, curve, stroke, marker → canvas → figure → svg, png → files
+//! chart, heat_map, bars, motion, strips, field → page → plane, symbol → frame, hatching, legend, colour_bar → axis, curve, stroke, marker → canvas → figure → svg, png → files
 //! chart, heat_map → terminal → axis, curve
 //! motion → animation → figure
 //! viewer (a page for browsers) → canvas, colour
@@ -17,9 +17,11 @@ mod bars;
 mod canvas;
 mod chart;
 mod colour;
+mod colour_bar;
 mod csv;
 mod curve;
 mod error;
+mod field;
 mod figure;
 mod files;
 mod fonts;
@@ -31,13 +33,15 @@ mod marker;
 mod motion;
 mod number;
 mod page;
+mod plane;
 mod png;
 mod records;
+mod strips;
 mod stroke;
 mod svg;
+mod symbol;
 mod table;
 mod terminal;
-mod timebar;
 pub mod viewer;
 mod width;
 
@@ -52,6 +56,7 @@ pub use chart::{Ink, LineChart, Series, Weight};
 pub use colour::Colour;
 pub use csv::CsvTable;
 pub use error::OutputError;
+pub use field::FieldPicture;
 pub use figure::{Figure, PictureKind};
 pub use files::write_whole;
 pub use frame::Margins;
@@ -60,8 +65,11 @@ pub use marker::Marker;
 pub use motion::{MotionPicture, Snapshot};
 pub use number::{format_number, scientific, significant};
 pub use page::{Page, Panel};
+pub use plane::Limits;
 pub use records::CsvRecords;
+pub use strips::{Side, Strip, StripPicture};
 pub use stroke::Stroke;
+pub use symbol::{PlacedSymbol, Symbol};
 pub use table::{Cell, Table};
 pub use terminal::{Colours, ConfigurationPicture, Glyphs, Mark, Style};
 pub use width::{beginning, columns, columns_of, cut, padded};

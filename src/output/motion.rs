@@ -1,27 +1,23 @@
 //! Pictures of motion: beams and particles at several times, one over the other, early ones pale and late ones dark.
 
 use super::{
-    axis::{Axis, extent},
+    axis::extent,
     canvas::{Align, Area, Canvas, Point},
     colour::{Colour, GREY, HUE_COUNT, INK, hue, ramp, tint},
+    colour_bar::ColourBar,
     frame::{Frame, Margins},
     legend::Entry,
     marker::Marker,
     page::{Page, Panel},
+    plane::{Limits, View},
     stroke::Stroke,
-    timebar::TimeBar,
+    symbol::PlacedSymbol,
 };
 
 const LINE: f64 = 2.0;
 const TRACE: f64 = 1.4;
 const MARK: f64 = 2.4;
 const PARTICLE: f64 = 4.5;
-/// The width of the plot that a lone picture aims at, and the limits of its height and least width.
-const WIDTH: f64 = 740.0;
-const HEIGHTS: (f64, f64) = (220.0, 700.0);
-const LEAST_WIDTH: f64 = 300.0;
-/// Free paper around the data, as a part of its size.
-const SPARE: f64 = 0.05;
 
 /// A snapshot of a motion picture: the beams at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -46,6 +42,9 @@ pub struct MotionPicture {
     beams: Vec<String>,
     snapshots: Vec<Snapshot>,
     traces: Vec<(String, Vec<Point>)>,
+    symbols: Vec<PlacedSymbol>,
+    captions: Vec<String>,
+    limits: Limits,
     /// What the picture shows at least, beside its own data: opposite corners of a box.
     window: Vec<Point>,
 }
@@ -99,6 +98,24 @@ impl MotionPicture {
         self
     }
 
+    /// Draws symbols of supports, joints, sliders and loads over all snapshots.
+    pub fn symbols(mut self, symbols: impl IntoIterator<Item = PlacedSymbol>) -> Self {
+        self.symbols.extend(symbols);
+        self
+    }
+
+    /// Adds a line of small words below the title.
+    pub fn caption(mut self, words: impl Into<String>) -> Self {
+        self.captions.push(words.into());
+        self
+    }
+
+    /// Fixes the ends of axes. Units stay equally long, so one of the axes may show more.
+    pub fn limits(mut self, limits: Limits) -> Self {
+        self.limits = limits;
+        self
+    }
+
     /// Makes the motion picture show at least the box between two opposite corners.
     pub fn window(mut self, corner: Point, opposite: Point) -> Self {
         self.window = vec![corner, opposite];
@@ -117,43 +134,29 @@ impl MotionPicture {
         framed.fold(Page::row(), |page, picture| page.panel(picture))
     }
 
-    fn points(&self) -> impl Iterator<Item = Point> {
+    fn points(&self) -> impl Iterator<Item = Point> + Clone {
         let snapshots = self.snapshots.iter().flat_map(|snapshot| {
             snapshot.lines.iter().flatten().chain(&snapshot.marks).chain(&snapshot.particles)
         });
-        let points =
-            snapshots.chain(self.traces.iter().flat_map(|(_, points)| points)).chain(&self.window);
+        let traces = self.traces.iter().flat_map(|(_, points)| points);
+        let points = snapshots.chain(traces).chain(&self.window);
         points.copied().filter(|(x, y)| x.is_finite() && y.is_finite())
     }
 
-    /// The box that the data needs: its centre and its width and height, neither of them zero.
-    fn view(&self) -> (Point, Point) {
-        let side = |pick: fn(Point) -> f64| {
-            let (low, high) = extent(self.points().map(pick)).unwrap_or((-0.5, 0.5));
-            (low / 2.0 + high / 2.0, (high - low) * (1.0 + 2.0 * SPARE))
-        };
-        let ((x, width), (y, height)) = (side(|point| point.0), side(|point| point.1));
-        // A straight line has no height, and a point no size: show as much as keeps the place readable.
-        let size = width.max(height).max(1e-6 * x.abs().max(y.abs()));
-        let size = if size > 1e-280 { size } else { 1.0 };
-        ((x, y), (width.max(0.05 * size), height.max(0.05 * size)))
+    fn view(&self) -> View {
+        View::of(self.points(), &self.limits)
     }
 
-    /// The frame of a plot of the given size in pixels, with equal units along both axes.
+    /// The frame of a plot of the given size in pixels.
     fn frame(&self, width: f64, height: f64) -> Frame {
-        let ((x, y), needs) = self.view();
-        let per_pixel = (needs.0 / width).max(needs.1 / height);
-        let axis = |centre: f64, pixels: f64| {
-            let half = per_pixel * pixels / 2.0;
-            Axis::between(centre - half, centre + half)
-        };
+        let (x, y) = self.view().axes(width, height);
         Frame {
             title: self.title.clone(),
-            captions: Vec::new(),
+            captions: self.captions.clone(),
             x_label: self.x_label.clone(),
             y_label: self.y_label.clone(),
-            x: axis(x, width),
-            y: axis(y, height),
+            x,
+            y,
             legend: self.legend(),
         }
     }
@@ -164,7 +167,7 @@ impl MotionPicture {
         let beams = beams.map(|(index, name)| Entry {
             name: name.clone(),
             colour: hue(index),
-            stroke: Stroke::Solid,
+            stroke: Stroke::of_round(index / HUE_COUNT),
             marker: Marker::Disc,
         });
         let traces = self.traces.iter().enumerate().map(|(index, (name, _))| {
@@ -189,9 +192,14 @@ impl MotionPicture {
         if self.beam_count() > 1 { tint(hue(index), part) } else { ramp(part) }
     }
 
-    fn time_bar(&self) -> TimeBar {
+    /// When the hues are used up, beams differ in their strokes.
+    fn stroke(&self, index: usize) -> Stroke {
+        if self.beam_count() > 1 { Stroke::of_round(index / HUE_COUNT) } else { Stroke::Solid }
+    }
+
+    fn time_bar(&self) -> ColourBar {
         let shade = if self.beam_count() > 1 { |part| tint(INK, part) } else { ramp };
-        TimeBar::new(&self.time_label, self.snapshots.iter().map(|snapshot| snapshot.time), shade)
+        ColourBar::new(&self.time_label, self.snapshots.iter().map(|snapshot| snapshot.time), shade)
     }
 
     fn draw_snapshot(
@@ -204,7 +212,7 @@ impl MotionPicture {
     ) {
         for (index, line) in snapshot.lines.iter().enumerate() {
             for run in frame.curve(plot, line) {
-                canvas.line(run, LINE, self.colour(index, part));
+                self.stroke(index).draw(canvas, &run, LINE, self.colour(index, part));
             }
         }
         let shade = if self.beam_count() > 1 { tint(INK, part) } else { self.colour(0, part) };
@@ -222,19 +230,17 @@ fn frame_marks(frame: &Frame, plot: &Area, marks: &[Point]) -> impl Iterator<Ite
 
 impl Panel for MotionPicture {
     fn size(&self) -> (f64, f64) {
-        let (_, (width, height)) = self.view();
-        let aspect = height / width;
-        let tall = (WIDTH * aspect).clamp(HEIGHTS.0, HEIGHTS.1);
-        let wide = (tall / aspect).clamp(LEAST_WIDTH, WIDTH);
+        let (wide, tall) = self.view().size();
         let margins = self.margins(wide + 140.0, tall + 110.0);
         (wide + margins.left + margins.right, tall + margins.top + margins.bottom)
     }
 
     fn margins(&self, width: f64, height: f64) -> Margins {
-        let margins = self
-            .frame((width - 140.0).max(50.0), (height - 110.0).max(50.0))
-            .margins(width, height);
-        Margins { right: margins.right.max(self.time_bar().width()), ..margins }
+        let frame = self.frame((width - 140.0).max(50.0), (height - 110.0).max(50.0));
+        let right = frame.margins(width, height).right.max(self.time_bar().width());
+        // The bar narrows the plot, and with it the legend.
+        let beside = right - frame.margins(width, height).right;
+        Margins { right, ..frame.margins(width - beside, height) }
     }
 
     fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
@@ -258,6 +264,7 @@ impl Panel for MotionPicture {
                 .iter()
                 .for_each(|run| stroke.draw(canvas, run, TRACE, colour));
         }
+        self.symbols.iter().for_each(|symbol| symbol.draw(canvas, &frame, plot));
     }
 }
 

@@ -1,5 +1,6 @@
 //! Looking at a model: where it is, how it moves, and what it uses.
 
+mod along;
 mod explain;
 mod joint_forces;
 mod placement;
@@ -9,6 +10,7 @@ mod sensing;
 mod sliders;
 mod springs;
 
+pub use along::AlongSample;
 pub use explain::{Part, Usage};
 pub use joint_forces::Transmission;
 pub use placement::{Distance, Placement};

@@ -6,6 +6,7 @@ use super::sheet::{Ink, Sheet};
 use crate::output::axis::extent;
 use crate::output::canvas::Point;
 use crate::output::number::significant;
+use crate::output::plane::Limits;
 use crate::output::width::columns;
 
 /// What a mark in a picture of a configuration stands for.
@@ -15,6 +16,8 @@ pub enum Mark {
     Particle,
     /// The mark is a place that slides along a beam.
     Slider,
+    /// A place where beams are tied to each other.
+    Joint,
     /// The mark is a support that holds a position.
     Hinge,
     /// The mark is a support that holds position and angle.
@@ -22,13 +25,14 @@ pub enum Mark {
 }
 
 impl Mark {
-    const ALL: [Self; 4] = [Self::Particle, Self::Slider, Self::Hinge, Self::Clamp];
+    const ALL: [Self; 5] = [Self::Particle, Self::Slider, Self::Joint, Self::Hinge, Self::Clamp];
 
     /// Its sign in braille pictures and in ASCII, and its name.
     fn look(self) -> (char, char, &'static str) {
         match self {
             Self::Particle => ('●', 'O', "particle"),
             Self::Slider => ('◆', 'X', "slider"),
+            Self::Joint => ('○', 'o', "joint"),
             Self::Hinge => ('▲', '^', "hinge"),
             Self::Clamp => ('■', '#', "clamp"),
         }
@@ -50,6 +54,7 @@ pub struct ConfigurationPicture {
     lines: Vec<Vec<Point>>,
     ghost: Vec<Vec<Point>>,
     marks: Vec<(Mark, Point)>,
+    limits: Limits,
 }
 
 /// The part of the plane that is seen.
@@ -91,6 +96,12 @@ impl ConfigurationPicture {
         self
     }
 
+    /// Fixes what is seen at least; units stay equally long.
+    pub fn limits(mut self, limits: Limits) -> Self {
+        self.limits = limits;
+        self
+    }
+
     /// The picture as text for a terminal, of at most the width and the height of `style`; less high where the drawing is flat.
     pub fn text(&self, style: &Style) -> String {
         let has_frame = style.width >= LEAST.0 && style.height >= LEAST.1;
@@ -118,7 +129,8 @@ impl ConfigurationPicture {
         }
         for (mark, at) in &self.marks {
             let (x, y) = window.place(*at);
-            if x.is_finite() && y.is_finite() {
+            let is_seen = |at: f64, last: f64| (-0.5..=last + 0.5).contains(&at);
+            if is_seen(x, window.last.0) && is_seen(y, window.last.1) {
                 let (braille, ascii, _) = mark.look();
                 let (column, row) = (x.round() as usize / ACROSS, y.round() as usize / DOWN);
                 let sign = style.glyphs.choose(braille, ascii);
@@ -141,8 +153,10 @@ impl ConfigurationPicture {
         if columns == 0 || rows == 0 {
             return None;
         }
-        let (left, right) = extent(points().map(|point| point.0))?;
-        let (low, high) = extent(points().map(|point| point.1))?;
+        let fit_x = extent(points().map(|point| point.0))?;
+        let fit_y = extent(points().map(|point| point.1))?;
+        let (left, right) = self.limits.x.unwrap_or(fit_x);
+        let (low, high) = self.limits.y.unwrap_or(fit_y);
         let (wide, tall) = (right - left, high - low);
         let room = |characters: usize, dots: usize| {
             ((characters * dots) as f64 - 1.0 - 2.0 * MARGIN).max(1.0)

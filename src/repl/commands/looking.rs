@@ -1,12 +1,20 @@
 //! Commands that only look.
 
-use crate::output::{Cell, Table};
+use rhai::Map;
+
+use crate::output::{Cell, Colours, Glyphs, Style, Table};
+use crate::repl::session::Reply;
 use crate::repl::shell::{Outcome, Screen, Shell, no_simulation};
 use crate::script::diagnose::Diagnostic;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::looks::along::Inside;
 use crate::script::looks::present::present_in_a_line;
+use crate::script::looks::quantities::{NAMES, Quantity};
 use crate::script::looks::sight;
+use crate::script::packages::motion_pictures::motion_text;
 use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::format_number;
+use crate::script::words::suggest::nearest;
 use crate::simulation::Simulation;
 
 /// Characters of a value in the list of variables.
@@ -72,25 +80,89 @@ pub fn explain(shell: &mut Shell, _: &str) -> Outcome {
     shell.show_of_latest("explain()")
 }
 
-/// The command `:show [time]`: draws the configuration of the last simulation.
+/// `:show [time] [options]`
 pub fn show(shell: &mut Shell, operand: &str) -> Outcome {
-    let time = match (operand, operand.parse::<f64>()) {
+    let (time, options) = operand.find("#{").map_or((operand, ""), |at| operand.split_at(at));
+    let time = match (time.trim().trim_end_matches(',').trim_end(), options) {
         ("", _) => None,
-        (_, Ok(time)) => Some(time),
-        _ => {
-            let told = Diagnostic::general(format!("'{operand}' is not a time"));
-            return shell
-                .refuse(&told.with_hint("write :show, or :show T with a time that has passed"));
-        }
+        (time, _) => match time.parse::<f64>() {
+            Ok(time) => Some(time),
+            Err(_) => {
+                let told = Diagnostic::general(format!("'{time}' is not a time"));
+                let hint = "write :show, :show T with a time that has passed, or :show #{ … } with the options of plot_motion";
+                return shell.refuse(&told.with_hint(hint));
+            }
+        },
     };
-    draw(shell, |simulation, screen| match screen {
+    let options = match options {
+        "" => None,
+        text => match options_of(shell, text, time) {
+            Ok(map) => Some(map),
+            Err(outcome) => return outcome,
+        },
+    };
+    let latest = shell.latest();
+    let engine_picture = |shell: &Shell, of: &SimulationHandle, map: &Map, screen: &Screen| {
+        let style = match screen {
+            Screen::Terminal(style) => *style,
+            // What is wrong with the options is told in a pipe too.
+            Screen::Pipe => {
+                Style { glyphs: Glyphs::Ascii, colours: Colours::None, width: 80, height: 24 }
+            }
+        };
+        motion_text(shell.session().engine(), of, map, &style)
+    };
+    let drawn = match (&latest, &options) {
+        (Some(of), Some(map)) => Some(engine_picture(shell, of, map, &shell.screen())),
+        _ => None,
+    };
+    draw(shell, |simulation, screen| match (drawn, screen) {
         _ if time.is_some_and(|time| !(0.0..=simulation.time()).contains(&time)) => {
             let now = format_number(simulation.time());
             Err(ScriptError::new("there is no configuration at this time")
                 .hint(format!("the simulation has run from t = 0 to {now}")))
         }
-        Screen::Terminal(style) => sight::configuration_picture(simulation, time, &style),
-        Screen::Pipe => sight::configuration_summary(simulation, time),
+        (Some(Err(error)), _) => Err(error),
+        (Some(Ok(text)), Screen::Terminal(_)) => Ok(text),
+        (None, Screen::Terminal(style)) => sight::configuration_picture(simulation, time, &style),
+        (_, Screen::Pipe) => sight::configuration_summary(simulation, time),
+    })
+}
+
+/// The map of options that is typed; a time before it is that of the last snapshot.
+fn options_of(shell: &mut Shell, text: &str, time: Option<f64>) -> Result<Map, Outcome> {
+    match shell.session_mut().peek(text) {
+        Reply::Value(value) => match value.try_cast::<Map>() {
+            Some(mut map) => {
+                if let Some(time) = time {
+                    map.insert("to".into(), time.into());
+                }
+                Ok(map)
+            }
+            None => {
+                let told = Diagnostic::general(format!("'{text}' is no map of options"));
+                Err(shell.refuse(&told.with_hint("for example :show #{ trace: [rod.end] }")))
+            }
+        },
+        failed => Err(shell.tell(failed)),
+    }
+}
+
+/// `:along [quantity]`
+pub fn along(shell: &mut Shell, operand: &str) -> Outcome {
+    let name = if operand.is_empty() { "M" } else { operand.trim_matches('"') };
+    let Some(quantity) = Quantity::named(name) else {
+        let told = Diagnostic::general(format!("there is no quantity '{name}' along beams"));
+        let meant = nearest(name, NAMES.iter().copied());
+        let meant = meant.map(|name| format!("did you mean {name}? ")).unwrap_or_default();
+        return shell.refuse(&told.with_hint(format!("{meant}quantities: {}", NAMES.join(", "))));
+    };
+    draw(shell, |simulation, screen| {
+        let inside = Inside::of_simulation(simulation, &[])?;
+        Ok(match screen {
+            Screen::Terminal(style) => inside.text(quantity, &style),
+            Screen::Pipe => inside.summary(quantity),
+        })
     })
 }
 

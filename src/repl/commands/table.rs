@@ -95,16 +95,25 @@ pub const COMMANDS: &[Command] = &[
               The states are those that are kept to go back to; where some are forgotten the run is made again in a copy, \
               without functions set by sim.at, and it is said whether it is the same run. The simulation itself stays where it is. \
               An array of numbers is drawn over its index, a pair of arrays [x, y] and an array of points as they are. \
-              `:plot drift` shows how well the invariants are kept. Pictures for files are drawn by plot_history.",
+              `:plot drift` shows how well the invariants are kept. Pictures for files are drawn by plot and plot_history.",
         body: plotting::plot,
     },
     Command {
         name: ":show",
-        operand: Operand::Number,
-        placeholder: "[TIME]",
+        operand: Operand::Expression,
+        placeholder: "[TIME] [OPTIONS]",
         summary: "draws the beams as they are now, or as they were at a time",
-        doc: "Pictures for files are drawn by plot_motion.",
+        doc: "The start is dotted behind them. With options, those of plot_motion, as in `:show #{ trace: [rod.end], magnify: 10 }`, what is dotted is \
+              what they ask for: earlier snapshots with `every` or `from`, and paths. Pictures for files are drawn by plot_motion.",
         body: looking::show,
+    },
+    Command {
+        name: ":along",
+        operand: Operand::Expression,
+        placeholder: "[QUANTITY]",
+        summary: "draws a quantity along the beams as they are now; the bending moment M unless given",
+        doc: "Quantities are N, Q, M, axial_strain, shear_strain, curvature, strain_energy and speed. Pictures for files are drawn by plot_along.",
+        body: looking::along,
     },
     Command {
         name: ":view",

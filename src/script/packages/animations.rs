@@ -2,13 +2,14 @@
 
 use rhai::Dynamic;
 
-use super::pictures::{FILE, MOVING, plain, simulations, snapshot, stations};
+use super::pictures::{FILE, MOVING, plain, simulations, stations};
 use super::simulations::SPINNING;
 use super::viewers::span;
 use crate::elementary::whole_power;
 use crate::output::{Animation, Figure, MotionPicture, OutputError, Page, Panel, Snapshot};
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
+use crate::script::looks::motion::snapshot;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Scripted;
 use crate::script::rows::options::Options;

@@ -1,10 +1,13 @@
 //! The domains of the language, one file each. A new domain is a new file and a line in [`TABLES`].
 
+mod along_pictures;
 mod animations;
 mod arrays;
+mod chart_options;
 mod checking;
 mod convergence_studies;
 mod cost_studies;
+mod curve_pictures;
 mod equilibria;
 mod explaining;
 pub mod geometry;
@@ -15,6 +18,7 @@ mod language;
 mod loads;
 mod math;
 mod modes;
+pub mod motion_pictures;
 mod notes;
 mod pictures;
 mod precision_studies;
@@ -69,7 +73,9 @@ pub const TABLES: &[&Table] = &[
     &histories::TABLE,
     &statistics::TABLE,
     &explaining::TABLE,
+    &curve_pictures::TABLE,
     &pictures::TABLE,
+    &along_pictures::TABLE,
     &rest_pictures::TABLE,
     &viewers::TABLE,
     &animations::TABLE,

@@ -4,13 +4,15 @@ use std::path::Path;
 
 use rhai::{Array, Dynamic};
 
+use super::chart_options::{
+    MARKERS, X_LABEL, X_LIMITS, X_LOG, Y_LABEL, Y_LIMITS, Y_LOG, dressed, marked,
+};
 use super::histories::HISTORY;
-use super::recording::{expect_all_rows, expect_near, expect_rows_between};
+use super::motion_pictures::{MOTION, plot_motion};
+use super::recording::{expect_all_rows, expect_rows_between};
 use super::simulations::{SIMULATION, SPINNING};
 use crate::geometry::Vec2;
-use crate::output::{
-    CsvTable, LineChart, MotionPicture, Page, Panel, PictureKind, Scale, Snapshot,
-};
+use crate::output::{CsvTable, LineChart, Page, Panel, PictureKind, Scale};
 use crate::script::handles::history::HistoryHandle;
 use crate::script::handles::report::history_table;
 use crate::script::handles::simulation::SimulationHandle;
@@ -18,12 +20,12 @@ use crate::script::handles::station::StationHandle;
 use crate::script::looks::sight::{drift_lines, line_chart};
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Kind, Scripted};
-use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{Parameter, array, boolean, either, number, options, text};
+use crate::script::rows::parameter::{
+    Parameter, Presence, array, boolean, choice, either, options, text,
+};
 use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::format_number;
-use crate::simulation::{Configuration, History};
+use crate::simulation::History;
 
 /// The domain of pictures and files.
 pub const TABLE: Table = Table {
@@ -35,17 +37,23 @@ pub const TABLE: Table = Table {
     constants: &[],
     rows: &[
         function("plot_motion", &[MOVING, FILE, options("options", MOTION).optional()], plot_motion)
-            .summary("Draws snapshots of the motion in one picture, knots or nodes marked, particles as dots, axes equal.")
-            .example("sim.run_to(2);\nplot_motion(sim, \"spin.svg\", #{ every: 0.5, trace: [rod.end] });")
-            .see(&["plot_history"]),
+            .summary("Draws snapshots of the motion in one picture, axes equal, with supports, joints, sliders and loads.")
+            .doc(
+                "Knots or nodes are dots, particles larger ones. The last snapshot is the present unless `to` is given, and symbols are those of that time: a support is a triangle, or a wall \
+                 where it clamps, a joint a ring, or a square where it is rigid, a slider a diamond, a load an arrow, as long as it acts. At the prompt `:show` takes the same options.",
+            )
+            .example("sim.run_to(2);\nplot_motion(sim, \"spin.svg\", #{ every: 0.5, trace: [rod.end] });\nplot_motion(sim, \"large.svg\", #{ magnify: 10, every: 1, x_limits: [-1, 3] });")
+            .see(&["plot", "plot_history", "plot_along", "plot_field"]),
         function("plot_history", &[RECORDED, COLUMNS, FILE, options("options", HISTORY_OPTIONS).optional()], plot_history)
             .summary("Draws columns of the history over time.")
-            .doc("Of several histories, each must have the columns named.")
+            .doc("Of several histories, each must have the columns named. Other numbers than columns are drawn by `plot`.")
             .example(
                 "sim.run_to(2);\nplot_history(sim, [\"kinetic\", \"strain\", \"energy\"], \"energy.svg\");\n\
-                 plot_history(sim, [\"strain\"], \"strain.svg\", #{ average: true, title: \"Strain energy\" });",
+                 plot_history(sim, [\"strain\"], \"strain.svg\", #{ average: true, title: \"Strain energy\" });\n\
+                 let other = scene.start(#{ name: \"trapezoidal\", dt: 0.1, integrator: trapezoidal() });\nother.run_to(2);\n\
+                 plot_history([sim, other], [\"strain\"], \"two.svg\", #{ axes: \"shared\", x_limits: [0, 1] });",
             )
-            .see(&["plot_drift", "column", "averaged"]),
+            .see(&["plot", "plot_drift", "plot_along", "column", "averaged"]),
         function("plot_drift", &[RECORDED, FILE], plot_drift)
             .summary("Draws how far energy and momenta have drifted, on a logarithmic axis.")
             .example("sim.run_to(2);\nplot_drift(sim, \"drift.png\");")
@@ -66,32 +74,28 @@ const RECORDED: Parameter =
         .doc("a simulation or history, or an array of them");
 pub(super) const FILE: Parameter = text("file").doc("its name in the output folder");
 const COLUMNS: Parameter = array("columns").doc("names of columns of the history");
-const MOTION: &[Parameter] = &[
-    number("every")
-        .positive()
-        .unit("time")
-        .doc("between snapshots; a twentieth of the time shown unless given")
-        .optional(),
-    number("from").unit("time").doc("first snapshot; the start unless given").optional(),
-    number("to").unit("time").doc("last snapshot; the present unless given").optional(),
-    array("trace").doc("stations whose paths are drawn").optional(),
-    text("title").doc("the name of the simulation unless given").optional(),
-];
 const HISTORY_OPTIONS: &[Parameter] = &[
     text("title").doc("the name of the simulation unless given").optional(),
+    choice("axes", &["own", "shared"])
+        .or(Presence::Text("own"))
+        .doc("of several simulations: each has its own, side by side, or all share them"),
     boolean("logarithmic").doc("whether magnitudes are drawn on a logarithmic axis").optional(),
     boolean("average")
         .doc("whether each value is drawn as its mean with the one before, as `averaged` gives it")
         .optional(),
+    X_LABEL,
+    Y_LABEL,
+    X_LOG,
+    Y_LOG,
+    X_LIMITS,
+    Y_LIMITS,
+    MARKERS,
 ];
-
-/// Most snapshots of one picture.
-const MOST_SNAPSHOTS: f64 = 2000.0;
 
 /// Most simulations in one picture.
 const MOST_SIDE_BY_SIDE: usize = 100;
 
-fn things<T: Scripted>(
+pub(super) fn things<T: Scripted>(
     call: &Call,
     convert: fn(&Dynamic) -> Option<T>,
 ) -> Result<Vec<T>, ScriptError> {
@@ -133,7 +137,7 @@ fn histories_over_time(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     Ok(histories)
 }
 
-fn as_simulation(value: &Dynamic) -> Option<SimulationHandle> {
+pub(super) fn as_simulation(value: &Dynamic) -> Option<SimulationHandle> {
     value.clone().try_cast()
 }
 
@@ -155,82 +159,9 @@ pub(super) fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic,
     Ok(Dynamic::UNIT)
 }
 
-fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let simulations = simulations(call)?;
-    let options = call.options_or_defaults("options")?;
-    let picture = |of: &SimulationHandle| {
-        call.proceed()?;
-        motion(call, of, &options)
-    };
-    let mut pictures = simulations.iter().map(picture).collect::<Result<Vec<_>, ScriptError>>()?;
-    match pictures.len() {
-        1 => write_picture(call, &pictures.remove(0)),
-        _ => write_picture(call, &MotionPicture::side_by_side(pictures)),
-    }
-}
-
 /// A point in plain numbers, as it is drawn.
 pub(super) fn plain(point: &Vec2) -> (f64, f64) {
     (point.x, point.y)
-}
-
-/// A configuration as a snapshot that is drawn.
-pub(super) fn snapshot(configuration: &Configuration) -> Snapshot {
-    let plain_line = |line: &Vec<Vec2>| line.iter().map(plain).collect();
-    Snapshot {
-        time: configuration.time,
-        lines: configuration.lines.iter().map(plain_line).collect(),
-        marks: configuration.marks.iter().map(plain).collect(),
-        particles: configuration.particles.iter().map(plain).collect(),
-    }
-}
-
-fn motion(
-    call: &Call,
-    of: &SimulationHandle,
-    options: &Options,
-) -> Result<MotionPicture, ScriptError> {
-    let given = |name: &str| options.number_if_given(name);
-    let simulation = of.simulation();
-    let (from, to) = (given("from").unwrap_or(0.0), given("to").unwrap_or(simulation.time()));
-    let every = given("every").unwrap_or_else(|| ((to - from) / 20.0).max(f64::MIN_POSITIVE));
-    if to < from || from > simulation.time() || to < 0.0 {
-        let told =
-            format!("there is nothing from t = {} to {}", format_number(from), format_number(to));
-        let hint =
-            format!("the simulation has run from t = 0 to {}", format_number(simulation.time()));
-        return Err(call.error(told).hint(hint));
-    }
-    let last = to.min(simulation.time());
-    let count = ((last - from) / every + 1e-9).floor().max(0.0);
-    if count > MOST_SNAPSHOTS {
-        return Err(call
-            .error(format!("{count} snapshots are too many for a picture"))
-            .hint("choose a larger `every`"));
-    }
-    let title = options.text_if_given("title")?.unwrap_or_else(|| of.name().to_owned());
-    let mut picture = MotionPicture::new(title)
-        .beams(simulation.scene().beams.iter().map(|beam| beam.name.clone()));
-    let times = (0..=count as usize).map(|index| from + index as f64 * every);
-    // The last snapshot is asked for by itself, whether or not `every` meets it.
-    let is_met = last - (from + count * every) <= 1e-9 * every;
-    for time in times.chain((!is_met).then_some(last)) {
-        if let Some(configuration) = simulation.configuration_near(time)? {
-            expect_near(call, of, (time, configuration.time), every)?;
-            picture = picture.snapshot(snapshot(&configuration));
-        }
-    }
-    for station in
-        stations(call, &options.array("trace").unwrap_or_default(), Place::Key("trace".into()))?
-    {
-        let path = simulation.path(&station.on(of)?);
-        let inside = path
-            .iter()
-            .filter(|(time, _)| (from..=to).contains(time))
-            .map(|(_, point)| plain(point));
-        picture = picture.trace(format!("path of {}", station.show()), inside.collect());
-    }
-    Ok(picture)
 }
 
 /// The stations in an array that stands at a place of the call.
@@ -269,14 +200,24 @@ fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
     let names = columns(call, &histories)?;
     let title = options.text_if_given("title")?;
+    let values = |history: &History, name: &str| {
+        read(history, name).map(|values| values.into_iter().map(shown).collect())
+    };
     let chart = |of: &HistoryHandle| {
         let title = title.clone().unwrap_or_else(|| of.of.name().to_owned());
-        let values = |history: &History, name: &str| {
-            read(history, name).map(|values| values.into_iter().map(shown).collect())
-        };
-        of.read(|history| line_chart(title, history, &names, values).y_scale(scale))
+        of.read(|history| line_chart(title, history, &names, values))
     };
-    write_charts(call, histories.iter().map(chart).collect())
+    let mut charts: Vec<LineChart> = histories.iter().map(chart).collect();
+    if options.text("axes")? == "shared" && charts.len() > 1 {
+        let title = options.text_if_given("title")?.unwrap_or_default();
+        let named: Vec<String> = histories.iter().map(|of| of.of.name().to_owned()).collect();
+        charts = vec![LineChart::shared(title, named.into_iter().zip(charts))];
+    }
+    let dress = |chart: LineChart| {
+        let chart = chart.y_scale(scale).each(|at, series| marked(&options, at, series));
+        dressed(call, &options, chart)
+    };
+    write_charts(call, charts.into_iter().map(dress).collect::<Result<_, _>>()?)
 }
 
 /// The names of the columns asked for, which all of the histories have.

@@ -4,11 +4,12 @@ use rhai::Dynamic;
 
 use super::equilibria::{BENT, EQUILIBRIUM, EquilibriumHandle};
 use super::modes::{MODES, ModesHandle};
-use super::pictures::{plain, snapshot, stations, write_csv, write_picture};
+use super::pictures::{plain, stations, write_csv, write_picture};
 use super::scenes::STATION;
 use crate::geometry::Vec2;
 use crate::output::{CsvTable, LineChart, MotionPicture, Page, Series, Snapshot, significant};
 use crate::script::handles::station::StationHandle;
+use crate::script::looks::motion::snapshot;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Scripted;
 use crate::script::rows::parameter::{

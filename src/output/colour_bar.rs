@@ -1,4 +1,4 @@
-//! The bar that says which shade of a motion picture stands for which time.
+//! The bar that says which shade stands for which number: times of a motion, values along beams.
 
 use super::{
     axis::{Axis, extent},
@@ -18,29 +18,44 @@ const EDGE: f64 = 14.0;
 /// In how many even pieces the bar is filled.
 const PIECES: usize = 100;
 
-/// A bar of times and their shades beside a motion picture. With fewer than two different times there is nothing to tell apart, and no bar.
-pub struct TimeBar {
+/// How broad a bar is from its low end to its high one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Form {
+    Even,
+    /// As broad as the lines that it explains.
+    Wedge(f64, f64),
+}
+
+/// Numbers and their shades. With fewer than two different numbers there is nothing to tell apart, and no bar.
+pub struct ColourBar {
     label: String,
     axis: Option<Axis>,
     shade: fn(f64) -> Colour,
+    form: Form,
 }
 
-impl TimeBar {
-    /// The bar of all finite `times`; `shade` takes the part of the way from the first to the last.
+impl ColourBar {
+    /// The bar over all finite `numbers`; `shade` takes the part of the way from the least to the largest.
     pub fn new(
         label: &str,
-        times: impl IntoIterator<Item = f64>,
+        numbers: impl IntoIterator<Item = f64>,
         shade: fn(f64) -> Colour,
     ) -> Self {
-        let axis = extent(times)
+        let axis = extent(numbers)
             .filter(|(first, last)| last > first)
             .map(|(first, last)| Axis::between(first, last));
-        Self { label: label.into(), axis, shade }
+        Self { label: label.into(), axis, shade, form: Form::Even }
     }
 
-    /// How far `time` is on the bar from the first to the last, from 0 to 1; a lone time is the last.
-    pub fn part(&self, time: f64) -> f64 {
-        self.axis.map_or(1.0, |axis| axis.place(time))
+    /// Makes it as broad as lines are: from the first width, in pixels, for the least number to the second for the largest.
+    pub fn wedge(mut self, least: f64, most: f64) -> Self {
+        self.form = Form::Wedge(least, most);
+        self
+    }
+
+    /// How far a number is from the least to the largest; a lone one is the largest.
+    pub fn part(&self, number: f64) -> f64 {
+        self.axis.map_or(1.0, |axis| axis.place(number))
     }
 
     /// The room that the bar of times needs at the right of the plot [pixels].
@@ -48,7 +63,7 @@ impl TimeBar {
         let Some(axis) = self.axis else { return 0.0 };
         let (ticks, factor) = axis.ticks(8);
         let numbers = ticks.iter().map(|tick| fonts::width(&tick.label, TEXT)).fold(0.0, f64::max);
-        let label = fonts::width(&factor.after(&self.label), LABEL).min(110.0) - BREADTH - NUMBERS;
+        let label = fonts::width(&factor.after(&self.label), LABEL) - BREADTH - NUMBERS;
         GAP + BREADTH + NUMBERS + numbers.max(label) + EDGE
     }
 
@@ -62,7 +77,12 @@ impl TimeBar {
             // Each piece reaches down to the bar's end, under the ones below: no seams.
             let (piece_top, bottom) = (plot.bottom - height * high, plot.bottom - height * low);
             let under = if piece == 0 { 0.0 } else { 0.5 };
-            let area = Area { left, top: piece_top, right: left + BREADTH, bottom: bottom + under };
+            let right = left
+                + match self.form {
+                    Form::Even => BREADTH,
+                    Form::Wedge(least, most) => least + (most - least) * (low + high) / 2.0,
+                };
+            let area = Area { left, top: piece_top, right, bottom: bottom + under };
             canvas.fill(area, (self.shade)((low + high) / 2.0));
         }
         let (ticks, factor) = axis.ticks((height / 45.0).clamp(2.0, 8.0) as usize);
@@ -70,8 +90,13 @@ impl TimeBar {
             let y = plot.bottom - tick.place * height + 0.36 * TEXT;
             canvas.text(&tick.label, (left + BREADTH + NUMBERS, y), TEXT, Align::Start, INK);
         }
-        let label = fonts::fit(&factor.after(&self.label), LABEL, 110.0);
-        canvas.text(&label, (left, plot.top + LABEL * 0.8), LABEL, Align::Start, GREY);
+        canvas.text(
+            &factor.after(&self.label),
+            (left, plot.top + LABEL * 0.8),
+            LABEL,
+            Align::Start,
+            GREY,
+        );
     }
 }
 
@@ -82,9 +107,9 @@ mod tests {
 
     #[test]
     fn a_lone_time_has_no_bar_and_is_dark() {
-        let bar = TimeBar::new("t", [2.5, 2.5, f64::NAN], ramp);
+        let bar = ColourBar::new("t", [2.5, 2.5, f64::NAN], ramp);
         assert_eq!((bar.width(), bar.part(2.5)), (0.0, 1.0));
-        let bar = TimeBar::new("t", [0.0, 5.0], ramp);
+        let bar = ColourBar::new("t", [0.0, 5.0], ramp);
         assert!(bar.width() > 40.0);
         assert_eq!((bar.part(0.0), bar.part(2.5), bar.part(5.0)), (0.0, 0.5, 1.0));
     }

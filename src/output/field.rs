@@ -1,0 +1,223 @@
+//! Beams coloured by a magnitude along them: the larger it is, the darker and the broader is the line.
+
+use super::{
+    canvas::{Align, Area, Canvas, Point},
+    colour::{GREY, INK, WHITE, ramp},
+    colour_bar::ColourBar,
+    fonts,
+    frame::{Frame, Margins},
+    marker::Marker,
+    number::significant,
+    page::Panel,
+    plane::{Limits, View},
+    symbol::PlacedSymbol,
+};
+use crate::elementary::hypot;
+
+/// Widths of the line for the least and for the largest value.
+const WIDTHS: (f64, f64) = (2.0, 10.0);
+/// A piece of one colour is so long, in pixels, where there are not too many.
+const PIECE: f64 = 3.0;
+const MOST_PIECES: f64 = 4000.0;
+const NUMBER: f64 = 12.0;
+const DIGITS: usize = 4;
+
+/// Beams with values of zero or more along them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FieldPicture {
+    title: String,
+    captions: Vec<String>,
+    label: String,
+    beams: Vec<Vec<(Point, f64)>>,
+    symbols: Vec<PlacedSymbol>,
+    limits: Limits,
+}
+
+impl FieldPicture {
+    /// A picture without beams; `label` says what the colours show.
+    pub fn new(title: impl Into<String>, label: impl Into<String>) -> Self {
+        Self { title: title.into(), label: label.into(), ..Self::default() }
+    }
+
+    /// Adds a line of small words below the title.
+    pub fn caption(mut self, words: impl Into<String>) -> Self {
+        self.captions.push(words.into());
+        self
+    }
+
+    /// Adds a beam: places along it with their values.
+    pub fn beam(mut self, values: Vec<(Point, f64)>) -> Self {
+        self.beams.push(values);
+        self
+    }
+
+    /// Draws symbols of supports, joints, sliders and loads over all.
+    pub fn symbols(mut self, symbols: impl IntoIterator<Item = PlacedSymbol>) -> Self {
+        self.symbols.extend(symbols);
+        self
+    }
+
+    /// Fixes the ends of axes. Units stay equally long, so one of the axes may show more.
+    pub fn limits(mut self, limits: Limits) -> Self {
+        self.limits = limits;
+        self
+    }
+
+    fn places(&self) -> impl Iterator<Item = &(Point, f64)> {
+        self.beams.iter().flatten().filter(|(_, value)| value.is_finite())
+    }
+
+    /// Where the largest value is.
+    fn largest(&self) -> Option<(Point, f64)> {
+        // Of equal ones the first.
+        self.places().copied().reduce(|a, b| if b.1 > a.1 { b } else { a })
+    }
+
+    fn frame(&self, width: f64, height: f64) -> Frame {
+        let (x, y) = self.view().axes(width, height);
+        Frame {
+            title: self.title.clone(),
+            captions: self.captions.clone(),
+            x_label: "x".into(),
+            y_label: "y".into(),
+            x,
+            y,
+            legend: Vec::new(),
+        }
+    }
+
+    fn view(&self) -> View {
+        View::of(self.beams.iter().flatten().map(|(at, _)| *at), &self.limits)
+    }
+
+    fn bar(&self) -> ColourBar {
+        let most = self.largest().map(|(_, value)| value);
+        ColourBar::new(&self.label, [0.0].into_iter().chain(most), ramp).wedge(WIDTHS.0, WIDTHS.1)
+    }
+
+    fn draw_beam(canvas: &mut Canvas, piece: f64, pixels: &[(Point, f64)]) {
+        for pair in pixels.windows(2) {
+            let ((a, from), (b, to)) = (pair[0], pair[1]);
+            let count = (hypot(b.0 - a.0, b.1 - a.1) / piece).ceil().clamp(1.0, 1000.0) as usize;
+            let at = |part: f64| (a.0 + part * (b.0 - a.0), a.1 + part * (b.1 - a.1));
+            for index in 0..count {
+                let (begin, end) = (index as f64, (index + 1) as f64);
+                let part = from + (to - from) * (begin + 0.5) / count as f64;
+                let width = WIDTHS.0 + (WIDTHS.1 - WIDTHS.0) * part;
+                canvas.line([at(begin / count as f64), at(end / count as f64)], width, ramp(part));
+            }
+        }
+    }
+
+    /// Marks where the largest value is, and writes it beside the mark.
+    fn draw_largest(&self, canvas: &mut Canvas, frame: &Frame, plot: &Area) {
+        let Some((at, value)) = self.largest().filter(|(_, value)| *value > 0.0) else { return };
+        if frame.curve(plot, &[at]).is_empty() {
+            return;
+        }
+        let (x, y) = frame.place(plot, at);
+        Marker::Ring.draw(canvas, (x, y), 6.0, INK);
+        let text = significant(value, DIGITS).replace('-', "−");
+        let width = fonts::width(&text, NUMBER);
+        let left = if x + 18.0 + width > plot.right { x - 14.0 - width } else { x + 14.0 };
+        let baseline = if y - 24.0 < plot.top { y + 24.0 } else { y - 12.0 };
+        let paper = Area {
+            left: left - 2.0,
+            top: baseline - NUMBER,
+            right: left + width + 2.0,
+            bottom: baseline + 3.0,
+        };
+        canvas.fill(paper, WHITE);
+        canvas.text(&text, (left, baseline), NUMBER, Align::Start, INK);
+    }
+}
+
+impl Panel for FieldPicture {
+    fn size(&self) -> (f64, f64) {
+        let (wide, tall) = self.view().size();
+        let margins = self.margins(wide + 140.0, tall + 110.0);
+        (wide + margins.left + margins.right, tall + margins.top + margins.bottom)
+    }
+
+    fn margins(&self, width: f64, height: f64) -> Margins {
+        let frame = self.frame((width - 140.0).max(50.0), (height - 110.0).max(50.0));
+        let right = frame.margins(width, height).right.max(self.bar().width());
+        // The bar narrows the plot, and with it the legend.
+        let beside = right - frame.margins(width, height).right;
+        Margins { right, ..frame.margins(width - beside, height) }
+    }
+
+    fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
+        let frame = self.frame(plot.width(), plot.height());
+        frame.draw(canvas, area, plot);
+        if self.places().next().is_none() {
+            let middle = ((plot.left + plot.right) / 2.0, (plot.top + plot.bottom) / 2.0);
+            canvas.text("no data", middle, 14.0, Align::Middle, GREY);
+        }
+        let bar = self.bar();
+        bar.draw(canvas, plot);
+        let is_zero = self.largest().is_none_or(|(_, value)| value <= 0.0);
+        let part = |value: f64| if is_zero { 0.0 } else { bar.part(value) };
+        let on_paper = |(at, value): &(Point, f64)| (frame.place(plot, *at), part(*value));
+        let beams: Vec<Vec<(Point, f64)>> =
+            self.beams.iter().map(|beam| beam.iter().map(on_paper).collect()).collect();
+        let length = |beam: &Vec<(Point, f64)>| {
+            let pairs = beam.windows(2);
+            pairs
+                .map(|pair| hypot(pair[1].0.0 - pair[0].0.0, pair[1].0.1 - pair[0].0.1))
+                .sum::<f64>()
+        };
+        let piece = PIECE.max(beams.iter().map(length).sum::<f64>() / MOST_PIECES);
+        let is_inside = |at: Point| {
+            (plot.left..=plot.right).contains(&at.0) && (plot.top..=plot.bottom).contains(&at.1)
+        };
+        for beam in &beams {
+            // Where limits cut a beam, the whole of the spans that are seen is drawn.
+            for seen in beam.chunk_by(|(a, _), (b, _)| is_inside(*a) && is_inside(*b)) {
+                Self::draw_beam(canvas, piece, seen);
+            }
+        }
+        self.symbols.iter().for_each(|symbol| symbol.draw(canvas, &frame, plot));
+        self.draw_largest(canvas, &frame, plot);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::canvas::Shape;
+
+    fn picture(value: fn(f64) -> f64) -> FieldPicture {
+        let places = (0..=8).map(|index| f64::from(index) / 8.0);
+        FieldPicture::new("field", "speed").beam(places.map(|s| ((s, 0.0), value(s))).collect())
+    }
+
+    #[test]
+    fn larger_is_broader_and_darker_and_the_largest_is_written() {
+        let picture = picture(|s| 3.0 * s);
+        let (area, plot) = (
+            Area { left: 0.0, top: 0.0, right: 500.0, bottom: 300.0 },
+            Area { left: 60.0, top: 40.0, right: 400.0, bottom: 250.0 },
+        );
+        let mut canvas = Canvas::default();
+        picture.draw(&mut canvas, &area, &plot);
+        let lines = canvas.shapes().iter().filter_map(|shape| match shape {
+            Shape::Line { width, points, .. } if points.len() == 2 && *width >= WIDTHS.0 => {
+                Some(*width)
+            }
+            _ => None,
+        });
+        let widths: Vec<f64> = lines.collect();
+        assert!(widths.len() > 50 && widths.is_sorted(), "{widths:?}");
+        let svg = picture.figure().unwrap().to_svg().unwrap();
+        assert!(svg.contains("| speed | 3</desc>"), "{}", &svg[..600]);
+    }
+
+    #[test]
+    fn a_field_of_nothing_is_a_picture_too() {
+        for value in [|_| 0.0, |_| f64::NAN] {
+            picture(value).figure().unwrap().to_png().unwrap();
+        }
+        FieldPicture::new("", "").figure().unwrap().to_svg().unwrap();
+    }
+}

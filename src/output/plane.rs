@@ -1,0 +1,90 @@
+//! The part of the plane that a picture shows: one unit of x is as long on the paper as one unit of y.
+
+use super::{
+    axis::{Axis, extent},
+    canvas::Point,
+};
+
+/// The width of the plot that a lone picture aims at, and the limits of its height and least width.
+const WIDTH: f64 = 740.0;
+const HEIGHTS: (f64, f64) = (220.0, 700.0);
+const LEAST_WIDTH: f64 = 300.0;
+/// Free paper around the data, as a part of its size.
+const SPARE: f64 = 0.05;
+
+/// The ends of the axes, where a reader asks for others than those that fit the data.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Limits {
+    /// Of the horizontal axis.
+    pub x: Option<(f64, f64)>,
+    /// Of the vertical axis.
+    pub y: Option<(f64, f64)>,
+}
+
+/// A box in the plane: its centre and its width and height, neither of them zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    centre: Point,
+    needs: Point,
+}
+
+impl View {
+    /// The box that points need with some paper around them, or that limits ask for; an axis without limits fits what is between those of the
+    /// other one.
+    pub fn of(points: impl Iterator<Item = Point> + Clone, limits: &Limits) -> Self {
+        let within = |value: f64, ends: Option<(f64, f64)>| {
+            ends.is_none_or(|(low, high)| (low..=high).contains(&value))
+        };
+        let is_seen = |(x, y): &Point| {
+            (limits.y.is_some() || within(*x, limits.x))
+                && (limits.x.is_some() || within(*y, limits.y))
+        };
+        let seen = points.filter(is_seen);
+        let side = |pick: fn(Point) -> f64, ends: Option<(f64, f64)>| match ends {
+            Some((low, high)) => (low / 2.0 + high / 2.0, high - low),
+            None => {
+                let (low, high) = extent(seen.clone().map(pick)).unwrap_or((-0.5, 0.5));
+                (low / 2.0 + high / 2.0, (high - low) * (1.0 + 2.0 * SPARE))
+            }
+        };
+        let (x, width) = side(|point| point.0, limits.x);
+        let (y, height) = side(|point| point.1, limits.y);
+        // A straight line has no height, and a point no size: show as much as keeps the place readable.
+        let size = width.max(height).max(1e-6 * x.abs().max(y.abs()));
+        let size = if size > 1e-280 { size } else { 1.0 };
+        Self { centre: (x, y), needs: (width.max(0.05 * size), height.max(0.05 * size)) }
+    }
+
+    /// The axes of a plot of the given size in pixels.
+    pub fn axes(&self, width: f64, height: f64) -> (Axis, Axis) {
+        let per_pixel = (self.needs.0 / width).max(self.needs.1 / height);
+        let axis = |centre: f64, pixels: f64| {
+            let half = per_pixel * pixels / 2.0;
+            Axis::between(centre - half, centre + half)
+        };
+        (axis(self.centre.0, width), axis(self.centre.1, height))
+    }
+
+    /// The size in pixels of the plot of a lone picture.
+    pub fn size(&self) -> (f64, f64) {
+        let aspect = self.needs.1 / self.needs.0;
+        let tall = (WIDTH * aspect).clamp(HEIGHTS.0, HEIGHTS.1);
+        ((tall / aspect).clamp(LEAST_WIDTH, WIDTH), tall)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_are_kept_and_the_other_axis_fits_what_is_between_them() {
+        let points = [(0.0, 0.0), (1.0, 1.0), (10.0, 100.0)];
+        let view = View::of(points.into_iter(), &Limits { x: Some((0.0, 2.0)), y: None });
+        assert_eq!(view.centre, (1.0, 0.5));
+        assert_eq!(view.needs.0, 2.0);
+        assert!((view.needs.1 - 1.1).abs() < 1e-12);
+        let limits = Limits { x: Some((0.0, 2.0)), y: Some((-1.0, 3.0)) };
+        assert_eq!(View::of(points.into_iter(), &limits).needs, (2.0, 4.0));
+    }
+}

@@ -1,0 +1,163 @@
+//! Pictures of what is inside of beams.
+
+use rhai::{Array, Dynamic};
+
+use super::chart_options::{X_LIMITS, Y_LIMITS, limits};
+use super::equilibria::{EQUILIBRIUM, EquilibriumHandle};
+use super::pictures::write_picture;
+use super::simulations::{SIMULATION, SPINNING};
+use crate::output::Page;
+use crate::script::handles::beam::BeamHandle;
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::looks::along::Inside;
+use crate::script::looks::quantities::{NAMES, Quantity};
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::Kind;
+use crate::script::rows::options::Options;
+use crate::script::rows::parameter::{Parameter, array, boolean, choice, either, options, text};
+use crate::script::rows::table::{Table, function};
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::suggest::nearest;
+
+/// Pictures of what is inside of beams.
+pub const TABLE: Table = Table {
+    name: "pictures along beams",
+    doc: "What is inside of beams, of a simulation at the present moment or of an equilibrium. Quantities are N (axial force, positive in \
+          tension), Q (shear force), M (bending moment), axial_strain, shear_strain, curvature, strain_energy (per length) and speed.",
+    types: &[],
+    setup: SPINNING,
+    constants: &[],
+    rows: &[
+        function("plot_along", &[OF, QUANTITIES, FILE, options("options", ALONG).optional()], plot_along)
+            .summary("Draws a quantity along beams: as strips across them where they are, and as a chart over their arc length.")
+            .doc(
+                "Several quantities stand below each other. A strip stands on the left of a beam, seen from its start, where the value is positive; that of M and of \
+                 curvature on the right, where the beam is stretched. The largest and the least value of each beam are written beside it. Of the past: \
+                 go back with `sim.back`, or draw at a time with `sim.at`. At the prompt `:along M` draws the chart.",
+            )
+            .example(
+                "sim.run_to(1);\nplot_along(sim, \"M\", \"moment.svg\");\n\
+                 plot_along(sim, [\"N\", \"Q\", \"M\"], \"forces.svg\", #{ beams: [rod], title: \"at the end\" });",
+            )
+            .see(&["plot_field", "plot", "plot_history", "plot_motion"]),
+        function("plot_field", &[OF, QUANTITY, FILE, options("options", FIELD).optional()], plot_field)
+            .summary("Draws beams coloured by the magnitude of a quantity: the larger it is, the darker and the broader is the line.")
+            .doc("The bar beside it tells the numbers; where the magnitude is largest is marked, and how large it is there.")
+            .example("sim.run_to(1);\nplot_field(sim, \"strain_energy\", \"energy.svg\");\nplot_field(sim, \"speed\", \"speed.png\");")
+            .see(&["plot_along", "plot_motion"]),
+    ],
+};
+
+const OF: Parameter = either("of", &[Kind::Object(SIMULATION), Kind::Object(EQUILIBRIUM)])
+    .doc("a simulation, as it is now, or an equilibrium");
+const QUANTITIES: Parameter = either("quantity", &[Kind::Choice(NAMES), Kind::Array])
+    .doc("the name of a quantity, or an array of names");
+const QUANTITY: Parameter = choice("quantity", NAMES);
+const FILE: Parameter = text("file").doc("its name in the output folder");
+const BEAMS: Parameter = array("beams").doc("those that are drawn, all unless given").optional();
+const TITLE: Parameter = text("title").doc("the name of the simulation unless given").optional();
+const SYMBOLS: Parameter = boolean("symbols")
+    .doc("whether supports, joints, sliders and loads are drawn; they are unless given")
+    .optional();
+const ALONG: &[Parameter] = &[TITLE, BEAMS, SYMBOLS];
+const FIELD: &[Parameter] = &[TITLE, BEAMS, SYMBOLS, X_LIMITS, Y_LIMITS];
+
+fn plot_along(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let options = call.options_or_defaults("options")?;
+    let quantities = quantities(call)?;
+    let inside = inside(call, &options)?;
+    let page = match quantities.len() {
+        1 => Page::column(),
+        _ => Page::grid(2),
+    };
+    let page = quantities.into_iter().fold(page, |page, quantity| {
+        page.panel(inside.strips(quantity)).panel(inside.chart(quantity))
+    });
+    write_picture(call, &page)
+}
+
+fn plot_field(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let options = call.options_or_defaults("options")?;
+    let name = call.text("quantity")?;
+    let inside = inside(call, &options)?;
+    let picture = inside.field(quantity(call, &name)?).limits(limits(call, &options)?);
+    write_picture(call, &picture)
+}
+
+fn quantity(call: &Call, name: &str) -> Result<&'static Quantity, ScriptError> {
+    Quantity::named(name).ok_or_else(|| {
+        let meant = nearest(name, NAMES.iter().copied());
+        let meant = meant.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
+        call.error(format!("there is no quantity \"{name}\" along beams"))
+            .hint(format!("{meant}quantities: {}", NAMES.join(", ")))
+            .at(Place::Argument(1))
+    })
+}
+
+/// The quantities that are named, at least one.
+fn quantities(call: &Call) -> Result<Vec<&'static Quantity>, ScriptError> {
+    if let Some(names) = call.get_if::<Array>("quantity") {
+        if names.is_empty() || names.len() > NAMES.len() {
+            let told = format!("{} quantities are named", names.len());
+            let hint = format!("name one or several of {}", NAMES.join(", "));
+            return Err(call.error(told).hint(hint).at(Place::Argument(1)));
+        }
+        return names.iter().map(|name| quantity(call, &name.to_string())).collect();
+    }
+    Ok(vec![quantity(call, &call.text("quantity")?)?])
+}
+
+fn inside(call: &Call, options: &Options) -> Result<Inside, ScriptError> {
+    let mut inside = match call.get_if::<EquilibriumHandle>("of") {
+        Some(handle) => {
+            let rest = handle.rest();
+            let beams = beams(call, options, handle.scene(), rest.scene().beams.len())?;
+            Inside::of_model(rest.scene(), rest.model(), 0.0, &beams)?
+        }
+        None => {
+            let handle = call.get::<SimulationHandle>("of")?;
+            let simulation = handle.simulation();
+            let count = simulation.scene().beams.len();
+            let beams = beams(call, options, handle.scene(), count)?;
+            let mut inside = Inside::of_simulation(&simulation, &beams)?;
+            inside.title = handle.name().to_owned();
+            inside
+        }
+    };
+    if let Some(title) = options.text_if_given("title")? {
+        inside.title = title.to_string();
+    }
+    Ok(match options.boolean("symbols") {
+        Ok(false) => inside.without_symbols(),
+        _ => inside,
+    })
+}
+
+/// The indices of the beams that are asked for, of so many that were there when the scene was started.
+fn beams(
+    call: &Call,
+    options: &Options,
+    scene: &SceneHandle,
+    count: usize,
+) -> Result<Vec<usize>, ScriptError> {
+    let Ok(given) = options.array("beams") else { return Ok(Vec::new()) };
+    let at = || Place::Key("beams".into());
+    if given.is_empty() {
+        return Err(call.error("no beam is given").hint("for example [rod]").at(at()));
+    }
+    let beam = |value: &Dynamic| {
+        let handle = value.clone().try_cast::<BeamHandle>().ok_or_else(|| {
+            call.error("'beams' must hold beams").hint("for example [rod]").at(at())
+        })?;
+        let index = handle.own(scene)?;
+        match index < count {
+            true => Ok(index),
+            false => Err(call
+                .error(format!("{} was added after the scene was started", handle.name()))
+                .hint("add everything before scene.start(…), or start again")
+                .at(at())),
+        }
+    };
+    given.iter().map(beam).collect()
+}

@@ -1,0 +1,137 @@
+//! Options that charts have in common.
+
+use rhai::{Array, Dynamic};
+
+use crate::output::{Limits, LineChart, Marker, Scale, Series, Stroke, significant};
+use crate::script::rows::call::Call;
+use crate::script::rows::options::Options;
+use crate::script::rows::parameter::{Parameter, array, boolean, choice, numbers, text};
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::{as_number, format_number};
+
+pub(super) const TITLE: Parameter = text("title").doc("what stands above it").optional();
+pub(super) const X_LABEL: Parameter = text("x_label").doc("of the horizontal axis").optional();
+pub(super) const Y_LABEL: Parameter = text("y_label").doc("of the vertical axis").optional();
+pub(super) const X_LOG: Parameter =
+    boolean("x_log").doc("whether the horizontal axis is logarithmic").optional();
+pub(super) const Y_LOG: Parameter =
+    boolean("y_log").doc("whether the vertical axis is logarithmic").optional();
+pub(super) const X_LIMITS: Parameter =
+    numbers("x_limits").doc("[low, high]: the ends of the horizontal axis").optional();
+pub(super) const Y_LIMITS: Parameter =
+    numbers("y_limits").doc("[low, high]: the ends of the vertical axis").optional();
+pub(super) const MARKERS: Parameter = choice("markers", &["on_lines", "alone"])
+    .doc("a mark at every point, on the lines or without them; none unless given")
+    .optional();
+pub(super) const LABELS: Parameter =
+    array("labels").doc("the name of each curve, a text or a number, for the legend").optional();
+
+/// Digits of a number that is a label.
+const DIGITS: usize = 6;
+
+/// The ends of axes.
+pub(super) fn limits(call: &Call, options: &Options) -> Result<Limits, ScriptError> {
+    let ends = |name: &str| match options.numbers(name).ok().as_deref() {
+        None => Ok(None),
+        Some([low, high]) if low < high => Ok(Some((*low, *high))),
+        Some(other) => {
+            let got: Vec<String> = other.iter().map(|end| format_number(*end)).collect();
+            let told = format!("'{name}' must be [low, high], got [{}]", got.join(", "));
+            Err(call
+                .error(told)
+                .hint("two numbers, the smaller one first")
+                .at(Place::Key(name.to_owned())))
+        }
+    };
+    Ok(Limits { x: ends("x_limits")?, y: ends("y_limits")? })
+}
+
+/// The chart with the labels, scales and limits of its options; what is not given stays as it is.
+pub(super) fn dressed(
+    call: &Call,
+    options: &Options,
+    mut chart: LineChart,
+) -> Result<LineChart, ScriptError> {
+    let limits = limits(call, options)?;
+    let is_asked = |name: &str| options.boolean(name).unwrap_or(false);
+    for (axis, ends) in [("x", limits.x), ("y", limits.y)] {
+        if let Some((low, _)) = ends.filter(|(low, _)| *low <= 0.0)
+            && is_asked(&format!("{axis}_log"))
+        {
+            let low = format_number(low);
+            let told = format!("a logarithmic axis cannot begin at {low}");
+            return Err(call
+                .error(told)
+                .hint("give limits above zero")
+                .at(Place::Key(format!("{axis}_limits"))));
+        }
+    }
+    if let Some(label) = options.text_if_given("x_label")? {
+        chart = chart.x_label(label.as_str());
+    }
+    if let Some(label) = options.text_if_given("y_label")? {
+        chart = chart.y_label(label.as_str());
+    }
+    if is_asked("x_log") {
+        chart = chart.x_scale(Scale::Logarithmic);
+    }
+    if is_asked("y_log") {
+        chart = chart.y_scale(Scale::Logarithmic);
+    }
+    Ok(chart.limits(limits))
+}
+
+/// A curve with the marks of its options.
+pub(super) fn marked(options: &Options, index: usize, series: Series) -> Series {
+    match options.text("markers").as_deref() {
+        Ok("alone") => series.stroke(Stroke::Unjoined).marker(Marker::of_index(index)),
+        Ok(_) => series.stroke(Stroke::Marked).marker(Marker::of_index(index)),
+        Err(_) => series,
+    }
+}
+
+/// The names of so many curves, where they are given.
+pub(super) fn labels(
+    call: &Call,
+    options: &Options,
+    count: usize,
+) -> Result<Option<Vec<String>>, ScriptError> {
+    let Ok(given) = options.array("labels") else { return Ok(None) };
+    let at = || Place::Key("labels".into());
+    if given.len() != count {
+        let plural = if count == 1 { "" } else { "s" };
+        let told = format!("there are {count} curve{plural} and {} labels", given.len());
+        return Err(call.error(told).hint("give a label for each curve").at(at()));
+    }
+    let label = |value: &Dynamic| {
+        let number = as_number(value).map(|number| significant(number, DIGITS));
+        value.clone().into_string().ok().or(number)
+    };
+    let labels: Option<Vec<String>> = given.iter().map(label).collect();
+    let wrong = || call.error("the labels must be texts or numbers").at(at());
+    labels.map(Some).ok_or_else(wrong)
+}
+
+/// Arrays of numbers: one, or an array of them. What is not finite is a gap.
+pub(super) fn curves(call: &Call, name: &str, at: usize) -> Result<Vec<Vec<f64>>, ScriptError> {
+    let given = call.array(name)?;
+    let is_many = !given.is_empty() && given.iter().all(Dynamic::is_array);
+    let read = |array: &Array| -> Result<Vec<f64>, ScriptError> {
+        let number = |(index, value): (usize, &Dynamic)| {
+            as_number(value).ok_or_else(|| {
+                let got = call.describe(value);
+                call.error(format!("'{name}' must hold numbers, got {got} at index {index}"))
+                    .hint("an array of numbers is a curve; an array of such arrays, several")
+                    .at(Place::Argument(at))
+            })
+        };
+        array.iter().enumerate().map(number).collect()
+    };
+    match is_many {
+        true => given
+            .iter()
+            .map(|array| read(&array.clone().into_array().unwrap_or_default()))
+            .collect(),
+        false => Ok(vec![read(&given)?]),
+    }
+}

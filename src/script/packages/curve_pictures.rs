@@ -1,0 +1,86 @@
+//! Pictures of a script's own numbers.
+
+use rhai::Dynamic;
+
+use super::chart_options::{
+    LABELS, MARKERS, TITLE, X_LABEL, X_LIMITS, X_LOG, Y_LABEL, Y_LIMITS, Y_LOG, curves, dressed,
+    labels, marked,
+};
+use super::pictures::write_picture;
+use super::simulations::SPINNING;
+use crate::output::{LineChart, Series};
+use crate::script::rows::call::Call;
+use crate::script::rows::parameter::{Parameter, array, options, text};
+use crate::script::rows::table::{Table, function};
+use crate::script::words::error::{Place, ScriptError};
+
+/// Pictures of arrays.
+pub const TABLE: Table = Table {
+    name: "pictures of arrays",
+    doc: "A chart of any numbers: SVG or PNG by the ending of the file name, into the output folder.",
+    types: &[],
+    setup: SPINNING,
+    constants: &[],
+    rows: &[
+        function("plot", &[X, Y, FILE, options("options", OPTIONS).optional()], plot)
+            .summary("Draws numbers over numbers: one curve, or several in the same axes.")
+            .doc(
+                "x and y are arrays of numbers, or arrays of such arrays, one for each curve; one x serves for all y. A number that is not finite \
+                 leaves a gap; on a logarithmic axis what is not positive stands at its foot. Over time: collect what you want to see while the simulation runs, as in the \
+                 example, which draws the height of a tip, and then the bending moment along the beam with `plot_along`; \
+                 columns that the history has already are drawn by `plot_history`. At the prompt `:plot` draws in the terminal.",
+            )
+            .example(
+                "let t = [];\nlet height = [];\nlet speed = [];\nwhile sim.t < 2 {\n    sim.step();\n    t.push(sim.t);\n    \
+                 height.push(sim.position(rod.end).y);\n    speed.push(norm(sim.velocity(rod.end)));\n}\n\
+                 plot(t, height, \"tip.svg\", #{ x_label: \"t\", y_label: \"height of the tip [length]\" });\n\
+                 plot(t, [height, speed], \"both.svg\", #{ labels: [\"height\", \"speed\"], x_limits: [0, 1] });\n\
+                 plot_along(sim, \"M\", \"moment.svg\");",
+            )
+            .see(&["plot_history", "plot_along", "plot_motion", "plot_field"]),
+    ],
+};
+
+const X: Parameter = array("x").doc("numbers, or an array of numbers for each curve");
+const Y: Parameter = array("y").doc("as many numbers, or an array of numbers for each curve");
+const FILE: Parameter = text("file").doc("its name in the output folder");
+const OPTIONS: &[Parameter] =
+    &[TITLE, X_LABEL, Y_LABEL, X_LOG, Y_LOG, X_LIMITS, Y_LIMITS, MARKERS, LABELS];
+
+/// Most curves of a chart.
+const MOST_CURVES: usize = 1000;
+
+fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let options = call.options_or_defaults("options")?;
+    let (x, y) = (curves(call, "x", 0)?, curves(call, "y", 1)?);
+    if y.len() > MOST_CURVES {
+        let told = format!("{} curves are too many for a picture: {MOST_CURVES} at most", y.len());
+        return Err(call.error(told).at(Place::Argument(1)));
+    }
+    if x.len() != 1 && x.len() != y.len() {
+        let told = format!("x holds {} arrays and y {}", x.len(), y.len());
+        let hint = "give one x for all curves, or one for each";
+        return Err(call.error(told).hint(hint).at(Place::Argument(0)));
+    }
+    let names = labels(call, &options, y.len())?;
+    let title = options.text_if_given("title")?.unwrap_or_default();
+    let mut chart = LineChart::new(title.as_str());
+    let count = y.len();
+    for (index, y) in y.into_iter().enumerate() {
+        let x = &x[index.min(x.len() - 1)];
+        if x.len() != y.len() {
+            let which = if count == 1 { String::new() } else { format!("curve {index}: ") };
+            let told = format!("{which}x has {} numbers and y {}", x.len(), y.len());
+            let hint = "they belong together pair by pair";
+            return Err(call.error(told).hint(hint).at(Place::Argument(1)));
+        }
+        let name = match (&names, count) {
+            (Some(names), _) => names[index].clone(),
+            (None, 1) => String::new(),
+            (None, _) => format!("curve {}", index + 1),
+        };
+        let points = x.iter().copied().zip(y).collect();
+        chart = chart.series(marked(&options, index, Series::new(name, points)));
+    }
+    write_picture(call, &dressed(call, &options, chart)?)
+}

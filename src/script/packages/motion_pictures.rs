@@ -1,0 +1,132 @@
+//! Pictures of motion: their options, for files and for the prompt.
+
+use rhai::{Dynamic, Map};
+
+use super::chart_options::{X_LIMITS, Y_LIMITS};
+use super::pictures::{as_simulation, stations, things, write_picture};
+use super::recording::expect_near;
+use crate::output::{Limits, MotionPicture, Style};
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::handles::station::StationHandle;
+use crate::script::looks::motion::{Motion, Shown, Times, Wanted};
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::Scripted;
+use crate::script::rows::options::Options;
+use crate::script::rows::parameter::{Parameter, array, boolean, number, text};
+use crate::script::words::error::{Place, ScriptError};
+
+/// The options of a picture of a motion.
+pub const MOTION: &[Parameter] = &[
+    number("every")
+        .positive()
+        .unit("time")
+        .doc("between snapshots; a twentieth of the time shown unless given")
+        .optional(),
+    number("from").unit("time").doc("first snapshot; the start unless given").optional(),
+    number("to").unit("time").doc("last snapshot; the present unless given").optional(),
+    array("trace").doc("stations whose paths are drawn").optional(),
+    number("magnify")
+        .positive()
+        .doc("displacements since the start are drawn so many times as large")
+        .optional(),
+    boolean("dots")
+        .doc("whether knots or nodes are marked; unless given, up to 40 spans in all")
+        .optional(),
+    boolean("symbols")
+        .doc("whether supports, joints, sliders and loads are drawn; they are unless given")
+        .optional(),
+    X_LIMITS,
+    Y_LIMITS,
+    text("title").doc("the name of the simulation unless given").optional(),
+];
+
+pub(super) fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let simulations = things(call, as_simulation)?;
+    let options = call.options_or_defaults("options")?;
+    let limits = super::chart_options::limits(call, &options)?;
+    let picture = |of: &SimulationHandle| {
+        call.proceed()?;
+        let traced = options.array("trace").unwrap_or_default();
+        let traced = stations(call, &traced, Place::Key("trace".into()))?;
+        let wanted = wanted(of, &options, &traced, limits)?;
+        let every = wanted.times.every;
+        let expect = |time, recorded| expect_near(call, of, (time, recorded), every);
+        let motion = Motion::of(&of.simulation(), wanted, expect);
+        let motion = motion.map_err(|error| match error {
+            ScriptError::Failure(failure) if !failure.message.contains(": ") => {
+                let error = call.error(failure.message);
+                failure.hint.into_iter().fold(error, ScriptError::hint)
+            }
+            other => other,
+        })?;
+        Ok(motion.picture(title(of, &options)?))
+    };
+    let mut pictures = simulations.iter().map(picture).collect::<Result<Vec<_>, ScriptError>>()?;
+    match pictures.len() {
+        1 => write_picture(call, &pictures.remove(0)),
+        _ => write_picture(call, &MotionPicture::side_by_side(pictures)),
+    }
+}
+
+/// The same picture as text for a terminal, of options that were typed at the prompt; the present alone where they ask for no other time.
+///
+/// # Errors
+/// When an option is unknown or wrong, or nothing lies between the times.
+pub fn motion_text(
+    engine: &rhai::Engine,
+    of: &SimulationHandle,
+    map: &Map,
+    style: &Style,
+) -> Result<String, ScriptError> {
+    let options = Options::read(engine, ":show", MOTION, map)?;
+    let wrong = |told: &str, hint: &str| ScriptError::new(format!(":show: {told}")).hint(hint);
+    let traced = options.array("trace").unwrap_or_default();
+    let traced: Option<Vec<StationHandle>> =
+        traced.iter().map(|value| value.clone().try_cast()).collect();
+    let traced = traced.ok_or_else(|| {
+        wrong("'trace' must be an array of stations", "for example #{ trace: [rod.end] }")
+    })?;
+    let ends = |name: &str| match options.numbers(name).ok().as_deref() {
+        None => Ok(None),
+        Some([low, high]) if low < high => Ok(Some((*low, *high))),
+        Some(_) => {
+            let told = format!("'{name}' must be [low, high]");
+            Err(wrong(&told, "two numbers, the smaller one first"))
+        }
+    };
+    let limits = Limits { x: ends("x_limits")?, y: ends("y_limits")? };
+    let mut wanted = wanted(of, &options, &traced, limits)?;
+    if !options.has("every") && !options.has("from") {
+        wanted.times.from = wanted.times.to.min(of.time());
+    }
+    let motion = Motion::of(&of.simulation(), wanted, |_, _| Ok(()))?;
+    Ok(motion.text(title(of, &options)?, style))
+}
+
+fn title(of: &SimulationHandle, options: &Options) -> Result<String, ScriptError> {
+    let given = options.text_if_given("title")?;
+    Ok(given.unwrap_or_else(|| of.name().to_owned()))
+}
+
+fn wanted(
+    of: &SimulationHandle,
+    options: &Options,
+    traced: &[StationHandle],
+    limits: Limits,
+) -> Result<Wanted, ScriptError> {
+    let given = |name: &str| options.number_if_given(name);
+    let (from, to) = (given("from").unwrap_or(0.0), given("to").unwrap_or(of.time()));
+    let every = given("every").unwrap_or_else(|| ((to - from) / 20.0).max(f64::MIN_POSITIVE));
+    let trace = |station: &StationHandle| Ok((station.show(), station.on(of)?));
+    Ok(Wanted {
+        times: Times { from, to, every },
+        traces: traced.iter().map(trace).collect::<Result<_, ScriptError>>()?,
+        magnify: given("magnify"),
+        dots: options.boolean("dots").ok(),
+        symbols: match options.boolean("symbols") {
+            Ok(false) => Shown::No,
+            _ => Shown::Yes,
+        },
+        limits,
+    })
+}
