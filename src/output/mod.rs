@@ -10,12 +10,14 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod axis;
+mod base64;
 mod bars;
 mod canvas;
 mod chart;
 mod colour;
 mod csv;
 mod curve;
+mod data_table;
 mod error;
 mod figure;
 mod files;
@@ -26,8 +28,11 @@ mod heat_map;
 mod legend;
 mod marker;
 mod motion;
+mod npz;
 mod number;
 mod page;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod png;
 mod records;
 mod stroke;
@@ -35,6 +40,7 @@ mod svg;
 mod table;
 mod terminal;
 mod timebar;
+mod vtk;
 mod width;
 
 #[cfg(test)]
@@ -46,6 +52,7 @@ pub use canvas::{Align, Area, Canvas, Direction, Point, Shape, Text};
 pub use chart::{Ink, LineChart, Series, Weight};
 pub use colour::Colour;
 pub use csv::CsvTable;
+pub use data_table::{DataColumn, DataTable, DataValues, Heading};
 pub use error::OutputError;
 pub use figure::{Figure, PictureKind};
 pub use files::write_whole;
@@ -53,10 +60,12 @@ pub use frame::Margins;
 pub use heat_map::{HeatCell, HeatMap};
 pub use marker::Marker;
 pub use motion::{MotionPicture, Snapshot};
+pub use npz::{NpzArchive, NpzArray};
 pub use number::{format_number, scientific, significant};
 pub use page::{Page, Panel};
 pub use records::CsvRecords;
 pub use stroke::Stroke;
 pub use table::{Cell, Table};
 pub use terminal::{Colours, ConfigurationPicture, Glyphs, Mark, Style};
+pub use vtk::{VtkCell, VtkField, VtkGrid, VtkValues, vtk_collection};
 pub use width::{beginning, columns, columns_of, cut, padded};

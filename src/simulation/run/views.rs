@@ -95,7 +95,7 @@ impl Simulation {
     }
 
     /// The control points of all bodies in a configuration of the trajectory.
-    fn control_points_at(&self, index: usize) -> Vec<Vec<Vec2>> {
+    pub fn control_points_at(&self, index: usize) -> Vec<Vec<Vec2>> {
         let mut numbers = self.record.trajectory.configuration(index).chunks_exact(2);
         let of_body = |body: &[Vec2]| {
             numbers.by_ref().take(body.len()).map(|xy| Vec2::new(xy[0], xy[1])).collect()
