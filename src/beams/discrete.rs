@@ -164,7 +164,7 @@ impl<const N: usize> DiscreteBeam<N> {
     }
 }
 
-/// Moves a point, and keeps what rounding cuts off for the next time (compensated summation, Kahan 1965).
+/// Moves a point by x and y [length], and keeps in `remainder` what rounding cuts off for the next time (compensated summation, Kahan 1965).
 pub(super) fn move_compensated(point: &mut Vec2, remainder: &mut Vec2, [x, y, _]: &Movement) {
     let wanted = Vec2::new(*x, *y) + *remainder;
     let reached = *point + wanted;

@@ -16,4 +16,6 @@ pub use mechanism::{Energy, Measures, Model, ModelState, StaticForces, add_resis
 pub use motion::Resolution;
 pub use scene::{BeamDefinition, ParticleDefinition, Scene, StartMotion, StationVelocity};
 pub use sliders::{Blow, SliderState, TrackEnd, TrackLimit};
-pub use words::{ModelError, SliderError, SliderParts, refusal as refusal_of_name};
+pub use words::{
+    Approach, ModelError, SliderError, SliderParts, Turning, refusal as refusal_of_name,
+};

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::elementary::hypot;
 
-/// The PNG file of `canvas`, `width` by `height` pixels.
+/// The bytes of the PNG file of `canvas`, `width` by `height` pixels large.
 pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<Vec<u8>, OutputError> {
     let Colour(paper, ..) = WHITE;
     let mut pixels = vec![paper; width as usize * height as usize * 3];

@@ -18,7 +18,7 @@ const EDGE: f64 = 14.0;
 /// In how many even pieces the bar is filled.
 const PIECES: usize = 100;
 
-/// Times and their shades. With fewer than two different times there is nothing to tell apart, and no bar.
+/// A bar of times and their shades beside a motion picture. With fewer than two different times there is nothing to tell apart, and no bar.
 pub struct TimeBar {
     label: String,
     axis: Option<Axis>,
@@ -26,7 +26,7 @@ pub struct TimeBar {
 }
 
 impl TimeBar {
-    /// The bar over all finite `times`; `shade` takes the part of the way from the first to the last.
+    /// The bar of all finite `times`; `shade` takes the part of the way from the first to the last.
     pub fn new(
         label: &str,
         times: impl IntoIterator<Item = f64>,
@@ -38,12 +38,12 @@ impl TimeBar {
         Self { label: label.into(), axis, shade }
     }
 
-    /// How far `time` is from the first to the last; a lone time is the last.
+    /// How far `time` is on the bar from the first to the last, from 0 to 1; a lone time is the last.
     pub fn part(&self, time: f64) -> f64 {
         self.axis.map_or(1.0, |axis| axis.place(time))
     }
 
-    /// The room that the bar needs at the right of the plot.
+    /// The room that the bar of times needs at the right of the plot [pixels].
     pub fn width(&self) -> f64 {
         let Some(axis) = self.axis else { return 0.0 };
         let (ticks, factor) = axis.ticks(8);
@@ -52,7 +52,7 @@ impl TimeBar {
         GAP + BREADTH + NUMBERS + numbers.max(label) + EDGE
     }
 
-    /// Draws the bar at the right of `plot`.
+    /// Draws the bar of times at the right of `plot`.
     pub fn draw(&self, canvas: &mut Canvas, plot: &Area) {
         let Some(axis) = self.axis else { return };
         let (left, top) = (plot.right + GAP, plot.top + LABEL + 10.0);

@@ -4,23 +4,23 @@ use super::Sample;
 use crate::joints::Slider;
 use crate::model::{Model, Scene};
 
-/// A column that every history has.
+/// A column that the history of every run has.
 #[derive(Debug, Clone, Copy)]
 pub struct Column {
-    /// Its name.
+    /// The name of the column.
     pub name: &'static str,
-    /// Its dimension.
+    /// The dimension of the column's values, in words.
     pub dimension: &'static str,
-    /// Its value in a row.
+    /// The value of the column in a row of the history.
     pub value: fn(&Sample) -> f64,
 }
 
 /// A column that a history has because of its scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExtraColumn {
-    /// Its name: a thing of the scene and a quantity of it, such as `slider1.force`.
+    /// The name of the column: a thing of the scene and a quantity of it, such as `slider1.force`.
     pub name: String,
-    /// Its dimension.
+    /// The dimension of the column's values, in words.
     pub dimension: &'static str,
 }
 
@@ -57,7 +57,7 @@ const OF_SLIDER: [(&str, &str); 5] = [
     ("force_y", "force"),
 ];
 
-/// The columns that a scene adds.
+/// The columns that a scene adds to those that every history has.
 pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
     let of_slider = |slider: &Slider| {
         let name = slider.name.clone();
@@ -69,7 +69,7 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
     scene.sliders.iter().flat_map(of_slider).collect()
 }
 
-/// The values of these columns at the present state of the model, in the same order.
+/// The values of the columns that a scene adds, at the present state of the model, in the same order.
 pub(super) fn extra_values(model: &Model) -> impl Iterator<Item = f64> {
     (0..model.slider_names().count()).flat_map(|slider| {
         let force = model.contact_force(slider);

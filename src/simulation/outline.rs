@@ -7,23 +7,23 @@ use crate::model::{BeamDefinition, ModelError, Scene};
 /// Points along each span of a beam of higher degree.
 const POINTS_A_SPAN: usize = 8;
 
-/// The places of a beam that a picture needs.
+/// The places of a beam that a picture needs: points of its axis, and its knots or nodes.
 #[derive(Debug, Clone)]
 pub struct Outline {
     line: Vec<Place>,
     marks: Vec<Place>,
 }
 
-/// A configuration as it is drawn.
+/// A configuration of a scene as it is drawn, in plain points [length].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Configuration {
-    /// When.
+    /// The time of the configuration [time].
     pub time: f64,
-    /// A line for each beam.
+    /// A line of points for each beam [length].
     pub lines: Vec<Vec<Vec2>>,
-    /// Knots or nodes of all beams.
+    /// The knots or nodes of all beams [length].
     pub marks: Vec<Vec2>,
-    /// Where the particles are.
+    /// The places of the particles [length].
     pub particles: Vec<Vec2>,
 }
 
@@ -55,7 +55,7 @@ impl Outline {
         scene.beams.iter().zip(meshes).enumerate().map(of_beam).collect()
     }
 
-    /// The lines and marks of the control points of all bodies: one beam after another, then the particles.
+    /// The configuration as drawn from the control points of all bodies [length]: one beam after another, then the particles.
     pub fn draw(outlines: &[Self], time: f64, control_points: &[&[Vec2]]) -> Configuration {
         let at = |place: &Place| place.interpolate(control_points[place.body]);
         Configuration {

@@ -33,22 +33,22 @@ impl Elements {
         Self { masses, weight, forces }
     }
 
-    /// The mass of all point masses [mass].
+    /// The mass of all point masses of the model [mass].
     pub fn mass(&self) -> f64 {
         self.masses.iter().map(|mass| mass.mass).sum()
     }
 
-    /// The weight of everything, if there is gravity.
+    /// The weight of all beams and point masses, if there is gravity.
     pub fn weight(&self) -> Option<&dyn ForceElement> {
         self.weight.as_ref().map(|weight| weight as &dyn ForceElement)
     }
 
-    /// What puts forces on bodies besides the weight, in the order of the scene.
+    /// The elements that put forces on bodies besides the weight, in the order of the scene.
     pub fn forces(&self) -> impl Iterator<Item = &dyn ForceElement> + Clone {
         self.forces.iter().map(|force| &**force)
     }
 
-    /// Prepares a step.
+    /// Prepares all elements for a step.
     ///
     /// # Errors
     /// When an element has no finite value: its name, and why.
@@ -72,7 +72,7 @@ impl Elements {
         })
     }
 
-    /// Whether one may have another value just after a time than just before it.
+    /// Whether an element may have another value just after a time than just before it.
     pub fn may_jump_at(&self, time: f64) -> bool {
         self.forces.iter().any(|force| force.may_jump_at(time))
     }
@@ -82,12 +82,12 @@ impl Elements {
         self.forces.iter().map(|force| force.followed_sections()).sum()
     }
 
-    /// Adds `factor · M · rates`.
+    /// Adds `factor · M · rates` of all point masses to `out`, one entry for each unknown.
     pub fn add_inertia(&self, bodies: &[Body], factor: f64, rates: &[f64], out: &mut [f64]) {
         self.masses.iter().for_each(|mass| mass.add_inertia(bodies, factor, rates, out));
     }
 
-    /// Gives `factor · M` to `add`: row, column and value; several of one place add up.
+    /// Gives the entries of `factor · M` of all point masses to `add`: row, column and value; several of one place add up.
     pub fn inertia_entries(
         &self,
         bodies: &[Body],
@@ -99,12 +99,12 @@ impl Elements {
         masses.for_each(|mass| mass.inertia_entries(bodies, factor, unknowns, add));
     }
 
-    /// Adds momenta and twice the kinetic energy of all masses to a sum.
+    /// Adds momenta and twice the kinetic energy of all point masses to a sum.
     pub fn add_momenta(&self, bodies: &[Body], rates: &[f64], sum: &mut Momenta) {
         self.masses.iter().for_each(|mass| *sum += mass.momenta(bodies, rates));
     }
 
-    /// Subtracts the forces of an iterate; the largest force and the largest moment of an element on a control point.
+    /// Subtracts the forces of all elements in an iterate; gives the largest force and the largest moment of an element on a control point.
     pub fn subtract_from(&mut self, at: Iterate<'_>, out: &mut [f64]) -> (f64, f64) {
         let weight = self.weight.iter_mut().map(|weight| weight as &mut dyn ForceElement);
         let forces = self.forces.iter_mut().map(|force| &mut **force as &mut dyn ForceElement);
@@ -114,12 +114,12 @@ impl Elements {
         })
     }
 
-    /// Adds the derivative of minus the forces by the increments; there are so many unknowns.
+    /// Adds the derivative of minus the forces of all elements by the increments to the tangent; there are `unknowns` increments.
     pub fn add_tangent(&self, at: Iterate<'_>, unknowns: usize, tangent: &mut BandedMatrix) {
         self.forces.iter().for_each(|force| force.add_tangent(at, unknowns, tangent));
     }
 
-    /// What all gave in the step of the movements that the bodies gathered last.
+    /// The work and impulse that all elements gave in the step of the movements that the bodies gathered last.
     pub fn exchange(&self, bodies: &[Body], duration: f64) -> Exchange {
         let mut sum = Exchange::default();
         for element in self.forces().chain(self.weight()) {
@@ -134,17 +134,17 @@ impl Elements {
         stored.filter_map(|element| element.energy(bodies)).reduce(|a, b| a + b).unwrap_or(0.0)
     }
 
-    /// Accepts the movements that the bodies gathered last.
+    /// Lets all elements accept the movements that the bodies gathered last.
     pub fn advance(&mut self, bodies: &[Body], rotations: RotationIncrement) {
         self.forces.iter_mut().for_each(|force| force.advance(bodies, rotations));
     }
 
-    /// Appends the state at the start of a step.
+    /// Appends the state of all elements at the start of a step.
     pub fn save(&self, state: &mut Vec<f64>) {
         self.forces.iter().for_each(|force| force.save(state));
     }
 
-    /// Takes the state back, in the order in which it was appended.
+    /// Takes the state of all elements back, in the order in which it was appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.forces.iter_mut().for_each(|force| force.restore(next));
     }

@@ -8,37 +8,37 @@ use crate::model::elements::ForceElement;
 use crate::model::words::{MOST, in_words, plural};
 use crate::model::{BeamDefinition, Model, ModelError, Scene};
 
-/// A part of the mechanics.
+/// A part of the mechanics, and whether a simulation uses it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Part {
-    /// What it is.
+    /// The part of the mechanics in words.
     pub name: String,
-    /// Whether it is used.
+    /// Whether the part is used, and how or what is saved.
     pub usage: Usage,
 }
 
-/// Whether a part is used.
+/// Whether a part of the mechanics is used.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Usage {
-    /// It is: how much, or why.
+    /// The part is used: how much, or why.
     Used(String),
-    /// It is not: what is saved.
+    /// The part is not used: what is saved by that.
     LeftOut(String),
 }
 
 impl Part {
-    /// A part that is used.
+    /// A part of the mechanics that is used, and how.
     pub fn used(name: impl Into<String>, how: impl Into<String>) -> Self {
         Self { name: name.into(), usage: Usage::Used(how.into()) }
     }
 
-    /// Steps, in words, and the times at which they are cut.
+    /// The steps of a simulation as a part that is used: their size in words, and the times at which they are cut.
     pub fn steps(size: &str, cuts: &[f64]) -> Self {
         let cut = in_words(cuts).map(|times| format!("cut ahead at t = {times}"));
         Self::used("steps", format!("{size}, {}", cut.unwrap_or("no cuts ahead".to_owned())))
     }
 
-    /// A part that is left out.
+    /// A part of the mechanics that is left out, and what is saved by that.
     pub fn left_out(name: impl Into<String>, saved: impl Into<String>) -> Self {
         Self { name: name.into(), usage: Usage::LeftOut(saved.into()) }
     }

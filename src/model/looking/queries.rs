@@ -17,12 +17,12 @@ impl Model {
         self.bodies().iter().map(|body| body.dynamics.control_points())
     }
 
-    /// Where a place is [length].
+    /// The point where a place of the model is [length].
     pub fn position(&self, place: &Place) -> Vec2 {
         self.bodies().position(place)
     }
 
-    /// How fast a place moves [length/time].
+    /// The velocity of a place of the model [length/time].
     pub fn velocity(&self, place: &Place) -> Vec2 {
         let [x, y, _] = self.bodies()[place.body].at(place, self.rates());
         Vec2::new(x, y)
@@ -48,7 +48,7 @@ impl Model {
         (angle(2 * beam), angle(2 * beam + 1))
     }
 
-    /// Which unknown movements are rotations.
+    /// Which unknown movements of the model are rotations, one entry for each.
     pub fn rotations(&self) -> &[bool] {
         self.unknown_movements().rotations()
     }
@@ -61,7 +61,7 @@ impl Model {
         self.bodies().iter().map(of_body).collect()
     }
 
-    /// The first load that turns with a section, which has no potential.
+    /// The name of the first load of the model that turns with a section, which has no potential.
     pub fn follower(&self) -> Option<&str> {
         self.elements().forces().find(|element| element.turns()).map(|element| element.name())
     }

@@ -11,7 +11,7 @@ use crate::linalg::{BandedMatrix, Border, BorderShape};
 use crate::model::elements::{Exchange, Iterate, collocation};
 
 impl Model {
-    /// Adds what the bodies resist with; the largest that was met.
+    /// Adds the internal forces of all bodies to a force vector; gives the largest ones that were met.
     pub(super) fn add_internal_forces(
         &mut self,
         stage: Stage,
@@ -26,7 +26,7 @@ impl Model {
         summary
     }
 
-    /// Subtracts the forces of the elements; the largest force and the largest moment of one on a control point.
+    /// Subtracts the forces of all elements from a force vector; gives the largest force and the largest moment of one on a control point.
     pub(super) fn subtract_loads(
         &mut self,
         stage: Stage,
@@ -38,7 +38,7 @@ impl Model {
         self.elements.subtract_from(at, out)
     }
 
-    /// Adds what the bodies resist with, condensed, and minus `share` times what the elements give, with the derivatives.
+    /// Adds the condensed internal forces of all bodies, and minus `share` times the forces of the elements, with the derivatives.
     pub(super) fn add_linearised(
         &mut self,
         stage: Stage,

@@ -9,8 +9,8 @@ use crate::elementary::square;
 use crate::linalg::{PreciseBand, SymmetricSparse};
 
 impl Model {
-    /// Gives every span of every body, as at rest: the unknowns of its components, and its rows. Those of supported components stand
-    /// behind the unknowns of all.
+    /// Gives, for every span of every body, how it resists as at rest: the unknowns of its components, and its rows. Those of
+    /// supported components stand behind the unknowns of all.
     pub fn each_span_at_rest(&self, take: &mut dyn FnMut(&[usize], &SpanAtRest)) {
         for body in self.bodies.iter() {
             let order = body.dynamics.order();

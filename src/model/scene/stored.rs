@@ -14,7 +14,7 @@ use crate::model::words::finite;
 /// Most sliders of a stored scene: the matrix of a step grows with their square, and a small file must not make it huge.
 const MOST_SLIDERS: usize = 2000;
 
-/// A [`Scene`] as it is stored, not yet checked.
+/// A [`Scene`] as it is stored in a file, not yet checked.
 #[derive(Deserialize)]
 pub struct StoredScene {
     name: String,

@@ -12,7 +12,7 @@ use crate::simulation::Simulation;
 /// Characters of a value in the list of variables.
 const VALUE_WIDTH: usize = 70;
 
-/// `:vars`
+/// The command `:vars`: lists the variables, functions and modules of the session.
 pub fn variables(shell: &mut Shell, _: &str) -> Outcome {
     let session = shell.session();
     let mut table = Table::new(&["name", "type", "value"]);
@@ -49,17 +49,17 @@ pub fn variables(shell: &mut Shell, _: &str) -> Outcome {
     Outcome::Good
 }
 
-/// `:invariants`
+/// The command `:invariants`: shows how far energy and momenta of the last simulation drift.
 pub fn invariants(shell: &mut Shell, _: &str) -> Outcome {
     shell.show_of_latest("invariants()")
 }
 
-/// `:explain`
+/// The command `:explain`: tells what the last simulation uses and leaves out.
 pub fn explain(shell: &mut Shell, _: &str) -> Outcome {
     shell.show_of_latest("explain()")
 }
 
-/// `:show [time]`
+/// The command `:show [time]`: draws the configuration of the last simulation.
 pub fn show(shell: &mut Shell, operand: &str) -> Outcome {
     let time = match (operand, operand.parse::<f64>()) {
         ("", _) => None,
@@ -81,7 +81,7 @@ pub fn show(shell: &mut Shell, operand: &str) -> Outcome {
     })
 }
 
-/// Shows what is made of the last simulation for the screen.
+/// Shows what is made of the last simulation for the screen: a picture, or words.
 pub(super) fn draw(
     shell: &mut Shell,
     picture: impl FnOnce(&Simulation, Screen) -> Result<String, ScriptError>,

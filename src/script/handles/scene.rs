@@ -10,33 +10,33 @@ use crate::script::looks::details;
 use crate::script::rows::kind::{Details, Scripted};
 use crate::script::words::error::ScriptError;
 
-/// A scene that a script holds.
+/// A handle on a scene that a script holds.
 #[derive(Clone)]
 pub struct SceneHandle(Rc<RefCell<Scene>>);
 
 impl SceneHandle {
-    /// A handle on a scene of its own.
+    /// A new handle on a scene.
     pub fn new(scene: Scene) -> Self {
         Self(Rc::new(RefCell::new(scene)))
     }
 
-    /// The scene itself.
+    /// The scene of the handle, to look at or to change it.
     pub fn scene(&self) -> &RefCell<Scene> {
         &self.0
     }
 
-    /// The scene itself, shared.
+    /// The scene of the handle, shared with it.
     pub fn shared(&self) -> Rc<RefCell<Scene>> {
         Rc::clone(&self.0)
     }
 
-    /// The station of a handle, if it is one of this scene.
+    /// The station of another handle, if it is one of this scene.
     pub fn own(&self, handle: &StationHandle) -> Result<Station, ScriptError> {
         self.expect_same(&handle.scene, "station")?;
         Ok(handle.station)
     }
 
-    /// Refuses a thing of another scene; `what` is the kind of the thing.
+    /// Refuses a thing of another scene than this; `what` is the kind of the thing.
     pub fn expect_same(&self, other: &Self, what: &str) -> Result<(), ScriptError> {
         if Rc::ptr_eq(&self.0, &other.0) {
             return Ok(());

@@ -15,7 +15,7 @@ use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::format_number;
 use crate::simulation::{History, Invariant};
 
-/// Histories.
+/// The domain of histories.
 pub const TABLE: Table = Table {
     name: "histories",
     doc: "A row for each step, or as the option record says. Columns: t, kinetic, strain, potential, energy, work, momentum_x, momentum_y, impulse_x, \

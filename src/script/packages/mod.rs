@@ -10,6 +10,7 @@ pub mod geometry;
 mod help;
 mod histories;
 mod integrators;
+mod language;
 mod loads;
 mod math;
 mod modes;
@@ -31,10 +32,10 @@ mod text;
 mod time_travel;
 mod vectors;
 
-use crate::script::rows::catalog::Catalog;
 use crate::script::rows::table::Table;
+pub use language::language;
 
-/// All domains, in the order of the reference.
+/// The domains of the language, in the order of the reference.
 pub const TABLES: &[&Table] = &[
     &math::TABLE,
     &vectors::TABLE,
@@ -69,11 +70,6 @@ pub const TABLES: &[&Table] = &[
     &reading_options::TABLE,
     &help::TABLE,
 ];
-
-/// The language of withy.
-pub fn language() -> Catalog {
-    Catalog::of(TABLES)
-}
 
 #[cfg(test)]
 mod tests;

@@ -25,7 +25,7 @@ use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::format_number;
 use crate::simulation::{Configuration, History};
 
-/// Pictures and files.
+/// The domain of pictures and files.
 pub const TABLE: Table = Table {
     name: "pictures",
     doc: "Pictures are SVG or PNG by the ending of the file name, tables are CSV; all go into the output folder. Given an \
@@ -137,7 +137,7 @@ fn as_history(value: &Dynamic) -> Option<HistoryHandle> {
     value.clone().try_cast::<HistoryHandle>().or_else(|| as_simulation(value).map(whole))
 }
 
-/// Writes a picture in the format that the ending of its name asks for.
+/// Writes a picture into the output folder, in the format that the ending of its name asks for; gives nothing to the script.
 pub(super) fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic, ScriptError> {
     let file = call.text("file")?;
     let kind = PictureKind::of(Path::new(file.as_str()))?;
@@ -164,12 +164,12 @@ fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
 }
 
-/// A point as it is drawn.
+/// A point in plain numbers, as it is drawn.
 pub(super) fn plain(point: &Vec2) -> (f64, f64) {
     (point.x, point.y)
 }
 
-/// A configuration as it is drawn.
+/// A configuration as a snapshot that is drawn.
 pub(super) fn snapshot(configuration: &Configuration) -> Snapshot {
     let plain_line = |line: &Vec<Vec2>| line.iter().map(plain).collect();
     Snapshot {
@@ -203,7 +203,7 @@ fn motion(
             .error(format!("{count} snapshots are too many for a picture"))
             .hint("choose a larger `every`"));
     }
-    let title = options.text("title").map_or_else(|_| of.name().to_owned(), |t| t.to_string());
+    let title = options.text_if_given("title")?.unwrap_or_else(|| of.name().to_owned());
     let mut picture = MotionPicture::new(title)
         .beams(simulation.scene().beams.iter().map(|beam| beam.name.clone()));
     let times = (0..=count as usize).map(|index| from + index as f64 * every);
@@ -263,9 +263,9 @@ fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
         whose.into_iter().try_for_each(|of| expect_all_rows(call, of, "`average`"))?;
     }
     let names = columns(call, &histories)?;
+    let title = options.text_if_given("title")?;
     let chart = |of: &HistoryHandle| {
-        let title = options.text("title");
-        let title = title.map_or_else(|_| of.of.name().to_owned(), |title| title.to_string());
+        let title = title.clone().unwrap_or_else(|| of.of.name().to_owned());
         let values = |history: &History, name: &str| {
             read(history, name).map(|values| values.into_iter().map(shown).collect())
         };
@@ -294,7 +294,7 @@ fn plot_drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
     write_charts(call, histories_over_time(call)?.iter().map(chart).collect())
 }
 
-/// Writes a table, if the name of its file ends as it should.
+/// Writes a table into the output folder, if the name of its file ends as it should; gives nothing to the script.
 pub(super) fn write_csv(call: &Call, table: CsvTable) -> Result<Dynamic, ScriptError> {
     let file = call.text("file")?;
     if !file.ends_with(".csv") {
