@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use super::convert_options::ConvertOptions;
 use super::learn_options::LearnOptions;
 use super::limits::LimitOptions;
 use crate::repl::editor::Keys;
@@ -34,6 +35,9 @@ pub enum Command {
     /// Parse a script and build its scenes without running, printing or writing anything.
     #[command(after_help = EXIT_CODES)]
     Check(CheckOptions),
+    /// Write a saved simulation for other programs: frames for ParaView, arrays for NumPy, a table.
+    #[command(after_help = EXIT_CODES)]
+    Convert(ConvertOptions),
     /// Show help on a name, the whole reference, or write definition files for editors.
     Docs(DocsOptions),
     /// Learn by doing: exercises with hints and a judge.

@@ -116,7 +116,7 @@ fn start(file: &Path, settings: Settings) -> Result<Outcome, Diagnostic> {
     Ok(runner::run(&program, &language(), settings))
 }
 
-fn exit_for(outcome: &Outcome) -> Exit {
+pub(super) fn exit_for(outcome: &Outcome) -> Exit {
     match &outcome.ending {
         Ending::Failed(diagnostic) => refuse(diagnostic),
         Ending::Interrupted => {
@@ -164,7 +164,7 @@ pub(super) fn refuse(diagnostic: &Diagnostic) -> Exit {
     Exit::Wrong
 }
 
-fn show_summary(outcome: &Outcome) {
+pub(super) fn show_summary(outcome: &Outcome) {
     for file in &outcome.files {
         tell(&format!("wrote {}\n", file.display()));
     }

@@ -11,7 +11,9 @@ mod sliders;
 mod words;
 
 pub use elements::{Element, PointMass};
-pub use looking::{BeamPlaces, BeamSample, CrossSection, Distance, Part, Placement, SectionSample, Usage};
+pub use looking::{
+    BeamPlaces, BeamSample, CrossSection, Distance, Part, Placement, SectionSample, Usage,
+};
 pub use mechanism::{Energy, Measures, Model, ModelState, StaticForces, add_resistance};
 pub use motion::Resolution;
 pub use scene::{BeamDefinition, ParticleDefinition, Scene, StartMotion, StationVelocity};

@@ -10,8 +10,8 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod axis;
-mod base64;
 mod bars;
+mod base64;
 mod canvas;
 mod chart;
 mod colour;

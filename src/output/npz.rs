@@ -68,8 +68,7 @@ impl NpzArray {
     fn to_npy(&self) -> Vec<u8> {
         let lengths: String = self.shape.iter().map(|length| format!("{length}, ")).collect();
         let lengths = lengths.trim_end();
-        let header =
-            format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({lengths}), }}");
+        let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({lengths}), }}");
         let begun = MARK.len() + 2 + header.len() + 1;
         let filled = begun.next_multiple_of(ALIGNMENT) - begun;
         let mut bytes = MARK.to_vec();

@@ -19,7 +19,8 @@ impl DataTable {
     /// When the columns are not equally long, or two have one name.
     pub fn to_parquet(&self) -> Result<Vec<u8>, OutputError> {
         self.rows()?;
-        self.written_to_parquet().map_err(|error| OutputError::Parquet { reason: error.to_string() })
+        self.written_to_parquet()
+            .map_err(|error| OutputError::Parquet { reason: error.to_string() })
     }
 
     fn written_to_parquet(&self) -> Result<Vec<u8>, ParquetError> {

@@ -203,7 +203,9 @@ mod tests {
     #[test]
     fn a_collection_has_times_to_the_last_bit() {
         let text = vtk_collection(&[(0.1 + 0.2, "a&b/1.vtu".into()), (1e-300, "2.vtu".into())]);
-        assert!(text.contains("timestep=\"0.30000000000000004\" part=\"0\" file=\"a&amp;b/1.vtu\""));
+        assert!(
+            text.contains("timestep=\"0.30000000000000004\" part=\"0\" file=\"a&amp;b/1.vtu\"")
+        );
         assert!(text.contains("timestep=\"1e-300\""));
     }
 }

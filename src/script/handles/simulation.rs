@@ -1,6 +1,7 @@
 //! A simulation that a script holds: steps, events, progress and interrupts.
 
 mod revisit;
+mod visit;
 
 use std::cell::{Cell, Ref, RefCell};
 use std::rc::Rc;
@@ -23,6 +24,7 @@ use crate::simulation::{Monitor, Simulation, SimulationError, StepSize};
 use crate::vibration::{Modes, VibrationError};
 
 pub use revisit::Revisit;
+pub use visit::Visited;
 
 /// A handle on a running simulation; clones are the same one.
 #[derive(Clone)]

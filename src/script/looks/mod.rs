@@ -1,6 +1,8 @@
 //! How values look: at the prompt, in charts and pictures, in colours.
 
+pub mod arrays;
 pub mod details;
+pub mod grids;
 pub mod highlight;
 pub mod present;
 pub mod sight;

@@ -6,6 +6,7 @@ mod convergence_studies;
 mod cost_studies;
 mod equilibria;
 mod explaining;
+mod exports;
 pub mod geometry;
 mod help;
 mod histories;
@@ -28,6 +29,7 @@ mod simulations;
 mod sliding;
 mod stability_studies;
 mod step_sizes;
+mod tables;
 mod text;
 mod time_travel;
 mod vectors;
@@ -63,6 +65,7 @@ pub const TABLES: &[&Table] = &[
     &explaining::TABLE,
     &pictures::TABLE,
     &rest_pictures::TABLE,
+    &exports::TABLE,
     &stability_studies::TABLE,
     &cost_studies::TABLE,
     &precision_studies::TABLE,
