@@ -153,11 +153,14 @@ pub struct CheckOptions {
 #[derive(Args)]
 pub struct DocsOptions {
     /// A function, type, option, constant or part of the language, such as section or simulation.run_to; without it, an overview.
-    #[arg(conflicts_with_all = ["markdown", "definitions"])]
+    #[arg(conflicts_with_all = ["markdown", "grammar", "definitions"])]
     pub name: Option<String>,
     /// Print the whole reference as Markdown.
-    #[arg(long, conflicts_with = "definitions")]
+    #[arg(long, conflicts_with_all = ["grammar", "definitions"])]
     pub markdown: bool,
+    /// Print a TextMate grammar (JSON), by which editors colour scripts.
+    #[arg(long, conflicts_with = "definitions")]
+    pub grammar: bool,
     /// Write definition files (.d.rhai) for the Rhai language server into this folder.
     #[arg(long, value_name = "DIR")]
     pub definitions: Option<PathBuf>,

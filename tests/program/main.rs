@@ -3,6 +3,7 @@
 mod cli;
 mod convert;
 mod docs_command;
+mod editors;
 mod learn_command;
 mod learn_watch;
 mod limits;
