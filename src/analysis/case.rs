@@ -1,5 +1,6 @@
 //! A run to be made: a scene, how it is simulated, and when it is looked at.
 
+use std::borrow::Cow;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -7,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Outcome;
 use super::patience::{Patience, Wait};
-use crate::model::Scene;
+use crate::model::{Scene, Sensor};
 use crate::simulation::{Monitor, Recording, Settings, Simulation, SimulationError, StepSize};
 
 /// A run of a study that is to be made, as data.
@@ -44,10 +45,15 @@ impl Monitor for Watch<'_> {
 }
 
 impl Case {
-    /// The bytes of the case for another thread or another day; none when a load of it has a function of a script.
+    /// The case for another thread or another day; none when a load of it has a function of a script. Columns
+    /// that a script fills are left out.
     pub fn to_bytes(&self) -> Option<Vec<u8>> {
         let is_data = self.scene.schedules().all(|(_, schedule)| schedule.can_be_stored());
-        is_data.then(|| postcard::to_stdvec(self).ok()).flatten()
+        let mut case = Cow::Borrowed(self);
+        if !self.scene.sensors.iter().all(Sensor::can_be_stored) {
+            case.to_mut().scene.sensors.retain(Sensor::can_be_stored);
+        }
+        is_data.then(|| postcard::to_stdvec(&*case).ok()).flatten()
     }
 
     /// A case from [`to_bytes`](Self::to_bytes); none when the bytes are something else.

@@ -40,7 +40,7 @@ impl RotationIncrement {
 
     /// The first two derivatives of the angle by the increment, `dΔθ/dΔω` and `d²Δθ/dΔω²`, for which no angle needs its sine.
     #[inline]
-    pub(super) fn rates(self, increment: f64) -> (f64, f64) {
+    pub fn rates(self, increment: f64) -> (f64, f64) {
         match self {
             Self::TangentScaled => {
                 let half = 0.5 * increment;

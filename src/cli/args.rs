@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use super::convert_options::ConvertOptions;
 use super::learn_options::LearnOptions;
 use super::limits::LimitOptions;
+use super::view_options::ViewOptions;
 use crate::repl::editor::Keys;
 
 /// Planar dynamics of flexible beams, scripted.
@@ -35,9 +36,12 @@ pub enum Command {
     /// Parse a script and build its scenes without running, printing or writing anything.
     #[command(after_help = EXIT_CODES)]
     Check(CheckOptions),
-    /// Write a saved simulation for other programs: frames for ParaView, arrays for NumPy, a table.
+    /// Write a saved simulation for other programs: frames for ParaView, arrays for NumPy, a table, a page.
     #[command(after_help = EXIT_CODES)]
     Convert(ConvertOptions),
+    /// Write a page on which a saved simulation moves, or the last one of a script, and open it in a browser.
+    #[command(after_help = EXIT_CODES)]
+    View(ViewOptions),
     /// Show help on a name, the whole reference, or write definition files for editors.
     Docs(DocsOptions),
     /// Learn by doing: exercises with hints and a judge.

@@ -45,5 +45,6 @@ fn line(to: Target, stem: &str) -> String {
         Target::Vtk => format!("write_vtk(sim, {});", file("pvd")),
         Target::Npz => format!("write_npz(sim, {});", file("npz")),
         Target::Csv => format!("write_csv(sim, {}, #{{ units: true }});", file("csv")),
+        Target::Html => format!("write_viewer(sim, {});", file("html")),
     }
 }

@@ -34,4 +34,6 @@ pub enum Target {
     Npz,
     /// The history as a table, with a line of units: NAME.csv.
     Csv,
+    /// A page on which the motion is played: NAME.html.
+    Html,
 }

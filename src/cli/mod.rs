@@ -17,6 +17,8 @@ mod saved;
 mod say;
 mod session;
 mod start;
+mod view;
+mod view_options;
 mod watching;
 
 pub use exit::Exit;

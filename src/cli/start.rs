@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use super::args::{Arguments, Command};
-use super::{Exit, convert, docs, learn, run, say, session};
+use super::{Exit, convert, docs, learn, run, say, session, view};
 
 /// Runs the program: reads the command line and does what it says.
 pub fn main() -> ExitCode {
@@ -18,6 +18,7 @@ pub fn main() -> ExitCode {
         Some(Command::Run(options)) => run::run(&options),
         Some(Command::Study(options)) => run::study(&options),
         Some(Command::Check(options)) => run::check(&options),
+        Some(Command::View(options)) => view::view(&options),
         Some(Command::Repl(options)) => session::open(&options),
         Some(Command::Convert(options)) => convert::convert(&options),
         Some(Command::Docs(options)) => docs::docs(&options),

@@ -17,10 +17,10 @@ pub fn fingerprint(submission: &Submission, exercise: &Exercise, limits: &[Strin
         Some(Ok(attempt)) => format!("text: {}", &*attempt.text),
     };
     let mut beside = Vec::new();
-    if reads_files(&attempt.as_str().into()) {
-        if let Ok(folder) = Folder::open(&submission.folder) {
-            note_files(&folder, &mut beside, &mut 0);
-        }
+    if reads_files(&attempt.as_str().into())
+        && let Ok(folder) = Folder::open(&submission.folder)
+    {
+        note_files(&folder, &mut beside, &mut 0);
     }
     let limits = limits.join(" ");
     let parts = [&attempt, exercise.start, exercise.judge, &limits].map(str::as_bytes);

@@ -1,14 +1,18 @@
 //! The model: bodies, elements and sliders, their present motion, and what can be done with them.
 
 mod acceleration;
+mod energies;
 mod impact;
 mod inertia;
+mod instant;
 mod measures;
 mod rest;
 mod state;
 mod steps;
 mod stiffness;
 
+pub use energies::BodyEnergy;
+pub use instant::Instant;
 pub use measures::{Energy, Measures};
 pub use rest::StaticForces;
 pub use state::ModelState;

@@ -10,13 +10,19 @@ mod scene;
 mod sliders;
 mod words;
 
-pub use elements::{Element, PointMass};
+pub use elements::{Anchor, Element, Origin, PointMass, RestoringLaw, Spring, SpringKind};
 pub use looking::{
-    BeamPlaces, BeamSample, CrossSection, Distance, Part, Placement, SectionSample, Usage,
+    BeamPlaces, BeamSample, CrossSection, Distance, Part, Placement, SectionSample, Sensing,
+    SpringState, Transmission, Usage,
 };
-pub use mechanism::{Energy, Measures, Model, ModelState, StaticForces, add_resistance};
+pub use mechanism::{
+    BodyEnergy, Energy, Instant, Measures, Model, ModelState, StaticForces, add_resistance,
+};
 pub use motion::Resolution;
-pub use scene::{BeamDefinition, ParticleDefinition, Scene, StartMotion, StationVelocity};
+pub use scene::{
+    BeamDefinition, ParticleDefinition, Probe, Quantity, Scene, Sensor, StartMotion,
+    StationVelocity, Value,
+};
 pub use sliders::{Blow, SliderState, TrackEnd, TrackLimit};
 pub use words::{
     Approach, ModelError, SliderError, SliderParts, Turning, refusal as refusal_of_name,

@@ -74,6 +74,18 @@ pub enum OutputError {
         /// The height asked for, of a picture that cannot be painted [pixels].
         height: f64,
     },
+    /// An animation has more pixels than it should.
+    #[error(
+        "{frames} frames of {width} by {height} pixels are too many for an animation; make fewer frames, or smaller ones"
+    )]
+    ManyPixels {
+        /// How many frames.
+        frames: usize,
+        /// The width of each.
+        width: u32,
+        /// The height of each.
+        height: u32,
+    },
     /// The drawing library refused a picture.
     #[error("cannot paint the picture: {reason}; try the other kind ('.svg' or '.png')")]
     Paint {

@@ -63,6 +63,11 @@ impl Figure {
         png::paint(&self.canvas, self.width, self.height)
     }
 
+    /// The pixels of the picture, row by row from the top, each as red, green and blue.
+    pub(super) fn to_pixels(&self) -> Result<Vec<u8>, OutputError> {
+        png::pixels(&self.canvas, self.width, self.height)
+    }
+
     /// Writes the picture to the file `path`, whole or not at all; the ending, `.svg` or `.png`, says as what.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), OutputError> {
         let path = path.as_ref();

@@ -3,12 +3,15 @@
 //! ```text
 //! chart, heat_map, bars, motion → page → frame, hatching, legend, timebar → axis, curve, stroke, marker → canvas → figure → svg, png → files
 //! chart, heat_map → terminal → axis, curve
+//! motion → animation → figure
+//! viewer (a page for browsers) → canvas, colour
 //! ```
 //!
 //! Pictures look the same on every machine: text is drawn from an embedded font, and equal data gives equal bytes.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+mod animation;
 mod axis;
 mod bars;
 mod base64;
@@ -40,12 +43,14 @@ mod svg;
 mod table;
 mod terminal;
 mod timebar;
+pub mod viewer;
 mod vtk;
 mod width;
 
 #[cfg(test)]
 mod samples;
 
+pub use animation::Animation;
 pub use axis::{DEFAULT_FLOOR, Scale};
 pub use bars::BarChart;
 pub use canvas::{Align, Area, Canvas, Direction, Point, Shape, Text};

@@ -75,6 +75,12 @@ impl MotionPicture {
         self
     }
 
+    /// Replaces the title of the motion picture.
+    pub fn title(mut self, title: impl Into<String>) -> Self {
+        self.title = title.into();
+        self
+    }
+
     /// Names the beams of the motion picture, in the order of the lines of each snapshot.
     pub fn beams(mut self, names: impl IntoIterator<Item = impl Into<String>>) -> Self {
         self.beams = names.into_iter().map(Into::into).collect();

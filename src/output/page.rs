@@ -36,7 +36,11 @@ pub trait Panel {
 
     /// The panel as a picture of its own.
     fn figure(&self) -> Result<Figure, OutputError> {
-        let (width, height) = self.size();
+        self.figure_of(self.size())
+    }
+
+    /// The panel as a picture of its own of another size in pixels.
+    fn figure_of(&self, (width, height): (f64, f64)) -> Result<Figure, OutputError> {
         let area = Area { left: 0.0, top: 0.0, right: width.ceil(), bottom: height.ceil() };
         let mut canvas = Canvas::default();
         self.draw(&mut canvas, &area, &self.margins(width, height).inside(&area));

@@ -22,7 +22,7 @@ pub struct Sample {
 /// A quantity that should not change, loads and supports accounted for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Invariant {
-    /// The energy without the work of loads, `E - W` [energy].
+    /// `E - W + D`
     Energy,
     /// The momentum without impulses, `p - ∫ F dt` [mass·length/time].
     Momentum,
@@ -44,7 +44,7 @@ impl Invariant {
     /// The value of the invariant in a row: a vector for the momentum, else in the first component.
     pub fn value(self, row: &Measures) -> Vec2 {
         match self {
-            Self::Energy => Vec2::new(row.energy.total() - row.work, 0.0),
+            Self::Energy => Vec2::new(row.energy.total() - row.work + row.dissipated, 0.0),
             Self::Momentum => row.momentum - row.impulse,
             Self::AngularMomentum => Vec2::new(row.angular_momentum - row.angular_impulse, 0.0),
             Self::Gap => Vec2::new(row.gap, 0.0),
@@ -54,7 +54,7 @@ impl Invariant {
     /// The invariant in words and symbols.
     pub fn describe(self) -> &'static str {
         match self {
-            Self::Energy => "energy E - W",
+            Self::Energy => "energy E - W + D",
             Self::Momentum => "momentum p - ∫F dt",
             Self::AngularMomentum => "angular momentum L - ∫M dt",
             Self::Gap => "gap of joints",
@@ -113,6 +113,18 @@ impl History {
     pub fn truncate(&mut self, rows: usize) {
         self.samples.truncate(rows);
         self.extra.truncate(rows * self.extra_columns.len());
+    }
+
+    /// How many columns it has besides those of every history.
+    pub(super) fn extra_width(&self) -> usize {
+        self.extra_columns.len()
+    }
+
+    /// Fills in one of the extra columns of the last row, by its number among these.
+    pub(super) fn fill_in(&mut self, column: usize, value: f64) {
+        if let Some(first) = self.extra.len().checked_sub(self.extra_columns.len()) {
+            self.extra[first + column] = value;
+        }
     }
 
     /// The values of the extra columns of the history, row after row.
@@ -209,10 +221,12 @@ impl History {
         let motion = (2.0 * mass * kinetic).sqrt();
         let length = if length > 0.0 { length } else { largest(&|row| row.time) * motion / mass };
         match invariant {
-            Invariant::Energy => largest(&|row| row.energy.kinetic + row.energy.strain)
-                .max(largest(&|row| row.energy.potential - first.energy.potential))
-                .max(largest(&|row| row.work - first.work))
-                .max(rounding_energy),
+            Invariant::Energy => {
+                largest(&|row| row.energy.kinetic + row.energy.strain + row.energy.stored)
+                    .max(largest(&|row| row.energy.potential - first.energy.potential))
+                    .max(largest(&|row| row.work - first.work))
+                    .max(rounding_energy)
+            }
             Invariant::Momentum => {
                 motion.max(largest(&|row| row.gross_impulse - first.gross_impulse))
             }
@@ -223,7 +237,7 @@ impl History {
         }
     }
 
-    /// The largest rise of `E - W` above an earlier value, relative as the [`drifts`](Self::drifts) are; NaN when an energy is
+    /// The largest rise of `E - W + D` above an earlier value, relative as the [`drifts`](Self::drifts) are; NaN when an energy is
     /// NaN or there is no row.
     pub fn energy_growth(&self) -> f64 {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return f64::NAN };

@@ -4,7 +4,7 @@ use super::columns::{extra_columns, extra_values};
 use super::progress::StepTaken;
 use super::{History, Recording, Sample, Scales, Trajectory};
 use crate::geometry::Vec2;
-use crate::model::{Model, Scene};
+use crate::model::{Model, ModelError, Scene, Sensing};
 
 /// What is kept of a run, and which of its states are recorded.
 #[derive(Debug, Clone)]
@@ -14,20 +14,25 @@ pub(super) struct Record {
     pub(super) recording: Recording,
     /// The number of rows of the history that stay; a further one belongs to the present.
     pub(super) rows_kept: usize,
+    sensing: Sensing,
 }
 
 impl Record {
     /// The record of a run whose first row is the start of a scene.
-    pub(super) fn new(scene: &Scene, model: &mut Model) -> Self {
+    ///
+    /// # Errors
+    /// When a sensor has nothing to read.
+    pub(super) fn new(scene: &Scene, model: &mut Model) -> Result<Self, ModelError> {
         let points = model.control_points().map(<[Vec2]>::len).sum::<usize>();
         let mut record = Self {
             history: History::new(scales(scene, model), extra_columns(scene)),
             trajectory: Trajectory::new(2 * points),
             recording: Recording::default(),
             rows_kept: 0,
+            sensing: Sensing::of(scene, model)?,
         };
         record.keep_row(model, StepTaken::default());
-        record
+        Ok(record)
     }
 
     /// Makes room in the record for so many steps.
@@ -55,7 +60,8 @@ impl Record {
         self.go_back(self.rows_kept);
         let StepTaken { dt, newton_iterations, retries } = last_step;
         let sample = Sample { measures: model.measure(), dt, newton_iterations, retries };
-        self.history.push(sample, extra_values(model));
+        let sensed = self.sensing.read(model);
+        self.history.push(sample, extra_values(model).chain(sensed.iter().copied()));
         self.trajectory.push(model.time(), coordinates(model));
     }
 

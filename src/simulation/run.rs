@@ -4,6 +4,7 @@ mod adapting;
 mod back;
 mod content;
 mod explain;
+mod frames;
 mod landing;
 mod looking_inside;
 mod noting;
@@ -95,7 +96,7 @@ impl Simulation {
         };
         let pace = adaptive.as_ref().map(|adaptive| adaptive.controller.start());
         Ok(Self {
-            record: Record::new(&scene, &mut model),
+            record: Record::new(&scene, &mut model)?,
             clock: Clock::new(grid, pace),
             scene,
             settings,

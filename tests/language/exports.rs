@@ -152,8 +152,16 @@ fn frames_have_what_the_solver_has_to_the_last_bit() {
         assert_eq!(told, [clamp.axial, clamp.shear, clamp.moment]);
         // Section angles are taken from normals between strain points, those of the solver from steps: near, not equal.
         let (start, end) = again.model().end_angles(0);
-        assert!((grid.fields["angle"][0] - start).abs() < 2e-3, "{start}");
-        assert!((grid.fields["angle"][last(0)] - end).abs() < 2e-3, "{end}");
+        assert!(
+            (grid.fields["angle"][0] - start).abs() < 2e-3,
+            "{start}, {}",
+            grid.fields["angle"][0]
+        );
+        assert!(
+            (grid.fields["angle"][last(0)] - end).abs() < 2e-3,
+            "{end}, {}",
+            grid.fields["angle"][last(0)]
+        );
     }
 }
 

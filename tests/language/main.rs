@@ -14,3 +14,4 @@ mod prompt;
 mod session;
 mod standard_library;
 mod suite;
+mod viewers;

@@ -120,6 +120,26 @@ impl Bodies {
         self.all.iter_mut().for_each(|body| body.advance(rotations));
     }
 
+    /// Gives every movement of every control point a number of its own, as if nothing were joined; the numbers that they had.
+    pub fn number_apart(&mut self) -> Vec<Vec<[usize; 3]>> {
+        let mut next = 0;
+        let own = self.iter().map(|body| {
+            let points = body.degrees_of_freedom.iter().map(|_| {
+                next += 3;
+                [next - 3, next - 2, next - 1]
+            });
+            points.collect()
+        });
+        let own = own.collect();
+        self.number_as(own)
+    }
+
+    /// Gives the movements of all control points other numbers; the numbers that they had.
+    pub fn number_as(&mut self, numbers: Vec<Vec<[usize; 3]>>) -> Vec<Vec<[usize; 3]>> {
+        let bodies = self.all.iter_mut().zip(numbers);
+        bodies.map(|(body, own)| std::mem::replace(&mut body.degrees_of_freedom, own)).collect()
+    }
+
     /// The nodes that joints hold together at a place, as indices of bodies and control points; none where the place is no node.
     pub fn tied_nodes(&self, place: &Place) -> Option<Vec<(usize, usize)>> {
         let mut nodes = vec![node_of(place)?];

@@ -2,14 +2,14 @@
 
 use super::element::Assembled;
 use super::point_mass::Lump;
-use super::{Exchange, ForceElement, Iterate, Weight};
-use crate::beams::RotationIncrement;
+use super::{Exchange, ForceElement, Iterate, Resistance, Weight};
+use crate::beams::{ForceSummary, RotationIncrement, SpanAtRest};
 use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
 use crate::loads::LoadError;
 use crate::model::bodies::{Body, Momenta};
 
-/// The elements of a model: point masses, weight, and what else puts forces on bodies.
+/// The elements of a model: point masses, weight, what else puts forces on bodies, and what resists their movements.
 #[derive(Default)]
 pub struct Elements {
     masses: Vec<Lump>,
@@ -17,20 +17,23 @@ pub struct Elements {
     weight: Option<Weight>,
     /// In the order of the scene.
     forces: Vec<Box<dyn ForceElement>>,
+    /// In the order of the scene.
+    resistances: Vec<Box<dyn Resistance>>,
 }
 
 impl Elements {
     /// The elements that descriptions were built into, and the weight of the beams, if there is gravity.
     pub fn new(parts: impl Iterator<Item = Assembled>, mut weight: Option<Weight>) -> Self {
-        let (mut masses, mut forces) = (Vec::new(), Vec::new());
+        let (mut masses, mut forces, mut resistances) = (Vec::new(), Vec::new(), Vec::new());
         for part in parts {
             match part {
                 Assembled::Mass(mass) => masses.push(mass),
                 Assembled::Force(force) => forces.push(force),
+                Assembled::Resistance(resistance) => resistances.push(resistance),
             }
         }
         weight.iter_mut().for_each(|weight| masses.iter().for_each(|mass| weight.add(mass)));
-        Self { masses, weight, forces }
+        Self { masses, weight, forces, resistances }
     }
 
     /// The mass of all point masses of the model [mass].
@@ -48,6 +51,11 @@ impl Elements {
         self.forces.iter().map(|force| &**force)
     }
 
+    /// What resists movements of bodies: springs and dampers, in the order of the scene.
+    pub fn resistances(&self) -> impl Iterator<Item = &dyn Resistance> + Clone {
+        self.resistances.iter().map(|resistance| &**resistance)
+    }
+
     /// Prepares all elements for a step.
     ///
     /// # Errors
@@ -57,6 +65,7 @@ impl Elements {
         interval: Interval,
         stages: &[Stage],
     ) -> Result<(), (String, LoadError)> {
+        self.resistances.iter_mut().for_each(|resistance| resistance.begin_step(interval));
         self.forces.iter_mut().try_for_each(|force| {
             force.begin_step(interval, stages).map_err(|error| (force.name().to_owned(), error))
         })
@@ -104,6 +113,17 @@ impl Elements {
         self.masses.iter().for_each(|mass| *sum += mass.momenta(bodies, rates));
     }
 
+    /// Twice the kinetic energy of the masses on a body [energy].
+    pub fn twice_kinetic_on(&self, bodies: &[Body], body: usize, rates: &[f64]) -> f64 {
+        let on_body = self.masses.iter().filter(|mass| mass.place.body == body);
+        on_body.map(|mass| mass.momenta(bodies, rates).twice_kinetic).sum()
+    }
+
+    /// The potential of the weight of a body and what stands on it [energy].
+    pub fn potential_of(&self, bodies: &[Body], body: usize) -> f64 {
+        self.weight.as_ref().map_or(0.0, |weight| weight.energy_of(bodies, body))
+    }
+
     /// Subtracts the forces of all elements in an iterate; gives the largest force and the largest moment of an element on a control point.
     pub fn subtract_from(&mut self, at: Iterate<'_>, out: &mut [f64]) -> (f64, f64) {
         let weight = self.weight.iter_mut().map(|weight| weight as &mut dyn ForceElement);
@@ -119,11 +139,78 @@ impl Elements {
         self.forces.iter().for_each(|force| force.add_tangent(at, unknowns, tangent));
     }
 
+    /// Prepares a movement that takes no time.
+    pub fn begin_movement(&mut self) {
+        self.resistances.iter_mut().for_each(|resistance| resistance.begin_movement());
+    }
+
+    /// Adds what resists movements, with its forces as they are; the largest that was met.
+    pub fn add_resistance(&mut self, at: Iterate<'_>, out: &mut [f64], summary: &mut ForceSummary) {
+        for resistance in &mut self.resistances {
+            summary.join(&resistance.add_forces(at, out));
+        }
+    }
+
+    /// Adds what resists movements, condensed, and its derivative by the increments; there are so many unknowns.
+    pub fn add_linearised_resistance(
+        &mut self,
+        at: Iterate<'_>,
+        out: &mut [f64],
+        unknowns: usize,
+        tangent: &mut BandedMatrix,
+    ) {
+        for resistance in &mut self.resistances {
+            resistance.add_linearised_forces(at, out, unknowns, tangent);
+        }
+    }
+
+    /// Adds `weight` times the forces that would close the mismatch met by the last forces.
+    pub fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]) {
+        self.resistances.iter().for_each(|resistance| {
+            resistance.add_mismatch_forces(bodies, weight, out);
+        });
+    }
+
+    /// Carries a correction of the increments over to the forces of what resists movements.
+    pub fn correct(&mut self, bodies: &[Body], correction: &[f64]) {
+        self.resistances.iter_mut().for_each(|resistance| resistance.correct(bodies, correction));
+    }
+
+    /// The energy that springs store [energy].
+    pub fn stored(&self) -> f64 {
+        self.resistances().map(Resistance::stored).fold(0.0, |sum, stored| sum + stored)
+    }
+
+    /// What dampers have dissipated since the start [energy].
+    pub fn dissipated(&self) -> f64 {
+        self.resistances().map(Resistance::dissipated).fold(0.0, |sum, dissipated| sum + dissipated)
+    }
+
+    /// The forces in springs and dampers at the start of the step with such rates of the unknowns [force, force·length].
+    pub fn resisting(&self, bodies: &[Body], rates: &[f64]) -> Vec<f64> {
+        self.resistances().map(|resistance| resistance.force_now(bodies, rates)).collect()
+    }
+
+    /// Adds such forces in springs and dampers to those on bodies, at the start of the step.
+    pub fn add_resisting(&self, bodies: &[Body], forces: &[f64], out: &mut [f64]) {
+        for (resistance, force) in self.resistances().zip(forces) {
+            resistance.add_force(bodies, *force, out);
+        }
+    }
+
+    /// Gives how springs resist small movements at rest: degrees of freedom, and their rows.
+    pub fn each_at_rest(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanAtRest)) {
+        self.resistances().for_each(|resistance| resistance.at_rest(bodies, take));
+    }
+
     /// The work and impulse that all elements gave in the step of the movements that the bodies gathered last.
     pub fn exchange(&self, bodies: &[Body], duration: f64) -> Exchange {
         let mut sum = Exchange::default();
         for element in self.forces().chain(self.weight()) {
             sum += element.exchange(bodies, duration);
+        }
+        for resistance in self.resistances() {
+            sum += resistance.exchange(bodies, duration);
         }
         sum
     }
@@ -137,15 +224,18 @@ impl Elements {
     /// Lets all elements accept the movements that the bodies gathered last.
     pub fn advance(&mut self, bodies: &[Body], rotations: RotationIncrement) {
         self.forces.iter_mut().for_each(|force| force.advance(bodies, rotations));
+        self.resistances.iter_mut().for_each(|resistance| resistance.advance(bodies));
     }
 
     /// Appends the state of all elements at the start of a step.
     pub fn save(&self, state: &mut Vec<f64>) {
         self.forces.iter().for_each(|force| force.save(state));
+        self.resistances.iter().for_each(|resistance| resistance.save(state));
     }
 
     /// Takes the state of all elements back, in the order in which it was appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.forces.iter_mut().for_each(|force| force.restore(next));
+        self.resistances.iter_mut().for_each(|resistance| resistance.restore(next));
     }
 }

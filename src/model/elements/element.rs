@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::point_mass::Lump;
-use super::{ForceElement, PointMass};
+use super::{ForceElement, PointMass, Resistance, Spring};
 use crate::beams::{BodyDynamics, Mesh, Place, Station};
 use crate::geometry::GeometryError;
 use crate::loads::{Load, Schedule};
@@ -18,14 +18,35 @@ pub enum Element {
     PointMass(PointMass),
     /// A load: a force, a moment or a force per length that follows a schedule.
     Load(Load),
+    /// A spring, a damper or a tendon.
+    Spring(Spring),
 }
 
 impl Element {
+    /// What it is, in a word.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::PointMass(_) => "mass",
+            Self::Load(_) => "load",
+            Self::Spring(_) => "spring",
+        }
+    }
+
+    /// Its name, if it has one.
+    pub(in crate::model) fn name_mut(&mut self) -> Option<&mut String> {
+        match self {
+            Self::PointMass(_) => None,
+            Self::Load(load) => Some(&mut load.name),
+            Self::Spring(spring) => Some(&mut spring.name),
+        }
+    }
+
     /// The element as what every kind of element can be asked.
     pub(in crate::model) fn description(&self) -> &dyn Description {
         match self {
             Self::PointMass(mass) => mass,
             Self::Load(load) => load,
+            Self::Spring(spring) => spring,
         }
     }
 }
@@ -40,6 +61,11 @@ pub trait Description {
 
     /// The stations at which the element needs a node of the mesh.
     fn nodes(&self) -> Vec<Station> {
+        Vec::new()
+    }
+
+    /// Stations whose movements it ties together, however far apart they are: the order of the unknowns keeps them near each other.
+    fn coupled(&self) -> Vec<Station> {
         Vec::new()
     }
 
@@ -61,6 +87,8 @@ pub enum Assembled {
     Mass(Lump),
     /// The element becomes forces on bodies.
     Force(Box<dyn ForceElement>),
+    /// What resists movements of bodies.
+    Resistance(Box<dyn Resistance>),
 }
 
 /// What the check of an element may ask of its scene.

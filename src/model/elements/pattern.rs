@@ -67,9 +67,14 @@ impl Pattern {
 
     /// The sum `Σ f·x` of the pattern's forces times places: minus the potential of these forces, were they constant [energy].
     pub fn potential_work(&self, bodies: &[Body]) -> f64 {
+        self.potential_work_on(bodies, |_| true)
+    }
+
+    /// The part of it that belongs to some bodies [energy].
+    pub fn potential_work_on(&self, bodies: &[Body], counts: impl Fn(usize) -> bool) -> f64 {
         let work = |(body, point, [fx, fy, _]): &(usize, usize, Movement)| {
             bodies[*body].dynamics.control_points()[*point].dot(&Vec2::new(*fx, *fy))
         };
-        self.entries.iter().map(work).sum()
+        self.entries.iter().filter(|(body, ..)| counts(*body)).map(work).sum()
     }
 }

@@ -30,6 +30,11 @@ impl Weight {
         Self { gravity, forces }
     }
 
+    /// The part of the potential that belongs to a body [energy].
+    pub fn energy_of(&self, bodies: &[Body], body: usize) -> f64 {
+        -self.forces.potential_work_on(bodies, |other| other == body)
+    }
+
     /// Adds the weight of a point mass.
     pub fn add(&mut self, mass: &Lump) {
         for (point, share) in mass.place.weights() {

@@ -4,7 +4,7 @@ use crate::beams::PointCounts;
 use crate::geometry::Vec2;
 use crate::integrators::{Constraints, INTEGRATORS, Mechanism, Method};
 use crate::joints::{Component, Joint, Partner, SLIDING_RULES, StartVelocities};
-use crate::model::elements::ForceElement;
+use crate::model::elements::{ForceElement, Resistance};
 use crate::model::words::{MOST, in_words, plural};
 use crate::model::{BeamDefinition, Model, ModelError, Scene};
 
@@ -64,6 +64,7 @@ impl Model {
         parts.extend([self.explain_joints(scene), self.explain_supports(scene)]);
         parts.extend([self.explain_sliders(scene), self.explain_gravity(methods)]);
         parts.extend(self.explain_loads(methods));
+        parts.extend(self.explain_springs());
         parts.extend([self.explain_angles(), explain_start(scene)]);
         parts
     }
@@ -177,6 +178,23 @@ impl Model {
             let scripts = plural(rest.iter().sum(), "function");
             let how = format!("{} more, {scripts} of scripts among them", rest.len());
             parts.push(Part::used("loads", how));
+        }
+        parts
+    }
+
+    fn explain_springs(&self) -> Vec<Part> {
+        let all = self.elements().resistances();
+        let one = |spring: &dyn Resistance| Part::used(spring.name(), spring.explain());
+        let mut parts: Vec<Part> = all.clone().take(MOST).map(one).collect();
+        if parts.is_empty() {
+            return vec![Part::left_out(
+                "springs",
+                "nothing beside the beams stores energy, nothing damps",
+            )];
+        }
+        let rest = all.skip(MOST).count();
+        if rest > 0 {
+            parts.push(Part::used("springs", format!("{rest} more")));
         }
         parts
     }

@@ -30,16 +30,25 @@ impl Model {
 
     /// The angle of the section at a station, unwrapped [rad]; none when the scene did not know it at the start.
     pub fn angle(&self, scene: &Scene, station: &Station) -> Option<f64> {
+        self.section_angle(self.followed_section(scene, station)?)
+    }
+
+    /// The angle of a section that is followed, by its number, unwrapped [rad].
+    pub fn section_angle(&self, section: usize) -> Option<f64> {
+        self.bodies().angle(section)
+    }
+
+    /// The number of the section at a station among those that are followed; none when the scene did not know it at the start.
+    pub fn followed_section(&self, scene: &Scene, station: &Station) -> Option<usize> {
         let beam = station.beam()?;
-        let section = if station.arc_length == 0.0 {
+        Some(if station.arc_length == 0.0 {
             2 * beam
         } else if station.arc_length == scene.beams[beam].axis.length() {
             2 * beam + 1
         } else {
             let known = scene.stations.iter().position(|other| other == station)?;
             2 * scene.beams.len() + known
-        };
-        self.bodies().angle(section)
+        })
     }
 
     /// The angles of the sections at the start and the end of a beam, unwrapped [rad].

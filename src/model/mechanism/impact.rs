@@ -15,14 +15,14 @@ use crate::model::sliders::Blow;
 const GIVES: f64 = 1e-9;
 
 /// A slider, and the component of its relative velocity on which an impulse acts.
-type Direction = (usize, Vec2);
+pub(super) type Direction = (usize, Vec2);
 
 /// What a unit impulse transmits, and how the velocities answer.
-struct Answer {
+pub(super) struct Answer {
     /// `Gᵀ`, on all degrees of freedom.
-    forces: Vec<f64>,
+    pub(super) forces: Vec<f64>,
     /// `M⁻¹ Gᵀ`, of the unknowns.
-    rates: Vec<f64>,
+    pub(super) rates: Vec<f64>,
 }
 
 impl Model {
@@ -89,7 +89,7 @@ impl Model {
         self.sliders.iter().map(|slider| slider.across(&self.bodies)).enumerate().collect()
     }
 
-    fn answers(&self, inertia: &BandedLu<'_>, directions: &[Direction]) -> Vec<Answer> {
+    pub(super) fn answers(&self, inertia: &BandedLu<'_>, directions: &[Direction]) -> Vec<Answer> {
         let answer = |(slider, unit): &Direction| {
             let mut forces = vec![0.0; self.degrees_of_freedom()];
             self.sliders[*slider].transmit(&self.bodies, *unit, &mut forces);

@@ -14,12 +14,14 @@ pub struct Energy {
     pub strain: f64,
     /// The potential energy of gravity, zero at the origin [energy].
     pub potential: f64,
+    /// `Σ U`, in springs and tendons.
+    pub stored: f64,
 }
 
 impl Energy {
     /// The sum of kinetic, strain and potential energy [energy].
     pub fn total(&self) -> f64 {
-        self.kinetic + self.strain + self.potential
+        self.kinetic + self.strain + self.potential + self.stored
     }
 }
 
@@ -32,6 +34,8 @@ pub struct Measures {
     pub energy: Energy,
     /// The work `W` of the loads so far [energy].
     pub work: f64,
+    /// `D`: what dampers have dissipated so far [energy].
+    pub dissipated: f64,
     /// The linear momentum `p` of the model [mass·length/time].
     pub momentum: Vec2,
     /// The impulse `∫ F dt` of loads, gravity and supports so far [force·time].
@@ -58,11 +62,13 @@ impl Model {
             kinetic: 0.5 * momenta.twice_kinetic,
             strain: self.bodies.strain_energy(),
             potential: self.elements.energy(&self.bodies),
+            stored: self.elements.stored(),
         };
         Measures {
             time: self.motion.time,
             energy,
             work: self.exchanged.work,
+            dissipated: self.elements.dissipated(),
             momentum: momenta.linear,
             impulse: self.exchanged.impulse,
             angular_momentum: momenta.angular,

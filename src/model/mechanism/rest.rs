@@ -24,6 +24,7 @@ impl Model {
     /// Begins a movement between two places at rest: its section forces start from those of the last one.
     pub fn begin_movement(&mut self) {
         self.bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
+        self.elements.begin_movement();
     }
 
     /// Adds the internal forces of the model minus `load_factor` times the loads, with the section forces as they are.

@@ -4,13 +4,13 @@ use serde::{Deserialize, Serialize};
 
 use super::stored::StoredScene;
 use super::ties::check_ties;
-use super::{BeamDefinition, ParticleDefinition, StationVelocity};
+use super::{BeamDefinition, ParticleDefinition, Sensor, StationVelocity};
 use crate::beams::{BodyIndex, Mesh, Place, Station};
 use crate::geometry::Vec2;
 use crate::joints::{Joint, JointKind, Partner, Slider};
 use crate::loads::{Load, LoadKind, Schedule};
 use crate::model::ModelError;
-use crate::model::elements::{Element, PointMass, Setting};
+use crate::model::elements::{Element, PointMass, Setting, Spring};
 use crate::model::words::{refusal, rounded};
 
 /// What is simulated: beams, particles, joints, masses and loads.
@@ -31,10 +31,12 @@ pub struct Scene {
     pub sliders: Vec<Slider>,
     /// The start velocities of single nodes.
     pub velocities: Vec<StationVelocity>,
-    /// The elements of the scene: masses and loads, in the order in which they were added.
+    /// Masses, loads and springs, in the order in which they were added.
     pub elements: Vec<Element>,
     /// The acceleration of free fall [length/time²].
     pub gravity: Vec2,
+    /// Quantities that are recorded besides those that every history has.
+    pub sensors: Vec<Sensor>,
 }
 
 impl Scene {
@@ -94,6 +96,14 @@ impl Scene {
         })
     }
 
+    /// Springs, dampers and tendons, in the order in which they were added.
+    pub fn springs(&self) -> impl Iterator<Item = &Spring> + Clone {
+        self.elements.iter().filter_map(|element| match element {
+            Element::Spring(spring) => Some(spring),
+            _ => None,
+        })
+    }
+
     /// The schedules of the scene's elements, each with the name of its element.
     pub fn schedules(&self) -> impl Iterator<Item = (&str, &Schedule)> {
         self.elements.iter().filter_map(|element| element.description().schedule())
@@ -111,6 +121,7 @@ impl Scene {
             velocities: Vec::new(),
             elements: Vec::new(),
             gravity: Vec2::zeros(),
+            sensors: Vec::new(),
         }
     }
 
@@ -158,7 +169,8 @@ impl Scene {
         let beams = self.beams.iter().map(|beam| ("beam", &beam.name));
         let particles = self.particles.iter().map(|particle| ("particle", &particle.name));
         let sliders = self.sliders.iter().map(|slider| ("slider", &slider.name));
-        beams.chain(particles).chain(sliders)
+        let springs = self.springs().map(|spring| ("spring", &spring.name));
+        beams.chain(particles).chain(sliders).chain(springs)
     }
 
     pub(in crate::model) fn check_name(
@@ -236,6 +248,15 @@ impl Scene {
         element.description().check(self)?;
         self.elements.push(element);
         Ok(())
+    }
+
+    /// Adds a spring, a damper or a tendon.
+    ///
+    /// # Errors
+    /// When something of that name exists, a number of it is out of its range, or a station is none of the scene.
+    pub fn add_spring(&mut self, spring: Spring) -> Result<(), ModelError> {
+        self.check_name("spring", &spring.name)?;
+        self.add_element(Element::Spring(spring))
     }
 
     /// Adds a load to the scene; its name is made of its kind.

@@ -244,6 +244,17 @@ impl Sliding {
         bodies[body].vector_at(point, rates)
     }
 
+    /// How its place on the master accelerates because the slave moves on: `2 ξ̇ Σ B_i' v_i + ξ̇² Σ B_i'' x_i` [length/time²].
+    pub fn carried(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
+        let rate = self.rate(bodies, rates);
+        let master = &bodies[self.connection.master];
+        let points = master.dynamics.control_points();
+        let Ok(values) = self.here.basis().evaluate(self.parameter) else { return Vec2::zeros() };
+        let turning = values.slopes().iter().zip(values.first..);
+        let turning: Vec2 = turning.map(|(by, at)| master.vector_at(at, rates) * *by).sum();
+        turning * (2.0 * rate) + values.combine(2, points) * (rate * rate)
+    }
+
     /// The rate `dξ/dt` of the slider's parameter with the present velocities [1/time].
     pub fn rate(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         match self.state {

@@ -44,10 +44,32 @@ pub enum ModelError {
         length: f64,
     },
     /// Section forces of what has no section.
-    #[error("{body} has no cross section: give a station of a beam")]
+    #[error("{body} has no cross section")]
     NoSection {
         /// The particle.
         body: String,
+    },
+    /// Forces at a moment at which there are none.
+    #[error("forces and accelerations at t = {time} cannot be had: {reason}")]
+    NoInstant {
+        /// When.
+        time: f64,
+        /// Why.
+        reason: String,
+    },
+    /// A quantity to record that there is not.
+    #[error("there is no quantity '{name}' to record: {why}")]
+    NoSensor {
+        /// What was asked for.
+        name: String,
+        /// What is wrong with it.
+        why: String,
+    },
+    /// A quantity that is recorded already.
+    #[error("'{name}' is a column of the history already; give this one another name")]
+    DuplicateSensor {
+        /// Its name.
+        name: String,
     },
     /// A joint that would tie a place to itself.
     #[error("{joint}: both stations are the same place of {body}; a joint needs two places")]
@@ -163,6 +185,8 @@ pub enum Turning {
     Load,
     /// A spin at the start.
     Spin,
+    /// A torsion spring.
+    TorsionSpring,
 }
 
 impl ModelError {

@@ -54,6 +54,19 @@ pub fn invariants(shell: &mut Shell, _: &str) -> Outcome {
     shell.show_of_latest("invariants()")
 }
 
+/// The command `:view [FILE]`: writes a page on which the last simulation moves.
+pub fn view(shell: &mut Shell, operand: &str) -> Outcome {
+    let file = if operand.is_empty() { "view.html" } else { operand.trim_matches('"') };
+    // What no name of a file can contain would end the text in which it stands.
+    let name: String = file.chars().filter(|letter| !matches!(letter, '"' | '\\')).collect();
+    let outcome = shell.call_latest(&format!("write_viewer(\"{name}\")"));
+    if outcome == Outcome::Good {
+        let page = shell.session().context().output().folder().join(&name);
+        shell.print(&format!("wrote {}; open it in a browser", page.display()));
+    }
+    outcome
+}
+
 /// The command `:explain`: tells what the last simulation uses and leaves out.
 pub fn explain(shell: &mut Shell, _: &str) -> Outcome {
     shell.show_of_latest("explain()")

@@ -107,6 +107,14 @@ pub const COMMANDS: &[Command] = &[
         body: looking::show,
     },
     Command {
+        name: ":view",
+        operand: Operand::File,
+        placeholder: "[FILE]",
+        summary: "writes a page on which the last simulation moves, to be opened in a browser",
+        doc: "The page is view.html in the output folder unless another name is given. More can be chosen with write_viewer.",
+        body: looking::view,
+    },
+    Command {
         name: ":watch",
         operand: Operand::Expression,
         placeholder: "[EXPRESSION]",

@@ -1,6 +1,7 @@
 //! A simulation that a script holds: steps, events, progress and interrupts.
 
 mod revisit;
+mod sensing;
 mod visit;
 
 use std::cell::{Cell, Ref, RefCell};
@@ -22,6 +23,7 @@ use crate::script::words::numbers::format_number;
 use crate::script::words::stop::Stop;
 use crate::simulation::{Monitor, Simulation, SimulationError, StepSize};
 use crate::vibration::{Modes, VibrationError};
+use sensing::Sensing;
 
 pub use revisit::Revisit;
 pub use visit::Visited;
@@ -40,6 +42,7 @@ struct Live {
     /// Whether the user knows that the run ended earlier than the script wanted.
     is_ending_told: Cell<bool>,
     notes: Notes,
+    sensing: Sensing,
 }
 
 /// How far a script lets a simulation go on, or back.
@@ -55,6 +58,16 @@ struct Watch<'a> {
     context: &'a Context,
     /// Steps beyond this time are no longer wanted.
     end: f64,
+    /// Whether functions want to look after every step.
+    pauses: bool,
+    /// Whether it stopped for that and nothing else.
+    is_paused: bool,
+}
+
+impl<'a> Watch<'a> {
+    fn new(context: &'a Context, end: f64) -> Self {
+        Self { context, end, pauses: false, is_paused: false }
+    }
 }
 
 impl Monitor for Watch<'_> {
@@ -62,7 +75,9 @@ impl Monitor for Watch<'_> {
         self.context.progress().reach(time);
         self.context.meter().count_step();
         let may_step = time >= self.end || self.context.meter().allows_a_step();
-        may_step && !self.context.is_stopped()
+        let goes_on = may_step && !self.context.is_stopped();
+        self.is_paused = goes_on && self.pauses;
+        goes_on && !self.pauses
     }
 }
 
@@ -85,6 +100,7 @@ impl SimulationHandle {
         context: &Context,
     ) -> Self {
         let live = Live {
+            sensing: Sensing::new(scene.functions(simulation.outside_columns())),
             name,
             scene,
             notes,
@@ -175,6 +191,7 @@ impl SimulationHandle {
 
     /// Takes the simulation back to a state that it was in; a dry build goes as near as it can.
     pub fn go_back(&self, call: &Call, goal: &Goal) -> Result<(), ScriptError> {
+        self.0.sensing.expect_idle()?;
         let mut simulation = self.0.simulation.borrow_mut();
         match (call.context().mode(), goal) {
             (Mode::Run, Goal::Steps(steps)) => simulation.back(*steps)?,
@@ -183,6 +200,7 @@ impl SimulationHandle {
             (Mode::DryBuild, Goal::Time(time)) => simulation.pretend_rewind(*time),
         }
         drop(simulation);
+        self.sense()?;
         self.0.events.borrow_mut().go_back(self.time() + self.slack());
         self.0.is_ending_told.set(false);
         self.is_latest(call.context());
@@ -196,6 +214,7 @@ impl SimulationHandle {
 
     /// Lets the simulation go on, calling the functions of the events on its way.
     pub fn go_on(&self, call: &Call, goal: &Goal) -> Result<(), ScriptError> {
+        self.0.sensing.expect_idle()?;
         let context = call.context();
         let dt = self.simulation().dt();
         let now = self.time();
@@ -230,9 +249,10 @@ impl SimulationHandle {
                 context.proceed()?;
             }
             // How many parts the step needs is not known beforehand: it is always finished.
-            let mut watch = Watch { context, end: f64::NEG_INFINITY };
+            let mut watch = Watch::new(context, f64::NEG_INFINITY);
             let stepped = self.0.simulation.borrow_mut().step(&mut watch);
             stepped.map_err(|error| explain(error, call.context()))?;
+            self.sense()?;
             self.fire_due()?;
         }
         Ok(())
@@ -259,9 +279,7 @@ impl SimulationHandle {
             if self.time() < stop - slack && !context.meter().allows_a_step() {
                 context.proceed()?;
             }
-            let mut watch = Watch { context, end: stop - slack };
-            let ran = self.0.simulation.borrow_mut().run_to(stop, &mut watch);
-            ran.map_err(|error| explain(error, call.context()))?;
+            self.run_and_sense(call, stop, slack)?;
             self.fire_due()?;
             if self.has_ended() && self.time() < end {
                 let when = format!("before t = {}", format_number(end));
@@ -282,6 +300,7 @@ impl SimulationHandle {
         let mut watch = Pretence(call.context());
         let pretended = self.0.simulation.borrow_mut().pretend_to(end, &mut watch);
         pretended.map_err(|error| explain(error, call.context()))?;
+        self.sense()?;
         self.fire_due()
     }
 

@@ -2,6 +2,7 @@
 
 pub mod arrays;
 pub mod details;
+pub mod film;
 pub mod grids;
 pub mod highlight;
 pub mod present;

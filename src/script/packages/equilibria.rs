@@ -199,6 +199,11 @@ struct Held {
 }
 
 impl EquilibriumHandle {
+    /// The scene that it is of.
+    pub fn scene(&self) -> &SceneHandle {
+        &self.0.scene
+    }
+
     /// The equilibrium of the handle, to look at it.
     pub fn rest(&self) -> Ref<'_, Equilibrium> {
         self.0.rest.borrow()

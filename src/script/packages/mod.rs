@@ -1,5 +1,6 @@
 //! The domains of the language, one file each. A new domain is a new file and a line in [`TABLES`].
 
+mod animations;
 mod arrays;
 mod checking;
 mod convergence_studies;
@@ -25,14 +26,18 @@ mod saving;
 mod scenes;
 mod schedules;
 mod sections;
+mod sensors;
 mod simulations;
 mod sliding;
+mod springs;
 mod stability_studies;
+mod statistics;
 mod step_sizes;
 mod tables;
 mod text;
 mod time_travel;
 mod vectors;
+mod viewers;
 
 use crate::script::rows::table::Table;
 pub use language::language;
@@ -53,19 +58,24 @@ pub const TABLES: &[&Table] = &[
     &step_sizes::TABLE,
     &scenes::TABLE,
     &loads::TABLE,
+    &springs::TABLE,
     &equilibria::TABLE,
     &modes::TABLE,
     &simulations::TABLE,
     &notes::TABLE,
     &recording::TABLE,
+    &sensors::TABLE,
     &time_travel::TABLE,
     &saving::TABLE,
     &sliding::TABLE,
     &histories::TABLE,
+    &statistics::TABLE,
     &explaining::TABLE,
     &pictures::TABLE,
     &rest_pictures::TABLE,
     &exports::TABLE,
+    &viewers::TABLE,
+    &animations::TABLE,
     &stability_studies::TABLE,
     &cost_studies::TABLE,
     &precision_studies::TABLE,

@@ -61,12 +61,12 @@ pub const TABLE: Table = Table {
     ],
 };
 
-const MOVING: Parameter =
+pub(super) const MOVING: Parameter =
     either("of", &[Kind::Object(SIMULATION), Kind::Array]).doc("a simulation, or an array of them");
 const RECORDED: Parameter =
     either("of", &[Kind::Object(SIMULATION), Kind::Object(HISTORY), Kind::Array])
         .doc("a simulation or history, or an array of them");
-const FILE: Parameter = text("file").doc("its name in the output folder");
+pub(super) const FILE: Parameter = text("file").doc("its name in the output folder");
 const COLUMNS: Parameter = array("columns").doc("names of columns of the history");
 const MOTION: &[Parameter] = &[
     number("every")
@@ -114,6 +114,11 @@ fn things<T: Scripted>(
     })
 }
 
+/// The simulations given.
+pub(super) fn simulations(call: &Call) -> Result<Vec<SimulationHandle>, ScriptError> {
+    things(call, as_simulation)
+}
+
 /// The histories given, none of them empty.
 fn histories(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     let histories = things(call, as_history)?;
@@ -153,7 +158,7 @@ pub(super) fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic,
 }
 
 fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let simulations = things(call, as_simulation)?;
+    let simulations = simulations(call)?;
     let options = call.options_or_defaults("options")?;
     let picture = |of: &SimulationHandle| {
         call.proceed()?;
@@ -314,8 +319,7 @@ fn write_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 fn write_states(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let [of] =
-        things(call, as_simulation)?.try_into().map_err(|_| call.error("takes one simulation"))?;
+    let [of] = simulations(call)?.try_into().map_err(|_| call.error("takes one simulation"))?;
     let simulation = of.simulation();
     let trajectory = simulation.trajectory();
     let scene = simulation.scene();

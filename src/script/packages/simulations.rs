@@ -104,10 +104,10 @@ pub const TABLE: Table = Table {
         method(SIMULATION, "invariants", &[], |call| Ok(Dynamic::from(Invariants::of(&call.receiver()?))))
             .returns(Returns::object(INVARIANTS))
             .summary("How well energy, momenta and gap were kept so far; prints as a table.")
-            .doc("The values are E - W, p - ∫F dt and L - ∫M dt, with what loads, gravity and supports have given taken off.")
+            .doc("The values are E - W + D, p - ∫F dt and L - ∫M dt, with what loads, gravity and supports have given taken off.")
             .example("sim.run_to(1);\nprint(sim.invariants());\ncheck(sim.invariants().energy < 1e-12);")
             .see(&["drift"]),
-        invariant("energy", |call| Ok(drift(call)?[0].into())).summary("The largest relative change of E - W."),
+        invariant("energy", |call| Ok(drift(call)?[0].into())).summary("The largest relative change of E - W + D."),
         invariant("momentum", |call| Ok(drift(call)?[1].into())).summary("The largest relative change of p - ∫F dt."),
         invariant("angular_momentum", |call| Ok(drift(call)?[2].into())).summary("The largest relative change of L - ∫M dt."),
         invariant("gap", |call| Ok(drift(call)?[3].into())).summary("The largest gap of a joint [length]."),
@@ -270,7 +270,9 @@ pub(super) fn begin(
     let printing =
         options.text_if_given("notes")?.map(|word| meant(&PRINTING, &word)).unwrap_or_default();
     let notes = Notes::new(printing);
-    Ok(Dynamic::from(SimulationHandle::new(simulation, of, name, notes, call.context())))
+    let started = SimulationHandle::new(simulation, of, name, notes, call.context());
+    started.sense()?;
+    Ok(Dynamic::from(started))
 }
 
 fn measures(handle: &SimulationHandle) -> Measures {

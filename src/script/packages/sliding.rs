@@ -180,7 +180,7 @@ impl SliderHandle {
     }
 
     /// Its index in a simulation, if that is one of its scene.
-    fn on(&self, handle: &SimulationHandle) -> Result<usize, ScriptError> {
+    pub(super) fn on(&self, handle: &SimulationHandle) -> Result<usize, ScriptError> {
         handle.scene().expect_same(&self.scene, "slider")?;
         if self.index < handle.simulation().scene().sliders.len() {
             return Ok(self.index);

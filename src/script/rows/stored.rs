@@ -67,6 +67,11 @@ impl StoredFunction {
         })
     }
 
+    /// What it is called in messages.
+    pub fn role(&self) -> &str {
+        &self.role
+    }
+
     /// The state that all calls of the function's run share.
     pub fn context(&self) -> &Context {
         &self.context

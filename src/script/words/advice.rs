@@ -85,12 +85,14 @@ fn on_model(error: &ModelError) -> Option<String> {
         ModelError::Empty { .. } => {
             "add one with scene.beam(#{ axis: …, section: … }) or scene.particle([x, y], mass)"
         }
+        ModelError::NoSection { .. } => "give a station of a beam",
         ModelError::StationOutside { .. } => "use beam.end for its end",
         ModelError::ParticleTurned { by, .. } => match by {
             Turning::RigidJoint => "use scene.hinge(…), or scene.mass(…) on the beam",
             Turning::RotaryInertia => "leave out the rotary inertia",
             Turning::Load => "only a force of fixed direction can act on it",
             Turning::Spin => "leave out the spin",
+            Turning::TorsionSpring => "put a torsion spring between sections of beams",
         },
         _ => return None,
     };
@@ -117,6 +119,7 @@ fn on_archive(error: &ArchiveError) -> Option<String> {
         ArchiveError::Function { .. } => {
             "use hold_for, ramp, pulse, smooth_pulse, sine or table, or sums and products of them"
         }
+        ArchiveError::Sensor { .. } => "record ready quantities such as \"rod.end.x\"",
         ArchiveError::Foreign => "files of simulations are those that sim.save(…) has written",
         ArchiveError::Content { .. } => {
             "it was not written by sim.save(…), or by a withy with a mistake"

@@ -11,6 +11,12 @@ pub enum ArchiveError {
         /// The name of the load that follows a function of a script.
         load: String,
     },
+    /// A column that a function of a script fills.
+    #[error("the column '{column}' is filled by a function, and functions cannot be stored")]
+    Sensor {
+        /// The column.
+        column: String,
+    },
     /// Something else.
     #[error("this is no simulation: it does not begin as stored simulations do")]
     Foreign,

@@ -2,7 +2,7 @@
 
 use super::Simulation;
 use crate::beams::{SectionForces, Station};
-use crate::model::{BeamPlaces, BeamSample, ModelError, SectionSample};
+use crate::model::{BeamPlaces, BeamSample, BodyEnergy, Instant, ModelError, Probe, SectionSample};
 
 impl Simulation {
     /// Section forces and strains at a station, in the present configuration: see [`Model::section_forces`](crate::model::Model::section_forces).
@@ -33,5 +33,34 @@ impl Simulation {
     /// What a beam does in the present configuration, from its start to its end.
     pub fn sample_along(&self, along: &BeamPlaces) -> Vec<BeamSample> {
         self.model.sample_along(along)
+    }
+
+    /// Accelerations and forces at the present moment: see [`Model::instant`](crate::model::Model::instant).
+    ///
+    /// # Errors
+    /// When a load has no value, or contact forces are not determined.
+    pub fn instant(&mut self) -> Result<Instant, ModelError> {
+        self.model.instant()
+    }
+
+    /// The energy of a body by kind: beams come first, then particles.
+    pub fn energy_of(&mut self, body: usize) -> BodyEnergy {
+        self.model.energy_of(body)
+    }
+
+    /// How many columns somebody outside is to fill in after every row, in the order in which they were described.
+    pub fn outside_columns(&self) -> usize {
+        let sensors = self.scene.sensors.iter();
+        sensors.filter(|sensor| sensor.probe == Probe::Outside).count()
+    }
+
+    /// Fills in the values of these columns in the last row of the history.
+    pub fn fill_in(&mut self, values: &[f64]) {
+        let first = self.record.history.extra_width() - self.scene.sensors.len();
+        let sensors = self.scene.sensors.iter().enumerate();
+        let outside = sensors.filter(|(_, sensor)| sensor.probe == Probe::Outside);
+        for ((column, _), value) in outside.zip(values) {
+            self.record.history.fill_in(first + column, *value);
+        }
     }
 }

@@ -93,17 +93,4 @@ impl Simulation {
         };
         stations.iter().map(at).collect()
     }
-
-    /// The control points of all bodies in a configuration of the trajectory.
-    pub fn control_points_at(&self, index: usize) -> Vec<Vec<Vec2>> {
-        let mut numbers = self.record.trajectory.configuration(index).chunks_exact(2);
-        let of_body = |body: &[Vec2]| {
-            numbers.by_ref().take(body.len()).map(|xy| Vec2::new(xy[0], xy[1])).collect()
-        };
-        self.model.control_points().map(of_body).collect()
-    }
-
-    fn outlines(&self) -> Result<&[Outline], ModelError> {
-        self.drawn.outlines(|| Outline::of_scene(&self.scene, self.model.meshes()))
-    }
 }

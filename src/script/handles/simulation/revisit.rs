@@ -68,7 +68,7 @@ impl Revisit {
     /// # Errors
     /// When a step fails that did not, or the run is stopped.
     pub fn run_again(&self, row: usize, context: &Context) -> Result<bool, ScriptError> {
-        let mut watch = Watch { context, end: f64::INFINITY };
+        let mut watch = Watch::new(context, f64::INFINITY);
         let ran =
             self.handle.0.simulation.borrow_mut().run_again(&self.original(), row, &mut watch);
         ran.map_err(|error| explain(error, context))
