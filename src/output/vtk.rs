@@ -159,9 +159,14 @@ fn push<const N: usize>(
     let length = (bytes.len() - 8) as u64;
     bytes[..8].copy_from_slice(&length.to_le_bytes());
     let (name, letters) = (escaped(name), base64(&bytes));
+    // Some readers make a table of one column of a number of components that is one.
+    let many = match components {
+        1 => String::new(),
+        many => format!(" NumberOfComponents=\"{many}\""),
+    };
     let _ = writeln!(
         text,
-        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"binary\">{letters}</DataArray>"
+        "<DataArray type=\"{kind}\" Name=\"{name}\"{many} format=\"binary\">{letters}</DataArray>"
     );
 }
 

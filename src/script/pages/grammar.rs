@@ -121,7 +121,7 @@ mod tests {
         let coloured = |word: &str, colour: &str| format!("\x1b[{colour}m{word}\x1b[0m");
         assert!(keywords.iter().all(|word| drawn(word) == coloured(word, KEYWORD.0)));
         let functions = listed(&grammar, "support.function");
-        assert!(functions.len() > 200, "{}", functions.len());
+        assert!(functions.len() > 100, "{}", functions.len());
         let odd = functions.iter().find(|word| drawn(word) != coloured(word, FUNCTION.0));
         assert_eq!(odd, None);
     }
