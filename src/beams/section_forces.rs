@@ -31,6 +31,8 @@ const NO_WEIGHT: f64 = 1e-14;
 /// In the frame of the section, whose first axis is its normal: these are forces of the part of the beam that follows on the part before.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SectionForces {
+    /// The normal of the section in the plane, of length one; zero on a particle, which has no section [-].
+    pub normal: Vec2,
     /// The axial force `N`, along the normal of the section: positive in tension [force].
     pub axial: f64,
     /// The shear force `Q`, across the normal of the section, positive to its left [force].
@@ -51,6 +53,7 @@ impl SectionForces {
         let normal = normal.normalize();
         let (axial, shear) = (normal.dot(&force), cross(normal, force));
         Self {
+            normal,
             axial,
             shear,
             moment,

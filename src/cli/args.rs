@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use super::convert_options::ConvertOptions;
 use super::learn_options::LearnOptions;
 use super::limits::LimitOptions;
 use super::view_options::ViewOptions;
@@ -35,6 +36,9 @@ pub enum Command {
     /// Parse a script and build its scenes without running, printing or writing anything.
     #[command(after_help = EXIT_CODES)]
     Check(CheckOptions),
+    /// Write a saved simulation for other programs: frames for ParaView, arrays for NumPy, a table, a page.
+    #[command(after_help = EXIT_CODES)]
+    Convert(ConvertOptions),
     /// Write a page on which a saved simulation moves, or the last one of a script, and open it in a browser.
     #[command(after_help = EXIT_CODES)]
     View(ViewOptions),
@@ -153,11 +157,14 @@ pub struct CheckOptions {
 #[derive(Args)]
 pub struct DocsOptions {
     /// A function, type, option, constant or part of the language, such as section or simulation.run_to; without it, an overview.
-    #[arg(conflicts_with_all = ["markdown", "definitions"])]
+    #[arg(conflicts_with_all = ["markdown", "grammar", "definitions"])]
     pub name: Option<String>,
     /// Print the whole reference as Markdown.
-    #[arg(long, conflicts_with = "definitions")]
+    #[arg(long, conflicts_with_all = ["grammar", "definitions"])]
     pub markdown: bool,
+    /// Print a TextMate grammar (JSON), by which editors colour scripts.
+    #[arg(long, conflicts_with = "definitions")]
+    pub grammar: bool,
     /// Write definition files (.d.rhai) for the Rhai language server into this folder.
     #[arg(long, value_name = "DIR")]
     pub definitions: Option<PathBuf>,

@@ -11,6 +11,7 @@ use crate::output::{Colours, Style, write_whole};
 use crate::script::diagnose::Diagnostic;
 use crate::script::packages::language;
 use crate::script::pages::definitions::definitions;
+use crate::script::pages::grammar::grammar;
 use crate::script::pages::help::{self, WIDTH};
 use crate::script::pages::reference::reference;
 use crate::script::rows::catalog::Catalog;
@@ -23,6 +24,7 @@ pub fn docs(options: &DocsOptions) -> Exit {
     let catalog = language();
     let text = match &options.definitions {
         Some(folder) => write_definitions(&catalog, folder),
+        None if options.grammar => Ok(grammar(&catalog)),
         None if options.markdown => Ok(reference(&catalog)),
         None => page(&catalog, options.name.as_deref().unwrap_or_default()),
     };

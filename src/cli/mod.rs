@@ -3,6 +3,8 @@
 mod args;
 mod attempt_process;
 mod bar;
+mod convert;
+mod convert_options;
 mod docs;
 mod exit;
 mod grade;
@@ -11,6 +13,7 @@ mod learn;
 mod learn_options;
 mod limits;
 mod run;
+mod saved;
 mod say;
 mod session;
 mod start;

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use super::args::{Arguments, Command};
-use super::{Exit, docs, learn, run, say, session, view};
+use super::{Exit, convert, docs, learn, run, say, session, view};
 
 /// Runs the program: reads the command line and does what it says.
 pub fn main() -> ExitCode {
@@ -20,6 +20,7 @@ pub fn main() -> ExitCode {
         Some(Command::Check(options)) => run::check(&options),
         Some(Command::View(options)) => view::view(&options),
         Some(Command::Repl(options)) => session::open(&options),
+        Some(Command::Convert(options)) => convert::convert(&options),
         Some(Command::Docs(options)) => docs::docs(&options),
         Some(Command::Learn(options)) => learn::learn(&options),
         None => session::start(arguments.session),

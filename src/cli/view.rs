@@ -11,6 +11,7 @@ use super::Exit;
 use super::bar::{self, Wish};
 use super::interrupt::{self, AtStake};
 use super::run::{exit_for, last_resort, refuse, show_summary};
+use super::saved::{folder_of, literal, program, stem_of};
 use super::say::tell;
 use super::view_options::ViewOptions;
 use crate::folders::Scratch;
@@ -42,9 +43,7 @@ pub fn view(options: &ViewOptions) -> Exit {
 
 fn prepare(options: &ViewOptions) -> Result<Run, Diagnostic> {
     let file = &options.file;
-    let stem = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    let stem = stem.unwrap_or_else(|| "view".into());
-    let page = format!("{stem}.html");
+    let page = format!("{}.html", stem_of(file));
     let is_saved = file.extension().is_some_and(|ending| ending == "withy");
     if !is_saved {
         let program = Program::load(file)?;
@@ -56,29 +55,14 @@ fn prepare(options: &ViewOptions) -> Result<Run, Diagnostic> {
         let program = Program { text: text.as_str().into(), ..program };
         return Ok(Run { program, out: options.out.clone(), page, _scratch: None });
     }
-    let parent = file.parent().filter(|parent| !parent.as_os_str().is_empty());
-    let beside = parent.unwrap_or(Path::new(".")).to_owned();
-    let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let (saved, page_text) = (literal(&name), literal(&page));
-    let text = format!("write_viewer(load_simulation({saved}), {page_text});\n");
-    let program = Program { folder: beside.clone(), ..Program::named("withy view", &text) };
+    let line = format!("write_viewer(sim, {});", literal(&page));
+    let program = program("withy view", file, &line);
     let scratch = options.output.as_ref().map(|_| Scratch::new()).transpose();
     let scratch = scratch.map_err(|error| {
         Diagnostic::general(format!("cannot make a folder for what is not ready yet: {error}"))
     })?;
-    let out = scratch.as_ref().map_or(beside, |scratch| scratch.path().to_owned());
+    let out = scratch.as_ref().map_or_else(|| folder_of(file), |scratch| scratch.path().to_owned());
     Ok(Run { program, out, page, _scratch: scratch })
-}
-
-/// A text of the language.
-fn literal(text: &str) -> String {
-    let escape = |letter: char| match letter {
-        '\\' | '"' => format!("\\{letter}"),
-        '\n' => "\\n".to_owned(),
-        '\r' => "\\r".to_owned(),
-        other => other.to_string(),
-    };
-    format!("\"{}\"", text.chars().map(escape).collect::<String>())
 }
 
 fn perform(run: Run, options: &ViewOptions) -> Exit {
@@ -134,15 +118,4 @@ fn open(page: &Path) -> bool {
     let mut command = Command::new(program);
     command.arg(page).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     command.spawn().is_ok()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_with_quotes_are_texts_of_the_language() {
-        assert_eq!(literal("run.html"), "\"run.html\"");
-        assert_eq!(literal("a \"b\" \\ c"), r#""a \"b\" \\ c""#);
-    }
 }

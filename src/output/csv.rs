@@ -71,7 +71,7 @@ impl CsvTable {
 }
 
 /// 17 significant digits, which determine a double.
-fn exact(x: f64) -> String {
+pub(super) fn exact(x: f64) -> String {
     if x.is_finite() { format!("{x:.16e}") } else { super::number::format_number(x) }
 }
 

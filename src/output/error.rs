@@ -54,6 +54,16 @@ pub enum OutputError {
     /// A table of numbers could not be turned into text.
     #[error("cannot form the table: {0}; check its column names")]
     Csv(#[from] ::csv::Error),
+    /// Arrays could not be put into one file.
+    #[error("cannot form the archive of arrays: {0}; check that no two things have one name")]
+    Archive(#[from] zip::result::ZipError),
+    /// A table could not be turned into Parquet.
+    #[cfg(feature = "parquet")]
+    #[error("cannot form the table: {reason}; check that no two columns have one name")]
+    Parquet {
+        /// What is wrong.
+        reason: String,
+    },
     /// A picture is too small or too large to be painted.
     #[error(
         "a picture of {width} by {height} pixels cannot be painted; use 100 to 8000 pixels each way"

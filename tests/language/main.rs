@@ -6,6 +6,7 @@ mod common;
 mod domains;
 mod exercises;
 mod explain;
+mod exports;
 mod motion_pictures;
 mod newcomer;
 mod present;

@@ -1,7 +1,9 @@
 //! The program as a user has it: commands, exit codes, files, limits, pipes and terminals.
 
 mod cli;
+mod convert;
 mod docs_command;
+mod editors;
 mod learn_command;
 mod learn_watch;
 mod limits;

@@ -21,7 +21,7 @@ pub struct AlongSample {
 impl AlongSample {
     /// The energy that the strains there store, per length as drawn: `(N Γ1 + Q Γ2 + M κ)/2` [energy/length].
     pub fn strain_energy(&self) -> f64 {
-        let SectionForces { axial, shear, moment, axial_strain, shear_strain, curvature } =
+        let SectionForces { axial, shear, moment, axial_strain, shear_strain, curvature, .. } =
             self.forces;
         0.5 * (axial * axial_strain + shear * shear_strain + moment * curvature)
     }

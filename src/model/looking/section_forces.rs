@@ -1,11 +1,8 @@
 //! What the cross sections of a beam transmit.
 
+use super::beam_places::BeamSample;
 use crate::beams::{BodyIndex, SectionForces, SectionPlace, SectionPoints, Station};
-use crate::geometry::corresponding;
 use crate::model::{Model, ModelError, Scene};
-
-/// Places in each span of [`Model::section_forces_along`], besides the knots.
-const WITHIN_A_SPAN: usize = 3;
 
 /// A station of a beam, found among the quadrature points once, to be asked often.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,22 +61,19 @@ impl Model {
         scene: &Scene,
         beam: usize,
     ) -> Result<Vec<SectionSample>, ModelError> {
-        let (definition, mesh) = (&scene.beams[beam], &self.meshes()[beam]);
-        let dynamics = &self.bodies()[beam].dynamics;
-        let (from, onto) = (mesh.basis().domain(), definition.axis.domain());
-        let sample = |(xi, place): (f64, SectionPlace)| {
-            let arc_length = definition
-                .axis
-                .length_to(corresponding(xi, from, onto))
-                .map_err(ModelError::geometry(&definition.name))?;
-            Ok(SectionSample { arc_length, forces: dynamics.section_forces(&place) })
+        let samples = self.sample_along(&self.places_along(scene, beam)?);
+        let section = |sample: BeamSample| SectionSample {
+            arc_length: sample.arc_length,
+            forces: sample.forces,
         };
-        let places = self.section_points(scene, beam)?.along(WITHIN_A_SPAN);
-        let places = places.map_err(ModelError::beam(&definition.name))?;
-        places.into_iter().map(sample).collect()
+        Ok(samples.into_iter().map(section).collect())
     }
 
-    fn section_points(&self, scene: &Scene, beam: usize) -> Result<SectionPoints, ModelError> {
+    pub(super) fn section_points(
+        &self,
+        scene: &Scene,
+        beam: usize,
+    ) -> Result<SectionPoints, ModelError> {
         SectionPoints::of(&self.meshes()[beam]).map_err(ModelError::beam(&scene.beams[beam].name))
     }
 }

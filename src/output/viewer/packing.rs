@@ -7,6 +7,7 @@ use flate2::write::ZlibEncoder;
 use serde_json::{Value, json};
 
 use crate::output::OutputError;
+use crate::output::base64::base64;
 
 /// The code of what is not finite. Codes of numbers are less.
 const MISSING: u16 = u16::MAX;
@@ -83,7 +84,7 @@ pub fn pack(
         "numbers": numbers,
         "frames": frames,
         "order": order,
-        "data": letters(&deflated),
+        "data": base64(&deflated),
     }))
 }
 
@@ -99,33 +100,9 @@ fn differences(codes: &[u16], order: u32) -> impl Iterator<Item = u16> + '_ {
     })
 }
 
-/// Base64 (RFC 4648, section 4).
-fn letters(bytes: &[u8]) -> String {
-    const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for group in bytes.chunks(3) {
-        let byte = |index: usize| u32::from(group.get(index).copied().unwrap_or(0));
-        let word = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for place in 0..4 {
-            let letter = ALPHABET[(word >> (18 - 6 * place) & 63) as usize] as char;
-            text.push(if place <= group.len() { letter } else { '=' });
-        }
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn letters_are_those_of_the_standard() {
-        // RFC 4648, section 10.
-        let vectors = ["", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"];
-        for (length, expected) in vectors.into_iter().enumerate() {
-            assert_eq!(letters(&b"foobar"[..length]), expected);
-        }
-    }
 
     #[test]
     fn a_number_is_off_by_half_a_step_at_most() {

@@ -2,6 +2,7 @@
 
 mod revisit;
 mod sensing;
+mod visit;
 
 use std::cell::{Cell, Ref, RefCell};
 use std::rc::Rc;
@@ -25,6 +26,7 @@ use crate::vibration::{Modes, VibrationError};
 use sensing::Sensing;
 
 pub use revisit::Revisit;
+pub use visit::Visited;
 
 /// A handle on a running simulation; clones are the same one.
 #[derive(Clone)]

@@ -1,8 +1,10 @@
 //! How values look: at the prompt, in charts and pictures, in colours.
 
 pub mod along;
+pub mod arrays;
 pub mod details;
 pub mod film;
+pub mod grids;
 pub mod highlight;
 pub mod motion;
 pub mod present;

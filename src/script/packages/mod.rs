@@ -10,6 +10,7 @@ mod cost_studies;
 mod curve_pictures;
 mod equilibria;
 mod explaining;
+mod exports;
 pub mod geometry;
 mod help;
 mod histories;
@@ -36,6 +37,7 @@ mod springs;
 mod stability_studies;
 mod statistics;
 mod step_sizes;
+mod tables;
 mod text;
 mod time_travel;
 mod vectors;
@@ -77,6 +79,7 @@ pub const TABLES: &[&Table] = &[
     &pictures::TABLE,
     &along_pictures::TABLE,
     &rest_pictures::TABLE,
+    &exports::TABLE,
     &viewers::TABLE,
     &animations::TABLE,
     &stability_studies::TABLE,

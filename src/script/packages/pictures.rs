@@ -60,10 +60,12 @@ pub const TABLE: Table = Table {
             .see(&["drift"]),
         function("write_history", &[RECORDED, FILE], write_history)
             .summary("Writes all columns of the history as CSV, every digit kept.")
-            .example("sim.run_to(1);\nwrite_history(sim, \"spin.csv\");"),
+            .example("sim.run_to(1);\nwrite_history(sim, \"spin.csv\");")
+            .see(&["write_csv", "write_npz"]),
         function("write_states", &[either("of", &[Kind::Object(SIMULATION)]), FILE], write_states)
             .summary("Writes the control points (or nodes) of all beams, and the particles, over time as CSV.")
-            .example("sim.run_to(1);\nwrite_states(sim, \"points.csv\");"),
+            .example("sim.run_to(1);\nwrite_states(sim, \"points.csv\");")
+            .see(&["write_npz", "write_vtk"]),
     ],
 };
 

@@ -1,5 +1,6 @@
-//! One model of pages, three writers: help, the reference, definition files for editors.
+//! One model of pages, four writers: help, the reference, definition files and colours for editors.
 
 pub mod definitions;
+pub mod grammar;
 pub mod help;
 pub mod reference;

@@ -2,7 +2,7 @@
 
 use super::Simulation;
 use crate::beams::{SectionForces, Station};
-use crate::model::{BodyEnergy, Instant, ModelError, Probe, SectionSample};
+use crate::model::{BeamPlaces, BeamSample, BodyEnergy, Instant, ModelError, Probe, SectionSample};
 
 impl Simulation {
     /// Section forces and strains at a station, in the present configuration: see [`Model::section_forces`](crate::model::Model::section_forces).
@@ -20,6 +20,19 @@ impl Simulation {
     /// When an axis has a point without a tangent.
     pub fn section_forces_along(&self, beam: usize) -> Result<Vec<SectionSample>, ModelError> {
         self.model.section_forces_along(&self.scene, beam)
+    }
+
+    /// Places along a beam, found once, at which it is sampled.
+    ///
+    /// # Errors
+    /// When an axis has a point without a tangent.
+    pub fn places_along(&self, beam: usize) -> Result<BeamPlaces, ModelError> {
+        self.model.places_along(&self.scene, beam)
+    }
+
+    /// What a beam does in the present configuration, from its start to its end.
+    pub fn sample_along(&self, along: &BeamPlaces) -> Vec<BeamSample> {
+        self.model.sample_along(along)
     }
 
     /// Accelerations and forces at the present moment: see [`Model::instant`](crate::model::Model::instant).

@@ -1,0 +1,103 @@
+//! Beams sampled along their axes, again and again at the same places.
+
+use std::f64::consts::PI;
+
+use crate::beams::{Place, SectionForces, SectionPlace};
+use crate::elementary::atan2;
+use crate::geometry::{Vec2, corresponding};
+use crate::model::{Model, ModelError, Scene};
+
+/// Places in each span besides the knots.
+const WITHIN_A_SPAN: usize = 3;
+
+/// Places along a beam, found once, to be asked often: those at its knots, and three between each two of them.
+///
+/// Where a joint cuts the beam there are two of the same arc length, the end of the part before and the start of the part behind.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BeamPlaces {
+    beam: usize,
+    places: Vec<(f64, Place, SectionPlace)>,
+}
+
+/// What a beam does at one of its places.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BeamSample {
+    /// From the start of the beam as drawn [length].
+    pub arc_length: f64,
+    /// Where it is [length].
+    pub position: Vec2,
+    /// How fast it moves [length/time].
+    pub velocity: Vec2,
+    /// The angle of the section; unwrapped, as that at the start of the beam is followed [rad].
+    pub angle: f64,
+    /// What is transmitted there.
+    pub forces: SectionForces,
+}
+
+impl BeamPlaces {
+    /// From the start of the beam as drawn, in rising order [length].
+    pub fn arc_lengths(&self) -> impl Iterator<Item = f64> + '_ {
+        self.places.iter().map(|(arc_length, ..)| *arc_length)
+    }
+
+    /// Where the places are when the control points of the beam are these [length].
+    pub fn positions(&self, control_points: &[Vec2]) -> impl Iterator<Item = Vec2> {
+        self.places.iter().map(|(_, place, _)| place.interpolate(control_points))
+    }
+}
+
+impl Model {
+    /// The places of a beam at which [`sample_along`](Self::sample_along) looks.
+    ///
+    /// # Errors
+    /// When an axis has a point without a tangent.
+    pub fn places_along(&self, scene: &Scene, beam: usize) -> Result<BeamPlaces, ModelError> {
+        let (definition, mesh) = (&scene.beams[beam], &self.meshes()[beam]);
+        let (from, onto) = (mesh.basis().domain(), definition.axis.domain());
+        let of_geometry = ModelError::geometry(&definition.name);
+        let place = |(xi, section): (f64, SectionPlace)| {
+            let arc_length = definition.axis.length_to(corresponding(xi, from, onto))?;
+            Ok((arc_length, Place::at(beam, &definition.axis, mesh, xi)?, section))
+        };
+        let sections = self.section_points(scene, beam)?.along(WITHIN_A_SPAN);
+        let sections = sections.map_err(ModelError::beam(&definition.name))?;
+        let places = sections.into_iter().map(place).collect::<Result<_, _>>();
+        Ok(BeamPlaces { beam, places: places.map_err(of_geometry)? })
+    }
+
+    /// What a beam does in the present configuration, from its start to its end.
+    pub fn sample_along(&self, along: &BeamPlaces) -> Vec<BeamSample> {
+        let dynamics = &self.bodies()[along.beam].dynamics;
+        let mut angle = self.end_angles(along.beam).0;
+        let sample = |(arc_length, place, section): &(f64, Place, SectionPlace)| {
+            let forces = dynamics.section_forces(section);
+            angle = nearest_turn(atan2(forces.normal.y, forces.normal.x), angle);
+            BeamSample {
+                arc_length: *arc_length,
+                position: self.position(place),
+                velocity: self.velocity(place),
+                angle,
+                forces,
+            }
+        };
+        along.places.iter().map(sample).collect()
+    }
+}
+
+/// The angle that differs from `angle` by whole turns and is nearest to another one [rad].
+fn nearest_turn(angle: f64, other: f64) -> f64 {
+    angle + 2.0 * PI * ((other - angle) / (2.0 * PI)).round()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_follow_their_neighbour_through_whole_turns() {
+        for (angle, other, expected) in [(0.1, 0.0, 0.1), (-3.0, 3.2, 2.0 * PI - 3.0)] {
+            assert!((nearest_turn(angle, other) - expected).abs() < 1e-15);
+        }
+        assert!((nearest_turn(0.5, 20.0 * PI) - (20.0 * PI + 0.5)).abs() < 1e-12);
+    }
+}

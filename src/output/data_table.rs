@@ -1,0 +1,142 @@
+//! Tables of numbers, truths and words that other programs take in at once: names in the first line and nothing above it.
+
+use super::OutputError;
+use super::csv::exact;
+
+/// Columns of equal length; a value may be missing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DataTable {
+    /// The columns, from left to right.
+    pub columns: Vec<DataColumn>,
+}
+
+/// A column of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DataColumn {
+    /// Its name.
+    pub name: String,
+    /// Its dimension; `-` for a pure number, empty where it has none or none is known.
+    pub dimension: String,
+    /// What stands in it.
+    pub values: DataValues,
+}
+
+/// The values of a column, all of one kind.
+#[derive(Clone, Debug, PartialEq)]
+pub enum DataValues {
+    /// Numbers.
+    Numbers(Vec<Option<f64>>),
+    /// Whole numbers.
+    Whole(Vec<Option<i64>>),
+    /// Truth values.
+    Truths(Vec<Option<bool>>),
+    /// Texts.
+    Texts(Vec<Option<String>>),
+}
+
+/// What stands above the rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Heading {
+    /// A line of names.
+    Names,
+    /// A line of names, and one of dimensions.
+    NamesAndUnits,
+}
+
+impl DataValues {
+    /// How many there are.
+    pub fn length(&self) -> usize {
+        match self {
+            Self::Numbers(values) => values.len(),
+            Self::Whole(values) => values.len(),
+            Self::Truths(values) => values.len(),
+            Self::Texts(values) => values.len(),
+        }
+    }
+
+    /// A value as it is written; nothing where it is missing.
+    fn written(&self, row: usize) -> String {
+        let written = match self {
+            Self::Numbers(values) => values[row].map(exact),
+            Self::Whole(values) => values[row].map(|value| value.to_string()),
+            Self::Truths(values) => values[row].map(|value| value.to_string()),
+            Self::Texts(values) => values[row].clone(),
+        };
+        written.unwrap_or_default()
+    }
+}
+
+impl DataTable {
+    /// The text of a CSV file; numbers have 17 digits, which determine a double.
+    ///
+    /// # Errors
+    /// When the columns are not equally long.
+    pub fn to_csv(&self, heading: Heading) -> Result<String, OutputError> {
+        let rows = self.rows()?;
+        let mut writer = ::csv::Writer::from_writer(Vec::new());
+        writer.write_record(self.columns.iter().map(|column| &column.name))?;
+        if heading == Heading::NamesAndUnits {
+            writer.write_record(self.columns.iter().map(|column| &column.dimension))?;
+        }
+        for row in 0..rows {
+            writer.write_record(self.columns.iter().map(|column| column.values.written(row)))?;
+        }
+        let bytes = writer.into_inner().map_err(|error| ::csv::Error::from(error.into_error()))?;
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
+    }
+
+    /// The length of all columns.
+    ///
+    /// # Errors
+    /// When they are not equally long.
+    pub(super) fn rows(&self) -> Result<usize, OutputError> {
+        let Some(first) = self.columns.first() else { return Ok(0) };
+        let expected = first.values.length();
+        match self.columns.iter().find(|column| column.values.length() != expected) {
+            None => Ok(expected),
+            Some(column) => Err(OutputError::RaggedColumns {
+                name: column.name.clone(),
+                length: column.values.length(),
+                first: first.name.clone(),
+                expected,
+            }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table() -> DataTable {
+        let column = |name: &str, dimension: &str, values| DataColumn {
+            name: name.into(),
+            dimension: dimension.into(),
+            values,
+        };
+        DataTable {
+            columns: vec![
+                column("t", "time", DataValues::Numbers(vec![Some(0.1), None])),
+                column("steps", "-", DataValues::Whole(vec![Some(3), Some(-1)])),
+                column("good", "", DataValues::Truths(vec![Some(true), None])),
+                column("told", "", DataValues::Texts(vec![Some("a, b".into()), None])),
+            ],
+        }
+    }
+
+    #[test]
+    fn names_stand_in_the_first_line_and_units_in_the_second_where_they_are_wanted() {
+        let rows = "1.0000000000000001e-1,3,true,\"a, b\"\n,-1,,\n";
+        let names = "t,steps,good,told\n";
+        assert_eq!(table().to_csv(Heading::Names).unwrap(), format!("{names}{rows}"));
+        let with_units = table().to_csv(Heading::NamesAndUnits).unwrap();
+        assert_eq!(with_units, format!("{names}time,-,,\n{rows}"));
+    }
+
+    #[test]
+    fn ragged_columns_are_refused() {
+        let mut ragged = table();
+        ragged.columns[1].values = DataValues::Whole(vec![]);
+        assert!(ragged.to_csv(Heading::Names).is_err());
+    }
+}

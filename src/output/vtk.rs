@@ -1,0 +1,216 @@
+//! Files for ParaView and whatever else reads VTK: a grid for each frame, and a collection that gives the frames their times.
+//!
+//! They are XML with the numbers inline, as base64 of their bytes behind a count of them: so every bit is kept, of denormal numbers and NaN too, which
+//! readers of the text form stumble over. (VTK User's Guide, "VTK File Formats": XML file formats; uncompressed, `header_type="UInt64"`.)
+
+use std::fmt::Write;
+
+use super::base64::base64;
+use super::{OutputError, Point};
+
+/// VTK's number of a cell of one point, and of one of several in a row.
+const VERTEX: u8 = 1;
+const POLY_LINE: u8 = 4;
+
+/// The bodies of one frame, and fields on their points.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct VtkGrid {
+    /// The bodies; the cell field `body` has their numbers, from 0.
+    pub cells: Vec<VtkCell>,
+    /// Fields over the points of all cells, one after another.
+    pub fields: Vec<VtkField>,
+}
+
+/// A body: a line through its points, or a dot where there is only one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct VtkCell {
+    /// Its name, which a comment of the file tells.
+    pub name: String,
+    /// Its points in the plane.
+    pub points: Vec<Point>,
+}
+
+/// A quantity at each point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VtkField {
+    /// Its name.
+    pub name: String,
+    /// Its values.
+    pub values: VtkValues,
+}
+
+/// The values of a field.
+#[derive(Clone, Debug, PartialEq)]
+pub enum VtkValues {
+    /// Numbers.
+    Numbers(Vec<f64>),
+    /// Vectors in the plane; the file has a third component, zero.
+    Vectors(Vec<Point>),
+}
+
+impl VtkField {
+    fn length(&self) -> usize {
+        match &self.values {
+            VtkValues::Numbers(values) => values.len(),
+            VtkValues::Vectors(values) => values.len(),
+        }
+    }
+}
+
+impl VtkGrid {
+    /// The text of a `.vtu` file: an unstructured grid in one piece.
+    ///
+    /// # Errors
+    /// When a field has not one value for each point.
+    pub fn to_vtu(&self) -> Result<String, OutputError> {
+        let points: Vec<Point> = self.cells.iter().flat_map(|cell| cell.points.clone()).collect();
+        if let Some(field) = self.fields.iter().find(|field| field.length() != points.len()) {
+            return Err(OutputError::RaggedColumns {
+                name: field.name.clone(),
+                length: field.length(),
+                first: "points".into(),
+                expected: points.len(),
+            });
+        }
+        let (count, cells) = (points.len(), self.cells.len());
+        let mut text = heading(&self.names(), "UnstructuredGrid", " header_type=\"UInt64\"");
+        text += &format!(
+            "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{cells}\">\n"
+        );
+        text += "<PointData>\n";
+        for VtkField { name, values } in &self.fields {
+            match values {
+                VtkValues::Numbers(values) => push_numbers(&mut text, name, values),
+                VtkValues::Vectors(values) => push_vectors(&mut text, name, values),
+            }
+        }
+        text += "</PointData>\n<CellData>\n";
+        push_whole(&mut text, "body", 0..cells);
+        text += "</CellData>\n<Points>\n";
+        push_vectors(&mut text, "Points", &points);
+        text += "</Points>\n<Cells>\n";
+        let ends = self.cells.iter().scan(0, |end, cell| {
+            *end += cell.points.len();
+            Some(*end)
+        });
+        push_whole(&mut text, "connectivity", 0..count);
+        push_whole(&mut text, "offsets", ends);
+        let kind = |cell: &VtkCell| if cell.points.len() == 1 { VERTEX } else { POLY_LINE };
+        push(&mut text, "UInt8", "types", 1, self.cells.iter().map(|cell| [kind(cell)]));
+        text += "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+        Ok(text)
+    }
+
+    /// Which body has which number, in words.
+    fn names(&self) -> String {
+        let bodies = self.cells.iter().enumerate();
+        let told: Vec<String> = bodies.map(|(at, cell)| format!("{at} {}", cell.name)).collect();
+        format!("body: {}", told.join(", "))
+    }
+}
+
+/// The text of a `.pvd` file: times of frames, and the names of their files beside it.
+pub fn vtk_collection(frames: &[(f64, String)]) -> String {
+    let mut text = heading("frames and their times", "Collection", "");
+    text += "<Collection>\n";
+    for (time, file) in frames {
+        let file = escaped(file);
+        let _ = writeln!(text, "<DataSet timestep=\"{time:?}\" part=\"0\" file=\"{file}\"/>");
+    }
+    text + "</Collection>\n</VTKFile>\n"
+}
+
+fn heading(comment: &str, kind: &str, more: &str) -> String {
+    // Two hyphens end a comment, and a control character ends the file.
+    let comment = comment.replace('-', "\u{2010}").replace(char::is_control, " ");
+    format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- {comment} -->\n\
+         <VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\"{more}>\n"
+    )
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+}
+
+fn push_numbers(text: &mut String, name: &str, values: &[f64]) {
+    push(text, "Float64", name, 1, values.iter().map(|value| value.to_le_bytes()));
+}
+
+fn push_vectors(text: &mut String, name: &str, values: &[Point]) {
+    let components = values.iter().flat_map(|&(x, y)| [x, y, 0.0]);
+    push(text, "Float64", name, 3, components.map(f64::to_le_bytes));
+}
+
+fn push_whole(text: &mut String, name: &str, values: impl Iterator<Item = usize>) {
+    push(text, "Int64", name, 1, values.map(|value| (value as u64).to_le_bytes()));
+}
+
+/// An array: the number of its bytes, then the bytes.
+fn push<const N: usize>(
+    text: &mut String,
+    kind: &str,
+    name: &str,
+    components: usize,
+    values: impl Iterator<Item = [u8; N]>,
+) {
+    let mut bytes = vec![0; 8];
+    values.for_each(|value| bytes.extend(value));
+    let length = (bytes.len() - 8) as u64;
+    bytes[..8].copy_from_slice(&length.to_le_bytes());
+    let (name, letters) = (escaped(name), base64(&bytes));
+    // Some readers make a table of one column of a number of components that is one.
+    let many = match components {
+        1 => String::new(),
+        many => format!(" NumberOfComponents=\"{many}\""),
+    };
+    let _ = writeln!(
+        text,
+        "<DataArray type=\"{kind}\" Name=\"{name}\"{many} format=\"binary\">{letters}</DataArray>"
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grid(values: Vec<f64>) -> VtkGrid {
+        VtkGrid {
+            cells: vec![
+                VtkCell { name: "rod".into(), points: vec![(0.0, 0.0), (1.0, 0.5)] },
+                VtkCell { name: "a--b".into(), points: vec![(2.0, 0.0)] },
+            ],
+            fields: vec![VtkField { name: "N".into(), values: VtkValues::Numbers(values) }],
+        }
+    }
+
+    #[test]
+    fn arrays_stand_behind_the_number_of_their_bytes() {
+        let text = grid(vec![1.0, 2.0, f64::NAN]).to_vtu().unwrap();
+        let line = |name: &str| {
+            let line = text.lines().find(|line| line.contains(&format!("Name=\"{name}\"")));
+            line.unwrap().split(['>', '<']).nth(2).unwrap().to_owned()
+        };
+        let offsets: Vec<u8> = [16_u64, 2, 3].into_iter().flat_map(u64::to_le_bytes).collect();
+        assert_eq!(line("offsets"), base64(&offsets));
+        let types = [2_u64.to_le_bytes().as_slice(), &[POLY_LINE, VERTEX]].concat();
+        assert_eq!(line("types"), base64(&types));
+        assert!(line("Points").starts_with(&base64(&72_u64.to_le_bytes())[..10]));
+        assert!(text.contains("<!-- body: 0 rod, 1 a\u{2010}\u{2010}b -->"));
+    }
+
+    #[test]
+    fn a_field_without_a_value_for_each_point_is_refused() {
+        let message = grid(vec![1.0]).to_vtu().unwrap_err().to_string();
+        assert!(message.contains("column 'N' has 1 values but column 'points' has 3"), "{message}");
+    }
+
+    #[test]
+    fn a_collection_has_times_to_the_last_bit() {
+        let text = vtk_collection(&[(0.1 + 0.2, "a&b/1.vtu".into()), (1e-300, "2.vtu".into())]);
+        assert!(
+            text.contains("timestep=\"0.30000000000000004\" part=\"0\" file=\"a&amp;b/1.vtu\"")
+        );
+        assert!(text.contains("timestep=\"1e-300\""));
+    }
+}

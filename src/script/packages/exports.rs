@@ -1,0 +1,299 @@
+//! Simulations and tables for other programs.
+
+use rhai::Dynamic;
+
+use super::recording::expect_near;
+use super::simulations::{SIMULATION, SPINNING};
+use super::tables::{TABULAR, table};
+use crate::output::{Heading, vtk_collection};
+use crate::script::handles::simulation::{SimulationHandle, Visited};
+use crate::script::looks::arrays::archive;
+use crate::script::looks::grids::Grids;
+use crate::script::rows::call::Call;
+use crate::script::rows::options::Options;
+use crate::script::rows::parameter::{
+    Parameter, boolean, choice, number, object, options, text, whole,
+};
+use crate::script::rows::table::{Table, function};
+use crate::script::state::settings::Mode;
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::format_number;
+
+/// Exports.
+pub const TABLE: Table = Table {
+    name: "exports",
+    doc: "What a simulation was, for other programs: ParaView, NumPy, tables. Each file is whole or not there. `withy convert` makes the same of a saved \
+          simulation, without its script.",
+    types: &[],
+    setup: SPINNING,
+    constants: &[],
+    rows: &[
+        function("write_vtk", &[OF, VTK_FILE, options("options", FRAMES).optional()], write_vtk)
+            .summary("Writes frames of the motion for ParaView: RUN.pvd, which has the times, and a grid RUN/RUN_0001.vtu … for each frame.")
+            .doc(
+                "A beam is a line through its knots and three places between each two of them, twice where a joint cuts it; a particle is a dot. \
+                 The cell field `body` numbers them: beams first, then particles. Fields of points are arc_length, velocity, angle [rad], N, Q \
+                 and M, zero on particles. A configuration that is recorded has no velocities and no section forces, so the states themselves \
+                 are needed: those that are kept to go back to (option `snapshots`), or, where one is forgotten, those of the run made again in a copy, which takes \
+                 the time of the run and is compared with it bit for bit. Where that is another run, because a function had changed it on its way or it began at \
+                 an equilibrium, the shape alone is written, and that is told. Frames are recorded \
+                 configurations, none is made up between them. Frames of an earlier, longer export stay where they are, and the .pvd does not name them.",
+            )
+            .example("sim.run_to(2);\nwrite_vtk(sim, \"spin.pvd\", #{ every: 0.5 });\nwrite_vtk(sim, \"shape.pvd\", #{ frames: 3, fields: \"shape\" });")
+            .see(&["write_npz", "plot_motion", "save"]),
+        function("write_npz", &[OF, NPZ_FILE], write_npz)
+            .summary("Writes everything that is recorded as arrays for NumPy.")
+            .doc(
+                "`t` has the times of the configurations; `points.NAME` the control points (or nodes) of a beam, by time, point and coordinate, or the \
+                 places of a particle, by time and coordinate; `history.COLUMN` each column of the history, whose own times are `history.t`. Doubles, every bit kept.",
+            )
+            .example("sim.run_to(1);\nwrite_npz(sim, \"spin.npz\");")
+            .see(&["write_vtk", "write_states", "write_csv"]),
+        function("write_csv", &[TABULAR, CSV_FILE, options("options", HEADER).optional()], write_csv)
+            .summary("Writes a table as CSV that other programs take as it stands: names of columns in the first line, no comments.")
+            .doc(
+                "Of a simulation or a history, all columns; of an array of maps, a row for each map and a column for each key, in alphabetical order, \
+                 empty where a map has it not. Every digit is kept. write_history puts the simulation above and units beside the names.",
+            )
+            .example(
+                "sim.run_to(1);\nwrite_csv(sim, \"spin.csv\");\nwrite_csv(sim.history.after(0.5), \"late.csv\", #{ units: true });\n\
+                 write_csv([#{ mesh: 8, error: 0.1 }, #{ mesh: 16, error: 0.02 }], \"errors.csv\");",
+            )
+            .see(&["write_parquet", "write_history", "cells"]),
+        function("write_parquet", &[TABULAR, PARQUET_FILE], write_parquet)
+            .summary("Writes the same table as Apache Parquet, where withy was built with it.")
+            .doc(
+                "Parquet costs many crates, so it is a feature of the build: `cargo install --path . --features parquet`. Without it, the call says so, and a \
+                 script can catch that. Columns are doubles, whole numbers, truth values or texts; `dimension.NAME` of the metadata is the dimension of a column.",
+            )
+            .example("sim.run_to(1);\ntry { write_parquet(sim, \"spin.parquet\"); } catch (error) { print(error); }")
+            .see(&["write_csv", "write_npz"]),
+    ],
+};
+
+const OF: Parameter = object("of", SIMULATION);
+const VTK_FILE: Parameter = text("file").doc("its name in the output folder, which ends in .pvd");
+const NPZ_FILE: Parameter = text("file").doc("its name in the output folder, which ends in .npz");
+const CSV_FILE: Parameter = text("file").doc("its name in the output folder, which ends in .csv");
+const PARQUET_FILE: Parameter =
+    text("file").doc("its name in the output folder, which ends in .parquet");
+const FRAMES: &[Parameter] = &[
+    number("from").unit("time").doc("first frame; the start unless given").optional(),
+    number("to").unit("time").doc("last frame; the present unless given").optional(),
+    number("every").positive().unit("time").doc("between frames; the last one is always there").optional(),
+    whole("frames")
+        .between(2.0, MOST_FRAMES)
+        .doc("most frames, evenly spread over the time; 101 unless given")
+        .optional(),
+    choice("fields", &["all", "shape"])
+        .doc("shape: places alone, of the recorded configurations, and nothing is run again; all, where they can be had, unless given")
+        .optional(),
+];
+const HEADER: &[Parameter] =
+    &[boolean("units").doc("whether the second line has the dimensions of the columns").optional()];
+
+const MOST_FRAMES: f64 = 100_000.0;
+/// Frames unless the script says how many.
+const FRAMES_UNLESS_GIVEN: usize = 101;
+
+/// The name of the file, which must have a certain ending.
+fn named(call: &Call, ending: &str) -> Result<String, ScriptError> {
+    let file = call.text("file")?;
+    if file.strip_suffix(ending).is_none_or(|stem| stem.is_empty() || stem.ends_with('/')) {
+        let told = format!("\"{file}\" does not end in {ending}, with a name before it");
+        let hint = format!("for example \"run{ending}\"");
+        return Err(call.error(told).hint(hint).at(Place::Argument(1)));
+    }
+    call.context().output().path_of(&file).map_err(|error| error.at(Place::Argument(1)))?;
+    Ok(file.to_string())
+}
+
+/// Files of an export to VTK, by the name of the collection.
+struct Files {
+    /// The name of the collection without its ending.
+    stem: String,
+    /// That without its folder.
+    base: String,
+    /// Digits of the number of a frame.
+    digits: usize,
+}
+
+impl Files {
+    fn of(collection: &str, frames: usize) -> Self {
+        let stem = collection.trim_end_matches(".pvd").to_owned();
+        let base = stem.rsplit('/').next().unwrap_or_default().to_owned();
+        Self { stem, base, digits: frames.to_string().len().max(4) }
+    }
+
+    fn of_frame(&self, index: usize) -> String {
+        format!("{}/{}_{:0digits$}.vtu", self.stem, self.base, index + 1, digits = self.digits)
+    }
+
+    /// The same, seen from the folder of the collection.
+    fn beside(&self, index: usize) -> String {
+        format!("{}/{}_{:0digits$}.vtu", self.base, self.base, index + 1, digits = self.digits)
+    }
+}
+
+fn write_vtk(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let collection = named(call, ".pvd")?;
+    let of = call.get::<SimulationHandle>("of")?;
+    let options = call.options_or_defaults("options")?;
+    let frames = frames(call, &of, &options)?;
+    if call.context().mode() == Mode::DryBuild {
+        return Ok(Dynamic::UNIT);
+    }
+    let files = Files::of(&collection, frames.len());
+    let grids = Grids::of(&of.simulation())?;
+    let wish = options.text("fields").ok();
+    let another = match wish.as_deref() {
+        Some("shape") => true,
+        wish => match write_states(call, &of, &frames, (&grids, &files))? {
+            Visited::All => false,
+            Visited::Another(time) => {
+                tell_another(call, &of, time, wish.is_some())?;
+                true
+            }
+        },
+    };
+    if another {
+        for (number, frame) in frames.iter().enumerate() {
+            call.proceed()?;
+            let grid = grids.of_configuration(&of.simulation(), *frame);
+            call.context().write_file(&files.of_frame(number), grid.to_vtu()?.as_bytes())?;
+        }
+    }
+    let simulation = of.simulation();
+    let time = |frame: &usize| simulation.trajectory().times()[*frame];
+    let entries: Vec<(f64, String)> =
+        frames.iter().enumerate().map(|(at, frame)| (time(frame), files.beside(at))).collect();
+    call.context().write_file(&collection, vtk_collection(&entries).as_bytes())?;
+    Ok(Dynamic::UNIT)
+}
+
+fn write_states(
+    call: &Call,
+    of: &SimulationHandle,
+    frames: &[usize],
+    (grids, files): (&Grids, &Files),
+) -> Result<Visited, ScriptError> {
+    let times: Vec<f64> = {
+        let simulation = of.simulation();
+        frames.iter().map(|frame| simulation.trajectory().times()[*frame]).collect()
+    };
+    of.visit(&times, call.context(), &mut |number, state| {
+        call.proceed()?;
+        let grid = grids.of_state(state).to_vtu()?;
+        call.context().write_file(&files.of_frame(number), grid.as_bytes()).map(|_| ())
+    })
+}
+
+/// What is done when the states cannot be had again: all that was asked for is refused, and otherwise less is told.
+fn tell_another(
+    call: &Call,
+    of: &SimulationHandle,
+    time: f64,
+    is_asked: bool,
+) -> Result<(), ScriptError> {
+    let (name, time) = (of.name(), format_number(time));
+    let told = format!(
+        "the states of '{name}' are forgotten, and the run made again is another one from t = {time} or before"
+    );
+    if is_asked {
+        return Err(call
+            .error(told)
+            .hint("start it with the option snapshots: 1000 to keep more states, or write #{ fields: \"shape\" }")
+            .at(Place::Key("fields".into())));
+    }
+    call.context().tell(&format!(
+        "note: {told}: velocities, angles and section forces are not written; start it with the option snapshots: 1000 to keep more states"
+    ));
+    Ok(())
+}
+
+/// The recorded configurations that are written, in the order of time.
+fn frames(
+    call: &Call,
+    of: &SimulationHandle,
+    options: &Options,
+) -> Result<Vec<usize>, ScriptError> {
+    let simulation = of.simulation();
+    let trajectory = simulation.trajectory();
+    let from = options.number_if_given("from").unwrap_or(0.0);
+    let to = options.number_if_given("to").unwrap_or(f64::INFINITY).min(simulation.time());
+    let slack = simulation.slack();
+    let first = trajectory.times().partition_point(|time| *time < from - slack);
+    let end = trajectory.times().partition_point(|time| *time <= to + slack);
+    let Some(last) = end.checked_sub(1).filter(|last| *last >= first) else {
+        let [from, to, now] = [from, to, simulation.time()].map(format_number);
+        let told = format!("nothing of '{}' is recorded from t = {from} to {to}", of.name());
+        return Err(call.error(told).hint(format!("it has run from t = 0 to {now}")));
+    };
+    let at = |index: usize| trajectory.times()[index];
+    let span = at(last) - at(first);
+    let (every, count) = match (options.number_if_given("every"), options.has("frames")) {
+        (Some(_), true) => {
+            return Err(call
+                .error("`every` and `frames` both say how many frames there are")
+                .hint("give one of them")
+                .at(Place::Key("frames".into())));
+        }
+        (Some(every), false) => (every, (span / every + 1e-9).floor()),
+        (None, is_given) => {
+            let most = if is_given { options.count("frames")? } else { FRAMES_UNLESS_GIVEN };
+            if end - first <= most {
+                return Ok((first..end).collect());
+            }
+            (span / (most - 1) as f64, (most - 1) as f64)
+        }
+    };
+    if count >= MOST_FRAMES {
+        return Err(call
+            .error(format!("{count} frames are too many"))
+            .hint("choose a larger `every`")
+            .at(Place::Key("every".into())));
+    }
+    let mut frames = Vec::new();
+    let wanted = (0..=count as usize).map(|number| at(first) + number as f64 * every);
+    for time in wanted.chain([at(last)]) {
+        let nearest = trajectory.nearest(time).unwrap_or(last).clamp(first, last);
+        if options.has("every") {
+            expect_near(call, of, (time, at(nearest)), every)?;
+        }
+        frames.push(nearest);
+    }
+    frames.dedup();
+    Ok(frames)
+}
+
+fn write_npz(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let file = named(call, ".npz")?;
+    let of = call.get::<SimulationHandle>("of")?;
+    let bytes = archive(&of.simulation()).to_bytes()?;
+    call.context().write_file(&file, &bytes)?;
+    Ok(Dynamic::UNIT)
+}
+
+fn write_csv(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let file = named(call, ".csv")?;
+    let has_units = call.options_or_defaults("options")?.boolean("units").unwrap_or(false);
+    let heading = if has_units { Heading::NamesAndUnits } else { Heading::Names };
+    call.context().write_file(&file, table(call)?.to_csv(heading)?.as_bytes())?;
+    Ok(Dynamic::UNIT)
+}
+
+#[cfg(feature = "parquet")]
+fn write_parquet(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let file = named(call, ".parquet")?;
+    call.context().write_file(&file, &table(call)?.to_parquet()?)?;
+    Ok(Dynamic::UNIT)
+}
+
+#[cfg(not(feature = "parquet"))]
+fn write_parquet(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    named(call, ".parquet")?;
+    table(call)?;
+    Err(call
+        .error("this withy was built without Parquet")
+        .hint("build it with: cargo install --path . --features parquet; or write_csv, write_npz"))
+}
