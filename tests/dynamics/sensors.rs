@@ -54,11 +54,11 @@ fn reading_changes_no_bit_of_the_motion() {
 #[test]
 fn energies_of_all_bodies_are_that_of_the_scene() {
     for scene in scenes::all(&smooth(5)) {
-        let (name, beams) = (scene.name.clone(), scene.beams.len());
+        let (name, bodies) = (scene.name.clone(), scene.beams.len() + scene.particles.len());
         let mut simulation = simulate(scene, Method::default(), 0.02, 0.4);
         let total = simulation.history().samples().last().unwrap().measures.energy;
         let mut sums = [0.0; 3];
-        for body in 0..beams {
+        for body in 0..bodies {
             let energy = simulation.energy_of(body);
             sums[0] += energy.kinetic;
             sums[1] += energy.axial + energy.shear + energy.bending;

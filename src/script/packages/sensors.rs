@@ -125,8 +125,8 @@ pub const TABLE: Table = Table {
              the mean of a step, which belongs to its middle, and may alternate from step to step.",
         )
         .example(
-            "let bead = scene.slider(scene.particle([1, 0], 0.5), rod, #{ at: 0.5 });\nlet sim = scene.start(#{ dt: 0.001 });\nsim.step();\n\
-             check(sim.present_contact_force(bead).y < 0);",
+            "let stone = scene.particle([1, 0], 0.5);\nlet bead = scene.slider(stone, rod, #{ at: 0.5 });\nlet sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.2);\n\
+             let borne = 0.5 * (vec(0, -9.81) - sim.acceleration(stone));\ncheck(norm(sim.present_contact_force(bead) - borne) < 1e-9);",
         )
         .see(&["contact_force", "joint_force"]),
         method(SIMULATION, "acceleration", &[AT], |call| {
@@ -171,7 +171,7 @@ pub const TABLE: Table = Table {
             ]))
         })
         .returns(Returns::MAP.unit("energy"))
-        .summary("The energy of a beam and of what stands on it, by kind: those of all bodies add up to that of the scene.")
+        .summary("The energy of a beam and of what stands on it, by kind: with what springs store, those of all bodies add up to that of the scene.")
         .doc("The map holds energy, kinetic, strain, axial, shear, bending and potential.")
         .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.1);\ncheck_close(sim.energies(rod).energy, sim.energy, 1e-12);")
         .see(&["record"]),
