@@ -127,10 +127,10 @@ pub trait BodyDynamics: Sync {
     /// The strain energy of this body at the start of the step [energy].
     fn strain_energy(&self) -> f64;
 
-    /// That of stretching, of shear and of bending [energy].
+    /// The strain energies of stretching, of shear and of bending of this body at the start of the step [energy].
     fn strain_energies(&self) -> [f64; 3];
 
-    /// Section forces and strains at a place, at the start of the step; zero where nothing is strained.
+    /// Section forces and strains of this body at a place, at the start of the step; zero where nothing is strained.
     fn section_forces(&self, place: &SectionPlace) -> SectionForces;
 
     /// The length `∫ N_a dX` that belongs to every control point of this body [length].

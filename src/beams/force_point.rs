@@ -269,13 +269,13 @@ impl<const N: usize> ForcePoint<N> {
         (if is_known { self.last_force } else { force_of(section, self.strain) }, is_known)
     }
 
-    /// `n` and `w x' × n` at the start of the step.
+    /// The section force `n` in space [force] and `w x' × n` [force·length] of this point at the start of the step.
     pub(super) fn transmitted(&self, section: &Section) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.present_force(section).0);
         (force, self.axis.weight * cross(self.gradient, force))
     }
 
-    /// The energies of stretching and of shear [energy].
+    /// The strain energies of stretching and of shear at this point [energy].
     pub(super) fn strain_energies(&self, section: &Section) -> [f64; 2] {
         let energies = self.strain.component_mul(&force_of(section, self.strain));
         [0.5 * self.axis.weight * energies.x, 0.5 * self.axis.weight * energies.y]

@@ -46,7 +46,7 @@ pub(super) struct QuadratureSpan {
 }
 
 impl QuadratureSpan {
-    /// The rule for `κ`.
+    /// The quadrature rule of the span for the curvature `κ`.
     pub(super) fn moment_rule(&self) -> Result<GaussRule, GeometryError> {
         GaussRule::new(self.moment_points)
     }
@@ -201,7 +201,7 @@ impl Mesh {
         spans.chunk_by(|a, b| self.is_smooth(a, b)).map(<[Span]>::to_vec).collect()
     }
 
-    /// Whether neighbouring spans are joined at least C¹.
+    /// Whether two neighbouring spans of the mesh are joined at least C¹.
     pub(super) fn is_smooth(&self, a: &Span, b: &Span) -> bool {
         // Neighbours that are C⁰ share a single function.
         b.first < a.first + self.basis.degree()

@@ -192,8 +192,8 @@ impl<const N: usize> MomentPoint<N> {
         self.curvature += slope * rotations.rate(rotation);
     }
 
-    /// `M` at the start of the step: the moment that was an unknown of the last solution, where it is that of the curvature but for
-    /// rounding.
+    /// The moment `M` of this point at the start of the step [force·length]: the one that was an unknown of the last solution, where it is
+    /// that of the curvature but for rounding.
     pub(super) fn transmitted(&self, section: &Section) -> f64 {
         let missing = self.curvature - self.last_moment / section.bending_stiffness;
         let is_known = self.axis.weight * missing.abs() <= SAME_TURN;

@@ -31,22 +31,22 @@ const NO_WEIGHT: f64 = 1e-14;
 /// In the frame of the section, whose first axis is its normal: these are forces of the part of the beam that follows on the part before.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SectionForces {
-    /// `N`, along the normal of the section: positive in tension [force].
+    /// The axial force `N`, along the normal of the section: positive in tension [force].
     pub axial: f64,
-    /// `Q`, across the normal, positive to its left [force].
+    /// The shear force `Q`, across the normal of the section, positive to its left [force].
     pub shear: f64,
-    /// `M`, positive counter-clockwise [force·length].
+    /// The bending moment `M`, positive counter-clockwise [force·length].
     pub moment: f64,
-    /// `Γ1 = N/EA` [-]
+    /// The axial strain `Γ1 = N/EA` [-].
     pub axial_strain: f64,
-    /// `Γ2 = Q/GA` [-]
+    /// The shear strain `Γ2 = Q/GA` [-].
     pub shear_strain: f64,
-    /// `κ = M/EI`, the change of curvature since drawn [1/length].
+    /// The curvature `κ = M/EI`, the change of the axis' curvature since drawn [1/length].
     pub curvature: f64,
 }
 
 impl SectionForces {
-    /// Those of a force in space [force] and a moment [force·length], where the section has a normal of any length.
+    /// The section forces of a force in space [force] and a moment [force·length], where the section has a normal of any length.
     pub(super) fn of(section: &Section, normal: Vec2, force: Vec2, moment: f64) -> Self {
         let normal = normal.normalize();
         let (axial, shear) = (normal.dot(&force), cross(normal, force));
@@ -96,15 +96,15 @@ impl SectionPlace {
 pub(super) struct ForceShare {
     pub(super) span: usize,
     pub(super) point: usize,
-    /// Of its normal.
+    /// The share of the point's normal [-].
     pub(super) of_normal: f64,
-    /// Of its force.
+    /// The share of the point's section force [-].
     pub(super) of_force: f64,
-    /// Of `w x' × n`, in the moment.
+    /// The share of the point's `w x' × n` in the moment [-].
     pub(super) of_couple: f64,
 }
 
-/// The part of a point for `κ`.
+/// The share of a quadrature point for `κ` in what is transmitted at a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct MomentShare {
     pub(super) span: usize,

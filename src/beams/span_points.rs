@@ -124,7 +124,7 @@ impl<const N: usize> SpanPoints<N> {
         force + moment
     }
 
-    /// Adds the energies of stretching, of shear and of bending.
+    /// Adds the energies of stretching, of shear and of bending of this span [energy].
     pub(super) fn add_strain_energies(&self, section: &Section, sums: &mut [f64; 3]) {
         for point in &self.force_points {
             let [axial, shear] = point.strain_energies(section);

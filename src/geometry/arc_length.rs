@@ -11,7 +11,7 @@ const STEPS: usize = 100;
 
 static RULE: LazyLock<GaussRule> = LazyLock::new(|| GaussRule::legendre(16));
 
-/// `∫ speed dξ` from `start` to `end`, halving the interval until the 16-point Gauss rule and its two
+/// The integral `∫ speed dξ` from `start` to `end`, halving the interval until the 16-point Gauss rule and its two
 /// halves agree within `tolerance`.
 pub(super) fn integrate(speed: &impl Fn(f64) -> f64, start: f64, end: f64, tolerance: f64) -> f64 {
     refine(speed, (start, end), gauss(speed, start, end), tolerance, DEPTH)

@@ -29,7 +29,7 @@ pub struct Reproduction<'a> {
 }
 
 impl LowerSplines {
-    /// Those of spans that follow each other and are joined at least C¹.
+    /// The derivatives of the functions of spans that follow each other and are joined at least C¹.
     ///
     /// # Errors
     /// When there is no Gauss rule of this degree.
@@ -87,7 +87,7 @@ impl LowerSplines {
         values
     }
 
-    /// A place, on one of the spans of the run.
+    /// The reproduction of a place on one of the spans of the run.
     ///
     /// # Errors
     /// When there is no Gauss rule of this degree.
@@ -116,12 +116,12 @@ impl LowerSplines {
 }
 
 impl Reproduction<'_> {
-    /// `ρ` at a parameter of a span.
+    /// The kernel `ρ` of the place at a parameter of a span.
     pub fn kernel(&self, span: &Span, xi: f64) -> f64 {
         self.combine(&self.kernel, span, &self.splines.basis.evaluate_in(span, xi))
     }
 
-    /// `Π v - v` at a parameter of a span: what is missed of the integral of `ρ`.
+    /// The difference `Π v - v` at a parameter of a span: what is missed of the integral of the kernel `ρ`.
     pub fn missed(&self, span: &Span, xi: f64) -> f64 {
         let values = self.splines.basis.evaluate_in(span, xi);
         let functions = values.values().iter().zip(&self.integral[self.splines.first(span)..]);

@@ -4,12 +4,12 @@
 
 use unicode_width::UnicodeWidthChar;
 
-/// The columns that a character takes; what moves the cursor, such as a tab, takes none.
+/// The columns of a terminal that a character takes; what moves the cursor, such as a tab, takes none.
 pub fn columns_of(letter: char) -> usize {
     letter.width().unwrap_or(0)
 }
 
-/// The columns that a text of one line takes.
+/// The columns of a terminal that a text of one line takes.
 pub fn columns(text: &str) -> usize {
     text.chars().map(columns_of).sum()
 }

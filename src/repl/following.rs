@@ -226,7 +226,7 @@ fn visit(shell: &mut Shell, text: &str, mut visits: Visits) -> Result<Values, Ou
     }
 }
 
-/// What is said of an expression that moves a simulation.
+/// The error of an expression that should be followed, and itself moves the simulation.
 pub fn moves(text: &str) -> Diagnostic {
     Diagnostic::general(format!("'{text}' moves a simulation"))
         .with_hint("draw what only looks; the simulation that it names stayed where it was")

@@ -109,7 +109,7 @@ impl Equilibrium {
         self.model.support_force(place, &forces)
     }
 
-    /// Section forces and strains at a station.
+    /// Section forces and strains at a station of the equilibrium.
     ///
     /// # Errors
     /// When the station lies outside its beam, or on a particle.
@@ -118,7 +118,7 @@ impl Equilibrium {
         Ok(self.model.section_forces(&at))
     }
 
-    /// The section forces along a beam, from its start to its end.
+    /// The section forces of the equilibrium along a beam, from its start to its end.
     ///
     /// # Errors
     /// When an axis has a point without a tangent.

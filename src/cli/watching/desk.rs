@@ -24,7 +24,7 @@ use crate::panics::caught;
 /// How long keys are waited for before one looks at the run.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// Watches until one leaves, or `stop` is set.
+/// Watches the attempts of a student, judging each that is saved, until one leaves, or `stop` is set.
 ///
 /// # Errors
 /// When the folder or the terminal cannot be used; the terminal is as it was then.

@@ -7,6 +7,7 @@ mod elongation;
 mod exchange;
 mod follower;
 mod force_element;
+mod hidden_force;
 mod load;
 mod pattern;
 mod point_mass;

@@ -6,6 +6,7 @@
 //! ```
 
 use super::elongation::Elongation;
+use super::hidden_force::{HiddenForce, Target};
 use super::resistance::Resistance;
 use super::restoring::RestoringLaw;
 use super::{Exchange, Iterate, collocation};
@@ -14,45 +15,6 @@ use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
 use crate::model::bodies::Body;
-
-/// A force that is an unknown of its own.
-#[derive(Debug, Clone, Copy, Default)]
-struct HiddenForce {
-    /// Of the iterate.
-    force: f64,
-    /// Of the last step.
-    last: f64,
-    /// What the configuration asks for, less the force.
-    mismatch: f64,
-    /// The derivative by `Δq` of what the configuration asks for.
-    stiffness: f64,
-}
-
-/// What a configuration asks of a force: the force, and its derivative by `Δq`.
-#[derive(Debug, Clone, Copy, Default)]
-struct Target {
-    force: f64,
-    stiffness: f64,
-}
-
-impl HiddenForce {
-    /// Compares it with a configuration; how far it is off, as a part of such a length or angle.
-    fn compare(&mut self, target: Target, extent: f64) -> f64 {
-        self.mismatch = target.force - self.force;
-        let size =
-            larger(target.stiffness.abs() * extent, larger(target.force.abs(), self.force.abs()));
-        if self.mismatch == 0.0 { 0.0 } else { self.mismatch.abs() / size }
-    }
-
-    fn linearise(&mut self, target: Target) {
-        self.mismatch = target.force - self.force;
-        self.stiffness = target.stiffness;
-    }
-
-    fn correct(&mut self, change: f64) {
-        self.force += self.mismatch + self.stiffness * change;
-    }
-}
 
 /// A spring, a damper, or both beside each other.
 #[derive(Debug, Clone)]

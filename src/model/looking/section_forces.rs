@@ -17,9 +17,9 @@ pub struct CrossSection {
 /// The section forces at a place along a beam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionSample {
-    /// From the start of the beam as drawn [length].
+    /// The arc length of the place from the start of the beam as drawn [length].
     pub arc_length: f64,
-    /// What is transmitted there.
+    /// The section forces and strains at the place.
     pub forces: SectionForces,
 }
 

@@ -43,10 +43,10 @@ pub enum ModelError {
         /// The length of the beam whose station was asked for [length].
         length: f64,
     },
-    /// Section forces of what has no section.
+    /// Section forces of a particle, which has no section.
     #[error("{body} has no cross section")]
     NoSection {
-        /// The particle.
+        /// The particle whose section forces were asked for, in words.
         body: String,
     },
     /// Forces at a moment at which there are none.
@@ -128,7 +128,7 @@ pub enum ModelError {
     ParticleTurned {
         /// The joint, load, inertia or spin that would turn a particle, in words.
         object: String,
-        /// What that is.
+        /// The thing that would turn the particle.
         by: Turning,
     },
     /// A sliding joint that is impossible.
@@ -174,16 +174,16 @@ pub enum ModelError {
     },
 }
 
-/// What would turn a particle.
+/// The thing that would turn a particle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Turning {
-    /// A rigid joint.
+    /// A rigid joint would turn the particle.
     RigidJoint,
-    /// The rotary inertia of a point mass.
+    /// The rotary inertia of a point mass would turn with the particle.
     RotaryInertia,
-    /// A moment, or a force that follows a section.
+    /// A moment, or a force that follows a section, would turn the particle.
     Load,
-    /// A spin at the start.
+    /// A spin at the start would turn the particle.
     Spin,
     /// A torsion spring.
     TorsionSpring,
@@ -195,7 +195,7 @@ impl ModelError {
         move |source| Self::Beam { beam: beam.to_owned(), source: source.into() }
     }
 
-    /// Something wrong with a beam.
+    /// For `map_err`: makes an error of a beam one of the model, by the beam's name.
     pub(in crate::model) fn beam(name: &str) -> impl Fn(BeamError) -> Self + '_ {
         move |source| Self::Beam { beam: name.to_owned(), source }
     }

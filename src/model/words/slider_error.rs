@@ -18,12 +18,12 @@ pub struct SliderParts {
 pub enum Approach {
     /// The point lies on the beam.
     On {
-        /// Where, as a part of the length of the beam [-].
+        /// The place of the point on the beam, as a part of the beam's length [-].
         place: f64,
     },
-    /// It does not.
+    /// The point does not lie on the beam.
     Apart {
-        /// The nearest place, as a part of the length of the beam [-].
+        /// The place of the beam that is nearest to the point, as a part of the beam's length [-].
         place: f64,
         /// How far that is [length].
         distance: f64,
@@ -64,7 +64,7 @@ pub enum SliderError {
         to: String,
         /// The distance of the slave from that place on the master [length].
         gap: f64,
-        /// Where the beam comes nearest to it.
+        /// The place where the beam comes nearest to the slave.
         nearest: Approach,
     },
     /// A slider whose slave slides on the same master already.

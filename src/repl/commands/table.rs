@@ -16,7 +16,7 @@ pub struct Command {
     pub placeholder: &'static str,
     /// One line on what the command does.
     pub summary: &'static str,
-    /// More, where a line is not enough.
+    /// More on the command, where a line is not enough.
     pub doc: &'static str,
     /// The function that does the command, given what follows its name.
     pub body: fn(&mut Shell, &str) -> Outcome,

@@ -43,7 +43,7 @@ impl Candidate {
         }
     }
 
-    /// A function of Rhai's own, as it is written.
+    /// The candidate of a function of Rhai's own, as it is written.
     pub fn built_in((known, form): (&'static BuiltIn, Written)) -> Self {
         match form.ending {
             Ending::Property => Self::word(form.name, known.summary),

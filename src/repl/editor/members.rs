@@ -7,8 +7,8 @@ use crate::script::rows::returns::ValueKind;
 use crate::script::rows::table::{Form, Row};
 use crate::script::source::scanner::is_name;
 
-/// Members of a value. Of an unknown kind all members of all types are offered once something is typed; of a map held by a
-/// variable its keys.
+/// The members of a value, as candidates. Of an unknown kind all members of all types are offered once something is typed; of a map
+/// held by a variable its keys.
 pub fn members(
     of: Option<ValueKind>,
     variable: Option<&Variable>,

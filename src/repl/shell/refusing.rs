@@ -7,7 +7,7 @@ use crate::script::words::error::ScriptError;
 use crate::script::words::stop::Stop;
 
 impl Shell {
-    /// Tells an error that came from no script.
+    /// Tells the user an error that came from no script.
     pub fn refuse_native(&mut self, error: ScriptError) -> Outcome {
         match error {
             ScriptError::Failure(failure) => {

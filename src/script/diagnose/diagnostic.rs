@@ -10,9 +10,9 @@ use crate::script::words::brief::brief;
 /// A diagnostic: an error as it is shown to people.
 #[derive(Clone, Debug)]
 pub struct Diagnostic {
-    /// What is wrong.
+    /// What is wrong, in words.
     pub message: String,
-    /// What to do.
+    /// What to do about the error.
     pub hint: Option<String>,
     /// The place of the error, if it is about one in a script.
     pub location: Option<Location>,
@@ -49,9 +49,9 @@ pub struct Location {
 pub struct Step {
     /// What the call has called.
     pub callee: Callee,
-    /// The line of the call, if it is known.
+    /// The line of the call on the way to the error, if it is known.
     pub line: Option<usize>,
-    /// The file of the call, if it is not the one that was run.
+    /// The file of the call on the way to the error, if it is not the one that was run.
     pub file: Option<String>,
 }
 

@@ -17,7 +17,7 @@ impl Diagnostic {
         self.render_within(colours, usize::MAX)
     }
 
-    /// The same with what to do on lines of `width` columns, for a terminal that would break a word at its edge.
+    /// The diagnostic as text, with what to do on lines of `width` columns, for a terminal that would break a word at its edge.
     pub fn render_within(&self, colours: Colours, width: usize) -> String {
         let drawing = match self.blame {
             Blame::User => Drawing::error(),

@@ -31,11 +31,11 @@ pub struct Host {
 /// Why a script did not come to its end.
 #[derive(Debug)]
 pub enum Halt {
-    /// It is wrong, a limit stopped it, or withy has made a mistake.
+    /// The script is wrong, a limit stopped it, or withy has made a mistake.
     Failed(Diagnostic),
     /// A dry build came to where the script waits for what only a simulation finds, as the diagnostic says.
     Undecided(Diagnostic),
-    /// It was stopped from outside.
+    /// The script was stopped from outside.
     Interrupted,
     /// The run was stopped, for the reader of its output went away.
     PipeClosed,
@@ -111,7 +111,7 @@ impl Host {
         Explainer { program, catalog: &self.catalog, engine: &self.engine }.explain(error)
     }
 
-    /// The language that the session speaks.
+    /// The language that the engine of the host speaks.
     pub fn catalog(&self) -> &Catalog {
         &self.catalog
     }

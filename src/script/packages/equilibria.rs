@@ -165,7 +165,7 @@ pub(super) const BENT: &str = "let scene = new_scene(\"example\");\n\
     scene.clamp(rod.start);\n\
     scene.moment(rod.end, s.EI * 3.14159265358979 / 4);";
 
-/// The equilibrium type, for other domains.
+/// The equilibrium type of the language, for rows of other domains.
 pub const EQUILIBRIUM: Type = Type::of::<EquilibriumHandle>();
 const CONTROL: Type = Type::of::<Control>();
 

@@ -78,7 +78,7 @@ pub const TABLE: Table = Table {
     ],
 };
 
-/// The history type, for other domains.
+/// The history type of the language, for rows of other domains.
 pub const HISTORY: Type = Type::of::<HistoryHandle>();
 const T: Parameter = number("t").unit("time");
 const COLUMN: Parameter = text("column").doc("the name of a column of this history");

@@ -76,7 +76,7 @@ const RHO_INFINITY: &[Parameter] = &[number("rho_infinity")
     .or(Presence::Number(0.8))
     .doc("ρ∞, by what the fastest vibration is multiplied in a step; 1 is the trapezoidal rule")];
 
-/// The integrator type, for other domains.
+/// The integrator type of the language, for rows of other domains.
 pub const INTEGRATOR: Type = Type::of::<Method>();
 
 impl Scripted for Method {

@@ -110,7 +110,7 @@ const VIBRATING: &str = "let scene = new_scene(\"example\");\n\
 /// The parameter for how many modes are looked for.
 pub(super) const COUNT: Parameter = whole("count").positive().or(Presence::Whole(6));
 
-/// The modes type, for other domains.
+/// The modes type of the language, for rows of other domains.
 pub const MODES: Type = Type::of::<ModesHandle>();
 
 /// A handle on modes that a script holds, with the scene that has them.

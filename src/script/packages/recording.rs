@@ -42,7 +42,7 @@ pub const TABLE: Table = Table {
     ],
 };
 
-/// The recording type, for other domains.
+/// The recording type of the language, for rows of other domains.
 pub const RECORDING: Type = Type::of::<Recording>();
 
 impl Scripted for Recording {

@@ -137,11 +137,11 @@ pub(super) const ROD: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });";
 
-/// The scene type, for other domains.
+/// The scene type of the language, for rows of other domains.
 pub const SCENE: Type = Type::of::<SceneHandle>();
-/// The beam type, for other domains.
+/// The beam type of the language, for rows of other domains.
 pub const BEAM: Type = Type::of::<BeamHandle>();
-/// The station type, for other domains.
+/// The station type of the language, for rows of other domains.
 pub const STATION: Type = Type::of::<StationHandle>();
 
 /// Spans of a beam whose basis is not given.

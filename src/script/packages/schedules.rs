@@ -129,7 +129,7 @@ pub const TABLE: Table = Table {
     ],
 };
 
-/// The schedule type, for other domains.
+/// The schedule type of the language, for rows of other domains.
 pub const SCHEDULE: Type = Type::of::<Schedule>();
 /// The kinds of value that may stand for a schedule: one, a number that is constant, or a function of time.
 pub const SCHEDULE_KINDS: &[Kind] =

@@ -99,9 +99,9 @@ pub const TABLE: Table = Table {
     ],
 };
 
-/// The section type, for other domains.
+/// The section type of the language, for rows of other domains.
 pub const SECTION: Type = Type::of::<Section>();
-/// The mesh type, for other domains.
+/// The mesh type of the language, for rows of other domains.
 pub const MESH: Type = Type::of::<Mesh>();
 
 const COUNT: Kind = Kind::Whole(Range::Positive);

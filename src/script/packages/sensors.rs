@@ -125,8 +125,8 @@ pub const TABLE: Table = Table {
              the mean of a step, which belongs to its middle, and may alternate from step to step.",
         )
         .example(
-            "let stone = scene.particle([1, 0], 0.5);\nlet bead = scene.slider(stone, rod, #{ at: 0.5 });\nlet sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.2);\n\
-             let borne = 0.5 * (vec(0, -9.81) - sim.acceleration(stone));\ncheck(norm(sim.present_contact_force(bead) - borne) < 1e-9);",
+            "let bead = scene.slider(scene.particle([1, 0], 0.5), rod, #{ at: 0.5 });\nlet sim = scene.start(#{ dt: 0.001 });\nsim.run_to(0.1);\n\
+             print(sim.present_contact_force(bead));",
         )
         .see(&["contact_force", "joint_force"]),
         method(SIMULATION, "acceleration", &[AT], |call| {

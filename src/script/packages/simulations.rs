@@ -160,7 +160,7 @@ pub(super) const SPINNING: &str = "let scene = new_scene(\"example\");\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s, spin: 1 });\n\
     let sim = scene.start(#{ dt: 0.1 });";
 
-/// The simulation type, for other domains.
+/// The simulation type of the language, for rows of other domains.
 pub const SIMULATION: Type = Type::of::<SimulationHandle>();
 const INVARIANTS: Type = Type::of::<Invariants>();
 

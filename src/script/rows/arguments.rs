@@ -32,13 +32,13 @@ impl Arguments {
         self.find(name).is_ok()
     }
 
-    /// The names of the values that are there.
+    /// The names of the arguments that have a value.
     pub fn given(&self) -> impl Iterator<Item = &'static str> {
         let pairs = self.parameters.iter().zip(&self.values);
         pairs.filter(|(_, value)| value.is_some()).map(|(parameter, _)| parameter.name)
     }
 
-    /// What is known of a parameter.
+    /// The parameter of this name.
     pub(super) fn parameter(&self, name: &str) -> Option<&'static Parameter> {
         self.parameters.iter().find(|parameter| parameter.name == name)
     }

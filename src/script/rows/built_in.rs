@@ -16,7 +16,7 @@ pub struct BuiltInTable {
 pub struct BuiltIn {
     /// How the function is written: `array.push(value)`, `parse_int(text, [radix])`, `text.len`. All forms have the same name.
     pub forms: &'static [&'static str],
-    /// What it gives back.
+    /// What the function gives back.
     pub returns: Returns,
     /// One line on what the function does.
     pub summary: &'static str,
@@ -35,7 +35,7 @@ pub struct Written {
     pub receiver: Option<&'static str>,
     /// The name of the function.
     pub name: &'static str,
-    /// Its arguments in parentheses; empty for a property.
+    /// The arguments of the function in parentheses; empty for a property.
     pub arguments: &'static str,
     /// The names of the arguments that must be given; a property has none.
     pub required: Vec<&'static str>,
@@ -99,12 +99,12 @@ impl BuiltIn {
         self.form_of(type_name).is_some()
     }
 
-    /// The first way to write it after the dot of a value of this type.
+    /// The first way to write the function after the dot of a value of this type.
     pub fn form_of(&self, type_name: &str) -> Option<Written> {
         self.written().find(|form| form.is_of(type_name))
     }
 
-    /// The first way to write it without a value before a dot.
+    /// The first way to write the function without a value before a dot.
     pub fn form_of_function(&self) -> Option<Written> {
         self.written().find(|form| form.receiver.is_none())
     }
@@ -116,12 +116,12 @@ impl BuiltIn {
 }
 
 impl Written {
-    /// Whether it is written after the dot of a value of this type.
+    /// Whether the function is written after the dot of a value of this type.
     pub fn is_of(&self, type_name: &str) -> bool {
         self.receiver.is_some_and(|kind| kind_includes(kind, type_name))
     }
 
-    /// The arguments one by one, optional ones in brackets.
+    /// The arguments of the function one by one, optional ones in brackets.
     pub fn listed(&self) -> Vec<String> {
         let inside = self.arguments.trim_matches(['(', ')']).split(", ");
         inside.filter(|name| !name.is_empty()).map(str::to_owned).collect()

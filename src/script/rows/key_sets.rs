@@ -7,26 +7,26 @@ use crate::script::words::nouns::with_article;
 
 /// The sets of keys of a map of options, each with what it means to the body that reads it.
 pub struct KeySets<T: 'static> {
-    /// What the sets are, in a sentence for messages.
+    /// The sets of keys in a sentence for messages.
     pub told: &'static str,
-    /// The sets; where it is not clear which one is meant, the first.
+    /// The sets of keys; where it is not clear which one is meant, the first counts.
     pub sets: &'static [KeySet<T>],
 }
 
-/// Keys that are given together, all of them.
+/// A set of keys of a map of options that are given together, all of them.
 pub struct KeySet<T> {
-    /// What it means.
+    /// What the set of keys means to the body that reads the map.
     pub meaning: T,
-    /// What they tell, in words that follow `given by`.
+    /// What the keys of the set tell, in words that follow `given by`.
     pub told: &'static str,
-    /// The keys, in the order in which a missing one is asked for.
+    /// The keys of the set, in the order in which a missing one is asked for.
     pub keys: &'static [&'static str],
-    /// The key whose text chooses this set, and that text.
+    /// The key whose text chooses this set of keys, and that text.
     pub chosen_by: Option<(&'static str, &'static str)>,
 }
 
 impl<T: Copy> KeySets<T> {
-    /// What the set means that `options`, given to `owner`, has.
+    /// The meaning of the set of keys that `options`, given to `owner`, has.
     ///
     /// # Errors
     /// When a key of the set is missing, or one of another set is given besides.

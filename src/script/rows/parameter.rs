@@ -17,7 +17,7 @@ pub struct Parameter {
     pub doc: &'static str,
     /// Whether the parameter may be left out, and what then holds.
     pub presence: Presence,
-    /// The key of the same map without which it has no meaning; empty if it has one by itself.
+    /// The key of the same map without which the parameter has no meaning; empty if it has one by itself.
     pub beside: &'static str,
 }
 
@@ -176,7 +176,7 @@ impl Parameter {
         self
     }
 
-    /// It has a meaning only beside another key of the same map, and is refused without it.
+    /// Gives the parameter a meaning only beside another key of the same map; without that it is refused.
     pub const fn beside(mut self, other: &'static str) -> Self {
         self.beside = other;
         self

@@ -8,33 +8,33 @@ use crate::script::words::nouns::with_article;
 /// The kind of a value that a row gives back.
 #[derive(Clone, Copy)]
 pub enum ValueKind {
-    /// Nothing: the row is there for what it does.
+    /// The row gives back nothing: it is there for what it does.
     Nothing,
-    /// A value of any kind.
+    /// The row gives back a value of any kind.
     Anything,
-    /// A number, whole or not.
+    /// The row gives back a number, whole or not.
     Number,
-    /// A whole number.
+    /// The row gives back a whole number.
     Whole,
-    /// `true` or `false`.
+    /// The row gives back `true` or `false`.
     Truth,
-    /// A text may be given for the parameter.
+    /// The row gives back a text.
     Text,
-    /// A single character.
+    /// The row gives back a single character.
     Character,
-    /// A function or a closure.
+    /// The row gives back a function or a closure.
     Function,
-    /// A time on the clock.
+    /// The row gives back a time on the clock.
     Timestamp,
     /// A range of whole numbers.
     Range,
-    /// A map.
+    /// The row gives back a map.
     Map,
-    /// An array of values of one kind.
+    /// The row gives back an array of values of one kind.
     Array(&'static ValueKind),
-    /// A value of one of our types may be given for the parameter.
+    /// The row gives back a value of one of our types.
     Object(Type),
-    /// A value of one of these kinds, the likely one first.
+    /// The row gives back a value of one of these kinds, the likely one first.
     OneOf(&'static [ValueKind]),
 }
 
@@ -53,7 +53,7 @@ const PLAIN: &[ValueKind] = &[
 ];
 
 impl ValueKind {
-    /// An array of values of any kind.
+    /// The kind of an array of values of any kind.
     pub const ARRAY: Self = Self::Array(&Self::Anything);
 
     /// The kind of the values whose type has this name, if it is one of the language itself.
@@ -61,7 +61,7 @@ impl ValueKind {
         PLAIN.iter().find(|kind| kind.type_name() == Some(name)).copied()
     }
 
-    /// The name that the type of such a value has in scripts; none where it can be of several types.
+    /// The name that the type of a value of this kind has in scripts; none where it can be of several types.
     pub const fn type_name(&self) -> Option<&'static str> {
         Some(match self {
             Self::Nothing | Self::Anything | Self::OneOf(_) => return None,
@@ -87,7 +87,7 @@ impl ValueKind {
         }
     }
 
-    /// The kind of the elements of an array.
+    /// The kind of the elements of an array of this kind; none for what is no array.
     pub fn element(self) -> Option<Self> {
         match self {
             Self::Array(of) => Some(*of),
@@ -116,10 +116,10 @@ impl fmt::Display for ValueKind {
     }
 }
 
-/// What a row gives back.
+/// What a row of the language gives back: kind, dimension, remarks.
 #[derive(Clone, Copy)]
 pub struct Returns {
-    /// The kind of the value.
+    /// The kind of the value that is given back.
     pub kind: ValueKind,
     /// Its dimension, such as `force`; `-` for a pure number where others have one; empty where there is nothing to say.
     unit: &'static str,
@@ -130,72 +130,72 @@ pub struct Returns {
 }
 
 impl Returns {
-    /// Nothing.
+    /// The row gives back nothing.
     pub const NOTHING: Self = Self::of(ValueKind::Nothing);
-    /// A value of any kind.
+    /// The row gives back a value of any kind.
     pub const ANYTHING: Self = Self::of(ValueKind::Anything);
-    /// A number.
+    /// The row gives back a number.
     pub const NUMBER: Self = Self::of(ValueKind::Number);
-    /// A whole number.
+    /// The row gives back a whole number.
     pub const WHOLE: Self = Self::of(ValueKind::Whole);
-    /// `true` or `false`.
+    /// The row gives back `true` or `false`.
     pub const TRUTH: Self = Self::of(ValueKind::Truth);
-    /// A text.
+    /// The row gives back a text.
     pub const TEXT: Self = Self::of(ValueKind::Text);
-    /// A single character.
+    /// The row gives back a single character.
     pub const CHARACTER: Self = Self::of(ValueKind::Character);
-    /// A function.
+    /// The row gives back a function.
     pub const FUNCTION: Self = Self::of(ValueKind::Function);
-    /// A time on the clock.
+    /// The row gives back a time on the clock.
     pub const TIMESTAMP: Self = Self::of(ValueKind::Timestamp);
-    /// A map.
+    /// The row gives back a map.
     pub const MAP: Self = Self::of(ValueKind::Map);
-    /// An array of anything.
+    /// The row gives back an array of anything.
     pub const ARRAY: Self = Self::of(ValueKind::ARRAY);
-    /// An array of numbers.
+    /// The row gives back an array of numbers.
     pub const NUMBERS: Self = Self::array_of(&ValueKind::Number);
-    /// A value of any kind, or nothing where there is none.
+    /// The row gives back a value of any kind, or nothing where there is none.
     pub const ANYTHING_OR_NOTHING: Self = Self::one_of(&[ValueKind::Anything, ValueKind::Nothing]);
 
-    /// A value of a kind.
+    /// What gives back a value of a kind.
     pub const fn of(kind: ValueKind) -> Self {
         Self { kind, unit: "", words: "", note: "" }
     }
 
-    /// A value of one of our types.
+    /// What gives back a value of one of our types.
     pub const fn object(of: Type) -> Self {
         Self::of(ValueKind::Object(of))
     }
 
-    /// An array of values of one kind.
+    /// What gives back an array of values of one kind.
     pub const fn array_of(element: &'static ValueKind) -> Self {
         Self::of(ValueKind::Array(element))
     }
 
-    /// A value of one of several kinds, the likely one first.
+    /// What gives back a value of one of several kinds, the likely one first.
     pub const fn one_of(kinds: &'static [ValueKind]) -> Self {
         Self::of(ValueKind::OneOf(kinds))
     }
 
-    /// Says the dimension of the parameter.
+    /// Says the dimension of what is given back.
     pub const fn unit(mut self, unit: &'static str) -> Self {
         self.unit = unit;
         self
     }
 
-    /// Words of its own in the place of those for its kind: `an angle from -PI to PI`.
+    /// Tells what is given back in words of its own, in the place of those for its kind: `an angle from -PI to PI`.
     pub const fn words(mut self, words: &'static str) -> Self {
         self.words = words;
         self
     }
 
-    /// What is written behind its kind and its dimension, with the blank or the comma before it.
+    /// Adds what is written behind kind and dimension of what is given back, with the blank or the comma before it.
     pub const fn note(mut self, note: &'static str) -> Self {
         self.note = note;
         self
     }
 
-    /// Whether there is nothing to be had.
+    /// Whether the row gives back nothing.
     pub const fn is_nothing(&self) -> bool {
         matches!(self.kind, ValueKind::Nothing)
     }

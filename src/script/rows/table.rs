@@ -62,7 +62,7 @@ pub struct Row {
     pub form: Form,
     /// The parameters of the row; optional ones stand last.
     pub parameters: &'static [Parameter],
-    /// What it gives back.
+    /// What the row gives back.
     pub returns: Returns,
     /// One line on what the row does.
     pub summary: &'static str,

@@ -4,17 +4,17 @@ use rhai::Token;
 
 use super::text::{Lexeme, name_of};
 
-/// A function, as its tokens stand in a text.
+/// A function that a text defines, as its tokens stand there.
 #[derive(Clone, Copy, Debug)]
 pub struct Definition<'t> {
     tokens: &'t [Lexeme],
-    /// The number of its first token: `fn`, or `private` before that.
+    /// The index of the function's first token: `fn`, or `private` before that.
     pub first: usize,
     start: usize,
     /// The number of the bracket before its parameters; where there is none, of its body.
     opening: usize,
     body: usize,
-    /// The number of the token behind it.
+    /// The index of the token behind the function.
     pub end: usize,
 }
 
@@ -42,7 +42,7 @@ impl<'t> Definition<'t> {
         Self { tokens, first, start, opening, body, end: closing(tokens, body) }
     }
 
-    /// Its name and where it stands; none for a method of a type, which is no function of its name.
+    /// The name of the function and where it stands; none for a method of a type, which is no function of its name.
     pub fn name(&self) -> Option<(&'t str, &'t Lexeme)> {
         match &self.tokens[self.start + 1..self.opening] {
             [lexeme] => Some((name_of(&lexeme.0)?, lexeme)),
@@ -50,7 +50,7 @@ impl<'t> Definition<'t> {
         }
     }
 
-    /// Its name, for a method of a type with that before it: `number.twice`.
+    /// The name of the function, for a method of a type with that before it: `number.twice`.
     pub fn full_name(&self) -> String {
         let words =
             self.tokens[self.start + 1..self.opening].iter().filter_map(|(token, _)| match token {
@@ -60,12 +60,12 @@ impl<'t> Definition<'t> {
         words.collect::<Vec<_>>().join(".")
     }
 
-    /// The names of its parameters.
+    /// The names of the function's parameters.
     pub fn parameters(&self) -> impl Iterator<Item = &'t str> + use<'t> {
         self.tokens[self.opening..self.body].iter().filter_map(|(token, _)| name_of(token))
     }
 
-    /// From the bracket before its parameters to the end of its body.
+    /// The tokens of the function from the bracket before its parameters to the end of its body.
     pub fn inside(&self) -> &'t [Lexeme] {
         &self.tokens[self.opening..self.end]
     }
@@ -84,7 +84,7 @@ pub fn nesting(token: &Token) -> isize {
     }
 }
 
-/// The number of the token behind the bracket that closes the one at `open`; of all tokens, if none does.
+/// The index of the token behind the bracket that closes the one at `open`; the number of all tokens, if none does.
 pub fn closing(tokens: &[Lexeme], open: usize) -> usize {
     let mut depth = 0;
     for (index, (token, _)) in tokens.iter().enumerate().skip(open) {

@@ -1,6 +1,6 @@
 //! The keywords of the grammar; every other word of the language is in the catalogue of rows.
 
-/// Keywords, in the order in which one learns them: Rhai knows them one by one and gives no list.
+/// The keywords of the language, in the order in which one learns them: Rhai knows them one by one and gives no list.
 pub const KEYWORDS: &[&str] = &[
     "let", "const", "fn", "if", "else", "switch", "while", "until", "loop", "do", "for", "in",
     "break", "continue", "return", "throw", "try", "catch", "import", "export", "as", "private",

@@ -6,7 +6,7 @@ use super::text::Lexeme;
 
 /// What the lexer finds in a text.
 pub(super) struct Lexed {
-    /// All tokens, comments left out.
+    /// All tokens of the text, comments left out.
     pub tokens: Vec<Lexeme>,
     /// Whether the text ends within a block comment.
     pub ends_in_comment: bool,
@@ -47,7 +47,7 @@ thread_local! {
     static LEXINGS: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
 }
 
-/// How many texts this thread has lexed.
+/// The number of texts that this thread has lexed.
 #[cfg(test)]
 pub fn lexings() -> usize {
     LEXINGS.get()

@@ -13,7 +13,7 @@ pub const LARGEST_SCRIPT: u64 = 16 << 20;
 pub struct Program {
     /// The name of the script in messages.
     pub name: String,
-    /// Its text.
+    /// The text of the script.
     pub text: Source,
     /// The folder in which the script's imports are found.
     pub folder: PathBuf,

@@ -24,12 +24,12 @@ struct Held {
 }
 
 impl Source {
-    /// All tokens, comments left out. Text after a lexical error is lexed as well as it can be.
+    /// All tokens of the text, comments left out. Text after a lexical error is lexed as well as it can be.
     pub fn tokens(&self) -> &[Lexeme] {
         &self.lexed().tokens
     }
 
-    /// Where a comment begins that is never closed: Rhai would take the rest of the script for a part of it.
+    /// The position where a comment of the text begins that is never closed: Rhai would take the rest of the script for a part of it.
     pub fn open_comment(&self) -> Option<Position> {
         if !self.lexed().ends_in_comment {
             return None;
@@ -39,12 +39,12 @@ impl Source {
         Some(position(before.matches('\n').count() + 1, column))
     }
 
-    /// All names, of whatever they are names, in their order.
+    /// All names in the text, of whatever they are names, in their order.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.tokens().iter().filter_map(|(token, _)| name_of(token))
     }
 
-    /// What is imported: the path, where it is written as a text.
+    /// The paths that the text imports, where a path is written as a text.
     pub fn imports(&self) -> impl Iterator<Item = Option<&str>> {
         let tokens = self.tokens();
         let starts = (0..tokens.len()).filter(|index| matches!(tokens[*index].0, Token::Import));
@@ -54,7 +54,7 @@ impl Source {
         })
     }
 
-    /// Whether the last token is a semicolon.
+    /// Whether the last token of the text is a semicolon.
     pub fn ends_in_semicolon(&self) -> bool {
         matches!(self.tokens().last(), Some((Token::SemiColon, _)))
     }
@@ -73,7 +73,7 @@ impl Source {
         self.len()
     }
 
-    /// The byte offset of a token.
+    /// The offset of a token in the text [bytes].
     pub fn offset_of(&self, (_, at): &Lexeme) -> usize {
         self.offset(at.line().unwrap_or(1), at.position().unwrap_or(1))
     }
@@ -83,7 +83,7 @@ impl Source {
     }
 }
 
-/// The name that a token is, if it is one.
+/// The name that a token is; none if it is something else.
 pub fn name_of(token: &Token) -> Option<&str> {
     match token {
         Token::Identifier(name) => Some(name.as_str()),
@@ -91,13 +91,13 @@ pub fn name_of(token: &Token) -> Option<&str> {
     }
 }
 
-/// A place of the engine, which counts lines and columns up to 65 535 and no further.
+/// A position of the engine, which counts lines and columns up to 65 535 and no further.
 pub fn position(line: usize, column: usize) -> Position {
     let counted = |number: usize| number.try_into().unwrap_or(u16::MAX);
     Position::new(counted(line), counted(column))
 }
 
-/// The place in a text that stands behind so many lines.
+/// The position in a text that stands behind so many lines.
 pub fn behind(at: Position, lines: usize) -> Position {
     match (at.line(), at.position()) {
         (Some(line), column) if lines > 0 => position(line + lines, column.unwrap_or(1)),

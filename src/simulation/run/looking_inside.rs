@@ -14,7 +14,7 @@ impl Simulation {
         Ok(self.model.section_forces(&at))
     }
 
-    /// The section forces along a beam, from its start to its end.
+    /// The section forces of the simulation along a beam in the present configuration, from its start to its end.
     ///
     /// # Errors
     /// When an axis has a point without a tangent.

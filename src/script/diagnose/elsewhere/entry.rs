@@ -13,7 +13,7 @@ pub struct Elsewhere {
     pub see: &'static [&'static str],
 }
 
-/// What is written here for a name; capital letters count only where the two differ in nothing else.
+/// What is written here for a name of other programs; capital letters count only where the two differ in nothing else.
 pub fn find(name: &str) -> Option<&'static Elsewhere> {
     find_exactly(name).or_else(|| {
         let lower = name.to_lowercase();

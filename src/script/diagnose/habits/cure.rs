@@ -9,7 +9,7 @@ use crate::script::source::program::Program;
 
 /// The cure for a habit of other languages: what is wrong, what to write, and where it stands.
 pub struct Cure {
-    /// What is wrong.
+    /// What is wrong with the source.
     pub message: String,
     /// What to write in the source instead.
     pub hint: String,
@@ -17,14 +17,14 @@ pub struct Cure {
     pub at: Position,
 }
 
-/// Looks at the words around a place, and knows what was meant or does not.
+/// A habit of other languages: looks at the words around a place, and knows the cure or none.
 pub(super) type Habit = fn(&Spot) -> Option<Cure>;
 
 /// All habits; those that need more of what stands around come first.
 const HABITS: &[&[Habit]] =
     &[signs::HABITS, blocks::HABITS, declarations::HABITS, expressions::HABITS, brackets::HABITS];
 
-/// What was meant by a source that the parser gave up at `at`, for the reason `error`.
+/// The cure for a source that the parser gave up at `at`, for the reason `error`: what was meant there.
 pub fn cure(
     program: &Program,
     catalog: &Catalog,

@@ -64,7 +64,7 @@ pub fn for_receiver(word: &str) -> String {
     if word == "value" { "?".into() } else { identifier(word) }
 }
 
-/// The type for what a row gives back.
+/// The type, in definition files, for what a row gives back.
 pub fn for_value(kind: &ValueKind) -> String {
     match (kind, kind.type_name()) {
         (ValueKind::Nothing, _) => "()".into(),
