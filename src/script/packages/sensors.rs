@@ -171,7 +171,7 @@ pub const TABLE: Table = Table {
             ]))
         })
         .returns(Returns::MAP.unit("energy"))
-        .summary("The energy of a beam and of what stands on it, by kind: those of all bodies add up to that of the scene.")
+        .summary("The energy of a beam and of what stands on it, by kind: with what springs store, those of all bodies add up to that of the scene.")
         .doc("The map holds energy, kinetic, strain, axial, shear, bending and potential.")
         .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.1);\ncheck_close(sim.energies(rod).energy, sim.energy, 1e-12);")
         .see(&["record"]),
