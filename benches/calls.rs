@@ -3,15 +3,15 @@
 
 use std::io::{Read, Write};
 use std::process::{Command, Stdio};
-use std::rc::Rc;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use withy::script::engine;
-use withy::script::engine::runner::{Ending, compile, on_large_stack, run};
+use withy::script::engine::host::Host;
+use withy::script::engine::parse::parse;
+use withy::script::engine::runner::{Ending, run};
+use withy::script::engine::stack::on_large_stack;
 use withy::script::packages::language;
 use withy::script::source::program::Program;
-use withy::script::state::context::Context;
 use withy::script::state::limits::Limits;
 use withy::script::state::settings::{Mode, Settings};
 
@@ -123,10 +123,9 @@ fn main() {
     let [least, middle] = on_large_stack(&Limits::default(), || {
         median(|| {
             timed(|| {
-                let context = Context::new(Settings::silent(Mode::Run));
-                let mut engine = engine::build(&language(), &context).unwrap();
-                let ast = compile(&mut engine, &Program::named("empty", "")).unwrap();
-                Rc::new(engine).run_ast(&ast).unwrap();
+                let host = Host::open(language(), Settings::silent(Mode::Run)).unwrap();
+                let ast = parse(host.engine(), &Program::named("empty", "")).unwrap();
+                host.engine().run_ast(&ast).unwrap();
             })
         })
     })

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! At the bottom of all stand [`elementary`]: sine, logarithm and power with the same bits on every machine, and [`folders`], which opens files for all that
-//! touch any.
+//! touch any, and [`panics`], which catches our mistakes and tells of them.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
@@ -27,6 +27,7 @@ pub mod loads;
 pub mod model;
 pub mod newton;
 pub mod output;
+pub mod panics;
 pub mod repl;
 pub mod script;
 pub mod simulation;

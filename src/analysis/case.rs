@@ -1,5 +1,6 @@
 //! A run to be made: a scene, how it is simulated, and when it is looked at.
 
+use std::borrow::Cow;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -7,17 +8,17 @@ use serde::{Deserialize, Serialize};
 
 use super::Outcome;
 use super::patience::{Patience, Wait};
-use crate::model::Scene;
+use crate::model::{Scene, Sensor};
 use crate::simulation::{Monitor, Recording, Settings, Simulation, SimulationError, StepSize};
 
-/// A run to be made.
+/// A run of a study that is to be made, as data.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Case {
-    /// What is simulated.
+    /// The scene that is simulated.
     pub scene: Scene,
-    /// How.
+    /// How the scene is simulated: integrator, step size, tolerance.
     pub settings: Settings,
-    /// When it is looked at, in order; the last one ends the run [time].
+    /// The times at which the simulation is looked at, in order; the last one ends the run [time].
     pub stops: Vec<f64>,
 }
 
@@ -44,10 +45,15 @@ impl Monitor for Watch<'_> {
 }
 
 impl Case {
-    /// The case for another thread or another day; none when a load of it has a function of a script.
+    /// The case for another thread or another day; none when a load of it has a function of a script. Columns
+    /// that a script fills are left out.
     pub fn to_bytes(&self) -> Option<Vec<u8>> {
         let is_data = self.scene.schedules().all(|(_, schedule)| schedule.can_be_stored());
-        is_data.then(|| postcard::to_stdvec(self).ok()).flatten()
+        let mut case = Cow::Borrowed(self);
+        if !self.scene.sensors.iter().all(Sensor::can_be_stored) {
+            case.to_mut().scene.sensors.retain(Sensor::can_be_stored);
+        }
+        is_data.then(|| postcard::to_stdvec(&*case).ok()).flatten()
     }
 
     /// A case from [`to_bytes`](Self::to_bytes); none when the bytes are something else.
@@ -55,7 +61,7 @@ impl Case {
         postcard::from_bytes(bytes).ok()
     }
 
-    /// Runs it and looks at it at every stop; the simulation as it was at its end is given too, unless it could not
+    /// Runs the case and looks at the simulation at every stop; the simulation as it was at its end is given too, unless it could not
     /// start. A study that is stopped meanwhile leaves an unfinished run, whose outcome means nothing.
     pub fn run(
         &self,
@@ -95,7 +101,7 @@ impl Case {
         every.map_or_else(Recording::default, Recording::Every)
     }
 
-    /// The simulation at its start, or why there is none. It keeps to one thread: the cores are busy with other cases, or
+    /// The simulation of the case at its start, or why there is none. It keeps to one thread: the cores are busy with other cases, or
     /// the time of this one is taken.
     pub fn start(&self, patience: Patience) -> Result<Simulation, Outcome> {
         let wait = patience.begin();
@@ -150,7 +156,7 @@ mod tests {
     use super::super::patience::is_out_of_patience;
     use super::super::samples::{never, spinning};
     use super::*;
-    use crate::loads::{LoadKind, Schedule};
+    use crate::loads::{FunctionError, LoadKind, Schedule};
 
     #[test]
     fn a_case_is_looked_at_at_its_stops_in_another_life_too() {
@@ -212,7 +218,7 @@ mod tests {
         let function = Rc::new(|t: f64| match t {
             0.5.. => {
                 while !is_out_of_patience() {}
-                Err("stopped".to_owned())
+                Err(FunctionError::new("stopped"))
             }
             _ => Ok(0.0),
         });

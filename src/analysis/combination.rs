@@ -9,11 +9,11 @@ use crate::simulation::Settings;
 /// A scene on a mesh, and what is looked at in it.
 #[derive(Debug, Clone)]
 pub struct Subject {
-    /// What the mesh is called.
+    /// The name of the mesh.
     pub mesh: String,
-    /// The scene on it.
+    /// The scene on the mesh.
     pub scene: Scene,
-    /// What is looked at.
+    /// What is looked at in the scene.
     pub observables: Vec<Observable>,
 }
 
@@ -27,33 +27,33 @@ impl Subject {
 /// One way to compute something: a mesh, an integrator and its step size.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Combination {
-    /// The index of the subject.
+    /// The index of the subject, a scene on a mesh.
     pub subject: usize,
-    /// Integrator and step size.
+    /// Integrator and step size of the combination.
     pub settings: Settings,
 }
 
 impl Combination {
-    /// The run that it asks for.
+    /// The run that the combination asks for.
     pub fn case(&self, subjects: &[Subject], stops: &[f64]) -> Case {
         let scene = subjects[self.subject].scene.clone();
         Case { scene, settings: self.settings, stops: stops.to_vec() }
     }
 }
 
-/// All combinations, mesh by mesh.
+/// All combinations of subjects and settings, mesh by mesh.
 pub fn all_combinations(subjects: &[Subject], settings: &[Settings]) -> Vec<Combination> {
     let with = |subject| settings.iter().map(move |settings| (subject, *settings));
     let pairs = (0..subjects.len()).flat_map(with);
     pairs.map(|(subject, settings)| Combination { subject, settings }).collect()
 }
 
-/// The subject with the most spans; of equal ones the last.
+/// The index of the subject with the most spans; of equal ones the last.
 pub fn finest_mesh(subjects: &[Subject]) -> Option<usize> {
     (0..subjects.len()).max_by_key(|index| subjects[*index].spans())
 }
 
-/// The method of the highest order; of equal ones the first.
+/// The method of the highest order among some; of equal ones the first.
 pub fn highest_order(methods: &[Method]) -> Option<Method> {
     methods.iter().copied().rev().max_by_key(|method| method.entry().claims.order)
 }

@@ -6,12 +6,12 @@ use super::truth::{Deviation, Truth};
 use crate::elementary::{ln, square};
 use crate::integrators::Method;
 
-/// What is refined.
+/// What a study of convergence refines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refined {
-    /// The step size.
+    /// The step size is refined.
     Step,
-    /// The mesh; its size is one over the number of spans.
+    /// The mesh is refined; its size is one over the number of spans.
     Mesh,
 }
 
@@ -21,23 +21,23 @@ const WELL_ABOVE: f64 = 2.0;
 /// The errors of one quantity with one integrator, from coarse to fine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ladder {
-    /// The integrator.
+    /// The integrator whose errors these are.
     pub method: Method,
-    /// What was looked at, in words.
+    /// The quantity that was looked at, in words.
     pub quantity: String,
-    /// Step sizes or sizes of the mesh.
+    /// The step sizes [time] or the sizes of the mesh [-], from coarse to fine.
     pub sizes: Vec<f64>,
-    /// The errors; none where the run failed.
+    /// The error at each size; none where the run failed.
     pub deviations: Vec<Option<Deviation>>,
 }
 
 impl Ladder {
-    /// The error at a rung, if the run came to its end.
+    /// The error at a rung of the ladder, by its index, if the run came to its end.
     pub fn error(&self, rung: usize) -> Option<f64> {
         self.deviations.get(rung).copied().flatten().map(|of| of.error())
     }
 
-    /// Whether an order can be told from a rung: its error is not zero, and well above what the reference is sure of.
+    /// Whether an order can be told from a rung of the ladder: its error is not zero, and well above what the reference is sure of.
     pub fn tells_an_order(&self, rung: usize) -> bool {
         let deviation = self.deviations.get(rung).copied().flatten();
         deviation.is_some_and(|of| of.distance.is_finite() && of.distance > WELL_ABOVE * of.trusted)
@@ -49,14 +49,14 @@ impl Ladder {
         self.tells_an_order(rung).then(|| (self.sizes[rung], deviation.distance))
     }
 
-    /// The order observed between a rung and the one before, `ln(e₁/e₂) / ln(h₁/h₂)`.
+    /// The order observed between a rung of the ladder and the one before, `ln(e₁/e₂) / ln(h₁/h₂)`.
     pub fn order(&self, rung: usize) -> Option<f64> {
         let ((coarse, large), (fine, small)) =
             (self.point(rung.checked_sub(1)?)?, self.point(rung)?);
         Some(ln(large / small) / ln(coarse / fine)).filter(|order| order.is_finite())
     }
 
-    /// The order of all rungs together: the slope of a straight line through the logarithms by least squares.
+    /// The order of all rungs of the ladder together: the slope of a straight line through the logarithms by least squares.
     pub fn fitted_order(&self) -> Option<f64> {
         let points: Vec<(f64, f64)> = (0..self.sizes.len())
             .filter_map(|rung| self.point(rung))
@@ -71,28 +71,28 @@ impl Ladder {
     }
 }
 
-/// A study of convergence.
+/// The results of a study of convergence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Convergence {
-    /// Its name.
+    /// The name of the study.
     pub name: String,
-    /// What is refined.
+    /// What the study refines.
     pub refined: Refined,
-    /// What is not, in words.
+    /// What the study does not refine, in words.
     pub fixed: String,
-    /// When errors are taken [time].
+    /// The times at which errors are taken [time].
     pub times: Vec<f64>,
-    /// What errors of positions are relative to [length].
+    /// The length that errors of positions are relative to [length].
     pub length: f64,
-    /// What the quantities should be.
+    /// The reference: what the quantities should be.
     pub truth: Truth,
-    /// All quantities with the first integrator, then with the next.
+    /// The errors of all quantities with the first integrator, then with the next.
     pub ladders: Vec<Ladder>,
-    /// What became of runs that failed: the size, the integrator, why.
+    /// The runs that failed: the size, the integrator, why.
     pub failures: Vec<(f64, Method, String)>,
 }
 
-/// What is called the error of all positions together.
+/// The name of the error of all positions together.
 pub const ALL_POSITIONS: &str = "positions";
 
 impl Convergence {
@@ -122,7 +122,7 @@ impl Convergence {
         std::iter::once(together).chain(each).collect()
     }
 
-    /// The quantities, each once.
+    /// The quantities of the study, each once.
     pub fn quantities(&self) -> Vec<&str> {
         let mut names = Vec::new();
         for name in self.ladders.iter().map(|ladder| ladder.quantity.as_str()) {
@@ -133,12 +133,12 @@ impl Convergence {
         names
     }
 
-    /// The ladders of a quantity, one for each integrator.
+    /// The errors of a quantity, one ladder for each integrator.
     pub fn ladders_with<'s>(&'s self, quantity: &'s str) -> impl Iterator<Item = &'s Ladder> {
         self.ladders.iter().filter(move |ladder| ladder.quantity == quantity)
     }
 
-    /// The order that an integrator claims, where steps are what is refined.
+    /// The order that an integrator claims, where the study refines steps.
     pub fn claimed_order(&self, method: &Method) -> Option<u32> {
         (self.refined == Refined::Step).then(|| method.entry().claims.order)
     }

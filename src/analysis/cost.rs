@@ -7,41 +7,41 @@ use super::{Case, Outcome, Patience};
 use crate::integrators::Constraints;
 use crate::simulation::{Recording, Simulation};
 
-/// A case with all that adds to the cost of a step.
+/// A case whose steps are measured, with all that adds to their cost.
 #[derive(Debug, Clone)]
 pub struct CostCase {
-    /// What it is called.
+    /// The name of the case.
     pub name: String,
-    /// The run.
+    /// The run of which steps are measured.
     pub case: Case,
-    /// Which states are recorded.
+    /// Which states of the run are recorded.
     pub recording: Recording,
-    /// The memory for states to go back to [bytes].
+    /// The memory of the run for states to go back to [bytes].
     pub snapshots: usize,
 }
 
 /// What the steps of a case cost.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepCost {
-    /// What it is called.
+    /// The name of the case.
     pub name: String,
-    /// How it ended.
+    /// How the run of the case ended.
     pub outcome: Outcome,
-    /// The unknowns of a step.
+    /// The number of unknowns of a step.
     pub unknowns: usize,
-    /// How far from the diagonal the matrix of a step reaches.
+    /// The half-bandwidth of the matrix of a step: how far from the diagonal it has entries.
     pub half_bandwidth: usize,
-    /// The columns of contacts beside the band.
+    /// The number of columns of contacts beside the band.
     pub border: usize,
-    /// The columns of the history.
+    /// The number of columns of the history.
     pub columns: usize,
-    /// Newton iterations of a step, on average.
+    /// The number of Newton iterations of a step, on average.
     pub iterations: f64,
-    /// Factorised matrices of a step, on average.
+    /// The number of factorised matrices of a step, on average.
     pub factorisations: f64,
-    /// The time of a step in the fastest run.
+    /// The time of a step, on average, in the fastest run.
     pub shortest: Duration,
-    /// The median over the runs of the time of a step.
+    /// The median over the runs of the average time of a step.
     pub median: Duration,
 }
 
@@ -55,7 +55,7 @@ impl CostCase {
 }
 
 impl StepCost {
-    /// That of a case of which nothing is known but how it ended.
+    /// The cost of a case of which nothing is known but how it ended.
     pub fn unmeasured(case: &CostCase, outcome: Outcome) -> Self {
         Self {
             name: case.name.clone(),

@@ -10,12 +10,12 @@ use crate::model::{ModelError, ParticleDefinition, PointMass, Scene};
 /// How large what is added is, as a part of what the first beam has.
 const SMALL: f64 = 1e-3;
 
-/// Something that a scene may have.
+/// A feature: something that a scene may have, whose cost is measured.
 #[derive(Debug, Clone, Copy)]
 pub struct Feature {
-    /// Its name.
+    /// The name of the feature.
     pub name: &'static str,
-    /// Adds it to the first beam of a scene.
+    /// Adds the feature to the first beam of a scene.
     pub add: fn(&mut Scene) -> Result<(), ModelError>,
 }
 

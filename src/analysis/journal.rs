@@ -80,7 +80,7 @@ impl Journal {
         Ok(Self { known: known.collect(), path, file: None })
     }
 
-    /// Forgets what earlier runs found.
+    /// Forgets what earlier runs of the study found.
     ///
     /// # Errors
     /// When the file cannot be removed.
@@ -90,22 +90,22 @@ impl Journal {
         remove(&self.path)
     }
 
-    /// How many cases are known.
+    /// The number of cases in the journal.
     pub fn len(&self) -> usize {
         self.known.len()
     }
 
-    /// Whether no case is known.
+    /// Whether the journal has no case.
     pub fn is_empty(&self) -> bool {
         self.known.is_empty()
     }
 
-    /// The result of a case, by its fingerprint; none when there is none of this type.
+    /// The result of a case in the journal, by its fingerprint; none when there is none of this type.
     pub fn find<T: DeserializeOwned>(&self, fingerprint: u64) -> Option<T> {
         postcard::from_bytes(self.known.get(&fingerprint)?).ok()
     }
 
-    /// Writes the result of a case down, at once; gives the bytes that were written.
+    /// Writes the result of a case into the journal, at once; gives the bytes that were written.
     ///
     /// # Errors
     /// When the file cannot be written.
@@ -158,7 +158,7 @@ impl Journal {
         Ok((Folder::make(self.path.parent().unwrap_or(Path::new(".")))?, name.into()))
     }
 
-    /// Everything is complete: there is nothing to go on with.
+    /// Removes the journal of a study that is complete: there is nothing to go on with.
     ///
     /// # Errors
     /// When the file cannot be removed.
@@ -167,7 +167,7 @@ impl Journal {
         remove(&self.path)
     }
 
-    /// A number for a case, from all that its result depends on.
+    /// The fingerprint of a case: a number made of all that its result depends on.
     ///
     /// The program is a part of it: one that was built anew may find something else. Another compiler may give other numbers,
     /// and cases are then run again.

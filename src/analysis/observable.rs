@@ -9,24 +9,24 @@ use crate::simulation::{History, Simulation};
 /// A named quantity of a simulation at one time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Observable {
-    /// The name of the station, or of the column; unique among those of its kind.
+    /// The name of the station, or of the column, that is observed; unique among those of its kind.
     pub name: String,
-    /// What it is.
+    /// The quantity that is observed.
     pub kind: ObservableKind,
 }
 
-/// What can be looked at.
+/// A quantity of a simulation that can be observed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum ObservableKind {
-    /// Where a station is [length].
+    /// The position of a station [length].
     Position(Station),
     /// The angle of the section at a station [rad].
     Angle(Station),
-    /// A column of the history.
+    /// A column of the history, at the present row.
     Column {
-        /// Its name there.
+        /// The name of the column in the history.
         column: String,
-        /// By what it is multiplied.
+        /// The factor by which the column's value is multiplied.
         factor: f64,
     },
 }
@@ -45,7 +45,7 @@ pub const SYMBOLS: [(&str, &str); 6] = [
 const OF_THE_COMPUTATION: [&str; 5] = ["t", "gap", "dt", "newton_iterations", "retries"];
 
 impl Observable {
-    /// Position and angle of a station; a particle has no angle.
+    /// The observables of a station: its position and its angle; a particle has no angle.
     pub fn of_station(name: &str, station: Station) -> impl Iterator<Item = Self> {
         let angle = station.beam().map(|_| ObservableKind::Angle(station));
         let kinds = std::iter::once(ObservableKind::Position(station)).chain(angle);
@@ -53,24 +53,24 @@ impl Observable {
         kinds.map(move |kind| Self { name: name.clone(), kind })
     }
 
-    /// A column of the history, times a factor.
+    /// The observable of a column of the history, times a factor.
     pub fn of_column(name: &str, column: &str, factor: f64) -> Self {
         let kind = ObservableKind::Column { column: column.to_owned(), factor };
         Self { name: name.to_owned(), kind }
     }
 
-    /// All columns of a history that say what happened.
+    /// The observables of all columns of a history that say what happened.
     pub fn of_history(history: &History) -> impl Iterator<Item = Self> {
         let told = history.columns().filter(|(name, _)| !OF_THE_COMPUTATION.contains(name));
         told.map(|(name, _)| Self::of_column(name, name, 1.0))
     }
 
-    /// Whether it is the position of a station.
+    /// Whether the observable is the position of a station.
     pub fn is_position(&self) -> bool {
         matches!(self.kind, ObservableKind::Position(_))
     }
 
-    /// In words: `position of tip`, `angle of tip`, `kinetic`.
+    /// The observable in words: `position of tip`, `angle of tip`, `kinetic`.
     pub fn describe(&self) -> String {
         match &self.kind {
             ObservableKind::Position(_) => format!("position of {}", self.name),
@@ -79,7 +79,7 @@ impl Observable {
         }
     }
 
-    /// Its present value: a vector for a position, else in the first component; NaN where there is none.
+    /// The present value of the observable: a vector for a position, else in the first component; NaN where there is none.
     pub fn read(&self, simulation: &Simulation) -> Vec2 {
         let scalar = |value: Option<f64>| Vec2::new(value.unwrap_or(f64::NAN), 0.0);
         match &self.kind {

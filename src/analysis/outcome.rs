@@ -5,25 +5,25 @@ use serde::{Deserialize, Serialize};
 /// How a run of a study ended.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Outcome {
-    /// It came to its end.
+    /// The run came to its end.
     Finished,
-    /// It could not start or not go on.
+    /// The run could not start or not go on.
     Failed {
-        /// The end of its last good step [time].
+        /// The end of the last good step of the failed run [time].
         time: f64,
-        /// Why.
+        /// The reason why the run failed, in words.
         reason: String,
     },
-    /// It took more than a study lets a case take.
+    /// The run took more than a study lets a case take.
     GaveUp {
-        /// The end of its last good step [time].
+        /// The end of the last good step of the run that was given up [time].
         time: f64,
-        /// What it took too much of.
+        /// What the run took too much of, in words.
         limit: String,
     },
-    /// A bug of withy.
+    /// The run met a bug of withy.
     Panicked {
-        /// Its message.
+        /// The message of the bug.
         message: String,
     },
 }
@@ -34,7 +34,7 @@ impl Outcome {
         *self == Self::Finished
     }
 
-    /// In a few words.
+    /// The outcome in a few words.
     pub fn describe(&self) -> String {
         match self {
             Self::Finished => "finished".to_owned(),

@@ -3,12 +3,12 @@
 use std::cell::Cell;
 use std::time::{Duration, Instant};
 
-/// What a case may take.
+/// How much a case of a study may take before it is given up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Patience {
-    /// Steps and failed tries together.
+    /// The largest number of steps and failed tries of a case together.
     pub steps: usize,
-    /// Time by the clock.
+    /// The longest time of a case by the clock.
     pub wall: Duration,
 }
 
@@ -29,7 +29,7 @@ pub fn is_out_of_patience() -> bool {
     DEADLINE.get().is_some_and(|deadline| Instant::now() > deadline)
 }
 
-/// Waits for a case as long as it lives.
+/// The wait of a study for a case: it lasts as long as this lives.
 pub(super) struct Wait {
     begun: Instant,
     patience: Patience,
@@ -37,7 +37,7 @@ pub(super) struct Wait {
 }
 
 impl Patience {
-    /// Begins to wait, on this thread.
+    /// Begins to wait for a case, on this thread.
     pub(super) fn begin(self) -> Wait {
         let begun = Instant::now();
         Wait { begun, patience: self, before: DEADLINE.replace(begun.checked_add(self.wall)) }
@@ -45,7 +45,7 @@ impl Patience {
 }
 
 impl Wait {
-    /// What a case took too much of after so many steps, if it did.
+    /// What a case took too much of after so many steps, in words, if it did.
     pub(super) fn exceeded(&self, steps: usize) -> Option<String> {
         let Patience { steps: most, wall } = self.patience;
         if steps > most {

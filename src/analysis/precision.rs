@@ -8,28 +8,28 @@ use super::trial::Trial;
 use super::truth::{Deviation, Truth};
 use crate::simulation::{Settings, StepSize};
 
-/// A combination, run and timed.
+/// A combination of mesh, integrator and step size that was run and timed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PrecisionRow {
-    /// What the mesh is called.
+    /// The name of the mesh.
     pub mesh: String,
-    /// Integrator and step size.
+    /// Integrator and step size of the run.
     pub settings: Settings,
     /// What the run showed.
     pub trial: Trial,
-    /// What it took; none where it failed.
+    /// The time that the run took; none where it failed.
     pub timing: Option<Timing>,
     /// The largest distance of a station from the reference, relative to the length of the study; none where the run failed.
     pub error: Option<Deviation>,
     /// How far each observable is from the reference, in its own unit; none where the run failed or the reference says
     /// nothing of it.
     pub deviations: Vec<Option<Deviation>>,
-    /// Whether no other combination is both faster and better.
+    /// Whether no other combination of the study is both faster and better.
     pub is_on_front: bool,
 }
 
 impl PrecisionRow {
-    /// What became of a combination.
+    /// The row of a combination: what its run showed and took, and how far it is from the reference.
     pub fn new(
         (mesh, settings): (String, Settings),
         trial: Trial,
@@ -44,7 +44,7 @@ impl PrecisionRow {
         Self { mesh, settings, trial, timing, error, deviations, is_on_front: false }
     }
 
-    /// Time of the run [s] and error; infinite where there are none.
+    /// The price, the time of the run [s], and the error of the combination [-]; infinite where there are none.
     pub fn price_and_error(&self) -> (f64, f64) {
         let price = self.timing.map_or(f64::INFINITY, |timing| timing.price());
         (price, self.error.map_or(f64::INFINITY, |error| error.error()))
@@ -60,27 +60,27 @@ impl PrecisionRow {
     }
 }
 
-/// A study of error against run time.
+/// The results of a study of error against run time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Precision {
-    /// Its name.
+    /// The name of the study.
     pub name: String,
-    /// When errors are taken; the last one ends a run [time].
+    /// The times at which errors are taken; the last one ends a run [time].
     pub times: Vec<f64>,
-    /// What errors of positions are relative to [length].
+    /// The length that errors of positions are relative to [length].
     pub length: f64,
-    /// What was looked at.
+    /// What the study looked at.
     pub observables: Vec<Observable>,
-    /// What it should be.
+    /// The reference: what the observables should be.
     pub truth: Truth,
     /// All combinations in their order, those that failed too.
     pub rows: Vec<PrecisionRow>,
-    /// What other programs needed.
+    /// The runs of other programs with which the study compares.
     pub rivals: Vec<Rival>,
 }
 
 impl Precision {
-    /// Marks those that are worth their price.
+    /// Marks the combinations that are worth their price.
     pub fn mark_front(&mut self) {
         let points: Vec<_> = self.rows.iter().map(PrecisionRow::price_and_error).collect();
         for (row, is_on_front) in self.rows.iter_mut().zip(pareto_front(&points)) {
@@ -95,12 +95,12 @@ impl Precision {
         front
     }
 
-    /// The fastest combination whose error is at most `error`.
+    /// The fastest combination whose error is at most `error` [-].
     pub fn cheapest(&self, error: f64) -> Option<&PrecisionRow> {
         self.front().into_iter().find(|row| row.price_and_error().1 <= error)
     }
 
-    /// The fastest combination whose error is at most `error` and of which all smaller steps on its mesh err no more, at least one: where
+    /// The fastest combination whose error is at most `error` [-] and of which all smaller steps on its mesh err no more, at least one: where
     /// errors of mesh and step cancel, they do so by luck.
     pub fn cheapest_confirmed(&self, error: f64) -> Option<&PrecisionRow> {
         let is_right = |row: &&PrecisionRow| row.price_and_error().1 <= error;
@@ -125,7 +125,7 @@ impl Precision {
         peers
     }
 
-    /// The fastest run of a program whose error is at most `error`.
+    /// The fastest run of another program whose error is at most `error` [-].
     pub fn cheapest_of(&self, peer: &str, error: f64) -> Option<&Rival> {
         let able = self.rivals.iter().filter(|rival| rival.peer == peer && rival.error <= error);
         able.min_by(|a, b| a.run_time.total_cmp(&b.run_time))

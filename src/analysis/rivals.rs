@@ -8,39 +8,39 @@ use crate::geometry::Vec2;
 /// A run of another program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rival {
-    /// The program.
+    /// The name of the other program.
     pub peer: String,
-    /// The series of points that it belongs to, such as the program with one kind of integrator.
+    /// The series of points that the run belongs to, such as the program with one kind of integrator.
     pub series: String,
-    /// How it was run, in words.
+    /// How the other program was run, in words.
     pub setting: String,
-    /// What the run took [s].
+    /// The time that the run of the other program took [s].
     pub run_time: f64,
-    /// The largest distance of a station from where it should be, relative to the length of the study.
+    /// The largest distance of a station from where it should be in the run of the other program, relative to the length of the study [-].
     pub error: f64,
-    /// How far its energy drifted; NaN where that was not measured.
+    /// How far the energy of the other program's run drifted [-]; NaN where that was not measured.
     pub energy_drift: f64,
-    /// Where it was measured.
+    /// The machine on which the other program was measured.
     pub machine: String,
 }
 
-/// A table of rivals that cannot be used.
+/// A table of runs of other programs that cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RivalError {
-    /// The table is wrong.
+    /// The table of other programs cannot be read.
     #[error(transparent)]
     Sheet(#[from] SheetError),
-    /// It cannot be compared with the reference.
+    /// The table of other programs cannot be compared with the reference.
     #[error(transparent)]
     Truth(#[from] TruthError),
-    /// It was measured at another time than the study asks for.
+    /// A run of another program was measured at another time than the study asks for.
     #[error("its row {row} holds positions at t = {measured}, and the study asks for errors at t = {}", asked.join(", "))]
     Times {
-        /// The row below the names, counted from 1.
+        /// The row of the run below the names, counted from 1.
         row: usize,
-        /// The time of its positions.
+        /// The time at which the other program's positions were measured [time].
         measured: f64,
-        /// The times of the study.
+        /// The times of the study, in words.
         asked: Vec<String>,
     },
 }
@@ -101,7 +101,7 @@ fn position(sheet: &Sheet, row: usize, of: &Observable) -> Result<Vec2, SheetErr
     Ok(Vec2::new(x?, y?))
 }
 
-/// The machines that rivals were measured on, each once.
+/// The machines that runs of other programs were measured on, each once.
 pub fn machines(rivals: &[Rival]) -> Vec<&str> {
     let mut machines = Vec::new();
     for rival in rivals.iter().map(|rival| rival.machine.as_str()) {

@@ -12,12 +12,12 @@ use crate::model::{BeamDefinition, Scene, StartMotion};
 use crate::newton::Tolerance;
 use crate::simulation::Settings;
 
-/// Nobody stops it.
+/// A flag for tests by which nobody stops a study.
 pub fn never() -> AtomicBool {
     AtomicBool::new(false)
 }
 
-/// A short free beam that spins.
+/// A case for tests: a short free beam that spins.
 pub fn spinning(dt: f64, stops: &[f64]) -> Case {
     let mut scene = Scene::new("spinning");
     let section = Section {
@@ -41,7 +41,7 @@ pub fn spinning(dt: f64, stops: &[f64]) -> Case {
     Case { scene, settings, stops: stops.to_vec() }
 }
 
-/// The same with a force whose schedule only this thread can follow.
+/// A case for tests: a short free beam that spins, with a force whose schedule only this thread can follow.
 pub fn pushed_by_a_function(dt: f64, stops: &[f64]) -> Case {
     let mut case = spinning(dt, stops);
     let station = case.scene.station(0, 0.0).unwrap();

@@ -1,50 +1,50 @@
 //! Tables that others have written: CSV with `#` comment lines above.
 
-/// A table that cannot be used.
+/// A table in a file that cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SheetError {
-    /// It is no CSV.
+    /// A row of the table is no CSV.
     #[error("line {line} is not a row of the table: {reason}")]
     Row {
-        /// Where, counted from 1.
+        /// The line of the row that is no CSV, counted from 1.
         line: u64,
-        /// Why.
+        /// The reason why the row is no CSV.
         reason: String,
     },
-    /// Two columns have the same name.
+    /// Two columns of the table have the same name.
     #[error("two of its columns are called '{column}'; give each a name of its own")]
     Duplicate {
-        /// The name that there is twice.
+        /// The name that two columns have.
         column: String,
     },
-    /// It has no such column.
+    /// The table has no such column.
     #[error("it has no column '{column}'; its columns are {known}")]
     Column {
-        /// The name asked for.
+        /// The name of the column asked for.
         column: String,
-        /// The names that there are.
+        /// The names of the columns that the table has.
         known: String,
     },
-    /// A cell is not a number.
+    /// A cell of the table is not a number.
     #[error("line {line}, column '{column}', holds '{text}', which is not a finite number")]
     Number {
-        /// The name of the column.
+        /// The name of the column of the cell that is not a number.
         column: String,
-        /// Where, counted from 1.
+        /// The line of the cell that is not a number, counted from 1.
         line: u64,
-        /// What stands there.
+        /// The text of the cell that is not a number.
         text: String,
     },
-    /// A cell is a negative number, and means a size.
+    /// A cell of the table is a negative number, and means a size.
     #[error(
         "line {line}, column '{column}', holds '{text}', and the size of an error is not negative"
     )]
     Negative {
-        /// The name of the column.
+        /// The name of the column of the negative cell.
         column: String,
-        /// Where, counted from 1.
+        /// The line of the negative cell, counted from 1.
         line: u64,
-        /// What stands there.
+        /// The text of the negative cell.
         text: String,
     },
 }
@@ -58,7 +58,7 @@ pub struct Sheet {
 }
 
 impl Sheet {
-    /// Reads the text of a file.
+    /// Reads a table of comma-separated values from the text of a file.
     ///
     /// # Errors
     /// When two columns have the same name, or a row has more or fewer cells than there are columns.
@@ -89,27 +89,27 @@ impl Sheet {
         Ok(Self { columns, rows: rows.collect::<Result<_, _>>()? })
     }
 
-    /// The names of its columns.
+    /// The names of the columns of the table, in order.
     pub fn columns(&self) -> &[String] {
         &self.columns
     }
 
-    /// How many rows it has.
+    /// The number of rows of the table.
     pub fn len(&self) -> usize {
         self.rows.len()
     }
 
-    /// Whether it has no row.
+    /// Whether the table has no row.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
-    /// Whether it has a column.
+    /// Whether the table has a column of a name.
     pub fn has(&self, column: &str) -> bool {
         self.columns.iter().any(|name| name == column)
     }
 
-    /// What stands in a row, column by column.
+    /// The texts in a row of the table, column by column.
     ///
     /// # Panics
     /// When there is no such row.
@@ -117,7 +117,7 @@ impl Sheet {
         &self.rows[row].1
     }
 
-    /// The line where a row stands, counted from 1.
+    /// The line of the file where a row of the table stands, counted from 1.
     ///
     /// # Panics
     /// When there is no such row.
@@ -125,7 +125,7 @@ impl Sheet {
         self.rows[row].0
     }
 
-    /// What stands in a row and a column.
+    /// The text in a row and a column of the table.
     ///
     /// # Errors
     /// When there is no such column.
@@ -139,7 +139,7 @@ impl Sheet {
         found.map(|index| self.rows[row].1[index].as_str()).ok_or_else(missing)
     }
 
-    /// The number that stands in a row and a column.
+    /// The number in a row and a column of the table.
     ///
     /// # Errors
     /// When there is no such column, or something else than a finite number.
@@ -153,7 +153,7 @@ impl Sheet {
         })
     }
 
-    /// The size of an error that stands in a row and a column.
+    /// The size of an error in a row and a column of the table, which is not negative.
     ///
     /// # Errors
     /// When there is no such column, or something else than a finite number that is not negative.

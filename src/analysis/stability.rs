@@ -8,21 +8,21 @@ use super::{Case, Outcome, Patience};
 use crate::model::Scene;
 use crate::simulation::Simulation;
 
-/// What became of a run.
+/// The verdict on a run: how it ended, whether its energy grew, and the work of its steps.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
-    /// How it ended.
+    /// How the run ended.
     pub outcome: Outcome,
     /// The largest rise of `E - W` above an earlier value after the last schedule has come to rest, relative to the largest
     /// energy; NaN when there was no run, or it was lost in numbers that are none.
     pub energy_growth: f64,
-    /// Steps that succeeded.
+    /// The number of steps of the run that succeeded.
     pub steps: usize,
-    /// Newton iterations of a step, on average.
+    /// The number of Newton iterations of a step, on average.
     pub mean_iterations: f64,
     /// The most Newton iterations of one step.
     pub most_iterations: usize,
-    /// Failed tries: steps that were halved.
+    /// The number of failed tries: steps that were halved.
     pub retries: usize,
 }
 
@@ -50,7 +50,7 @@ impl Verdict {
         }
     }
 
-    /// That of a run that never began.
+    /// The verdict on a run that never began.
     pub fn without_a_run(outcome: Outcome) -> Self {
         Self {
             outcome,

@@ -6,23 +6,23 @@ use serde::{Deserialize, Serialize};
 
 use super::{Case, Patience};
 
-/// How long a case takes.
+/// The times that a case of a study takes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Timing {
-    /// Median time to build the scene and its model.
+    /// The median time to build the scene and its model.
     pub setup: Duration,
-    /// Median time of the run by the clock.
+    /// The median time of the run by the clock.
     pub run: Duration,
     /// The shortest time of the run by the clock.
     pub shortest: Duration,
-    /// Median time that the processor worked on the run; none where the system does not tell. On a machine that is busy with
+    /// The median time that the processor worked on the run; none where the system does not tell. On a machine that is busy with
     /// something else this is what the run itself takes.
     pub processor: Option<Duration>,
-    /// How often it was run.
+    /// How often the case was run.
     pub repeats: usize,
 }
 
-/// A case that has been run for so long is not repeated any more.
+/// The time after which a case is not repeated any more.
 pub const ENOUGH: Duration = Duration::from_secs(10);
 
 /// The time that the processor has worked on this thread, as Linux tells it: exact after a pause, else only at every tick.
@@ -33,7 +33,7 @@ fn processor_time() -> Option<Duration> {
 }
 
 impl Timing {
-    /// The time of the run: that of the processor, or by the clock where the system does not tell [s].
+    /// The price of the case: the time of the processor for its run, or by the clock where the system does not tell [s].
     pub fn price(&self) -> f64 {
         self.processor.unwrap_or(self.run).as_secs_f64()
     }
@@ -70,7 +70,7 @@ impl Timing {
     }
 }
 
-/// The one in the middle; of an even number the mean of the two.
+/// The duration in the middle of some; of an even number the mean of the two in the middle; none of none.
 pub(super) fn median(mut durations: Vec<Duration>) -> Option<Duration> {
     durations.sort_unstable();
     let upper = durations.len() / 2;

@@ -9,22 +9,22 @@ use super::truth::Readings;
 use super::{Case, Outcome, Patience};
 use crate::simulation::{History, Invariant, Simulation};
 
-/// A run that was looked at.
+/// A run of a study that was looked at.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
-    /// How it ended.
+    /// How the run ended.
     pub outcome: Outcome,
-    /// The observables at the stops that it reached.
+    /// The observables at the stops that the run reached.
     pub readings: Readings,
-    /// The unknowns of a step.
+    /// The number of unknowns of a step of the run.
     pub unknowns: usize,
-    /// Steps that succeeded.
+    /// The number of steps of the run that succeeded.
     pub steps: usize,
-    /// Newton iterations of these steps.
+    /// The number of Newton iterations of the steps that succeeded.
     pub newton_iterations: usize,
-    /// Factorised matrices, failed tries included.
+    /// The number of factorised matrices of the run, failed tries included.
     pub factorisations: usize,
-    /// Failed tries.
+    /// The number of failed tries of steps.
     pub retries: usize,
     /// The drifts of the whole run, loads accounted for, in the order of [`Invariant::ALL`].
     pub drifts: [f64; 4],
@@ -33,7 +33,7 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// Runs a case and looks at it.
+    /// Runs a case and looks at its observables at every stop.
     pub fn of(
         case: &Case,
         observables: &[Observable],
@@ -60,7 +60,7 @@ impl Trial {
         }
     }
 
-    /// A run that never began.
+    /// The trial of a run that never began.
     pub fn without_a_run(outcome: Outcome) -> Self {
         Self {
             outcome,

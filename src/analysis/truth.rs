@@ -11,9 +11,9 @@ pub type Readings = Vec<Vec<Vec2>>;
 /// How far a result is from the truth, and how well the truth is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation {
-    /// The distance from the reference.
+    /// The distance from the reference, in the unit of the observable.
     pub distance: f64,
-    /// An estimate of the error of the reference itself; zero where it gives none.
+    /// An estimate of the error of the reference itself, in the unit of the observable; zero where it gives none.
     pub trusted: f64,
     /// Whether the reference is a run of our own. All errors are then told as bounds, so that none seems better than another
     /// one only because it is closer to the reference than that is to the truth.
@@ -34,7 +34,7 @@ impl Deviation {
         }
     }
 
-    /// The larger of both; what is not a number is larger than all.
+    /// The larger of two deviations; one that is not a number is larger than all.
     pub fn worst(self, other: Self) -> Self {
         if larger(self.distance, other.distance) == self.distance || self.distance.is_nan() {
             Self { trusted: self.trusted.max(other.trusted), ..self }
@@ -43,47 +43,47 @@ impl Deviation {
         }
     }
 
-    /// The same by another measure.
+    /// The deviation divided by a scale: the same by another measure.
     pub fn divided_by(self, scale: f64) -> Self {
         Self { distance: self.distance / scale, trusted: self.trusted / scale, ..self }
     }
 }
 
-/// A reference that cannot be used.
+/// A reference of a study that cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TruthError {
-    /// Its table is wrong.
+    /// The table of the reference is wrong.
     #[error(transparent)]
     Sheet(#[from] SheetError),
-    /// There is nothing in it.
+    /// The table of the reference is empty.
     #[error("it has no rows")]
     Empty,
-    /// It says nothing about a time of the study.
+    /// The reference says nothing about a time of the study.
     #[error("it has no row at t = {time}; the nearest rows are at t = {}", nearest.join(" and "))]
     Time {
-        /// The time asked for.
+        /// The time asked for, of which the reference says nothing [time].
         time: f64,
-        /// The rows before and behind it.
+        /// The times of the rows before and behind it, in words.
         nearest: Vec<String>,
     },
-    /// It says two things about a time of the study.
+    /// The reference says two things about a time of the study.
     #[error("lines {first} and {second} are both about t = {time}, and they differ")]
     Twice {
-        /// The time asked for.
+        /// The time of which the reference says two things [time].
         time: f64,
-        /// Where the first row stands.
+        /// The line of the first row for that time.
         first: u64,
-        /// Where the second one stands.
+        /// The line of the second row for that time.
         second: u64,
     },
-    /// It says nothing about any station.
+    /// The reference says nothing about any station of the study.
     #[error(
         "it has no station of the study: for one called '{station}' it needs the columns x{station} and y{station}; its columns are {known}"
     )]
     Stations {
-        /// The name of one.
+        /// The name of a station of the study.
         station: String,
-        /// The names of the columns.
+        /// The names of the columns of the reference.
         known: String,
     },
 }
@@ -98,12 +98,12 @@ struct Known {
     trusted: f64,
 }
 
-/// What the observables of a study should be at its times.
+/// The reference of a study: what its observables should be at its times.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Truth {
-    /// Where it comes from, in a line.
+    /// The source of the reference, in a line.
     pub source: String,
-    /// Whether it is a run of our own, and no independent solution.
+    /// Whether the reference is a run of our own, and no independent solution.
     pub is_own: bool,
     /// None where it says nothing.
     known: Vec<Vec<Option<Known>>>,
@@ -187,7 +187,7 @@ fn known_of(sheet: &Sheet, row: usize, of: &Observable) -> Result<Option<Known>,
 }
 
 impl Truth {
-    /// An independent solution: a table with a column t and, for a station called A, xA, yA and thA; other columns bear the
+    /// The reference in a table of an independent solution: a column t and, for a station called A, xA, yA and thA; other columns bear the
     /// names of observables. Estimates of its own errors stand in columns d_xA, d_A or d_pos, d_thA or d_th, d_E, ….
     ///
     /// # Errors
@@ -216,7 +216,7 @@ impl Truth {
         }
     }
 
-    /// What a run of our own gave.
+    /// The reference that a run of our own gave.
     pub fn of_run(source: impl Into<String>, readings: &Readings) -> Self {
         let known = |value: &Vec2| {
             (value.x.is_finite() && value.y.is_finite())
@@ -226,7 +226,7 @@ impl Truth {
         Self { source: source.into(), is_own: true, known }
     }
 
-    /// Trusts each value no further than another run, a little coarser, agrees with it.
+    /// The same reference, each value trusted no further than another run, a little coarser, agrees with it.
     pub fn as_far_as(mut self, coarser: &Readings) -> Self {
         for (known, other) in self.known.iter_mut().zip(coarser) {
             for (known, other) in known.iter_mut().zip(other) {
@@ -237,12 +237,12 @@ impl Truth {
         self
     }
 
-    /// Whether it says something about an observable, by its index.
+    /// Whether the reference says something about an observable, by its index.
     pub fn knows(&self, observable: usize) -> bool {
         self.known.iter().any(|at| at.get(observable).is_some_and(Option::is_some))
     }
 
-    /// The largest deviation of an observable at the times; none where it says nothing of it.
+    /// The largest deviation of an observable from the reference at its times; none where the reference says nothing of it.
     pub fn deviation(&self, observable: usize, readings: &Readings) -> Option<Deviation> {
         let values = self.known.iter().filter_map(|at| (*at.get(observable)?)?.value.norm().into());
         let rounding = ROUNDING * values.fold(0.0, f64::max);
@@ -255,7 +255,7 @@ impl Truth {
         self.known.iter().zip(readings).filter_map(at).reduce(Deviation::worst)
     }
 
-    /// The largest deviation of all positions [length].
+    /// The largest deviation of all positions from the reference [length].
     pub fn of_positions(
         &self,
         observables: &[Observable],

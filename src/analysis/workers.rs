@@ -1,14 +1,13 @@
 //! Cases worked on by all cores at once.
 
-use std::any::Any;
 use std::ops::ControlFlow;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 use std::time::Duration;
 
 use super::Case;
+use crate::panics::caught;
 use crate::simulation::cores;
 
 /// How often it is asked whether to go on while no case ends.
@@ -52,7 +51,7 @@ pub fn on_all_cores<R: Send>(
                     }
                     let case = Case::from_bytes(bytes).ok_or("the case cannot be read again");
                     let result =
-                        case.map_err(str::to_owned).and_then(|case| guarded(|| work(&case)));
+                        case.map_err(str::to_owned).and_then(|case| caught(|| work(&case)));
                     if done.send((*number, result)).is_err() {
                         break;
                     }
@@ -76,7 +75,7 @@ pub fn on_all_cores<R: Send>(
     let waiting = portable.iter().enumerate().filter(|(_, bytes)| bytes.is_none());
     for (number, _) in waiting {
         pulse(None);
-        let result = guarded(|| work(&cases[number]));
+        let result = caught(|| work(&cases[number]));
         // What stopped the study may have stopped the case before anybody else was told.
         pulse(None);
         if is_stopped() {
@@ -86,17 +85,6 @@ pub fn on_all_cores<R: Send>(
         results[number] = Some(result);
     }
     results
-}
-
-/// What an action gives, or the message of its panic.
-fn guarded<R>(action: impl FnOnce() -> R) -> Result<R, String> {
-    catch_unwind(AssertUnwindSafe(action)).map_err(|panic| message(&*panic))
-}
-
-fn message(panic: &(dyn Any + Send)) -> String {
-    let text = panic.downcast_ref::<&str>().copied();
-    let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
-    text.unwrap_or("a panic without a message").to_owned()
 }
 
 #[cfg(test)]

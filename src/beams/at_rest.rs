@@ -8,23 +8,23 @@
 //!
 //! `K = Bᵀ C B + K_g`: added up, the large first part hides by its rounding what is soft in it.
 
-/// The rows of one span. They have an entry for each component of each of its control points, in that order.
+/// How one span of a beam resists small movements at rest: rows with an entry for each component (x, y, rotation) of each of its control points.
 #[derive(Debug, Clone, Default)]
 pub struct SpanAtRest {
-    /// The first of its control points.
+    /// The index of the first control point of the span.
     pub first: usize,
-    /// Row after row: a strain or curvature by movements [1/length; shear by rotation: -; curvature by rotation: 1/length].
+    /// The rows of the span, one after another: a strain or curvature by movements [1/length; shear by rotation: -; curvature by rotation: 1/length].
     pub strains: Vec<f64>,
-    /// The stiffness of each, times the length it stands for [force·length, force·length³].
+    /// The stiffness of each strain or curvature of the span, times the length it stands for [force·length, force·length³].
     pub stiffness: Vec<f64>,
-    /// `p` and `q`, pair after pair [force; force·length for rotations, -].
+    /// The pairs of rows `p` and `q` by which section forces resist turning, one after another [force; force·length for rotations, -].
     pub twists: Vec<f64>,
-    /// How much of the section force of each pair rounding may have made [-].
+    /// How much of the section force of each pair of rows rounding may have made [-].
     pub doubts: Vec<f64>,
 }
 
 impl SpanAtRest {
-    /// Begins with the rows of another span.
+    /// Begins with the rows of another span, whose first control point is `first`.
     pub(super) fn begin(&mut self, first: usize) {
         self.first = first;
         self.strains.clear();
@@ -33,13 +33,13 @@ impl SpanAtRest {
         self.doubts.clear();
     }
 
-    /// Adds a row: for each control point by x, y and rotation.
+    /// Adds a row of a strain or curvature: its derivative by x, y and rotation of each control point of the span.
     pub(super) fn add_strain<const N: usize>(&mut self, stiffness: f64, row: [[f64; 3]; N]) {
         self.strains.extend(row.as_flattened());
         self.stiffness.push(stiffness);
     }
 
-    /// Adds a pair of rows.
+    /// Adds a pair of rows, `p` and `q`, by which a section force resists turning.
     pub(super) fn add_twist<const N: usize>(
         &mut self,
         doubt: f64,

@@ -2,10 +2,10 @@
 
 #[derive(Debug, Clone)]
 pub(super) struct AxisPoint<const N: usize> {
-    /// Basis functions.
+    /// The values of the basis functions at this point of the axis [-], one for each control point of the span.
     pub(super) shape: [f64; N],
-    /// Their derivatives by arc length [1/length].
+    /// The derivatives of the basis functions by the arc length of the axis [1/length], one for each control point of the span.
     pub(super) slope: [f64; N],
-    /// Weight of the quadrature, as a length.
+    /// The weight of this point in integrals along the axis [length].
     pub(super) weight: f64,
 }

@@ -164,7 +164,7 @@ impl<const N: usize> DiscreteBeam<N> {
     }
 }
 
-/// Moves a point, and keeps what rounding cuts off for the next time (compensated summation, Kahan 1965).
+/// Moves a point by x and y [length], and keeps in `remainder` what rounding cuts off for the next time (compensated summation, Kahan 1965).
 pub(super) fn move_compensated(point: &mut Vec2, remainder: &mut Vec2, [x, y, _]: &Movement) {
     let wanted = Vec2::new(*x, *y) + *remainder;
     let reached = *point + wanted;
@@ -348,19 +348,7 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
     }
 
     fn section_forces(&self, place: &SectionPlace) -> SectionForces {
-        let (mut normal, mut force, mut moment) = (Vec2::zeros(), Vec2::zeros(), 0.0);
-        for share in &place.force_shares {
-            let point = &self.spans[share.span].force_points[share.point];
-            let (at_point, couple) = point.transmitted(&self.section);
-            normal += point.normal() * share.of_normal;
-            force += at_point * share.of_force;
-            moment += couple * share.of_couple;
-        }
-        for share in &place.moment_shares {
-            let point = &self.spans[share.span].moment_points[share.point];
-            moment += point.transmitted(&self.section) * share.of_moment;
-        }
-        SectionForces::of(&self.section, normal, force, moment)
+        place.sum_up(&self.section, &self.spans)
     }
 
     fn lumped_lengths(&self) -> Vec<f64> {

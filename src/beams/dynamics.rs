@@ -6,36 +6,36 @@ use super::at_rest::SpanAtRest;
 use super::{RotationIncrement, Section, SectionForces, SectionPlace};
 use crate::geometry::{Vec2, larger};
 
-/// Components of a control point: x, y and rotation.
+/// The movement of a control point, its rate, or the force on it: the components x, y and rotation [length, length, rad].
 pub type Movement = [f64; 3];
 
-/// Where between start (0) and end (1) of a step forces are taken.
+/// Where between start (0) and end (1) of a step internal forces are taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Collocation {
-    /// `τ`: the configuration is `(1-τ)(x0, Λ0) + τ (x1, Λ1)`.
+    /// The share `τ` of the step at which the configuration is taken: `(1-τ)(x0, Λ0) + τ (x1, Λ1)` [-].
     pub configuration: f64,
-    /// `σ`: the section forces are those of the strain `(1-σ) Γ0 + σ Γ1`.
+    /// The share `σ` of the step whose strain the section forces belong to: `(1-σ) Γ0 + σ Γ1` [-].
     pub stress: f64,
-    /// What rotation increments stand for.
+    /// What rotation increments of the step stand for.
     pub rotations: RotationIncrement,
 }
 
-/// What was met while forces were added up.
+/// The largest mismatch, forces and rotation that were met while the internal forces of a body were added up.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ForceSummary {
-    /// Largest difference between the strain of a section force and that of the configuration; of curvatures, times the length
+    /// The largest difference between the strain of a section force and that of the configuration; of curvatures, times the length
     /// they stand for [-].
     pub strain_mismatch: f64,
-    /// Largest section force [force].
+    /// The largest section force that was met [force].
     pub force: f64,
-    /// Largest moment, and section force times the length it stands for [force·length].
+    /// The largest moment, or section force times the length it stands for, that was met [force·length].
     pub moment: f64,
-    /// Largest rotation increment `|Δω|` [rad].
+    /// The largest rotation increment `|Δω|` of a section that was met [rad].
     pub rotation: f64,
 }
 
 impl ForceSummary {
-    /// The larger of both, entry by entry.
+    /// Takes the larger of both summaries, entry by entry.
     pub fn join(&mut self, other: &Self) {
         self.strain_mismatch = larger(self.strain_mismatch, other.strain_mismatch);
         self.force = larger(self.force, other.force);
@@ -51,26 +51,26 @@ pub type BlockSink<'a> = &'a mut (dyn FnMut(usize, &[f64]) + Send);
 ///
 /// Movements, rates and forces are indexed by control point.
 pub trait BodyDynamics: Sync {
-    /// The number of functions that are non-zero on a span, degree + 1.
+    /// The number of basis functions that are not zero on a span of this body, degree + 1.
     fn order(&self) -> usize;
 
-    /// The first control point of each span.
+    /// The index of the first control point of each span of this body.
     fn span_starts(&self) -> Vec<usize>;
 
-    /// From here on works in at most so many parts at once, in as many as pay, with the same results; the first control
-    /// point of each part but the first.
+    /// Lets the body work in at most so many parts at once from here on, in as many as pay, with the same results. Gives the first
+    /// control point of each part but the first.
     fn divide(&mut self, most: usize) -> Vec<usize>;
 
-    /// Control points at the start of the step [length].
+    /// The places of the control points of this body at the start of the step [length].
     fn control_points(&self) -> &[Vec2];
 
-    /// What rounding has cut off the control points so far [length].
+    /// What rounding has cut off the places of the control points of this body so far [length].
     fn remainders(&self) -> &[Vec2];
 
-    /// Sets the section forces to those of the last step.
+    /// Begins a step with the section forces of the last one.
     fn begin_step(&mut self);
 
-    /// Adds `weight` times the internal forces with the section forces as they are.
+    /// Adds `weight` times the internal forces of this body, with the section forces as they are, to the forces on its control points.
     fn add_forces(
         &mut self,
         at: Collocation,
@@ -79,7 +79,7 @@ pub trait BodyDynamics: Sync {
         forces: &mut [Movement],
     ) -> ForceSummary;
 
-    /// Adds `weight` times the condensed internal forces, and gives `weight` times their derivative, span by span, to the
+    /// Adds `weight` times the condensed internal forces of this body, and gives `weight` times their derivative, span by span, to the
     /// sink of the part.
     ///
     /// The sink of the part behind a cut gets spans astride the cut before its own, that of the part before it after its own;
@@ -97,17 +97,17 @@ pub trait BodyDynamics: Sync {
     /// of the last linearisation.
     fn add_mismatch_forces(&mut self, weight: f64, forces: &mut [Movement]);
 
-    /// Updates the section forces for a correction of the movements of the last linearisation.
+    /// Updates the section forces of this body for a correction of the movements of the last linearisation.
     fn correct_section_forces(&mut self, correction: &[Movement]);
 
-    /// Accepts the movements: the end of the step becomes the start of the next.
+    /// Accepts the movements of a step: its end becomes the start of the next.
     fn advance(&mut self, moved: &[Movement], rotations: RotationIncrement);
 
-    /// Adds `factor · M · rates`.
+    /// Adds `factor · M · rates` to the forces on the control points, with the inertia `M` of this body.
     fn add_inertia(&self, factor: f64, rates: &[Movement], forces: &mut [Movement]);
 
-    /// Gives the rows of some control points in `factor · M` to `tangent`: control point of the row, of the column, and the
-    /// three diagonal entries.
+    /// Gives the rows of some control points in `factor · M`, the inertia of this body, to `tangent`: control point of the row, of the
+    /// column, and the three diagonal entries.
     fn add_inertia_tangent(
         &self,
         factor: f64,
@@ -115,16 +115,16 @@ pub trait BodyDynamics: Sync {
         tangent: &mut dyn FnMut(usize, usize, Movement),
     );
 
-    /// Gives span by span how it resists small movements of its control points at the start of the step, as at rest there.
+    /// Gives, span by span, how this body resists small movements of its control points at the start of the step, as at rest there.
     fn each_span_at_rest(&self, take: &mut dyn FnMut(&SpanAtRest));
 
-    /// The section and the length of the axis as drawn [length]; none for what has no extent.
+    /// The section of a beam and the length of its axis as drawn [length]; none for a body without extent.
     fn extent(&self) -> Option<(&Section, f64)>;
 
-    /// Appends the normal of each section at which strains are taken, at the start of the step [-].
+    /// Appends the normal [-], in space, of each section at which strains are taken, at the start of the step.
     fn write_normals(&self, normals: &mut Vec<Vec2>);
 
-    /// The strain energy at the start of the step [energy].
+    /// The strain energy of this body at the start of the step [energy].
     fn strain_energy(&self) -> f64;
 
     /// That of stretching, of shear and of bending [energy].
@@ -133,12 +133,12 @@ pub trait BodyDynamics: Sync {
     /// Section forces and strains at a place, at the start of the step; zero where nothing is strained.
     fn section_forces(&self, place: &SectionPlace) -> SectionForces;
 
-    /// `∫ N_a dX` for every control point [length].
+    /// The length `∫ N_a dX` that belongs to every control point of this body [length].
     fn lumped_lengths(&self) -> Vec<f64>;
 
-    /// Appends the state at the start of a step.
+    /// Appends the state of this body at the start of a step to `state`.
     fn save(&self, state: &mut Vec<f64>);
 
-    /// Takes the state back, in the order in which it was appended.
+    /// Takes the state of this body back, in the order in which it was appended.
     fn restore(&mut self, next: &mut dyn FnMut() -> f64);
 }

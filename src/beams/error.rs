@@ -5,24 +5,24 @@ use crate::geometry::GeometryError;
 /// A section, mesh or beam that cannot be built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BeamError {
-    /// A property of a section is not positive and finite.
+    /// A property of a section that is not positive and finite.
     #[error(
         "section: {name} is {value}, but must be a positive finite number [{dimension}]{advice}"
     )]
     SectionValue {
-        /// The property.
+        /// The name of the refused property of a section.
         name: &'static str,
-        /// Its value.
+        /// The value of the refused property, in its dimension.
         value: f64,
-        /// Its dimension.
+        /// The dimension of the refused property, in words such as `force`.
         dimension: &'static str,
-        /// What to do, when there is more to say.
+        /// What to do about the refused property, when there is more to say.
         advice: &'static str,
     },
-    /// Poisson's ratio out of range.
+    /// Poisson's ratio of a material is out of range.
     #[error("section: nu is {value}, but Poisson's ratio must lie in (-1, 0.5]")]
     PoissonRatio {
-        /// Its value.
+        /// The value given for Poisson's ratio [-].
         value: f64,
     },
     /// A tube whose hole is not smaller than itself.
@@ -30,42 +30,40 @@ pub enum BeamError {
         "section: the inner radius {inner} of a tube must be smaller than the outer radius {outer}"
     )]
     Tube {
-        /// Inner radius.
+        /// The inner radius given for a tube [length].
         inner: f64,
-        /// Outer radius.
+        /// The outer radius given for a tube [length].
         outer: f64,
     },
     /// A quadrature with too few or too many points.
-    #[error(
-        "quadrature: {points} points a span, but allowed are 1 to {most} for degree {degree}, or \"patch\""
-    )]
+    #[error("quadrature: {points} points a span, but allowed are 1 to {most} for degree {degree}")]
     Quadrature {
-        /// Points asked for.
+        /// The number of quadrature points asked for.
         points: usize,
-        /// Most that make sense.
+        /// The largest number of quadrature points that makes sense.
         most: usize,
-        /// Degree of the basis.
+        /// The polynomial degree of the basis whose quadrature was asked for.
         degree: usize,
     },
-    /// Spans for whose lengths there is no patch rule.
+    /// Spans of a mesh that differ so much in length that there is no patch rule.
     #[error(
         "the longest span of a smooth piece of the mesh is {ratio:.1e} times as long as the shortest: strain points that neither lock nor leave modes \
          without energy cannot be found in rounded numbers; grade the spans more gently, or make the basis C0 between long and short ones \
          (repeat the knot as often as the degree says)"
     )]
     UnevenSpans {
-        /// Length of the longest over that of the shortest.
+        /// The length of the longest span over that of the shortest [-].
         ratio: f64,
     },
-    /// The geometry cannot be represented.
+    /// The axis or the mesh of a beam cannot be represented.
     #[error(transparent)]
     Geometry(#[from] GeometryError),
-    /// The axis has a point without a direction.
+    /// The axis of a beam has a point without a tangent.
     #[error(
         "the axis has no tangent at parameter {parameter}: its derivative vanishes there; use more spans or elements, or move the control points apart"
     )]
     NoTangent {
-        /// Where.
+        /// The parameter of the axis at which there is no tangent [-].
         parameter: f64,
     },
 }

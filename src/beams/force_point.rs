@@ -59,7 +59,7 @@ struct Configuration {
 }
 
 impl<const N: usize> ForcePoint<N> {
-    /// A point of the undeformed axis, and its unit tangent there.
+    /// A quadrature point for axial and shear strain at a point of the undeformed axis, with its unit tangent there.
     pub(super) fn new((axis, tangent): (AxisPoint<N>, Vec2)) -> Self {
         let rotation = Rotation { cos: tangent.x, sin: tangent.y };
         let undeformed = Configuration {
@@ -211,7 +211,7 @@ impl<const N: usize> ForcePoint<N> {
         self.linearised_at = now;
     }
 
-    /// The forces `C m` of the mismatch `m`, in the directions of the last linearisation.
+    /// Adds the forces `C m` of the strain mismatch `m` at this point, in the directions of the last linearisation.
     #[inline]
     pub(super) fn add_mismatch_forces(
         &self,
@@ -224,7 +224,7 @@ impl<const N: usize> ForcePoint<N> {
         self.distribute(weight, collocated_gradient, force, forces);
     }
 
-    /// `N ← N + C (m + σ δΓ1)`, `δΓ1 = Λ1ᵀ δg - J (Γ1 + e1) δω/q`.
+    /// Corrects the section force at this point: `N ← N + C (m + σ δΓ1)`, `δΓ1 = Λ1ᵀ δg - J (Γ1 + e1) δω/q`.
     #[inline]
     pub(super) fn correct_section_force(&mut self, section: &Section, correction: &[Movement; N]) {
         let (gradient, rotation) = self.interpolate(correction);
@@ -234,7 +234,7 @@ impl<const N: usize> ForcePoint<N> {
         self.force += force_of(section, self.mismatch + change * stress);
     }
 
-    /// Adds the rows of axial and shear strain at rest, and those of the section force if there is one.
+    /// Adds the rows of axial and shear strain at rest at this point, and those of the section force if there is one.
     pub(super) fn write_at_rest(&self, section: &Section, span: &mut SpanAtRest) {
         let w = self.axis.weight;
         let row = |by_gradient: Vec2, by_rotation: f64| -> [[f64; 3]; N] {
@@ -293,7 +293,7 @@ impl<const N: usize> ForcePoint<N> {
         0.5 * self.axis.weight * self.strain.dot(&force_of(section, self.strain))
     }
 
-    /// The normal of the section at the start of the step, in space.
+    /// The normal [-] of the section at this point, in space, at the start of the step.
     pub(super) fn normal(&self) -> Vec2 {
         Vec2::new(self.rotation.cos, self.rotation.sin)
     }

@@ -7,18 +7,18 @@ use crate::geometry::{
     Basis, GaussRule, GeometryError, KnotVector, LagrangeBasis, RunRule, Span, patch_rule,
 };
 
-/// Where axial and shear strain are sampled.
+/// A rule for where axial and shear strain of a beam are sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Quadrature {
     /// The patch rule: on each piece of the mesh that is smooth, one point for each derivative of a function, at the Gauss points of these
     /// splines ([`patch_rule`]). That neither locks nor leaves zero-energy modes, and passes the patch test.
     #[default]
     Patch,
-    /// The same number of Gauss points in every span: too many lock, too few leave modes without energy.
+    /// Every span has the same number of Gauss points: too many lock, too few leave modes without energy.
     Points(usize),
 }
 
-/// A basis with its quadrature.
+/// How a beam is discretised: a basis with its quadrature.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "(Basis, Quadrature)")]
 pub struct Mesh {
@@ -26,18 +26,18 @@ pub struct Mesh {
     quadrature: Quadrature,
 }
 
-/// The numbers of quadrature points of a beam.
+/// The numbers of quadrature points of a whole beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PointCounts {
-    /// For axial and shear strain `Γ`, each with a section force as an unknown that is condensed there.
+    /// The number of points for axial and shear strain `Γ`, each with a section force as an unknown that is condensed there.
     pub force: usize,
-    /// For the bending strain `κ`.
+    /// The number of points for the bending strain `κ`.
     pub moment: usize,
-    /// For the mass matrix, which is integrated once.
+    /// The number of points for the mass matrix, which is integrated once.
     pub inertia: usize,
 }
 
-/// A span with its points for `Γ`, `∫ f dξ ≈ Σ weight · f(point)`, and the number of those for `κ`.
+/// A span with its points for the strain `Γ`, `∫ f dξ ≈ Σ weight · f(point)`, and the number of those for the curvature `κ`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct QuadratureSpan {
     pub(super) span: Span,
@@ -62,7 +62,7 @@ impl TryFrom<(Basis, Quadrature)> for Mesh {
 }
 
 impl Mesh {
-    /// B-splines: `spans` equal spans, C^`continuity` where they meet.
+    /// A mesh of B-splines with the patch rule: `spans` equal spans, C^`continuity` where they meet.
     ///
     /// # Errors
     /// When the numbers make no knot vector.
@@ -70,7 +70,7 @@ impl Mesh {
         Ok(Self::new(Basis::BSpline(KnotVector::uniform(spans, degree, continuity)?)))
     }
 
-    /// Lagrange elements of degree 1 to 3.
+    /// A mesh of equal Lagrange elements of degree 1 to 3, with the patch rule.
     ///
     /// # Errors
     /// When degree or number of elements is out of range.
@@ -78,12 +78,12 @@ impl Mesh {
         Ok(Self::new(Basis::Lagrange(LagrangeBasis::uniform(elements, degree)?)))
     }
 
-    /// Any basis, with the patch rule.
+    /// A mesh of any basis, with the patch rule.
     pub fn new(basis: Basis) -> Self {
         Self { basis, quadrature: Quadrature::Patch }
     }
 
-    /// The same basis with another quadrature for axial and shear strain.
+    /// The mesh of the same basis with another quadrature for axial and shear strain.
     ///
     /// # Errors
     /// When the number of points is zero or far above what the degree can use.
@@ -97,7 +97,7 @@ impl Mesh {
         }
     }
 
-    /// The same mesh, only C⁰ at the given places of the domain.
+    /// The same mesh, only C⁰ at the given parameters [-] of the domain.
     ///
     /// # Errors
     /// When a place lies outside the domain.
@@ -107,22 +107,22 @@ impl Mesh {
         Ok(Self { basis: broken, quadrature: self.quadrature })
     }
 
-    /// The basis.
+    /// The basis of the mesh.
     pub fn basis(&self) -> &Basis {
         &self.basis
     }
 
-    /// The rule for axial and shear strain.
+    /// The quadrature of the mesh for axial and shear strain.
     pub fn quadrature(&self) -> Quadrature {
         self.quadrature
     }
 
-    /// The number of spans or elements.
+    /// The number of spans or elements of the mesh.
     pub fn spans(&self) -> usize {
         self.basis.spans().len()
     }
 
-    /// In words: `cubic B-splines C², 14 spans`.
+    /// The mesh in words, such as `cubic B-splines C², 14 spans`.
     pub fn describe(&self) -> String {
         let degree = match self.basis.degree() {
             1 => "linear".to_owned(),
@@ -154,7 +154,7 @@ impl Mesh {
         }
     }
 
-    /// How many quadrature points all spans have together.
+    /// The numbers of quadrature points that all spans of the mesh have together.
     pub fn point_counts(&self) -> PointCounts {
         let runs = self.runs();
         let force = |run: &Vec<Span>| match self.quadrature {
@@ -180,7 +180,7 @@ impl Mesh {
         self.point_counts().force as isize - wanted as isize
     }
 
-    /// The spans with their quadrature points for `Γ` and `κ`.
+    /// The spans of the mesh with their quadrature points for `Γ` and `κ`.
     ///
     /// # Errors
     /// When the spans of a smooth piece differ so much in length that it has no patch rule.
@@ -236,7 +236,7 @@ impl Mesh {
         if run.len() > 1 && is_fully_smooth { (degree - 1).max(2) } else { degree }
     }
 
-    /// The Gauss rule that integrates the inertia of a span exactly when it is straight.
+    /// The Gauss rule that integrates the inertia of a span of the mesh exactly when it is straight.
     pub(super) fn inertia_rule(&self) -> Result<GaussRule, GeometryError> {
         GaussRule::new(self.points_of_inertia())
     }

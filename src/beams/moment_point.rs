@@ -54,7 +54,7 @@ impl Bend {
 }
 
 impl<const N: usize> MomentPoint<N> {
-    /// A point of the undeformed axis.
+    /// A quadrature point for the curvature at a point of the undeformed axis.
     pub(super) fn new(axis: AxisPoint<N>) -> Self {
         Self {
             axis,
@@ -159,7 +159,7 @@ impl<const N: usize> MomentPoint<N> {
         self.linearised_at = now;
     }
 
-    /// The moments `EI m` of the mismatch `m`, in the directions of the last linearisation.
+    /// Adds the moments `EI m` of the curvature mismatch `m` at this point, in the directions of the last linearisation.
     #[inline]
     pub(super) fn add_mismatch_forces(
         &self,
@@ -171,7 +171,7 @@ impl<const N: usize> MomentPoint<N> {
         self.distribute(weight * self.axis.weight * moment, forces);
     }
 
-    /// `M ← M + EI (m + σ δκ1)`
+    /// Corrects the moment at this point for a correction of the movements: `M ← M + EI (m + σ δκ1)`.
     #[inline]
     pub(super) fn correct_moment(&mut self, section: &Section, correction: &[Movement; N]) {
         let (slope, rotation) = self.interpolate(correction);
@@ -180,7 +180,7 @@ impl<const N: usize> MomentPoint<N> {
         self.moment += section.bending_stiffness * (self.mismatch + change);
     }
 
-    /// Adds the row of the curvature at rest.
+    /// Adds the row of the curvature at rest at this point.
     pub(super) fn write_at_rest(&self, section: &Section, span: &mut SpanAtRest) {
         let row: [[f64; 3]; N] = std::array::from_fn(|a| [0.0, 0.0, self.axis.slope[a]]);
         span.add_strain(self.axis.weight * section.bending_stiffness, row);

@@ -8,7 +8,7 @@ use super::dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Moveme
 use super::{RotationIncrement, Section, SectionForces, SectionPlace};
 use crate::geometry::Vec2;
 
-/// A point that moves by itself.
+/// A particle: a body of one control point, without extent and elasticity.
 #[derive(Debug, Clone)]
 pub struct Particle {
     position: [Vec2; 1],

@@ -11,7 +11,7 @@ use std::thread;
 use super::dynamics::Movement;
 use super::span_points::{SpanPoints, window, window_mut};
 
-/// Most parts of a beam: a few cores use up the bandwidth of the memory.
+/// The largest number of parts of a beam that are worked on at once: a few cores use up the bandwidth of the memory.
 pub(super) const MOST_PARTS: usize = 8;
 
 /// Fewest spans of a part: with half of it the gain of a step is lost in the noise of starting threads (docs/studies.md).
@@ -26,7 +26,7 @@ struct Cut {
     astride: Range<usize>,
 }
 
-/// How a beam is cut.
+/// How the spans of a beam are cut into parts, on which threads work at once.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Parts {
     cuts: Vec<Cut>,
@@ -54,7 +54,7 @@ pub fn at_once<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + S
 }
 
 impl Parts {
-    /// At most so many parts, as large as is worth a thread.
+    /// The cut of some spans into at most so many parts, each as large as is worth a thread.
     pub(super) fn worthwhile<const N: usize>(spans: &[SpanPoints<N>], most: usize) -> Self {
         Self::new(spans, most.min(MOST_PARTS).min(spans.len() / SMALLEST_PART))
     }
@@ -74,12 +74,12 @@ impl Parts {
         self.cuts.len() + 1
     }
 
-    /// The first control point of each part but the first.
+    /// The index of the first control point of each part of the beam but the first.
     pub(super) fn first_points(&self) -> Vec<usize> {
         self.cuts.iter().map(|cut| cut.point).collect()
     }
 
-    /// Works on spans that give nothing to each other.
+    /// Works on all spans of a beam, parts at once, where spans give nothing to each other.
     pub(super) fn each<const N: usize>(
         &self,
         spans: &mut [SpanPoints<N>],
@@ -92,7 +92,7 @@ impl Parts {
         at_once(spans.chunks_mut(most), |part| part.iter_mut().for_each(&work));
     }
 
-    /// Works on the sums of the control points of each part.
+    /// Works on the sums of the control points of each part of a beam, parts at once.
     pub(super) fn each_point(
         &self,
         sums: &mut [Movement],
@@ -112,7 +112,7 @@ impl Parts {
         at_once(parts, |(points, sums)| work(points, sums));
     }
 
-    /// Adds up what spans give to control points.
+    /// Adds up what the spans of a beam give to control points, parts at once.
     ///
     /// `work` is called with what a part has for itself, some spans, the first control point of some sums, and these. Of
     /// spans astride a cut it is called twice, and must do the same both times.

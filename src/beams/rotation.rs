@@ -3,26 +3,26 @@
 use crate::elementary::{atan, sin_cos};
 use crate::geometry::Vec2;
 
-/// What an interpolated rotation increment `Δω` stands for.
+/// What an interpolated rotation increment `Δω` stands for: which angle `Δθ` a section turns by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RotationIncrement {
-    /// `Δθ = 2 atan(Δω/2)`: then `Λ1 - Λ0 = Δω J (Λ0 + Λ1)/2`, on which conservation rests.
+    /// The increment is the scaled tangent of the angle, `Δθ = 2 atan(Δω/2)`: then `Λ1 - Λ0 = Δω J (Λ0 + Λ1)/2`, on which conservation rests.
     TangentScaled,
-    /// `Δθ = Δω`
+    /// The increment is the angle itself: `Δθ = Δω`.
     Angle,
 }
 
-/// A rotation increment `Δθ(Δω)`, taken apart.
+/// The rotation by the angle `Δθ(Δω)` of an increment, with its derivative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Turn {
     cos: f64,
     sin: f64,
-    /// `dΔθ/dΔω`
+    /// The derivative `dΔθ/dΔω` of the angle by the increment [-].
     pub(super) rate: f64,
 }
 
 impl RotationIncrement {
-    /// The rotation that an increment stands for.
+    /// The rotation that an increment `Δω` stands for.
     #[inline]
     pub(super) fn turn(self, increment: f64) -> Turn {
         match self {
@@ -38,9 +38,9 @@ impl RotationIncrement {
         }
     }
 
-    /// `dΔθ/dΔω` and `d²Δθ/dΔω²`, for which no angle needs its sine.
+    /// The first two derivatives of the angle by the increment, `dΔθ/dΔω` and `d²Δθ/dΔω²`, for which no angle needs its sine.
     #[inline]
-    pub(super) fn rates(self, increment: f64) -> (f64, f64) {
+    pub fn rates(self, increment: f64) -> (f64, f64) {
         match self {
             Self::TangentScaled => {
                 let half = 0.5 * increment;
@@ -51,7 +51,7 @@ impl RotationIncrement {
         }
     }
 
-    /// `Δθ` [rad]
+    /// The angle `Δθ` that an increment `Δω` stands for [rad].
     pub fn angle(self, increment: f64) -> f64 {
         match self {
             Self::TangentScaled => 2.0 * atan(0.5 * increment),
@@ -59,18 +59,18 @@ impl RotationIncrement {
         }
     }
 
-    /// `dΔθ/dΔω`
+    /// The derivative `dΔθ/dΔω` of the angle by the increment [-].
     pub fn rate(self, increment: f64) -> f64 {
         self.rates(increment).0
     }
 }
 
-/// `Λ = [[c, -s], [s, c]]`, from the section frame to space; a mean of two rotations is not itself one.
+/// The rotation `Λ = [[c, -s], [s, c]]` from the section frame to space; a mean of two rotations is not itself one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rotation {
-    /// `c`
+    /// The cosine `c` of the angle of the rotation, or a mean of such.
     pub cos: f64,
-    /// `s`
+    /// The sine `s` of the angle of the rotation, or a mean of such.
     pub sin: f64,
 }
 
@@ -81,12 +81,12 @@ impl Rotation {
         Self { cos, sin }
     }
 
-    /// `Λ` times the rotation that an increment stands for.
+    /// This rotation followed by the one that an increment stands for.
     pub fn turned(self, kind: RotationIncrement, increment: f64) -> Self {
         self.times(&kind.turn(increment))
     }
 
-    /// `Λ` times a turn.
+    /// The product of this rotation with a turn.
     #[inline]
     pub(super) fn times(self, turn: &Turn) -> Self {
         Self {
@@ -102,7 +102,7 @@ impl Rotation {
         Self { cos: self.cos * correction, sin: self.sin * correction }
     }
 
-    /// `(1 - t) Λ + t Λ'`
+    /// The mixture `(1 - t) Λ + t Λ'` of this rotation and another.
     #[inline]
     pub fn mixed(self, other: Self, t: f64) -> Self {
         Self {
@@ -111,13 +111,13 @@ impl Rotation {
         }
     }
 
-    /// `Λ a`
+    /// The vector `Λ a`: `a` of the section frame, in space.
     #[inline]
     pub fn to_space(self, a: Vec2) -> Vec2 {
         Vec2::new(self.cos * a.x - self.sin * a.y, self.sin * a.x + self.cos * a.y)
     }
 
-    /// `Λᵀ a`
+    /// The vector `Λᵀ a`: `a` of space, in the section frame.
     #[inline]
     pub fn to_section(self, a: Vec2) -> Vec2 {
         Vec2::new(self.cos * a.x + self.sin * a.y, self.cos * a.y - self.sin * a.x)

@@ -7,55 +7,55 @@ use std::f64::consts::PI;
 use super::BeamError;
 use crate::elementary::{square, whole_power};
 
-/// A linear elastic, homogeneous cross section.
+/// The stiffnesses and inertias of a linear elastic, homogeneous cross section.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Section {
-    /// Axial stiffness `EA` [force].
+    /// Axial stiffness `EA` of the section [force].
     pub axial_stiffness: f64,
-    /// Shear stiffness `GA`, its correction factor included [force].
+    /// Shear stiffness `GA` of the section, its correction factor included [force].
     pub shear_stiffness: f64,
-    /// Bending stiffness `EI` [force·length²].
+    /// Bending stiffness `EI` of the section [force·length²].
     pub bending_stiffness: f64,
-    /// Mass per length `ρA` [mass/length].
+    /// Mass per length `ρA` of the beam [mass/length].
     pub mass_per_length: f64,
-    /// Rotary inertia per length `ρI` [mass·length].
+    /// Rotary inertia per length `ρI` of the beam [mass·length].
     pub rotary_inertia: f64,
 }
 
 /// The outline of a cross section; bending is about the horizontal centroidal axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shape {
-    /// A solid rectangle.
+    /// The cross section is a solid rectangle.
     Rectangle {
-        /// Out of the plane of motion [length].
+        /// The width of the rectangle, out of the plane of motion [length].
         width: f64,
-        /// In the plane of motion [length].
+        /// The height of the rectangle, in the plane of motion [length].
         height: f64,
     },
-    /// A solid circle.
+    /// The cross section is a solid circle.
     Circle {
-        /// [length]
+        /// The radius of the solid circle [length].
         radius: f64,
     },
-    /// A circular tube.
+    /// The cross section is a circular tube.
     Tube {
-        /// [length]
+        /// The outer radius of the tube [length].
         outer: f64,
-        /// [length]
+        /// The inner radius of the tube [length].
         inner: f64,
     },
 }
 
-/// A homogeneous isotropic material in a shape.
+/// A cross section as a homogeneous isotropic material in a shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Solid {
-    /// Young's modulus [force/length²].
+    /// Young's modulus of the material [force/length²].
     pub young: f64,
-    /// Poisson's ratio [-].
+    /// Poisson's ratio of the material [-].
     pub poisson: f64,
-    /// [mass/length³]
+    /// The density of the material [mass/length³].
     pub density: f64,
-    /// The outline.
+    /// The outline of the cross section.
     pub shape: Shape,
 }
 
@@ -70,7 +70,7 @@ impl Section {
         (self.shear_stiffness / self.mass_per_length).sqrt()
     }
 
-    /// Checks that every property is positive and finite, and hands the section on.
+    /// Checks that every property of the section is positive and finite, and hands the section on.
     ///
     /// # Errors
     /// Names the first property that is not.
@@ -141,7 +141,7 @@ impl Section {
 }
 
 impl Shape {
-    /// Its area `A` [length²].
+    /// The area `A` of the cross section [length²].
     pub fn area(&self) -> f64 {
         match *self {
             Self::Rectangle { width, height } => width * height,
@@ -150,7 +150,7 @@ impl Shape {
         }
     }
 
-    /// Its second moment of area `I` about the horizontal centroidal axis [length⁴].
+    /// The second moment of area `I` of the cross section about the horizontal centroidal axis [length⁴].
     pub fn second_moment(&self) -> f64 {
         match *self {
             Self::Rectangle { width, height } => width * whole_power(height, 3) / 12.0,
@@ -161,7 +161,7 @@ impl Shape {
         }
     }
 
-    /// Cowper's shear correction factor (1966, table 1) [-].
+    /// Cowper's shear correction factor of the cross section (1966, table 1) [-].
     pub fn shear_correction(&self, poisson: f64) -> f64 {
         let nu = poisson;
         match *self {

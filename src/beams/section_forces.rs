@@ -19,6 +19,7 @@
 //! `T` they are weighted sums over the points, whose weights fall off within a few spans. Runs know nothing of each
 //! other: where they meet, at a joint or a node of Lagrange elements, both have a value.
 
+use super::span_points::SpanPoints;
 use super::{BeamError, Mesh, Section};
 use crate::geometry::{LowerSplines, Reproduction, Span, Vec2, cross, larger};
 
@@ -65,6 +66,29 @@ impl SectionForces {
 pub struct SectionPlace {
     pub(super) force_shares: Vec<ForceShare>,
     pub(super) moment_shares: Vec<MomentShare>,
+}
+
+impl SectionPlace {
+    /// What the quadrature points of the spans of a beam add up to here.
+    pub(super) fn sum_up<const N: usize>(
+        &self,
+        section: &Section,
+        spans: &[SpanPoints<N>],
+    ) -> SectionForces {
+        let (mut normal, mut force, mut moment) = (Vec2::zeros(), Vec2::zeros(), 0.0);
+        for share in &self.force_shares {
+            let point = &spans[share.span].force_points[share.point];
+            let (at_point, couple) = point.transmitted(section);
+            normal += point.normal() * share.of_normal;
+            force += at_point * share.of_force;
+            moment += couple * share.of_couple;
+        }
+        for share in &self.moment_shares {
+            let point = &spans[share.span].moment_points[share.point];
+            moment += point.transmitted(section) * share.of_moment;
+        }
+        SectionForces::of(section, normal, force, moment)
+    }
 }
 
 /// The part of a point for `Γ`.

@@ -9,10 +9,10 @@ use super::force_point::ForcePoint;
 use super::moment_point::MomentPoint;
 use super::{RotationIncrement, Section};
 
-/// A span on which `N` functions of the basis are non-zero.
+/// The quadrature points of a span on which `N` functions of the basis are not zero.
 #[derive(Debug, Clone)]
 pub(super) struct SpanPoints<const N: usize> {
-    /// The first of its control points.
+    /// The index of the first control point of the span.
     pub(super) first: usize,
     pub(super) force_points: Vec<ForcePoint<N>>,
     pub(super) moment_points: Vec<MomentPoint<N>>,
@@ -37,7 +37,7 @@ pub(super) fn window_mut<const N: usize>(
 }
 
 impl<const N: usize> SpanPoints<N> {
-    /// Adds its part to the forces on its control points; `moved` are the movements of all.
+    /// Adds the forces of this span on its control points; `moved` are the movements of all control points of the beam.
     #[inline]
     pub(super) fn add_forces(
         &mut self,
@@ -57,7 +57,7 @@ impl<const N: usize> SpanPoints<N> {
         }
     }
 
-    /// Adds its part to the condensed forces on its control points, and to the block of their derivatives.
+    /// Adds the condensed forces of this span on its control points, and their derivatives to the block.
     #[inline(always)]
     pub(super) fn add_linearised_forces<S: Simd>(
         &mut self,
@@ -77,7 +77,7 @@ impl<const N: usize> SpanPoints<N> {
         }
     }
 
-    /// Adds its part to the forces that would close the strain mismatch.
+    /// Adds the forces that would close the strain mismatch in this span.
     #[inline]
     pub(super) fn add_mismatch_forces(
         &self,
@@ -93,7 +93,7 @@ impl<const N: usize> SpanPoints<N> {
             .for_each(|point| point.add_mismatch_forces(section, weight, forces));
     }
 
-    /// Updates its section forces for a correction of the movements of all control points.
+    /// Updates the section forces of this span for a correction of the movements of all control points.
     #[inline]
     pub(super) fn correct_section_forces(&mut self, section: &Section, correction: &[Movement]) {
         let correction = window(correction, self.first);
@@ -103,14 +103,14 @@ impl<const N: usize> SpanPoints<N> {
         self.moment_points.iter_mut().for_each(|point| point.correct_moment(section, correction));
     }
 
-    /// Accepts the movements of all control points.
+    /// Accepts the movements of all control points, as far as they are of this span.
     pub(super) fn advance(&mut self, moved: &[Movement], rotations: RotationIncrement) {
         let moved = window(moved, self.first);
         self.force_points.iter_mut().for_each(|point| point.advance(moved, rotations));
         self.moment_points.iter_mut().for_each(|point| point.advance(moved, rotations));
     }
 
-    /// Writes how it resists small movements at rest.
+    /// Writes how this span resists small movements at rest.
     pub(super) fn write_at_rest(&self, section: &Section, span: &mut SpanAtRest) {
         span.begin(self.first);
         self.force_points.iter().for_each(|point| point.write_at_rest(section, span));

@@ -5,39 +5,39 @@ use serde::{Deserialize, Serialize};
 use super::Mesh;
 use crate::geometry::{Curve, GeometryError, MAX_DEGREE, Vec2, corresponding};
 
-/// Which body of a scene.
+/// One of the bodies of a scene: a beam or a particle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum BodyIndex {
-    /// A beam, by its index among the beams.
+    /// The body is a beam, by its index among the beams of the scene.
     Beam(usize),
-    /// A particle, by its index among the particles.
+    /// The body is a particle, by its index among the particles of the scene.
     Particle(usize),
 }
 
 /// A place on a body of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Station {
-    /// The body.
+    /// The body on which the station is.
     pub body: BodyIndex,
-    /// The arc length from the start of the beam as drawn; zero on a particle [length].
+    /// The arc length of the station from the start of the beam as drawn; zero on a particle [length].
     pub arc_length: f64,
 }
 
-/// A place with the basis functions that are non-zero there.
+/// A place on a body of a model, with the basis functions that are not zero there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
     /// The index of the body in the model: beams come first, then particles.
     pub body: usize,
-    /// The first control point with a non-zero function.
+    /// The index of the first control point whose function is not zero at this place.
     pub first: usize,
     shape: [f64; MAX_DEGREE + 1],
     order: usize,
-    /// The direction of the axis as drawn [rad].
+    /// The direction of the axis as drawn at this place [rad].
     pub tangent_angle: f64,
 }
 
 impl Station {
-    /// A station of a beam.
+    /// The station of a beam, by its index, at an arc length [length] from its start as drawn.
     pub fn on_beam(beam: usize, arc_length: f64) -> Self {
         Self { body: BodyIndex::Beam(beam), arc_length }
     }
@@ -47,7 +47,7 @@ impl Station {
         Self { body: BodyIndex::Particle(particle), arc_length: 0.0 }
     }
 
-    /// The beam it is on, if it is on one.
+    /// The index of the beam that the station is on, if it is on one.
     pub fn beam(&self) -> Option<usize> {
         match self.body {
             BodyIndex::Beam(beam) => Some(beam),
@@ -55,7 +55,7 @@ impl Station {
         }
     }
 
-    /// The parameter of the mesh at this station of an axis.
+    /// The parameter of the mesh [-] at this station of an axis.
     ///
     /// # Errors
     /// When the station lies outside the axis.
@@ -87,24 +87,24 @@ impl Place {
         Ok(Self { body, first: values.first, shape, order, tangent_angle })
     }
 
-    /// The basis functions that are non-zero here.
+    /// The values of the basis functions that are not zero at this place [-].
     pub fn shape(&self) -> &[f64] {
         &self.shape[..self.order]
     }
 
-    /// The control points with their functions: (index, value).
+    /// The control points of this place with their basis functions: (index, value).
     pub fn weights(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         (self.first..).zip(self.shape().iter().copied())
     }
 
-    /// The control point with the largest function here: the one that lies at this place where the mesh has a break.
+    /// The index of the control point with the largest function at this place: the one that lies there where the mesh has a break.
     pub fn nearest_control_point(&self) -> usize {
         self.weights()
             .max_by(|(_, a), (_, b)| a.total_cmp(b))
             .map_or(self.first, |(index, _)| index)
     }
 
-    /// The combination of control values that belongs to this place.
+    /// The combination of control values that belongs to this place, in their unit.
     pub fn interpolate(&self, values: &[Vec2]) -> Vec2 {
         self.weights().map(|(index, weight)| values[index] * weight).sum()
     }

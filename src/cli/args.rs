@@ -6,6 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::learn_options::LearnOptions;
 use super::limits::LimitOptions;
+use super::view_options::ViewOptions;
 use crate::repl::editor::Keys;
 
 /// Planar dynamics of flexible beams, scripted.
@@ -34,6 +35,9 @@ pub enum Command {
     /// Parse a script and build its scenes without running, printing or writing anything.
     #[command(after_help = EXIT_CODES)]
     Check(CheckOptions),
+    /// Write a page on which a saved simulation moves, or the last one of a script, and open it in a browser.
+    #[command(after_help = EXIT_CODES)]
+    View(ViewOptions),
     /// Show help on a name, the whole reference, or write definition files for editors.
     Docs(DocsOptions),
     /// Learn by doing: exercises with hints and a judge.

@@ -35,13 +35,13 @@ const LONGEST_MESSAGE: usize = 4000;
 /// The most that is read of what a process says [bytes].
 const LONGEST_VERDICT: u64 = 1 << 20;
 
-/// What the processes of a class have in common.
+/// What the processes that judge the attempts of a class have in common.
 pub(super) struct Room<'a> {
-    /// Each gets a folder in it.
+    /// The folder in which each process gets one of its own.
     pub scratch: &'a Scratch,
-    /// What each may use.
+    /// The limits of what each process may use.
     pub limits: &'a LimitOptions,
-    /// Ends them all.
+    /// The flag that ends all the processes.
     pub stop: &'a AtomicBool,
 }
 
@@ -194,7 +194,7 @@ fn stopped_hard(stop: Stop) {
     process::exit(0)
 }
 
-/// Judges one attempt in this process, which is for nothing else, and says the verdict.
+/// Judges one attempt in this process, which is for nothing else, and prints the verdict.
 pub(super) fn judge_one(
     folder: &Path,
     file: &Path,
@@ -226,7 +226,6 @@ pub(super) fn judge_one(
 /// Limits of the system for this process: a net below our own, which are kept first.
 #[cfg(unix)]
 fn confine(limits: &Limits) -> nix::Result<()> {
-    use crate::script::engine::runner::stack_for;
     use nix::sys::resource::{Resource, getrlimit, setrlimit};
     let cores = thread::available_parallelism().map_or(1, usize::from) as u64;
     let set = |resource, most: u64| {
@@ -237,10 +236,8 @@ fn confine(limits: &Limits) -> nix::Result<()> {
         set(Resource::RLIMIT_CPU, (time * 2 + START).as_secs().saturating_mul(cores) + 1)?;
     }
     if let Some(memory) = limits.memory {
-        set(
-            Resource::RLIMIT_AS,
-            memory.saturating_mul(2).saturating_add(stack_for(limits) as u64 + CODE),
-        )?;
+        let stack = limits.stack() as u64;
+        set(Resource::RLIMIT_AS, memory.saturating_mul(2).saturating_add(stack + CODE))?;
     }
     if let Some(written) = limits.written {
         set(Resource::RLIMIT_FSIZE, written)?;

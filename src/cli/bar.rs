@@ -9,16 +9,16 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::script::words::numbers::format_number;
 use crate::script::words::progress::{NoProgress, Progress};
 
-/// Whether progress is wanted at all.
+/// Whether a bar of progress is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wish {
-    /// On a terminal.
+    /// The bar is wanted, where there is a terminal.
     Show,
-    /// Nowhere.
+    /// The bar is not wanted.
     Hide,
 }
 
-/// A bar on a terminal; nothing in a pipe or when it is not wanted.
+/// What shows progress: a bar on a terminal; nothing in a pipe or when it is not wanted.
 pub fn progress(wish: Wish) -> Box<dyn Progress + Send> {
     match wish == Wish::Show && stderr().is_terminal() {
         true => Box::new(Bar::default()),

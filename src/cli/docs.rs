@@ -18,7 +18,7 @@ use crate::script::rows::catalog::Catalog;
 /// The largest definition file that is looked at before it is replaced [bytes].
 const LARGEST_DEFINITION: u64 = 1 << 24;
 
-/// Shows or writes what was asked for.
+/// Does what `withy docs` asks for: shows help, or writes reference or definitions.
 pub fn docs(options: &DocsOptions) -> Exit {
     let catalog = language();
     let text = match &options.definitions {

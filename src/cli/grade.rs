@@ -14,32 +14,33 @@ use crate::exercises::catalogue::EXERCISES;
 use crate::exercises::class;
 use crate::exercises::error::ExerciseError;
 use crate::exercises::exercise::Exercise;
+use crate::exercises::fingerprint::fingerprint;
 use crate::exercises::grading::{Graded, Mark, Report, Task};
 use crate::exercises::marks::{self, KnownMarks};
 use crate::exercises::submissions::Submission;
 use crate::folders::Scratch;
 use crate::output::{Cell, Table, columns, padded};
 
-/// How marks are shown.
+/// How the marks of a class are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// A table for people.
+    /// Marks are shown as a table for people.
     Table,
-    /// JSON for programs.
+    /// Marks are shown as JSON for programs.
     Json,
 }
 
-/// What is to be graded, and how.
+/// Which class is to be graded, and how.
 pub struct Wishes<'a> {
     /// The folder of the class.
     pub folder: &'a Path,
     /// How marks are shown.
     pub form: Form,
-    /// A file that gets them as well.
+    /// The file that gets the marks as well.
     pub marks: Option<&'a Path>,
-    /// Attempts judged at the same time.
+    /// How many attempts are judged at the same time.
     pub jobs: Option<u16>,
-    /// What an attempt may use.
+    /// The limits of what an attempt may use.
     pub limits: &'a LimitOptions,
 }
 
@@ -126,8 +127,8 @@ impl Judged {
         room: &Room,
     ) -> Option<Self> {
         let limits = room.limits.words();
-        let fingerprint = || marks::fingerprint(submission, exercise, &limits);
-        let before = fingerprint();
+        let of_attempt = || fingerprint(submission, exercise, &limits);
+        let before = of_attempt();
         if let Some((mark, message)) = known.find(submission, exercise, &before) {
             let origin = Origin::EarlierRun;
             return Some(Self { mark, message, fingerprint: Some(before), origin });
@@ -141,7 +142,7 @@ impl Judged {
             Err(error) => (true, (Mark::Broken, format!("cannot start a process for it: {error}"))),
         };
         // What was changed in the meantime may not be what was judged.
-        let fingerprint = (!is_ours && fingerprint() == before).then_some(before);
+        let fingerprint = (!is_ours && of_attempt() == before).then_some(before);
         Some(Self { mark, message, fingerprint, origin: Origin::ThisRun })
     }
 }

@@ -20,9 +20,9 @@ const TO_WRITE: Duration = Duration::from_secs(20);
 /// What is lost when Ctrl-C ends the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AtStake {
-    /// A run: what does not hear of Ctrl-C ends soon after, or with the second one.
+    /// A run is at stake: what does not hear of Ctrl-C ends soon after, or with the second one.
     Run,
-    /// A session with everything that was built in it: one ends it that comes a while after the first was not heard.
+    /// A session with everything that was built in it is at stake: a Ctrl-C ends it that comes a while after the first was not heard.
     Session,
 }
 

@@ -22,11 +22,11 @@ use crate::exercises::exercise::Exercise;
 use crate::exercises::judging::{Verdict, judge};
 use crate::exercises::watch::{INTERVAL, Watcher};
 use crate::exercises::workbook::{Advice, Workbook};
+use crate::panics;
 use crate::script::diagnose::{Colours, Diagnostic};
 use crate::script::state::settings::{Mode, Settings};
-use crate::script::words::panics;
 
-/// Does what was asked for.
+/// Does what `withy learn` asks for.
 pub fn learn(options: &LearnOptions) -> Exit {
     panics::silence();
     let workbook = Workbook::near(Path::new("."));
@@ -326,7 +326,7 @@ fn watch_in_lines(workbook: &Workbook, limits: &LimitOptions, flag: &Arc<AtomicB
     show_next(workbook)
 }
 
-/// A path as one would type it here.
+/// A path as one would type it in the present folder.
 pub(super) fn shown(path: &Path) -> String {
     let path: PathBuf = path.strip_prefix(".").unwrap_or(path).into();
     if path.as_os_str().is_empty() { "this folder".into() } else { path.display().to_string() }

@@ -39,7 +39,7 @@ const MEGABYTES_OF_AN_ATTEMPT: u64 = 100;
 const FILES_OF_AN_ATTEMPT: u64 = 100;
 
 impl LimitOptions {
-    /// The same for the run.
+    /// The limits of a run that these options ask for.
     pub fn limits(&self) -> Limits {
         Limits {
             time: self.max_time,
@@ -51,7 +51,7 @@ impl LimitOptions {
         }
     }
 
-    /// The same for an attempt of somebody, which may write less and always has an end.
+    /// The limits of somebody's attempt that these options ask for: it may write less and always has an end.
     pub fn for_an_attempt(&self) -> Limits {
         Limits {
             time: self.max_time.or(Some(PATIENCE)),
@@ -61,7 +61,7 @@ impl LimitOptions {
         }
     }
 
-    /// The options as they are written.
+    /// The options as they are written on a command line.
     pub fn words(&self) -> Vec<String> {
         let time = self.max_time.map(|time| time.as_secs_f64().to_string());
         let given = [

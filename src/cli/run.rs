@@ -12,6 +12,7 @@ use super::interrupt::{self, AtStake};
 use super::say::tell;
 use crate::folders::read_file;
 use crate::output::write_whole;
+use crate::panics;
 use crate::repl::editor::typed_ahead;
 use crate::script::diagnose::{Colours, Diagnostic};
 use crate::script::engine::runner::{self, Ending, Outcome};
@@ -19,13 +20,12 @@ use crate::script::packages::language;
 use crate::script::source::program::Program;
 use crate::script::state::limits::LastResort;
 use crate::script::state::settings::{JournalWish, Mode, Settings, StudyWishes};
-use crate::script::words::panics;
 use crate::script::words::stop::Stop;
 
 /// The largest report that is looked at before it is replaced [bytes].
 const LARGEST_REPORT: u64 = 1 << 28;
 
-/// Runs a script.
+/// Does what `withy run` asks for: runs a script.
 pub fn run(options: &RunOptions) -> Exit {
     let wish = if options.quiet { Wish::Hide } else { Wish::Show };
     if let Some(Err(diagnostic)) = options.report.as_deref().map(expect_report) {
@@ -56,7 +56,7 @@ pub fn run(options: &RunOptions) -> Exit {
     exit_for(&outcome)
 }
 
-/// Runs a script whose studies keep a journal.
+/// Does what `withy study` asks for: runs a script whose studies keep a journal.
 pub fn study(options: &StudyOptions) -> Exit {
     let wish = if options.quiet { Wish::Hide } else { Wish::Show };
     let studies = StudyWishes {
@@ -85,7 +85,7 @@ pub fn study(options: &StudyOptions) -> Exit {
     }
 }
 
-/// Parses a script and builds its scenes.
+/// Does what `withy check` asks for: parses a script and builds its scenes.
 pub fn check(options: &CheckOptions) -> Exit {
     let settings = Settings {
         interrupt: interrupt::flag(AtStake::Run),
@@ -116,7 +116,7 @@ fn start(file: &Path, settings: Settings) -> Result<Outcome, Diagnostic> {
     Ok(runner::run(&program, &language(), settings))
 }
 
-fn exit_for(outcome: &Outcome) -> Exit {
+pub(super) fn exit_for(outcome: &Outcome) -> Exit {
     match &outcome.ending {
         Ending::Failed(diagnostic) => refuse(diagnostic),
         Ending::Interrupted => {
@@ -156,7 +156,7 @@ fn exit_for_study(outcome: &Outcome, out: &Path) -> Exit {
     }
 }
 
-/// Shows an error.
+/// Shows an error on the terminal; gives the exit code for it.
 pub(super) fn refuse(diagnostic: &Diagnostic) -> Exit {
     let wants_colours =
         stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
@@ -164,7 +164,7 @@ pub(super) fn refuse(diagnostic: &Diagnostic) -> Exit {
     Exit::Wrong
 }
 
-fn show_summary(outcome: &Outcome) {
+pub(super) fn show_summary(outcome: &Outcome) {
     for file in &outcome.files {
         tell(&format!("wrote {}\n", file.display()));
     }
@@ -173,7 +173,7 @@ fn show_summary(outcome: &Outcome) {
     }
 }
 
-/// Ends the program when a limit is passed in the middle of something that does not hear of it.
+/// What ends the program when a limit is passed in the middle of something that does not hear of it.
 pub(super) fn last_resort() -> LastResort {
     Arc::new(end_at)
 }

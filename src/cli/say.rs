@@ -6,13 +6,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Whether something could not be written.
 static LOST: AtomicBool = AtomicBool::new(false);
 
-/// Prints a line, at once; one who reads no more has read enough.
+/// Prints a line of output, at once; a reader who has gone away has read enough.
 pub(super) fn say(text: &str) {
     let mut out = stdout();
     notice(out.write_all(format!("{text}\n").as_bytes()).and_then(|()| out.flush()));
 }
 
-/// Tells a person what is not the output, as it stands.
+/// Tells a person something that is not the output, as it stands.
 pub(super) fn tell(text: &str) {
     notice(stderr().write_all(text.as_bytes()));
 }
@@ -23,7 +23,7 @@ fn notice(written: io::Result<()>) {
     }
 }
 
-/// Whether something could not be written, though there was somebody to read it.
+/// Whether some output could not be written, though there was somebody to read it.
 pub(super) fn is_output_lost() -> bool {
     LOST.load(Ordering::Relaxed)
 }

@@ -10,20 +10,20 @@ use super::interrupt::{self, AtStake};
 use super::run::{last_resort, refuse};
 use super::say::tell;
 use crate::output::{Glyphs, Style};
+use crate::panics;
 use crate::repl::editor::{self, Editor};
 use crate::repl::pager::TerminalPager;
 use crate::repl::session::Session;
 use crate::repl::shell::{Outcome, Screen, Shell};
 use crate::repl::{batch, prompt};
 use crate::script::diagnose::Diagnostic;
-use crate::script::engine::runner::on_large_stack;
+use crate::script::engine::stack::on_large_stack;
 use crate::script::packages::language;
 use crate::script::source::program::Program;
 use crate::script::state::settings::{Mode, Settings};
-use crate::script::words::panics;
 use crate::script::words::stop::{MEGABYTE, Stop};
 
-/// Opens a session in which a file may have been evaluated first.
+/// Does what `withy repl` asks for: opens a session in which a file may be evaluated first.
 pub fn open(options: &ReplOptions) -> Exit {
     panics::silence();
     if is_conversation(&options.session) {
@@ -35,7 +35,7 @@ pub fn open(options: &ReplOptions) -> Exit {
     }
 }
 
-/// A session without a file.
+/// Opens a session without a file.
 pub fn start(options: SessionOptions) -> Exit {
     open(&ReplOptions { file: None, session: options })
 }

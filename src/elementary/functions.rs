@@ -3,115 +3,115 @@
 //! Errors are below one unit in the last place for most of them, below two for the hyperbolic ones. Angles are in radians; undefined
 //! values are NaN, as in IEEE 754.
 
-/// The sine of an angle.
+/// The sine of an angle [rad], with the same bits on every machine.
 #[inline]
 pub fn sin(angle: f64) -> f64 {
     libm::sin(angle)
 }
 
-/// The cosine of an angle.
+/// The cosine of an angle [rad], with the same bits on every machine.
 #[inline]
 pub fn cos(angle: f64) -> f64 {
     libm::cos(angle)
 }
 
-/// Sine and cosine of an angle: those of [`sin`] and [`cos`], for little more than the price of one.
+/// Sine and cosine, in this order, of an angle [rad]: those of [`sin`] and [`cos`], for little more than the price of one.
 #[inline]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     libm::sincos(angle)
 }
 
-/// The tangent of an angle.
+/// The tangent of an angle [rad], with the same bits on every machine.
 #[inline]
 pub fn tan(angle: f64) -> f64 {
     libm::tan(angle)
 }
 
-/// The angle in `[-π/2, π/2]` with this sine.
+/// The angle in `[-π/2, π/2]` [rad] whose sine is `x`; NaN outside `[-1, 1]`.
 #[inline]
 pub fn asin(x: f64) -> f64 {
     libm::asin(x)
 }
 
-/// The angle in `[0, π]` with this cosine.
+/// The angle in `[0, π]` [rad] whose cosine is `x`; NaN outside `[-1, 1]`.
 #[inline]
 pub fn acos(x: f64) -> f64 {
     libm::acos(x)
 }
 
-/// The angle in `[-π/2, π/2]` with this tangent.
+/// The angle in `[-π/2, π/2]` [rad] whose tangent is `x`.
 #[inline]
 pub fn atan(x: f64) -> f64 {
     libm::atan(x)
 }
 
-/// The angle in `[-π, π]` from the first axis to the vector `(x, y)`.
+/// The angle in `[-π, π]` [rad] from the first axis to the vector `(x, y)`.
 #[inline]
 pub fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)
 }
 
-/// The hyperbolic sine.
+/// The hyperbolic sine of a number.
 #[inline]
 pub fn sinh(x: f64) -> f64 {
     libm::sinh(x)
 }
 
-/// The hyperbolic cosine.
+/// The hyperbolic cosine of a number.
 #[inline]
 pub fn cosh(x: f64) -> f64 {
     libm::cosh(x)
 }
 
-/// The hyperbolic tangent.
+/// The hyperbolic tangent of a number.
 #[inline]
 pub fn tanh(x: f64) -> f64 {
     libm::tanh(x)
 }
 
-/// The number with this hyperbolic sine.
+/// The number whose hyperbolic sine is `x`.
 #[inline]
 pub fn asinh(x: f64) -> f64 {
     libm::asinh(x)
 }
 
-/// The number of zero or more with this hyperbolic cosine.
+/// The number of zero or more whose hyperbolic cosine is `x`; NaN for `x` below 1.
 #[inline]
 pub fn acosh(x: f64) -> f64 {
     libm::acosh(x)
 }
 
-/// The number with this hyperbolic tangent.
+/// The number whose hyperbolic tangent is `x`; NaN outside `[-1, 1]`.
 #[inline]
 pub fn atanh(x: f64) -> f64 {
     libm::atanh(x)
 }
 
-/// The exponential.
+/// The exponential `eˣ` of a number.
 #[inline]
 pub fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
 
-/// The natural logarithm.
+/// The natural logarithm of a number; NaN for a negative one.
 #[inline]
 pub fn ln(x: f64) -> f64 {
     libm::log(x)
 }
 
-/// The logarithm to base 2; exact for powers of 2.
+/// The logarithm of a number to base 2; exact for powers of 2.
 #[inline]
 pub fn log2(x: f64) -> f64 {
     libm::log2(x)
 }
 
-/// The logarithm to base 10; exact for powers of 10 that are whole.
+/// The logarithm of a number to base 10; exact for powers of 10 that are whole.
 #[inline]
 pub fn log10(x: f64) -> f64 {
     libm::log10(x)
 }
 
-/// The logarithm to any base: a quotient of natural ones.
+/// The logarithm of a number to any base: a quotient of natural logarithms.
 #[inline]
 pub fn log(x: f64, base: f64) -> f64 {
     ln(x) / ln(base)

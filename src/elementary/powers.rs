@@ -1,6 +1,6 @@
 //! Powers.
 
-/// The square.
+/// The square `x²` of a number.
 #[inline(always)]
 pub fn square(x: f64) -> f64 {
     x * x

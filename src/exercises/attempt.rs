@@ -10,7 +10,7 @@ use crate::script::source::program::Program;
 /// The largest file that is taken for an attempt [bytes].
 pub const LARGEST: u64 = 1 << 20;
 
-/// Reads an attempt that lies in a folder.
+/// Reads an attempt at an exercise that lies in a folder.
 ///
 /// # Errors
 /// When it is no ordinary file of at most a megabyte, or a link leads to it, or it is no text.

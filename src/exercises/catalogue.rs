@@ -4,16 +4,16 @@ use super::error::ExerciseError;
 use super::exercise::Exercise;
 use crate::script::words::suggest::nearest;
 
-/// A track of exercises.
+/// A track: exercises on one subject.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Track {
-    /// Its name, and that of its folders.
+    /// The name of the track, and that of its folders.
     pub name: &'static str,
-    /// What it is about.
+    /// What the track is about.
     pub title: &'static str,
 }
 
-/// The tracks, in their order.
+/// The tracks of exercises, in their order.
 pub const TRACKS: &[Track] = &[
     Track { name: "beams", title: "Beams and sections" },
     Track { name: "splines", title: "Splines and knot vectors" },

@@ -10,8 +10,8 @@ use super::catalogue::EXERCISES;
 use super::exercise::Exercise;
 use super::submissions::Submission;
 
-/// Asks `judge` for every mark of the class, from `workers` threads at once. Each is handed to `note` as soon as it is known, and to `tell`
-/// student by student in the order of the exercises. Gives whether it came to the end: `judge` gives nothing when it was
+/// Grades a class: asks `judge` for every mark, from `workers` threads at once. Each mark is handed to `note` as soon as it is known, and to
+/// `tell` student by student in the order of the exercises. Gives whether it came to the end: `judge` gives nothing when it was
 /// interrupted, and `stop` ends it too.
 pub fn grade<M: Send>(
     submissions: &[Submission],

@@ -2,38 +2,38 @@
 
 use super::judge::Judge;
 
-/// An exercise. Its texts are files of `scripts/exercises`, embedded by [`catalogue`](super::catalogue).
+/// An exercise with its task, solution and judge. The texts are files of `scripts/exercises`, embedded by [`catalogue`](super::catalogue).
 #[derive(Debug, PartialEq, Eq)]
 pub struct Exercise {
-    /// The track it belongs to, a folder.
+    /// The track that the exercise belongs to, a folder.
     pub track: &'static str,
-    /// Its name, by which no other exercise of any track goes.
+    /// The name of the exercise, by which no other one of any track goes.
     pub name: &'static str,
-    /// The file that a student begins with.
+    /// The file that a student begins the exercise with.
     pub start: &'static str,
-    /// One right answer.
+    /// One right answer to the exercise.
     pub solution: &'static str,
-    /// The script that judges, headed by what it needs and by hints.
+    /// The script that judges an attempt at the exercise, headed by what it needs and by hints.
     pub judge: &'static str,
 }
 
 impl Exercise {
-    /// `track/name`.
+    /// The name of the exercise with that of its track: `track/name`.
     pub fn id(&self) -> String {
         format!("{}/{}", self.track, self.name)
     }
 
-    /// Its file below the folder of a student.
+    /// The file of the exercise below the folder of a student.
     pub fn file(&self) -> String {
         format!("{}/{}.rhai", self.track, self.name)
     }
 
-    /// What it is about: the first line of its start file.
+    /// What the exercise is about: the first line of its start file.
     pub fn title(&self) -> &'static str {
         self.start.lines().next().and_then(|line| line.strip_prefix("//! ")).unwrap_or_default()
     }
 
-    /// Its judge.
+    /// The judge of the exercise.
     pub fn judge(&self) -> Judge {
         Judge::of(self.judge)
     }

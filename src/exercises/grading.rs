@@ -9,32 +9,32 @@ use super::exercise::Exercise;
 use super::judging::Verdict;
 use super::submissions::Submission;
 
-/// What an attempt is worth.
+/// The mark of an attempt at an exercise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// It does what the exercise asks for.
+    /// The attempt does what the exercise asks for.
     Passed,
-    /// It runs, and something is off.
+    /// The attempt runs, and something is off.
     Off,
-    /// It does not run to its end, or is no text.
+    /// The attempt does not run to its end, or is no text.
     Broken,
-    /// A limit stopped it.
+    /// A limit stopped the attempt.
     Stopped,
-    /// It is the start file.
+    /// The attempt is the start file, unchanged.
     Untouched,
-    /// There is no file.
+    /// There is no file with an attempt.
     Missing,
 }
 
 impl Mark {
-    /// The mark of that word.
+    /// The mark that a word stands for.
     pub fn of(word: &str) -> Option<Self> {
         let all =
             [Self::Passed, Self::Off, Self::Broken, Self::Stopped, Self::Untouched, Self::Missing];
         all.into_iter().find(|mark| mark.word() == word)
     }
 
-    /// One word for it.
+    /// The mark in one word.
     pub fn word(self) -> &'static str {
         match self {
             Self::Passed => "passed",
@@ -47,33 +47,33 @@ impl Mark {
     }
 }
 
-/// The mark of one attempt.
+/// One exercise with the mark of a student's attempt.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Graded {
-    /// The exercise.
+    /// The exercise that is graded.
     pub exercise: &'static Exercise,
-    /// The mark.
+    /// The mark of the attempt.
     pub mark: Mark,
-    /// What is off; empty where nothing is.
+    /// What is off in the attempt; empty where nothing is.
     pub message: String,
 }
 
-/// What one student has reached.
+/// The marks of one student.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Report {
-    /// The student.
+    /// The name of the student.
     pub student: String,
-    /// All exercises, in the order of the table.
+    /// The marks of all exercises, in the order of the table.
     pub graded: Vec<Graded>,
 }
 
 impl Report {
-    /// How many exercises are passed.
+    /// The number of exercises that the student has passed.
     pub fn passed(&self) -> usize {
         self.graded.iter().filter(|graded| graded.mark == Mark::Passed).count()
     }
 
-    /// The same as JSON.
+    /// The marks of the student as JSON.
     pub fn json(&self) -> Value {
         let exercises: Vec<_> = self
             .graded
@@ -86,9 +86,9 @@ impl Report {
     }
 }
 
-/// What is to be done for the mark of an attempt.
+/// What is to be done to find the mark of an attempt.
 pub enum Task {
-    /// Nothing: it is known without judging.
+    /// Nothing is to be done: the mark is known without judging, with what is off.
     Known(Mark, String),
     /// The attempt in this file, which can be read, is to be judged.
     Judge(PathBuf),
@@ -117,7 +117,7 @@ impl Task {
     }
 }
 
-/// The mark of an attempt, and what is off. Nothing when it was interrupted.
+/// The mark of an attempt from its verdict, and what is off. Nothing when it was interrupted.
 pub fn mark(verdict: Verdict) -> Option<(Mark, String)> {
     let (mark, message) = match verdict {
         Verdict::Passed => (Mark::Passed, String::new()),

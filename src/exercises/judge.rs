@@ -7,26 +7,26 @@
 //! //! hint: The second one says more.
 //! ```
 
-/// What stands in the head of a judge's script.
+/// What stands in the head of the script that judges an exercise.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Judge {
     /// The variables of the attempt that the judge sees, and no others.
     pub needs: Vec<Need>,
-    /// Hints, each more open than the one before.
+    /// The hints to the exercise, each more open than the one before.
     pub hints: Vec<String>,
 }
 
 /// A variable that an attempt must define.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Need {
-    /// Its name.
+    /// The name of the variable.
     pub name: String,
-    /// The name of its type, as in messages and help.
+    /// The name of the type of the variable, as in messages and help.
     pub of: String,
 }
 
 impl Judge {
-    /// Reads the head of a script.
+    /// Reads the head of a judge's script.
     pub fn of(script: &str) -> Self {
         let head = script.lines().map_while(|line| line.strip_prefix("//!")).map(str::trim);
         let mut entries: Vec<String> = Vec::new();

@@ -4,46 +4,42 @@
 //! names of the attempt cannot take the place of what the judge calls. Only checks of the judge count.
 
 use std::any::TypeId;
-use std::io;
-use std::panic::{self, AssertUnwindSafe};
-use std::rc::Rc;
 use std::time::Duration;
 
-use rhai::{AST, Dynamic, Engine, FnPtr, NativeCallContext, Scope};
+use rhai::{AST, Dynamic, FnPtr, NativeCallContext, Scope};
 
 use super::exercise::Exercise;
 use super::judge::Need;
 use super::muffle::Silence;
-use crate::script::diagnose::{Blame, Diagnostic, Explainer, is_interrupt};
-use crate::script::engine;
-use crate::script::engine::runner::{self, SNAPSHOTS};
+use crate::script::diagnose::{Blame, Diagnostic};
+use crate::script::engine::host::{Halt, Host};
+use crate::script::engine::parse::parse;
+use crate::script::engine::runner::SNAPSHOTS;
+use crate::script::engine::stack::on_large_stack;
 use crate::script::packages::language;
-use crate::script::rows::catalog::Catalog;
 use crate::script::source::program::Program;
-use crate::script::state::context::Context;
 use crate::script::state::settings::Settings;
 use crate::script::words::nouns::with_article;
-use crate::script::words::panics;
 
 /// How long an attempt may take, and its judge as well, unless a limit is set.
 pub const PATIENCE: Duration = Duration::from_secs(20);
 
-/// What came of an attempt.
+/// The verdict on an attempt at an exercise.
 #[derive(Debug)]
 pub enum Verdict {
-    /// It does what the exercise asks for.
+    /// The attempt does what the exercise asks for.
     Passed,
-    /// It runs, and this is off, in the judge's words.
+    /// The attempt runs, and this is off, in the judge's words.
     Off(Vec<String>),
-    /// It does not run to its end.
+    /// The attempt does not run to its end.
     Broken(Diagnostic),
-    /// It was stopped by a limit.
+    /// The attempt was stopped by a limit.
     Stopped(Diagnostic),
-    /// It was stopped from outside.
+    /// The attempt was stopped from outside.
     Interrupted,
 }
 
-/// Runs an attempt, then its judge. What the attempt prints goes where the settings say.
+/// Runs an attempt at an exercise, then its judge. What the attempt prints goes where the settings say.
 pub fn judge(exercise: &Exercise, attempt: &Program, settings: Settings) -> Verdict {
     let mut limits = settings.limits;
     limits.time = limits.time.or(Some(PATIENCE));
@@ -53,39 +49,32 @@ pub fn judge(exercise: &Exercise, attempt: &Program, settings: Settings) -> Verd
         Ok(()) => Verdict::Passed,
         Err(verdict) => verdict,
     };
-    runner::on_large_stack(&limits, hold).unwrap_or_else(Verdict::Broken)
+    on_large_stack(&limits, hold).unwrap_or_else(Verdict::Broken)
 }
 
-/// What attempt and judge share: the engine, and the state of the run.
+/// What attempt and judge share: the host, and who hears what they print.
 struct Trial {
-    catalog: Catalog,
-    context: Context,
-    engine: Rc<Engine>,
+    host: Host,
     silence: Silence,
 }
 
 impl Trial {
     fn open(settings: Settings) -> Result<Self, Verdict> {
         let silence = Silence::default();
-        let folder = settings.folder.clone();
         let settings = Settings {
             printed: silence.muffle(settings.printed),
             told: silence.muffle(settings.told),
             ..settings
         };
-        let (catalog, context) = (language(), Context::new(settings));
-        let mut engine = engine::build(&catalog, &context).map_err(broken_by_us)?;
-        engine::import_from(&mut engine, &folder);
-        let engine = Rc::new(engine);
-        context.lend(&engine);
-        Ok(Self { catalog, context, engine, silence })
+        let host = Host::open(language(), settings).map_err(Verdict::Broken)?;
+        Ok(Self { host, silence })
     }
 
     fn hold(&self, exercise: &Exercise, attempt: &Program) -> Result<(), Verdict> {
         let mut scope = Scope::new();
         let held = self.hold_within(&mut scope, exercise, attempt);
         // Letting go of what the attempt has made may take time and memory as well.
-        let _watchdog = self.context.meter().watch().map_err(no_watchdog)?;
+        let _limits_kept = self.host.watch().map_err(|halt| self.verdict(halt))?;
         drop(scope);
         held
     }
@@ -101,7 +90,7 @@ impl Trial {
         let judge = exercise.judge();
         let mut seen = self.show(&judge.needs, scope, &functions).map_err(Verdict::Off)?;
         let (made, failed) =
-            self.context.with_checks(|checks| (checks.made(), checks.failed().len()));
+            self.host.context().with_checks(|checks| (checks.made(), checks.failed().len()));
         let program = Program::named(&format!("the judge of {}", exercise.id()), exercise.judge);
         self.run(&program, &mut seen).map_err(|verdict| match verdict {
             Verdict::Broken(why) if why.blame == Blame::User => {
@@ -109,12 +98,15 @@ impl Trial {
             }
             other => other,
         })?;
-        let found = self.context.with_checks(|checks| {
+        let found = self.host.context().with_checks(|checks| {
             let found = checks.failed()[failed..].iter().map(|check| check.message.clone());
             (checks.made() > made).then(|| found.collect::<Vec<_>>())
         });
         match found {
-            None => Err(broken_by_us(format!("{} has looked at nothing", program.name))),
+            None => {
+                let why = format!("{} has looked at nothing", program.name);
+                Err(Verdict::Broken(Diagnostic::bug(why)))
+            }
             Some(found) if found.is_empty() => Ok(()),
             Some(found) => Err(Verdict::Off(found)),
         }
@@ -142,7 +134,7 @@ impl Trial {
             let found = match value.type_id() {
                 _ if value.is_string() => "text",
                 function if function == TypeId::of::<FnPtr>() => "function",
-                _ => self.engine.map_type_name(value.type_name()),
+                _ => self.host.engine().map_type_name(value.type_name()),
             };
             match found {
                 found if found == of => {
@@ -166,25 +158,26 @@ impl Trial {
 
     /// Runs a script; its variables stay in the scope.
     fn run(&self, program: &Program, scope: &mut Scope<'static>) -> Result<AST, Verdict> {
-        let _watchdog = self.context.meter().watch().map_err(no_watchdog)?;
-        // A panic in a native body is our mistake: the next attempt must still be judged.
-        let run = AssertUnwindSafe(|| {
-            let ast = runner::parse(&self.engine, program)?;
-            self.engine.run_ast_with_scope(scope, &ast).map(|()| ast)
+        let ran = self.host.watch().and_then(|guard| {
+            self.host.run(
+                &guard,
+                || program.clone(),
+                |engine| {
+                    let ast = parse(engine, program)?;
+                    engine.run_ast_with_scope(scope, &ast).map(|()| ast)
+                },
+            )
         });
-        let outcome = panic::catch_unwind(run);
-        self.context.progress().end();
-        self.context.flush();
-        match outcome {
-            Ok(Ok(ast)) => Ok(ast),
-            Ok(Err(error)) if is_interrupt(&error) => Err(Verdict::Interrupted),
-            Ok(Err(error)) => {
-                let (catalog, engine) = (&self.catalog, &*self.engine);
-                let why = Explainer { program, catalog, engine }.explain(&error);
-                let is_stopped = self.context.is_stopped();
-                Err(if is_stopped { Verdict::Stopped(why) } else { Verdict::Broken(why) })
+        ran.map_err(|halt| self.verdict(halt))
+    }
+
+    fn verdict(&self, halt: Halt) -> Verdict {
+        match halt {
+            Halt::Failed(why) | Halt::Undecided(why) if self.host.context().is_stopped() => {
+                Verdict::Stopped(why)
             }
-            Err(panic) => Err(broken_by_us(panics::message(&*panic))),
+            Halt::Failed(why) | Halt::Undecided(why) => Verdict::Broken(why),
+            Halt::Interrupted | Halt::PipeClosed => Verdict::Interrupted,
         }
     }
 }
@@ -206,20 +199,4 @@ fn callable(value: Dynamic, functions: &AST) -> Dynamic {
     // "Deprecated" marks it as volatile, not as going away.
     #[allow(deprecated)]
     FnPtr::from_fn("of_the_attempt", call).map_or(value, Dynamic::from)
-}
-
-/// Simulations hold functions that hold the context, which holds the last simulation.
-impl Drop for Trial {
-    fn drop(&mut self) {
-        self.context.forget_simulations();
-    }
-}
-
-fn broken_by_us(why: String) -> Verdict {
-    Verdict::Broken(Diagnostic::bug(why))
-}
-
-fn no_watchdog(error: io::Error) -> Verdict {
-    let told = format!("cannot start a thread that keeps the limits: {error}");
-    Verdict::Broken(Diagnostic::general(told))
 }

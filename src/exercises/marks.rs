@@ -2,19 +2,16 @@
 //! since hold.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File, TryLockError};
+use std::fs::{File, TryLockError};
 use std::io::{self, Write};
 use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::attempt;
 use super::exercise::Exercise;
 use super::grading::Mark;
 use super::submissions::Submission;
-use crate::analysis::Journal;
-use crate::folders::{Folder, read_file};
-use crate::script::source::text::Source;
+use crate::folders::Folder;
 
 /// The largest file of marks that is read [bytes].
 const LARGEST: u64 = 1 << 30;
@@ -22,7 +19,7 @@ const LARGEST: u64 = 1 << 30;
 /// What every mark begins with.
 const HEAD: &str = "{\"student\":";
 
-/// Marks of earlier runs, by student and exercise.
+/// The marks of earlier runs, by student and exercise.
 #[derive(Debug, Default)]
 pub struct KnownMarks(BTreeMap<Whose, Known>);
 
@@ -41,7 +38,7 @@ struct Known {
 #[derive(Debug)]
 pub struct MarksFile(File);
 
-/// Opens a file of marks, or begins one.
+/// Opens a file of marks for one run of grading, or begins one.
 ///
 /// # Errors
 /// When it cannot be read or written, another run writes it, or it is there and holds no marks: it is somebody else's.
@@ -84,7 +81,7 @@ fn read_line(line: &str) -> Option<(Whose, Known)> {
 }
 
 impl KnownMarks {
-    /// The mark of an attempt that has this fingerprint still.
+    /// The known mark of an attempt that still has this fingerprint.
     pub fn find(
         &self,
         submission: &Submission,
@@ -97,7 +94,7 @@ impl KnownMarks {
 }
 
 impl MarksFile {
-    /// Writes a mark down so that it outlasts whatever comes. Without a fingerprint it is judged again the next time.
+    /// Writes a mark into the file so that it outlasts whatever comes. Without a fingerprint the attempt is judged again the next time.
     ///
     /// # Errors
     /// When it cannot be written.
@@ -120,80 +117,12 @@ impl MarksFile {
     }
 }
 
-/// What the mark of an attempt depends on, as a word: its text, the files that it may read, the exercise, the limits, and this program.
-pub fn fingerprint(submission: &Submission, exercise: &Exercise, limits: &[String]) -> String {
-    let file = submission.attempt(exercise);
-    let attempt = match file.as_deref().map(|path| attempt::load(path, &submission.folder)) {
-        None => "missing".to_owned(),
-        Some(Err(why)) => format!("unreadable: {}", why.message),
-        Some(Ok(attempt)) => format!("text: {}", &*attempt.text),
-    };
-    let mut beside = Vec::new();
-    if reads_files(&attempt.as_str().into()) {
-        note_files(&submission.folder, &mut beside, &mut 0);
-    }
-    let limits = limits.join(" ");
-    let parts = [&attempt, exercise.start, exercise.judge, &limits].map(str::as_bytes);
-    format!("{:016x}", Journal::fingerprint(&[&parts[..], &[&beside]].concat()))
-}
-
-/// Whether an attempt may read other files.
-fn reads_files(attempt: &Source) -> bool {
-    let reads = |name: &str| matches!(name, "load_simulation" | "Fn") || name.starts_with("study_");
-    attempt.imports().next().is_some() || attempt.names().any(reads)
-}
-
-/// Most files that are looked at, and the most that is read of each [bytes]: of others the length and the time count.
-const MOST_FILES: usize = 1000;
-const MOST_READ: u64 = 1 << 20;
-
-fn note_files(folder: &Path, noted: &mut Vec<u8>, count: &mut usize) {
-    let Ok(entries) = fs::read_dir(folder) else { return };
-    let mut paths: Vec<_> = entries.flatten().map(|entry| entry.path()).collect();
-    paths.sort();
-    for path in paths {
-        let Ok(about) = fs::symlink_metadata(&path) else { continue };
-        *count += 1;
-        if *count > MOST_FILES {
-            return;
-        }
-        let name = path.file_name().unwrap_or_default().as_encoded_bytes();
-        noted.extend_from_slice(format!("\n{} {}: ", name.len(), about.len()).as_bytes());
-        noted.extend_from_slice(name);
-        if about.is_dir() {
-            note_files(&path, noted, count);
-        } else if let Ok(content) = read_file(&path, MOST_READ) {
-            noted.extend_from_slice(&content);
-        } else {
-            noted.extend_from_slice(format!("{:?}", about.modified().ok()).as_bytes());
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::super::catalogue::find;
     use super::*;
-
-    #[test]
-    fn a_mark_holds_as_long_as_all_that_it_depends_on() {
-        let home = tempfile::tempdir().unwrap();
-        let put = |name: &str, text: &str| fs::write(home.path().join(name), text).unwrap();
-        let submission = Submission { student: "ada".into(), folder: home.path().into() };
-        let (kink, knots) = (find("kink").unwrap(), find("knot_vector").unwrap());
-        let of = |exercise| fingerprint(&submission, exercise, &["--max-time".into(), "1".into()]);
-        let missing = of(kink);
-        assert_ne!(missing, of(knots));
-        put("kink.rhai", "let a = 1;");
-        let first = of(kink);
-        put("helper.rhai", "fn f() { 1 }");
-        assert!(first == of(kink) && first != missing, "it reads no other file");
-        assert_ne!(first, fingerprint(&submission, kink, &[]));
-        put("kink.rhai", "import \"helper\" as h;");
-        let second = of(kink);
-        put("helper.rhai", "fn f() { 2 }");
-        assert!(second != of(kink) && second != first);
-    }
 
     #[test]
     fn marks_are_found_again_and_half_a_line_is_in_nobodys_way() {

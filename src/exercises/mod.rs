@@ -8,6 +8,7 @@ pub mod catalogue;
 pub mod class;
 pub mod error;
 pub mod exercise;
+pub mod fingerprint;
 pub mod grading;
 pub mod judge;
 pub mod judging;

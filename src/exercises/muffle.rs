@@ -4,17 +4,17 @@ use std::io::{self, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Silences all writers that were made with it.
+/// A switch that silences all writers that were made with it.
 #[derive(Clone, Default)]
 pub struct Silence(Arc<AtomicBool>);
 
 impl Silence {
-    /// From now on nothing gets through.
+    /// Silences the writers from now on: nothing gets through.
     pub fn begin(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// The same writer, as long as there is no silence.
+    /// The same writer, as long as the switch is not turned to silence.
     pub fn muffle(&self, writer: Box<dyn Write + Send>) -> Box<dyn Write + Send> {
         Box::new(Muffled { silence: self.clone(), writer })
     }

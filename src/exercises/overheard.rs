@@ -8,12 +8,12 @@ use serde::{Deserialize, Serialize};
 /// The most that is kept [bytes].
 const MOST: usize = 1 << 14;
 
-/// What was heard.
+/// What an attempt was heard to print.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Overheard {
-    /// The first lines.
+    /// The first lines that were heard.
     pub lines: Vec<String>,
-    /// Lines beyond these.
+    /// The number of lines beyond the first ones.
     pub more: usize,
 }
 
@@ -28,7 +28,7 @@ struct Heard {
 }
 
 impl Ear {
-    /// What was written until now.
+    /// What was written to this writer until now.
     pub fn heard(&self) -> Overheard {
         let heard = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let text = String::from_utf8_lossy(&heard.kept);

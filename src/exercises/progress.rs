@@ -14,10 +14,10 @@ use crate::output::write_whole;
 /// The largest file of a progress [bytes].
 const LARGEST: u64 = 1 << 20;
 
-/// The name of the file, by which the folder of a student is known.
+/// The name of the file of the progress, by which the folder of a student is known.
 pub const FILE: &str = "withy-progress.json";
 
-/// How far a student is. Exercises that this program does not know are kept: another version may.
+/// How far a student has come. Exercises that this program does not know are kept: another version may.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Progress {
@@ -28,7 +28,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Reads the progress of a folder; there is none where there is no file.
+    /// Reads the progress of a student's folder; it is empty where there is no file.
     ///
     /// # Errors
     /// When the file cannot be read, or was damaged.
@@ -42,7 +42,7 @@ impl Progress {
         serde_json::from_str(&text).map_err(|why| ExerciseError::Progress { path, why })
     }
 
-    /// Writes the file of a folder.
+    /// Writes the progress into the file of a student's folder.
     ///
     /// # Errors
     /// When it cannot be written; the old one is still there then.
@@ -69,12 +69,12 @@ impl Progress {
         self.hints.get(&exercise.id()).copied().unwrap_or(0)
     }
 
-    /// Notes that one more hint was given.
+    /// Notes that one more hint was given for an exercise.
     pub fn note_hint(&mut self, exercise: &Exercise) {
         *self.hints.entry(exercise.id()).or_default() += 1;
     }
 
-    /// Forgets an exercise.
+    /// Forgets the progress in an exercise.
     pub fn forget(&mut self, exercise: &Exercise) {
         self.passed.remove(&exercise.id());
         self.hints.remove(&exercise.id());

@@ -11,55 +11,55 @@ const LONGEST: usize = 4000;
 /// Characters of a source line that are passed on, and how many of them stand before the place.
 const EXCERPT: (usize, usize) = (400, 150);
 
-/// What came of an attempt, and what it has printed.
+/// What became of an attempt at an exercise, and what it has printed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Report {
-    /// What came of it.
+    /// What became of the attempt.
     pub outcome: Outcome,
-    /// What it has printed.
+    /// What the attempt has printed.
     pub printed: Overheard,
 }
 
-/// What came of an attempt.
+/// What became of an attempt at an exercise.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Outcome {
-    /// It does what the exercise asks for.
+    /// The attempt does what the exercise asks for.
     Passed,
-    /// It runs, and this is off, in the judge's words.
+    /// The attempt runs, and this is off, in the judge's words.
     Off(Vec<String>),
-    /// It does not run to its end.
+    /// The attempt does not run to its end.
     Broken(Trouble),
-    /// A limit stopped it.
+    /// A limit stopped the attempt.
     Stopped(Trouble),
-    /// It was stopped from outside.
+    /// The attempt was stopped from outside.
     Interrupted,
 }
 
-/// An error of an attempt.
+/// An error of an attempt at an exercise.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Trouble {
-    /// What is wrong.
+    /// What is wrong in the attempt.
     pub message: String,
-    /// What to do.
+    /// What to do about the error.
     pub help: Option<String>,
-    /// Where, if it is known.
+    /// The place of the error in a script, if it is known.
     pub place: Option<Place>,
-    /// The calls that led there.
+    /// The calls that led to the error.
     pub calls: Vec<String>,
 }
 
-/// A place in a script.
+/// The place of an error in a script.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Place {
-    /// The file.
+    /// The name of the file with the error.
     pub file: String,
-    /// The line, from 1.
+    /// The line of the error, from 1.
     pub line: usize,
-    /// What stands in that line, or a part of it about the place.
+    /// The text of the line with the error, or a part of that text about the place.
     pub text: String,
-    /// Where the place begins in this text, in characters from 0.
+    /// Where the place of the error begins in the text of its line, in characters from 0.
     pub at: usize,
-    /// Its length in characters.
+    /// The length of the place in characters.
     pub length: usize,
 }
 

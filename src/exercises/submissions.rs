@@ -11,9 +11,9 @@ use super::workbook;
 /// What one student has handed in.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Submission {
-    /// The student: the name of the folder.
+    /// The name of the student: that of the folder.
     pub student: String,
-    /// The folder.
+    /// The folder of what the student has handed in.
     pub folder: PathBuf,
 }
 
@@ -48,18 +48,19 @@ impl Submission {
     }
 
     fn new(folder: &Path) -> Self {
+        // A path that cannot be followed names the student all the same; that it cannot is told when its files are read.
         let real = folder.canonicalize().unwrap_or_else(|_| folder.into());
         let name = real.file_name().map(|name| name.to_string_lossy().into_owned());
         Self { student: name.unwrap_or_else(|| ".".into()), folder: folder.into() }
     }
 
-    /// Whether the folder is a link: it would lead to what somebody else has handed in.
+    /// Whether the folder of the submission is a link: it would lead to what somebody else has handed in.
     pub fn is_link(&self) -> bool {
         fs::symlink_metadata(&self.folder).is_ok_and(|about| about.is_symlink())
     }
 
-    /// The attempt at an exercise: in the folder of its track, with or without the folder that `withy learn` makes, or
-    /// beside the others.
+    /// The file of the student's attempt at an exercise: in the folder of its track, with or without the folder that `withy learn` makes,
+    /// or beside the others.
     pub fn attempt(&self, exercise: &Exercise) -> Option<PathBuf> {
         let inside = self.folder.join(workbook::FOLDER);
         let places = [

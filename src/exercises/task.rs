@@ -2,20 +2,20 @@
 
 use super::exercise::Exercise;
 
-/// How the paragraph begins that says what is to be done.
+/// The words with which the paragraph of a task begins that says what is to be done.
 pub const TO_DO: &str = "To do:";
 
-/// A paragraph of a task.
+/// A paragraph of the task of an exercise.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Paragraph {
-    /// Words that may be broken into lines anywhere between them.
+    /// A paragraph of words, which may be broken into lines anywhere between them.
     Words(String),
-    /// Lines that are set as they stand, such as formulas and tables.
+    /// A paragraph of lines that are set as they stand, such as formulas and tables.
     Set(Vec<String>),
 }
 
 impl Exercise {
-    /// The paragraphs below the title; the last one says what is to be done.
+    /// The paragraphs of the exercise's task below its title; the last one says what is to be done.
     pub fn task(&self) -> Vec<Paragraph> {
         let below_title = self.start.lines().skip(1);
         let mut paragraphs = Vec::new();

@@ -12,10 +12,10 @@ use super::exercise::Exercise;
 use super::workbook::Workbook;
 use crate::folders::read_file;
 
-/// How long to wait between two looks.
+/// How long to wait between two looks at the attempts.
 pub const INTERVAL: Duration = Duration::from_millis(200);
 
-/// The attempts as they were when one looked last.
+/// The attempts of a student as they were when one looked last.
 pub struct Watcher<'a> {
     workbook: &'a Workbook,
     seen: Vec<Seen>,
@@ -29,7 +29,7 @@ struct Seen {
 }
 
 impl<'a> Watcher<'a> {
-    /// Looks for the first time.
+    /// Looks at the attempts of a workbook for the first time.
     pub fn new(workbook: &'a Workbook) -> Self {
         let look = |exercise| Seen { content: content(workbook, exercise), is_emptied: false };
         Self { workbook, seen: EXERCISES.iter().map(look).collect() }
@@ -51,6 +51,7 @@ impl<'a> Watcher<'a> {
     }
 }
 
+/// What stands in a file; nothing where it cannot be read: the run that this starts tells why.
 fn content(workbook: &Workbook, exercise: &Exercise) -> Option<Vec<u8>> {
     read_file(&workbook.file(exercise), LARGEST).ok()
 }

@@ -11,7 +11,7 @@ use super::progress::{self, Progress};
 use crate::folders::read_file;
 use crate::output::write_whole;
 
-/// The folder that is made where there is none yet.
+/// The folder of exercises that is made where there is none yet.
 pub const FOLDER: &str = "withy-exercises";
 
 /// A folder with a file for each exercise. What a student has written there is never overwritten.
@@ -20,19 +20,19 @@ pub struct Workbook {
     folder: PathBuf,
 }
 
-/// A hint, or what comes after the last one.
+/// A hint to an exercise, or what comes after the last one.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Advice {
     /// A hint with its number, from 1, and how many there are.
     Hint {
-        /// What it says.
+        /// The words of the hint.
         text: String,
-        /// Its number, from 1.
+        /// The number of the hint, from 1.
         number: usize,
-        /// How many there are.
+        /// How many hints the exercise has.
         count: usize,
     },
-    /// All hints were given: a solution.
+    /// All hints were given: a solution of the exercise.
     Solution(&'static str),
 }
 
@@ -40,6 +40,7 @@ impl Workbook {
     /// The folder of a student who is in `here`: that one or one above, if it is a folder of exercises, else one below. Writes
     /// nothing.
     pub fn near(here: &Path) -> Self {
+        // A folder that cannot be followed is asked as it is written; that it cannot is told when it is read.
         let real = here.canonicalize().unwrap_or_else(|_| here.into());
         let is_workbook = |folder: &&Path| folder.join(progress::FILE).exists();
         match real.ancestors().find(is_workbook) {
@@ -49,7 +50,7 @@ impl Workbook {
         }
     }
 
-    /// Makes the folder, and the start files that are not there. Gives how many were written.
+    /// Makes the folder of exercises, and the start files that are not there. Gives how many were written.
     ///
     /// # Errors
     /// When something cannot be written.
@@ -65,22 +66,22 @@ impl Workbook {
         Ok(missing.len())
     }
 
-    /// Where it is.
+    /// The path of the folder of exercises.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// The file of an attempt.
+    /// The file of the student's attempt at an exercise.
     pub fn file(&self, exercise: &Exercise) -> PathBuf {
         self.folder.join(exercise.track).join(format!("{}.rhai", exercise.name))
     }
 
-    /// Whether the student has written anything into a file.
+    /// Whether the student has written anything into the file of an exercise.
     pub fn is_begun(&self, exercise: &Exercise) -> bool {
         read_file(&self.file(exercise), LARGEST).is_ok_and(|text| text != exercise.start.as_bytes())
     }
 
-    /// How far the student is.
+    /// How far the student has come.
     ///
     /// # Errors
     /// When the file of the progress cannot be used.
@@ -88,7 +89,7 @@ impl Workbook {
         Progress::read(&self.folder)
     }
 
-    /// The first exercise that is not passed; none when all are.
+    /// The first exercise that the student has not passed; none when all are.
     ///
     /// # Errors
     /// When the file of the progress cannot be used.
@@ -97,7 +98,7 @@ impl Workbook {
         Ok(EXERCISES.iter().find(|exercise| !progress.has_passed(exercise)))
     }
 
-    /// Notes what the last check of an exercise said.
+    /// Notes what the student's last check of an exercise said.
     ///
     /// # Errors
     /// When the file of the progress cannot be used.
@@ -105,7 +106,7 @@ impl Workbook {
         self.change(|progress| progress.note(exercise, passed))
     }
 
-    /// The next hint for an exercise, which counts as given.
+    /// The next hint for an exercise, which then counts as given.
     ///
     /// # Errors
     /// When the file of the progress cannot be used.
@@ -119,7 +120,7 @@ impl Workbook {
         Ok(Advice::Hint { text, number: given + 1, count: hints.len() })
     }
 
-    /// Begins an exercise anew. Gives the file that keeps the old attempt.
+    /// Begins an exercise anew. Gives the file that keeps the student's old attempt.
     ///
     /// # Errors
     /// When something cannot be written; the attempt is still there then.

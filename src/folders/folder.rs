@@ -17,9 +17,9 @@ const TRIES: usize = 100;
 
 /// A folder that is open: whoever renames it or puts a link in its place changes nothing for those who have it.
 #[derive(Debug)]
-pub struct Folder(Dir);
+pub struct Folder(pub(super) Dir);
 
-/// Whether `name` goes down only: no root, no `..`.
+/// Whether a name of a file goes down only: no root, no `..`.
 pub fn is_plain(name: &Path) -> bool {
     let mut parts = name.components();
     name.components().next().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
@@ -29,7 +29,7 @@ impl Folder {
     /// Opens a folder that a person has named; links are followed.
     ///
     /// # Errors
-    /// When it is not there, or is none.
+    /// When there is no folder at `path`.
     pub fn open(path: &Path) -> io::Result<Self> {
         let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
         Dir::open_ambient_dir(path, ambient_authority()).map(Self)
@@ -39,7 +39,7 @@ impl Folder {
     /// one could have been laid there to lead elsewhere.
     ///
     /// # Errors
-    /// When it cannot be made, or is a link.
+    /// When the folder cannot be made, or is a link.
     pub fn make(path: &Path) -> io::Result<Self> {
         let above = path.parent().filter(|above| !above.as_os_str().is_empty());
         let above = above.unwrap_or(Path::new("."));
@@ -55,7 +55,7 @@ impl Folder {
     /// Opens a folder as [`make`](Self::make) does, but makes nothing.
     ///
     /// # Errors
-    /// When it is not there, or is a link.
+    /// When there is no folder at `path`, or it is a link.
     pub fn find(path: &Path) -> io::Result<Self> {
         match path.components().next_back() {
             Some(Component::Normal(name)) => {
@@ -65,7 +65,7 @@ impl Folder {
         }
     }
 
-    fn enter(&self, name: &OsStr) -> io::Result<Self> {
+    pub(super) fn enter(&self, name: &OsStr) -> io::Result<Self> {
         self.0.open_dir_nofollow(name).map(Self).map_err(|error| {
             match self.0.symlink_metadata(name).is_ok_and(|about| about.is_symlink()) {
                 true => io::Error::other(format!(

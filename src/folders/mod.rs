@@ -3,11 +3,13 @@
 //!
 //! What stands on a command line is a person's own word and may lead anywhere; what stands in a script goes through here.
 
+mod entries;
 mod folder;
 mod reading;
 mod record;
 mod scratch;
 
+pub use entries::Entry;
 pub use folder::{Folder, is_plain};
 pub use reading::{read_file, read_text};
 pub use record::Record;

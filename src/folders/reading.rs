@@ -26,10 +26,10 @@ pub fn read_file(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     read(file, most)
 }
 
-/// The same for text.
+/// The whole text of a file that a person has named, of at most `most` bytes of UTF-8; links are followed.
 ///
 /// # Errors
-/// When it is not UTF-8, too.
+/// When it is no ordinary file, is larger, is not UTF-8, or cannot be read.
 pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
     let bytes = read_file(path, most)?;
     String::from_utf8(bytes).map_err(|_| io::Error::other("it is not UTF-8 text"))

@@ -20,8 +20,9 @@ pub struct Record {
 }
 
 impl Record {
-    /// Reads the record of a folder; one that is damaged knows less.
+    /// Reads the record of what this program has written into a folder; one that is damaged knows less.
     pub fn of(folder: &Folder) -> Self {
+        // Where there is none, or none that can be read, files count as somebody else's, and are kept.
         let text = folder.read(Path::new(FILE), LARGEST).unwrap_or_default();
         let text = String::from_utf8_lossy(&text);
         Self { files: text.lines().filter_map(entry).collect() }
@@ -39,7 +40,7 @@ impl Record {
         })
     }
 
-    /// Notes, and writes down at once, that a file was written.
+    /// Notes, and writes down at once, that this program wrote a file of this name into the folder.
     ///
     /// # Errors
     /// When the record cannot be written.

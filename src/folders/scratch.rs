@@ -16,7 +16,7 @@ const HELD: &str = ".held";
 /// A folder without that file is of a process that has just begun, unless it is older.
 const BEGINNING: Duration = Duration::from_secs(3600);
 
-/// A folder in the temporary one that is removed when this is dropped.
+/// A new folder below the temporary one of the system, which is removed when this is dropped.
 #[derive(Debug)]
 pub struct Scratch {
     folder: TempDir,
@@ -25,7 +25,7 @@ pub struct Scratch {
 }
 
 impl Scratch {
-    /// Makes a folder, and removes those of processes that were killed.
+    /// Makes a scratch folder, and removes those of processes that were killed.
     ///
     /// # Errors
     /// When it cannot be made.
@@ -46,12 +46,12 @@ impl Scratch {
         Ok(scratch)
     }
 
-    /// Where it is.
+    /// The path of the scratch folder.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
 
-    /// A new folder in it.
+    /// Makes a new folder in the scratch folder.
     ///
     /// # Errors
     /// When it cannot be made.

@@ -55,7 +55,7 @@ impl CircularArc {
         Ok(arc)
     }
 
-    /// Angle from start to end [rad], positive counter-clockwise.
+    /// The angle from start to end of the arc [rad], positive counter-clockwise.
     pub(super) fn sweep(&self) -> f64 {
         self.to_angle - self.from_angle
     }
@@ -64,7 +64,7 @@ impl CircularArc {
         self.radius * self.sweep().abs()
     }
 
-    /// `1 / r`, with the sign of the turn.
+    /// The curvature `1 / r` of the arc [1/length], positive where it turns counter-clockwise.
     pub(super) fn curvature(&self) -> f64 {
         self.sweep().signum() / self.radius
     }

@@ -11,14 +11,14 @@ const SAME_BREAK: f64 = 1e-10;
 /// Functions `N_i(ξ)` that sum to one, each non-zero on a few spans only.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Basis {
-    /// The B-splines of a knot vector.
+    /// The functions are the B-splines of a knot vector.
     BSpline(KnotVector),
-    /// Lagrange polynomials on elements.
+    /// The functions are Lagrange polynomials on elements.
     Lagrange(LagrangeBasis),
 }
 
 impl Basis {
-    /// The polynomial degree.
+    /// The polynomial degree of the functions of the basis.
     pub fn degree(&self) -> usize {
         match self {
             Self::BSpline(knots) => knots.degree(),
@@ -26,7 +26,7 @@ impl Basis {
         }
     }
 
-    /// The number of functions.
+    /// The number of functions of the basis.
     pub fn functions(&self) -> usize {
         match self {
             Self::BSpline(knots) => knots.functions(),
@@ -34,7 +34,7 @@ impl Basis {
         }
     }
 
-    /// The interval on which the functions live.
+    /// The interval of the parameter ξ [-] on which the functions of the basis live: its start and its end.
     pub fn domain(&self) -> (f64, f64) {
         match self {
             Self::BSpline(knots) => knots.domain(),
@@ -50,7 +50,7 @@ impl Basis {
         }
     }
 
-    /// The ends of the spans in order, those of the domain included.
+    /// The ends of the spans of the basis [-] in order, those of the domain included.
     pub fn breaks(&self) -> Vec<f64> {
         match self {
             Self::BSpline(knots) => knots.breaks(),
@@ -58,7 +58,7 @@ impl Basis {
         }
     }
 
-    /// The span that contains `xi`, of two the right one.
+    /// The span of the basis that contains the parameter `xi` [-]; where two meet, the right one.
     ///
     /// # Errors
     /// `xi` outside the domain, or not a number.
@@ -76,7 +76,7 @@ impl Basis {
         }
     }
 
-    /// The non-zero functions at `xi` and their derivatives, continuous from the right at interior
+    /// The functions of the basis that are not zero at `xi`, and their derivatives, continuous from the right at interior
     /// breaks.
     ///
     /// # Errors
@@ -97,7 +97,7 @@ impl Basis {
         }
     }
 
-    /// The number of continuous derivatives at the least smooth interior break; the degree if there is
+    /// The number of continuous derivatives of the functions at the least smooth interior break; the degree if there is
     /// none, for a single polynomial.
     pub fn continuity(&self) -> usize {
         let breaks = self.breaks();

@@ -4,7 +4,7 @@ use std::ops::{AddAssign, Div, Mul, SubAssign};
 
 /// One row of a collocation system, such as `Σ_i N_i(ξ_r) P_i = x(ξ_r)`.
 pub(super) struct Row<R> {
-    /// Number of the first unknown with an entry.
+    /// The number of the first unknown with an entry in this row of the collocation system.
     pub(super) first: usize,
     pub(super) entries: Vec<f64>,
     pub(super) right_side: R,

@@ -12,11 +12,11 @@ const STANDSTILL: f64 = 1e-12;
 /// A curve `x(ξ)` of the plane. Points are lengths, the parameter ξ is dimensionless.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Curve {
-    /// A straight line.
+    /// The curve is a straight line.
     Line(Line),
-    /// A circular arc.
+    /// The curve is a circular arc.
     Arc(CircularArc),
-    /// A B-spline curve.
+    /// The curve is a B-spline curve.
     Spline(SplineCurve),
 }
 
@@ -61,7 +61,7 @@ impl Curve {
         local_cubic::through(points).map(Self::Spline)
     }
 
-    /// The interval of ξ.
+    /// The interval of the parameter ξ of the curve [-]: its start and its end.
     pub fn domain(&self) -> (f64, f64) {
         match self {
             Self::Line(_) | Self::Arc(_) => (0.0, 1.0),
@@ -69,7 +69,7 @@ impl Curve {
         }
     }
 
-    /// The point `x(ξ)` [length].
+    /// The point `x(ξ)` of the curve [length].
     ///
     /// # Errors
     /// `xi` outside the domain, or not a number.
@@ -77,7 +77,7 @@ impl Curve {
         self.derivative(xi, 0)
     }
 
-    /// The derivative `dᵏx/dξᵏ` [length] of `order` k, at knots from the right.
+    /// The derivative `dᵏx/dξᵏ` of the curve [length] of `order` k, at knots from the right.
     ///
     /// # Errors
     /// `xi` outside the domain, or not a number.
@@ -89,7 +89,7 @@ impl Curve {
         }
     }
 
-    /// The angle of the tangent `dx/dξ` from the first axis [rad], in `[-π, π]`.
+    /// The angle of the tangent `dx/dξ` of the curve from the first axis [rad], in `[-π, π]`.
     ///
     /// # Errors
     /// `xi` outside the domain, or not a number; a curve that stands still there.
@@ -98,7 +98,7 @@ impl Curve {
         Ok(atan2(velocity.y, velocity.x))
     }
 
-    /// The curvature `(x' × x'') / |x'|³` [1/length], positive where the curve turns counter-clockwise;
+    /// The curvature `(x' × x'') / |x'|³` of the curve [1/length], positive where it turns counter-clockwise;
     /// at knots from the right.
     ///
     /// # Errors
@@ -124,7 +124,7 @@ impl Curve {
         }
     }
 
-    /// The arc length from the start to `xi` [length].
+    /// The arc length from the start of the curve to `xi` [length].
     ///
     /// # Errors
     /// `xi` outside the domain, or not a number.
@@ -138,7 +138,7 @@ impl Curve {
         }
     }
 
-    /// The parameter at which the arc length from the start is `arc_length` [length].
+    /// The parameter [-] at which the arc length from the start of the curve is `arc_length` [length].
     ///
     /// # Errors
     /// `arc_length` outside `[0, length]`, or not a number.

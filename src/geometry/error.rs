@@ -6,54 +6,54 @@ use super::Vec2;
 /// allowed and, where it is not plain, what to do.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GeometryError {
-    /// A number is NaN or infinite.
+    /// A number given to the geometry is NaN or infinite.
     #[error("{object}: {value} is not a finite number; give a finite one")]
     NotFinite {
-        /// What the number was to be, e.g. "knot 3".
+        /// What the number that is not finite was to be, e.g. "knot 3".
         object: String,
-        /// The number.
+        /// The number that is not finite.
         value: f64,
     },
 
     /// A polynomial degree that the basis does not offer.
     #[error("degree {degree} is not available; allowed are 1 to {largest}")]
     Degree {
-        /// The degree asked for.
+        /// The polynomial degree asked for.
         degree: usize,
-        /// The largest degree on offer.
+        /// The largest polynomial degree on offer.
         largest: usize,
     },
 
-    /// No span at all, or too many of them.
+    /// A basis with no span at all, or with too many of them.
     #[error("spans: {spans} asked for; at least 1 and at most {largest} are allowed")]
     Spans {
-        /// The number asked for.
+        /// The number of spans asked for.
         spans: usize,
-        /// The largest number allowed.
+        /// The largest number of spans allowed.
         largest: usize,
     },
 
-    /// More continuity at the interior knots than the degree leaves.
+    /// More continuous derivatives at the interior knots than the degree of the splines leaves.
     #[error(
         "continuity {continuity} is not possible with degree {degree}; allowed are 0 to {}",
         .degree - 1
     )]
     Continuity {
-        /// The number of continuous derivatives asked for.
+        /// The number of continuous derivatives asked for at interior knots.
         continuity: usize,
-        /// The polynomial degree.
+        /// The polynomial degree of splines for which too many continuous derivatives were asked.
         degree: usize,
     },
 
-    /// Fewer knots than two ends need.
+    /// A knot vector with fewer knots than its two ends need.
     #[error(
         "knots: {count} are too few for degree {degree}; an open knot vector has at least {} ({} at each end)",
         2 * (.degree + 1), .degree + 1
     )]
     TooFewKnots {
-        /// The number of knots given.
+        /// The number of knots given where there are too few.
         count: usize,
-        /// The polynomial degree.
+        /// The polynomial degree of splines with too few knots.
         degree: usize,
     },
 
@@ -63,170 +63,170 @@ pub enum GeometryError {
         .index - 1
     )]
     DecreasingKnots {
-        /// Position of the offending knot, counted from 0.
+        /// The position of the knot that is smaller than the one before it, counted from 0.
         index: usize,
-        /// The offending knot.
+        /// The knot that is smaller than the one before it [-].
         value: f64,
-        /// The knot before it.
+        /// The knot before the one that is smaller [-].
         previous: f64,
     },
 
-    /// The curve could not begin or end in its end control point.
+    /// An end knot that is not repeated often enough: the curve could not begin or end in its end control point.
     #[error(
         "knots: the {end} knot {knot} has multiplicity {multiplicity}; an open knot vector of degree {degree} \
          repeats it {} times: write {}",
         .degree + 1, open_end(end, *knot, *degree)
     )]
     EndMultiplicity {
-        /// "first" or "last".
+        /// Which end knot of the vector is meant: "first" or "last".
         end: &'static str,
-        /// The knot at that end.
+        /// The end knot that is repeated too seldom or too often [-].
         knot: f64,
-        /// How often it occurs.
+        /// How often the end knot occurs in the knot vector.
         multiplicity: usize,
-        /// The polynomial degree.
+        /// The polynomial degree of the splines whose end knot is not repeated as it should be.
         degree: usize,
     },
 
-    /// The basis would be torn at an interior knot.
+    /// An interior knot that is repeated so often that the basis would be torn there.
     #[error(
         "knots: the interior knot {knot} would have multiplicity {multiplicity}; \
          at most {degree}, the degree, is allowed, else the curve is torn there"
     )]
     InteriorMultiplicity {
-        /// The knot.
+        /// The interior knot that would be repeated too often [-].
         knot: f64,
-        /// How often it would occur.
+        /// How often the interior knot would occur.
         multiplicity: usize,
-        /// The polynomial degree, which is the largest multiplicity allowed.
+        /// The polynomial degree of the splines, which is the largest multiplicity of an interior knot.
         degree: usize,
     },
 
-    /// Two knots or breaks that are meant to be equal but are not, quite.
+    /// Two knots or breaks that are meant to be equal but are not, quite: the span between them would be nothing but rounding.
     #[error(
         "{object}: the span from {start} to {end} is shorter than 1e-12 of the whole; \
          make the two equal or move them apart"
     )]
     ShortSpan {
-        /// "knots" or "breaks".
+        /// What is too close together: "knots" or "breaks".
         object: &'static str,
-        /// Start of the span.
+        /// The start of the span that is too short [-].
         start: f64,
-        /// End of the span.
+        /// The end of the span that is too short [-].
         end: f64,
     },
 
-    /// First and last knot coincide.
+    /// A knot vector whose first and last knot coincide.
     #[error("knots: all of them are {knot}; the last knot must be larger than the first")]
     EmptyDomain {
-        /// The only knot.
+        /// The only value of the knots of an empty domain [-].
         knot: f64,
     },
 
-    /// Element ends that do not increase.
+    /// The ends of Lagrange elements do not increase.
     #[error(
         "breaks: entry {index} ({value}) is not larger than entry {} ({previous}); breaks must increase",
         .index - 1
     )]
     BreakOrder {
-        /// Position of the offending break, counted from 0.
+        /// The position of the break that is not larger than the one before it, counted from 0.
         index: usize,
-        /// The offending break.
+        /// The break that is not larger than the one before it [-].
         value: f64,
-        /// The break before it.
+        /// The break before the one that should be larger [-].
         previous: f64,
     },
 
     /// A parameter outside the curve or basis.
     #[error("parameter {xi} is outside [{start}, {end}]")]
     OutsideDomain {
-        /// The parameter.
+        /// The parameter that lies outside the curve or basis [-].
         xi: f64,
-        /// Start of the domain.
+        /// The start of the domain of the curve or basis [-].
         start: f64,
-        /// End of the domain.
+        /// The end of the domain of the curve or basis [-].
         end: f64,
     },
 
     /// A knot to insert that is not strictly inside the domain.
     #[error("knot {xi} cannot be inserted; it must lie strictly between {start} and {end}")]
     InsertOutside {
-        /// The knot.
+        /// The knot that was to be inserted [-].
         xi: f64,
-        /// Start of the domain.
+        /// The start of the domain inside which a knot can be inserted [-].
         start: f64,
-        /// End of the domain.
+        /// The end of the domain inside which a knot can be inserted [-].
         end: f64,
     },
 
-    /// Control points and basis functions do not match.
+    /// The numbers of control points and of basis functions differ.
     #[error(
         "control points: {points} given; the knot vector has {functions} basis functions and needs one each"
     )]
     ControlPointCount {
-        /// The number of control points given.
+        /// The number of control points given for a curve.
         points: usize,
-        /// The number of basis functions.
+        /// The number of basis functions, each of which needs a control point.
         functions: usize,
     },
 
     /// Too few points for a curve.
     #[error("points: {count} given; a curve needs at least {needed}")]
     TooFewPoints {
-        /// The number of points given.
+        /// The number of points given for a curve.
         count: usize,
-        /// The number of points needed.
+        /// The number of points that the curve needs at least.
         needed: usize,
     },
 
-    /// Two consecutive points in the same place.
+    /// Two consecutive points of a curve in the same place.
     #[error(
         "points: entries {} and {index} are both ({}, {}); consecutive points must differ: leave one out",
         .index - 1, .point.x, .point.y
     )]
     CoincidentPoints {
-        /// Position of the second of the two, counted from 0.
+        /// The position of the second of two points in the same place, counted from 0.
         index: usize,
-        /// Where they are [length].
+        /// The place where two consecutive points coincide [length].
         point: Vec2,
     },
 
-    /// A line that is a point.
+    /// A straight line that is a point: it ends where it starts.
     #[error("line: start and end are both ({}, {}); give two different points", .point.x, .point.y)]
     ZeroLengthLine {
-        /// Where it starts and ends [length].
+        /// The point where the line starts and ends [length].
         point: Vec2,
     },
 
-    /// A spline that is a point.
+    /// A spline that is a point: all its control points coincide.
     #[error("spline: all control points are ({}, {}); at least one must differ", .point.x, .point.y)]
     ZeroLengthSpline {
-        /// Where they all are [length].
+        /// The point where all control points of the spline are [length].
         point: Vec2,
     },
 
-    /// An arc without a proper radius.
+    /// An arc whose radius is not positive.
     #[error("arc: radius {radius} is not allowed; it must be positive")]
     ArcRadius {
-        /// The radius [length].
+        /// The radius given for the arc [length].
         radius: f64,
     },
 
-    /// An arc that goes nowhere.
+    /// An arc that goes nowhere: it ends at the angle where it starts.
     #[error(
         "arc: it starts and ends at angle {angle}; the two must differ (add 2π for a full circle)"
     )]
     ZeroArc {
-        /// The angle [rad].
+        /// The angle at which the arc starts and ends [rad].
         angle: f64,
     },
 
-    /// An arc that overlaps itself.
+    /// An arc of more than a full turn, which overlaps itself.
     #[error(
         "arc: it turns by {sweep} rad; at most a full turn, 2π, is allowed in either direction"
     )]
     ArcTurn {
-        /// Angle from start to end [rad].
+        /// The angle from start to end of the arc that overlaps itself [rad].
         sweep: f64,
     },
 
@@ -236,25 +236,25 @@ pub enum GeometryError {
          move control points that coincide, or ask beside it"
     )]
     NoTangent {
-        /// The parameter.
+        /// The parameter at which the curve stands still [-].
         xi: f64,
     },
 
     /// An arc length that the curve does not have.
     #[error("arc length {arc_length} is outside [0, {length}], the curve's length")]
     OutsideLength {
-        /// The arc length asked for [length].
+        /// The arc length asked for, which the curve does not have [length].
         arc_length: f64,
-        /// The length of the curve [length].
+        /// The length of the curve of which another arc length was asked [length].
         length: f64,
     },
 
     /// A Gauss rule that is not on offer.
     #[error("quadrature: {points} points asked for; allowed are 1 to {largest}")]
     QuadraturePoints {
-        /// The number asked for.
+        /// The number of quadrature points asked for.
         points: usize,
-        /// The largest number on offer.
+        /// The largest number of quadrature points on offer.
         largest: usize,
     },
 }
@@ -265,7 +265,7 @@ fn open_end(end: &str, knot: f64, degree: usize) -> String {
     if end == "first" { format!("[{repeated}, …]") } else { format!("[…, {repeated}]") }
 }
 
-/// `value`, if it is a finite number.
+/// Gives `value` back, if it is a finite number; otherwise an error that names the `object`, what the number was to be.
 pub(super) fn finite(object: impl Into<String>, value: f64) -> Result<f64, GeometryError> {
     if value.is_finite() {
         Ok(value)
@@ -274,7 +274,7 @@ pub(super) fn finite(object: impl Into<String>, value: f64) -> Result<f64, Geome
     }
 }
 
-/// `point`, if both its coordinates are finite numbers.
+/// Gives `point` back, if both its coordinates are finite numbers; otherwise an error that names the `object`, what the point was to be.
 pub(super) fn finite_point(object: impl Into<String>, point: Vec2) -> Result<Vec2, GeometryError> {
     match point.iter().find(|coordinate| !coordinate.is_finite()) {
         None => Ok(point),

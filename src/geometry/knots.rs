@@ -24,14 +24,14 @@ pub struct KnotVector {
     knots: Vec<f64>,
 }
 
-/// A non-empty knot interval, or an element: the splines are one polynomial each on it.
+/// A non-empty knot interval, or a Lagrange element: the functions of a basis are one polynomial each on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span {
-    /// The first basis function that is non-zero on it; the others are the next `degree`.
+    /// The index of the first basis function that is not zero on the span; the others are the next `degree`.
     pub first: usize,
-    /// Where it starts.
+    /// The parameter at which the span starts [-].
     pub start: f64,
-    /// Where it ends.
+    /// The parameter at which the span ends [-].
     pub end: f64,
 }
 
@@ -86,27 +86,27 @@ impl KnotVector {
         Ok(Self { degree, knots })
     }
 
-    /// The polynomial degree `p`.
+    /// The polynomial degree `p` of the splines of the knot vector.
     pub fn degree(&self) -> usize {
         self.degree
     }
 
-    /// All knots, repeated ones as often as they count.
+    /// All knots of the vector [-], repeated ones as often as they count.
     pub fn knots(&self) -> &[f64] {
         &self.knots
     }
 
-    /// The number of basis functions: the number of knots less `p + 1`.
+    /// The number of basis functions of the knot vector: the number of knots less `p + 1`.
     pub fn functions(&self) -> usize {
         self.knots.len() - self.degree - 1
     }
 
-    /// First and last knot, `(a, b)`.
+    /// First and last knot of the vector, `(a, b)` [-].
     pub fn domain(&self) -> (f64, f64) {
         (self.knots[0], self.knots[self.knots.len() - 1])
     }
 
-    /// The non-empty spans in order.
+    /// The non-empty spans of the knot vector, in order.
     pub fn spans(&self) -> Vec<Span> {
         self.knots[self.degree..=self.functions()]
             .windows(2)
@@ -116,14 +116,14 @@ impl KnotVector {
             .collect()
     }
 
-    /// The distinct knots in order, ends included.
+    /// The distinct knots of the vector [-] in order, ends included.
     pub fn breaks(&self) -> Vec<f64> {
         let mut breaks = self.knots.clone();
         breaks.dedup();
         breaks
     }
 
-    /// How often `xi` occurs among the knots.
+    /// How often `xi` occurs among the knots of the vector.
     pub fn multiplicity(&self, xi: f64) -> usize {
         self.knots.partition_point(|&knot| knot <= xi)
             - self.knots.partition_point(|&knot| knot < xi)

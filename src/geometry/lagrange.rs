@@ -62,32 +62,32 @@ impl LagrangeBasis {
         Self::new(degree, (0..=elements).map(|i| i as f64 / elements as f64).collect())
     }
 
-    /// The polynomial degree.
+    /// The polynomial degree of the Lagrange elements.
     pub fn degree(&self) -> usize {
         self.degree
     }
 
-    /// The number of basis functions, one for each node.
+    /// The number of Lagrange polynomials of the basis, one for each node.
     pub fn functions(&self) -> usize {
         (self.breaks.len() - 1) * self.degree + 1
     }
 
-    /// First and last break.
+    /// First and last break of the Lagrange elements [-].
     pub fn domain(&self) -> (f64, f64) {
         (self.breaks[0], self.breaks[self.breaks.len() - 1])
     }
 
-    /// The ends of the elements.
+    /// The ends of the Lagrange elements [-], in order.
     pub fn breaks(&self) -> &[f64] {
         &self.breaks
     }
 
-    /// The elements.
+    /// The Lagrange elements as spans, in order.
     pub fn spans(&self) -> Vec<Span> {
         (0..self.breaks.len() - 1).map(|element| self.span(element)).collect()
     }
 
-    /// The element that contains `xi`, of two the right one.
+    /// The Lagrange element that contains the parameter `xi` [-]; where two meet, the right one.
     ///
     /// # Errors
     /// `xi` outside the domain, or not a number.
@@ -98,7 +98,7 @@ impl LagrangeBasis {
         Ok(self.span(behind.min(self.breaks.len() - 1) - 1))
     }
 
-    /// The nodes, one for each function, which is 1 there; all others are 0.
+    /// The parameters of the nodes [-], one for each Lagrange polynomial, which is 1 there; all others are 0.
     pub fn nodes(&self) -> Vec<f64> {
         let mut nodes = vec![self.breaks[0]];
         for span in self.spans() {
@@ -107,7 +107,7 @@ impl LagrangeBasis {
         nodes
     }
 
-    /// The same elements, but the one around `xi` split there.
+    /// The same Lagrange elements, but the one around `xi` split there.
     ///
     /// # Errors
     /// `xi` outside the domain or too close to a break.

@@ -96,44 +96,44 @@ impl Passage {
         }
     }
 
-    /// The basis.
+    /// The basis along which the way leads.
     pub fn basis(&self) -> &Basis {
         &self.basis
     }
 
-    /// The index of the first function of the window.
+    /// The index of the first basis function of the window of the way.
     pub fn first(&self) -> usize {
         self.first
     }
 
-    /// `B_i(ξ₀)`. They sum to one.
+    /// The values `B_i(ξ₀)` at the start of the way, one for each function of its window. They sum to one.
     pub fn start(&self) -> &[f64] {
         &self.start[..self.length]
     }
 
-    /// `B_i(ξ₁)`. They sum to one.
+    /// The values `B_i(ξ₁)` at the end of the way, one for each function of its window. They sum to one.
     pub fn end(&self) -> &[f64] {
         &self.end[..self.length]
     }
 
-    /// `½ (B_i(ξ₀) + B_i(ξ₁))`. They sum to one.
+    /// The means `½ (B_i(ξ₀) + B_i(ξ₁))` of start and end of the way, one for each function of its window. They sum to one.
     pub fn mean(&self) -> &[f64] {
         &self.mean[..self.length]
     }
 
-    /// `B_i'(ξ₁)`, on the side of the way. They sum to zero.
+    /// The derivatives `B_i'(ξ₁)` at the end of the way, on its side, one for each function of its window. They sum to zero.
     pub fn slope(&self) -> &[f64] {
         &self.slope[..self.length]
     }
 
-    /// `D_i = (B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)`, the mean of `B_i'` over the way, to rounding;
-    /// `B_i'(ξ₀)` for a way of length zero. They sum to zero.
+    /// The divided differences `D_i = (B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)`, the means of `B_i'` over the way, to rounding;
+    /// `B_i'(ξ₀)` for a way of length zero. One for each function of the window; they sum to zero.
     pub fn difference(&self) -> &[f64] {
         &self.difference[..self.length]
     }
 
-    /// `∂D_i/∂ξ₁ = (B_i'(ξ₁) - D_i) / (ξ₁ - ξ₀)` for fixed ξ₀; `½ B_i''(ξ₀)` for a way of length
-    /// zero. They sum to zero.
+    /// The derivatives of the divided differences by the end of the way, `∂D_i/∂ξ₁ = (B_i'(ξ₁) - D_i) / (ξ₁ - ξ₀)` for fixed ξ₀;
+    /// `½ B_i''(ξ₀)` for a way of length zero. One for each function of the window; they sum to zero.
     ///
     /// To rounding, unless the way crosses a break at which the `B_i'` jump: then the rounding of
     /// `D_i` is divided by the length of the way.
@@ -141,8 +141,8 @@ impl Passage {
         &self.change[..self.length]
     }
 
-    /// How many spans lie between two parameters, parts of spans as parts: that of a small way is its length over the width of its
-    /// span.
+    /// How many spans of the basis lie between two parameters, parts of spans as parts: for a small way, its length over the width of
+    /// its span.
     pub fn spans_between(&self, from: f64, to: f64) -> f64 {
         let (from, to) = if from <= to { (from, to) } else { (to, from) };
         let Way { departure, arrival, .. } = self.way(from, to);

@@ -2,16 +2,16 @@
 
 use crate::elementary::sin_cos;
 
-/// A vector or point of the plane.
+/// A vector or point of the plane: two components, in the unit of what it stands for.
 pub type Vec2 = nalgebra::Vector2<f64>;
 
-/// `J a = (-a2, a1)`: `a` turned by +90°.
+/// The vector `J a = (-a2, a1)`: `a` turned by +90°.
 #[inline]
 pub fn perpendicular(a: Vec2) -> Vec2 {
     Vec2::new(-a.y, a.x)
 }
 
-/// `a × b = a1 b2 - a2 b1`, positive when `b` lies counter-clockwise of `a`.
+/// The cross product `a × b = a1 b2 - a2 b1` of two vectors of the plane, positive when `b` lies counter-clockwise of `a`.
 #[inline]
 pub fn cross(a: Vec2, b: Vec2) -> f64 {
     a.x * b.y - a.y * b.x

@@ -10,14 +10,14 @@ const MOST_POINTS: usize = 64;
 /// The Gauss–Legendre rule of `n` points, exact for polynomials up to degree `2n - 1`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GaussRule {
-    /// The points on `[-1, 1]`, increasing and symmetric about 0 to the last bit.
+    /// The points of the Gauss rule on `[-1, 1]`, increasing and symmetric about 0 to the last bit.
     pub points: Vec<f64>,
-    /// Their weights, positive, with sum 2.
+    /// The weights of the points of the Gauss rule, positive, with sum 2.
     pub weights: Vec<f64>,
 }
 
 impl GaussRule {
-    /// The rule of `n` points, to rounding.
+    /// The Gauss–Legendre rule of `n` points, to rounding.
     ///
     /// # Errors
     /// `n` outside 1 to 64.
@@ -29,8 +29,8 @@ impl GaussRule {
         }
     }
 
-    /// Newton's method on the Legendre polynomial, from the points of Tricomi's estimate; weights
-    /// `2 / ((1 - x²) P'_n(x)²)` (Abramowitz & Stegun 25.4.29).
+    /// The Gauss–Legendre rule of `n` points by Newton's method on the Legendre polynomial, from the points of Tricomi's estimate;
+    /// weights `2 / ((1 - x²) P'_n(x)²)` (Abramowitz & Stegun 25.4.29).
     pub(super) fn legendre(n: usize) -> Self {
         let (mut points, mut weights) = (vec![0.0; n], vec![0.0; n]);
         for i in 0..n.div_ceil(2) {

@@ -62,17 +62,17 @@ impl SplineCurve {
         Ok(curve)
     }
 
-    /// The knot vector.
+    /// The knot vector of the spline curve.
     pub fn knots(&self) -> &KnotVector {
         &self.knots
     }
 
-    /// The control points [length], one for each basis function.
+    /// The control points of the spline curve [length], one for each basis function.
     pub fn control_points(&self) -> &[Vec2] {
         &self.control_points
     }
 
-    /// The same curve with the knot `xi` repeated `times` more (Boehm 1980; The NURBS Book, section
+    /// The same spline curve with the knot `xi` repeated `times` more (Boehm 1980; The NURBS Book, section
     /// 5.2, equation 5.15, knot by knot).
     ///
     /// # Errors
@@ -107,7 +107,7 @@ impl SplineCurve {
         Ok((self.lengths[number] + within).min(self.lengths[number + 1]))
     }
 
-    /// The parameter at `arc_length`, which the caller knows to be in `[0, length]`.
+    /// The parameter of the spline curve [-] at `arc_length` [length], which the caller knows to be in `[0, length]`.
     pub(super) fn parameter_at(&self, arc_length: f64) -> f64 {
         let behind = self.lengths.partition_point(|&length| length <= arc_length);
         if behind == self.lengths.len() {

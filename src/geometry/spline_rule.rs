@@ -3,7 +3,7 @@
 use super::collocation::{Row, solve};
 use super::{Basis, BasisValues, GaussRule, Span};
 
-/// The points of each span of a run, in order, with their weights: `∫ f dξ ≈ Σ weight · f(point)`.
+/// The quadrature points of each span of a run of spans, in order, with their weights: `∫ f dξ ≈ Σ weight · f(point)`.
 pub type RunRule = Vec<Vec<(f64, f64)>>;
 
 /// Lengths of spans that differ by less than this, as a part of them, are equal.

@@ -15,7 +15,7 @@ const ZERO: Row = [0.0; WIDTH];
 /// Values are dimensionless; nothing lives on the heap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BasisValues {
-    /// The index of the first of these functions.
+    /// The index, in the basis, of the first function that is not zero on the span.
     pub first: usize,
     degree: usize,
     /// Derivatives of order `k` in row `k`.
@@ -23,27 +23,27 @@ pub struct BasisValues {
 }
 
 impl BasisValues {
-    /// Zeros, to be filled by the basis.
+    /// Values and derivatives that are all zero, to be filled by the basis.
     pub(super) fn zeros(first: usize, degree: usize) -> Self {
         Self { first, degree, rows: [ZERO; WIDTH] }
     }
 
-    /// The derivatives of order 0 to `degree`, one row each.
+    /// The derivatives of the functions by ξ, of order 0 to `degree`, one row for each order.
     pub(super) fn rows_mut(&mut self) -> &mut [Row] {
         &mut self.rows[..=self.degree]
     }
 
-    /// The values `N_first(ξ) …`, `degree + 1` of them. They sum to one.
+    /// The values `N_first(ξ) …` of the functions that are not zero on the span, `degree + 1` of them. They sum to one.
     pub fn values(&self) -> &[f64] {
         self.derivatives(0)
     }
 
-    /// The first derivatives `N'_first(ξ) …` with respect to ξ. They sum to zero.
+    /// The first derivatives `N'_first(ξ) …` of the functions with respect to ξ, `degree + 1` of them. They sum to zero.
     pub fn slopes(&self) -> &[f64] {
         self.derivatives(1)
     }
 
-    /// The derivatives of the given `order` with respect to ξ; zeros above the degree.
+    /// The derivatives of the functions of the given `order` with respect to ξ, `degree + 1` of them; zeros above the degree.
     pub fn derivatives(&self, order: usize) -> &[f64] {
         let row = if order <= self.degree { &self.rows[order] } else { &ZERO };
         &row[..=self.degree]

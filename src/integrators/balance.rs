@@ -12,19 +12,19 @@ const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
 /// no direction, and are solved by what is no solution.
 const SHORTEST_CHORD: f64 = 1e-3;
 
-/// What a method puts into the balance of a step.
+/// What a method puts into the balance of a step: how much inertia, and forces of which stage.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rule {
-    /// `ι`: the inertia is that of the acceleration `ι d/Δt²`, but for what is carried.
+    /// The factor `ι` of the inertia, which is that of the acceleration `ι d/Δt²`, but for what is carried [-].
     pub(super) inertia: f64,
-    /// Where forces are taken that depend on the increments.
+    /// The stage of the step at which forces are taken that depend on the increments.
     pub(super) stage: Stage,
-    /// How much they count.
+    /// The factor of the forces that depend on the increments [-].
     pub(super) weight: f64,
 }
 
 impl Rule {
-    /// With `(v0 + v1)/2 = Δq/Δt` and the acceleration `(v1 - v0)/Δt`.
+    /// The balance of methods with `(v0 + v1)/2 = Δq/Δt` and the acceleration `(v1 - v0)/Δt`.
     pub(super) fn mean(stage: Stage, weight: f64) -> Self {
         Self { inertia: 2.0, stage, weight }
     }
@@ -99,7 +99,7 @@ impl Equations for StepBalance<'_> {
     }
 }
 
-/// The vectors of a step and the Newton solver, allocated once.
+/// The equations of a step: its vectors and the Newton solver, allocated once.
 #[derive(Debug, Clone)]
 pub(super) struct StepSolver {
     newton: Newton,
@@ -129,7 +129,7 @@ impl StepSolver {
         }
     }
 
-    /// Predicts a step with the rates that the mechanism expects.
+    /// Predicts the increments of a step with the rates that the mechanism expects.
     pub(super) fn predict(&mut self, mechanism: &mut dyn Mechanism, interval: Interval) {
         let duration = interval.duration();
         self.coasting.iter_mut().zip(mechanism.rates()).for_each(|(u, rate)| *u = duration * rate);
@@ -143,13 +143,13 @@ impl StepSolver {
         self.carried.fill(0.0);
     }
 
-    /// Adds a share of the forces of a stage at which nothing has moved yet.
+    /// Carries a share of the forces of a stage at which nothing has moved yet into the balance of the step.
     pub(super) fn carry(&mut self, mechanism: &mut dyn Mechanism, stage: Stage, share: f64) {
         self.increments.fill(0.0);
         mechanism.add_forces(stage, &self.increments, share, &mut self.carried);
     }
 
-    /// Adds the inertia of accelerations times a factor.
+    /// Carries the inertia of accelerations times a factor into the balance of the step.
     pub(super) fn carry_inertia(
         &mut self,
         mechanism: &mut dyn Mechanism,
@@ -159,7 +159,7 @@ impl StepSolver {
         mechanism.add_inertia(factor, accelerations, &mut self.carried);
     }
 
-    /// Solves for the increments.
+    /// Solves the balance of the step for the increments.
     pub(super) fn solve(
         &mut self,
         mechanism: &mut dyn Mechanism,
@@ -197,14 +197,14 @@ impl StepSolver {
         }
     }
 
-    /// Accepts the increments, with the rates `v1 = 2 u/Δt - v0`.
+    /// Accepts the increments of the step, with the rates `v1 = 2 u/Δt - v0` at its end.
     pub(super) fn correct(&mut self, mechanism: &mut dyn Mechanism, interval: Interval) {
         let twice_inverse = 2.0 / interval.duration();
         self.accept(mechanism, |_, v0, d| v0 + twice_inverse * d);
     }
 
-    /// Accepts the increments, with the rates at the end that a method makes of the number of an unknown, its rate at the
-    /// start and its deviation from coasting.
+    /// Accepts the increments of the step, with the rates at its end that a method makes of the number of an unknown, its rate at
+    /// the start and its deviation from coasting.
     pub(super) fn accept(
         &mut self,
         mechanism: &mut dyn Mechanism,

@@ -22,10 +22,10 @@ pub struct EnergyDecaying {
 }
 
 impl EnergyDecaying {
-    /// Where a step takes loads.
+    /// The stages of a step at which the method takes loads.
     pub const STAGES: &[Stage] = &[Stage::Midpoint];
 
-    /// The method with work space for a mechanism.
+    /// The energy-decaying method with dissipation `chi` [-] and work space for a mechanism.
     pub fn new(chi: f64, mechanism: &dyn Mechanism, tolerance: Tolerance) -> Self {
         Self { solver: StepSolver::new(mechanism, tolerance), chi }
     }

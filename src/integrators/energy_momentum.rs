@@ -4,7 +4,7 @@ use super::balance::{Rule, StepSolver};
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Keeps energy, linear and angular momentum to rounding, for any step: midpoint kinematics on tangent-scaled
+/// The energy–momentum method: keeps energy, linear and angular momentum to rounding, for any step: midpoint kinematics on tangent-scaled
 /// rotations, averaged section forces.
 ///
 /// `M (v1 - v0)/Δt + F(midpoint) = 0`, `(v0 + v1)/2 = Δq/Δt`. Second order.
@@ -17,10 +17,10 @@ pub struct EnergyMomentum {
 }
 
 impl EnergyMomentum {
-    /// Where a step takes forces.
+    /// The stages of a step at which the method takes forces.
     pub const STAGES: &[Stage] = &[Stage::Midpoint];
 
-    /// The method with work space for a mechanism.
+    /// The energy–momentum method with work space for a mechanism.
     pub fn new(mechanism: &dyn Mechanism, tolerance: Tolerance) -> Self {
         Self { solver: StepSolver::new(mechanism, tolerance) }
     }

@@ -2,23 +2,25 @@
 
 use std::error::Error;
 use std::fmt;
-use std::sync::Arc;
+use std::rc::Rc;
 
 use super::{Interval, Overshoot};
 use crate::newton::NewtonError;
 
 /// An error from outside of the mechanics of a step, as the one who caused it made it; it is told as that one, and may be taken apart
 /// by who knows its type.
+///
+/// It stays on its thread: who caused it may be a function of a script, whose errors do.
 #[derive(Debug, Clone)]
-pub struct Cause(Arc<dyn Error + Send + Sync>);
+pub struct Cause(Rc<dyn Error>);
 
 impl Cause {
     /// An error of any type.
-    pub fn new(error: impl Error + Send + Sync + 'static) -> Self {
-        Self(Arc::new(error))
+    pub fn new(error: impl Error + 'static) -> Self {
+        Self(Rc::new(error))
     }
 
-    /// The error itself, if it is of that type.
+    /// The wrapped error itself, if it is of type `E`.
     pub fn downcast_ref<E: Error + 'static>(&self) -> Option<&E> {
         self.0.downcast_ref()
     }
@@ -49,11 +51,11 @@ pub enum StepError {
     /// The equations of the step were not solved.
     #[error("the step of {:.3e} from t = {} failed: {source}", interval.duration(), interval.start)]
     Newton {
-        /// The step.
+        /// The interval of the step whose equations were not solved [time].
         interval: Interval,
-        /// The solver's reason, with its residual history.
+        /// The solver's reason for finding no solution, with its residual history.
         source: NewtonError,
-        /// Newton iterations that parts of the step took before.
+        /// The number of Newton iterations that parts of the refused step took before.
         before: usize,
     },
     /// The mean rate of a section times the step reaches π: such a turn is not resolved.
@@ -62,9 +64,9 @@ pub enum StepError {
         interval.duration(), interval.start
     )]
     Rotation {
-        /// The step.
+        /// The interval of the step in which a section turns too far [time].
         interval: Interval,
-        /// The rotation increment `Δω`, mean rate times step [rad].
+        /// The rotation increment `Δω` of the section that turns too far, mean rate times step [rad].
         rotation: f64,
         /// Newton iterations that the refused step took.
         iterations: usize,
@@ -76,9 +78,9 @@ pub enum StepError {
         interval.duration(), interval.start
     )]
     Chord {
-        /// The step.
+        /// The interval of the step in which the way of a slider folds up [time].
         interval: Interval,
-        /// The chord in the mean configuration, relative to the way [-].
+        /// The chord of the slider's way in the mean configuration, relative to the way [-].
         chord: f64,
         /// Newton iterations that the refused step took.
         iterations: usize,
@@ -89,9 +91,9 @@ pub enum StepError {
         overshoot.limit, interval.duration(), interval.start
     )]
     Overshoot {
-        /// The step.
+        /// The interval of the step in which a constraint ends [time].
         interval: Interval,
-        /// Which limit, and how far beyond it the step went.
+        /// Which limit of a constraint was passed, and how far beyond it the step went.
         overshoot: Overshoot,
         /// Newton iterations that the refused step took.
         iterations: usize,
@@ -99,17 +101,17 @@ pub enum StepError {
     /// A load has no finite value in the step.
     #[error("{load}: {source} (in the step from t = {} to {})", interval.start, interval.end)]
     Load {
-        /// The step.
+        /// The interval of the step in which a load has no finite value [time].
         interval: Interval,
-        /// The name of the load.
+        /// The name of the load without a finite value.
         load: String,
-        /// What its schedule says.
+        /// The schedule's reason for having no finite value.
         source: Cause,
     },
 }
 
 impl StepError {
-    /// Matrices that were factorised, or could not be.
+    /// The number of matrices that the refused step has factorised, or tried to.
     pub fn factorisations(&self) -> usize {
         match self {
             Self::Newton { source, before, .. } => source.factorisations() + before,
@@ -120,7 +122,7 @@ impl StepError {
         }
     }
 
-    /// The error of a part of a step as one of the whole, of which earlier parts took so many Newton iterations.
+    /// The error of a part of a step, told of the whole step, of which earlier parts took `before` Newton iterations.
     pub(super) fn of_whole(self, interval: Interval, before: usize) -> Self {
         match self {
             Self::Newton { source, .. } => Self::Newton { interval, source, before },
@@ -137,7 +139,7 @@ impl StepError {
         }
     }
 
-    /// Whether a smaller step may succeed.
+    /// Whether a smaller step may succeed where this one was refused.
     pub fn may_be_cured_by_a_smaller_step(&self) -> bool {
         !matches!(self, Self::Load { .. })
     }

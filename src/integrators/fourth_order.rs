@@ -30,10 +30,10 @@ pub struct FourthOrder {
 }
 
 impl FourthOrder {
-    /// Where a step takes forces: once in each part.
+    /// The stages of a step at which the method takes forces: one in each part.
     pub const STAGES: &[Stage] = &[Stage::Midpoint; ENDS.len()];
 
-    /// The method with work space for a mechanism.
+    /// The method of fourth order with work space for a mechanism.
     pub fn new(mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
         // Here is time to make room for it.
         mechanism.checkpoint().keep();

@@ -54,10 +54,10 @@ impl Weights {
 }
 
 impl GeneralizedAlpha {
-    /// Where a step takes forces.
+    /// The stages of a step at which the method takes forces.
     pub const STAGES: &[Stage] = &[Stage::Start, Stage::End];
 
-    /// The method with work space for a mechanism, which it makes keep accelerations.
+    /// The generalised-α method with `ρ∞` [-] and work space for a mechanism, which it makes keep accelerations.
     pub fn new(rho_infinity: f64, mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
         mechanism.accelerated().keep_accelerations();
         Self {

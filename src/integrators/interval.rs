@@ -3,36 +3,36 @@
 /// The interval of one step or of a part of it [time].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
-    /// Where it begins.
+    /// The time at which the interval begins [time].
     pub start: f64,
-    /// Where it ends.
+    /// The time at which the interval ends [time].
     pub end: f64,
     /// Known to more digits than the difference of two late times.
     duration: f64,
     ending: Ending,
 }
 
-/// What ends where an interval ends.
+/// What ends at the end of an interval: a whole step, or a part of one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ending {
-    /// Only a part of a step, which goes on from there: what happens at the end of a step waits.
+    /// The interval ends only a part of a step, which goes on from there: what happens at the end of a step waits.
     OfPart,
-    /// The step.
+    /// The interval ends a step.
     OfStep,
 }
 
 impl Interval {
-    /// From one time to another.
+    /// The interval from one time to another [time].
     pub const fn between(start: f64, end: f64) -> Self {
         Self { start, end, duration: end - start, ending: Ending::OfStep }
     }
 
-    /// From a time on; its end is rounded, its duration is not.
+    /// The interval of a duration from a time on [time]; its end is rounded, its duration is not.
     pub fn lasting(start: f64, duration: f64) -> Self {
         Self { start, end: start + duration, duration, ending: Ending::OfStep }
     }
 
-    /// The part of it between two shares of its duration, backwards in time if the second one is smaller.
+    /// The part of the interval between two shares of its duration [-], backwards in time if the second one is smaller.
     pub fn part(&self, from: f64, to: f64) -> Self {
         let duration = (to - from) * self.duration;
         let start = self.start + from * self.duration;
@@ -42,12 +42,12 @@ impl Interval {
         Self { start, end: self.start + to * self.duration, duration, ending: Ending::OfPart }
     }
 
-    /// Its length `Δt`, negative if it leads backwards in time [time].
+    /// The duration `Δt` of the interval, negative if it leads backwards in time [time].
     pub fn duration(&self) -> f64 {
         self.duration
     }
 
-    /// What ends where it ends.
+    /// Whether the interval ends a step or a part of one.
     pub fn ending(&self) -> Ending {
         self.ending
     }

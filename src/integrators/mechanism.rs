@@ -3,12 +3,12 @@
 use super::{Interval, StepError};
 use crate::linalg::{BandedMatrix, Border, BorderShape};
 
-/// Where in a step forces are taken. Increments are counted from the start of the step.
+/// The place in a step where forces are taken. Increments are counted from the start of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
-    /// At the start of the step, loads as they are just after it.
+    /// Forces are taken at the start of the step, loads as they are just after it.
     Start,
-    /// Between start and end: mean configuration, averaged section forces, mean loads.
+    /// Forces are taken between start and end: mean configuration, averaged section forces, mean loads.
     ///
     /// The internal forces then do exactly the work by which the strain energy changes
     /// (Stander & Stein 1996; Simo, Tarnow & Doblaré 1995).
@@ -18,21 +18,21 @@ pub enum Stage {
     ///
     /// The internal forces then do more work than that by `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
     DampedMidpoint(f64),
-    /// At the end of the step, loads as they are just before it.
+    /// Forces are taken at the end of the step, loads as they are just before it.
     End,
 }
 
 impl Stage {
-    /// Those at which loads have values of their own, in the order of time.
+    /// The stages at which loads have values of their own, in the order of time.
     pub const ALL: [Self; 3] = [Self::Start, Self::Midpoint, Self::End];
 }
 
 /// The constant inertia matrix `M` of a mechanical system.
 pub trait Inertia {
-    /// Adds `factor · M · rates` to `out`.
+    /// Adds `factor · M · rates` to `out`, one entry for each unknown movement.
     fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]);
 
-    /// Adds `factor · M` to the tangent.
+    /// Adds the inertia `factor · M` to the tangent.
     fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix);
 }
 
@@ -46,7 +46,7 @@ pub trait Forces {
     fn add_forces(&mut self, stage: Stage, increments: &[f64], weight: f64, out: &mut [f64])
     -> f64;
 
-    /// Adds `weight` times the condensed forces of a stage, and their derivative by the increments.
+    /// Adds `weight` times the condensed forces of a stage to `out`, and their derivative by the increments to the tangent.
     fn add_linearised_forces(
         &mut self,
         stage: Stage,
@@ -72,16 +72,17 @@ pub trait Forces {
 
 /// The constraints of a mechanical system, with unknowns of their own.
 pub trait Constraints {
-    /// How many unknowns the constraints add, and how many entries their equations may have.
+    /// How many unknowns the constraints of the mechanism add, and how many entries their equations may have.
     fn constraint_shape(&self) -> BorderShape;
 
-    /// Guesses the unknowns of the constraints.
+    /// Guesses the unknowns of the constraints for a step over the interval.
     fn predict_constraints(&mut self, interval: Interval, unknowns: &mut [f64]);
 
-    /// Adds the forces of the constraints, and behind the movements by how much the constraints are violated.
+    /// Adds the forces of the constraints to `out`, and behind the movements by how much the constraints are violated.
     fn add_constraints(&mut self, increments: &[f64], unknowns: &[f64], out: &mut [f64]);
 
-    /// The same, with the derivatives by the increments and by the unknowns of the constraints.
+    /// Adds forces and violations of the constraints to `out`, and their derivatives by the increments and by the unknowns of the constraints to the
+    /// tangent.
     fn add_linearised_constraints(
         &mut self,
         increments: &[f64],
@@ -111,19 +112,19 @@ pub trait Constraints {
 /// entries of all these, those of the supported degrees of freedom, which do not move: what is left of a residual there is
 /// the reaction of the supports.
 pub trait Mechanism: Inertia + Forces + Constraints {
-    /// The number of unknown movements of a step.
+    /// The number of unknown movements of the mechanism in a step.
     fn unknowns(&self) -> usize;
 
-    /// The number of entries of a force vector: movements, constraints and supported degrees of freedom.
+    /// The number of entries of a force vector of the mechanism: movements, constraints and supported degrees of freedom.
     fn degrees_of_freedom(&self) -> usize;
 
-    /// How far from the diagonal the tangent reaches.
+    /// The half-bandwidth of the tangent of the mechanism: how far from the diagonal it has entries.
     fn half_bandwidth(&self) -> usize;
 
-    /// The rates of the unknowns at the start of the step [length/time, 1/time].
+    /// The rates of the unknown movements at the start of the step [length/time, 1/time].
     fn rates(&self) -> &[f64];
 
-    /// The rates with which the movements of the next step may be guessed [length/time, 1/time].
+    /// The rates with which the unknown movements of the next step may be guessed [length/time, 1/time].
     fn expected_rates(&self) -> &[f64];
 
     /// Prepares a step that takes forces at the given stages: evaluates what depends on time only.
@@ -132,55 +133,55 @@ pub trait Mechanism: Inertia + Forces + Constraints {
     /// When a load has no finite value.
     fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), StepError>;
 
-    /// Accepts a step: new configuration and rates, work and impulse of loads and supports.
+    /// Accepts a step of the mechanism: new configuration and rates, work and impulse of loads and supports.
     fn advance(&mut self, solution: &Solution<'_>);
 
-    /// For methods that go back within a step.
+    /// The mechanism as one that remembers a state, for methods that go back within a step.
     fn checkpoint(&mut self) -> &mut dyn Checkpoint;
 
-    /// For methods whose state accelerations are a part of.
+    /// The mechanism as one that keeps accelerations, for methods whose state they are a part of.
     fn accelerated(&mut self) -> &mut dyn Accelerated;
 }
 
 /// A mechanical system that remembers one of its states: what a method asks for whose steps have parts.
 pub trait Checkpoint {
-    /// Remembers the present state, at the start of a step, in the place of the one remembered before.
+    /// Remembers the present state of the mechanism, at the start of a step, in the place of the one remembered before.
     fn keep(&mut self);
 
-    /// Goes back to the state that is remembered, bit for bit.
+    /// Goes back to the state of the mechanism that is remembered, bit for bit.
     fn go_back(&mut self);
 }
 
 /// A mechanical system with accelerations as a part of its state: what a method asks for that uses those of the step before.
 pub trait Accelerated {
-    /// From here on accelerations are a part of the state, unknown until they are set.
+    /// Makes accelerations a part of the mechanism's state from here on; they are unknown until they are set.
     fn keep_accelerations(&mut self);
 
     /// The accelerations just after the start of the step that has begun, if they are known [length/time², 1/time²].
     fn accelerations(&self) -> Option<&[f64]>;
 
-    /// Sets the accelerations, where they are kept.
+    /// Sets the accelerations of the mechanism [length/time², 1/time²], where they are kept.
     fn set_accelerations(&mut self, accelerations: &[f64]);
 }
 
-/// What a step has found.
+/// What an integrator has found in a step.
 #[derive(Debug, Clone, Copy)]
 pub struct Solution<'a> {
-    /// Of the movements [length, rad].
+    /// The increments of the movements in the step [length, rad].
     pub increments: &'a [f64],
-    /// Of the constraints, in the units of each.
+    /// The unknowns of the constraints that the step has found, in the units of each.
     pub constraints: &'a [f64],
-    /// At the end of the step [length/time, 1/time].
+    /// The rates of the movements at the end of the step [length/time, 1/time].
     pub rates: &'a [f64],
-    /// What is left of the equations; reactions at supported degrees of freedom.
+    /// What is left of the equations of the step [force, force·length]; reactions at supported degrees of freedom.
     pub residual: &'a [f64],
 }
 
 /// A limit of a constraint that is passed within a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overshoot {
-    /// The number of the limit.
+    /// The number of the limit that is passed, among those of its constraint.
     pub limit: usize,
-    /// How far beyond its end it was found; negative when it should have come further.
+    /// How far beyond its limit the constraint was found [length]; negative when it should have come further.
     pub distance: f64,
 }

@@ -6,6 +6,7 @@ mod energy_momentum;
 mod error;
 mod fourth_order;
 mod generalized_alpha;
+mod integrator;
 mod interval;
 mod mechanism;
 mod registry;
@@ -16,6 +17,7 @@ pub use energy_momentum::EnergyMomentum;
 pub use error::{Cause, StepError};
 pub use fourth_order::FourthOrder;
 pub use generalized_alpha::GeneralizedAlpha;
+pub use integrator::Integrator;
 pub use interval::{Ending, Interval};
 pub use mechanism::{
     Accelerated, Checkpoint, Constraints, Forces, Inertia, Mechanism, Overshoot, Solution, Stage,
@@ -24,19 +26,3 @@ pub use registry::{
     Claims, EnergyClaim, INTEGRATORS, IntegratorEntry, Method, MethodError, MethodParameter,
 };
 pub use trapezoidal::Trapezoidal;
-
-use crate::newton::NewtonReport;
-
-/// One way to take a step.
-pub trait Integrator {
-    /// Advances the mechanism over the interval; on an error it is left as it was.
-    ///
-    /// # Errors
-    /// When no solution is found, the rotation increment is too large, a constraint ends within the interval, or a load
-    /// cannot be evaluated.
-    fn step(
-        &mut self,
-        mechanism: &mut dyn Mechanism,
-        interval: Interval,
-    ) -> Result<NewtonReport, StepError>;
-}

@@ -8,24 +8,24 @@ use super::{
 };
 use crate::newton::Tolerance;
 
-/// A choice of method, before there is a mechanism to apply it to.
+/// A choice of time integrator, before there is a mechanism to apply it to.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub enum Method {
-    /// [`EnergyMomentum`].
+    /// The method [`EnergyMomentum`], the default.
     #[default]
     EnergyMomentum,
-    /// [`Trapezoidal`].
+    /// The method [`Trapezoidal`]: Newmark with β = 1/4, γ = 1/2.
     Trapezoidal,
-    /// [`EnergyDecaying`].
+    /// The method [`EnergyDecaying`]: momenta are kept, vibration is damped.
     EnergyDecaying {
-        /// `χ`, how much of the change of strain section forces are late by.
+        /// The dissipation `χ` of the energy-decaying method: by how much of the change of strain its section forces are late [-].
         chi: f64,
     },
-    /// [`FourthOrder`].
+    /// The method [`FourthOrder`]: seven energy–momentum steps in one.
     FourthOrder,
-    /// [`GeneralizedAlpha`].
+    /// The method [`GeneralizedAlpha`] of Chung & Hulbert.
     GeneralizedAlpha {
-        /// `ρ∞`, by what the fastest vibration is multiplied in a step.
+        /// The spectral radius `ρ∞` of the generalised-α method: by what the fastest vibration is multiplied in a step [-].
         rho_infinity: f64,
     },
 }
@@ -33,29 +33,29 @@ pub enum Method {
 /// What a method promises about the energy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EnergyClaim {
-    /// It is kept to rounding.
+    /// The method keeps the energy to rounding.
     Kept,
-    /// It never grows, but for rounding.
+    /// With the method the energy never grows, but for rounding.
     Decays,
-    /// Nothing.
+    /// The method promises nothing about the energy.
     Nothing,
 }
 
 /// What a method promises in nonlinear problems, loads and supports accounted for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Claims {
-    /// Order of convergence in time.
+    /// The order of convergence of the method in time.
     pub order: u32,
-    /// What becomes of the energy.
+    /// What becomes of the energy with the method.
     pub energy: EnergyClaim,
-    /// Whether the linear momentum is exact to rounding.
+    /// Whether the method keeps the linear momentum to rounding.
     pub momentum: bool,
-    /// Whether the angular momentum is exact to rounding.
+    /// Whether the method keeps the angular momentum to rounding.
     pub angular_momentum: bool,
 }
 
 impl Claims {
-    /// What is exact to rounding, in words.
+    /// The quantities that the method keeps to rounding, in words.
     pub fn kept(&self) -> impl Iterator<Item = &'static str> {
         let claims = [
             (self.energy == EnergyClaim::Kept, "energy"),
@@ -69,20 +69,20 @@ impl Claims {
 /// The number that a family of methods is tuned by.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MethodParameter {
-    /// Its name in scripts.
+    /// The name of the method's parameter in scripts.
     pub name: &'static str,
-    /// What it does, in a sentence.
+    /// What the method's parameter does, in a sentence.
     pub meaning: &'static str,
-    /// The smallest value.
+    /// The smallest value that the method's parameter may have [-].
     pub least: f64,
-    /// The largest value; may be infinite.
+    /// The largest value that the method's parameter may have [-]; may be infinite.
     pub most: f64,
-    /// Where it is not given.
+    /// The value of the method's parameter where none is given [-].
     pub default: f64,
 }
 
 impl MethodParameter {
-    /// In words: `from 0 to 1`.
+    /// The range of the method's parameter in words, such as `from 0 to 1`.
     pub fn range(&self) -> String {
         match self.most {
             f64::INFINITY => format!("{} or greater", self.least),
@@ -101,24 +101,24 @@ pub struct MethodError {
     allowed: String,
 }
 
-/// A row of the list of methods.
+/// A time integrator in the list [`INTEGRATORS`].
 #[derive(Debug, Clone, Copy)]
 pub struct IntegratorEntry {
-    /// The method, with the default of its parameter.
+    /// The method that this row describes, with the default of its parameter.
     pub method: Method,
-    /// Its name in scripts and reports.
+    /// The name of the method in scripts and reports.
     pub name: &'static str,
-    /// What it is good for, in a sentence.
+    /// What the method is good for, in a sentence.
     pub summary: &'static str,
-    /// What it promises.
+    /// What the method promises.
     pub claims: Claims,
-    /// What it is tuned by, if anything.
+    /// The parameter that the method is tuned by, if it has one.
     pub parameter: Option<MethodParameter>,
-    /// Where it comes from.
+    /// The source of the method in the literature.
     pub source: &'static str,
 }
 
-/// All methods.
+/// All time integrators, the default first.
 pub const INTEGRATORS: &[IntegratorEntry] =
     &[ENERGY_MOMENTUM, TRAPEZOIDAL, ENERGY_DECAYING, FOURTH_ORDER, GENERALIZED_ALPHA];
 
@@ -199,7 +199,7 @@ const RHO_INFINITY: MethodParameter = MethodParameter {
 };
 
 impl Method {
-    /// Its row in [`INTEGRATORS`].
+    /// The row of this method in [`INTEGRATORS`].
     pub fn entry(&self) -> &'static IntegratorEntry {
         match self {
             Self::EnergyMomentum => &ENERGY_MOMENTUM,
@@ -210,7 +210,7 @@ impl Method {
         }
     }
 
-    /// The value of its parameter, if it has one.
+    /// The value of the method's parameter [-], if it has one.
     pub fn parameter(&self) -> Option<f64> {
         match *self {
             Self::EnergyMomentum | Self::Trapezoidal | Self::FourthOrder => None,
@@ -219,7 +219,7 @@ impl Method {
         }
     }
 
-    /// Checks its parameter.
+    /// Checks the parameter of the method.
     ///
     /// # Errors
     /// When it is out of its range or not finite.
@@ -233,7 +233,7 @@ impl Method {
         Err(MethodError { method: entry.name, name, value, allowed })
     }
 
-    /// The stages at which a step asks loads for their values.
+    /// The stages of a step at which the method asks loads for their values.
     pub fn stages(&self) -> &'static [Stage] {
         match self {
             Self::EnergyMomentum => EnergyMomentum::STAGES,

@@ -17,10 +17,10 @@ pub struct Trapezoidal {
 }
 
 impl Trapezoidal {
-    /// Where a step takes forces.
+    /// The stages of a step at which the method takes forces.
     pub const STAGES: &[Stage] = &[Stage::Start, Stage::End];
 
-    /// The method with work space for a mechanism.
+    /// The trapezoidal method with work space for a mechanism.
     pub fn new(mechanism: &dyn Mechanism, tolerance: Tolerance) -> Self {
         Self { solver: StepSolver::new(mechanism, tolerance) }
     }

@@ -10,52 +10,52 @@ use crate::beams::Station;
 /// A component of the movement of a section.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Component {
-    /// Along the first axis.
+    /// The movement of a section along the first axis [length].
     X,
-    /// Along the second axis.
+    /// The movement of a section along the second axis [length].
     Y,
-    /// About the third.
+    /// The rotation of a section about the third axis [rad].
     Rotation,
 }
 
 impl Component {
-    /// All of them, in the order of a movement.
+    /// All components of the movement of a section, in the order of a movement.
     pub const ALL: [Self; 3] = [Self::X, Self::Y, Self::Rotation];
 }
 
-/// Which components a joint ties.
+/// Which components of movement a joint ties.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum JointKind {
-    /// Positions; sections turn freely against each other.
+    /// A hinge ties positions; sections turn freely against each other.
     Hinge,
-    /// Positions and rotations; the angle between the sections stays as drawn. With the ground: a clamp.
+    /// A rigid joint ties positions and rotations; the angle between the sections stays as drawn. With the ground: a clamp.
     Rigid,
 }
 
-/// What a station is tied to.
+/// What a joint ties a station to.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Partner {
-    /// The ground, at the place of the station as drawn.
+    /// The joint ties to the ground, at the place of the station as drawn.
     Ground,
-    /// A station at the same place, of another beam or of the same one.
+    /// The joint ties to a station at the same place, of another beam or of the same one.
     Station(Station),
 }
 
-/// A joint of a scene.
+/// A joint of a scene: what it ties, and to what.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Joint {
-    /// For messages.
+    /// The name of the joint, for messages.
     pub name: String,
-    /// What it ties.
+    /// Which components of movement the joint ties.
     pub kind: JointKind,
-    /// The station that is tied.
+    /// The station that the joint ties.
     pub station: Station,
-    /// What it is tied to.
+    /// What the joint ties its station to.
     pub partner: Partner,
 }
 
 impl JointKind {
-    /// The components that it ties.
+    /// The components of movement that a joint of this kind ties.
     pub fn components(self) -> &'static [Component] {
         match self {
             Self::Hinge => &Component::ALL[..2],
@@ -63,7 +63,7 @@ impl JointKind {
         }
     }
 
-    /// In words.
+    /// The kind of joint in words, with what it ties to, such as `clamp`.
     pub fn describe(self, partner: &Partner) -> &'static str {
         match (self, partner) {
             (Self::Hinge, _) => "hinge",

@@ -8,40 +8,40 @@ use crate::beams::Station;
 /// A point that stays on the axis of a beam and slides along it without friction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Slider {
-    /// For messages and the columns of the history.
+    /// The name of the slider, for messages and the columns of the history.
     pub name: String,
-    /// The point that slides: the slave.
+    /// The slave of the slider: the point that slides.
     pub slave: Station,
-    /// The index of the beam on which it slides: the master.
+    /// The index of the master of the slider: the beam on which it slides.
     pub master: usize,
-    /// Where on the master it starts: arc length as drawn [length].
+    /// The arc length at which the slider starts on its master, as drawn [length].
     pub arc_length: f64,
-    /// How a step keeps it there.
+    /// The law by which a step keeps the slider on its master.
     pub rule: SlidingRule,
-    /// What happens where the master ends.
+    /// What happens when the slider reaches an end of its master.
     pub ends: EndAction,
-    /// What happens to start velocities that would leave the master.
+    /// What happens to start velocities with which the slider would leave its master.
     pub velocities: StartVelocities,
 }
 
 /// What happens when a slider reaches an end of its master.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum EndAction {
-    /// The run ends there.
+    /// The run ends when the slider reaches the end.
     #[default]
     Stop,
-    /// It bounces off an elastic stop; energy and momenta are kept.
+    /// The slider bounces off an elastic stop at the end; energy and momenta are kept.
     Bounce,
-    /// It leaves the master and flies free.
+    /// The slider leaves its master at the end and flies free.
     Release,
 }
 
 /// What happens to start velocities across the master, at which a slider would leave it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum StartVelocities {
-    /// They are an error.
+    /// Start velocities across the master are an error.
     #[default]
     Check,
-    /// The nearest velocities without them are taken, in the norm of the kinetic energy.
+    /// Instead of start velocities across the master the nearest ones without them are taken, in the norm of the kinetic energy.
     Project,
 }

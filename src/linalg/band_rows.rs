@@ -2,26 +2,26 @@
 
 use std::ops::Range;
 
-/// Consecutive rows of a [`BandedMatrix`](super::BandedMatrix).
+/// Consecutive rows of a [`BandedMatrix`](super::BandedMatrix), to which entries are added.
 #[derive(Debug)]
 pub struct BandRows<'a> {
     pub(super) rows: Range<usize>,
-    /// From the beginning of the first of the rows on.
+    /// The stored entries of the matrix from the beginning of the first of these rows on, row after row.
     pub(super) entries: &'a mut [f64],
-    /// The length of a row.
+    /// The number of stored entries of a row of the banded matrix.
     pub(super) stride: usize,
-    /// Where the diagonal stands in a row.
+    /// The place of the diagonal entry among the stored entries of a row.
     pub(super) centre: usize,
     pub(super) half_bandwidth: usize,
 }
 
 impl BandRows<'_> {
-    /// Which rows these are.
+    /// The indices, in the whole matrix, of the rows to which entries can be added here.
     pub fn rows(&self) -> Range<usize> {
         self.rows.clone()
     }
 
-    /// The rows before one of them, and those from it on.
+    /// These rows of a banded matrix in two parts: those before `row`, and those from it on.
     pub fn split_at(self, row: usize) -> (Self, Self) {
         let Self { rows, entries, stride, centre, half_bandwidth } = self;
         let (before, behind) = entries.split_at_mut((row - rows.start) * stride);
@@ -54,7 +54,7 @@ impl BandRows<'_> {
         }
     }
 
-    /// Adds a square block, row after row, to the rows and columns from `first` on.
+    /// Adds a square block of `width` by `width` values, row after row, to the rows and columns from `first` on.
     pub fn add_block(&mut self, first: usize, width: usize, values: &[f64]) {
         // The widths of spans of degree 1 to 3 are known to the compiler.
         match width {

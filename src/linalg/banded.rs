@@ -9,7 +9,7 @@ use super::elimination::{Elimination, PANEL, SMALLEST_REACH};
 use super::substitution::{StripSubstitution, Substitution};
 use super::{BandRows, LinearError};
 
-/// A square matrix whose entries `(i, j)` vanish for `|i - j|` above the half-bandwidth.
+/// A square matrix of numbers whose entries `(i, j)` vanish for `|i - j|` above the half-bandwidth.
 #[derive(Debug, Clone)]
 pub struct BandedMatrix {
     size: usize,
@@ -28,15 +28,15 @@ pub(super) struct Storage {
     /// Row `i` holds the columns `i - b - (PANEL - 1) ..= i + 2 b`. In factors, the multipliers stand left of the diagonal,
     /// on the diagonal the inverse of the pivot.
     pub(super) rows: Vec<f64>,
-    /// By column: the row that its pivot came from.
+    /// The row that the pivot of each column came from, by column.
     pub(super) pivots: Vec<usize>,
-    /// By row of the upper factor: its last column with an entry.
+    /// The last column with an entry in each row of the upper factor, by row.
     pub(super) last_columns: Vec<usize>,
-    /// Of the rows below a panel, until it is accepted.
+    /// The multipliers of the rows below a panel, until the panel is accepted.
     pub(super) multipliers: Vec<[f64; PANEL]>,
 }
 
-/// The factors of a [`BandedMatrix`], kept in its storage.
+/// The factors `P A = L U` of a [`BandedMatrix`], kept in its storage.
 #[derive(Debug)]
 pub struct BandedLu<'a> {
     factors: &'a Storage,
@@ -58,13 +58,13 @@ impl Storage {
         storage
     }
 
-    /// Where the diagonal stands in a row.
+    /// The place of the diagonal entry among the stored entries of a row.
     #[inline(always)]
     pub(super) fn centre(&self) -> usize {
         self.reach + PANEL - 1
     }
 
-    /// The length of a row.
+    /// The number of stored entries of a row.
     #[inline(always)]
     pub(super) fn stride(&self) -> usize {
         3 * self.reach + PANEL
@@ -89,22 +89,22 @@ impl BandedMatrix {
         Self { size, half_bandwidth, storage: Storage::zeros(size, half_bandwidth) }
     }
 
-    /// The number of rows.
+    /// The number of rows of the matrix, and of its columns.
     pub fn size(&self) -> usize {
         self.size
     }
 
-    /// How far off the diagonal entries may be.
+    /// The half-bandwidth of the matrix: how many places off the diagonal entries may be.
     pub fn half_bandwidth(&self) -> usize {
         self.half_bandwidth
     }
 
-    /// Sets every entry to zero.
+    /// Sets every entry of the matrix to zero.
     pub fn clear(&mut self) {
         self.storage.clear();
     }
 
-    /// All rows, to add entries to.
+    /// All rows of the matrix, to add entries to.
     #[inline]
     pub fn rows_mut(&mut self) -> BandRows<'_> {
         let (stride, centre) = (self.storage.stride(), self.storage.centre());
@@ -112,13 +112,13 @@ impl BandedMatrix {
         BandRows { rows, entries: &mut self.storage.rows, stride, centre, half_bandwidth }
     }
 
-    /// Adds `value` to the entry at `(row, column)`, which must lie in the band.
+    /// Adds `value` to the entry at `(row, column)` of the matrix, which must lie in the band.
     #[inline]
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
         self.rows_mut().add(row, column, value);
     }
 
-    /// The entry at `(row, column)`; zero outside the band.
+    /// The entry of the matrix at `(row, column)`; zero outside the band.
     pub fn get(&self, row: usize, column: usize) -> f64 {
         if row.abs_diff(column) > self.half_bandwidth {
             0.0
@@ -127,7 +127,7 @@ impl BandedMatrix {
         }
     }
 
-    /// Replaces the entries by the factors of `P A = L U`.
+    /// Replaces the entries of the matrix by its factors `P A = L U`.
     ///
     /// # Errors
     /// When a column has no non-zero or no finite pivot; the entries are then lost.
@@ -138,7 +138,7 @@ impl BandedMatrix {
 }
 
 impl BandedLu<'_> {
-    /// Replaces the right-hand side by the solution.
+    /// Replaces the right-hand side `x`, one number a row, by the solution of `A x = b`.
     pub fn solve(&self, x: &mut [f64]) {
         Arch::new().dispatch(Substitution { factors: self.factors, x });
     }

@@ -17,12 +17,12 @@ pub struct BorderedMatrix {
     border: Border,
 }
 
-/// The size of a border.
+/// The size of the border of a [`BorderedMatrix`]: its last rows and columns, which are full.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct BorderShape {
-    /// The number of its rows, and of its columns.
+    /// The number of rows of the border, and of its columns.
     pub width: usize,
-    /// Room for the entries of its rows in the columns of the band.
+    /// How many entries the rows of the border may have together in the columns of the band.
     pub row_entries: usize,
 }
 
@@ -38,7 +38,7 @@ struct Strip {
     first_row: Option<usize>,
 }
 
-/// The last rows and columns of a [`BorderedMatrix`]: `B`, `C` and `D`.
+/// The border of a [`BorderedMatrix`]: its last columns `B`, its last rows `C` and their common corner `D`.
 #[derive(Debug, Clone)]
 pub struct Border {
     width: usize,
@@ -91,7 +91,7 @@ impl Border {
         }
     }
 
-    /// The number of rows and columns of the border.
+    /// The number of rows of the border, which is that of its columns.
     pub fn width(&self) -> usize {
         self.width
     }
@@ -102,17 +102,17 @@ impl Border {
         self.corner.clear();
     }
 
-    /// Adds to `B`, at a row of the band and a column of the border.
+    /// Adds `value` to the part `B` of the border, at a row of the band and a column of the border.
     pub fn add_to_column(&mut self, row: usize, border_column: usize, value: f64) {
         self.strips[border_column / STRIP].add(row, border_column % STRIP, value);
     }
 
-    /// Adds to `C`, at a row of the border and a column of the band.
+    /// Adds `value` to the part `C` of the border, at a row of the border and a column of the band.
     pub fn add_to_row(&mut self, border_row: usize, column: usize, value: f64) {
         self.rows.push((border_row, column, value));
     }
 
-    /// Adds to `D`.
+    /// Adds `value` to the corner `D` of the border, at a row and a column of the border.
     pub fn add_to_corner(&mut self, border_row: usize, border_column: usize, value: f64) {
         self.corner.add(border_row, border_column, value);
     }
@@ -142,33 +142,33 @@ impl BorderedMatrix {
         }
     }
 
-    /// The number of rows, those of the border included.
+    /// The number of rows of the matrix, those of the border included.
     pub fn size(&self) -> usize {
         self.band.size() + self.border.width
     }
 
-    /// The banded part, `A`.
+    /// The banded part `A` of a bordered matrix, to be read.
     pub fn band(&self) -> &BandedMatrix {
         &self.band
     }
 
-    /// The banded part, `A`.
+    /// The banded part `A` of a bordered matrix, to be changed.
     pub fn band_mut(&mut self) -> &mut BandedMatrix {
         &mut self.band
     }
 
-    /// The border.
+    /// The border of the matrix, to add entries to.
     pub fn border_mut(&mut self) -> &mut Border {
         &mut self.border
     }
 
-    /// Sets every entry to zero.
+    /// Sets every entry of the matrix, those of the border included, to zero.
     pub fn clear(&mut self) {
         self.band.clear();
         self.border.clear();
     }
 
-    /// The entry at `(row, column)`; zero outside band and border.
+    /// The entry of the matrix at `(row, column)`; zero outside band and border.
     pub fn get(&self, row: usize, column: usize) -> f64 {
         let (n, Border { strips, rows, corner, .. }) = (self.band.size(), &self.border);
         match (row.checked_sub(n), column.checked_sub(n)) {
@@ -184,7 +184,7 @@ impl BorderedMatrix {
         }
     }
 
-    /// Replaces the entries by factors. Without a border these are the factors of the band and nothing else.
+    /// Replaces the entries of the matrix by its factors. Without a border these are the factors of the band and nothing else.
     ///
     /// # Errors
     /// When a column has no non-zero or no finite pivot; the entries are then lost.
@@ -204,7 +204,7 @@ impl BorderedMatrix {
 }
 
 impl BorderedLu<'_> {
-    /// Replaces the right-hand side by the solution; the entries of the border come last.
+    /// Replaces the right-hand side `x`, one number a row, those of the border last, by the solution of `A x = b`.
     pub fn solve(&self, x: &mut [f64]) {
         let Some(border) = &self.border else { return self.band.solve(x) };
         let (x, z) = x.split_at_mut(x.len() - border.width);

@@ -10,19 +10,19 @@ use pulp::{Simd, WithSimd};
 use super::LinearError;
 use super::banded::Storage;
 
-/// Columns that are eliminated together: those of a control point.
+/// The number of columns of a banded matrix that are eliminated together: those of a control point.
 pub(super) const PANEL: usize = 3;
 
 /// Numbers that vector instructions treat at once.
 const LANES: usize = 4;
 
-/// The smallest half-bandwidth for which a row has room for a panel, and for whole vectors behind it.
+/// The smallest half-bandwidth for which a row of a banded matrix has room for a panel, and for whole vectors behind it.
 pub(super) const SMALLEST_REACH: usize = PANEL + LANES - 2;
 
 /// The largest multiplier for which rows are not exchanged.
 const LARGEST_MULTIPLIER: f64 = 8.0;
 
-/// Replaces a matrix by its factors.
+/// Gauss's elimination with row exchanges, which replaces a banded matrix by its factors, panel by panel.
 pub(super) struct Elimination<'a>(pub(super) &'a mut Storage);
 
 impl WithSimd for Elimination<'_> {

@@ -3,28 +3,28 @@
 /// A linear system that has no unique solution in floating-point numbers.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum LinearError {
-    /// No usable pivot is left in a column.
+    /// No usable pivot is left in a column of the matrix: it is singular, or nearly.
     #[error("the matrix is singular: no pivot for unknown {unknown} of {size}")]
     Singular {
-        /// The column in which elimination stopped.
+        /// The index of the column in which elimination stopped, from 0.
         unknown: usize,
-        /// The size of the matrix.
+        /// The number of rows of the singular matrix.
         size: usize,
     },
-    /// An entry is infinite or not a number.
+    /// An entry of the matrix is infinite or not a number.
     #[error(
         "the matrix has an entry that is not a finite number, met at unknown {unknown} of {size}"
     )]
     NotFinite {
-        /// The column in which it was met.
+        /// The index of the column in which the entry was met, from 0.
         unknown: usize,
-        /// The size of the matrix.
+        /// The number of rows of the matrix with the entry that is not finite.
         size: usize,
     },
 }
 
 impl LinearError {
-    /// The same error of a block that stands behind `rows` other rows.
+    /// The same error, told of a matrix in which this one is a block that stands behind `rows` other rows.
     pub(super) fn behind(self, rows: usize) -> Self {
         match self {
             Self::Singular { unknown, size } => {

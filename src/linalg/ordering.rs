@@ -2,12 +2,12 @@
 
 use std::collections::VecDeque;
 
-/// New numbers of things that are coupled in groups.
+/// A new numbering of unknowns that are coupled in groups, for a narrow band.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Ordering {
-    /// `position[old]` is the new number.
+    /// The new number of each unknown: `position[old]`.
     pub position: Vec<usize>,
-    /// The largest difference of new numbers inside a group.
+    /// The largest difference of new numbers inside a group: the half-bandwidth of the matrix in the new numbering.
     pub half_bandwidth: usize,
 }
 

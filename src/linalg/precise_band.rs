@@ -10,17 +10,17 @@ use super::symmetric_factors::{Pivots, SymmetricFactors, eliminate};
 use super::twofold::{NumbersMut, Twofold, add_multiple};
 use super::{LinearError, SymmetricSparse};
 
-/// A symmetric matrix whose entries `(i, j)` vanish for `|i - j|` above the half-bandwidth.
+/// A symmetric matrix with numbers of about 32 digits whose entries `(i, j)` vanish for `|i - j|` above the half-bandwidth.
 #[derive(Debug, Clone)]
 pub struct PreciseBand {
     pub(super) size: usize,
     pub(super) half_bandwidth: usize,
-    /// The upper triangle: row `i` holds the columns `i ..= i + b`, and zeros behind them for whole vectors.
+    /// The high parts of the upper triangle: row `i` holds the columns `i ..= i + b`, and zeros behind them for whole vectors.
     pub(super) high: Vec<f64>,
     pub(super) low: Vec<f64>,
 }
 
-/// Zeros behind the entries of a row.
+/// The number of zeros behind the entries of a row of a precise banded matrix, for whole vectors.
 pub(super) const MARGIN: usize = 3;
 
 impl PreciseBand {
@@ -30,12 +30,12 @@ impl PreciseBand {
         Self { size, half_bandwidth, high: vec![0.0; count], low: vec![0.0; count] }
     }
 
-    /// The number of rows.
+    /// The number of rows of the matrix, and of its columns.
     pub fn size(&self) -> usize {
         self.size
     }
 
-    /// How far off the diagonal entries may be.
+    /// The half-bandwidth of the matrix: how many places off the diagonal entries may be.
     pub fn half_bandwidth(&self) -> usize {
         self.half_bandwidth
     }
@@ -44,12 +44,12 @@ impl PreciseBand {
         self.half_bandwidth + 1 + MARGIN
     }
 
-    /// The entry on the diagonal of a row, rounded.
+    /// The diagonal entry of a row of the matrix, rounded to 16 digits.
     pub fn diagonal(&self, row: usize) -> f64 {
         self.high[row * self.stride()]
     }
 
-    /// Adds `factor r rᵀ`; entry `k` of `r` stands for the unknown `unknowns[k]`, and counts where that is below the size.
+    /// Adds `factor r rᵀ` to the matrix; entry `k` of `r` stands for the unknown `unknowns[k]`, and counts where that is below the size.
     pub fn add_square(&mut self, unknowns: &[usize], factor: f64, r: &[f64]) {
         let is_consecutive = unknowns.windows(2).all(|pair| pair[1] == pair[0] + 1);
         if is_consecutive && unknowns.last().is_some_and(|last| *last < self.size) {
@@ -68,7 +68,7 @@ impl PreciseBand {
         }
     }
 
-    /// Adds `p qᵀ + q pᵀ`.
+    /// Adds `p qᵀ + q pᵀ` to the matrix; entries `k` of `p` and `q` stand for the unknown `unknowns[k]`, as far as that is below the size.
     pub fn add_product(&mut self, unknowns: &[usize], p: &[f64], q: &[f64]) {
         for ((&row, &p_a), &q_a) in unknowns.iter().zip(p).zip(q) {
             for ((&column, &p_b), &q_b) in unknowns.iter().zip(p).zip(q) {
@@ -86,7 +86,7 @@ impl PreciseBand {
         (self.high[at], self.low[at]) = (sum.high, sum.low);
     }
 
-    /// The factors of `A + σ M`, to be solved with.
+    /// The factors of `A + σ M`, this matrix plus `shift` times another, with which systems are solved.
     ///
     /// # Errors
     /// When a pivot is zero or not finite.
@@ -98,7 +98,7 @@ impl PreciseBand {
         SymmetricFactors::of(self, shift, other)
     }
 
-    /// The signs of the pivots of `A + σ M`; a row of nothing but zeros counts for neither.
+    /// The signs of the pivots of `A + σ M`, this matrix plus `shift` times another; a row of nothing but zeros counts for neither sign.
     ///
     /// # Errors
     /// When another pivot is zero, or one not finite.

@@ -4,7 +4,7 @@ use pulp::{Arch, Simd, WithSimd};
 
 use super::strips::Strip;
 
-/// A symmetric matrix, by rows.
+/// A symmetric matrix of which only the entries are kept that are not zero, row by row.
 #[derive(Debug, Clone)]
 pub struct SymmetricSparse {
     /// Where each row begins among the entries, and where the last ends.
@@ -15,8 +15,8 @@ pub struct SymmetricSparse {
 }
 
 impl SymmetricSparse {
-    /// From entries (row, column, value) of both triangles, in any order; several of one place add up. They are given twice, to be
-    /// counted and to be kept.
+    /// The symmetric matrix of entries (row, column, value) of both triangles, in any order; several of one place add up.
+    /// `give` gives the entries twice, to be counted and to be kept.
     ///
     /// # Panics
     /// When it has more than 2³² rows.
@@ -63,12 +63,12 @@ impl SymmetricSparse {
         values.truncate(kept);
     }
 
-    /// The number of rows.
+    /// The number of rows of the matrix, and of its columns.
     pub fn size(&self) -> usize {
         self.starts.len() - 1
     }
 
-    /// The entries of a row: column and value, from left to right.
+    /// The entries of a row of the matrix: column and value, from left to right.
     pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
         let entries = self.starts[row]..self.starts[row + 1];
         self.columns[entries.clone()]
@@ -77,12 +77,12 @@ impl SymmetricSparse {
             .zip(self.values[entries].iter().copied())
     }
 
-    /// The entry on the diagonal of a row.
+    /// The diagonal entry of a row of the matrix.
     pub fn diagonal(&self, row: usize) -> f64 {
         self.row(row).find(|(column, _)| *column == row).map_or(0.0, |(_, value)| value)
     }
 
-    /// Writes `M x` over `product`, and zeros behind it.
+    /// Writes the product `M x` of this matrix with four vectors over `product`, and zeros behind it.
     pub fn times(&self, x: &Strip, product: &mut Strip) {
         Arch::new().dispatch(Product { matrix: self, x, product });
     }

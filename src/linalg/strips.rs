@@ -2,26 +2,26 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// The number of vectors of a strip.
+/// The number of vectors that are worked on side by side, as a strip.
 pub const STRIP_WIDTH: usize = 4;
 
-/// Four vectors: entry `i` of all of them, then entry `i + 1`.
+/// Four vectors side by side: the entries `i` of all of them, then the entries `i + 1`.
 pub type Strip = [[f64; STRIP_WIDTH]];
 
-/// A small matrix: row by row.
+/// A matrix of four by four numbers, row by row: the products of the vectors of two strips.
 pub type Square = [[f64; STRIP_WIDTH]; STRIP_WIDTH];
 
-/// `Xᵀ Y`
+/// The products `Xᵀ Y` of the vectors of two strips: entry `(i, j)` is that of vector `i` of `x` with vector `j` of `y`.
 pub fn products(x: &Strip, y: &Strip) -> Square {
     Arch::new().dispatch(Products { x, y })
 }
 
-/// `Y ← Y - X G`
+/// Subtracts combinations of the vectors of the strip `x` from those of the strip `from`: `Y ← Y - X G`.
 pub fn subtract_combination(x: &Strip, by: &Square, from: &mut Strip) {
     Arch::new().dispatch(Combination { x, by, from });
 }
 
-/// `X ← X G`
+/// Replaces the vectors of a strip by combinations of them: `X ← X G`.
 pub fn combine(x: &mut Strip, by: &Square) {
     Arch::new().dispatch(Replacement { x, by });
 }

@@ -7,7 +7,7 @@ use pulp::{Simd, WithSimd};
 use super::banded::Storage;
 use super::elimination::PANEL;
 
-/// Replaces a right-hand side by the solution.
+/// Forward and backward substitution with the factors of a banded matrix: replaces a right-hand side by the solution.
 pub(super) struct Substitution<'a> {
     pub(super) factors: &'a Storage,
     pub(super) x: &'a mut [f64],
@@ -28,7 +28,7 @@ impl WithSimd for Substitution<'_> {
     }
 }
 
-/// Replaces several right-hand sides, the entries of a row side by side, by their solutions; rows before `first` must be zero.
+/// Substitution with the factors of a banded matrix for several right-hand sides, the entries of a row side by side; rows before `first` must be zero.
 pub(super) struct StripSubstitution<'a, const W: usize> {
     pub(super) factors: &'a Storage,
     pub(super) x: &'a mut [[f64; W]],

@@ -11,18 +11,18 @@ use super::strips::Strip;
 use super::twofold::{Numbers, NumbersMut, Twofold, subtract_multiple};
 use super::{LinearError, SymmetricSparse};
 
-/// What the pivots of an elimination without row exchanges say.
+/// What the pivots of an elimination `L D Lᵀ` without row exchanges say about a symmetric matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pivots {
-    /// So many are negative: as many eigenvalues are (Sylvester's law of inertia; Golub & Van Loan, Matrix Computations, 4th ed., section
-    /// 4.4).
+    /// The number of negative pivots: as many eigenvalues are negative (Sylvester's law of inertia; Golub & Van Loan, Matrix Computations,
+    /// 4th ed., section 4.4).
     pub negative: usize,
-    /// The most that was taken off an entry of the diagonal, relative to it; 1 or less for a definite matrix. So many times
-    /// more than by its own rounding the matrix may be wrong.
+    /// The most that elimination took off a diagonal entry, relative to it [-]; 1 or less for a definite matrix. So many times more
+    /// than by its own rounding the matrix may be wrong.
     pub growth: f64,
 }
 
-/// `L D Lᵀ`
+/// The factors `L D Lᵀ` of a symmetric banded matrix, with about 32 digits.
 #[derive(Debug, Clone)]
 pub struct SymmetricFactors {
     size: usize,
@@ -45,17 +45,17 @@ impl SymmetricFactors {
         Ok(Self { size, reach, multipliers, inverse_pivots, pivots })
     }
 
-    /// What the pivots say.
+    /// The number of negative pivots of the factors, and how much was taken off diagonal entries.
     pub fn pivots(&self) -> Pivots {
         self.pivots
     }
 
-    /// The multipliers below a column of `L`, and the inverse of its pivot.
+    /// The multipliers below the diagonal in a column of the factor `L`, and the inverse of the pivot of that column.
     pub fn column(&self, column: usize) -> (&[f64], f64) {
         (&self.multipliers[column * self.reach..][..self.reach], self.inverse_pivots[column])
     }
 
-    /// Replaces right-hand sides by their solutions. Behind them there must be zeros, as many as the half-bandwidth.
+    /// Replaces four right-hand sides by their solutions. Behind them there must be zeros, as many as the half-bandwidth.
     pub fn solve(&self, x: &mut Strip) {
         assert!(x.len() >= self.size + self.reach, "a strip has a margin");
         Arch::new().dispatch(Substitution { factors: self, x });
@@ -65,7 +65,7 @@ impl SymmetricFactors {
 /// Multipliers and inverse pivots, to be filled.
 type Kept<'a> = (&'a mut [f64], &'a mut [f64]);
 
-/// Eliminates `A + σ M`.
+/// Eliminates the symmetric matrix `A + σ M`, column by column, and tells each column and pivot to the caller.
 pub(super) fn eliminate(
     band: &PreciseBand,
     shift: f64,

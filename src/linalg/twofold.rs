@@ -8,7 +8,7 @@
 
 use pulp::Simd;
 
-/// `high + low`, about 32 decimal digits.
+/// A number of about 32 decimal digits: the sum `high + low` of two floating-point numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Twofold {
     pub(super) high: f64,
@@ -16,14 +16,14 @@ pub(super) struct Twofold {
 }
 
 impl Twofold {
-    /// `a b`, exactly.
+    /// The product `a b` of two floating-point numbers, exactly, as a number of 32 digits.
     #[inline(always)]
     pub(super) fn product(a: f64, b: f64) -> Self {
         let high = a * b;
         Self { high, low: a.mul_add(b, -high) }
     }
 
-    /// `self + other`
+    /// The sum `self + other` of two numbers of 32 digits.
     #[inline(always)]
     pub(super) fn plus(self, other: Self) -> Self {
         let sum = self.high + other.high;
@@ -32,14 +32,14 @@ impl Twofold {
         Self::renormalised(sum, lost + (self.low + other.low))
     }
 
-    /// `self · factor`
+    /// The product `self · factor` of a number of 32 digits with one of 16.
     #[inline(always)]
     pub(super) fn times(self, factor: f64) -> Self {
         let Self { high, low } = Self::product(self.high, factor);
         Self::renormalised(high, self.low.mul_add(factor, low))
     }
 
-    /// `self · other`
+    /// The product `self · other` of two numbers of 32 digits.
     #[inline(always)]
     pub(super) fn times_twofold(self, other: Self) -> Self {
         let Self { high, low } = Self::product(self.high, other.high);
@@ -47,7 +47,7 @@ impl Twofold {
         Self::renormalised(high, self.low.mul_add(other.high, low))
     }
 
-    /// `1/self`
+    /// The inverse `1/self` of a number of 32 digits.
     #[inline(always)]
     pub(super) fn inverse(self) -> Self {
         let guess = 1.0 / self.high;
@@ -63,21 +63,21 @@ impl Twofold {
     }
 }
 
-/// Some numbers, their high and their low parts apart.
+/// A row of numbers of 32 digits, their high and their low parts apart, for vector instructions.
 #[derive(Debug)]
 pub(super) struct Numbers<'a> {
     pub(super) high: &'a [f64],
     pub(super) low: &'a [f64],
 }
 
-/// The same, to be changed.
+/// A row of numbers of 32 digits to be changed, their high and their low parts apart, for vector instructions.
 #[derive(Debug)]
 pub(super) struct NumbersMut<'a> {
     pub(super) high: &'a mut [f64],
     pub(super) low: &'a mut [f64],
 }
 
-/// Subtracts `factor` times some numbers from as many others.
+/// Subtracts `factor` times some numbers of 32 digits from as many others.
 #[inline(always)]
 pub(super) fn subtract_multiple<S: Simd>(
     simd: S,
@@ -115,7 +115,7 @@ pub(super) fn subtract_multiple<S: Simd>(
     }
 }
 
-/// Adds `factor` times some plain numbers to as many others.
+/// Adds `factor` times some numbers of 16 digits to as many of 32 digits.
 #[inline(always)]
 pub(super) fn add_multiple<S: Simd>(simd: S, factor: Twofold, of: &[f64], to: NumbersMut<'_>) {
     let (of, of_rest) = S::as_simd_f64s(of);

@@ -9,39 +9,39 @@ use crate::geometry::Vec2;
 /// What the direction of a load is tied to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Frame {
-    /// To space: the load keeps its direction.
+    /// The load is tied to space: it keeps its direction.
     #[default]
     Dead,
-    /// To the section: the load turns with it. Components are along the axis as drawn and across it.
+    /// The load is tied to the section and turns with it. Components are along the axis as drawn and across it.
     Follower,
 }
 
-/// The kinds of load.
+/// What a load is and where it acts.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum LoadKind {
     /// A force at a station [force].
     Force {
-        /// Where.
+        /// The station at which the force acts.
         station: Station,
-        /// Its value while the schedule is 1.
+        /// The force while the schedule is 1 [force].
         force: Vec2,
-        /// What it is tied to.
+        /// What the direction of the force is tied to.
         frame: Frame,
     },
     /// A moment at a station [force·length].
     Moment {
-        /// Where.
+        /// The station at which the moment acts.
         station: Station,
-        /// Its value while the schedule is 1, counter-clockwise.
+        /// The moment while the schedule is 1, counter-clockwise [force·length].
         moment: f64,
     },
     /// A force per length of a whole beam as drawn [force/length].
     Line {
-        /// The index of the beam in its scene.
+        /// The index, in its scene, of the beam with the line load.
         beam: usize,
-        /// Its value while the schedule is 1.
+        /// The force per length of the axis as drawn while the schedule is 1 [force/length].
         force: Vec2,
-        /// What it is tied to.
+        /// What the direction of the line load is tied to.
         frame: Frame,
     },
 }
@@ -49,10 +49,10 @@ pub enum LoadKind {
 /// A load of a scene.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Load {
-    /// For messages.
+    /// The name of the load, for messages.
     pub name: String,
-    /// What and where.
+    /// What the load is and where it acts.
     pub kind: LoadKind,
-    /// When.
+    /// The schedule of the load: a factor over time.
     pub schedule: Schedule,
 }

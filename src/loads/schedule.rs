@@ -5,19 +5,19 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use std::rc::Rc;
 
-use super::LoadError;
 use super::stored_schedule::StoredTerm;
+use super::{FunctionError, LoadError};
 use crate::elementary::{sin, whole_power};
 
 /// A function of time from outside, such as a closure of a script.
-pub type ScheduleFunction = Rc<dyn Fn(f64) -> Result<f64, String>>;
+pub type ScheduleFunction = Rc<dyn Fn(f64) -> Result<f64, FunctionError>>;
 
-/// From which side a time is approached: schedules may jump.
+/// The side from which a time is approached: a schedule that jumps there has two values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
-    /// The limit from earlier times.
+    /// A time is approached from earlier times.
     Before,
-    /// The limit from later times.
+    /// A time is approached from later times.
     After,
 }
 
@@ -25,53 +25,53 @@ pub enum Side {
 #[derive(Clone, Deserialize)]
 #[serde(try_from = "Vec<StoredTerm>")]
 pub enum Schedule {
-    /// Always the same.
+    /// The same factor at all times [-].
     Constant(f64),
     /// Straight lines between (time, factor) points, constant before the first and after the last; a time that is
     /// given twice is a jump.
     Table(Vec<(f64, f64)>),
-    /// `amplitude · sin(rate · t + phase)`.
+    /// The factor `amplitude · sin(rate · t + phase)`.
     Sine {
-        /// [-]
+        /// The amplitude of the sine [-].
         amplitude: f64,
-        /// [rad/time]
+        /// The angular frequency of the sine [rad/time].
         rate: f64,
-        /// [rad]
+        /// The phase of the sine at time zero [rad].
         phase: f64,
     },
-    /// `16/5 sin⁶(π t/duration)` for 0 < t < duration, else 0: unit mean, five continuous derivatives.
+    /// The pulse `16/5 sin⁶(π t/duration)` for 0 < t < duration, else 0: unit mean, five continuous derivatives.
     SmoothPulse {
-        /// [time]
+        /// The duration of the smooth pulse [time].
         duration: f64,
     },
-    /// Any function, with the times at which it jumps or bends.
+    /// Any function of time, with the times at which it jumps or bends.
     Function {
-        /// Its value at a time.
+        /// The function that gives the factor at a time.
         function: ScheduleFunction,
-        /// Where it is not smooth.
+        /// The times at which the function jumps or bends [time].
         breaks: Vec<f64>,
     },
-    /// Two schedules, added or multiplied.
+    /// A schedule that is the sum or the product of two others.
     Combined {
-        /// What is done with them.
+        /// Whether the two schedules are added or multiplied.
         operation: Operation,
-        /// The two.
+        /// The two schedules that are combined.
         parts: Rc<(Schedule, Schedule)>,
-        /// How many schedules they are made of.
+        /// The number of schedules that the combined one is made of.
         size: usize,
     },
 }
 
-/// How schedules are combined.
+/// How two schedules are combined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Operation {
-    /// `a + b`
+    /// The sum `a + b` of two schedules.
     Sum,
-    /// `a · b`
+    /// The product `a · b` of two schedules.
     Product,
 }
 
-/// Most parts of a combined schedule.
+/// The largest number of parts of a combined schedule.
 pub(super) const MOST_PARTS: usize = 1000;
 
 impl std::fmt::Debug for Schedule {
@@ -80,7 +80,7 @@ impl std::fmt::Debug for Schedule {
     }
 }
 
-/// How often a [mean](Schedule::mean) asks for a value that is not constant.
+/// How often a [mean](Schedule::mean) asks a schedule that is not constant for a value.
 pub const VALUES_OF_A_MEAN: usize = GAUSS.len();
 
 /// Points and weights of the three-point Gauss rule on [-1, 1].
@@ -106,7 +106,7 @@ fn check_positive(schedule: &'static str, name: &'static str, value: f64) -> Res
 }
 
 impl Schedule {
-    /// The same factor at all times.
+    /// The schedule with the same factor [-] at all times.
     ///
     /// # Errors
     /// When it is not finite.
@@ -115,7 +115,7 @@ impl Schedule {
         Ok(Self::Constant(factor))
     }
 
-    /// 1 up to `time`, then 0.
+    /// The schedule that is 1 up to `time`, then 0.
     ///
     /// # Errors
     /// When the time is not positive and finite.
@@ -124,7 +124,7 @@ impl Schedule {
         Ok(Self::Table(vec![(time, 1.0), (time, 0.0)]))
     }
 
-    /// 0 before `from`, 1 after `to`, a straight line between.
+    /// The schedule that is 0 before the time `from`, 1 after the time `to`, and a straight line between.
     ///
     /// # Errors
     /// When the times are not finite, or `to` is not later than `from`.
@@ -140,7 +140,7 @@ impl Schedule {
         Ok(Self::Table(vec![(from, 0.0), (to, 1.0)]))
     }
 
-    /// 1 between two times, else 0.
+    /// The schedule that is 1 between two times, else 0.
     ///
     /// # Errors
     /// When the times are not finite, or `to` is not later than `from`.
@@ -156,7 +156,7 @@ impl Schedule {
         Ok(Self::Table(vec![(from, 0.0), (from, 1.0), (to, 1.0), (to, 0.0)]))
     }
 
-    /// `16/5 sin⁶(π t/duration)` up to `duration`, then 0: a smooth pulse of unit mean.
+    /// The schedule `16/5 sin⁶(π t/duration)` up to `duration` [time], then 0: a smooth pulse of unit mean.
     ///
     /// # Errors
     /// When the duration is not positive and finite.
@@ -165,7 +165,7 @@ impl Schedule {
         Ok(Self::SmoothPulse { duration })
     }
 
-    /// `amplitude · sin(rate · t + phase)`.
+    /// The schedule `amplitude · sin(rate · t + phase)` [-; rad/time, rad].
     ///
     /// # Errors
     /// When a number is not finite.
@@ -176,7 +176,7 @@ impl Schedule {
         Ok(Self::Sine { amplitude, rate, phase })
     }
 
-    /// Straight lines between (time, factor) points.
+    /// The schedule of straight lines between (time, factor) points.
     ///
     /// # Errors
     /// When there are fewer than two rows, a number is not finite, or times decrease.
@@ -198,7 +198,7 @@ impl Schedule {
         }
     }
 
-    /// Two schedules added or multiplied.
+    /// The schedule that is the sum or the product of two others.
     ///
     /// # Errors
     /// When they are made of very many parts.
@@ -210,7 +210,7 @@ impl Schedule {
         Ok(Self::Combined { operation, parts: Rc::new((a, b)), size })
     }
 
-    /// How many functions from outside it is made of; [`value`](Self::value) calls each of them once.
+    /// The number of functions from outside that the schedule is made of; [`value`](Self::value) calls each of them once.
     pub fn functions(&self) -> usize {
         match self {
             Self::Function { .. } => 1,
@@ -223,7 +223,7 @@ impl Schedule {
         if let Self::Combined { size, .. } = self { *size } else { 1 }
     }
 
-    /// The value at a time, approached from a side.
+    /// The factor of the schedule [-] at a time, approached from a side.
     ///
     /// # Errors
     /// When a function fails or the value is not finite.
@@ -255,7 +255,7 @@ impl Schedule {
         if value.is_finite() { Ok(value) } else { Err(LoadError::NotFinite { time, value }) }
     }
 
-    /// The mean over an interval without a jump inside, by three Gauss points: exact up to degree five.
+    /// The mean factor of the schedule [-] over an interval without a jump inside, by three Gauss points: exact up to degree five.
     ///
     /// # Errors
     /// When a function fails or a value is not finite.
@@ -271,7 +271,7 @@ impl Schedule {
         Ok(sum)
     }
 
-    /// The times at which it jumps or bends; steps should end there.
+    /// The times at which the schedule jumps or bends; steps should end there.
     pub fn breaks(&self) -> Vec<f64> {
         match self {
             Self::Constant(_) | Self::Sine { .. } => Vec::new(),
@@ -282,7 +282,7 @@ impl Schedule {
         }
     }
 
-    /// Whether it may have different values just before and just after a time.
+    /// Whether the schedule may have different values just before and just after a time.
     pub fn may_jump_at(&self, time: f64) -> bool {
         match self {
             Self::Constant(_) | Self::Sine { .. } | Self::SmoothPulse { .. } => false,
@@ -292,7 +292,7 @@ impl Schedule {
         }
     }
 
-    /// In the words of the language.
+    /// The schedule in the words of the language.
     pub fn describe(&self) -> String {
         match self {
             Self::Constant(factor) => format!("constant({factor})"),

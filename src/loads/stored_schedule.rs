@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use super::schedule::MOST_PARTS;
 use super::{LoadError, Operation, Schedule};
 
-/// A schedule without parts, or what is done with the two before it.
+/// A term of a stored schedule: a schedule without parts, or what is done with the two terms before it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) enum StoredTerm {
     Constant(f64),
@@ -17,7 +17,7 @@ pub(super) enum StoredTerm {
 }
 
 impl Schedule {
-    /// Whether it can be stored: it is a formula or a table, and no function from outside.
+    /// Whether the schedule can be stored: it is a formula or a table, and no function from outside.
     pub fn can_be_stored(&self) -> bool {
         self.append_terms(&mut Vec::new()).is_some()
     }

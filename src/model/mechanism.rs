@@ -1,14 +1,18 @@
 //! The model: bodies, elements and sliders, their present motion, and what can be done with them.
 
 mod acceleration;
+mod energies;
 mod impact;
 mod inertia;
+mod instant;
 mod measures;
 mod rest;
 mod state;
 mod steps;
 mod stiffness;
 
+pub use energies::BodyEnergy;
+pub use instant::Instant;
 pub use measures::{Energy, Measures};
 pub use rest::StaticForces;
 pub use state::ModelState;
@@ -20,7 +24,7 @@ use super::motion::{Motion, Resolution, Step, Unknowns};
 use super::sliders::{Sliders, Sliding, TrackLimit};
 use crate::loads::LoadError;
 
-/// A scene, assembled and in motion.
+/// The mechanism of a scene: assembled, with its state of motion, and ready to be advanced by an integrator.
 pub struct Model {
     bodies: Bodies,
     elements: Elements,
@@ -36,7 +40,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// A mechanism of its parts, at their start.
+    /// A model made of its groups, in the state at its start.
     pub(super) fn new(
         bodies: Bodies,
         elements: Elements,
@@ -59,7 +63,7 @@ impl Model {
         }
     }
 
-    /// From here on time passes: what supports gave to make velocities fit was before, and the first step is guessed from the rates
+    /// Begins the motion: what supports gave to make velocities fit is not counted, and the first step is guessed from the rates
     /// as they are now.
     pub(super) fn begin(&mut self) {
         self.exchanged = Exchange::default();
@@ -91,27 +95,27 @@ impl Model {
         &self.sliders[slider]
     }
 
-    /// The time of the present state [time].
+    /// The time of the model's present state [time].
     pub fn time(&self) -> f64 {
         self.motion.time
     }
 
-    /// How far the steps so far resolve the motion.
+    /// How far the steps so far resolve the motion of the model.
     pub fn resolution(&self) -> &Resolution {
         self.motion.resolution()
     }
 
-    /// The mass of everything [mass].
+    /// The mass of all bodies and point masses [mass].
     pub fn total_mass(&self) -> f64 {
         self.bodies.mass() + self.elements.mass()
     }
 
-    /// From here on up to so many threads work on a large body, with the same results; how many at most.
+    /// Lets up to `threads` threads work on a large body from here on, with the same results; gives how many will at most.
     pub fn divide(&mut self, threads: usize) -> usize {
         self.bodies.iter_mut().map(|body| body.divide(threads)).max().unwrap_or(1)
     }
 
-    /// Moves the clock without moving anything else.
+    /// Moves the clock of the model to a time without moving anything else.
     pub fn pass_time_to(&mut self, time: f64) {
         self.motion.time = time;
     }
@@ -124,12 +128,12 @@ impl Model {
         self.elements.hold_at(time)
     }
 
-    /// Makes steps end where a slider reaches a limit, or lets them go where they lead again.
+    /// Makes steps end where a slider reaches a limit of its master, or lets them go where they lead again.
     pub fn aim_at(&mut self, limit: Option<TrackLimit>) {
         self.sliders.aim_at(limit);
     }
 
-    /// Lets a slider leave its master.
+    /// Lets a slider, by its index, leave its master.
     pub fn release(&mut self, slider: usize) {
         self.sliders[slider].release();
         self.motion.accelerations.forget();
@@ -141,7 +145,7 @@ impl Model {
         self.motion.accelerations.forget();
     }
 
-    /// Whether the present velocities lead beyond a limit at which a slider is.
+    /// Whether the present velocities lead a slider beyond a limit at which it is.
     pub fn leads_beyond(&self, limit: TrackLimit) -> bool {
         let rate = self.sliders[limit.slider].rate(&self.bodies, &self.motion.rates);
         rate * limit.end.outward() > 0.0

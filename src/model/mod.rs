@@ -10,10 +10,20 @@ mod scene;
 mod sliders;
 mod words;
 
-pub use elements::{Element, PointMass};
-pub use looking::{AlongSample, CrossSection, Distance, Part, Placement, SectionSample, Usage};
-pub use mechanism::{Energy, Measures, Model, ModelState, StaticForces, add_resistance};
+pub use elements::{Anchor, Element, Origin, PointMass, RestoringLaw, Spring, SpringKind};
+pub use looking::{
+    AlongSample, CrossSection, Distance, Part, Placement, SectionSample, Sensing, SpringState,
+    Transmission, Usage,
+};
+pub use mechanism::{
+    BodyEnergy, Energy, Instant, Measures, Model, ModelState, StaticForces, add_resistance,
+};
 pub use motion::Resolution;
-pub use scene::{BeamDefinition, ParticleDefinition, Scene, StartMotion, StationVelocity};
+pub use scene::{
+    BeamDefinition, ParticleDefinition, Probe, Quantity, Scene, Sensor, StartMotion,
+    StationVelocity, Value,
+};
 pub use sliders::{Blow, SliderState, TrackEnd, TrackLimit};
-pub use words::{ModelError, SliderError, SliderParts, refusal as refusal_of_name};
+pub use words::{
+    Approach, ModelError, SliderError, SliderParts, Turning, refusal as refusal_of_name,
+};

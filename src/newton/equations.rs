@@ -14,12 +14,12 @@ pub struct Imbalance {
 }
 
 impl Imbalance {
-    /// Whether all parts are finite numbers.
+    /// Whether all parts of the imbalance are finite numbers.
     pub fn is_finite(&self) -> bool {
         [self.force, self.strain, self.constraint].iter().all(|part| part.is_finite())
     }
 
-    /// The largest part; no number, if one of them is none.
+    /// The largest part of the imbalance [-]; NaN if one of them is not a number.
     pub fn largest(&self) -> f64 {
         [self.strain, self.constraint].into_iter().fold(self.force, |largest, part| {
             if part > largest || part.is_nan() { part } else { largest }

@@ -6,35 +6,35 @@ use crate::linalg::LinearError;
 /// A Newton solve that found no solution.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NewtonError {
-    /// The iteration limit was reached.
+    /// The iteration limit of a Newton solve was reached.
     #[error("Newton's method did not converge in {} iterations ({})", history.len(), describe(history))]
     NotConverged {
-        /// The imbalance after each iteration.
+        /// The imbalance after each iteration of the solve that did not converge, oldest first.
         history: Vec<Imbalance>,
     },
-    /// The iteration left the finite numbers.
+    /// The iteration of a Newton solve left the finite numbers.
     #[error("Newton's method met a number that is not finite after {} iterations ({})", history.len(), describe(history))]
     NotFinite {
-        /// The imbalance after each iteration.
+        /// The imbalance after each iteration of the solve that left the finite numbers, oldest first.
         history: Vec<Imbalance>,
     },
-    /// The tangent could not be factorised.
+    /// The tangent of a Newton solve could not be factorised.
     #[error("{source} (after {} Newton iterations)", history.len())]
     Linear {
-        /// What the linear solver says.
+        /// The linear solver's reason why the tangent has no factors.
         source: LinearError,
-        /// The imbalance after each iteration.
+        /// The imbalance after each iteration before the tangent could not be factorised, oldest first.
         history: Vec<Imbalance>,
     },
 }
 
 impl NewtonError {
-    /// Matrices that were factorised, or could not be.
+    /// The number of tangents that the failed solve has factorised, or tried to.
     pub fn factorisations(&self) -> usize {
         self.history().len() + usize::from(matches!(self, Self::Linear { .. }))
     }
 
-    /// The imbalance after each iteration, oldest first.
+    /// The imbalance after each iteration of the failed solve, oldest first.
     pub fn history(&self) -> &[Imbalance] {
         match self {
             Self::NotConverged { history }

@@ -15,18 +15,18 @@ const MOST_CORRECTIONS: i32 = 5;
 /// A correction that leaves more than this part of an imbalance has met rounding.
 const STANDSTILL: f64 = 0.1;
 
-/// When a solution is good enough, and when to give up.
+/// The tolerance of Newton's method: when a solution is good enough, and when to give up.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Tolerance {
-    /// Largest relative force imbalance at which iteration ends.
+    /// The largest relative force imbalance [-] at which iteration ends.
     pub force: f64,
-    /// Largest strain mismatch at which iteration ends.
+    /// The largest strain mismatch [-] at which iteration ends.
     pub strain: f64,
-    /// Largest relative violation of a constraint at which iteration ends.
+    /// The largest relative violation of a constraint [-] at which iteration ends.
     pub constraint: f64,
-    /// Imbalances above this are corrected with the last factors, which takes them to rounding.
+    /// The imbalance [-] above which a solution is corrected with the last factors, which takes it to rounding.
     pub polish: f64,
-    /// Most iterations.
+    /// The largest number of iterations of a solve.
     pub iterations: usize,
 }
 
@@ -54,19 +54,19 @@ impl Tolerance {
     }
 }
 
-/// What a Newton solve took.
+/// The work of a Newton solve, and what was left of its equations.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct NewtonReport {
-    /// Iterations, each with one factorisation.
+    /// The number of iterations of the solve, each with one factorisation.
     pub iterations: usize,
-    /// Corrections with factors at hand, about a third of the work of an iteration each.
+    /// The number of corrections of the solve with factors at hand, about a third of the work of an iteration each.
     pub corrections: usize,
-    /// What was left.
+    /// The imbalance that the solve has left.
     pub imbalance: Imbalance,
 }
 
 impl NewtonReport {
-    /// Of two solves, one after the other.
+    /// The report of two solves together, one after the other: work adds up, the imbalance is that of the second.
     pub fn then(self, next: Self) -> Self {
         Self {
             iterations: self.iterations + next.iterations,
@@ -76,7 +76,7 @@ impl NewtonReport {
     }
 }
 
-/// The solver with its work space; solving allocates nothing unless it fails.
+/// Newton's method with its work space; solving allocates nothing unless it fails.
 #[derive(Debug, Clone)]
 pub struct Newton {
     tolerance: Tolerance,

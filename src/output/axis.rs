@@ -3,13 +3,13 @@
 use super::number::format_number;
 use crate::elementary::{log10, power, whole_power};
 
-/// How numbers are laid out along an axis.
+/// How numbers are laid out along an axis of a chart.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Scale {
-    /// Equal differences are equally long.
+    /// Equal differences of numbers are equally long on the axis.
     #[default]
     Linear,
-    /// Equal ratios are equally long. Numbers at or below the floor, so also zero, are shown at the bottom.
+    /// Equal ratios of numbers are equally long on the axis. Numbers at or below the floor, so also zero, are shown at the bottom.
     Logarithmic,
 }
 
@@ -22,16 +22,16 @@ const LARGEST: f64 = 1e300;
 /// A range narrower than this part of its numbers is rounding, and is shown as the constant it stands for.
 const ROUNDING: f64 = 1e-10;
 
-/// A place on an axis that carries a label.
+/// A tick: a place on an axis that carries a label.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
-    /// Where it is, from 0 at the low end to 1 at the high end.
+    /// The place of the tick, from 0 at the low end of its axis to 1 at the high end.
     pub place: f64,
-    /// What stands beside it.
+    /// The label beside the tick.
     pub label: String,
 }
 
-/// A range of numbers and how it is laid out.
+/// An axis of a chart: a range of numbers and how it is laid out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axis {
     scale: Scale,
@@ -69,7 +69,7 @@ impl Axis {
         Self { scale: Scale::Linear, low: low - spare, high: high + spare, cut: Cut::Nothing }
     }
 
-    /// A linear axis with the given ends.
+    /// A linear axis with the given ends, in the numbers of the data.
     pub fn between(low: f64, high: f64) -> Self {
         Self::linear([low, high], 0.0)
     }
@@ -100,7 +100,7 @@ impl Axis {
         Self { scale: Scale::Logarithmic, low, high, cut: Cut::Nothing }
     }
 
-    /// Where `x` lies, from 0 at the low end to 1 at the high end; beyond them outside the range, `nan` for `nan`.
+    /// The place of `x` on the axis, from 0 at the low end to 1 at the high end; beyond them outside the range, `nan` for `nan`.
     pub fn place(&self, x: f64) -> f64 {
         match self.scale {
             Scale::Linear => (x.clamp(-LARGEST, LARGEST) - self.low) / (self.high - self.low),
@@ -110,7 +110,7 @@ impl Axis {
         }
     }
 
-    /// At most about `count` labelled places, and the factor that their labels have been freed of.
+    /// At most about `count` labelled places of the axis, and the factor that their labels have been freed of.
     pub fn ticks(&self, count: usize) -> (Vec<Tick>, Factor) {
         let count = count.max(2) as f64;
         match self.scale {
@@ -178,7 +178,7 @@ impl Axis {
 pub struct Factor(i32);
 
 impl Factor {
-    /// `label` with the factor behind it, if there is one: `energy [J] (×10⁻⁷)`.
+    /// The label of an axis with the factor behind it, if there is one: `energy [J] (×10⁻⁷)`.
     pub fn after(&self, label: &str) -> String {
         match self.0 {
             0 => label.into(),
@@ -187,7 +187,7 @@ impl Factor {
     }
 }
 
-/// The least and the greatest finite value.
+/// The least and the greatest finite number of some values; none where there is none.
 pub fn extent(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     values.into_iter().filter(|x| x.is_finite()).map(|x| x.clamp(-LARGEST, LARGEST)).fold(
         None,
@@ -219,7 +219,7 @@ fn typeset(x: f64, decimals: usize) -> String {
     format!("{x:.decimals$}").replace('-', "−")
 }
 
-/// `10⁻¹²`.
+/// The text of a power of ten, such as `10⁻¹²`.
 pub(super) fn power_of_ten(power: f64) -> String {
     let digits = format_number(power);
     let raised = digits.chars().map(|c| match c.to_digit(10) {

@@ -24,7 +24,7 @@ struct Bar {
     text: String,
 }
 
-/// Level bars below each other.
+/// A chart of level bars below each other.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BarChart {
     title: String,
@@ -34,18 +34,18 @@ pub struct BarChart {
 }
 
 impl BarChart {
-    /// An empty chart; the label says what the lengths are.
+    /// An empty chart of bars; the label says what their lengths are.
     pub fn new(title: impl Into<String>, label: impl Into<String>) -> Self {
         Self { title: title.into(), label: label.into(), ..Self::default() }
     }
 
-    /// Adds a bar below the others; the text stands behind it.
+    /// Adds a bar below the others, as long as its value; the text stands behind it.
     pub fn bar(mut self, name: impl Into<String>, value: f64, text: impl Into<String>) -> Self {
         self.bars.push(Bar { name: name.into(), value, text: text.into() });
         self
     }
 
-    /// Marks a length, to compare all bars with.
+    /// Marks a length in the chart, to compare all bars with.
     pub fn mark(mut self, value: f64) -> Self {
         self.mark = Some(value);
         self

@@ -5,7 +5,7 @@
 
 use super::{colour::Colour, fonts};
 
-/// A place: in pixels on a canvas, in the reader's units in a chart.
+/// A point of a picture: in pixels on a canvas, in the reader's units in a chart.
 pub type Point = (f64, f64);
 
 /// Coordinates beyond this many pixels are drawn at it: far outside every picture, and safe to compute with.
@@ -14,13 +14,13 @@ const FAR: f64 = 20_000.0;
 /// A box with sides along the axes of the picture; `top` is less than `bottom`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Area {
-    /// Least x.
+    /// The least x of the box, its left side.
     pub left: f64,
-    /// Least y.
+    /// The least y of the box, its upper side.
     pub top: f64,
-    /// Greatest x.
+    /// The greatest x of the box, its right side.
     pub right: f64,
-    /// Greatest y.
+    /// The greatest y of the box, its lower side.
     pub bottom: f64,
 }
 
@@ -30,18 +30,18 @@ impl Area {
         Self { left: x - reach, top: y - reach, right: x + reach, bottom: y + reach }
     }
 
-    /// The length in x.
+    /// The length of the box in x.
     pub fn width(&self) -> f64 {
         self.right - self.left
     }
 
-    /// The length in y.
+    /// The length of the box in y.
     pub fn height(&self) -> f64 {
         self.bottom - self.top
     }
 }
 
-/// Where a text stands to its anchor.
+/// Where a text stands relative to its anchor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Align {
     /// The text begins at the anchor.
@@ -52,59 +52,59 @@ pub enum Align {
     End,
 }
 
-/// The direction of a text.
+/// The direction in which a text is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Direction {
-    /// From left to right.
+    /// The text runs from left to right.
     Level,
-    /// From bottom to top, for the label of a vertical axis.
+    /// The text runs from bottom to top, as the label of a vertical axis does.
     Upwards,
 }
 
-/// A text on its line; `anchor` is on the baseline.
+/// A text of a picture on its line; `anchor` is on the baseline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
-    /// What is written.
+    /// The words that are written.
     pub text: String,
-    /// Where the baseline begins, after alignment.
+    /// The place where the baseline of the text begins, after alignment [pixels].
     pub start: Point,
-    /// Pixels per em.
+    /// The size of the text [pixels per em].
     pub size: f64,
     /// The colour of the glyphs.
     pub colour: Colour,
-    /// The direction of the line.
+    /// The direction of the text.
     pub direction: Direction,
 }
 
-/// One thing that is drawn.
+/// One thing that is drawn on a canvas.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// A line through points, with round ends and corners.
+    /// A line through points is drawn, with round ends and corners.
     Line {
-        /// The corners.
+        /// The corners of the line [pixels].
         points: Vec<Point>,
-        /// How thick it is.
+        /// The width of the line [pixels].
         width: f64,
-        /// Its colour.
+        /// The colour of the line.
         colour: Colour,
     },
-    /// A filled circle.
+    /// A filled circle is drawn.
     Disc {
-        /// Its centre.
+        /// The centre of the circle [pixels].
         centre: Point,
-        /// Its radius.
+        /// The radius of the circle [pixels].
         radius: f64,
-        /// Its colour.
+        /// The colour of the circle.
         colour: Colour,
     },
-    /// A filled box.
+    /// A filled box is drawn, with sides along the axes.
     Fill {
-        /// Its place.
+        /// The box that is filled.
         area: Area,
-        /// Its colour.
+        /// The colour of the box.
         colour: Colour,
     },
-    /// A text.
+    /// A text is drawn on its line.
     Text(Text),
 }
 
@@ -115,12 +115,12 @@ pub struct Canvas {
 }
 
 impl Canvas {
-    /// What has been drawn, from back to front.
+    /// The shapes that have been drawn on the canvas, from back to front.
     pub fn shapes(&self) -> &[Shape] {
         &self.shapes
     }
 
-    /// Draws a line; points that are not finite are left out, a single point becomes a dot.
+    /// Draws a line on the canvas; points that are not finite are left out, a single point becomes a dot.
     pub fn line(&mut self, points: impl IntoIterator<Item = Point>, width: f64, colour: Colour) {
         let points: Vec<Point> = points.into_iter().filter_map(reachable).collect();
         if !points.is_empty() {
@@ -128,14 +128,14 @@ impl Canvas {
         }
     }
 
-    /// Draws a filled circle.
+    /// Draws a filled circle on the canvas.
     pub fn disc(&mut self, centre: Point, radius: f64, colour: Colour) {
         if let Some(centre) = reachable(centre) {
             self.shapes.push(Shape::Disc { centre, radius, colour });
         }
     }
 
-    /// Fills a box.
+    /// Fills a box on the canvas.
     pub fn fill(&mut self, area: Area, colour: Colour) {
         let corners = reachable((area.left, area.top)).zip(reachable((area.right, area.bottom)));
         if let Some(((left, top), (right, bottom))) = corners {
@@ -143,12 +143,12 @@ impl Canvas {
         }
     }
 
-    /// Writes a text with its baseline at `anchor`.
+    /// Writes a text on the canvas with its baseline at `anchor`.
     pub fn text(&mut self, text: &str, anchor: Point, size: f64, align: Align, colour: Colour) {
         self.write(text, anchor, size, align, Direction::Level, colour);
     }
 
-    /// Writes a text that runs from bottom to top, with its baseline at `anchor`.
+    /// Writes a text on the canvas that runs from bottom to top, with its baseline at `anchor`.
     pub fn text_upwards(
         &mut self,
         text: &str,

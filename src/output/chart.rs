@@ -19,87 +19,87 @@ const FAINT: (f64, f64, f64) = (0.9, 2.4, 0.15);
 const THIN: f64 = 1.3;
 const NOTE: f64 = 12.0;
 
-/// The colour of a series.
+/// The colour of a series of a chart.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Ink {
-    /// The next one of the palette.
+    /// The series gets the next colour of the palette.
     #[default]
     Next,
-    /// That of the series with this number, counted from 0, where series belong together.
+    /// The series gets the colour of the one with this number, counted from 0: they belong together.
     OfSeries(usize),
-    /// That of titles: for what is about all series.
+    /// The series gets the colour of titles, for it is about all series.
     Black,
-    /// That of labels: for what guides the eye.
+    /// The series gets the colour of labels, for it guides the eye.
     Grey,
 }
 
-/// How much a series catches the eye.
+/// How much a series of a chart catches the eye.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Weight {
-    /// As usual.
+    /// The line of the series is as thick as usual.
     #[default]
     Full,
-    /// Thin, before what is faint.
+    /// The line of the series is thin; it is drawn before what is faint.
     Thin,
-    /// Thin and pale, behind what matters.
+    /// The line of the series is thin and pale, behind what matters.
     Faint,
 }
 
-/// A named curve. Points that are not finite leave a gap.
+/// A series of a chart: a named curve. Points that are not finite leave a gap.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
-    /// What the legend calls it.
+    /// The name of the series in the legend.
     pub name: String,
-    /// Its points, in the order in which they are joined.
+    /// The points of the series, in the order in which they are joined.
     pub points: Vec<Point>,
-    /// How its line is drawn; `None` leaves the choice to the chart, which draws unbroken lines while colours last.
+    /// How the line of the series is drawn; `None` leaves the choice to the chart, which draws unbroken lines while colours last.
     pub stroke: Option<Stroke>,
-    /// The shape of its marks, where it has some.
+    /// The shape of the marks of the series, where it has some.
     pub marker: Marker,
-    /// Its colour.
+    /// The colour of the series.
     pub ink: Ink,
-    /// How much it catches the eye.
+    /// How much the series catches the eye.
     pub weight: Weight,
 }
 
 impl Series {
-    /// A named curve through `points`; one without a name is not in the legend.
+    /// A series of a chart: a named curve through `points`; one without a name is not in the legend.
     pub fn new(name: impl Into<String>, points: Vec<Point>) -> Self {
         Self { name: name.into(), points, ..Self::default() }
     }
 
-    /// Chooses the shape of marks.
+    /// Chooses the shape of the marks of the series.
     pub fn marker(mut self, marker: Marker) -> Self {
         self.marker = marker;
         self
     }
 
-    /// Chooses the colour.
+    /// Chooses the colour of the series.
     pub fn ink(mut self, ink: Ink) -> Self {
         self.ink = ink;
         self
     }
 
-    /// Draws it thin.
+    /// Draws the series thin.
     pub fn thin(mut self) -> Self {
         self.weight = Weight::Thin;
         self
     }
 
-    /// Draws it thin and pale.
+    /// Draws the series thin and pale.
     pub fn faint(mut self) -> Self {
         self.weight = Weight::Faint;
         self
     }
 
-    /// Chooses how the line is drawn.
+    /// Chooses how the line of the series is drawn.
     pub fn stroke(mut self, stroke: Stroke) -> Self {
         self.stroke = Some(stroke);
         self
     }
 }
 
-/// Series over common axes, with a title, labels and a legend.
+/// A line chart: series over common axes, with a title, labels and a legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LineChart {
     title: String,
@@ -116,7 +116,7 @@ pub struct LineChart {
 }
 
 impl LineChart {
-    /// An empty chart, 900 by 560 pixels large when it is alone.
+    /// An empty line chart, 900 by 560 pixels large when it is alone.
     pub fn new(title: impl Into<String>) -> Self {
         Self {
             title: title.into(),
@@ -139,31 +139,31 @@ impl LineChart {
         self
     }
 
-    /// Says what the horizontal axis shows.
+    /// Sets the label of the horizontal axis of the chart.
     pub fn x_label(mut self, label: impl Into<String>) -> Self {
         self.x_label = label.into();
         self
     }
 
-    /// Says what the vertical axis shows.
+    /// Sets the label of the vertical axis of the chart.
     pub fn y_label(mut self, label: impl Into<String>) -> Self {
         self.y_label = label.into();
         self
     }
 
-    /// Chooses the scale of the horizontal axis.
+    /// Chooses the scale of the horizontal axis of the chart.
     pub fn x_scale(mut self, scale: Scale) -> Self {
         self.x_scale = scale;
         self
     }
 
-    /// Chooses the scale of the vertical axis.
+    /// Chooses the scale of the vertical axis of the chart.
     pub fn y_scale(mut self, scale: Scale) -> Self {
         self.y_scale = scale;
         self
     }
 
-    /// Shows numbers at or below `floor` at the bottom of logarithmic axes; [`DEFAULT_FLOOR`] unless it is positive.
+    /// Shows numbers at or below `floor` at the bottom of the chart's logarithmic axes; [`DEFAULT_FLOOR`] unless it is positive.
     pub fn floor(mut self, floor: f64) -> Self {
         self.floor = floor;
         self
@@ -181,7 +181,7 @@ impl LineChart {
         self
     }
 
-    /// Adds a series.
+    /// Adds a series to the chart.
     pub fn series(mut self, series: Series) -> Self {
         self.series.push(series);
         self
@@ -212,13 +212,13 @@ impl LineChart {
         self
     }
 
-    /// Adds a line of small words below the title.
+    /// Adds a line of small words below the title of the chart.
     pub fn caption(mut self, words: impl Into<String>) -> Self {
         self.captions.push(words.into());
         self
     }
 
-    /// Writes a few words to the right of a point of the data and a little below it.
+    /// Writes a few words into the chart, to the right of a point of the data and a little below it.
     pub fn note(mut self, at: Point, text: impl Into<String>) -> Self {
         self.notes.push((at, text.into()));
         self

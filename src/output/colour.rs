@@ -4,15 +4,15 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Colour(pub u8, pub u8, pub u8);
 
-/// The paper.
+/// The colour of the paper of pictures.
 pub const WHITE: Colour = Colour(255, 255, 255);
-/// Titles and numbers.
+/// The colour of titles and numbers in pictures.
 pub const INK: Colour = Colour(38, 42, 48);
-/// Labels of axes, and marks of lesser weight.
+/// The colour of labels of axes, and of marks of lesser weight.
 pub const GREY: Colour = Colour(110, 116, 124);
-/// The two axis lines.
+/// The colour of the two axis lines of a chart.
 pub const AXIS: Colour = Colour(150, 156, 163);
-/// The grid behind the data.
+/// The colour of the grid behind the data of a chart.
 pub const GRID: Colour = Colour(229, 232, 236);
 
 /// The palette of Okabe and Ito (2008) without its yellow, which white paper swallows.
@@ -40,7 +40,7 @@ const RAMP: [Colour; 9] = [
     Colour(68, 1, 84),
 ];
 
-/// How many hues there are before they repeat.
+/// The number of hues for series before they repeat.
 pub const HUE_COUNT: usize = HUES.len();
 
 /// The hue of the series or beam number `index`; they repeat after [`HUE_COUNT`].
@@ -48,14 +48,14 @@ pub fn hue(index: usize) -> Colour {
     HUES[index % HUES.len()]
 }
 
-/// A perceptually even ramp from pale (`part` 0) to dark (`part` 1).
+/// A colour of a perceptually even ramp from pale (`part` 0) to dark (`part` 1).
 pub fn ramp(part: f64) -> Colour {
     let place = clamp_part(part) * (RAMP.len() - 1) as f64;
     let below = (place as usize).min(RAMP.len() - 2);
     mix(RAMP[below], RAMP[below + 1], place - below as f64)
 }
 
-/// One hue from pale (`part` 0) to full (`part` 1).
+/// A tint of one hue, from pale (`part` 0) to the `full` colour (`part` 1).
 pub fn tint(full: Colour, part: f64) -> Colour {
     mix(WHITE, full, 0.25 + 0.75 * clamp_part(part))
 }

@@ -58,7 +58,7 @@ impl ColourBar {
         self.axis.map_or(1.0, |axis| axis.place(number))
     }
 
-    /// The room that the bar needs at the right of the plot.
+    /// The room that the bar of times needs at the right of the plot [pixels].
     pub fn width(&self) -> f64 {
         let Some(axis) = self.axis else { return 0.0 };
         let (ticks, factor) = axis.ticks(8);
@@ -67,7 +67,7 @@ impl ColourBar {
         GAP + BREADTH + NUMBERS + numbers.max(label) + EDGE
     }
 
-    /// Draws the bar at the right of `plot`.
+    /// Draws the bar of times at the right of `plot`.
     pub fn draw(&self, canvas: &mut Canvas, plot: &Area) {
         let Some(axis) = self.axis else { return };
         let (left, top) = (plot.right + GAP, plot.top + LABEL + 10.0);

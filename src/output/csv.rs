@@ -4,12 +4,12 @@ use std::path::Path;
 
 use super::{OutputError, files::write_whole};
 
-/// Named columns of numbers, written so that every number reads back bit for bit.
+/// A table of named columns of numbers, written so that every number reads back bit for bit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CsvTable {
-    /// Lines put above the table, each behind a `#`: what it is, its units, how it was made.
+    /// The lines put above the table, each behind a `#`: what it is, its units, how it was made.
     pub comments: Vec<String>,
-    /// Names and values of the columns, from left to right.
+    /// The names and values of the table's columns, from left to right.
     pub columns: Vec<(String, Vec<f64>)>,
 }
 
@@ -19,19 +19,19 @@ impl CsvTable {
         Self::default()
     }
 
-    /// Adds a comment; each of its lines becomes a comment line.
+    /// Adds a comment to the table; each of its lines becomes a comment line.
     pub fn comment(mut self, text: impl Into<String>) -> Self {
         self.comments.push(text.into());
         self
     }
 
-    /// Adds a column at the right.
+    /// Adds a column at the right of the table.
     pub fn column(mut self, name: impl Into<String>, values: Vec<f64>) -> Self {
         self.columns.push((name.into(), values));
         self
     }
 
-    /// The text of the file. Columns of different lengths are refused.
+    /// The text of the file with the table. Columns of different lengths are refused.
     pub fn to_text(&self) -> Result<String, OutputError> {
         let rows = self.common_length()?;
         let mut bytes = Vec::new();
@@ -50,7 +50,7 @@ impl CsvTable {
         Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 
-    /// Writes the table to `path`, whole or not at all.
+    /// Writes the table to the file `path`, whole or not at all.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), OutputError> {
         write_whole(path, self.to_text()?.as_bytes())
     }

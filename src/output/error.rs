@@ -8,33 +8,33 @@ pub enum OutputError {
     /// The folder of the file is missing and could not be made.
     #[error("cannot make the folder '{}' for '{}': {source}; choose a folder you may write to", folder.display(), path.display())]
     Folder {
-        /// The folder that was to be made.
+        /// The folder that could not be made.
         folder: PathBuf,
-        /// The file that was to go there.
+        /// The file that was to go into the folder.
         path: PathBuf,
-        /// What the system said.
+        /// The system's reason for not making the folder.
         source: io::Error,
     },
     /// The file could not be written; an older file of that name is untouched.
     #[error("cannot write '{}': {source}; check that its folder may be written to and has room", path.display())]
     Write {
-        /// The file that was to be written.
+        /// The file that could not be written.
         path: PathBuf,
-        /// What the system said.
+        /// The system's reason for not writing the file.
         source: io::Error,
     },
     /// The path has no file name, or a folder stands where the file should go.
     #[error("cannot write '{}': it is not the name of a file; give one such as 'results/energy.csv'", path.display())]
     NotAFile {
-        /// The path that was given.
+        /// The path that names no file.
         path: PathBuf,
     },
     /// The ending of a picture file names no known kind of picture.
     #[error("picture '{}': its ending is {ending}; use '.svg' (sharp at every size) or '.png' (pixels)", path.display())]
     PictureKind {
-        /// The file that was to be written.
+        /// The file whose ending names no picture.
         path: PathBuf,
-        /// The ending that was found, in words.
+        /// The ending of the file, in words.
         ending: String,
     },
     /// The columns of a table are not all equally long.
@@ -42,13 +42,13 @@ pub enum OutputError {
         "column '{name}' has {length} values but column '{first}' has {expected}; give every column one value per row"
     )]
     RaggedColumns {
-        /// The column that differs.
+        /// The name of the column that differs in length.
         name: String,
-        /// How many values it has.
+        /// The number of values of the column that differs.
         length: usize,
-        /// The first column, which sets the number of rows.
+        /// The name of the first column, which sets the number of rows.
         first: String,
-        /// How many values the first column has.
+        /// The number of values of the first column.
         expected: usize,
     },
     /// A table of numbers could not be turned into text.
@@ -59,15 +59,27 @@ pub enum OutputError {
         "a picture of {width} by {height} pixels cannot be painted; use 100 to 8000 pixels each way"
     )]
     PictureSize {
-        /// The width asked for.
+        /// The width asked for, of a picture that cannot be painted [pixels].
         width: f64,
-        /// The height asked for.
+        /// The height asked for, of a picture that cannot be painted [pixels].
         height: f64,
+    },
+    /// An animation has more pixels than it should.
+    #[error(
+        "{frames} frames of {width} by {height} pixels are too many for an animation; make fewer frames, or smaller ones"
+    )]
+    ManyPixels {
+        /// How many frames.
+        frames: usize,
+        /// The width of each.
+        width: u32,
+        /// The height of each.
+        height: u32,
     },
     /// The drawing library refused a picture.
     #[error("cannot paint the picture: {reason}; try the other kind ('.svg' or '.png')")]
     Paint {
-        /// What the drawing library said.
+        /// The drawing library's reason for refusing the picture.
         reason: String,
     },
 }

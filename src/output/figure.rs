@@ -10,14 +10,14 @@ const SIDES: std::ops::RangeInclusive<f64> = 100.0..=8000.0;
 /// The kinds of picture, told apart by the ending of the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PictureKind {
-    /// Scalable lines, `.svg`.
+    /// A picture of scalable lines, `.svg`.
     Svg,
-    /// Pixels, `.png`.
+    /// A picture of pixels, `.png`.
     Png,
 }
 
 impl PictureKind {
-    /// The kind that the ending of `path` stands for.
+    /// The kind of picture that the ending of `path` stands for.
     pub fn of(path: &Path) -> Result<Self, OutputError> {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         match ending.as_deref() {
@@ -40,7 +40,7 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// A picture of `canvas` with the given size in pixels, rounded up to whole ones.
+    /// The picture of `canvas` with the given size in pixels, rounded up to whole ones.
     pub fn new(canvas: Canvas, (width, height): (f64, f64)) -> Result<Self, OutputError> {
         if !SIDES.contains(&width) || !SIDES.contains(&height) {
             return Err(OutputError::PictureSize { width, height });
@@ -48,7 +48,7 @@ impl Figure {
         Ok(Self { canvas, width: width.ceil() as u32, height: height.ceil() as u32 })
     }
 
-    /// Width and height in pixels.
+    /// Width and height of the picture [pixels].
     pub fn size(&self) -> (u32, u32) {
         (self.width, self.height)
     }
@@ -63,7 +63,12 @@ impl Figure {
         png::paint(&self.canvas, self.width, self.height)
     }
 
-    /// Writes the picture to `path`, whole or not at all; the ending, `.svg` or `.png`, says as what.
+    /// The pixels of the picture, row by row from the top, each as red, green and blue.
+    pub(super) fn to_pixels(&self) -> Result<Vec<u8>, OutputError> {
+        png::pixels(&self.canvas, self.width, self.height)
+    }
+
+    /// Writes the picture to the file `path`, whole or not at all; the ending, `.svg` or `.png`, says as what.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), OutputError> {
         let path = path.as_ref();
         match PictureKind::of(path)? {

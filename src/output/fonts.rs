@@ -19,12 +19,12 @@ const FLATNESS: f64 = 0.03;
 static FACE: LazyLock<Option<FontRef<'static>>> =
     LazyLock::new(|| FontRef::try_from_slice(dejavu::sans::regular()).ok());
 
-/// The length of `text` on the line.
+/// The length of `text` on the line when it is set with `size` pixels per em [pixels].
 pub fn width(text: &str, size: f64) -> f64 {
     set(text, size).1
 }
 
-/// The size at which `text` fits into `room`: `size`, or as much smaller as it takes, down to 60 %.
+/// The size at which `text` fits into `room` [pixels]: `size`, or as much smaller as it takes, down to 60 %.
 pub fn shrunk(text: &str, size: f64, room: f64) -> f64 {
     const SMALLEST: f64 = 0.6;
     // Rounding must not make a text that fits a little too long.
@@ -33,7 +33,7 @@ pub fn shrunk(text: &str, size: f64, room: f64) -> f64 {
     if wanted <= room { size } else { size * (ROUNDING * room / wanted).max(SMALLEST) }
 }
 
-/// `text`, shortened with an ellipsis when it is longer than `room`.
+/// The text, shortened with an ellipsis when it is longer than `room` pixels.
 pub fn fit(text: &str, size: f64, room: f64) -> String {
     if text.chars().count() <= LONGEST && width(text, size) <= room {
         return text.into();
@@ -70,7 +70,7 @@ pub fn lines(text: &str, size: f64, room: f64) -> Vec<String> {
     lines
 }
 
-/// The glyphs of `text`, ready to be drawn as pixels.
+/// The glyphs of `text`, set with `size` pixels per em, ready to be drawn as pixels.
 pub fn glyphs(text: &str, size: f64) -> Vec<OutlinedGlyph> {
     let Some(face) = FACE.as_ref() else { return Vec::new() };
     let scale = PxScale::from((f64::from(face.height_unscaled()) * per_unit(face, size)) as f32);
@@ -79,7 +79,7 @@ pub fn glyphs(text: &str, size: f64) -> Vec<OutlinedGlyph> {
     set(text, size).0.into_iter().filter_map(|glyph| face.outline_glyph(place(glyph))).collect()
 }
 
-/// The outlines of `text`: per glyph its closed contours, holes turning against their surroundings.
+/// The outlines of `text`, set with `size` pixels per em: per glyph its closed contours, holes turning against their surroundings.
 pub fn outlines(text: &str, size: f64) -> Vec<Vec<Vec<Point>>> {
     let Some(face) = FACE.as_ref() else { return Vec::new() };
     let per_unit = per_unit(face, size);

@@ -21,21 +21,21 @@ const MOST_LINES: usize = 12;
 /// Pixels per labelled place along a horizontal and along a vertical axis.
 const TICK_EVERY: (f64, f64) = (85.0, 50.0);
 
-/// The room between a panel's border and its plot.
+/// The room between a panel's border and its plot [pixels].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Margins {
-    /// At the left.
+    /// The room at the left of the plot [pixels].
     pub left: f64,
-    /// At the top.
+    /// The room above the plot [pixels].
     pub top: f64,
-    /// At the right.
+    /// The room at the right of the plot [pixels].
     pub right: f64,
-    /// At the bottom.
+    /// The room below the plot [pixels].
     pub bottom: f64,
 }
 
 impl Margins {
-    /// Room enough for both, side by side.
+    /// The margins that are large enough for two panels: of both the larger, side by side.
     pub fn widest(self, other: Self) -> Self {
         Self {
             left: self.left.max(other.left),
@@ -45,7 +45,7 @@ impl Margins {
         }
     }
 
-    /// What they leave of `area`; some of it, however small the area is.
+    /// The box that the margins leave of `area`; some of it, however small the area is.
     pub fn inside(&self, area: &Area) -> Area {
         let (left, top) = (area.left + self.left, area.top + self.top);
         let (right, bottom) = (area.right - self.right, area.bottom - self.bottom);
@@ -53,27 +53,27 @@ impl Margins {
     }
 }
 
-/// Everything around the data.
+/// The frame of a panel: everything around the data.
 #[derive(Clone, Debug, Default)]
 pub struct Frame {
-    /// What stands above the panel.
+    /// The title above the panel.
     pub title: String,
-    /// Small words below the title, line by line.
+    /// The small words below the title of the panel, line by line.
     pub captions: Vec<String>,
-    /// What the horizontal axis shows.
+    /// The label of the horizontal axis: what it shows.
     pub x_label: String,
-    /// What the vertical axis shows.
+    /// The label of the vertical axis: what it shows.
     pub y_label: String,
-    /// The horizontal axis.
+    /// The horizontal axis of the panel.
     pub x: Axis,
-    /// The vertical axis.
+    /// The vertical axis of the panel.
     pub y: Axis,
-    /// The names of the lines; none when they need none.
+    /// The entries of the legend: names of the lines; none when they need none.
     pub legend: Vec<Entry>,
 }
 
 impl Frame {
-    /// The margins of a panel of the given size.
+    /// The margins that the frame needs in a panel of the given size [pixels].
     pub fn margins(&self, width: f64, height: f64) -> Margins {
         let (x_ticks, _) = self.x.ticks(count(width - 120.0, TICK_EVERY.0));
         let (y_ticks, _) = self.y.ticks(count(height - 110.0, TICK_EVERY.1));
@@ -95,7 +95,7 @@ impl Frame {
         }
     }
 
-    /// Draws all but the data; `plot` is what the margins leave of `area`.
+    /// Draws the frame, all but the data; `plot` is what the margins leave of `area`.
     pub fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
         let room = area.right - plot.left - EDGE;
         let title = Words::of(&self.title, TITLE, room);
@@ -116,12 +116,12 @@ impl Frame {
         canvas.line(corner.map(crisp), 1.0, AXIS);
     }
 
-    /// Where a point of the data is on the canvas.
+    /// The place on the canvas [pixels] of a point of the data.
     pub fn place(&self, plot: &Area, (x, y): Point) -> Point {
         (plot.left + self.x.place(x) * plot.width(), plot.bottom - self.y.place(y) * plot.height())
     }
 
-    /// The visible runs of a curve of the data.
+    /// The visible runs of a curve of the data, as points on the canvas [pixels].
     pub fn curve(&self, plot: &Area, points: &[Point]) -> Vec<Vec<Point>> {
         // A hair wider than the plot: rounding must not cut a line that runs along its side.
         let window = Area {

@@ -38,29 +38,29 @@ const LINE: f64 = 14.0;
 /// A cell of a heat map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatCell {
-    /// What colours it; one without a number is hatched.
+    /// The number that colours the cell; a cell without one is hatched.
     pub value: Option<f64>,
-    /// What is written in it, in few words; a line break begins another line.
+    /// The text that is written in the cell, in few words; a line break begins another line.
     pub text: String,
 }
 
-/// Cells in rows and columns, with names for both, and a key to the colours.
+/// A heat map: cells in rows and columns, with names for both, and a key to the colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
     title: String,
-    /// What the columns stand for, and their names.
+    /// What the columns of the heat map stand for, and their names.
     pub(super) columns: (String, Vec<String>),
-    /// What the rows stand for, and their names, from above.
+    /// What the rows of the heat map stand for, and their names, from above.
     pub(super) rows: (String, Vec<String>),
-    /// What the colours show, and the powers of ten at which they begin and end.
+    /// What the colours of the heat map show, and the powers of ten at which they begin and end.
     pub(super) scale: (String, i32, i32),
-    /// What a hatched cell is.
+    /// What a hatched cell of the heat map is.
     pub(super) hatched: String,
     pub(super) cells: Vec<Vec<HeatCell>>,
 }
 
 impl HeatMap {
-    /// An empty map. Numbers at or below the first power of ten are palest, those at or above the second darkest.
+    /// An empty heat map. Numbers at or below the first power of ten are palest, those at or above the second darkest.
     pub fn new(title: impl Into<String>, shows: impl Into<String>, powers: (i32, i32)) -> Self {
         Self {
             title: title.into(),
@@ -72,44 +72,44 @@ impl HeatMap {
         }
     }
 
-    /// Says what the columns stand for, and names them.
+    /// Says what the columns of the heat map stand for, and names them.
     pub fn columns(mut self, label: impl Into<String>, names: Vec<String>) -> Self {
         self.columns = (label.into(), names);
         self
     }
 
-    /// Says what the rows stand for.
+    /// Says what the rows of the heat map stand for.
     pub fn rows(mut self, label: impl Into<String>) -> Self {
         self.rows.0 = label.into();
         self
     }
 
-    /// Says what a hatched cell is.
+    /// Says what a hatched cell of the heat map is.
     pub fn hatched(mut self, meaning: impl Into<String>) -> Self {
         self.hatched = meaning.into();
         self
     }
 
-    /// Adds a row below the others; a cell too few is left white, one too many is not shown.
+    /// Adds a row to the heat map below the others; a cell too few is left white, one too many is not shown.
     pub fn row(mut self, name: impl Into<String>, cells: Vec<HeatCell>) -> Self {
         self.rows.1.push(name.into());
         self.cells.push(cells);
         self
     }
 
-    /// What stands above the map.
+    /// The title above the heat map.
     pub fn title(&self) -> &str {
         &self.title
     }
 
-    /// How far a number is on the scale of colours, from 0 to 1; none for what is no number.
+    /// How far a number is on the heat map's scale of colours, from 0 to 1; none for what is no number.
     pub(super) fn part(&self, value: f64) -> Option<f64> {
         let (low, high) = (f64::from(self.scale.1), f64::from(self.scale.2));
         let place = (log10(value.max(0.0)) - low) / (high - low);
         (!value.is_nan()).then(|| place.clamp(0.0, 1.0))
     }
 
-    /// The ends of the scale in words.
+    /// The ends of the heat map's scale of colours in words.
     pub(super) fn ends(&self) -> (String, String) {
         let power = |power: i32| power_of_ten(f64::from(power));
         (format!("≤ {}", power(self.scale.1)), format!("≥ {}", power(self.scale.2)))

@@ -17,25 +17,25 @@ const BETWEEN: f64 = 20.0;
 /// More rows than this would leave no room for the plot; the last one then says how many names are missing.
 const MOST_ROWS: usize = 4;
 
-/// One name with a sample of its line.
+/// An entry of a legend: a name with a sample of its line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// The name.
+    /// The name of the entry.
     pub name: String,
-    /// The colour of its line.
+    /// The colour of the line of the entry.
     pub colour: Colour,
-    /// How its line is drawn.
+    /// How the line of the entry is drawn.
     pub stroke: Stroke,
-    /// The shape of its marks, if it has some.
+    /// The shape of the marks of the entry, if it has some.
     pub marker: Marker,
 }
 
-/// The height that a legend takes when it is `width` wide.
+/// The height that a legend takes when it is `width` wide [pixels].
 pub fn height(entries: &[Entry], width: f64) -> f64 {
     rows(entries, width).len() as f64 * ROW
 }
 
-/// Draws the legend from the top of `area` downwards.
+/// Draws a legend from the top of `area` downwards.
 pub fn draw(canvas: &mut Canvas, entries: &[Entry], area: &Area) {
     let rows = rows(entries, area.width());
     let shown: usize = rows.iter().map(Vec::len).sum();

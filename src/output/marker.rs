@@ -5,21 +5,21 @@ use super::{
     colour::{Colour, WHITE},
 };
 
-/// The shape of the marks of a series.
+/// The shape of the marks of a series of a chart.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Marker {
-    /// A filled circle.
+    /// Each mark is a filled circle.
     #[default]
     Disc,
-    /// A filled square.
+    /// Each mark is a filled square.
     Square,
-    /// An outlined square on its corner.
+    /// Each mark is an outlined square on its corner.
     Diamond,
-    /// An outlined triangle.
+    /// Each mark is an outlined triangle.
     Triangle,
-    /// An outlined circle.
+    /// Each mark is an outlined circle.
     Ring,
-    /// Two strokes, like an x.
+    /// Each mark is two strokes, like an x.
     Cross,
 }
 
@@ -28,12 +28,12 @@ impl Marker {
     const ALL: [Self; 6] =
         [Self::Disc, Self::Square, Self::Diamond, Self::Triangle, Self::Ring, Self::Cross];
 
-    /// The marker of series number `index`; they repeat.
+    /// The shape of the marks of series number `index`; shapes repeat.
     pub fn of_index(index: usize) -> Self {
         Self::ALL[index % Self::ALL.len()]
     }
 
-    /// Draws it around a point, with the reach of a disc of this radius.
+    /// Draws a mark of this shape around a point, with the reach of a disc of this radius [pixels].
     pub fn draw(self, canvas: &mut Canvas, (x, y): Point, radius: f64, colour: Colour) {
         let width = 0.5 * radius;
         let half = 0.9 * radius;

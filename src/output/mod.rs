@@ -3,12 +3,15 @@
 //! ```text
 //! chart, heat_map, bars, motion, strips, field → page → plane, symbol → frame, hatching, legend, colour_bar → axis, curve, stroke, marker → canvas → figure → svg, png → files
 //! chart, heat_map → terminal → axis, curve
+//! motion → animation → figure
+//! viewer (a page for browsers) → canvas, colour
 //! ```
 //!
 //! Pictures look the same on every machine: text is drawn from an embedded font, and equal data gives equal bytes.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+mod animation;
 mod axis;
 mod bars;
 mod canvas;
@@ -39,11 +42,13 @@ mod svg;
 mod symbol;
 mod table;
 mod terminal;
+pub mod viewer;
 mod width;
 
 #[cfg(test)]
 mod samples;
 
+pub use animation::Animation;
 pub use axis::{DEFAULT_FLOOR, Scale};
 pub use bars::BarChart;
 pub use canvas::{Align, Area, Canvas, Direction, Point, Shape, Text};

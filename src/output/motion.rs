@@ -19,20 +19,20 @@ const TRACE: f64 = 1.4;
 const MARK: f64 = 2.4;
 const PARTICLE: f64 = 4.5;
 
-/// The beams at one time.
+/// A snapshot of a motion picture: the beams at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Snapshot {
-    /// The time.
+    /// The time of the snapshot.
     pub time: f64,
-    /// The centre line of each beam, always in the same order.
+    /// The centre line of each beam in the snapshot, always in the same order.
     pub lines: Vec<Vec<Point>>,
-    /// Places marked by dots: knots, nodes, joints.
+    /// The places of the snapshot that are marked by dots: knots, nodes, joints.
     pub marks: Vec<Point>,
-    /// Bodies without extent, drawn as larger dots.
+    /// The bodies without extent in the snapshot, drawn as larger dots.
     pub particles: Vec<Point>,
 }
 
-/// Snapshots of a motion in the plane. One unit of x is as long on the paper as one unit of y.
+/// A motion picture: snapshots of a motion in the plane. One unit of x is as long on the paper as one unit of y.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MotionPicture {
     title: String,
@@ -50,7 +50,7 @@ pub struct MotionPicture {
 }
 
 impl MotionPicture {
-    /// A picture without snapshots.
+    /// A motion picture without snapshots.
     pub fn new(title: impl Into<String>) -> Self {
         Self {
             title: title.into(),
@@ -61,32 +61,38 @@ impl MotionPicture {
         }
     }
 
-    /// Says what the axes show; `x` and `y` without it.
+    /// Says what the axes of the motion picture show; `x` and `y` without it.
     pub fn labels(mut self, x_label: impl Into<String>, y_label: impl Into<String>) -> Self {
         self.x_label = x_label.into();
         self.y_label = y_label.into();
         self
     }
 
-    /// Says what the bar of times shows; `t` without it.
+    /// Says what the bar of times of the motion picture shows; `t` without it.
     pub fn time_label(mut self, label: impl Into<String>) -> Self {
         self.time_label = label.into();
         self
     }
 
-    /// Names the beams, in the order of the lines of each snapshot.
+    /// Replaces the title of the motion picture.
+    pub fn title(mut self, title: impl Into<String>) -> Self {
+        self.title = title.into();
+        self
+    }
+
+    /// Names the beams of the motion picture, in the order of the lines of each snapshot.
     pub fn beams(mut self, names: impl IntoIterator<Item = impl Into<String>>) -> Self {
         self.beams = names.into_iter().map(Into::into).collect();
         self
     }
 
-    /// Adds the beams at one time. Later snapshots are drawn over earlier ones, whatever the order they come in.
+    /// Adds a snapshot to the motion picture. Later snapshots are drawn over earlier ones, whatever the order they come in.
     pub fn snapshot(mut self, snapshot: Snapshot) -> Self {
         self.snapshots.push(snapshot);
         self
     }
 
-    /// Adds the path of a station.
+    /// Adds the path of a station to the motion picture.
     pub fn trace(mut self, name: impl Into<String>, points: Vec<Point>) -> Self {
         self.traces.push((name.into(), points));
         self
@@ -110,13 +116,13 @@ impl MotionPicture {
         self
     }
 
-    /// Shows at least the box between two opposite corners.
+    /// Makes the motion picture show at least the box between two opposite corners.
     pub fn window(mut self, corner: Point, opposite: Point) -> Self {
         self.window = vec![corner, opposite];
         self
     }
 
-    /// The pictures side by side, all with the same view, for comparing two integrators.
+    /// Motion pictures side by side, all with the same view, for comparing two integrators.
     pub fn side_by_side(pictures: impl IntoIterator<Item = MotionPicture>) -> Page {
         let pictures: Vec<MotionPicture> = pictures.into_iter().collect();
         let all = || pictures.iter().flat_map(MotionPicture::points);

@@ -11,12 +11,12 @@ use super::{
     frame::Margins,
 };
 
-/// A picture, or a part of one, that fits itself into the area it is given.
+/// A panel: a picture, or a part of one, that fits itself into the area it is given.
 pub trait Panel {
-    /// The width and height it looks best at when it is alone.
+    /// The width and height that the panel looks best at when it is alone [pixels].
     fn size(&self) -> (f64, f64);
 
-    /// The width and height it takes on a page of so many rows and columns: panels that share one are smaller than alone.
+    /// The width and height that the panel takes on a page of so many rows and columns [pixels]: panels that share one are smaller than alone.
     fn size_among(&self, rows: usize, columns: usize) -> (f64, f64) {
         let (width, height) = self.size();
         let width = if columns > 1 { width * SIZE_IN_COLUMNS.0 } else { width };
@@ -28,15 +28,19 @@ pub trait Panel {
         (width, height)
     }
 
-    /// The room it needs around its plot when it is `width` by `height` large.
+    /// The room that the panel needs around its plot when it is `width` by `height` large [pixels].
     fn margins(&self, width: f64, height: f64) -> Margins;
 
-    /// Draws itself in `area`, with its plot in `plot`.
+    /// Draws the panel in `area`, with its plot in `plot`.
     fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area);
 
     /// The panel as a picture of its own.
     fn figure(&self) -> Result<Figure, OutputError> {
-        let (width, height) = self.size();
+        self.figure_of(self.size())
+    }
+
+    /// The panel as a picture of its own of another size in pixels.
+    fn figure_of(&self, (width, height): (f64, f64)) -> Result<Figure, OutputError> {
         let area = Area { left: 0.0, top: 0.0, right: width.ceil(), bottom: height.ceil() };
         let mut canvas = Canvas::default();
         self.draw(&mut canvas, &area, &self.margins(width, height).inside(&area));
@@ -59,7 +63,7 @@ const SIZE_IN_COLUMNS: (f64, f64) = (0.72, 0.85);
 /// Pixels per em of the title of a page.
 const TITLE: f64 = 18.0;
 
-/// Panels in a grid. The plots of a column are equally wide, those of a row equally high.
+/// A page: panels in a grid. The plots of a column are equally wide, those of a row equally high.
 #[derive(Default)]
 pub struct Page {
     title: String,
@@ -83,13 +87,13 @@ impl Page {
         Self { title: String::new(), columns: columns.max(1), panels: Vec::new() }
     }
 
-    /// Puts a title above all panels.
+    /// Puts a title above all panels of the page.
     pub fn title(mut self, title: impl Into<String>) -> Self {
         self.title = title.into();
         self
     }
 
-    /// Adds a panel.
+    /// Adds a panel to the page.
     pub fn panel(mut self, panel: impl Panel + 'static) -> Self {
         self.panels.push(Box::new(panel));
         self

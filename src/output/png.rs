@@ -15,8 +15,13 @@ use super::{
 };
 use crate::elementary::hypot;
 
-/// The PNG file of `canvas`, `width` by `height` pixels.
+/// The bytes of the PNG file of `canvas`, `width` by `height` pixels large.
 pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<Vec<u8>, OutputError> {
+    encode(&pixels(canvas, width, height)?, width, height).map_err(refused)
+}
+
+/// The pixels of `canvas`, row by row from the top, each as red, green and blue.
+pub fn pixels(canvas: &Canvas, width: u32, height: u32) -> Result<Vec<u8>, OutputError> {
     let Colour(paper, ..) = WHITE;
     let mut pixels = vec![paper; width as usize * height as usize * 3];
     {
@@ -27,7 +32,7 @@ pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<Vec<u8>, Output
         };
         canvas.shapes().iter().try_for_each(|shape| sheet.paint(shape))?;
     }
-    encode(&pixels, width, height).map_err(refused)
+    Ok(pixels)
 }
 
 fn encode(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>, png::EncodingError> {
@@ -182,7 +187,7 @@ mod tests {
     use super::*;
     use crate::output::colour::INK;
 
-    fn pixels(canvas: &Canvas) -> Vec<u8> {
+    fn painted(canvas: &Canvas) -> Vec<u8> {
         let bytes = paint(canvas, 20, 20).unwrap();
         let mut reader = png::Decoder::new(bytes.as_slice()).read_info().unwrap();
         let mut pixels = vec![0; reader.output_buffer_size()];
@@ -196,7 +201,7 @@ mod tests {
             let mut canvas = Canvas::default();
             canvas.line([(5.0, 5.0), end], 2.0, Colour(0, 0, 0));
             let dark: f64 =
-                pixels(&canvas).iter().step_by(3).map(|&v| 1.0 - f64::from(v) / 255.0).sum();
+                painted(&canvas).iter().step_by(3).map(|&v| 1.0 - f64::from(v) / 255.0).sum();
             let area = 2.0 * (end.0 - 5.0f64).hypot(end.1 - 5.0) + std::f64::consts::PI;
             assert!((dark / area - 1.0).abs() < 0.05, "{dark} against {area}");
         }
@@ -209,6 +214,6 @@ mod tests {
         canvas.disc((-50.0, 300.0), 10.0, INK);
         canvas.fill(Area { left: -5.0, top: -5.0, right: 1.0, bottom: 1e6 }, INK);
         canvas.text("beyond", (18.0, 2.0), 12.0, crate::output::canvas::Align::Start, INK);
-        assert_eq!(pixels(&canvas)[..3], [INK.0, INK.1, INK.2]);
+        assert_eq!(painted(&canvas)[..3], [INK.0, INK.1, INK.2]);
     }
 }

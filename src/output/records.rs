@@ -2,19 +2,19 @@
 
 use super::OutputError;
 
-/// Rows of texts under names of columns.
+/// A table for other programs: rows of texts under names of columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CsvRecords {
-    /// Lines put above the table, each behind a `#`.
+    /// The lines put above the table, each behind a `#`.
     pub comments: Vec<String>,
-    /// The names of the columns.
+    /// The names of the table's columns.
     pub names: Vec<String>,
-    /// The rows, each with a text for every column.
+    /// The rows of the table, each with a text for every column.
     pub rows: Vec<Vec<String>>,
 }
 
 impl CsvRecords {
-    /// The text of the file. Rows that are shorter or longer than the names are refused.
+    /// The text of the file with the table. Rows that are shorter or longer than the names are refused.
     pub fn to_text(&self) -> Result<String, OutputError> {
         let comments = self.comments.iter().flat_map(|comment| comment.lines());
         let mut bytes: Vec<u8> =

@@ -3,16 +3,30 @@
 
 use super::*;
 
-/// Writes both kinds of the picture, to the folder that is asked for or to one that vanishes.
-fn show(name: &str, panel: &impl Panel) {
+/// Writes both kinds of the picture, to the folder that is asked for or to one that vanishes. Labels must be told in the drawing, and
+/// the pixels must be as many as it says, the paper white and something drawn on it.
+fn show(name: &str, panel: &impl Panel, labels: &[&str]) {
     let vanishing = tempfile::tempdir().unwrap();
     let folder =
         std::env::var_os("WITHY_SAMPLES").map_or(vanishing.path().into(), std::path::PathBuf::from);
-    for ending in ["svg", "png"] {
-        let path = folder.join(format!("{name}.{ending}"));
-        panel.save(&path).unwrap();
-        assert!(std::fs::metadata(path).unwrap().len() > 3000);
+    let [svg, png] = ["svg", "png"].map(|ending| folder.join(format!("{name}.{ending}")));
+    panel.save(&svg).unwrap();
+    let drawing = std::fs::read_to_string(svg).unwrap();
+    let told = drawing.split_once("<desc>").unwrap().1.split_once("</desc>").unwrap().0;
+    for label in labels {
+        assert!(told.split(" | ").any(|text| text == *label), "{name}: {label}: {told}");
     }
+    panel.save(&png).unwrap();
+    let file = std::io::BufReader::new(std::fs::File::open(png).unwrap());
+    let mut reader = ::png::Decoder::new(file).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size()];
+    let info = reader.next_frame(&mut pixels).unwrap();
+    assert_eq!((info.width, info.height), panel.figure().unwrap().size(), "{name}");
+    let pixels = &pixels[..info.buffer_size()];
+    assert_eq!(pixels[..3], [255, 255, 255], "{name}: the paper is white");
+    let ink = pixels.chunks_exact(3).filter(|pixel| **pixel != [255, 255, 255]).count();
+    let part = ink as f64 / (pixels.len() / 3) as f64;
+    assert!((0.005..0.9).contains(&part), "{name}: {part} of the pixels are drawn on");
 }
 
 fn series(name: &str, value: impl Fn(f64) -> f64) -> Series {
@@ -97,15 +111,15 @@ fn two_beams() -> MotionPicture {
 
 #[test]
 fn charts() {
-    show("energy", &energy());
-    show("drift", &drift());
-    show("convergence", &convergence());
+    show("energy", &energy(), &["Flying spaghetti: energy", "t [s]", "kinetic", "strain", "total"]);
+    show("drift", &drift(), &["Relative drift", "|E − E₀| / E₀", "midpoint rule"]);
+    show("convergence", &convergence(), &["Error against step", "dt [s]", "slope 2"]);
     let many = (0..12).fold(LineChart::new("Many series").x_label("t"), |chart, i| {
         chart.series(series(&format!("station {i}"), move |t| {
             f64::from(i) * 1e-7 + 1e-7 * (t + f64::from(i)).sin()
         }))
     });
-    show("many", &many);
+    show("many", &many, &["Many series", "station 0", "station 11"]);
 }
 
 fn stability(title: &str, growth: impl Fn(i32, f64) -> Option<f64>) -> HeatMap {
@@ -134,15 +148,16 @@ fn heat_maps() {
         let grown = 1e-5 * 10f64.powi(power / 2) * dt * dt;
         (grown < 0.1 || dt < 0.3).then_some(grown)
     });
-    show("map", &wandering);
-    show("maps", &Page::grid(2).title("Stability").panel(conserving).panel(wandering));
+    show("map", &wandering, &["trapezoidal", "EA L² / EI", "failed", "1e12"]);
+    let maps = Page::grid(2).title("Stability").panel(conserving).panel(wandering);
+    show("maps", &maps, &["Stability", "energy_momentum", "trapezoidal"]);
 }
 
 #[test]
 fn motions() {
-    show("flight", &flight("Flying spaghetti", 2.5));
-    show("pendulum", &two_beams());
-    show("single", &MotionPicture::new("At rest").snapshot(tumbling(0.0, 0.0)));
+    show("flight", &flight("Flying spaghetti", 2.5), &["Flying spaghetti", "x [m]", "t [s]"]);
+    show("pendulum", &two_beams(), &["Double pendulum", "arm", "forearm"]);
+    show("single", &MotionPicture::new("At rest").snapshot(tumbling(0.0, 0.0)), &["At rest"]);
 }
 
 #[test]
@@ -154,13 +169,16 @@ fn pages() {
     show(
         "column",
         &Page::column().title("Flying spaghetti").panel(energy()).panel(momenta).panel(drift()),
+        &["Flying spaghetti", "Momenta", "p_x [kg m/s]", "Relative drift"],
     );
     let pair = [flight("energy–momentum", 2.5), flight("midpoint rule", 4.0)];
-    show("row", &MotionPicture::side_by_side(pair).title("Two integrators"));
+    let row = MotionPicture::side_by_side(pair).title("Two integrators");
+    show("row", &row, &["Two integrators", "energy–momentum", "midpoint rule"]);
     show(
         "hostile",
         &Page::grid(2).panel(LineChart::new("empty")).panel(LineChart::new("huge").series(
             Series::new("a", vec![(-1e308, 1e308), (0.0, -1e308), (f64::NAN, 0.0), (1e308, 0.0)]),
         )),
+        &["empty", "huge"],
     );
 }

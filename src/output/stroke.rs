@@ -9,16 +9,16 @@ use super::{
 /// The look of a line, which tells series apart when their colours do not.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Stroke {
-    /// An unbroken line.
+    /// The line is unbroken.
     #[default]
     Solid,
-    /// Long dashes.
+    /// The line has long dashes.
     Dashed,
-    /// Short dashes, nearly dots.
+    /// The line has short dashes, nearly dots.
     Dotted,
-    /// An unbroken line with a mark at every point, for measured or computed points that are few.
+    /// The line is unbroken with a mark at every point, for measured or computed points that are few.
     Marked,
-    /// Marks without a line between them.
+    /// There are marks without a line between them.
     Unjoined,
 }
 
@@ -28,12 +28,12 @@ impl Stroke {
         [Stroke::Solid, Stroke::Dashed, Stroke::Dotted][round % 3]
     }
 
-    /// Whether there is a mark at every point.
+    /// Whether a line of this look has a mark at every point.
     pub fn has_marks(self) -> bool {
         matches!(self, Stroke::Marked | Stroke::Unjoined)
     }
 
-    /// Draws one unbroken run of a curve, given in pixels. The marks of a line are not part of it.
+    /// Draws one unbroken run of a curve, given in pixels, with this look. The marks of a line are not part of it.
     pub fn draw(self, canvas: &mut Canvas, run: &[Point], width: f64, colour: Colour) {
         let pattern: &[f64] = match self {
             Stroke::Solid | Stroke::Marked => {

@@ -15,7 +15,7 @@ use super::{
 /// Steps of the drawing grid per pixel.
 const GRID: f64 = 20.0;
 
-/// The SVG document of `canvas`, `width` by `height` pixels.
+/// The SVG document of `canvas`, `width` by `height` pixels large.
 pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<String, OutputError> {
     let mut body = String::new();
     let size = (width * GRID as u32, height * GRID as u32);

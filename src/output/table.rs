@@ -5,12 +5,12 @@ use std::fmt;
 use super::number::format_number;
 use super::width::{columns, padded};
 
-/// One entry of a table.
+/// An entry of a table that is shown as text.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
-    /// Words, set flush left.
+    /// An entry of words, set flush left.
     Text(String),
-    /// A number in a text of its own, set flush right.
+    /// An entry of a number in a text of its own, set flush right.
     Number(String),
 }
 
@@ -52,7 +52,7 @@ impl From<i64> for Cell {
     }
 }
 
-/// Rows under a header, shown with [`Display`](fmt::Display).
+/// A table that is shown as text with [`Display`](fmt::Display): rows under a header.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
     title: String,
@@ -61,7 +61,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table with the given column heads and no rows.
+    /// A table with the given heads of columns and no rows.
     pub fn new(header: &[&str]) -> Self {
         Self { header: header.iter().map(|head| (*head).to_string()).collect(), ..Self::default() }
     }
@@ -72,7 +72,7 @@ impl Table {
         self
     }
 
-    /// Adds a row. A row shorter than the header is filled with blanks; a longer one widens the table.
+    /// Adds a row to the table. A row shorter than the header is filled with blanks; a longer one widens the table.
     pub fn row<C: Into<Cell>>(&mut self, cells: impl IntoIterator<Item = C>) -> &mut Self {
         self.rows.push(cells.into_iter().map(Into::into).collect());
         self

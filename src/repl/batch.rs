@@ -38,7 +38,7 @@ fn lines_of(mut reader: impl BufRead) -> impl Iterator<Item = io::Result<String>
     })
 }
 
-/// Reads inputs from `lines` until they end, one fails, or the user leaves.
+/// Reads inputs of a session from `lines` until they end, one fails, or the user leaves.
 pub fn run(shell: &mut Shell, lines: impl BufRead) -> Outcome {
     let mut input = String::new();
     let mut lines = lines_of(lines).peekable();

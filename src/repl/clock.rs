@@ -2,9 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-/// Something that tells the time since a moment that does not change.
+/// A clock: something that tells the time since a moment that does not change.
 pub trait Clock {
-    /// How long that moment is past.
+    /// The time that has passed since the clock's fixed moment.
     fn now(&self) -> Duration;
 }
 

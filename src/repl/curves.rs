@@ -10,19 +10,19 @@ use crate::script::source::scanner::{Kind, scan};
 /// Digits of the numbers in a summary.
 const DIGITS: usize = 6;
 
-/// What a curve is drawn over.
+/// What a curve at the prompt is drawn over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Over {
-    /// Time.
+    /// The curve is drawn over time.
     Time,
-    /// The places in an array, from 0.
+    /// The curve is drawn over the places in an array, from 0.
     Index,
-    /// Numbers that were given too.
+    /// The curve is drawn over numbers that were given too.
     Numbers,
 }
 
 impl Over {
-    /// What the axis is called.
+    /// The label of the axis that the curve is drawn over.
     pub fn label(self) -> &'static str {
         match self {
             Self::Time => "t",
@@ -31,7 +31,7 @@ impl Over {
         }
     }
 
-    /// The same in a sentence.
+    /// What the curve is drawn over, in words of a sentence.
     pub fn in_words(self) -> &'static str {
         match self {
             Self::Time => "time",
@@ -41,31 +41,31 @@ impl Over {
     }
 }
 
-/// A curve with its name.
+/// A curve that the prompt draws, with its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// What the legend calls it.
+    /// The name of the curve in the legend.
     pub name: String,
-    /// What it is drawn over.
+    /// What the curve is drawn over.
     pub over: Over,
-    /// Its points.
+    /// The points of the curve.
     pub points: Vec<Point>,
 }
 
-/// What a value is for somebody who wants to draw it.
+/// What a value of a script is for somebody who wants to draw it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// All points of a curve, and what they are over.
+    /// The value is all points of a curve, with what they are over.
     Whole(Over, Vec<Point>),
-    /// A number: one point of a curve.
+    /// The value is a number: one point of a curve.
     Number(f64),
-    /// A vector: one point of each of two curves.
+    /// The value is a vector: one point of each of two curves.
     Vector(Vec2),
-    /// Nothing that can be drawn; why.
+    /// The value is nothing that can be drawn; why, in words.
     None(String),
 }
 
-/// The shape of a value of this type: an array of numbers, two arrays of as many numbers, points, a number, a vector.
+/// What can be drawn of a value of the type `of`: an array of numbers, two arrays of as many numbers, points, a number, a vector.
 pub fn shape(value: &Dynamic, of: &str) -> Shape {
     if let Some(number) = number(value) {
         return Shape::Number(number);
@@ -120,7 +120,7 @@ fn numbers(array: &Array) -> Option<Vec<f64>> {
     array.iter().map(|value| if value.is_array() { None } else { number(value) }).collect()
 }
 
-/// The parts of what follows a command that are separated by commas outside of brackets and texts.
+/// The parts of a command's operand that are separated by commas outside of brackets and texts.
 pub fn parts(operand: &str) -> Vec<&str> {
     let mut parts = Vec::new();
     let (mut depth, mut begin, mut is_between_bars, mut before) = (0_usize, 0, false, Kind::Symbol);

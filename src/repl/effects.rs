@@ -9,7 +9,7 @@ use crate::script::handles::simulation::SimulationHandle;
 /// Arrays and maps are looked into so deep.
 const DEEPEST: usize = 8;
 
-/// What can be reached by name and is not taken back when variables are, as it was once.
+/// What of a session can be reached by name and is not taken back when variables are, as it was at one time.
 pub struct Footprint {
     simulations: Vec<(SimulationHandle, Place)>,
     scenes: Vec<(SceneHandle, String)>,
@@ -22,7 +22,7 @@ pub struct Footprint {
 type Place = (usize, u64, usize, usize);
 
 impl Footprint {
-    /// As it is now.
+    /// The footprint of a session as it is now.
     pub fn of(session: &Session) -> Self {
         let files = session.context().output().written().len();
         let mut print =
@@ -57,7 +57,7 @@ impl Footprint {
         }
     }
 
-    /// What is no longer as it was, in words that follow "it".
+    /// What of the session is no longer as it was, in words that follow "it".
     pub fn change(&self, session: &Session) -> Option<String> {
         let moved = self.simulations.iter().find(|(handle, was)| place(handle) != *was);
         if let Some((handle, _)) = moved {

@@ -2,7 +2,6 @@
 
 use rhai::Dynamic;
 
-use super::commands::{moves, refuse};
 use super::curves::{Shape, shape};
 use super::session::{Reply, Rounds};
 use super::shell::{Outcome, Shell};
@@ -18,11 +17,11 @@ const MOST_STATES: usize = 1000;
 /// Digits of a time in words.
 const DIGITS: usize = 6;
 
-/// What an expression was.
+/// What an expression was in the states of a simulation.
 pub struct Followed {
-    /// Times and values, in the order of time.
+    /// The times and values of the expression, in the order of time.
     pub points: Vec<(f64, Shape)>,
-    /// In which states, in words.
+    /// In which states the expression was followed, in words.
     pub words: String,
 }
 
@@ -56,7 +55,7 @@ fn go_back(
     let last = kept.len() - 1;
     let chosen = (0..kept.len()).rev().filter(|at| (last - at).is_multiple_of(every) || *at == 0);
     let steps: Vec<usize> = chosen.map(|at| kept[at].0).collect();
-    let revisit = Revisit::at_present(subject).map_err(|error| refuse(shell, error))?;
+    let revisit = Revisit::at_present(subject).map_err(|error| shell.refuse_native(error))?;
     let way = Way::Back(steps.into_iter());
     let (mut points, _) = visit(shell, text, Visits::new(shell, revisit, way))?;
     points.reverse();
@@ -84,7 +83,7 @@ fn make_again(
     text: &str,
 ) -> Result<Option<Followed>, Outcome> {
     let rows = subject.simulation().history().samples().len();
-    let revisit = Revisit::at_start(subject).map_err(|error| refuse(shell, error))?;
+    let revisit = Revisit::at_start(subject).map_err(|error| shell.refuse_native(error))?;
     let way = Way::Again { next: 0, rows, every: rows.div_ceil(MOST_STATES) };
     let (points, other) = visit(shell, text, Visits::new(shell, revisit, way))?;
     if let Some(why) = other {
@@ -219,10 +218,16 @@ fn visit(shell: &mut Shell, text: &str, mut visits: Visits) -> Result<Values, Ou
         (Ok(()), None) => Ok((points, None)),
         (Ok(()), Some(Trouble::Another(why))) => Ok((points, Some(why))),
         (Ok(()), Some(Trouble::Moves)) => Err(shell.refuse(&moves(text))),
-        (Ok(()), Some(Trouble::Refused(error))) => Err(refuse(shell, error)),
+        (Ok(()), Some(Trouble::Refused(error))) => Err(shell.refuse_native(error)),
         (Ok(()), Some(Trouble::NoPoint(why))) => {
             let told = Diagnostic::general(format!("'{text}' cannot be drawn {at}: {why}"));
             Err(shell.refuse(&told.with_hint("it must be a number, or a vector, at all times")))
         }
     }
+}
+
+/// What is said of an expression that moves a simulation.
+pub fn moves(text: &str) -> Diagnostic {
+    Diagnostic::general(format!("'{text}' moves a simulation"))
+        .with_hint("draw what only looks; the simulation that it names stayed where it was")
 }

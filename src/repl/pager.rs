@@ -9,34 +9,34 @@ use std::io::stdout;
 pub use keyboard::{Keyboard, Pressed};
 pub use pages::walk;
 
-/// What came of showing a text.
+/// What became of showing a text in pages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shown {
-    /// It was seen, as far as the person wanted.
+    /// The text was seen, as far as the person wanted.
     Seen,
-    /// It was stopped by Ctrl-C.
+    /// The text was stopped by Ctrl-C.
     Interrupted,
-    /// It is to be printed like any other: it is short, or nobody wants pages.
+    /// The text is to be printed like any other: it is short, or nobody wants pages.
     NotByThis,
 }
 
-/// Something that shows long texts.
+/// A pager: something that shows long texts page by page.
 pub trait Pager {
-    /// The terminal is so large now.
+    /// Tells the pager how large the terminal is now.
     fn resize(&mut self, columns: usize, lines: usize);
 
-    /// Shows a text, if it is long. `was_interrupted` tells of each Ctrl-C once.
+    /// Shows a text in pages, if it is long. `was_interrupted` tells of each Ctrl-C once.
     fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> Shown;
 }
 
-/// Pages at a terminal.
+/// A pager that shows pages at a terminal.
 pub struct TerminalPager {
     program: Option<String>,
     size: (usize, usize),
 }
 
 impl TerminalPager {
-    /// With the program of the variable `PAGER`, if it is set; `cat` and an empty one mean no pages. None for a terminal that cannot
+    /// A pager with the program of the variable `PAGER`, if it is set; `cat` and an empty one mean no pages. None for a terminal that cannot
     /// move its cursor.
     pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Option<Self> {
         let program = variable("PAGER");

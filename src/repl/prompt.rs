@@ -6,7 +6,7 @@ use super::editor::typed_ahead::TypedAhead;
 use super::editor::{Editor, Typed};
 use super::shell::{Outcome, Shell};
 
-/// Lets a person type until he leaves.
+/// Lets a person type inputs at the prompt until he leaves.
 ///
 /// # Errors
 /// When the terminal fails.

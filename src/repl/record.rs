@@ -37,29 +37,29 @@ pub struct Whereabouts {
     steps: usize,
 }
 
-/// What worked, in its order.
+/// What worked in a session, in its order.
 #[derive(Clone, Debug, Default)]
 pub struct Record {
     entries: Vec<Entry>,
 }
 
 impl Record {
-    /// Adds statements without a value.
+    /// Adds statements without a value to the record.
     pub fn worked(&mut self, text: &str) {
         self.entries.push(Entry::Statements(text.trim().into()));
     }
 
-    /// Adds an input with a value.
+    /// Adds an input with a value to the record.
     pub fn answered(&mut self, text: &str) {
         self.entries.push(Entry::Expression(text.trim().into()));
     }
 
-    /// Adds an input that returns.
+    /// Adds an input that returns to the record.
     pub fn returned(&mut self, text: &str) {
         self.entries.push(Entry::Returning(text.trim().into()));
     }
 
-    /// Adds what a statement that failed has done to simulations, given where they were before; gives whether there is anything.
+    /// Adds what a failed statement has done to simulations to the record, given where they were before; gives whether there is anything.
     pub fn moved(&mut self, before: &[Whereabouts]) -> bool {
         let known = self.entries.len();
         for was in before {
@@ -74,7 +74,7 @@ impl Record {
         self.entries.len() > known
     }
 
-    /// The script; `engine` knows the syntax, and must not optimise statements away.
+    /// The record as a script; `engine` knows the syntax, and must not optimise statements away.
     pub fn script(&self, engine: &Engine) -> String {
         let asked: Vec<bool> =
             self.sources().map(|source| source.is_some_and(mentions_answer)).collect();
@@ -135,7 +135,7 @@ impl Record {
         self.entries.iter().map(Entry::source)
     }
 
-    /// Whether an input returned, and so is not done again.
+    /// Whether an input of the record returned, and so is not done again.
     pub fn has_returned(&self) -> bool {
         self.entries.iter().any(|entry| matches!(entry, Entry::Returning(_)))
     }
@@ -192,7 +192,7 @@ fn answering(engine: &Engine, text: &str) -> String {
     terminated(&format!("{before}{space}let {ANSWER} = {}", expression.trim_start()).into())
 }
 
-/// The functions that a text defines, as they are written there.
+/// The functions that a text defines, each as the text has written it.
 pub fn functions_of(source: &Source) -> impl Iterator<Item = &str> {
     written(source).into_iter().map(|definition| &source[definition.bytes])
 }

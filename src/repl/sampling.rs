@@ -8,7 +8,7 @@ use rhai::Dynamic;
 use super::clock::Clock;
 use super::session::Rounds;
 
-/// What takes longer is not done again.
+/// The time of a run of an input above which the input is not run again to be timed.
 pub const LONGEST: Duration = Duration::from_secs(1);
 /// So long is it done again at most,
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -19,7 +19,7 @@ const MOST_RUNS: usize = 10_000;
 /// The relative error of the median with which it is known.
 const KNOWN: f64 = 0.01;
 
-/// Runs that are timed one by one.
+/// Runs of an input that are timed one by one.
 pub struct Sampling {
     clock: Rc<dyn Clock>,
     begun: Option<Duration>,
@@ -32,18 +32,18 @@ pub struct Sampling {
 /// What the times of many runs say.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Figures {
-    /// How many runs there were.
+    /// The number of runs that were timed.
     pub runs: usize,
-    /// The shortest time: the work itself, with the least that the machine did beside it.
+    /// The shortest time of a run: the work itself, with the least that the machine did beside it.
     pub least: Duration,
-    /// Half of the runs took less.
+    /// The time that half of the runs were below.
     pub median: Duration,
-    /// A quarter of the runs took less than the first, and a quarter more than the second.
+    /// The times that a quarter and three quarters of the runs were below.
     pub quartiles: (Duration, Duration),
 }
 
 impl Sampling {
-    /// No runs so far.
+    /// The timing of an input without runs so far.
     pub fn new(clock: Rc<dyn Clock>) -> Self {
         Self {
             clock,
@@ -54,7 +54,7 @@ impl Sampling {
         }
     }
 
-    /// What the runs so far say; nothing before there is one.
+    /// What the times of the runs so far say; nothing before there is one.
     pub fn figures(&self) -> Option<Figures> {
         let mut sorted = self.taken.clone();
         sorted.sort_unstable();

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use rhai::{Dynamic, ImmutableString, Scope};
 
-/// The variables that are not hidden by later ones of their names, if any is hidden.
+/// The variables of a scope that are not hidden by later ones of their names, if any is hidden.
 pub fn visible(scope: &Scope<'static>) -> Option<Scope<'static>> {
     let mut names = HashSet::new();
     // The last variables come first, and they are the ones that are seen.
@@ -22,7 +22,7 @@ pub fn visible(scope: &Scope<'static>) -> Option<Scope<'static>> {
     Some(visible)
 }
 
-/// The constants that came to the first `known` variables, in their order.
+/// The constants of a scope that came after the first `known` variables, in their order.
 pub fn constants_after(
     scope: &Scope,
     known: usize,

@@ -1,5 +1,6 @@
 //! What a line at the prompt does: an input of the language, or a command. Replies go to where the session prints.
 
+mod refusing;
 mod watching;
 
 use std::collections::HashMap;
@@ -20,27 +21,27 @@ use crate::script::looks::present::present;
 use crate::script::rows::kind::Scripted;
 use crate::script::source::program::{LARGEST_SCRIPT, Program};
 
-/// What came of a line.
+/// What became of a line that was typed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// It worked.
+    /// The line worked.
     Good,
-    /// It was wrong; the user was told.
+    /// The line was wrong; the user was told.
     Failed,
-    /// It was stopped by Ctrl-C.
+    /// The line was stopped by Ctrl-C.
     Interrupted,
-    /// Nobody reads what is printed any more.
+    /// The line was stopped, for nobody reads what is printed any more.
     PipeClosed,
-    /// The user wants to leave.
+    /// The line says that the user wants to leave.
     Quit,
 }
 
-/// Who sees the replies.
+/// Who sees the replies of the shell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Screen {
-    /// A person at a terminal.
+    /// A person at a terminal sees the replies, in this style.
     Terminal(Style),
-    /// Another program, or a file.
+    /// Another program, or a file, gets the replies.
     Pipe,
 }
 
@@ -63,7 +64,7 @@ pub struct Shell {
 }
 
 impl Shell {
-    /// A shell around a session.
+    /// A shell around a session, for somebody who sees its replies on `screen`.
     pub fn new(session: Session, screen: Screen) -> Self {
         Self {
             session,
@@ -76,7 +77,7 @@ impl Shell {
         }
     }
 
-    /// Takes times with another clock.
+    /// Makes the shell take times with another clock.
     #[must_use]
     pub fn with_clock(self, clock: Rc<dyn Clock>) -> Self {
         Self { clock, ..self }
@@ -87,27 +88,27 @@ impl Shell {
         self.pager = Some(pager);
     }
 
-    /// What times are taken with.
+    /// The clock that the shell takes times with.
     pub fn clock(&self) -> Rc<dyn Clock> {
         Rc::clone(&self.clock)
     }
 
-    /// The session.
+    /// The session of the shell.
     pub fn session(&self) -> &Session {
         &self.session
     }
 
-    /// The session, to look at something in it.
+    /// The session of the shell, to look at something in it.
     pub fn session_mut(&mut self) -> &mut Session {
         &mut self.session
     }
 
-    /// Who sees the replies.
+    /// Who sees the replies of the shell.
     pub fn screen(&self) -> Screen {
         self.screen
     }
 
-    /// Takes the terminal as it is now: people change its size.
+    /// Takes the size of the terminal as it is now: people change it.
     pub fn resize(&mut self, columns: usize, lines: usize) {
         if let Screen::Terminal(style) = self.screen {
             self.screen = Screen::Terminal(style.on_terminal(columns, lines));
@@ -117,7 +118,7 @@ impl Shell {
         }
     }
 
-    /// Does what a complete input says.
+    /// Does what a complete input says: a command, a question, or statements.
     pub fn submit(&mut self, input: &str) -> Outcome {
         self.session.forget_interrupt();
         let text = input.trim();
@@ -161,7 +162,7 @@ impl Shell {
         }
     }
 
-    /// Evaluates a program as if it had been typed.
+    /// Evaluates a program as if it had been typed, and shows what became of it.
     pub fn run_program(&mut self, program: Program) -> Outcome {
         let reply = self.session.eval_program(program);
         match reply {
@@ -171,7 +172,7 @@ impl Shell {
         }
     }
 
-    /// Shows what came of an input.
+    /// Shows what became of an input.
     pub fn tell(&mut self, reply: Reply) -> Outcome {
         let outcome = match reply {
             Reply::Done => Outcome::Good,
@@ -202,7 +203,7 @@ impl Shell {
         self.told_files = written.len();
     }
 
-    /// Forgets everything but the screen.
+    /// Forgets everything of the session but the screen.
     pub fn reset(&mut self) {
         self.session.reset();
         self.watched.clear();
@@ -215,18 +216,18 @@ impl Shell {
         !is_there || read_file(path, LARGEST_SCRIPT).is_ok_and(|bytes| Some(&*bytes) == ours())
     }
 
-    /// Remembers what was written to a file.
+    /// Remembers the script that the shell has written to a file.
     pub fn note_saved(&mut self, path: &Path, script: String) {
         self.saved.insert(path.to_owned(), script);
     }
 
-    /// Prints a reply.
+    /// Prints a reply of the shell.
     pub fn print(&self, text: &str) {
         self.session.context().print(text);
         self.session.context().flush();
     }
 
-    /// Prints a reply that may be long: where there is a pager, by it.
+    /// Prints a reply that may be long: in pages, where there is a pager.
     pub fn print_in_pages(&mut self, text: &str) -> Outcome {
         let interrupt = self.session.context().interrupt_flag();
         let shown = match &mut self.pager {
@@ -243,12 +244,12 @@ impl Shell {
         }
     }
 
-    /// Tells something beside the replies.
+    /// Tells the user something beside the replies.
     pub fn note(&self, text: &str) {
         self.session.context().tell(text);
     }
 
-    /// Tells what is wrong.
+    /// Tells the user what is wrong.
     pub fn refuse(&self, diagnostic: &Diagnostic) -> Outcome {
         let width = match self.screen {
             Screen::Terminal(style) => style.width,
@@ -259,7 +260,7 @@ impl Shell {
         Outcome::Failed
     }
 
-    /// Whether replies have colours.
+    /// Whether the replies of the shell have colours.
     pub fn colours(&self) -> Colours {
         match self.screen {
             Screen::Terminal(style) => style.colours,
@@ -267,7 +268,7 @@ impl Shell {
         }
     }
 
-    /// Characters in a line.
+    /// The number of characters in a line of the screen.
     pub fn width(&self) -> usize {
         match self.screen {
             Screen::Terminal(style) => style.width,
@@ -281,12 +282,12 @@ const LATEST: &str = "latest_simulation()";
 
 /// The last simulation, on which commands act.
 impl Shell {
-    /// The simulation that was started, loaded, forked or stepped last.
+    /// The last simulation: the one that was started, loaded, forked or stepped last.
     pub fn latest(&self) -> Option<SimulationHandle> {
         self.session.context().latest_simulation()?.try_cast()
     }
 
-    /// Whether a variable holds the last simulation.
+    /// Whether a variable of the session holds the last simulation.
     pub fn holds_latest(&self) -> bool {
         self.name_of_latest().is_ok_and(|name| name != LATEST)
     }
@@ -307,7 +308,7 @@ impl Shell {
         Ok(held.map_or_else(|| LATEST.into(), |(name, ..)| name.to_owned()))
     }
 
-    /// Says where the last simulation is.
+    /// Tells the user at which time the last simulation is.
     pub fn tell_place(&self) {
         if let Some(latest) = self.latest() {
             let steps = latest.simulation().counts().steps;
@@ -358,7 +359,7 @@ impl Shell {
         }
     }
 
-    /// Shows what a method of the last simulation gives.
+    /// Shows what a method of the last simulation gives back.
     pub fn show_of_latest(&mut self, call: &str) -> Outcome {
         match self.name_of_latest() {
             Ok(name) => {
@@ -369,7 +370,7 @@ impl Shell {
         }
     }
 
-    /// When the next step of the last simulation ends, if it is not at `end` already.
+    /// The time at which the next step of the last simulation ends, if it is not at `end` already.
     pub fn next_stop(&self, end: f64) -> Option<f64> {
         let latest = self.latest()?;
         let simulation = latest.simulation();
@@ -378,7 +379,7 @@ impl Shell {
     }
 }
 
-/// What a command says that needs a simulation when there is none.
+/// The error of a command that needs a simulation when there is none.
 pub fn no_simulation() -> Diagnostic {
     Diagnostic::general("there is no simulation yet")
         .with_hint("start one: let sim = scene.start(#{ dt: 0.1 })")

@@ -34,7 +34,7 @@ fn boundary_of(engine: &Engine, text: &str, first: usize) -> Option<usize> {
     cuts.into_iter().rev().find(is_right)
 }
 
-/// Whether an input can end early by a `return` that is in no function.
+/// Whether an input can end early by a `return` that stands in no function.
 pub fn returns(ast: &AST) -> bool {
     let mut found = false;
     for statement in ast.statements() {

@@ -8,7 +8,7 @@ use super::shell::Shell;
 use crate::script::library::{ModuleFunction, page_of};
 
 impl Shell {
-    /// The names that an input can use now.
+    /// The names that an input of the session can use now.
     pub fn surroundings(&self) -> Surroundings {
         let session = self.session();
         let variable = |(name, _, value): (&str, bool, &Dynamic)| Variable {

@@ -21,7 +21,7 @@ struct Piece {
     is_valid: bool,
 }
 
-/// All inputs of a session. The engine sees each of them at its own lines of one long text.
+/// The transcript of a session: all its inputs. The engine sees each of them at its own lines of one long text.
 pub struct Transcript {
     pieces: Vec<Piece>,
     lines: usize,
@@ -29,17 +29,17 @@ pub struct Transcript {
 }
 
 impl Transcript {
-    /// Nothing yet; imports are found in `folder`.
+    /// A transcript without inputs; imports are found in `folder`.
     pub fn new(folder: std::path::PathBuf) -> Self {
         Self { pieces: Vec::new(), lines: 0, folder }
     }
 
-    /// The line that will be typed next, from 1.
+    /// The number of the line that will be typed next, from 1.
     pub fn next_line(&self) -> usize {
         self.lines + 1
     }
 
-    /// Adds an input and gives the number of lines before it.
+    /// Adds an input to the transcript and gives the number of lines before it.
     pub fn add(&mut self, program: Program) -> usize {
         let lines = program.text.lines().count().max(1);
         if self.lines + lines > MOST_LINES {
@@ -52,26 +52,26 @@ impl Transcript {
         before
     }
 
-    /// A program typed at the prompt.
+    /// A program typed at the prompt, with this text.
     pub fn typed(&self, text: &str) -> Program {
         Program { folder: self.folder.clone(), ..Program::named(PROMPT, text) }
     }
 
-    /// Marks the last input as one that did not work: what it declares does not exist.
+    /// Marks the last input of the transcript as one that did not work: what it declares does not exist.
     pub fn strike_last(&mut self) {
         if let Some(last) = self.pieces.last_mut() {
             last.is_valid = false;
         }
     }
 
-    /// Takes the last input away, as if it had never been typed.
+    /// Takes the last input out of the transcript, as if it had never been typed.
     pub fn forget_last(&mut self) {
         if let Some(last) = self.pieces.pop() {
             self.lines = last.before;
         }
     }
 
-    /// All inputs as one program, each at its lines; those that did not work are blank, but for the last one.
+    /// All inputs of the transcript as one program, each at its lines; those that did not work are blank, but for the last one.
     pub fn whole(&self) -> Program {
         let mut text = String::new();
         for (index, piece) in self.pieces.iter().enumerate() {

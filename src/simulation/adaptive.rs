@@ -17,24 +17,24 @@ const LARGEST: f64 = 1e6;
 /// No step is shorter than so many times what rounds a time.
 const ROUNDINGS: f64 = 64.0;
 
-/// What finds steps of varying size, and does not change from step to step.
+/// How a run finds steps of varying size: what does not change from step to step.
 pub(super) struct Adaptive {
     pub(super) controller: Controller,
     pub(super) doubling: Doubling,
     pub(super) tolerance: f64,
 }
 
-/// Where the next step is to end.
+/// Where the next step of varying size is to end.
 pub(super) struct Plan {
     pub(super) interval: Interval,
-    /// Whether it would be longer if it were not for something else.
+    /// Whether the step would be longer if something else, such as a jump of a load, did not cut it.
     pub(super) is_cut: bool,
-    /// Whether it cannot be shorter.
+    /// Whether the step is the shortest one allowed.
     pub(super) is_least: bool,
 }
 
 impl Adaptive {
-    /// For a scene at its start.
+    /// The control of steps of varying size for a scene at its start.
     pub(super) fn new(control: &StepControl, method: Method, scene: &Scene, model: &Model) -> Self {
         let order = method.entry().claims.order;
         let least = control.smallest.unwrap_or(0.0);
@@ -48,7 +48,7 @@ impl Adaptive {
         Self { controller, doubling, tolerance: control.tolerance }
     }
 
-    /// The next step, when something stops it at a time at the latest.
+    /// The next step from `now` on, when something stops it at the time `stop` at the latest [time].
     pub(super) fn plan(&self, pace: &Pace, now: f64, stop: f64) -> Plan {
         let least = self.controller.smallest.max(ROUNDINGS * f64::EPSILON * now);
         let wish = pace.wish.max(least);

@@ -7,29 +7,29 @@ use crate::model::TrackLimit;
 /// What happened to a slider at the end of its master.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ArrivalKind {
-    /// The run ended.
+    /// The slider reached the end of its master, and the run ended.
     Stopped,
-    /// It bounced off.
+    /// The slider bounced off the end of its master.
     Bounced,
-    /// It came to rest against the stop.
+    /// The slider came to rest against the stop at the end of its master.
     Rested,
-    /// It left the master.
+    /// The slider left its master at the end.
     Released,
 }
 
-/// A slider reached the end of its master.
+/// The arrival of a slider at the end of its master.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Arrival {
-    /// When.
+    /// The time of the arrival [time].
     pub time: f64,
-    /// Which slider, and which end.
+    /// The slider that arrived, and the end of its master.
     pub limit: TrackLimit,
-    /// What came of it.
+    /// What happened to the slider at the end.
     pub kind: ArrivalKind,
 }
 
 impl ArrivalKind {
-    /// A word for scripts.
+    /// The kind of arrival in a word for scripts, such as `bounced`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Stopped => "stopped",
@@ -41,7 +41,7 @@ impl ArrivalKind {
 }
 
 impl Arrival {
-    /// In words: `slider 'ring' bounced off the end of its beam at t = 1.5`.
+    /// The arrival in words: `slider 'ring' bounced off the end of its beam at t = 1.5`.
     pub fn describe(&self, slider: &str) -> String {
         let end = self.limit.end.name();
         let did = match self.kind {

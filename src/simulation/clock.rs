@@ -8,16 +8,16 @@ use super::halving::Halving;
 #[derive(Debug, Clone)]
 pub(super) struct Clock {
     pub(super) grid: TimeGrid,
-    /// Where steps vary, how long the next one is to be.
+    /// How long the next step is to be, where steps vary in size.
     pub(super) pace: Option<Pace>,
-    /// A step of the grid that is covered in part.
+    /// The step of the grid that is covered in part, if there is one.
     pub(super) under_way: Option<Halving>,
-    /// Where the present run ends; infinite for single steps [time].
+    /// The time at which the present run ends; infinite for single steps [time].
     pub(super) goal: f64,
 }
 
 impl Clock {
-    /// At the start of a grid.
+    /// The clock of a run at the start of its grid.
     pub(super) fn new(grid: TimeGrid, pace: Option<Pace>) -> Self {
         Self { grid, pace, under_way: None, goal: f64::INFINITY }
     }

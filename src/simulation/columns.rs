@@ -2,25 +2,25 @@
 
 use super::Sample;
 use crate::joints::Slider;
-use crate::model::{Model, Scene};
+use crate::model::{Model, Scene, Spring, SpringKind, SpringState};
 
-/// A column that every history has.
+/// A column that the history of every run has.
 #[derive(Debug, Clone, Copy)]
 pub struct Column {
-    /// Its name.
+    /// The name of the column.
     pub name: &'static str,
-    /// Its dimension.
+    /// The dimension of the column's values, in words.
     pub dimension: &'static str,
-    /// Its value in a row.
+    /// The value of the column in a row of the history.
     pub value: fn(&Sample) -> f64,
 }
 
 /// A column that a history has because of its scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExtraColumn {
-    /// Its name: a thing of the scene and a quantity of it, such as `slider1.force`.
+    /// The name of the column: a thing of the scene and a quantity of it, such as `slider1.force`.
     pub name: String,
-    /// Its dimension.
+    /// The dimension of the column's values, in words.
     pub dimension: &'static str,
 }
 
@@ -57,7 +57,10 @@ const OF_SLIDER: [(&str, &str); 5] = [
     ("force_y", "force"),
 ];
 
-/// The columns that a scene adds.
+/// The columns that a scene with springs adds.
+const OF_SPRINGS: [(&str, &str); 2] = [("stored", "energy"), ("dissipated", "energy")];
+
+/// The columns that a scene adds to those that every history has.
 pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
     let of_slider = |slider: &Slider| {
         let name = slider.name.clone();
@@ -66,14 +69,40 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
             dimension,
         })
     };
-    scene.sliders.iter().flat_map(of_slider).collect()
+    let column = |name: String, dimension| ExtraColumn { name, dimension };
+    let of_spring = |spring: &Spring| {
+        let (name, kind) = (&spring.name, &spring.kind);
+        let (measure, length, force) = match kind {
+            SpringKind::Way(_) => ("length", "length", "force"),
+            SpringKind::Torsion(_) => ("angle", "rad", "force·length"),
+        };
+        let of_ledger = OF_SPRINGS.map(|(entry, energy)| column(format!("{entry}.{name}"), energy));
+        let own =
+            [column(format!("{name}.{measure}"), length), column(format!("{name}.force"), force)];
+        own.into_iter().chain(of_ledger).collect::<Vec<_>>()
+    };
+    let sums = OF_SPRINGS.map(|(entry, energy)| column(entry.to_owned(), energy));
+    let sums = sums.into_iter().filter(|_| scene.springs().next().is_some());
+    let sensors = scene.sensors.iter();
+    let sensors = sensors
+        .map(|sensor| ExtraColumn { name: sensor.name.clone(), dimension: sensor.dimension() });
+    let of_sliders = scene.sliders.iter().flat_map(of_slider);
+    let of_springs = scene.springs().flat_map(of_spring);
+    of_sliders.chain(sums).chain(of_springs).chain(sensors).collect()
 }
 
-/// The values of these columns at the present state of the model, in the same order.
+/// The values of those of the sliders at the present state of the model, in the same order.
 pub(super) fn extra_values(model: &Model) -> impl Iterator<Item = f64> {
-    (0..model.slider_names().count()).flat_map(|slider| {
+    let of_sliders = (0..model.slider_names().count()).flat_map(|slider| {
         let force = model.contact_force(slider);
         let (position, speed) = (model.slider_position(slider), model.slider_speed(slider));
         [position, speed, force.norm(), force.x, force.y]
-    })
+    });
+    let sum = |of: fn(&SpringState) -> f64| model.springs().map(|spring| of(&spring)).sum::<f64>();
+    let sums = [sum(|spring| spring.stored), sum(|spring| spring.dissipated)];
+    let sums = sums.into_iter().filter(|_| model.springs().next().is_some());
+    let of_springs = model
+        .springs()
+        .flat_map(|spring| [spring.elongation, spring.force, spring.stored, spring.dissipated]);
+    of_sliders.chain(sums).chain(of_springs)
 }

@@ -28,43 +28,43 @@ const BEFORE: f64 = 0.4;
 /// Errors below this part of what is allowed tell nothing about the next one.
 const LEAST_ERROR: f64 = 1e-4;
 
-/// What does not change in a run: the order of the error of a step, and bounds [time].
+/// How the size of the next step follows from errors: what does not change in a run, such as bounds [time].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Controller {
-    /// The error of a step goes with this power of its size.
+    /// The power of the step size that the error of a step is proportional to [-].
     pub(super) order: f64,
     pub(super) first: f64,
     pub(super) smallest: f64,
     pub(super) largest: f64,
 }
 
-/// What changes from step to step; it is a part of the state of a simulation.
+/// How long the next step is to be, and what that follows from; it is a part of the state of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Pace {
     /// The size of the next step, if nothing cuts it [time].
     pub(super) wish: f64,
-    /// The error of the last step that was not cut, over that allowed; none where nothing is known.
+    /// The error of the last step that was not cut, over that allowed [-]; none where nothing is known.
     pub(super) error: Option<f64>,
-    /// Tries of the next step that were rejected or failed.
+    /// The number of tries of the next step that were rejected or failed.
     pub(super) tries: usize,
 }
 
-/// A step that was tried.
+/// A step that was tried, with its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct TriedStep {
-    /// [time]
+    /// The duration of the step that was tried [time].
     pub(super) duration: f64,
-    /// Its error over that allowed.
+    /// The error of the step that was tried, over that allowed [-].
     pub(super) error: f64,
 }
 
 impl Controller {
-    /// Before the first step.
+    /// The pace before the first step.
     pub(super) fn start(&self) -> Pace {
         Pace { wish: self.first, error: None, tries: 0 }
     }
 
-    /// Whether the next step may be such.
+    /// Whether the next step may be as short as the pace wishes.
     pub(super) fn allows(&self, pace: &Pace) -> bool {
         let is_error = pace.error.is_none_or(|error| error >= LEAST_ERROR && error.is_finite());
         (self.smallest..=self.largest).contains(&pace.wish)
@@ -73,12 +73,12 @@ impl Controller {
             && pace.tries < usize::MAX / 2
     }
 
-    /// What comes is not as what was: a step as at the start, if that is shorter.
+    /// Begins anew where what comes is not as what was: with a step as at the start, if that is shorter.
     pub(super) fn restart(&self, pace: &mut Pace) {
         *pace = Pace { wish: pace.wish.min(self.first), ..self.start() };
     }
 
-    /// A step was accepted that was as long as was wished.
+    /// Takes in that a step was accepted that was as long as was wished.
     pub(super) fn accept(&self, pace: &mut Pace, trial: TriedStep) {
         let error = trial.error.max(LEAST_ERROR);
         let growth = match pace.error {
@@ -91,14 +91,14 @@ impl Controller {
         *pace = Pace { wish: self.bounded(wish), error: Some(error), tries: 0 };
     }
 
-    /// A step was accepted that was cut short: it may let the next ones grow, and cannot shrink them.
+    /// Takes in that a step was accepted that was cut short: it may let the next ones grow, and cannot shrink them.
     pub(super) fn accept_cut(&self, pace: &mut Pace, trial: TriedStep) {
         let mut alone = Pace { error: None, ..*pace };
         self.accept(&mut alone, trial);
         *pace = Pace { wish: alone.wish.max(pace.wish), error: pace.error, tries: 0 };
     }
 
-    /// A step erred by too much.
+    /// Takes in that a step erred by too much: the next try is shorter.
     pub(super) fn reject(&self, pace: &mut Pace, trial: TriedStep) {
         let most = if pace.tries > 0 { AGAIN } else { SAFETY };
         // An error that is not a number is a large one.
@@ -106,7 +106,7 @@ impl Controller {
         self.shorten(pace, trial.duration, self.room(error).clamp(LEAST_GROWTH, most));
     }
 
-    /// A step was not solved.
+    /// Takes in that a step of such a duration [time] was not solved: the next try is shorter.
     pub(super) fn fail(&self, pace: &mut Pace, duration: f64) {
         self.shorten(pace, duration, AGAIN);
     }

@@ -22,28 +22,28 @@ pub(super) struct Doubling {
     allowed: f64,
 }
 
-/// Two steps that were taken.
+/// Two half steps that were taken, with their error.
 pub(super) struct Doubled {
-    /// Of all three solves.
+    /// The work of all three solves: of the two half steps and of the whole one.
     pub(super) report: NewtonReport,
     pub(super) trial: TriedStep,
 }
 
-/// A step that failed, the mechanism being where it was, and what was solved before that.
+/// A step of which a half or the whole failed, the mechanism being where it was, and what was solved before that.
 pub(super) struct Failed {
     pub(super) source: StepError,
-    /// Newton iterations.
+    /// The number of Newton iterations that were made before the part that failed.
     pub(super) before: usize,
 }
 
 impl Doubling {
-    /// For methods of an order `p`, a length to compare errors with, and the error allowed.
+    /// The comparison of half steps with whole ones for methods of an order `p`, with a length to compare errors with and the error allowed.
     pub(super) fn new(order: u32, length: f64, allowed: f64) -> Self {
         let allowed = (whole_power(2.0, order as i32) - 1.0) * allowed;
         Self { length, allowed, ..Self::default() }
     }
 
-    /// Takes two steps over an interval, and tells their error.
+    /// Takes two half steps over an interval, and tells their error.
     pub(super) fn step(
         &mut self,
         integrator: &mut dyn Integrator,
@@ -67,7 +67,7 @@ impl Doubling {
         Ok(Doubled { report, trial })
     }
 
-    /// Goes back to where the last step began.
+    /// Takes the model back to where the last pair of half steps began.
     pub(super) fn take_back(&self, model: &mut Model) {
         model.restore(&self.start);
     }

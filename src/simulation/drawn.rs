@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use super::Outline;
 use crate::model::ModelError;
 
-/// What is found of a scene as drawn.
+/// What is found once of a scene as drawn: outlines of its beams, its lowest period.
 #[derive(Debug, Default)]
 pub(super) struct Drawn {
     outlines: OnceCell<Vec<Outline>>,
@@ -13,7 +13,7 @@ pub(super) struct Drawn {
 }
 
 impl Drawn {
-    /// The outlines of its beams.
+    /// The outlines of the beams of the scene as drawn.
     pub(super) fn outlines(
         &self,
         draw: impl FnOnce() -> Result<Vec<Outline>, ModelError>,
@@ -25,7 +25,7 @@ impl Drawn {
         Ok(self.outlines.get_or_init(|| outlines))
     }
 
-    /// Its lowest period, where it has one [time].
+    /// The lowest period of the scene as drawn, where it has one [time].
     pub(super) fn lowest_period(&self, find: impl FnOnce() -> Option<f64>) -> Option<f64> {
         *self.lowest_period.get_or_init(find)
     }

@@ -7,65 +7,63 @@ use crate::model::ModelError;
 /// A run that could not start or go on; its history up to the last good step is kept.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SimulationError {
-    /// The scene cannot be built.
+    /// The scene of a run cannot be built.
     #[error(transparent)]
     Model(#[from] ModelError),
-    /// A method that does not exist with its parameter.
+    /// The integrator of a run does not exist with its parameter.
     #[error(transparent)]
     Method(#[from] MethodError),
-    /// A step size that is none, or a tolerance that cannot be kept.
+    /// The step size of a run is not positive, or its tolerance cannot be kept.
     #[error(transparent)]
     StepSize(#[from] StepSizeError),
     /// An end of a run that has passed.
-    #[error("the simulation is at t = {now} and cannot run to t = {end}; {advice}")]
+    #[error("the simulation is at t = {now} and cannot run to t = {end}")]
     End {
-        /// Where it is.
+        /// The present time of the run that should end in its past [time].
         now: f64,
-        /// Where it should go.
+        /// The end asked for, which has passed [time].
         end: f64,
-        /// What would be right.
-        advice: &'static str,
     },
-    /// No step of any size worked.
+    /// No step of any size was solved.
     #[error("no step from t = {time} works, down to dt/{divisions} (dt = {dt:e}): {source}")]
     Step {
-        /// The end of the last good step.
+        /// The end of the last good step before the one that was not solved [time].
         time: f64,
-        /// The step of the grid.
+        /// The step of the grid that was not solved [time].
         dt: f64,
-        /// By what the step was divided at last.
+        /// The number of parts into which the step that was not solved was divided at last.
         divisions: u64,
-        /// Why the last try failed.
+        /// The reason why the last try of the step failed.
         source: StepError,
     },
     /// A tolerance asks for steps that are too short.
     #[error(
-        "the tolerance {tolerance} asks for steps below the smallest one, {smallest:e}, at t = {time}: one of dt = {dt:e} errs {error:.3} times as much as is allowed; give a larger tolerance or a smaller step: adaptive(#{{ tolerance: …, smallest: … }})"
+        "the tolerance {tolerance} asks for steps below the smallest one, {smallest:e}, at t = {time}: one of dt = {dt:e} errs {error:.3} times as much as is allowed"
     )]
     Tolerance {
-        /// The end of the last good step.
+        /// The end of the last good step before steps became too short [time].
         time: f64,
-        /// The tolerance.
+        /// The tolerance that asks for too short steps [-].
         tolerance: f64,
-        /// The step that was tried last.
+        /// The step that was tried last under the tolerance [time].
         dt: f64,
-        /// Its error over that allowed.
+        /// The error of the step that was tried last, over that allowed [-].
         error: f64,
-        /// The smallest step.
+        /// The smallest step that the run allows [time].
         smallest: f64,
     },
-    /// No step down to the smallest worked.
+    /// No step of varying size down to the smallest was solved.
     #[error(
         "no step from t = {time} works, down to the smallest one, {smallest:e} (dt = {dt:e}): {source}"
     )]
     Smallest {
-        /// The end of the last good step.
+        /// The end of the last good step before none was solved [time].
         time: f64,
-        /// The step that was tried last.
+        /// The step that was tried last and not solved [time].
         dt: f64,
-        /// The smallest step.
+        /// The smallest step that the run allows [time].
         smallest: f64,
-        /// Why the last try failed.
+        /// The reason why the last try of a step failed.
         source: StepError,
     },
     /// No step that ends with the arrival of a slider was found.
@@ -73,101 +71,90 @@ pub enum SimulationError {
         "slider '{slider}' arrives at the {end} of its beam soon after t = {time}, but no step that ends there was found, down to dt/{divisions} (dt = {dt:e}); try a smaller dt or a finer mesh"
     )]
     Landing {
-        /// The slider.
+        /// The name of the slider whose arrival was not found.
         slider: String,
-        /// The end of its master.
+        /// The end of its master at which the slider should arrive: `start` or `end`.
         end: &'static str,
-        /// The end of the last good step.
+        /// The end of the last good step before the arrival [time].
         time: f64,
-        /// The step of the grid.
+        /// The step of the grid in which the slider arrives [time].
         dt: f64,
-        /// By what the step was divided at last.
+        /// The number of parts into which the step with the arrival was divided at last.
         divisions: u64,
     },
-    /// A load has no value; no smaller step helps.
+    /// A load has no finite value; no smaller step helps.
     #[error("{source}")]
     Load {
-        /// The load, the step and the reason.
+        /// The load without a value, the step and the reason.
         source: StepError,
     },
     /// A slider has reached an end of its master at which the run ends.
-    #[error(
-        "the run has ended: {ending}; give the slider the option ends: \"bounce\" or \"release\" to go on, or ask sim.ended before a step"
-    )]
+    #[error("the run has ended: {ending}")]
     Ended {
-        /// What ended it.
+        /// The arrival that ended the run, in words.
         ending: String,
     },
     /// A slider that does not get away from an end of its master.
-    #[error(
-        "{arrival}, {most} times within one step of the grid; try ends: \"release\" or \"stop\""
-    )]
+    #[error("{arrival}, {most} times within one step of the grid")]
     Rattles {
-        /// The last arrival.
+        /// The last arrival of the slider, in words.
         arrival: String,
-        /// How often it came there.
+        /// How often the slider arrived within one step.
         most: usize,
     },
     /// A way back that is longer than the way that was gone.
-    #[error(
-        "cannot go back {steps} steps: only {taken} were taken; sim.rewind(0) leads to the start"
-    )]
+    #[error("cannot go back {steps} steps: only {taken} were taken")]
     FewerSteps {
-        /// Steps to go back.
+        /// The number of steps to go back.
         steps: usize,
-        /// Steps taken.
+        /// The number of steps that the run has taken.
         taken: usize,
     },
     /// A way back to a time that is not behind.
-    #[error(
-        "cannot go back to t = {time}: the simulation has been from t = 0 to {now}; give a time between, or use sim.run_to(t) to go on"
-    )]
+    #[error("cannot go back to t = {time}: the simulation has been from t = 0 to {now}")]
     NotBehind {
-        /// Where it should go.
+        /// The time to go back to, which is not behind [time].
         time: f64,
-        /// Where it is.
+        /// The present time of the run [time].
         now: f64,
     },
-    /// No state is kept.
+    /// No state of the run is kept to go back to.
     #[error(
-        "there is no way back: no states are kept{}; start with scene.start(#{{ …, snapshots: 64 }}), in megabytes, or call sim.keep_snapshots(64) before the steps",
+        "there is no way back: no states are kept{}",
         if *limit > 0.0 { format!(", one alone takes more than the limit of {limit} MB") } else { String::new() }
     )]
     NoSnapshots {
-        /// The memory that they may take [10⁶ bytes].
+        /// The memory that snapshots may take [10⁶ bytes].
         limit: f64,
     },
     /// States were not kept yet.
-    #[error(
-        "cannot go back to {target}: states are kept from t = {first} on; earlier ones are not in a file of sim.save(…), and are not kept before sim.keep_snapshots(…)"
-    )]
+    #[error("cannot go back to {target}: states are kept from t = {first} on")]
     BeforeFirst {
-        /// Where it should go, in words.
+        /// The state to go back to, in words.
         target: String,
-        /// When the first state was kept.
+        /// The time of the first state that was kept [time].
         first: f64,
     },
-    /// The state there was forgotten for want of memory.
+    /// Going back to a state that was forgotten for want of memory.
     #[error(
-        "cannot go back to {target}: with a limit of {limit} MB for snapshots only the last {steps} steps are kept, back to t = {oldest}, and the state at t = {first}; sim.rewind({first}) leads there, and for more start with scene.start(#{{ …, snapshots: {} }})",
-        (4.0 * limit).ceil().max(64.0)
+        "cannot go back to {target}: with a limit of {limit} MB for snapshots only the last {steps} steps are kept, back to t = {oldest}, and the state at t = {first}"
     )]
     Forgotten {
-        /// Where it should go, in words.
+        /// The forgotten state to go back to, in words.
         target: String,
-        /// How many steps one can go back.
+        /// The number of steps that one can go back.
         steps: usize,
-        /// Where these lead.
+        /// The time of the oldest state that is kept [time].
         oldest: f64,
-        /// When the first state was kept.
+        /// The time of the first state that was kept [time].
         first: f64,
         /// The memory that snapshots may take [10⁶ bytes].
         limit: f64,
     },
-    /// The monitor asked to stop.
+    /// The monitor of a run asked to stop it.
     #[error("interrupted at t = {time}; the history up to there is kept")]
     Interrupted {
-        /// The end of the last step.
+        /// The end of the last step before the run was stopped [time].
         time: f64,
     },
 }

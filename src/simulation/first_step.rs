@@ -6,7 +6,7 @@ use crate::model::{Model, Scene};
 /// The part of the time in which a scene without beams moves as far as it is large.
 const PART: f64 = 1e-3;
 
-/// The longest beam; without beams the largest distance of a particle from the origin, or 1 [length].
+/// The size of a scene: its longest beam; without beams the largest distance of a particle from the origin, or 1 [length].
 pub(super) fn length_of(scene: &Scene, model: &Model) -> f64 {
     let distances = model.control_points().flatten().map(|point| point.norm());
     let largest = scene.longest_beam().or_else(|| distances.reduce(f64::max));

@@ -15,27 +15,27 @@ pub(super) struct Halving {
     /// Finest parts that are behind.
     covered: u64,
     halvings: u32,
-    /// Failed tries since the last success.
+    /// The number of failed tries since the last success.
     pub(super) retries: usize,
 }
 
 impl Halving {
-    /// Nothing of a step is covered yet.
+    /// A step of which nothing is covered yet.
     pub(super) fn new(whole: Interval) -> Self {
         Self { whole, covered: 0, halvings: 0, retries: 0 }
     }
 
-    /// Where the whole step ends.
+    /// The end of the whole step [time].
     pub(super) fn end(&self) -> f64 {
         self.whole.end
     }
 
-    /// Start and end of the whole step, the finest parts covered, halvings and retries.
+    /// The parts of the halved step: start and end of the whole, the finest parts covered, halvings and retries.
     pub(super) fn to_parts(self) -> ((f64, f64), u64, u32, usize) {
         ((self.whole.start, self.whole.end), self.covered, self.halvings, self.retries)
     }
 
-    /// A step that has got to `now`, from its parts; none when they make no sense.
+    /// A halved step that has got to `now`, from its parts; none when they make no sense.
     pub(super) fn from_parts(
         now: f64,
         ((start, end), covered, halvings, retries): ((f64, f64), u64, u32, usize),
@@ -59,27 +59,27 @@ impl Halving {
         PARTS >> self.halvings
     }
 
-    /// By what the whole step is divided in what is tried.
+    /// The number by which the whole step is divided in what is tried.
     pub(super) fn divisions(&self) -> u64 {
         1 << self.halvings
     }
 
-    /// Whether nothing is left of it.
+    /// Whether the whole step is covered.
     pub(super) fn is_done(&self) -> bool {
         self.covered == PARTS
     }
 
-    /// Itself, unless nothing is left of it.
+    /// The halved step itself, unless it is covered.
     pub(super) fn rest(self) -> Option<Self> {
         (!self.is_done()).then_some(self)
     }
 
-    /// What to try next.
+    /// The part of the step to try next.
     pub(super) fn next(&self) -> Interval {
         Interval::between(self.time(self.covered), self.time(self.covered + self.width()))
     }
 
-    /// Goes on behind what was tried.
+    /// Goes on behind the part of the step that was tried.
     pub(super) fn succeed(&mut self) {
         let width = self.width();
         self.covered += width;
@@ -89,7 +89,7 @@ impl Halving {
         }
     }
 
-    /// Halves what is to be tried; false when it cannot be smaller.
+    /// Halves the part of the step that is to be tried; false when it cannot be smaller.
     pub(super) fn fail(&mut self) -> bool {
         self.retries += 1;
         let can_be_halved = self.halvings < MOST_HALVINGS;

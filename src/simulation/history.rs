@@ -9,31 +9,31 @@ use crate::model::Measures;
 /// A row of the history: what was measured at the end of a step, and what the step took.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Sample {
-    /// Energy, momenta and what was exchanged.
+    /// Energy, momenta and what was exchanged, measured at the end of the step.
     pub measures: Measures,
-    /// The length of the step; zero in the first row [time].
+    /// The length of the step that led to this row; zero in the first row [time].
     pub dt: f64,
-    /// Newton iterations of the step; where steps vary in size those of its three solves together.
+    /// Newton iterations of the step that led to this row; where steps vary in size those of its three solves together.
     pub newton_iterations: usize,
-    /// Failed tries before the step.
+    /// The number of failed tries before the step that led to this row.
     pub retries: usize,
 }
 
 /// A quantity that should not change, loads and supports accounted for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Invariant {
-    /// `E - W`
+    /// `E - W + D`
     Energy,
-    /// `p - ∫ F dt`
+    /// The momentum without impulses, `p - ∫ F dt` [mass·length/time].
     Momentum,
-    /// `L - ∫ M dt`
+    /// The angular momentum without angular impulses, `L - ∫ M dt` [mass·length²/time].
     AngularMomentum,
-    /// The largest distance between the partners of a joint.
+    /// The largest distance between the partners of a joint [length].
     Gap,
 }
 
 impl Invariant {
-    /// All of them with their names.
+    /// All invariants with their names.
     pub const ALL: [(&'static str, Self); 4] = [
         ("energy", Self::Energy),
         ("momentum", Self::Momentum),
@@ -41,20 +41,20 @@ impl Invariant {
         ("gap", Self::Gap),
     ];
 
-    /// Its value: a vector for the momentum, else in the first component.
+    /// The value of the invariant in a row: a vector for the momentum, else in the first component.
     pub fn value(self, row: &Measures) -> Vec2 {
         match self {
-            Self::Energy => Vec2::new(row.energy.total() - row.work, 0.0),
+            Self::Energy => Vec2::new(row.energy.total() - row.work + row.dissipated, 0.0),
             Self::Momentum => row.momentum - row.impulse,
             Self::AngularMomentum => Vec2::new(row.angular_momentum - row.angular_impulse, 0.0),
             Self::Gap => Vec2::new(row.gap, 0.0),
         }
     }
 
-    /// In words and symbols.
+    /// The invariant in words and symbols.
     pub fn describe(self) -> &'static str {
         match self {
-            Self::Energy => "energy E - W",
+            Self::Energy => "energy E - W + D",
             Self::Momentum => "momentum p - ∫F dt",
             Self::AngularMomentum => "angular momentum L - ∫M dt",
             Self::Gap => "gap of joints",
@@ -65,15 +65,15 @@ impl Invariant {
 /// What the drift of a quantity is relative to when the rows themselves give no scale.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Scales {
-    /// The mass of everything.
+    /// The mass of the whole scene [mass].
     pub mass: f64,
-    /// A length of the scene; zero when it has none, such as a lone particle at the origin.
+    /// A length of the scene [length]; zero when it has none, such as a lone particle at the origin.
     pub length: f64,
-    /// The energy that rounding of the strains stands for: no drift is relative to less.
+    /// The energy that rounding of the strains stands for [energy]: no drift is relative to less.
     pub rounding_energy: f64,
 }
 
-/// Rows in the order of time.
+/// The history of a run: rows of what was measured, in the order of time.
 #[derive(Debug, Clone, Default)]
 pub struct History {
     samples: Vec<Sample>,
@@ -92,13 +92,13 @@ impl History {
         Self { samples: Vec::new(), extra_columns, extra: Vec::new(), scales }
     }
 
-    /// Makes room for rows to come.
+    /// Makes room for `rows` rows of the history to come.
     pub fn reserve(&mut self, rows: usize) {
         self.samples.reserve(rows);
         self.extra.reserve(rows * self.extra_columns.len());
     }
 
-    /// Appends a row: the sample, and a value for each of the extra columns in their order.
+    /// Appends a row to the history: the sample, and a value for each of the extra columns in their order.
     ///
     /// # Panics
     /// When there are more or fewer values than extra columns.
@@ -109,30 +109,42 @@ impl History {
         assert_eq!(self.extra.len(), expected, "a row has one value for each extra column");
     }
 
-    /// Forgets all but the first rows.
+    /// Forgets all but the first `rows` rows of the history.
     pub fn truncate(&mut self, rows: usize) {
         self.samples.truncate(rows);
         self.extra.truncate(rows * self.extra_columns.len());
     }
 
-    /// The values of the extra columns, row after row.
+    /// How many columns it has besides those of every history.
+    pub(super) fn extra_width(&self) -> usize {
+        self.extra_columns.len()
+    }
+
+    /// Fills in one of the extra columns of the last row, by its number among these.
+    pub(super) fn fill_in(&mut self, column: usize, value: f64) {
+        if let Some(first) = self.extra.len().checked_sub(self.extra_columns.len()) {
+            self.extra[first + column] = value;
+        }
+    }
+
+    /// The values of the extra columns of the history, row after row.
     pub(super) fn extra_values(&self) -> &[f64] {
         &self.extra
     }
 
-    /// The same columns with other rows; none when these do not have a value for each extra column.
+    /// A history with the same columns and other rows; none when these do not have a value for each extra column.
     pub(super) fn with_rows(&self, samples: Vec<Sample>, extra: Vec<f64>) -> Option<Self> {
         let fits = samples.len().checked_mul(self.extra_columns.len()) == Some(extra.len());
         let extra_columns = self.extra_columns.clone();
         fits.then_some(Self { samples, extra_columns, extra, scales: self.scales })
     }
 
-    /// The rows, without their extra columns.
+    /// The rows of the history, without their extra columns.
     pub fn samples(&self) -> &[Sample] {
         &self.samples
     }
 
-    /// The rows between two times, ends included.
+    /// The rows of the history between two times, ends included.
     pub fn between(&self, from: f64, to: f64) -> Self {
         let steps = self.samples.iter().map(|row| row.dt).filter(|dt| *dt > 0.0);
         let slack = 1e-9 * steps.reduce(f64::min).unwrap_or(0.0);
@@ -146,19 +158,19 @@ impl History {
         inside
     }
 
-    /// Name and dimension of each column, the extra ones last.
+    /// Name and dimension of each column of the history, the extra ones last.
     pub fn columns(&self) -> impl Iterator<Item = (&str, &'static str)> {
         let fixed = Self::COLUMNS.iter().map(|column| (column.name, column.dimension));
         let extra = self.extra_columns.iter().map(|column| (&*column.name, column.dimension));
         fixed.chain(extra)
     }
 
-    /// The dimension of a column by name.
+    /// The dimension of a column of the history by its name; none where there is no such column.
     pub fn dimension(&self, name: &str) -> Option<&'static str> {
         self.columns().find(|(other, _)| *other == name).map(|(_, dimension)| dimension)
     }
 
-    /// A column by name.
+    /// The values of a column of the history by its name, one for each row; none where there is no such column.
     pub fn column(&self, name: &str) -> Option<Vec<f64>> {
         if let Some(column) = Self::COLUMNS.iter().find(|column| column.name == name) {
             return Some(self.samples.iter().map(column.value).collect());
@@ -168,7 +180,7 @@ impl History {
         Some(rows.map(|row| row[index]).collect())
     }
 
-    /// A column by name, each value replaced by the mean of it and the value in the row before. The first value stays, and
+    /// The values of a column by its name, each replaced by the mean of it and the value in the row before. The first value stays, and
     /// the first after the start: what belongs to a step, such as a contact force, has no value at the start.
     ///
     /// This removes a sawtooth, an alternation from step to step. A mean belongs to the middle of its step.
@@ -209,10 +221,12 @@ impl History {
         let motion = (2.0 * mass * kinetic).sqrt();
         let length = if length > 0.0 { length } else { largest(&|row| row.time) * motion / mass };
         match invariant {
-            Invariant::Energy => largest(&|row| row.energy.kinetic + row.energy.strain)
-                .max(largest(&|row| row.energy.potential - first.energy.potential))
-                .max(largest(&|row| row.work - first.work))
-                .max(rounding_energy),
+            Invariant::Energy => {
+                largest(&|row| row.energy.kinetic + row.energy.strain + row.energy.stored)
+                    .max(largest(&|row| row.energy.potential - first.energy.potential))
+                    .max(largest(&|row| row.work - first.work))
+                    .max(rounding_energy)
+            }
             Invariant::Momentum => {
                 motion.max(largest(&|row| row.gross_impulse - first.gross_impulse))
             }
@@ -223,7 +237,7 @@ impl History {
         }
     }
 
-    /// The largest rise of `E - W` above an earlier value, relative as the [`drifts`](Self::drifts) are; NaN when an energy is
+    /// The largest rise of `E - W + D` above an earlier value, relative as the [`drifts`](Self::drifts) are; NaN when an energy is
     /// NaN or there is no row.
     pub fn energy_growth(&self) -> f64 {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return f64::NAN };
@@ -239,7 +253,8 @@ impl History {
         }
     }
 
-    /// The largest of the [`drifts`](Self::drifts); NaN when one is NaN or there is no row.
+    /// The largest drift of an invariant over all rows of the history, relative as the [`drifts`](Self::drifts) are; NaN when one is NaN or
+    /// there is no row.
     pub fn drift(&self, invariant: Invariant) -> f64 {
         if self.samples.is_empty() {
             return f64::NAN;

@@ -1,8 +1,8 @@
 //! Watching a run.
 
-/// What watches a run after every step, and may stop it.
+/// A monitor: what watches a run after every step, and may stop it.
 pub trait Monitor {
-    /// Called after every step and every failed try; `false` stops the run there.
+    /// Asked after every step and every failed try of a run, with the present time; `false` stops the run there.
     fn goes_on(&mut self, time: f64) -> bool;
 }
 

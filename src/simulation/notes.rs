@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
-/// Largest rotation of a section in a step: ten steps a turn [rad].
+/// The largest rotation of a section in a step that is not noted: ten steps a turn [rad].
 pub(super) const LARGEST_ROTATION: f64 = 0.1 * TAU;
 
-/// Most spans that a slider may pass in a step.
+/// The most spans of its master that a slider may pass in a step without a note [-].
 pub(super) const MOST_SPANS: f64 = 1.0;
 
 /// A note is told again where its measure has grown by this factor.
@@ -22,9 +22,9 @@ const ENOUGH: f64 = 20.0;
 pub enum Note {
     /// Vibration has a good part of the kinetic energy, and steps do not follow it.
     Motion {
-        /// The step [time].
+        /// The step size with which vibration is not followed [time].
         dt: f64,
-        /// That part [-].
+        /// The part of the kinetic energy that belongs to vibration which steps do not follow [-].
         share: f64,
         /// The period of what accelerates the scene, in the mean over accelerations [time].
         period: f64,
@@ -33,27 +33,27 @@ pub enum Note {
     },
     /// Sections turn far in a step.
     Rotation {
-        /// The step [time].
+        /// The step size with which sections turn far [time].
         dt: f64,
-        /// How far at most [rad].
+        /// The largest rotation of a section in a step [rad].
         angle: f64,
     },
     /// A slider passes many spans in a step.
     Way {
-        /// Its name.
+        /// The name of the slider that passes many spans in a step.
         slider: String,
-        /// The step [time].
+        /// The step size with which a slider passes many spans [time].
         dt: f64,
-        /// How many at most [-].
+        /// The most spans that the slider passes in a step [-].
         spans: f64,
     },
     /// A slider bounced off what gives way, and steps are longer than such a blow lasts.
     Bounce {
-        /// Its name.
+        /// The name of the slider that bounced.
         slider: String,
-        /// The step [time].
+        /// The step size that is longer than the blow [time].
         dt: f64,
-        /// How many times as long as a blow a step is [-].
+        /// How many times as long as the blow a step is [-].
         blows: f64,
     },
 }
@@ -77,7 +77,7 @@ impl Note {
         }
     }
 
-    /// Whether it says something that others have not said, or not as bad.
+    /// Whether the note says something that those told before have not said, or not as bad.
     pub fn is_news_after(&self, told: &[Self]) -> bool {
         !told.iter().any(|other| {
             std::mem::discriminant(other) == std::mem::discriminant(self)
@@ -116,7 +116,7 @@ impl fmt::Display for Note {
                 }
                 write!(
                     f,
-                    "; take dt below {}, or energy_decaying(…) where that vibration does not matter",
+                    "; take dt below {}, or the method energy_decaying where that vibration does not matter",
                     short(shown / ENOUGH)
                 )
             }
@@ -149,7 +149,7 @@ impl fmt::Display for Note {
     }
 }
 
-/// Three digits.
+/// A number in words, of three digits.
 pub(super) fn short(number: f64) -> String {
     let rounded: f64 = format!("{number:.2e}").parse().unwrap_or(number);
     let size = rounded.abs();

@@ -7,23 +7,28 @@ use crate::model::{BeamDefinition, ModelError, Scene};
 /// Points along each span of a beam of higher degree.
 const POINTS_A_SPAN: usize = 8;
 
-/// The places of a beam that a picture needs.
+/// Points along a span of a beam of some degree.
+fn pieces(degree: usize) -> usize {
+    if degree == 1 { 1 } else { POINTS_A_SPAN }
+}
+
+/// The places of a beam that a picture needs: points of its axis, and its knots or nodes.
 #[derive(Debug, Clone)]
 pub struct Outline {
     line: Vec<Place>,
     marks: Vec<Place>,
 }
 
-/// A configuration as it is drawn.
+/// A configuration of a scene as it is drawn, in plain points [length].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Configuration {
-    /// When.
+    /// The time of the configuration [time].
     pub time: f64,
-    /// A line for each beam.
+    /// A line of points for each beam [length].
     pub lines: Vec<Vec<Vec2>>,
-    /// Knots or nodes of all beams.
+    /// The knots or nodes of all beams [length].
     pub marks: Vec<Vec2>,
-    /// Where the particles are.
+    /// The places of the particles [length].
     pub particles: Vec<Vec2>,
 }
 
@@ -40,22 +45,41 @@ impl Outline {
                     source: source.into(),
                 })
             };
-            let pieces = if mesh.basis().degree() == 1 { 1 } else { POINTS_A_SPAN };
-            let within = |pair: &[f64]| {
-                let (start, end) = (pair[0], pair[1]);
-                (0..pieces).map(move |i| start + (end - start) * i as f64 / pieces as f64)
-            };
-            let breaks = mesh.basis().breaks();
-            let parameters = breaks.windows(2).flat_map(within).chain(breaks.last().copied());
             Ok(Self {
-                line: parameters.map(place).collect::<Result<_, _>>()?,
-                marks: breaks.iter().copied().map(place).collect::<Result<_, _>>()?,
+                line: Self::parameters(mesh).into_iter().map(place).collect::<Result<_, _>>()?,
+                marks: mesh.basis().breaks().into_iter().map(place).collect::<Result<_, _>>()?,
             })
         };
         scene.beams.iter().zip(meshes).enumerate().map(of_beam).collect()
     }
 
-    /// The lines and marks of the control points of all bodies: one beam after another, then the particles.
+    /// The parameters of a mesh at the places of its line: the breaks, and evenly between them.
+    pub(super) fn parameters(mesh: &Mesh) -> Vec<f64> {
+        let pieces = pieces(mesh.basis().degree());
+        let within = |pair: &[f64]| {
+            let (start, end) = (pair[0], pair[1]);
+            (0..pieces).map(move |i| start + (end - start) * i as f64 / pieces as f64)
+        };
+        let breaks = mesh.basis().breaks();
+        breaks.windows(2).flat_map(within).chain(breaks.last().copied()).collect()
+    }
+
+    /// How many places of the line further the next station of the axis is: there are two a span, and one where spans are straight.
+    pub fn places_a_station(degree: usize) -> usize {
+        pieces(degree).div_ceil(2)
+    }
+
+    /// The places of the centre line, from its start to its end.
+    pub fn line(&self) -> &[Place] {
+        &self.line
+    }
+
+    /// The knots or nodes.
+    pub fn marks(&self) -> &[Place] {
+        &self.marks
+    }
+
+    /// The configuration as drawn from the control points of all bodies [length]: one beam after another, then the particles.
     pub fn draw(outlines: &[Self], time: f64, control_points: &[&[Vec2]]) -> Configuration {
         let at = |place: &Place| place.interpolate(control_points[place.body]);
         Configuration {

@@ -8,48 +8,48 @@ use super::{Arrival, ArrivalKind, Sample};
 use crate::integrators::Interval;
 use crate::newton::NewtonReport;
 
-/// The work of a run.
+/// The work of a run so far.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct WorkCounts {
-    /// Steps that succeeded; two halves that are compared with a whole one count as one.
+    /// The number of steps that succeeded; two halves that are compared with a whole one count as one.
     pub steps: usize,
-    /// Newton iterations of these steps, each with new factors; for steps of varying size those of all three solves that a pair
-    /// of half steps takes.
+    /// The number of Newton iterations of the steps that succeeded, each with new factors; for steps of varying size those of all three
+    /// solves that a pair of half steps takes.
     pub newton_iterations: usize,
-    /// Corrections of these steps with factors at hand.
+    /// The number of corrections of the steps that succeeded, with factors at hand.
     pub corrections: usize,
     /// The most Newton iterations of one step: of one solve where steps are fixed, of its three solves together where they vary.
     pub newton_max: usize,
-    /// Factorised matrices, failed tries included.
+    /// The number of factorised matrices of the run, failed tries included.
     pub factorisations: usize,
-    /// Failed tries.
+    /// The number of failed tries of steps.
     pub retries: usize,
-    /// Steps that erred by more than a tolerance allowed.
+    /// The number of steps that erred by more than a tolerance allowed.
     pub rejected: usize,
-    /// Steps that were tried to find when a slider arrives at the end of its master.
+    /// The number of steps that were tried to find when a slider arrives at the end of its master.
     pub arrival_tries: usize,
-    /// Time spent in steps, by this program: it is not in files, which would differ from run to run.
+    /// The time that this program spent in steps: it is not in files, which would differ from run to run.
     #[serde(skip)]
     pub wall: Duration,
 }
 
-/// What the last step took.
+/// What the last step of a run took.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct StepTaken {
-    /// The length of the step; zero before there is one [time].
+    /// The length of the last step; zero before there is one [time].
     pub(super) dt: f64,
     pub(super) newton_iterations: usize,
     pub(super) retries: usize,
 }
 
 impl StepTaken {
-    /// That of a row of the history.
+    /// What the step that led to a row of the history took.
     pub(super) fn of(row: &Sample) -> Self {
         Self { dt: row.dt, newton_iterations: row.newton_iterations, retries: row.retries }
     }
 }
 
-/// What a run has done so far.
+/// What a run has done so far: its work, its last step, its arrivals.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Progress {
     pub(super) counts: WorkCounts,
@@ -95,7 +95,7 @@ impl Progress {
         self.counts.factorisations += iterations;
     }
 
-    /// The arrival that ended the run: nothing happens after it.
+    /// The arrival of a slider that ended the run, if there was one: nothing happens after it.
     pub(super) fn stopped(&self) -> Option<&Arrival> {
         self.arrivals.last().filter(|last| last.kind == ArrivalKind::Stopped)
     }

@@ -4,7 +4,7 @@ use super::columns::{extra_columns, extra_values};
 use super::progress::StepTaken;
 use super::{History, Recording, Sample, Scales, Trajectory};
 use crate::geometry::Vec2;
-use crate::model::{Model, Scene};
+use crate::model::{Model, ModelError, Scene, Sensing};
 
 /// What is kept of a run, and which of its states are recorded.
 #[derive(Debug, Clone)]
@@ -12,38 +12,43 @@ pub(super) struct Record {
     pub(super) history: History,
     pub(super) trajectory: Trajectory,
     pub(super) recording: Recording,
-    /// The first rows of the history, which stay; a further one belongs to the present.
+    /// The number of rows of the history that stay; a further one belongs to the present.
     pub(super) rows_kept: usize,
+    sensing: Sensing,
 }
 
 impl Record {
-    /// A record whose first row is the start of a scene.
-    pub(super) fn new(scene: &Scene, model: &mut Model) -> Self {
+    /// The record of a run whose first row is the start of a scene.
+    ///
+    /// # Errors
+    /// When a sensor has nothing to read.
+    pub(super) fn new(scene: &Scene, model: &mut Model) -> Result<Self, ModelError> {
         let points = model.control_points().map(<[Vec2]>::len).sum::<usize>();
         let mut record = Self {
             history: History::new(scales(scene, model), extra_columns(scene)),
             trajectory: Trajectory::new(2 * points),
             recording: Recording::default(),
             rows_kept: 0,
+            sensing: Sensing::of(scene, model)?,
         };
         record.keep_row(model, StepTaken::default());
-        record
+        Ok(record)
     }
 
-    /// Makes room for so many steps.
+    /// Makes room in the record for so many steps.
     pub(super) fn reserve(&mut self, steps: usize) {
         let rows = self.recording.rows_of(steps);
         self.history.reserve(rows);
         self.trajectory.reserve(rows);
     }
 
-    /// Gives the present a row that stays.
+    /// Gives the present state a row of the history that stays.
     pub(super) fn keep_row(&mut self, model: &mut Model, last_step: StepTaken) {
         self.add_row(model, last_step);
         self.rows_kept = self.history.samples().len();
     }
 
-    /// Gives the present a row until it is past, unless it has one.
+    /// Gives the present state a row of the history until it is past, unless it has one.
     pub(super) fn show_present(&mut self, model: &mut Model, last_step: StepTaken) {
         let last = self.history.samples().last().map(|row| row.measures.time);
         if last != Some(model.time()) {
@@ -55,11 +60,12 @@ impl Record {
         self.go_back(self.rows_kept);
         let StepTaken { dt, newton_iterations, retries } = last_step;
         let sample = Sample { measures: model.measure(), dt, newton_iterations, retries };
-        self.history.push(sample, extra_values(model));
+        let sensed = self.sensing.read(model);
+        self.history.push(sample, extra_values(model).chain(sensed.iter().copied()));
         self.trajectory.push(model.time(), coordinates(model));
     }
 
-    /// Keeps the first rows alone.
+    /// Takes the record back to the first rows of the history alone.
     pub(super) fn go_back(&mut self, rows: usize) {
         self.rows_kept = rows;
         self.history.truncate(rows);

@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 /// What is not recorded is not measured either. The present has a row as long as it is the present.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Recording {
-    /// Those after every so many steps.
+    /// The states after every so many steps are recorded.
     Every(NonZeroUsize),
-    /// No others.
+    /// No states are recorded besides those that always are.
     Nothing,
 }
 
@@ -22,7 +22,7 @@ impl Default for Recording {
 }
 
 impl Recording {
-    /// Whether the state after so many steps is recorded.
+    /// Whether the state after so many steps of a run is recorded.
     pub fn is_due(self, steps: usize) -> bool {
         match self {
             Self::Every(count) => steps.is_multiple_of(count.get()),
@@ -30,12 +30,12 @@ impl Recording {
         }
     }
 
-    /// Whether every step is recorded.
+    /// Whether the state after every step is recorded.
     pub fn is_complete(self) -> bool {
         self == Self::default()
     }
 
-    /// In words: `every 100 steps`.
+    /// Which states are recorded, in words: `every 100 steps`.
     pub fn describe(self) -> String {
         match self {
             Self::Every(count) if count == NonZeroUsize::MIN => "every step".to_owned(),
@@ -44,7 +44,7 @@ impl Recording {
         }
     }
 
-    /// Most rows that so many steps add.
+    /// The most rows that so many steps add to the history.
     pub(super) fn rows_of(self, steps: usize) -> usize {
         match self {
             Self::Every(count) => steps / count.get() + 2,

@@ -4,6 +4,7 @@ mod adapting;
 mod back;
 mod content;
 mod explain;
+mod frames;
 mod landing;
 mod looking_inside;
 mod noting;
@@ -32,18 +33,18 @@ use crate::statics::Equilibrium;
 /// Most steps that a pretended run has.
 const MOST_PRETENDED: usize = 10_000;
 
-/// How a scene is simulated.
+/// How a scene is simulated: integrator, step size, tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// The integrator.
+    /// The integrator of the simulation.
     pub method: Method,
-    /// The step size, or what it is found by.
+    /// The step size of the simulation, or what it is found by.
     pub dt: StepSize,
-    /// Of the Newton solver.
+    /// The tolerance of the Newton solver.
     pub tolerance: Tolerance,
 }
 
-/// A scene in motion.
+/// A simulation: a scene in motion, with its history.
 pub struct Simulation {
     scene: Scene,
     settings: Settings,
@@ -59,7 +60,7 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Builds a scene and puts it at its start, t = 0.
+    /// Builds a scene and puts the simulation at its start, t = 0.
     ///
     /// # Errors
     /// When the step size or the parameter of the method is out of its range, or the scene cannot be built.
@@ -68,7 +69,7 @@ impl Simulation {
         Self::of(scene, model, settings)
     }
 
-    /// Puts the scene of an equilibrium at t = 0, at rest as it was found.
+    /// A simulation that starts at t = 0 from the scene of an equilibrium, at rest as it was found.
     ///
     /// # Errors
     /// When the step size or the parameter of the method is out of its range.
@@ -95,7 +96,7 @@ impl Simulation {
         };
         let pace = adaptive.as_ref().map(|adaptive| adaptive.controller.start());
         Ok(Self {
-            record: Record::new(&scene, &mut model),
+            record: Record::new(&scene, &mut model)?,
             clock: Clock::new(grid, pace),
             scene,
             settings,
@@ -108,72 +109,72 @@ impl Simulation {
         })
     }
 
-    /// From here on up to so many threads work on a large beam, at first as many as there are cores; results are the same.
+    /// Lets up to `most` threads work on a large beam, at first as many as there are cores; results are the same.
     pub fn use_threads(&mut self, most: usize) {
         self.model.divide(most);
     }
 
-    /// Where the simulation is [time].
+    /// The present time of the simulation [time].
     pub fn time(&self) -> f64 {
         self.model.time()
     }
 
-    /// What is simulated.
+    /// The scene that is simulated.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// How it is simulated.
+    /// How the scene is simulated.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// The mechanism at its present state.
+    /// The mechanism of the simulation at its present state.
     pub fn model(&self) -> &Model {
         &self.model
     }
 
-    /// All steps so far.
+    /// The history of the simulation: all rows so far.
     pub fn history(&self) -> &History {
         &self.record.history
     }
 
-    /// Configurations so far.
+    /// The trajectory of the simulation: configurations so far.
     pub fn trajectory(&self) -> &Trajectory {
         &self.record.trajectory
     }
 
-    /// The work so far.
+    /// The work of the simulation so far.
     pub fn counts(&self) -> &WorkCounts {
         &self.progress.counts
     }
 
-    /// The number of unknowns of a step, those of contacts included.
+    /// The number of unknowns of a step of the simulation, those of contacts included.
     pub fn unknowns(&self) -> usize {
         self.model.unknowns() + self.model.constraint_shape().width
     }
 
-    /// How far from the diagonal the matrix of a step reaches.
+    /// The half-bandwidth of the matrix of a step: how far from the diagonal it has entries.
     pub fn half_bandwidth(&self) -> usize {
         self.model.half_bandwidth()
     }
 
-    /// Whether a time has come, but for rounding.
+    /// Whether the simulation has reached a time, but for rounding.
     pub fn has_reached(&self, time: f64) -> bool {
         self.clock.grid.has_reached(self.time(), time)
     }
 
-    /// By how much a time may be missed and still be reached [time].
+    /// By how much a time may be missed and still count as reached [time].
     pub fn slack(&self) -> f64 {
         self.clock.grid.slack(self.time())
     }
 
-    /// Makes a step end at a time to come.
+    /// Makes a step of the simulation end at a time to come.
     pub fn cut_at(&mut self, time: f64) {
         self.clock.grid.cut_at(time);
     }
 
-    /// Takes one step: to the next point of the grid, or to the next cut of it.
+    /// Takes one step of the simulation: to the next point of the grid, or to the next cut of it.
     ///
     /// # Errors
     /// When no step works, the run has ended at the end of a master, or the monitor stops it.
@@ -187,7 +188,7 @@ impl Simulation {
         stepped
     }
 
-    /// Steps until a time, which ends the last step, or until a slider ends the run.
+    /// Takes steps of the simulation until a time, which ends the last step, or until a slider ends the run.
     ///
     /// # Errors
     /// When the time has passed, no step works, or the monitor stops the run.
@@ -208,16 +209,12 @@ impl Simulation {
     fn check_end(&self, end: f64) -> Result<(), SimulationError> {
         let now = self.time();
         if !end.is_finite() {
-            return Err(SimulationError::End { now, end, advice: "give a finite time" });
+            return Err(SimulationError::End { now, end });
         }
-        if end < now - self.slack() {
-            return Err(SimulationError::End {
-                now,
-                end,
-                advice: "give a later time, or go back with sim.rewind(t)",
-            });
+        match end < now - self.slack() {
+            true => Err(SimulationError::End { now, end }),
+            false => Ok(()),
         }
-        Ok(())
     }
 
     /// Lets time pass as steps would, without solving anything: the history gets rows in which nothing happens.

@@ -8,27 +8,27 @@ use super::halving::Halving;
 use super::progress::StepTaken;
 use crate::model::ModelState;
 
-/// What a simulation needs to be where it was, bit for bit.
+/// A snapshot: what a simulation needs to be where it was, bit for bit.
 #[derive(Debug, Clone)]
 pub(super) struct Snapshot {
     pub(super) state: ModelState,
-    /// [time]
+    /// The time of the snapshot [time].
     pub(super) time: f64,
-    /// The rows of its history that stay.
+    /// The number of rows of the history that stay when the simulation goes back to the snapshot.
     pub(super) rows: usize,
     pub(super) last_step: StepTaken,
     pub(super) arrivals: usize,
     pub(super) counts: WorkCounts,
-    /// Grid points passed.
+    /// The number of grid points that were passed.
     pub(super) passed: u64,
-    /// The step of the grid that was covered in part.
+    /// The step of the grid that was covered in part, if there was one.
     pub(super) under_way: Option<Halving>,
-    /// Where steps are of varying size, how long the next one is to be.
+    /// How long the next step was to be, where steps are of varying size.
     pub(super) pace: Option<Pace>,
 }
 
 impl Snapshot {
-    /// The steps taken until then; they tell snapshots apart.
+    /// The number of steps taken until the snapshot; it tells snapshots apart.
     pub(super) fn steps(&self) -> usize {
         self.counts.steps
     }
@@ -38,7 +38,7 @@ impl Snapshot {
     }
 }
 
-/// The first state, and the last ones.
+/// The states that a simulation can go back to: the first one, and the last ones, within a limit of memory.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Snapshots {
     /// [bytes]
@@ -51,7 +51,7 @@ pub(super) struct Snapshots {
 }
 
 impl Snapshots {
-    /// Changes the limit [bytes]; `present` is the first state when none was kept before.
+    /// Changes the limit of memory [bytes]; `present` is the first state when none was kept before.
     pub(super) fn set_limit(&mut self, limit: usize, present: impl FnOnce() -> Snapshot) {
         let kept = std::mem::take(self);
         let first = if limit == 0 { None } else { Some(kept.first.unwrap_or_else(present)) };
@@ -64,12 +64,12 @@ impl Snapshots {
         *self = Self { limit, first: Some(first), recent, most };
     }
 
-    /// [bytes]
+    /// The limit of memory for snapshots [bytes].
     pub(super) fn limit(&self) -> usize {
         self.limit
     }
 
-    /// The memory taken now [bytes].
+    /// The memory that snapshots take now [bytes].
     pub(super) fn bytes(&self) -> usize {
         let states: usize = self.all().map(|snapshot| snapshot.state.bytes()).sum();
         states
@@ -80,7 +80,7 @@ impl Snapshots {
         self.first.as_ref()
     }
 
-    /// Steps and times of the states that are kept.
+    /// Steps and times of the states that are kept, in order.
     pub(super) fn places(&self) -> impl Iterator<Item = (usize, f64)> {
         self.all().map(|snapshot| (snapshot.steps(), snapshot.time))
     }
@@ -89,19 +89,19 @@ impl Snapshots {
         self.first.iter().chain(&self.recent)
     }
 
-    /// The number of states kept.
+    /// The number of states that are kept.
     pub(super) fn count(&self) -> usize {
         self.all().count()
     }
 
-    /// The fewest steps after which all states are kept, when there are so many now.
+    /// The fewest steps after which all states are kept, when the run has taken `now` steps.
     pub(super) fn unbroken_from(&self, now: usize) -> Option<usize> {
         let first = self.first.as_ref()?.steps();
         let oldest = self.recent.front().map_or(now, Snapshot::steps);
         Some(if oldest == first + 1 { first } else { oldest })
     }
 
-    /// The state after so many steps.
+    /// The state after so many steps, if it is kept.
     pub(super) fn find(&self, steps: usize) -> Option<&Snapshot> {
         if let Some(first) = self.first.as_ref().filter(|first| first.steps() == steps) {
             return Some(first);
@@ -110,19 +110,19 @@ impl Snapshots {
         self.recent.get(at)
     }
 
-    /// The last state at or before a time, if no step that is not kept may lie between; there are so many steps now.
+    /// The last state at or before a time, if no step that is not kept may lie between; the run has taken `now` steps.
     pub(super) fn last_until(&self, time: f64, now: usize) -> Option<&Snapshot> {
         let unbroken = self.unbroken_from(now)?;
         let last = self.all().take_while(|snapshot| snapshot.time <= time).last()?;
         (last.steps() >= unbroken).then_some(last)
     }
 
-    /// Forgets the states after more steps.
+    /// Forgets the states after more than `steps` steps.
     pub(super) fn truncate(&mut self, steps: usize) {
         self.recent.truncate(self.recent.partition_point(|snapshot| snapshot.steps() <= steps));
     }
 
-    /// A state to write the next one into: that of the oldest snapshot when the store is full. None when none is to be kept.
+    /// A state to write the next one into: that of the oldest snapshot when the store is full; none when no state is to be kept.
     pub(super) fn blank(&mut self) -> Option<ModelState> {
         let first = self.first.as_ref().filter(|_| self.most > 0)?;
         let is_full = self.recent.len() >= self.most;

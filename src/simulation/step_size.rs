@@ -4,16 +4,16 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// How long steps are.
+/// How long the steps of a run are.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum StepSize {
-    /// Always the same [time].
+    /// All steps of the run are equally long [time].
     Fixed(f64),
-    /// As a tolerance of the local error allows.
+    /// Steps are as long as a tolerance of the local error allows.
     Adaptive(StepControl),
 }
 
-/// What steps of varying size keep to.
+/// The tolerance that steps of varying size keep to, and their bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StepControl {
     /// The error that may gather while the scene moves about as far as it is long, as a part of that length, and in rad [-].
@@ -21,21 +21,21 @@ pub struct StepControl {
     /// A step with a method of order `p` may err by its power `(p + 1)/p`: then the step size goes with its power `1/p`, and what
     /// gathers over many steps goes with itself.
     pub tolerance: f64,
-    /// The first step, and the first one after a jump of a load [time]; found from the scene where it is not given.
+    /// The size of the first step, and of the first one after a jump of a load [time]; found from the scene where it is not given.
     pub first: Option<f64>,
-    /// No step that a tolerance asks for is shorter [time]; a millionth of the first where it is not given.
+    /// The size below which no step is that a tolerance asks for [time]; a millionth of the first where it is not given.
     pub smallest: Option<f64>,
-    /// No step is longer [time]; a million times the first where it is not given.
+    /// The size above which no step is [time]; a million times the first where it is not given.
     pub largest: Option<f64>,
 }
 
 /// A number of a [`StepSize`] that is out of its range.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepSizeError {
-    /// A fixed step that is not positive.
+    /// A fixed step size that is not positive.
     #[error("the step size dt is {dt}, but must be a positive finite number [time]")]
     Fixed {
-        /// Its value.
+        /// The value of the fixed step size [time].
         dt: f64,
     },
     /// A tolerance that no steps can keep, or that says nothing.
@@ -45,31 +45,31 @@ pub enum StepSizeError {
         StepControl::MOST_TOLERANCE
     )]
     Tolerance {
-        /// Its value.
+        /// The value of the refused tolerance [-].
         tolerance: f64,
     },
-    /// A bound that is not positive.
+    /// A bound of step sizes that is not positive.
     #[error(
         "the {name} step of adaptive steps is {value}, but must be a positive finite number [time]"
     )]
     Bound {
-        /// Which: smallest, first or largest.
+        /// The name of the refused bound: smallest, first or largest.
         name: &'static str,
-        /// Its value.
+        /// The value of the refused bound [time].
         value: f64,
     },
-    /// Bounds in the wrong order.
+    /// Bounds of step sizes in the wrong order.
     #[error(
         "the {name} step of adaptive steps is {value}, but the {next} one is {limit}: they must increase from smallest to first to largest"
     )]
     Order {
-        /// The one that should be smaller.
+        /// The name of the bound that should be smaller.
         name: &'static str,
-        /// Its value.
+        /// The value of the bound that should be smaller [time].
         value: f64,
-        /// The one that should be larger.
+        /// The name of the bound that should be larger.
         next: &'static str,
-        /// Its value.
+        /// The value of the bound that should be larger [time].
         limit: f64,
     },
 }
@@ -87,7 +87,7 @@ impl From<StepControl> for StepSize {
 }
 
 impl StepSize {
-    /// Checks its numbers.
+    /// Checks the numbers of the step size.
     ///
     /// # Errors
     /// When one is out of its range.
@@ -122,13 +122,13 @@ impl fmt::Display for StepControl {
 }
 
 impl StepControl {
-    /// Below it the rounding of places counts.
+    /// The smallest tolerance of steps of varying size [-]: below it the rounding of places counts.
     pub const LEAST_TOLERANCE: f64 = 1e-9;
 
-    /// Beyond it an error is no longer small.
+    /// The largest tolerance of steps of varying size [-]: beyond it an error is no longer small.
     pub const MOST_TOLERANCE: f64 = 0.1;
 
-    /// Steps that keep a tolerance, with bounds from the scene.
+    /// The control of steps that keep a tolerance [-], with bounds from the scene.
     pub fn to(tolerance: f64) -> Self {
         Self { tolerance, first: None, smallest: None, largest: None }
     }

@@ -9,7 +9,8 @@ const ROUNDINGS: f64 = 4.0;
 /// Nobody counts further than that.
 const MOST_POINTS: u64 = 1 << 60;
 
-/// `t_n = t_0 + n dt`, cut where schedules jump or bend. Times are never accumulated. For steps of varying size there are only cuts.
+/// The times at which steps end: `t_n = t_0 + n dt`, cut where schedules jump or bend. Times are never accumulated. For steps of varying size there are
+/// only cuts.
 #[derive(Debug, Clone, Default)]
 pub struct TimeGrid {
     start: f64,
@@ -24,12 +25,12 @@ pub struct TimeGrid {
 }
 
 impl TimeGrid {
-    /// A grid from `start` on; `cuts` in any order.
+    /// A grid of times from `start` on, with steps of `dt` [time]; `cuts` in any order.
     pub fn new(start: f64, dt: f64, cuts: Vec<f64>) -> Self {
         Self { start, dt, slack: SAME * dt, cuts: Vec::new(), passed: 0 }.with_cuts(cuts)
     }
 
-    /// Cuts alone, for steps that begin with a size and then vary.
+    /// A grid of cuts alone, for steps that begin with the size `first` [time] and then vary.
     pub fn of_cuts(start: f64, first: f64, cuts: Vec<f64>) -> Self {
         Self { dt: f64::INFINITY, ..Self::new(start, first, cuts) }
     }
@@ -46,7 +47,7 @@ impl TimeGrid {
         &self.cuts
     }
 
-    /// The distance of grid points; infinite where there are none [time].
+    /// The distance of points of the grid; infinite where there are none [time].
     pub fn dt(&self) -> f64 {
         self.dt
     }
@@ -56,7 +57,7 @@ impl TimeGrid {
         self.slack.max(ROUNDINGS * f64::EPSILON * time.abs())
     }
 
-    /// Whether a time has come, or is the same as now.
+    /// Whether a time has come, or is the same as `now`.
     pub fn has_reached(&self, now: f64, time: f64) -> bool {
         now >= time - self.slack(now)
     }
@@ -72,7 +73,7 @@ impl TimeGrid {
         self.start + if is_whole { n as f64 / rate } else { n as f64 * self.dt }
     }
 
-    /// Adds a cut, where there is none yet.
+    /// Adds a cut to the grid, where there is none yet.
     pub fn cut_at(&mut self, time: f64) {
         let same = self.slack(time);
         if self.cuts.iter().all(|cut| (cut - time).abs() > same) {
@@ -80,7 +81,7 @@ impl TimeGrid {
         }
     }
 
-    /// The end of the step that begins at `now`: the next grid point or cut, but not beyond `limit`.
+    /// The end of the step that begins at `now`: the next grid point or cut, but not beyond `limit` [time].
     pub fn next(&self, now: f64, limit: f64) -> f64 {
         let grid = self.point(self.passed_by(now) + 1);
         let cut = self.cuts[self.cuts.partition_point(|cut| self.has_reached(now, *cut))..].first();
@@ -90,12 +91,12 @@ impl TimeGrid {
         })
     }
 
-    /// The number of grid points passed.
+    /// The number of points of the grid that were passed.
     pub fn passed(&self) -> u64 {
         self.passed
     }
 
-    /// Goes back to where so many grid points were passed; cuts stay.
+    /// Takes the grid back to where `passed` points were passed; cuts stay.
     pub fn go_back(&mut self, passed: u64) {
         self.passed = passed;
     }
@@ -107,7 +108,7 @@ impl TimeGrid {
         self.reach(now);
     }
 
-    /// Remembers that a time has been reached, so that the next search begins there.
+    /// Remembers that a time has been reached, so that the next search of the grid begins there.
     pub fn reach(&mut self, now: f64) {
         self.passed = self.passed_by(now);
     }

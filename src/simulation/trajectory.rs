@@ -3,7 +3,7 @@
 /// Room for configurations; beyond it every second one is forgotten.
 const MOST_NUMBERS: usize = 32 << 20;
 
-/// Configurations of a run: the control points of all beams, one after another, at some of its times.
+/// The trajectory of a run: the control points of all bodies, one after another [length], at some of its times.
 #[derive(Debug, Clone)]
 pub struct Trajectory {
     stride: usize,
@@ -20,14 +20,14 @@ impl Trajectory {
         Self { stride, times: Vec::new(), numbers: Vec::new(), every: 1, offered: 0 }
     }
 
-    /// Makes room for configurations to come, as many as may be kept.
+    /// Makes room in the trajectory for configurations to come, as many as may be kept.
     pub fn reserve(&mut self, configurations: usize) {
         let room = configurations.min(MOST_NUMBERS / self.stride + 1);
         self.times.reserve(room);
         self.numbers.reserve(room * self.stride);
     }
 
-    /// Offers a configuration.
+    /// Offers a configuration at a time to the trajectory, which keeps it unless it is thinned out.
     pub fn push(&mut self, time: f64, numbers: impl Iterator<Item = f64>) {
         if self.offered.is_multiple_of(self.every) {
             self.times.push(time);
@@ -51,8 +51,8 @@ impl Trajectory {
         self.every *= 2;
     }
 
-    /// Goes back to where so many configurations had been offered. What was thinned out since stays forgotten; going on from
-    /// here ends with the same configurations as going on without going back.
+    /// Takes the trajectory back to where `offered` configurations had been offered. What was thinned out since stays forgotten;
+    /// going on from here ends with the same configurations as going on without going back.
     pub fn go_back(&mut self, offered: usize) {
         self.offered = offered;
         let kept = offered.div_ceil(self.every);
@@ -60,22 +60,22 @@ impl Trajectory {
         self.numbers.truncate(kept * self.stride);
     }
 
-    /// How many numbers a configuration has.
+    /// How many numbers a configuration of the trajectory has.
     pub(super) fn stride(&self) -> usize {
         self.stride
     }
 
-    /// How many configurations were offered for each that is kept.
+    /// How many configurations were offered for each that the trajectory keeps.
     pub(super) fn every(&self) -> usize {
         self.every
     }
 
-    /// All numbers of all configurations.
+    /// All numbers of all configurations of the trajectory, one configuration after another.
     pub(super) fn numbers(&self) -> &[f64] {
         &self.numbers
     }
 
-    /// The same bodies with other configurations, of so many that were offered; none when these do not fit each other.
+    /// A trajectory of the same bodies with other configurations, of so many that were offered; none when these do not fit each other.
     pub(super) fn with_configurations(
         &self,
         offered: usize,
@@ -91,17 +91,17 @@ impl Trajectory {
         fits.then_some(Self { stride: self.stride, times, numbers, every, offered })
     }
 
-    /// The times of the configurations.
+    /// The times of the configurations of the trajectory.
     pub fn times(&self) -> &[f64] {
         &self.times
     }
 
-    /// The numbers of a configuration.
+    /// The numbers of a configuration of the trajectory, by its index.
     pub fn configuration(&self, index: usize) -> &[f64] {
         &self.numbers[index * self.stride..(index + 1) * self.stride]
     }
 
-    /// The index of the configuration nearest to a time.
+    /// The index of the configuration of the trajectory nearest to a time; none where there is none.
     pub fn nearest(&self, time: f64) -> Option<usize> {
         let after = self.times.partition_point(|t| *t < time);
         let candidates = [after.checked_sub(1), (after < self.times.len()).then_some(after)];

@@ -27,7 +27,7 @@ impl Balance<'_> {
     }
 }
 
-/// `F(u) - λ P(u) = 0` for a given load factor `λ`.
+/// The equations `F(u) - λ P(u) = 0` of a model at rest for a given load factor `λ`.
 pub(super) struct UnderLoad<'a> {
     pub(super) balance: Balance<'a>,
     pub(super) factor: f64,
@@ -52,14 +52,14 @@ impl Equations for UnderLoad<'_> {
     }
 }
 
-/// `F(u) - λ P(u) = 0` with `t·u = Δs`: the load factor `λ`, the last unknown, is found so that the movement ends in a plane.
+/// The equations `F(u) - λ P(u) = 0` with `t·u = Δs`: the load factor `λ`, the last unknown, is found so that the movement ends in a plane.
 pub(super) struct AlongPath<'a> {
     pub(super) balance: Balance<'a>,
-    /// `t`, in the metric of the path.
+    /// The normal `t` of the plane in which the movement ends, in the metric of the path.
     pub(super) normal: &'a [f64],
-    /// `Δs`
+    /// The distance `Δs` of that plane from the last equilibrium, in the metric of the path.
     pub(super) distance: f64,
-    /// Forces on the unknowns and the supports, in the order of the model.
+    /// The forces on the unknowns and the supports, in the order of the model [force, force·length].
     pub(super) forces: &'a mut [f64],
 }
 

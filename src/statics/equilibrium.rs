@@ -12,17 +12,17 @@ use crate::vibration::{Modes, VibrationError, loose_movements};
 /// What becomes of a small disturbance of an equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stability {
-    /// Everything resists it.
+    /// Every small disturbance of the equilibrium stays small.
     Stable,
-    /// It grows.
+    /// A small disturbance of the equilibrium grows.
     Unstable,
-    /// Rounding hides whether it grows: stiffnesses differ too much.
+    /// Rounding hides whether a small disturbance grows: stiffnesses differ too much.
     Hidden,
-    /// A load that turns with the beam has no potential: the stiffness alone does not tell.
+    /// A load turns with the beam and has no potential: the stiffness alone does not tell whether a disturbance grows.
     Follower,
 }
 
-/// A scene at rest under its loads, and the path that led there.
+/// An equilibrium: a scene at rest under its loads, and the path that led there.
 ///
 /// Start velocities of the scene play no part. Loads are put on together, in proportion.
 pub struct Equilibrium {
@@ -67,27 +67,27 @@ impl Equilibrium {
         Ok(Self { scene, loading, model, path })
     }
 
-    /// What is at rest.
+    /// The scene that is at rest.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// How the loads were put on.
+    /// How the loads were put on the scene.
     pub fn loading(&self) -> &Loading {
         &self.loading
     }
 
-    /// The model in its equilibrium.
+    /// The model at rest in the equilibrium, as a mechanism.
     pub fn model(&self) -> &Model {
         &self.model
     }
 
-    /// How it got there.
+    /// The path of equilibria that led to this one.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Something of the model at every point of the path.
+    /// Looks at the model at every point of the path; gives what was seen, in order.
     ///
     /// # Errors
     /// None that the scene did not have when the equilibrium was found.
@@ -100,7 +100,7 @@ impl Equilibrium {
         Ok(self.path.points().iter().map(at).collect())
     }
 
-    /// What holds the scene at a place: force and moment; none where no support is.
+    /// The reaction of the supports at a place: force [force] and moment [force·length]; none where no support is.
     pub fn reaction(&mut self, place: &Place) -> Option<(Vec2, f64)> {
         let mut forces = vec![0.0; self.model.degrees_of_freedom()];
         let standstill = vec![0.0; self.model.unknowns()];
@@ -126,7 +126,8 @@ impl Equilibrium {
         self.model.section_forces_along(&self.scene, beam)
     }
 
-    /// What becomes of a small disturbance, by the signs of the pivots of the stiffness, and where these are not sure by the lowest mode.
+    /// What becomes of a small disturbance of the equilibrium, by the signs of the pivots of the stiffness, and where these are not sure by the lowest
+    /// mode.
     pub fn stability(&self, goes_on: &mut dyn FnMut() -> bool) -> Stability {
         if self.model.follower().is_some() {
             return Stability::Follower;

@@ -7,67 +7,63 @@ use crate::newton::NewtonError;
 /// An equilibrium that was not found.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StaticsError {
-    /// A scene that cannot be built.
+    /// The scene of an equilibrium cannot be built.
     #[error(transparent)]
     Model(#[from] ModelError),
-    /// A load without a value.
+    /// A load has no value at the time at which loads are taken.
     #[error("load '{load}': {source}")]
     Load {
-        /// Its name.
+        /// The name of the load without a value.
         load: String,
-        /// Why.
+        /// The schedule's reason for having no value.
         source: LoadError,
     },
     /// Nothing acts.
-    #[error(
-        "no load acts at t = {time}: with nothing to carry, the scene rests as it is drawn; loads are taken as they are at one time, choose it with the option time"
-    )]
+    #[error("no load acts at t = {time}: with nothing to carry, the scene rests as it is drawn")]
     NoLoad {
-        /// When loads were taken.
+        /// The time at which loads were taken from their schedules [time].
         time: f64,
     },
     /// A joint that statics does not know.
-    #[error(
-        "slider '{slider}': equilibrium of sliding joints is not built; let a damped motion come to rest instead, scene.start(#{{ integrator: energy_decaying(#{{ chi: 1 }}), dt: … }})"
-    )]
+    #[error("slider '{slider}': equilibrium of sliding joints is not built")]
     Slider {
-        /// Its name.
+        /// The name of the slider.
         slider: String,
     },
-    /// A number out of its range.
+    /// A setting of the equilibrium is out of its range.
     #[error("{name} is {value}, but must be {allowed}")]
     Value {
-        /// The setting.
+        /// The name of the refused setting.
         name: &'static str,
-        /// Its value.
+        /// The value of the refused setting, in its unit.
         value: f64,
-        /// What it may be.
+        /// The values that the refused setting may have, in words.
         allowed: &'static str,
     },
-    /// A scene that moves without resistance.
+    /// A scene that can move without resistance.
     #[error(
-        "'{scene}' is not held: {movements} of its movements meet no resistance as it is drawn; hold it with scene.clamp(…) or scene.hinge(…), or let a damped motion come to rest, scene.start(#{{ integrator: energy_decaying(#{{ chi: 1 }}), dt: … }})"
+        "'{scene}' is not held: {movements} of its movements meet no resistance as it is drawn"
     )]
     Loose {
-        /// Its name.
+        /// The name of the scene that can move.
         scene: String,
-        /// How many.
+        /// The number of movements without resistance.
         movements: usize,
     },
-    /// No equilibrium near the last one.
+    /// No equilibrium was found near the last one.
     #[error("no equilibrium of '{scene}' was found near that at load factor {reached}: {reason}")]
     Lost {
-        /// Its name.
+        /// The name of the scene without an equilibrium.
         scene: String,
-        /// The last load factor with an equilibrium [-].
+        /// The last load factor with an equilibrium before the path was lost [-].
         reached: f64,
-        /// Why the next one was missed.
+        /// The reason why the next equilibrium was missed.
         reason: Box<Miss>,
     },
-    /// Somebody stopped it.
+    /// The search for an equilibrium was stopped from outside.
     #[error("stopped at load factor {reached}")]
     Interrupted {
-        /// The last load factor with an equilibrium [-].
+        /// The last load factor with an equilibrium before the search was stopped [-].
         reached: f64,
     },
 }
@@ -75,10 +71,10 @@ pub enum StaticsError {
 /// Why a step found no equilibrium.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Miss {
-    /// Newton's method found none.
+    /// Newton's method found no equilibrium.
     #[error(transparent)]
     Newton(#[from] NewtonError),
-    /// It found one far away.
+    /// Newton's method found an equilibrium that is far from the last one.
     #[error("the next one is far away, as where a structure snaps through")]
     Far,
 }

@@ -3,41 +3,41 @@
 use super::StaticsError;
 use crate::newton::Tolerance;
 
-/// From nothing to the whole of the loads.
+/// How loads are put on a scene: from nothing to the whole of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loading {
     /// The time at which loads are taken from their schedules, just after it [time].
     pub time: f64,
     /// The load factor at the end: the loads themselves for 1 [-].
     pub factor: f64,
-    /// In how many equal steps; under arc-length control the size of the first.
+    /// The number of equal steps in which loads are put on; under arc-length control the first step is to the load factor over this.
     pub steps: usize,
-    /// What is prescribed in a step.
+    /// The quantity that is prescribed in a step.
     pub control: Control,
-    /// Of the Newton solver.
+    /// The tolerance of the Newton solver.
     pub tolerance: Tolerance,
 }
 
 /// What is prescribed in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Control {
-    /// The load factor. Ends at a limit point.
+    /// The load factor is prescribed in a step. The path ends at a limit point.
     #[default]
     Load,
-    /// How far the scene moves; the load factor follows, and may fall.
+    /// The distance by which the scene moves is prescribed in a step; the load factor follows, and may fall.
     ArcLength(ArcLength),
 }
 
-/// Steps along the path of equilibria.
+/// Steps of arc-length control along the path of equilibria.
 ///
 /// E. Riks, An incremental approach to the solution of snapping and buckling problems, Int. J. Solids Struct. 15 (1979)
 /// 529–551, with the normal plane of Keller (1977); the size of steps as in Crisfield, Comput. Struct. 13 (1981) 55–62.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArcLength {
-    /// The longest step: root mean square of the displacements, relative to the longest beam, and the rotations of all control
-    /// points [-, rad].
+    /// The longest step along the path: root mean square of the displacements, relative to the longest beam, and the rotations of all
+    /// control points [-, rad].
     pub longest: f64,
-    /// Most points of the path, which ends with them wherever it is.
+    /// The largest number of points of the path, which ends with them wherever it is.
     pub points: usize,
 }
 
@@ -60,6 +60,8 @@ impl Default for ArcLength {
 }
 
 impl Loading {
+    /// Checks the numbers of the loading.
+    ///
     /// # Errors
     /// When a number is out of its range.
     pub(super) fn check(&self) -> Result<(), StaticsError> {

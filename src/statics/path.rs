@@ -2,19 +2,19 @@
 
 use crate::model::ModelState;
 
-/// An equilibrium of a path.
+/// An equilibrium on the path from the unloaded scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathPoint {
-    /// The part of the loads that acts [-].
+    /// The part of the loads that acts in this equilibrium [-].
     pub load_factor: f64,
-    /// [energy]
+    /// The strain energy of the scene in this equilibrium [energy].
     pub strain_energy: f64,
     /// How far the scene moved from the point before: root mean square of displacements, relative to the longest beam, and of
     /// rotations, over all control points [-, rad].
     pub distance: f64,
-    /// Newton iterations that it took from the point before.
+    /// The number of Newton iterations from the point before.
     pub iterations: usize,
-    /// The configuration.
+    /// The state of the model in this equilibrium.
     pub state: ModelState,
 }
 
@@ -33,23 +33,23 @@ impl Path {
         self.points.pop();
     }
 
-    /// Adds a point at which nothing has moved.
+    /// Adds a point to the path at which nothing has moved, for checking scripts.
     pub(super) fn pretend(&mut self, load_factor: f64) {
         let last = self.points.last().cloned();
         self.points.extend(last.map(|point| PathPoint { load_factor, ..point }));
     }
 
-    /// All points.
+    /// All points of the path, in order.
     pub fn points(&self) -> &[PathPoint] {
         &self.points
     }
 
-    /// The load factor at its end [-].
+    /// The load factor at the end of the path [-].
     pub fn load_factor(&self) -> f64 {
         self.points.last().map_or(0.0, |point| point.load_factor)
     }
 
-    /// The load factors at which it turns, by parabolas through three points each [-].
+    /// The load factors at which the path turns, by parabolas through three points each [-].
     ///
     /// A structure that is loaded further there snaps through.
     pub fn limit_points(&self) -> Vec<f64> {
@@ -61,9 +61,9 @@ impl Path {
     }
 }
 
-/// Where the load factor turns.
+/// The point between three equilibria where the load factor turns.
 pub(super) struct Vertex {
-    /// The distance from the first of three points.
+    /// The distance of the turn from the first of three points, in the metric of the path.
     pub(super) way: f64,
     pub(super) load_factor: f64,
 }

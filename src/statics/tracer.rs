@@ -80,7 +80,7 @@ impl<'s> Tracer<'s> {
         }
     }
 
-    /// Puts the loads on in equal steps.
+    /// Puts the loads on the scene in equal steps.
     pub(super) fn load_up(
         &mut self,
         goes_on: &mut dyn FnMut(f64) -> bool,

@@ -22,7 +22,7 @@ const MOST_SWEEPS: usize = 60;
 /// What is left of an inertia below this part of it is rounding.
 const WITHOUT_INERTIA: f64 = 1e-13;
 
-/// All pairs with inertia, the largest `μ` first. Movements without inertia do no harm: theirs is zero.
+/// All pairs `(μ, φ)` of a small scene that have inertia, the largest `μ` first. Movements without inertia do no harm: theirs is zero.
 ///
 /// # Errors
 /// When the search is stopped.

@@ -9,10 +9,10 @@ use crate::beams::SpanAtRest;
 use crate::elementary::square;
 use crate::linalg::{STRIP_WIDTH, Strip};
 
-/// A number for each of four vectors.
+/// A number for each of four vectors that are worked on side by side.
 pub(super) type Lanes = [f64; STRIP_WIDTH];
 
-/// The rows of all spans.
+/// How all spans of a scene resist small movements: strains by movements, and their stiffnesses.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Elastic {
     spans: Vec<Rows>,
@@ -31,7 +31,7 @@ struct Rows {
     twists: usize,
 }
 
-/// Four shapes with their section forces.
+/// Four shapes of movement with their section forces.
 #[derive(Debug, Clone)]
 pub(super) struct Shapes {
     pub(super) movements: Vec<Lanes>,
@@ -39,12 +39,12 @@ pub(super) struct Shapes {
     forces: Vec<Lanes>,
     /// `m`
     missing: Vec<Lanes>,
-    /// `Bᵀ (n + k m) + K_g x`
+    /// The force with which the scene resists each shape, `Bᵀ (n + k m) + K_g x` [force, force·length].
     pub(super) resisting: Vec<Lanes>,
 }
 
 impl Shapes {
-    /// Multiplies each by a number.
+    /// Multiplies each of the four shapes by a number.
     pub(super) fn scale(&mut self, factors: &Lanes) {
         let Self { movements, forces, missing, resisting } = self;
         for row in movements.iter_mut().chain(forces).chain(missing).chain(resisting) {
@@ -53,17 +53,17 @@ impl Shapes {
     }
 }
 
-/// Energies, doubled.
+/// The energies of four shapes, doubled.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Energies {
-    /// `Σ n²/k + xᵀ K_g x`
+    /// The doubled energy of each shape, `Σ n²/k + xᵀ K_g x`.
     pub(super) whole: Lanes,
-    /// The same of the last correction.
+    /// The doubled energy of the last correction of each shape.
     pub(super) correction: Lanes,
 }
 
 impl Elastic {
-    /// Adds the rows of a span; of so many unknowns of all, some may be its.
+    /// Adds the rows of a span; of the `size` unknowns of the scene, some may be the span's.
     pub(super) fn add(&mut self, size: usize, degrees: &[usize], span: &SpanAtRest) {
         let (strains, twists) = (span.stiffness.len(), span.doubts.len());
         self.spans.push(Rows { width: degrees.len(), strains, twists });
@@ -74,24 +74,24 @@ impl Elastic {
         self.doubts.extend(&span.doubts);
     }
 
-    /// The number of strains.
+    /// The number of strains of all spans.
     pub(super) fn strains(&self) -> usize {
         self.stiffness.len()
     }
 
-    /// The bytes that it takes.
+    /// The memory that so many strains take, with rows of `width` entries [bytes].
     pub(super) fn memory(strains: usize, width: usize) -> usize {
         strains * (width + 1) * size_of::<f64>()
     }
 
-    /// Room for shapes with so many entries.
+    /// The room for four shapes with so many entries.
     pub(super) fn room(&self, length: usize) -> Shapes {
         let rows = vec![[0.0; STRIP_WIDTH]; self.strains()];
         let vector = vec![[0.0; STRIP_WIDTH]; length];
         Shapes { forces: rows.clone(), missing: rows, resisting: vector.clone(), movements: vector }
     }
 
-    /// Makes shapes of movements, with the section forces of their strains; their energies.
+    /// Makes shapes of four movements, with the section forces of their strains; gives their energies.
     pub(super) fn begin(&self, movements: &Strip, shapes: &mut Shapes) -> Energies {
         // From nothing they are corrected by all that they are.
         shapes.movements.fill([0.0; STRIP_WIDTH]);
@@ -100,12 +100,12 @@ impl Elastic {
         self.correct(shapes, movements)
     }
 
-    /// `x ← x + δ`, `n ← n + k (m + B δ)`, and what resists then.
+    /// Corrects four shapes, `x ← x + δ`, `n ← n + k (m + B δ)`; gives their energies.
     pub(super) fn correct(&self, shapes: &mut Shapes, by: &Strip) -> Energies {
         Arch::new().dispatch(Correction { elastic: self, shapes, by })
     }
 
-    /// What rounding of movements may add to the doubled energy: `Σ k (ε Σ |B| |x|)²`, and of section forces in `xᵀ K_g x`.
+    /// What rounding of movements may add to the doubled energy of each: `Σ k (ε Σ |B| |x|)²`, and of section forces in `xᵀ K_g x`.
     pub(super) fn rounding_of(&self, movements: &Strip) -> Lanes {
         Arch::new().dispatch(Rounding { elastic: self, movements })
     }

@@ -31,14 +31,14 @@ const ORTHONORMAL: f64 = 1e-14;
 /// Most restarts.
 const MOST_RESTARTS: usize = 60;
 
-/// Pairs of `M φ = μ (K + σ M) φ`, the largest `μ` first, `φᵀ M φ = 1`.
+/// Pairs `(μ, φ)` of `M φ = μ (K + σ M) φ`, the largest `μ` first, `φᵀ M φ = 1`.
 pub(super) struct Pairs {
     pub(super) values: Vec<f64>,
-    /// Four vectors a strip.
+    /// The vectors `φ` of the pairs, four in a strip.
     pub(super) strips: Vec<Vec<Lanes>>,
 }
 
-/// A search under way.
+/// A search by Lanczos's method that is under way.
 pub(super) struct Lanczos<'a> {
     pencil: &'a Pencil,
     factors: &'a SymmetricFactors,
@@ -73,12 +73,12 @@ impl<'a> Lanczos<'a> {
         search
     }
 
-    /// The number of vectors that are kept for so many modes.
+    /// The number of vectors that are kept while so many modes are looked for.
     pub(super) fn width(count: usize) -> usize {
         (2 * count + 32).next_multiple_of(STRIP_WIDTH)
     }
 
-    /// Goes on until so many pairs have settled: these, and more if they have.
+    /// Goes on with the search until so many pairs have settled: these, and more if they have.
     ///
     /// # Errors
     /// When they do not settle, or the search is stopped.
@@ -114,7 +114,7 @@ impl<'a> Lanczos<'a> {
         Err(VibrationError::Unsettled { restarts: MOST_RESTARTS })
     }
 
-    /// Goes on with the pairs that were found and new vectors beside them: of equal modes more are found than there are vectors in a block.
+    /// Goes on with the pairs that were found and new vectors beside them: there may be more equal modes than vectors in a block.
     pub(super) fn look_beside(&mut self, found: Pairs) {
         self.projected = DMatrix::from_diagonal(&DVector::from_vec(found.values));
         self.basis = found.strips;

@@ -13,44 +13,44 @@ use crate::model::Model;
 /// A movement whose square is below this part of that of the slowest bending meets no resistance.
 const LOOSE: f64 = 1e-10;
 
-/// A natural vibration.
+/// A natural mode of small vibration: frequency and shape.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
-    /// `ω²`: zero for a movement without resistance, and where rounding hides it; negative if the configuration is unstable
-    /// [1/time²].
+    /// The square `ω²` of the angular frequency: zero for a movement without resistance, and where rounding hides it; negative if the
+    /// configuration is unstable [1/time²].
     pub square: f64,
-    /// What rounding may hide of it [1/time²].
+    /// How much of the square `ω²` rounding may hide [1/time²].
     pub rounding: f64,
     /// How far the shape and its section forces are from balance, in the energy of `ω² + σ`, `σ` being about the square of the slowest
     /// bending: the next correction would change so much. `ω² + σ` is not wrong by more than this part of itself, and by its square only,
     /// over the relative distance of the next mode [-].
     pub residual: f64,
-    /// The movements of the unknowns, with `φᵀ M φ = 1`.
+    /// The movements of the unknowns in the mode, with `φᵀ M φ = 1` [length, rad over the square root of a mass].
     pub shape: Vec<f64>,
 }
 
 impl Mode {
-    /// `ω`; zero where nothing vibrates [rad/time].
+    /// The angular frequency `ω` of the mode; zero where nothing vibrates [rad/time].
     pub fn angular_frequency(&self) -> f64 {
         self.square.max(0.0).sqrt()
     }
 
-    /// `ω/2π` [1/time].
+    /// The frequency `ω/2π` of the mode [1/time].
     pub fn frequency(&self) -> f64 {
         self.angular_frequency() / TAU
     }
 
-    /// `2π/ω`, infinite where nothing vibrates [time].
+    /// The period `2π/ω` of the mode, infinite where nothing vibrates [time].
     pub fn period(&self) -> f64 {
         1.0 / self.frequency()
     }
 
-    /// Whether the movement meets no resistance that rounding would not hide.
+    /// Whether the movement of the mode meets no resistance that rounding would not hide.
     pub fn is_free(&self) -> bool {
         self.square == 0.0
     }
 
-    /// How fast a disturbance of an unstable configuration grows; zero if it is stable [1/time].
+    /// How fast the mode grows as a disturbance of an unstable configuration; zero if it is stable [1/time].
     pub fn growth_rate(&self) -> f64 {
         (-self.square).max(0.0).sqrt()
     }
@@ -105,7 +105,7 @@ impl Modes {
         (numbers * size_of::<f64>() + Pencil::memory(model)) as u64
     }
 
-    /// From the lowest on.
+    /// The modes, from the lowest on.
     pub fn all(&self) -> &[Mode] {
         &self.modes
     }
@@ -115,12 +115,12 @@ impl Modes {
         self.modes.iter().all(|mode| mode.square >= 0.0)
     }
 
-    /// The meshes of the beams.
+    /// The meshes of the beams whose modes these are.
     pub fn meshes(&self) -> &[Mesh] {
         &self.meshes
     }
 
-    /// The configuration itself: control points of all bodies [length].
+    /// The configuration that the modes are about: control points of all bodies [length].
     pub fn points(&self) -> &[Vec<Vec2>] {
         &self.points
     }
@@ -135,7 +135,7 @@ impl Modes {
         side(|at| at.x).max(side(|at| at.y))
     }
 
-    /// The configuration in a mode, its largest displacement of a control point as long as asked for [length].
+    /// The configuration displaced by a mode, the largest displacement of a control point being `amplitude` [length].
     pub fn displaced(&self, mode: usize, amplitude: f64) -> Vec<Vec<Vec2>> {
         let largest = self.largest(mode);
         if largest == 0.0 {

@@ -9,19 +9,19 @@ use crate::model::{Model, add_resistance};
 /// An elimination whose numbers grew by more is not believed: of its 32 digits half are left.
 const MOST_GROWTH: f64 = 1e12;
 
-/// `K φ = ω² M φ`
+/// The eigenvalue problem `K φ = ω² M φ` of small vibration, with the stiffness and the inertia of a model.
 pub(super) struct Pencil {
     stiffness: PreciseBand,
     pub(super) inertia: SymmetricSparse,
     pub(super) elastic: Elastic,
-    /// About the square of the slowest bending [1/time²].
+    /// About the square of the slowest bending of the model [1/time²].
     pub(super) scale: f64,
-    /// Movements with inertia: so many modes have a finite frequency.
+    /// The number of movements with inertia: so many modes have a finite frequency.
     pub(super) finite: usize,
 }
 
 impl Pencil {
-    /// That of the present configuration of a model.
+    /// The eigenvalue problem of the present configuration of a model.
     pub(super) fn of(model: &Model) -> Result<Self, VibrationError> {
         let size = model.unknowns();
         let mut stiffness = PreciseBand::zeros(size, model.half_bandwidth());
@@ -41,24 +41,24 @@ impl Pencil {
         Ok(Self { stiffness, inertia, elastic, scale, finite })
     }
 
-    /// About the bytes that one takes.
+    /// About the memory that the eigenvalue problem of a model takes [bytes].
     pub(super) fn memory(model: &Model) -> usize {
         let (size, reach) = (model.unknowns(), model.half_bandwidth() + 1);
         // The stiffness in two parts, its factors, inertia while it is sorted, and about two strains for each movement.
         size * reach * 8 * size_of::<f64>() + Elastic::memory(2 * size, reach)
     }
 
-    /// The number of unknowns.
+    /// The number of unknowns of the eigenvalue problem.
     pub(super) fn size(&self) -> usize {
         self.stiffness.size()
     }
 
-    /// The length of vectors: unknowns, and the margin that solving needs.
+    /// The length of vectors of the eigenvalue problem: unknowns, and the margin that solving needs.
     pub(super) fn length(&self) -> usize {
         self.size() + self.stiffness.half_bandwidth().max(1)
     }
 
-    /// A strip of zeros.
+    /// A strip of zeros, as long as vectors of the eigenvalue problem.
     pub(super) fn zeros(&self) -> Vec<Lanes> {
         vec![[0.0; STRIP_WIDTH]; self.length()]
     }
@@ -69,7 +69,7 @@ impl Pencil {
         (factors.pivots().negative == 0).then_some(factors)
     }
 
-    /// So many modes have squares below `σ`: the negative eigenvalues of `K - σ M` (Sylvester's law of inertia). None where the
+    /// The number of modes whose `ω²` is below `σ`: the negative eigenvalues of `K - σ M` (Sylvester's law of inertia). None where the
     /// elimination is not to be believed.
     pub(super) fn modes_below(&self, square: f64) -> Option<usize> {
         match self.stiffness.pivots(-square, &self.inertia) {
@@ -78,7 +78,7 @@ impl Pencil {
         }
     }
 
-    /// `M x`
+    /// The product `M x` of the inertia with four vectors.
     pub(super) fn inertia_times(&self, x: &[Lanes]) -> Vec<Lanes> {
         let mut product = self.zeros();
         self.inertia.times(x, &mut product);

@@ -18,24 +18,24 @@ const FALLING: f64 = 0.3;
 /// Pairs whose `μ` differ by more are far apart.
 const WIDE: f64 = 1e7;
 
-/// A pair that was made sure.
+/// A pair of frequency and shape that was made sure.
 pub(super) struct Refined {
     pub(super) square: f64,
-    /// By how much of itself `ω² + σ` may be wrong at most, rounding of the pair itself set aside.
+    /// The part of `ω² + σ` by which it may be wrong at most, rounding of the pair itself set aside [-].
     pub(super) residual: f64,
-    /// What rounding of the movements may add to the square.
+    /// What rounding of the movements may add to the square `ω²` of the pair [1/time²].
     pub(super) rounding: f64,
     pub(super) shape: Vec<f64>,
 }
 
-/// Corrects the first `count` pairs.
+/// Corrects the first `count` pairs of a search for modes.
 ///
 /// With the pair `(x, n)` of movements and section forces, `ω²` of its energies and `r = ω² M x - Bᵀ (n + k m) - K_g x`, the correction is `δ = A⁻¹ r`,
 /// which takes `x` to `(ω² + σ) A⁻¹ M x`. What other pairs have in it is left out of `δ` and counted in the residual: inverted
 /// stiffness would let a trace of a low one outgrow a high one.
 ///
 /// # Errors
-/// When it is stopped.
+/// When the refinement is stopped.
 pub(super) fn refine(
     pencil: &Pencil,
     factors: &SymmetricFactors,
@@ -53,7 +53,7 @@ pub(super) fn refine(
 /// The residuals of the first `count` of all pairs that there are. Nothing is outside of all, and so nothing is left to be corrected.
 ///
 /// # Errors
-/// When it is stopped.
+/// When the assessment is stopped.
 pub(super) fn assess(
     pencil: &Pencil,
     shift: f64,

@@ -60,7 +60,7 @@ pub(super) fn is_small(unknowns: usize) -> bool {
     unknowns <= SMALL
 }
 
-/// About the numbers that looking for so many modes keeps at a time.
+/// About how many numbers the search for so many modes keeps at a time.
 pub(super) fn numbers(unknowns: usize, count: usize) -> usize {
     match Search::of(unknowns, count) {
         Search::All => DENSE_COPIES * unknowns * unknowns,
@@ -69,7 +69,7 @@ pub(super) fn numbers(unknowns: usize, count: usize) -> usize {
     }
 }
 
-/// The lowest modes.
+/// The lowest modes of an eigenvalue problem.
 pub(super) fn lowest(
     pencil: &Pencil,
     count: usize,

@@ -7,7 +7,10 @@ use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Curve, Vec2};
 use withy::joints::{JointKind, Partner};
 use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{BeamDefinition, PointMass, Scene, StartMotion};
+use withy::model::{
+    Anchor, BeamDefinition, Origin, ParticleDefinition, PointMass, RestoringLaw, Scene, Spring,
+    SpringKind, StartMotion,
+};
 
 /// The section of the flying spaghetti with `EA = GA` and `EI` as given.
 pub fn spaghetti_section(stiffness: f64, bending: f64) -> Section {
@@ -212,6 +215,64 @@ pub fn towed(mesh: &Mesh) -> Scene {
     scene
 }
 
+/// A spring, with a damper beside it.
+pub fn spring(scene: &mut Scene, kind: SpringKind, law: RestoringLaw, damping: f64) {
+    let (name, law) = (scene.free_name("spring"), Some(law));
+    scene.add_spring(Spring { name, kind, law, origin: Origin::Zero, damping }).unwrap();
+}
+
+fn linear(stiffness: f64, natural: f64) -> RestoringLaw {
+    RestoringLaw::Linear { stiffness, natural }
+}
+
+/// Two beams that fly apart, held together by a spring inside of both, a torsion spring and a tendon over four places, all at ease.
+pub fn sprung(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("sprung");
+    let one = add_beam(&mut scene, line(at(2.0, 0.4), at(0.3, 2.0)), mesh, rod());
+    let other = add_beam(&mut scene, line(at(3.0, 0.5), at(4.0, 2.5)), mesh, rod());
+    scene.beams[one].motion = StartMotion { velocity: at(-0.4, 1.0), spin: 1.1, about: None };
+    scene.beams[other].motion = StartMotion { velocity: at(0.3, 0.2), spin: -0.7, about: None };
+    let inside = [(one, 0.7), (other, 1.1), (other, 2.0), (one, 1.9)];
+    let places = inside.map(|(beam, along)| scene.station(beam, along).unwrap());
+    let way = |scene: &Scene, stations: &[Station]| {
+        let at: Vec<Vec2> = stations.iter().map(|place| scene.drawn_at(place).unwrap()).collect();
+        let length = at.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+        (SpringKind::Way(stations.iter().map(|place| Anchor::Station(*place)).collect()), length)
+    };
+    let (between, length) = way(&scene, &places[..2]);
+    spring(&mut scene, between, linear(40.0, length), 0.0);
+    let (over, length) = way(&scene, &places);
+    let table = vec![(0.5 * length, 0.0), (length, 0.0), (1.2 * length, 3.0), (1.5 * length, 20.0)];
+    spring(&mut scene, over, RestoringLaw::Table { points: table }, 0.0);
+    let ends = [end_of(&mut scene, one), start_of(&mut scene, other)].map(Anchor::Station);
+    let angle = 2.0_f64.atan2(1.0) - 1.6_f64.atan2(-1.7);
+    spring(&mut scene, SpringKind::Torsion(ends), linear(6.0, angle), 0.0);
+    scene
+}
+
+/// A beam and a particle on springs and dampers that stand on the ground, under a load and their weight.
+pub fn mounted(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("mounted");
+    let beam = add_beam(&mut scene, line(at(0.5, 1.0), at(3.0, 1.4)), mesh, rod());
+    let bead = ParticleDefinition { name: "bead".to_owned(), position: at(2.0, 3.0) };
+    let bead = Anchor::Station(scene.add_particle(bead, 0.8).unwrap());
+    let (start, end) = (start_of(&mut scene, beam), end_of(&mut scene, beam));
+    let inner = Anchor::Station(scene.station(beam, 0.9).unwrap());
+    let foot = |x: f64, y: f64| Anchor::Ground(at(x, y));
+    let below = SpringKind::Way(vec![foot(0.4, 0.0), Anchor::Station(start)]);
+    spring(&mut scene, below, linear(60.0, 0.8), 2.0);
+    let over = SpringKind::Way(vec![foot(3.5, 0.0), Anchor::Station(end), bead, inner]);
+    spring(&mut scene, over, linear(15.0, 4.0), 0.4);
+    let twist = SpringKind::Torsion([foot(0.0, 0.0), inner]);
+    spring(&mut scene, twist, linear(5.0, 0.0), 0.3);
+    let name = scene.free_name("damper");
+    let kind = SpringKind::Way(vec![bead, Anchor::Station(start)]);
+    scene.add_spring(Spring { name, kind, law: None, origin: Origin::Zero, damping: 1.5 }).unwrap();
+    force(&mut scene, end, at(1.0, 2.0), Frame::Dead, hold(1.1));
+    scene.gravity = at(0.0, -2.0);
+    scene
+}
+
 /// Every scene on a mesh.
 pub fn all(mesh: &Mesh) -> Vec<Scene> {
     vec![
@@ -223,5 +284,7 @@ pub fn all(mesh: &Mesh) -> Vec<Scene> {
         flying_tree(mesh),
         hoop(mesh),
         towed(mesh),
+        sprung(mesh),
+        mounted(mesh),
     ]
 }

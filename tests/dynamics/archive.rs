@@ -97,11 +97,10 @@ fn a_load_with_a_function_is_named_and_refused() {
     let function = Schedule::Function { function: Rc::new(Ok), breaks: vec![] };
     scene.add_load(LoadKind::Moment { station, moment: 1.0 }, function);
     let simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.1)).unwrap();
-    let told = simulation.to_bytes("towed").unwrap_err().to_string();
-    assert!(
-        told.contains("moment at the end of beam 'beam1'") && told.contains("smooth_pulse"),
-        "{told}"
-    );
+    let refusal = simulation.to_bytes("towed").unwrap_err();
+    assert!(refusal.to_string().contains("moment at the end of beam 'beam1'"), "{refusal}");
+    let advice = withy::script::words::advice::on(&refusal);
+    assert!(advice.as_ref().is_some_and(|told| told.contains("smooth_pulse")), "{advice:?}");
 }
 
 #[test]

@@ -261,7 +261,8 @@ fn a_limit_bounds_the_memory_and_forgets_the_oldest_but_the_start() {
         matches!(refusal, SimulationError::Forgotten { steps, .. } if steps == kept - 2),
         "{refusal:?}"
     );
-    let told = refusal.to_string();
+    let advice = withy::script::words::advice::on(&refusal).unwrap();
+    let told = format!("{refusal}; {advice}");
     for part in
         ["limit of 0.1 MB", &format!("last {} steps", kept - 2), "sim.rewind(0)", "snapshots: 64"]
     {
@@ -289,7 +290,7 @@ fn ways_back_that_are_none_are_refused_with_a_reason() {
     let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.1)).unwrap();
     run(&mut simulation, 1.0).unwrap();
     let told = |refused: Result<(), SimulationError>| refused.unwrap_err().to_string();
-    assert!(told(simulation.back(3)).contains("no states are kept; start with"));
+    assert!(told(simulation.back(3)).contains("no states are kept"));
     simulation.keep_snapshots(10);
     assert!(told(simulation.back(3)).contains("more than the limit of 0.00001 MB"));
     assert!(told(simulation.back(11)).contains("only 10 were taken"));

@@ -16,5 +16,7 @@ mod notes;
 mod orders;
 mod same_bits;
 mod saving;
+mod sensors;
+mod springs;
 mod unused_features;
 mod work_counts;

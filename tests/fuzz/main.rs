@@ -9,7 +9,6 @@ mod common;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
-use std::rc::Rc;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
@@ -17,7 +16,6 @@ use std::time::{Duration, Instant};
 
 use common::corpus::Corpus;
 use common::notepad::Notepad;
-use rhai::Engine;
 use withy::repl::editor::completeness::completeness;
 use withy::repl::editor::completion::complete;
 use withy::repl::editor::highlight::{Vocabulary, highlight};
@@ -25,13 +23,13 @@ use withy::repl::editor::hints::hint;
 use withy::repl::editor::surroundings::Surroundings;
 use withy::repl::session::Session;
 use withy::repl::shell::{Screen, Shell};
-use withy::script::diagnose::{Blame, Explainer};
-use withy::script::engine;
-use withy::script::engine::runner::{on_large_stack, parse};
+use withy::script::diagnose::Blame;
+use withy::script::engine::host::{Halt, Host};
+use withy::script::engine::parse::parse;
+use withy::script::engine::stack::on_large_stack;
 use withy::script::packages::language;
 use withy::script::rows::catalog::Catalog;
 use withy::script::source::program::Program;
-use withy::script::state::context::Context;
 use withy::script::state::limits::Limits;
 use withy::script::state::settings::{Mode, Settings};
 use withy::script::words::stop::{MEGABYTE, Stop};
@@ -141,13 +139,13 @@ fn run_batch(
     report: &Mutex<Report>,
 ) {
     let catalog = language();
-    let settings =
-        Settings { out: folder.join("out"), limits: LIMITS, ..Settings::silent(Mode::Run) };
-    let context = Context::new(settings);
-    let mut engine = engine::build(&catalog, &context).unwrap();
-    engine::import_from(&mut engine, folder);
-    let engine = Rc::new(engine);
-    context.lend(&engine);
+    let settings = Settings {
+        out: folder.join("out"),
+        folder: folder.to_owned(),
+        limits: LIMITS,
+        ..Settings::silent(Mode::Run)
+    };
+    let host = Host::open(catalog.clone(), settings).unwrap();
     let mut prompt = Prompt::new(&catalog, folder);
     for seed in seeds {
         let text = corpus.input(seed);
@@ -156,7 +154,7 @@ fn run_batch(
         let begun = Instant::now();
         let judged = catch_unwind(AssertUnwindSafe(|| {
             prompt.judge(seed, &text)?;
-            judge(&program, &catalog, &engine, &context)
+            judge(&program, &host)
         }));
         let lasted = begun.elapsed();
         *present.lock().unwrap() = None;
@@ -238,21 +236,24 @@ enum Ran {
     ToAnEnd,
 }
 
-fn judge(
-    program: &Program,
-    catalog: &Catalog,
-    engine: &Engine,
-    context: &Context,
-) -> Result<Ran, String> {
-    let watchdog = context.meter().watch().map_err(|error| error.to_string())?;
-    let compiled = parse(engine, program);
-    let is_parsed = compiled.is_ok();
-    let ran = compiled.and_then(|ast| engine.run_ast(&ast));
-    let stop = context.stopped_by();
-    context.report();
-    drop(watchdog);
-    if let Err(error) = ran {
-        let diagnostic = Explainer { program, catalog, engine }.explain(&error);
+fn judge(program: &Program, host: &Host) -> Result<Ran, String> {
+    let mut is_parsed = false;
+    let ran = host.watch().and_then(|guard| {
+        let ran = host.run(
+            &guard,
+            || program.clone(),
+            |engine| {
+                let ast = parse(engine, program)?;
+                is_parsed = true;
+                engine.run_ast(&ast)
+            },
+        );
+        // Letting go of what the input has made may take time and memory as well.
+        host.context().report();
+        ran
+    });
+    let stop = host.context().stopped_by();
+    if let Err(Halt::Failed(diagnostic)) = ran {
         let shown = diagnostic.to_string();
         if diagnostic.blame != Blame::User || !shown.starts_with("error: ") {
             return Err(shown);

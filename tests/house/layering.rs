@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// From left to right (design: main → cli → repl, exercises → script → output, analysis → simulation → … → model): a layer may use
+/// From left to right (docs/architecture.md: main → cli → repl, exercises → script → output, analysis → simulation → … → model): a layer may use
 /// those of the groups after its own, and everything below the model.
 const CHAIN: &[&[&str]] = &[
     &["cli"],
@@ -28,6 +28,7 @@ const BRANCHES: &[(&str, &[&str])] = &[
     ("linalg", &["elementary"]),
     ("elementary", &[]),
     ("folders", &[]),
+    ("panics", &[]),
 ];
 
 /// What a layer may use; none if it is in no table.
@@ -68,7 +69,7 @@ pub fn sources() -> Vec<(PathBuf, String)> {
     files
 }
 
-fn layer(path: &Path) -> String {
+pub fn layer(path: &Path) -> String {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let first = path.strip_prefix(src).unwrap().components().next().unwrap();
     first.as_os_str().to_string_lossy().into_owned()
@@ -251,6 +252,22 @@ fn a_trespass_is_found() {
         found.len() == 1 && found[0].ends_with("mesh.rs:3: beams uses integrators"),
         "{found:?}"
     );
+}
+
+#[test]
+fn files_of_folders_hold_a_sentence_and_names() {
+    const CODE: [&str; 6] = ["fn ", "struct ", "enum ", "trait ", "impl ", "macro_rules"];
+    let is_code = |line: &&str| {
+        let item = line.trim_start_matches("pub ").trim_start_matches("const ");
+        CODE.iter().any(|code| item.starts_with(code))
+    };
+    let files = sources();
+    let mut folders = files.iter().filter(|(path, _)| path.ends_with("mod.rs"));
+    assert!(folders.clone().count() > 30);
+    let found = folders.find_map(|(path, text)| Some((path, text.lines().find(is_code)?)));
+    assert_eq!(found, None, "code belongs into a file with a name");
+    assert!(is_code(&"pub fn f() {") && is_code(&"trait T {") && is_code(&"pub const fn f() {"));
+    assert!(!is_code(&"pub const TABLES: &[&str] = &[") && !is_code(&"pub use a::implied;"));
 }
 
 #[test]

@@ -4,5 +4,9 @@
 mod common;
 
 mod documents;
+mod figures;
+mod folder_map;
 mod layering;
+mod messages;
+mod theory;
 mod wings;

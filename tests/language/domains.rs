@@ -18,6 +18,7 @@ use withy::script::rows::table::{Row, Table, function, method, property};
 use withy::script::source::program::Program;
 use withy::script::state::settings::{Mode, Settings};
 use withy::script::words::error::ScriptError;
+use withy::script::words::numbers::as_number;
 use withy::script::words::reports::Reporter;
 
 /// A mass on a spring, as a shared handle.
@@ -73,7 +74,7 @@ const KEYS: &[Parameter] = &[
     choice("end", &["free", "fixed"]).or(Presence::Text("free")),
     options("mesh", MESH).optional(),
 ];
-const MESH: &[Parameter] = &[whole("spans").at_least(1.0)];
+const MESH: &[Parameter] = &[whole("spans").positive()];
 const PULL: Parameter = whole("times").non_negative().or(Presence::Whole(1));
 
 fn spring(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -100,7 +101,12 @@ fn pull(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn follow(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let force = call.callback("force")?;
-    Ok(call.invoke_for_number(&force, [Dynamic::from(0.5)], "force")?.into())
+    let value = call.invoke(&force, [Dynamic::from(0.5)])?;
+    let number = as_number(&value).filter(|force| force.is_finite());
+    let got = || call.describe(&value);
+    let force = number
+        .ok_or_else(|| call.error(format!("the force must give a finite number, got {}", got())))?;
+    Ok(force.into())
 }
 
 fn save(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -195,7 +201,7 @@ fn wrong_options_are_underlined() {
     let (column, message, _) = said("spring(#{ stiffness: 1, mesh: #{ spans: 0 } });");
     assert_eq!(
         (column, message.as_str()),
-        (34, "spring: 'spans' must be a whole number of at least 1, got 0")
+        (34, "spring: 'spans' must be a positive whole number, got 0")
     );
     let (_, message, hint) = said("spring(5);");
     assert_eq!(message, "spring: 'options' must be a map of options #{ … }, got 5");

@@ -10,6 +10,8 @@ mod motion_pictures;
 mod newcomer;
 mod present;
 mod prompt;
+mod science_pictures;
 mod session;
 mod standard_library;
 mod suite;
+mod viewers;

@@ -9,3 +9,4 @@ mod repl_pipe;
 mod repl_terminal;
 mod scripts;
 mod studies;
+mod viewers;

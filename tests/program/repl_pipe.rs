@@ -140,7 +140,7 @@ fn commands_act_on_the_last_simulation() {
     assert_eq!((code, &*complaints), (0, ""), "{replies}");
     for expected in [
         "t = 1 after 10 steps\nt = 0.5 after 5 steps\nt = 0.8 after 8 steps\n",
-        "energy E - W",
+        "energy E - W + D",
         "energy [energy]: 10.333",
         "drift of angular momentum: ",
         "t = 0.8\nbeam1: from ",

@@ -65,7 +65,7 @@ fn a_person_throws_a_beam_and_goes_back() {
     s.exp_string("the end of beam 'beam1'").unwrap();
 
     ask(s, ":step 10", "t = 1 after 10 steps");
-    ask(s, ":invariants", "energy E - W");
+    ask(s, ":invariants", "energy E - W + D");
     ask(s, ":back 5", "t = 0.5 after 5 steps");
 
     // An error, and going on.

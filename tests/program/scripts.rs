@@ -22,6 +22,28 @@ fn named_files(script: &str) -> Vec<&str> {
         .collect()
 }
 
+/// A drawing says what its axes show and has lines, pixels are a picture with a size, and a table has rows of numbers below its names.
+fn expect_content(file: &str, bytes: &[u8]) {
+    if file.ends_with(".png") {
+        assert_eq!(&bytes[1..4], b"PNG", "{file}");
+        let width = u32::from_be_bytes(bytes[16..20].try_into().unwrap());
+        assert!(width > 100, "{file} is {width} pixels wide");
+        return;
+    }
+    let text = std::str::from_utf8(bytes).unwrap();
+    if file.ends_with(".svg") {
+        let told = text.split_once("<desc>").unwrap().1.split_once("</desc>").unwrap().0;
+        assert!(told.split(" | ").filter(|text| !text.is_empty()).count() > 3, "{file}: {told}");
+        assert!(text.contains("<polyline"), "{file} has no line");
+        return;
+    }
+    let mut rows = text.lines().filter(|line| !line.starts_with('#'));
+    let names = rows.next().unwrap().split(',').count();
+    let numbers = rows.flat_map(|row| row.split(',')).map(|cell| cell.parse::<f64>().is_ok());
+    let (all, good) = numbers.fold((0, 0), |(all, good), is| (all + 1, good + usize::from(is)));
+    assert!(all > names && good == all, "{file}: {good} of {all} cells are numbers");
+}
+
 #[test]
 fn every_script_runs_and_writes_its_files() {
     assert!(scripts().len() >= 4);
@@ -38,10 +60,9 @@ fn every_script_runs_and_writes_its_files() {
         let text = std::fs::read_to_string(&script).unwrap();
         assert!(!named_files(&text).is_empty(), "{} draws nothing", script.display());
         for file in named_files(&text) {
-            let size = std::fs::metadata(out.path().join(file))
-                .unwrap_or_else(|_| panic!("{file} is missing"))
-                .len();
-            assert!(size > 500, "{file} has {size} bytes");
+            let bytes = std::fs::read(out.path().join(file))
+                .unwrap_or_else(|_| panic!("{file} is missing"));
+            expect_content(file, &bytes);
         }
     }
 }

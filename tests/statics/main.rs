@@ -6,4 +6,5 @@ mod common;
 mod equilibria;
 mod modes;
 mod section_forces;
+mod springs;
 mod stiff_modes;

@@ -2,36 +2,36 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
-/// A key.
+/// A key that `withy learn watch` knows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Key {
-    /// A letter, a digit, or another character; letters are small.
+    /// The key of a letter, a digit, or another character; letters are small.
     Letter(char),
-    /// An arrow.
+    /// The key with the arrow up.
     Up,
-    /// An arrow.
+    /// The key with the arrow down.
     Down,
-    /// A page back.
+    /// The key for a page back.
     PageUp,
-    /// A page on.
+    /// The key for a page forward.
     PageDown,
-    /// To the beginning.
+    /// The key to the beginning of a page.
     Home,
-    /// To the end.
+    /// The key to the end of a page.
     End,
-    /// Return.
+    /// The return key.
     Enter,
-    /// Escape.
+    /// The escape key.
     Escape,
-    /// Ctrl-C, and Ctrl-D.
+    /// Ctrl-C or Ctrl-D, which leave.
     Interrupt,
-    /// Ctrl-Z.
+    /// Ctrl-Z, which stops for a while.
     Suspend,
-    /// Any other.
+    /// Any other key.
     Other,
 }
 
-/// The key of an event; none where one is let go.
+/// The key of an event of the terminal; none where a key is let go.
 pub fn key(event: KeyEvent) -> Option<Key> {
     if event.kind == KeyEventKind::Release {
         return None;

@@ -7,7 +7,7 @@ use textwrap::{Options, WordSplitter};
 
 use crate::output::{Colours, columns_of};
 
-/// How a piece is drawn, as numbers of an ANSI sequence.
+/// How a piece of a line is drawn, as numbers of an ANSI sequence.
 pub type Style = Cow<'static, str>;
 
 pub const PLAIN: Style = Cow::Borrowed("");
@@ -18,12 +18,12 @@ pub const BAD: Style = Cow::Borrowed("1;31");
 pub const LOOK: Style = Cow::Borrowed("1;36");
 pub const WARM: Style = Cow::Borrowed("33");
 
-/// A line, with nothing in it that moves the cursor.
+/// A line of the screen, with nothing in it that moves the cursor.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Line(Vec<(String, Style)>);
 
 impl Line {
-    /// A piece of text in a style.
+    /// A line with a piece of text in a style.
     pub fn of(text: &str, style: Style) -> Self {
         Self::default().and(text, style)
     }
@@ -42,17 +42,17 @@ impl Line {
         self
     }
 
-    /// What can be read.
+    /// The text of the line that can be read, without styles.
     pub fn text(&self) -> String {
         self.0.iter().map(|(text, _)| text.as_str()).collect()
     }
 
-    /// Columns that it takes.
+    /// The number of columns that the line takes.
     pub fn width(&self) -> usize {
         self.0.iter().map(|(text, _)| crate::output::columns(text)).sum()
     }
 
-    /// As it is written to a terminal.
+    /// The line as it is written to a terminal.
     pub fn drawn(&self, colours: Colours) -> String {
         let mut drawn = String::new();
         for (text, style) in &self.0 {
@@ -67,7 +67,7 @@ impl Line {
         drawn
     }
 
-    /// The same within so many columns; what is beyond them is left out, with a mark.
+    /// The line within so many columns; what is beyond them is left out, with a mark.
     pub fn cut(self, columns: usize) -> Self {
         if self.width() <= columns {
             return self;
@@ -77,7 +77,7 @@ impl Line {
         Self::from_characters(&characters[..kept]).and("…", FAINT)
     }
 
-    /// The same as lines of so many columns, broken behind a blank where there is one: for code.
+    /// The line as lines of so many columns, broken behind a blank where there is one: for code.
     pub fn broken(self, columns: usize) -> Vec<Self> {
         let characters = self.characters();
         let margin = characters.iter().take_while(|(character, _)| !character.is_alphanumeric());
@@ -134,7 +134,7 @@ fn push(lines: &mut [Line], piece: String, style: &Style) {
     }
 }
 
-/// Text as lines of at most so many columns, broken between words; all but the first begin with `indent`.
+/// A text as lines of at most so many columns, broken between words; all but the first begin with `indent`.
 pub fn wrapped(text: &str, indent: &str, columns: usize) -> Vec<String> {
     let options = Options::new(columns.max(1))
         .subsequent_indent(if crate::output::columns(indent) * 2 < columns { indent } else { "" })
@@ -146,12 +146,12 @@ pub fn wrapped(text: &str, indent: &str, columns: usize) -> Vec<String> {
     text.lines().flat_map(wrap).collect()
 }
 
-/// The same in one style.
+/// A text as lines of the screen in one style, broken between words; all but the first begin with `indent`.
 pub fn paragraph(text: &str, indent: &str, columns: usize, style: &Style) -> Vec<Line> {
     wrapped(text, indent, columns).iter().map(|line| Line::of(line, style.clone())).collect()
 }
 
-/// Text behind a label of a style of its own, wrapped below itself.
+/// A text as lines of the screen behind a label of a style of its own, wrapped below itself.
 pub fn labelled(label: (&str, Style), text: &str, indent: &str, columns: usize) -> Vec<Line> {
     let (word, style) = label;
     let whole = format!("{word} {text}");
@@ -164,7 +164,7 @@ pub fn labelled(label: (&str, Style), text: &str, indent: &str, columns: usize) 
     lines
 }
 
-/// Coloured text as lines: what `\x1b[…m` says of colours is kept, and nothing else that begins so.
+/// Coloured text as lines of the screen: what `\x1b[…m` says of colours is kept, and nothing else that begins so.
 pub fn coloured(text: &str) -> Vec<Line> {
     let mut style = PLAIN;
     let mut lines = vec![Line::default()];

@@ -12,7 +12,7 @@ const PRINTED: usize = 12;
 /// A run that takes less is over before one has read that it is going on [s].
 const SOON: u64 = 1;
 
-/// What came of the last run, or that one is going on.
+/// The lines that tell what became of the last run of an attempt, or that one is going on.
 pub fn outcome(state: &State, columns: usize) -> Vec<Line> {
     match (state.running, &state.last) {
         (Some(seconds), last) if seconds >= SOON || last.is_none() => {

@@ -19,12 +19,12 @@ use super::state::{Page, Part, State, Top, Window};
 use crate::exercises::catalogue::{EXERCISES, TRACKS};
 use crate::exercises::task::{Paragraph, TO_DO};
 
-/// What is on the screen.
+/// The screen of `withy learn watch` as it is to be drawn.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Screen {
-    /// Its lines, from the top.
+    /// The lines of the screen, from the top.
     pub lines: Vec<Line>,
-    /// Which part of the page they show.
+    /// Which part of the page the lines show.
     pub window: Window,
 }
 

@@ -8,21 +8,21 @@ use crate::repl::editor::highlight::{Vocabulary, highlight};
 use crate::repl::editor::surroundings::Surroundings;
 use crate::script::packages::language;
 
-/// The colours of the language.
+/// What draws scripts in the colours of the language.
 pub struct Painter(Vocabulary);
 
 impl Painter {
-    /// With all names of the language.
+    /// A painter that knows all names of the language.
     pub fn new() -> Self {
         Self(Vocabulary::of(Surroundings::of_language(language())))
     }
 
-    /// A script in colours.
+    /// A script in the colours of the language.
     pub fn paint(&self, text: &str) -> String {
         highlight(text, None, &self.0)
     }
 
-    /// The solution below the text of its task.
+    /// The lines of an exercise's solution below the text of its task.
     pub fn solution(&self, exercise: &Exercise) -> Vec<Line> {
         let is_head = |line: &&str| line.starts_with("//") || line.is_empty();
         let code: Vec<&str> = exercise.solution.lines().skip_while(is_head).collect();

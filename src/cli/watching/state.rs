@@ -8,105 +8,105 @@ use crate::exercises::exercise::Exercise;
 use crate::exercises::progress::Progress;
 use crate::exercises::report::{Outcome, Report};
 
-/// All that is shown.
+/// The state of `withy learn watch`: all that is shown.
 #[derive(Clone, Debug)]
 pub struct State {
-    /// The exercise at hand.
+    /// The exercise that is shown.
     pub exercise: &'static Exercise,
-    /// Its file, as one would type it.
+    /// The file of the exercise, as one would type it.
     pub file: String,
-    /// What is passed.
+    /// The student's progress: which exercises are passed.
     pub progress: Progress,
-    /// What came of the last run of its attempt, if one has ended.
+    /// What became of the last run of the attempt, if one has ended.
     pub last: Option<Report>,
-    /// The seconds of the run that is going on.
+    /// The seconds of the run that is going on, if one is.
     pub running: Option<u64>,
-    /// Runs since the exercise was opened.
+    /// The number of runs since the exercise was opened.
     pub runs: usize,
-    /// Hints that are shown.
+    /// The number of hints that are shown.
     pub hints: usize,
-    /// What fills the screen.
+    /// The page that fills the screen.
     pub page: Page,
-    /// Where the page begins.
+    /// The first line of the page on the screen.
     pub top: Top,
-    /// A word to who pressed a key.
+    /// A word to the person who pressed a key.
     pub notice: Option<String>,
-    /// What the same key does when it is pressed once more.
+    /// The question that was asked: what the same key does when it is pressed once more.
     pub asked: Option<Asked>,
-    /// The number that is being typed into the list; 0 where there is none.
+    /// The number that is being typed into the list of exercises; 0 where there is none.
     pub typed: usize,
 }
 
-/// What fills the screen.
+/// A page that fills the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Page {
-    /// The task, what came of it, hints.
+    /// The page with the task, what became of the attempt, hints.
     Task,
-    /// All exercises; the one with this index is chosen.
+    /// The page with all exercises; the one with this index is chosen.
     List(usize),
-    /// A solution.
+    /// The page with a solution.
     Solution,
 }
 
 /// The first line of a page that is longer than the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Top {
-    /// So that this part is seen.
+    /// The page begins so that this part is seen.
     Part(Part),
-    /// This line.
+    /// The page begins with this line, from 0.
     Line(usize),
 }
 
-/// A part of a page.
+/// A part of the page with the task.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// Its beginning.
+    /// The beginning of the page.
     Beginning,
-    /// What came of the attempt.
+    /// What became of the attempt.
     Result,
-    /// The last hint.
+    /// The last hint to the exercise.
     Hint,
 }
 
-/// What was asked before it is done.
+/// A question that is asked before something is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Asked {
-    /// To leave an exercise that is not passed.
+    /// Whether to leave an exercise that is not passed.
     Skip,
-    /// To see a solution when all hints were given.
+    /// Whether to see a solution when all hints were given.
     Solution,
 }
 
-/// What a key asks for that takes more than another picture.
+/// What a key asks for that takes more than drawing the screen anew.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wish {
-    /// Nothing.
+    /// The key asks for nothing more.
     Nothing,
-    /// To leave.
+    /// The key asks to leave.
     Leave,
-    /// To stop for a while, as Ctrl-Z does.
+    /// The key asks to stop for a while, as Ctrl-Z does.
     Suspend,
-    /// To run the attempt again.
+    /// The key asks to run the attempt again.
     Run,
-    /// Another exercise.
+    /// The key asks for another exercise.
     Open(&'static Exercise),
-    /// One more hint.
+    /// The key asks for one more hint.
     Hint,
 }
 
 /// Which lines of the page were on the screen, for keys that scroll.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Window {
-    /// The first one.
+    /// The first line of the page on the screen, from 0.
     pub top: usize,
-    /// The last one that can be the first.
+    /// The last line of the page that can be the first on the screen.
     pub last: usize,
-    /// How many there is room for.
+    /// The number of lines that there is room for on the screen.
     pub rows: usize,
 }
 
 impl State {
-    /// At the beginning of an exercise.
+    /// The state at the beginning of an exercise.
     pub fn open(exercise: &'static Exercise, file: String, progress: Progress) -> Self {
         Self {
             exercise,
@@ -124,17 +124,17 @@ impl State {
         }
     }
 
-    /// Its number, from 1.
+    /// The number of the exercise that is shown, from 1.
     pub fn number(&self) -> usize {
         index(self.exercise) + 1
     }
 
-    /// How many exercises are passed.
+    /// How many exercises the student has passed.
     pub fn passed(&self) -> usize {
         EXERCISES.iter().filter(|exercise| self.progress.has_passed(exercise)).count()
     }
 
-    /// Whether the exercise at hand is passed.
+    /// Whether the student has passed the exercise that is shown.
     pub fn has_passed(&self) -> bool {
         match &self.last {
             Some(report) => report.outcome == Outcome::Passed,
@@ -142,14 +142,14 @@ impl State {
         }
     }
 
-    /// The exercise to go to: the first behind this one that is not passed, else the first of all.
+    /// The exercise to go to: the first behind the one that is shown that is not passed, else the first of all.
     pub fn next(&self) -> Option<&'static Exercise> {
         let (before, from) = EXERCISES.split_at(index(self.exercise));
         let others = from.iter().skip(1).chain(before);
         others.into_iter().find(|exercise| !self.progress.has_passed(exercise))
     }
 
-    /// Notes what came of a run.
+    /// Notes what became of a run of the attempt.
     pub fn tell(&mut self, report: Report) {
         self.progress.note(self.exercise, report.outcome == Outcome::Passed);
         self.running = None;
@@ -157,7 +157,7 @@ impl State {
         self.last = Some(report);
     }
 
-    /// Does what a key asks for, as far as it concerns what is shown.
+    /// Does what a key asks for, as far as it concerns what is shown; gives what more it asks for.
     pub fn press(&mut self, key: Key, window: Window) -> Wish {
         self.notice = None;
         let asked = self.asked.take();
@@ -277,7 +277,7 @@ impl State {
     }
 }
 
-/// The place of an exercise in the table.
+/// The index of the exercise in the table of all.
 pub fn index(exercise: &Exercise) -> usize {
     EXERCISES.iter().position(|other| other == exercise).unwrap_or_default()
 }

@@ -23,13 +23,13 @@ const USUAL: (u16, u16) = (80, 24);
 /// Whether the terminal is held.
 static HELD: AtomicBool = AtomicBool::new(false);
 
-/// Whether a person sits at both ends, at a terminal that can draw.
+/// Whether a person sits at both ends of the program, at a terminal that can draw.
 pub fn is_there() -> bool {
     let can_draw = std::env::var_os("TERM").is_none_or(|name| name != "dumb");
     stdin().is_terminal() && stdout().is_terminal() && can_draw
 }
 
-/// The terminal; it is given back when this is dropped.
+/// The terminal while `withy learn watch` draws on it; it is given back when this is dropped.
 pub struct Terminal {
     colours: Colours,
     drawn: Vec<u8>,
@@ -37,24 +37,24 @@ pub struct Terminal {
 }
 
 impl Terminal {
-    /// Takes the terminal.
+    /// Takes the terminal, to draw on it.
     ///
     /// # Errors
-    /// When it cannot be told what is needed.
+    /// When the terminal refuses what is needed.
     pub fn take() -> io::Result<Self> {
         hold()?;
         let style = Style::of_environment(|name| std::env::var(name).ok());
         Ok(Self { colours: style.colours, drawn: Vec::new(), size: (0, 0) })
     }
 
-    /// Its columns and rows now.
+    /// The columns and rows of the terminal now.
     pub fn size(&self) -> (usize, usize) {
         let told = terminal::size().ok().filter(|(columns, rows)| *columns > 0 && *rows > 0);
         let (columns, rows) = told.unwrap_or(USUAL);
         (usize::from(columns), usize::from(rows))
     }
 
-    /// Shows these lines, all at once; nothing is written where they are there already.
+    /// Shows lines on the terminal, all at once; nothing is written where they are there already.
     ///
     /// # Errors
     /// When the terminal cannot be written to.
@@ -123,7 +123,7 @@ fn hold() -> io::Result<()> {
     execute!(stdout(), EnterAlternateScreen, Hide)
 }
 
-/// Gives the terminal back as it was, if it is held; also for whoever ends the process without unwinding.
+/// Gives the terminal back as it was, if it is held; also for code that ends the process without unwinding.
 pub fn give_back() {
     if HELD.swap(false, Ordering::Relaxed) {
         // A terminal that is gone needs nothing back.

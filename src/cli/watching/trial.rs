@@ -62,12 +62,12 @@ impl Trial {
         Ok(Self { process, said, begun: Instant::now(), limits })
     }
 
-    /// Whole seconds since it began.
+    /// Whole seconds since the process began.
     pub fn seconds(&self) -> u64 {
         self.begun.elapsed().as_secs()
     }
 
-    /// What came of it, once that is known.
+    /// What became of the attempt, once that is known.
     pub fn ended(&mut self) -> Option<Report> {
         let longest = self.limits.time.unwrap_or(PATIENCE) * 2 + SLACK;
         match self.said.try_recv() {
@@ -99,7 +99,7 @@ impl Drop for Trial {
     }
 }
 
-/// What is told when a process cannot be started.
+/// The report of an attempt for which a process cannot be started.
 pub fn cannot(error: &io::Error) -> Report {
     let message = format!("cannot start a process for it: {error}");
     let why = Trouble { message, ..Trouble::default() };
@@ -137,7 +137,7 @@ fn stopped(stop: Stop, printed: Overheard) -> Report {
     Report { outcome: Outcome::Stopped(why), printed }
 }
 
-/// Judges an attempt in this process, which is for nothing else, and says what came of it.
+/// Judges an attempt in this process, which is for nothing else, and prints what became of it.
 pub fn try_here(workbook: &Workbook, exercise: &Exercise, options: &LimitOptions) -> Exit {
     die_with_parent();
     let ear = Ear::default();

@@ -5,7 +5,8 @@ use super::{CONTACT_UNKNOWNS, Contact, ContactUnknowns, Equation, SlidingLaw, Un
 use crate::elementary::square;
 use crate::geometry::{cross, perpendicular};
 
-/// The gap is closed at the end of every step, and energy, linear and angular momentum are kept, for any step.
+/// The conserving law of sliding: the gap is closed at the end of every step, and energy, linear and angular momentum are kept, for any
+/// step.
 ///
 /// ```text
 /// x_s1 = Σ B_i(ξ1) x_i1          |τ|² η + (d × λ) Jτ = 0          λ·τ + 4 η·d = 0

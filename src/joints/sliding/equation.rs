@@ -3,36 +3,36 @@
 use super::ContactUnknowns;
 use crate::geometry::Vec2;
 
-/// What the value of an equation is measured in.
+/// The unit in which the value of an equation of a contact is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
-    /// A distance.
+    /// The equation says that a distance vanishes [length].
     Length,
-    /// A force.
+    /// The equation says that a force vanishes [force].
     Force,
 }
 
-/// `value = 0`, and how the value changes with what moves.
+/// An equation `value = 0` of a sliding contact, and how the value changes with what moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Equation {
-    /// What should vanish.
+    /// The value of the equation, which should vanish, in the equation's unit.
     pub value: f64,
-    /// What it is measured in.
+    /// The unit of the value of the equation.
     pub unit: Unit,
-    /// Its derivative by the movement of the slave.
+    /// The derivative of the value by the movement of the slave.
     pub by_slave: Vec2,
-    /// Its derivative by the movement of control point `i` of the master is `B_i(ξ1)` times this,
+    /// The part of the value's derivative by the movement of control point `i` of the master that `B_i(ξ1)` multiplies.
     pub by_end: Vec2,
-    /// plus `B̄_i` times this,
+    /// The part of the value's derivative by the movement of control point `i` of the master that `B̄_i` multiplies.
     pub by_mean: Vec2,
-    /// plus `D_i` times this.
+    /// The part of the value's derivative by the movement of control point `i` of the master that `D_i` multiplies.
     pub by_difference: Vec2,
-    /// Its derivatives by `λ`, `η` and `Δξ`.
+    /// The derivatives of the value by the contact's unknowns `λ`, `η` and `Δξ`.
     pub by_unknowns: ContactUnknowns,
 }
 
 impl Equation {
-    /// An equation that depends on nothing yet.
+    /// An equation `value = 0` that depends on nothing yet.
     pub(super) fn new(value: f64, unit: Unit) -> Self {
         Self {
             value,
@@ -45,7 +45,7 @@ impl Equation {
         }
     }
 
-    /// The derivative by a control point of the master with these `B_i(ξ1)`, `B̄_i` and `D_i`.
+    /// The derivative of the value by the movement of a control point of the master with these `B_i(ξ1)`, `B̄_i` and `D_i`.
     pub fn by_master(&self, (end, mean, difference): (f64, f64, f64)) -> Vec2 {
         self.by_end * end + self.by_mean * mean + self.by_difference * difference
     }

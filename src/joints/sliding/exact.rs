@@ -2,7 +2,7 @@
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 
-/// The gap is closed at the end of every step; energy and linear momentum are kept, angular momentum is not.
+/// The exact law of sliding: the gap is closed at the end of every step; energy and linear momentum are kept, angular momentum is not.
 ///
 /// ```text
 /// x_s1 = Σ B_i(ξ1) x_i1          λ·τ = 0          η = 0

@@ -2,7 +2,7 @@
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 
-/// The slave stays where it is on the master, as in a hinge: `x_s1 = Σ B_i(ξ1) x_i1`, `Δξ = 0`, `η = 0`.
+/// The law of a slider at rest: the slave stays where it is on the master, as in a hinge: `x_s1 = Σ B_i(ξ1) x_i1`, `Δξ = 0`, `η = 0`.
 #[derive(Debug, Clone, Copy)]
 pub struct Held;
 

@@ -8,6 +8,7 @@ mod contact;
 mod equation;
 mod exact;
 mod held;
+mod law;
 mod relaxed;
 mod released;
 mod rule;
@@ -17,12 +18,7 @@ pub use contact::{Along, CONTACT_UNKNOWNS, Contact, ContactUnknowns};
 pub use equation::{Equation, Unit};
 pub use exact::Exact;
 pub use held::Held;
+pub use law::SlidingLaw;
 pub use relaxed::Relaxed;
 pub use released::Released;
 pub use rule::{RuleClaims, RuleEntry, SLIDING_RULES, SlidingRule};
-
-/// A law of a sliding joint.
-pub trait SlidingLaw {
-    /// The five equations of a step for the unknowns of the contact, with their derivatives.
-    fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS];
-}

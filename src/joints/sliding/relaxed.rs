@@ -6,7 +6,7 @@ use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw, Unit};
 /// A gap smaller than this part of the master is rounding and gives no direction.
 const ROUNDING: f64 = 1e-13;
 
-/// The contact is closed in the mean of each step; energy, linear and angular momentum are kept, the gap is not.
+/// The relaxed law of sliding: the contact is closed in the mean of each step; energy, linear and angular momentum are kept, the gap is not.
 ///
 /// ```text
 /// ½ (x_s0 + x_s1) = Σ B̄_i x̄_i          λ·(2/Δξ) (Σ B̄_i x_i0 - x_s0) = 0          η = 0

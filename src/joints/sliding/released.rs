@@ -2,7 +2,7 @@
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 
-/// Nothing acts and nothing is tied: `λ = 0`, `η = 0`, `Δξ = 0`.
+/// The law of a slider that has left its master: nothing acts and nothing is tied: `λ = 0`, `η = 0`, `Δξ = 0`.
 #[derive(Debug, Clone, Copy)]
 pub struct Released;
 

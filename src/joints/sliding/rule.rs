@@ -4,45 +4,45 @@ use serde::{Deserialize, Serialize};
 
 use super::{Conserving, Exact, Relaxed, SlidingLaw};
 
-/// A choice of how a step keeps a slider on its master.
+/// A choice of the law by which a step keeps a slider on its master.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum SlidingRule {
-    /// [`Relaxed`].
+    /// The law [`Relaxed`]: the contact is closed in the mean of each step.
     Relaxed,
-    /// [`Exact`].
+    /// The law [`Exact`]: the contact is closed at the end of each step; angular momentum is not kept.
     Exact,
-    /// [`Conserving`].
+    /// The law [`Conserving`]: the contact is closed at the end of each step; energy and momenta are kept.
     #[default]
     Conserving,
 }
 
-/// What a rule keeps to rounding, with an integrator that keeps it without sliders. All keep linear momentum.
+/// What a law of sliding keeps to rounding, with an integrator that keeps it without sliders. All laws keep linear momentum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RuleClaims {
-    /// Whether the energy is.
+    /// Whether the law of sliding keeps the energy.
     pub energy: bool,
-    /// Whether the angular momentum is.
+    /// Whether the law of sliding keeps the angular momentum.
     pub angular_momentum: bool,
-    /// Whether the slave is on the master at the end of every step.
+    /// Whether the law of sliding has the slave on the master at the end of every step.
     pub gap: bool,
 }
 
-/// A row of the list of rules.
+/// A law of sliding in the list [`SLIDING_RULES`].
 #[derive(Debug, Clone, Copy)]
 pub struct RuleEntry {
-    /// The rule.
+    /// The law of sliding that this row of the list describes.
     pub rule: SlidingRule,
-    /// Its name in scripts and reports.
+    /// The name of the law of sliding in scripts and reports.
     pub name: &'static str,
-    /// What it is good for, in a sentence.
+    /// What the law of sliding is good for, in a sentence.
     pub summary: &'static str,
-    /// What it promises.
+    /// What the law of sliding keeps.
     pub claims: RuleClaims,
-    /// Where it comes from.
+    /// The source of the law of sliding in the literature.
     pub source: &'static str,
 }
 
-/// All rules.
+/// All laws of sliding, the default first.
 pub const SLIDING_RULES: &[RuleEntry] = &[CONSERVING, EXACT, RELAXED];
 
 const CONSERVING: RuleEntry = RuleEntry {
@@ -70,7 +70,7 @@ const RELAXED: RuleEntry = RuleEntry {
 };
 
 impl SlidingRule {
-    /// Its row in [`SLIDING_RULES`].
+    /// The row of this law of sliding in [`SLIDING_RULES`].
     pub fn entry(self) -> &'static RuleEntry {
         match self {
             Self::Conserving => &CONSERVING,
@@ -79,7 +79,7 @@ impl SlidingRule {
         }
     }
 
-    /// Its law.
+    /// The equations of this law of sliding.
     pub fn law(self) -> &'static dyn SlidingLaw {
         match self {
             Self::Conserving => &Conserving,

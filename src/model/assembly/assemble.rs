@@ -14,9 +14,9 @@ use crate::model::{BeamDefinition, Model, ModelError, Scene};
 /// The bodies of a scene on their meshes, from which its model is made.
 pub struct Assembly<'a> {
     pub scene: &'a Scene,
-    /// Of the beams.
+    /// The meshes of the beams, with breaks where joints are, one for each beam of the scene.
     pub meshes: Vec<Mesh>,
-    /// Beams, then particles.
+    /// The bodies of the scene: one for each beam, then one for each particle.
     pub bodies: Vec<Box<dyn BodyDynamics>>,
 }
 

@@ -80,6 +80,22 @@ impl Numbering {
                 groups.push(group);
             }
         }
+        for element in &scene.elements {
+            let mut group = Vec::new();
+            for station in element.description().coupled() {
+                let place = place(&station)?;
+                let points = place.weights().map(|(point, _)| offsets[place.body] + 3 * point);
+                let components = points.flat_map(|first| first..first + 3);
+                group.extend(
+                    components.map(|at| number[ties.root(at)]).filter(|&n| n != usize::MAX),
+                );
+            }
+            group.sort_unstable();
+            group.dedup();
+            if group.len() > 1 {
+                groups.push(group);
+            }
+        }
         let ordering = reverse_cuthill_mckee(unknowns, &groups);
 
         let mut supported = 0;

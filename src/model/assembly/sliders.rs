@@ -14,7 +14,7 @@ use crate::model::{BeamDefinition, Model, ModelError, Scene};
 const SAME_VELOCITY: f64 = 1e-9;
 
 impl Assembly<'_> {
-    /// The contact of every slider.
+    /// The sliders of the scene with their contacts, in its order.
     pub fn sliders(&self, numbering: &Numbering) -> Result<Vec<Sliding>, ModelError> {
         let mut sliders: Vec<Sliding> = Vec::new();
         for (index, slider) in self.scene.sliders.iter().enumerate() {

@@ -4,7 +4,7 @@ use super::{Assembly, Numbering};
 use crate::beams::BodyDynamics;
 use crate::geometry::{Vec2, perpendicular};
 use crate::model::elements::Site;
-use crate::model::{BeamDefinition, ModelError, StationVelocity};
+use crate::model::{BeamDefinition, ModelError, StationVelocity, Turning};
 
 /// Largest difference of tied start velocities, relative to the velocities of the beam.
 const SAME_VELOCITY: f64 = 1e-9;
@@ -44,7 +44,7 @@ impl Shared {
 }
 
 impl Assembly<'_> {
-    /// The rates of the unknowns at the start [length/time, 1/time].
+    /// The rates of the unknown movements at the start, which fit joints and start velocities [length/time, 1/time].
     pub fn start_rates(&self, numbering: &Numbering) -> Result<Vec<f64>, ModelError> {
         let mut shared = Shared { rates: vec![None; numbering.unknowns] };
         for index in 0..self.scene.beams.len() {
@@ -103,7 +103,7 @@ impl Assembly<'_> {
         let StationVelocity { station, velocity, spin } = velocity;
         if station.beam().is_none() && spin.is_some() {
             let object = format!("start velocity of {}", self.scene.describe(station));
-            return Err(ModelError::ParticleTurned { object, advice: "leave out the spin" });
+            return Err(ModelError::ParticleTurned { object, by: Turning::Spin });
         }
         let place = self.place(station)?;
         let degrees = numbering.degrees_of_freedom[place.body][place.nearest_control_point()];

@@ -9,7 +9,7 @@ use crate::geometry::{Vec2, larger};
 /// A function that is smaller than this at a place is zero there.
 const NO_WEIGHT: f64 = 1e-12;
 
-/// The bodies of a model: beams, then particles. As a slice it is these.
+/// The bodies of a model: beams, then particles, and what is watched on them; it derefs to the slice of them.
 pub struct Bodies {
     all: Vec<Body>,
     /// Of the beams.
@@ -69,7 +69,7 @@ impl Bodies {
         self.trackers.get(section).map(|tracker| tracker.angle)
     }
 
-    /// Where a place is at the start of the step [length].
+    /// The point where a place is at the start of the step [length].
     pub fn position(&self, place: &Place) -> Vec2 {
         place.interpolate(self[place.body].dynamics.control_points())
     }
@@ -88,31 +88,31 @@ impl Bodies {
         self.joined.iter().map(gap).fold(0.0, larger)
     }
 
-    /// Momenta and twice the kinetic energy of all bodies.
+    /// Momenta and twice the kinetic energy of all bodies, from the rates of the unknowns.
     pub fn momenta(&mut self, rates: &[f64]) -> Momenta {
         let mut sum = Momenta::default();
         self.all.iter_mut().for_each(|body| sum += body.momenta(rates));
         sum
     }
 
-    /// The energy of deformation [energy].
+    /// The strain energy of all bodies [energy].
     pub fn strain_energy(&self) -> f64 {
         self.iter().map(|body| body.dynamics.strain_energy()).sum()
     }
 
-    /// Adds `factor · M · rates`.
+    /// Adds `factor · M · rates` of all bodies to `out`, one entry for each unknown.
     pub fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
         self.all.iter_mut().for_each(|body| body.add_inertia(factor, rates, out));
     }
 
-    /// Gives every body its part of the movements.
+    /// Gives every body its part of the increments of the unknowns.
     pub fn gather(&mut self, increments: &[f64]) {
         for body in &mut self.all {
             body.gather(increments);
         }
     }
 
-    /// Accepts the movements that were gathered last.
+    /// Lets all bodies accept the movements that were gathered last.
     pub fn advance(&mut self, rotations: RotationIncrement) {
         for tracker in &mut self.trackers {
             tracker.advance(self.all[tracker.place.body].moved(), rotations);
@@ -120,7 +120,27 @@ impl Bodies {
         self.all.iter_mut().for_each(|body| body.advance(rotations));
     }
 
-    /// The nodes that joints hold where a place is: bodies and control points; none where the place is no node.
+    /// Gives every movement of every control point a number of its own, as if nothing were joined; the numbers that they had.
+    pub fn number_apart(&mut self) -> Vec<Vec<[usize; 3]>> {
+        let mut next = 0;
+        let own = self.iter().map(|body| {
+            let points = body.degrees_of_freedom.iter().map(|_| {
+                next += 3;
+                [next - 3, next - 2, next - 1]
+            });
+            points.collect()
+        });
+        let own = own.collect();
+        self.number_as(own)
+    }
+
+    /// Gives the movements of all control points other numbers; the numbers that they had.
+    pub fn number_as(&mut self, numbers: Vec<Vec<[usize; 3]>>) -> Vec<Vec<[usize; 3]>> {
+        let bodies = self.all.iter_mut().zip(numbers);
+        bodies.map(|(body, own)| std::mem::replace(&mut body.degrees_of_freedom, own)).collect()
+    }
+
+    /// The nodes that joints hold together at a place, as indices of bodies and control points; none where the place is no node.
     pub fn tied_nodes(&self, place: &Place) -> Option<Vec<(usize, usize)>> {
         let mut nodes = vec![node_of(place)?];
         let mut next = 0;
@@ -138,13 +158,13 @@ impl Bodies {
         Some(nodes)
     }
 
-    /// Appends the state at the start of a step.
+    /// Appends the state of all bodies at the start of a step.
     pub fn save(&self, state: &mut Vec<f64>) {
         self.iter().for_each(|body| body.dynamics.save(state));
         self.trackers.iter().for_each(|tracker| tracker.save(state));
     }
 
-    /// Takes the state back, in the order in which it was appended.
+    /// Takes the state of all bodies back, in the order in which it was appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.all.iter_mut().for_each(|body| body.dynamics.restore(next));
         self.trackers.iter_mut().for_each(|tracker| tracker.restore(next));

@@ -51,8 +51,8 @@ impl Body {
         }
     }
 
-    /// From here on works in at most so many parts at once, with the same results: in one, where it is not large, or the
-    /// rows of its parts do not stand one part after another. The number of parts.
+    /// Lets the body work in at most so many parts at once from here on, with the same results: in one, where it is not large, or the
+    /// rows of its parts do not stand one part after another. Gives the number of parts.
     pub fn divide(&mut self, most: usize) -> usize {
         let points = self.dynamics.divide(most);
         let rows_of = |points: &[[usize; 3]]| {
@@ -71,7 +71,7 @@ impl Body {
         self.parts.len() + 1
     }
 
-    /// The values of the unknowns at this body; supported movements are zero.
+    /// Gathers the values of the unknowns at this body, by control point; supported movements are zero.
     pub fn gather(&mut self, values: &[f64]) -> &[Movement] {
         for (movement, degrees) in self.moved.iter_mut().zip(&self.degrees_of_freedom) {
             *movement = degrees.map(|at| values.get(at).copied().unwrap_or(0.0));
@@ -79,7 +79,7 @@ impl Body {
         &self.moved
     }
 
-    /// The movement of a place, from values of the unknowns.
+    /// The movement of a place of this body [length, length, rad], from values of the unknowns.
     pub fn at(&self, place: &Place, values: &[f64]) -> Movement {
         let mut sum = [0.0; 3];
         for (point, share) in place.weights() {
@@ -90,24 +90,24 @@ impl Body {
         sum
     }
 
-    /// The x and y components of a control point, from values of the unknowns.
+    /// The x and y components of a control point of this body, from values of the unknowns.
     pub fn vector_at(&self, point: usize, values: &[f64]) -> Vec2 {
         let [x, y, _] = self.degrees_of_freedom[point];
         let value = |at: usize| values.get(at).copied().unwrap_or(0.0);
         Vec2::new(value(x), value(y))
     }
 
-    /// A control point, and what rounding has cut off it so far [length].
+    /// The place of a control point of this body, and what rounding has cut off it so far [length].
     pub fn precise_point(&self, point: usize) -> (Vec2, Vec2) {
         (self.dynamics.control_points()[point], self.dynamics.remainders()[point])
     }
 
-    /// The movements that were gathered last.
+    /// The movements of the control points of this body that were gathered last.
     pub fn moved(&self) -> &[Movement] {
         &self.moved
     }
 
-    /// Accepts the movements that were gathered last.
+    /// Lets the body accept the movements that were gathered last.
     pub fn advance(&mut self, rotations: RotationIncrement) {
         self.dynamics.advance(&self.moved, rotations);
     }
@@ -181,7 +181,7 @@ impl Body {
         self.scatter(out);
     }
 
-    /// Gives `factor · M` to `add`: row, column and value; several of one place add up.
+    /// Gives the entries of `factor · M` of this body to `add`: row, column and value; several of one place add up.
     pub fn inertia_entries(&self, factor: f64, add: &mut impl FnMut(usize, usize, f64)) {
         self.inertia_entries_of(0..self.degrees_of_freedom.len(), factor, add);
     }
@@ -203,7 +203,7 @@ impl Body {
         });
     }
 
-    /// Adds `factor · M` to the tangent.
+    /// Adds `factor · M` of this body to the tangent.
     pub fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
         let add = |points, mut rows: BandRows<'_>| {
             self.inertia_entries_of(points, factor, &mut |row, column, value| {
@@ -222,7 +222,7 @@ impl Body {
         });
     }
 
-    /// Momenta and twice the kinetic energy.
+    /// Momenta and twice the kinetic energy of this body, from the rates of the unknowns.
     pub fn momenta(&mut self, rates: &[f64]) -> Momenta {
         self.gather(rates);
         self.dynamics.add_inertia(1.0, &self.moved, &mut self.forces);

@@ -2,11 +2,11 @@
 
 use crate::beams::{Movement, Place, Rotation, RotationIncrement};
 
-/// A place whose rotation is advanced with the steps.
+/// A place of a beam whose angle is followed: it is advanced with the steps.
 #[derive(Debug, Clone, Copy)]
 pub struct Tracker {
     pub place: Place,
-    /// Unwrapped angle of the section [rad].
+    /// The unwrapped angle of the followed section [rad].
     pub angle: f64,
     pub rotation: Rotation,
 }
@@ -16,7 +16,7 @@ impl Tracker {
         Self { place, angle: place.tangent_angle, rotation: Rotation::by(place.tangent_angle) }
     }
 
-    /// `Δω` of movements.
+    /// The rotation increment `Δω` of the followed section in some movements.
     pub fn increment(&self, moved: &[Movement]) -> f64 {
         self.place.weights().map(|(point, weight)| weight * moved[point][2]).sum()
     }

@@ -2,14 +2,14 @@
 
 use super::element::Assembled;
 use super::point_mass::Lump;
-use super::{Exchange, ForceElement, Iterate, Weight};
-use crate::beams::RotationIncrement;
+use super::{Exchange, ForceElement, Iterate, Resistance, Weight};
+use crate::beams::{ForceSummary, RotationIncrement, SpanAtRest};
 use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
 use crate::loads::LoadError;
 use crate::model::bodies::{Body, Momenta};
 
-/// The elements of a model: point masses, weight, and what else puts forces on bodies.
+/// The elements of a model: point masses, weight, what else puts forces on bodies, and what resists their movements.
 #[derive(Default)]
 pub struct Elements {
     masses: Vec<Lump>,
@@ -17,38 +17,46 @@ pub struct Elements {
     weight: Option<Weight>,
     /// In the order of the scene.
     forces: Vec<Box<dyn ForceElement>>,
+    /// In the order of the scene.
+    resistances: Vec<Box<dyn Resistance>>,
 }
 
 impl Elements {
     /// The elements that descriptions were built into, and the weight of the beams, if there is gravity.
     pub fn new(parts: impl Iterator<Item = Assembled>, mut weight: Option<Weight>) -> Self {
-        let (mut masses, mut forces) = (Vec::new(), Vec::new());
+        let (mut masses, mut forces, mut resistances) = (Vec::new(), Vec::new(), Vec::new());
         for part in parts {
             match part {
                 Assembled::Mass(mass) => masses.push(mass),
                 Assembled::Force(force) => forces.push(force),
+                Assembled::Resistance(resistance) => resistances.push(resistance),
             }
         }
         weight.iter_mut().for_each(|weight| masses.iter().for_each(|mass| weight.add(mass)));
-        Self { masses, weight, forces }
+        Self { masses, weight, forces, resistances }
     }
 
-    /// The mass of all point masses [mass].
+    /// The mass of all point masses of the model [mass].
     pub fn mass(&self) -> f64 {
         self.masses.iter().map(|mass| mass.mass).sum()
     }
 
-    /// The weight of everything, if there is gravity.
+    /// The weight of all beams and point masses, if there is gravity.
     pub fn weight(&self) -> Option<&dyn ForceElement> {
         self.weight.as_ref().map(|weight| weight as &dyn ForceElement)
     }
 
-    /// What puts forces on bodies besides the weight, in the order of the scene.
+    /// The elements that put forces on bodies besides the weight, in the order of the scene.
     pub fn forces(&self) -> impl Iterator<Item = &dyn ForceElement> + Clone {
         self.forces.iter().map(|force| &**force)
     }
 
-    /// Prepares a step.
+    /// What resists movements of bodies: springs and dampers, in the order of the scene.
+    pub fn resistances(&self) -> impl Iterator<Item = &dyn Resistance> + Clone {
+        self.resistances.iter().map(|resistance| &**resistance)
+    }
+
+    /// Prepares all elements for a step.
     ///
     /// # Errors
     /// When an element has no finite value: its name, and why.
@@ -57,6 +65,7 @@ impl Elements {
         interval: Interval,
         stages: &[Stage],
     ) -> Result<(), (String, LoadError)> {
+        self.resistances.iter_mut().for_each(|resistance| resistance.begin_step(interval));
         self.forces.iter_mut().try_for_each(|force| {
             force.begin_step(interval, stages).map_err(|error| (force.name().to_owned(), error))
         })
@@ -72,7 +81,7 @@ impl Elements {
         })
     }
 
-    /// Whether one may have another value just after a time than just before it.
+    /// Whether an element may have another value just after a time than just before it.
     pub fn may_jump_at(&self, time: f64) -> bool {
         self.forces.iter().any(|force| force.may_jump_at(time))
     }
@@ -82,12 +91,12 @@ impl Elements {
         self.forces.iter().map(|force| force.followed_sections()).sum()
     }
 
-    /// Adds `factor · M · rates`.
+    /// Adds `factor · M · rates` of all point masses to `out`, one entry for each unknown.
     pub fn add_inertia(&self, bodies: &[Body], factor: f64, rates: &[f64], out: &mut [f64]) {
         self.masses.iter().for_each(|mass| mass.add_inertia(bodies, factor, rates, out));
     }
 
-    /// Gives `factor · M` to `add`: row, column and value; several of one place add up.
+    /// Gives the entries of `factor · M` of all point masses to `add`: row, column and value; several of one place add up.
     pub fn inertia_entries(
         &self,
         bodies: &[Body],
@@ -99,12 +108,23 @@ impl Elements {
         masses.for_each(|mass| mass.inertia_entries(bodies, factor, unknowns, add));
     }
 
-    /// Adds momenta and twice the kinetic energy of all masses to a sum.
+    /// Adds momenta and twice the kinetic energy of all point masses to a sum.
     pub fn add_momenta(&self, bodies: &[Body], rates: &[f64], sum: &mut Momenta) {
         self.masses.iter().for_each(|mass| *sum += mass.momenta(bodies, rates));
     }
 
-    /// Subtracts the forces of an iterate; the largest force and the largest moment of an element on a control point.
+    /// Twice the kinetic energy of the masses on a body [energy].
+    pub fn twice_kinetic_on(&self, bodies: &[Body], body: usize, rates: &[f64]) -> f64 {
+        let on_body = self.masses.iter().filter(|mass| mass.place.body == body);
+        on_body.map(|mass| mass.momenta(bodies, rates).twice_kinetic).sum()
+    }
+
+    /// The potential of the weight of a body and what stands on it [energy].
+    pub fn potential_of(&self, bodies: &[Body], body: usize) -> f64 {
+        self.weight.as_ref().map_or(0.0, |weight| weight.energy_of(bodies, body))
+    }
+
+    /// Subtracts the forces of all elements in an iterate; gives the largest force and the largest moment of an element on a control point.
     pub fn subtract_from(&mut self, at: Iterate<'_>, out: &mut [f64]) -> (f64, f64) {
         let weight = self.weight.iter_mut().map(|weight| weight as &mut dyn ForceElement);
         let forces = self.forces.iter_mut().map(|force| &mut **force as &mut dyn ForceElement);
@@ -114,16 +134,83 @@ impl Elements {
         })
     }
 
-    /// Adds the derivative of minus the forces by the increments; there are so many unknowns.
+    /// Adds the derivative of minus the forces of all elements by the increments to the tangent; there are `unknowns` increments.
     pub fn add_tangent(&self, at: Iterate<'_>, unknowns: usize, tangent: &mut BandedMatrix) {
         self.forces.iter().for_each(|force| force.add_tangent(at, unknowns, tangent));
     }
 
-    /// What all gave in the step of the movements that the bodies gathered last.
+    /// Prepares a movement that takes no time.
+    pub fn begin_movement(&mut self) {
+        self.resistances.iter_mut().for_each(|resistance| resistance.begin_movement());
+    }
+
+    /// Adds what resists movements, with its forces as they are; the largest that was met.
+    pub fn add_resistance(&mut self, at: Iterate<'_>, out: &mut [f64], summary: &mut ForceSummary) {
+        for resistance in &mut self.resistances {
+            summary.join(&resistance.add_forces(at, out));
+        }
+    }
+
+    /// Adds what resists movements, condensed, and its derivative by the increments; there are so many unknowns.
+    pub fn add_linearised_resistance(
+        &mut self,
+        at: Iterate<'_>,
+        out: &mut [f64],
+        unknowns: usize,
+        tangent: &mut BandedMatrix,
+    ) {
+        for resistance in &mut self.resistances {
+            resistance.add_linearised_forces(at, out, unknowns, tangent);
+        }
+    }
+
+    /// Adds `weight` times the forces that would close the mismatch met by the last forces.
+    pub fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]) {
+        self.resistances.iter().for_each(|resistance| {
+            resistance.add_mismatch_forces(bodies, weight, out);
+        });
+    }
+
+    /// Carries a correction of the increments over to the forces of what resists movements.
+    pub fn correct(&mut self, bodies: &[Body], correction: &[f64]) {
+        self.resistances.iter_mut().for_each(|resistance| resistance.correct(bodies, correction));
+    }
+
+    /// The energy that springs store [energy].
+    pub fn stored(&self) -> f64 {
+        self.resistances().map(Resistance::stored).fold(0.0, |sum, stored| sum + stored)
+    }
+
+    /// What dampers have dissipated since the start [energy].
+    pub fn dissipated(&self) -> f64 {
+        self.resistances().map(Resistance::dissipated).fold(0.0, |sum, dissipated| sum + dissipated)
+    }
+
+    /// The forces in springs and dampers at the start of the step with such rates of the unknowns [force, force·length].
+    pub fn resisting(&self, bodies: &[Body], rates: &[f64]) -> Vec<f64> {
+        self.resistances().map(|resistance| resistance.force_now(bodies, rates)).collect()
+    }
+
+    /// Adds such forces in springs and dampers to those on bodies, at the start of the step.
+    pub fn add_resisting(&self, bodies: &[Body], forces: &[f64], out: &mut [f64]) {
+        for (resistance, force) in self.resistances().zip(forces) {
+            resistance.add_force(bodies, *force, out);
+        }
+    }
+
+    /// Gives how springs resist small movements at rest: degrees of freedom, and their rows.
+    pub fn each_at_rest(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanAtRest)) {
+        self.resistances().for_each(|resistance| resistance.at_rest(bodies, take));
+    }
+
+    /// The work and impulse that all elements gave in the step of the movements that the bodies gathered last.
     pub fn exchange(&self, bodies: &[Body], duration: f64) -> Exchange {
         let mut sum = Exchange::default();
         for element in self.forces().chain(self.weight()) {
             sum += element.exchange(bodies, duration);
+        }
+        for resistance in self.resistances() {
+            sum += resistance.exchange(bodies, duration);
         }
         sum
     }
@@ -134,18 +221,21 @@ impl Elements {
         stored.filter_map(|element| element.energy(bodies)).reduce(|a, b| a + b).unwrap_or(0.0)
     }
 
-    /// Accepts the movements that the bodies gathered last.
+    /// Lets all elements accept the movements that the bodies gathered last.
     pub fn advance(&mut self, bodies: &[Body], rotations: RotationIncrement) {
         self.forces.iter_mut().for_each(|force| force.advance(bodies, rotations));
+        self.resistances.iter_mut().for_each(|resistance| resistance.advance(bodies));
     }
 
-    /// Appends the state at the start of a step.
+    /// Appends the state of all elements at the start of a step.
     pub fn save(&self, state: &mut Vec<f64>) {
         self.forces.iter().for_each(|force| force.save(state));
+        self.resistances.iter().for_each(|resistance| resistance.save(state));
     }
 
-    /// Takes the state back, in the order in which it was appended.
+    /// Takes the state of all elements back, in the order in which it was appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.forces.iter_mut().for_each(|force| force.restore(next));
+        self.resistances.iter_mut().for_each(|resistance| resistance.restore(next));
     }
 }

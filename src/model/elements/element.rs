@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::point_mass::Lump;
-use super::{ForceElement, PointMass};
+use super::{ForceElement, PointMass, Resistance, Spring};
 use crate::beams::{BodyDynamics, Mesh, Place, Station};
 use crate::geometry::GeometryError;
 use crate::loads::{Load, Schedule};
@@ -14,41 +14,67 @@ use crate::model::ModelError;
 /// A further kind is a variant, and a file in `model/elements` with its [`Description`] and its [`ForceElement`].
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum Element {
-    /// A mass at a station.
+    /// The element is a mass at a station.
     PointMass(PointMass),
-    /// A force, a moment or a force per length that follows a schedule.
+    /// A load: a force, a moment or a force per length that follows a schedule.
     Load(Load),
+    /// A spring, a damper or a tendon.
+    Spring(Spring),
 }
 
 impl Element {
-    /// What every kind of element can be asked.
+    /// What it is, in a word.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::PointMass(_) => "mass",
+            Self::Load(_) => "load",
+            Self::Spring(_) => "spring",
+        }
+    }
+
+    /// Its name, if it has one.
+    pub(in crate::model) fn name_mut(&mut self) -> Option<&mut String> {
+        match self {
+            Self::PointMass(_) => None,
+            Self::Load(load) => Some(&mut load.name),
+            Self::Spring(spring) => Some(&mut spring.name),
+        }
+    }
+
+    /// The element as what every kind of element can be asked.
     pub(in crate::model) fn description(&self) -> &dyn Description {
         match self {
             Self::PointMass(mass) => mass,
             Self::Load(load) => load,
+            Self::Spring(spring) => spring,
         }
     }
 }
 
-/// A kind of element as it is described.
+/// A kind of element as a scene describes it.
 pub trait Description {
-    /// Checks its numbers and its stations.
+    /// Checks the numbers and the stations of an element.
     ///
     /// # Errors
     /// When a number is out of its range, or a station is none of the scene.
     fn check(&self, setting: &dyn Setting) -> Result<(), ModelError>;
 
-    /// Stations at which it needs a node of the mesh.
+    /// The stations at which the element needs a node of the mesh.
     fn nodes(&self) -> Vec<Station> {
         Vec::new()
     }
 
-    /// The schedule that it follows, with its name; steps end where a schedule jumps or bends.
+    /// Stations whose movements it ties together, however far apart they are: the order of the unknowns keeps them near each other.
+    fn coupled(&self) -> Vec<Station> {
+        Vec::new()
+    }
+
+    /// The schedule that the element follows, with the element's name; steps end where a schedule jumps or bends.
     fn schedule(&self) -> Option<(&str, &Schedule)> {
         None
     }
 
-    /// What it is in a model.
+    /// Builds the element into a model: what it is there.
     ///
     /// # Errors
     /// When it cannot act where it is.
@@ -57,15 +83,17 @@ pub trait Description {
 
 /// What becomes of an element in a model.
 pub enum Assembled {
-    /// A part of the inertia.
+    /// The element becomes a part of the inertia.
     Mass(Lump),
-    /// Forces on bodies.
+    /// The element becomes forces on bodies.
     Force(Box<dyn ForceElement>),
+    /// What resists movements of bodies.
+    Resistance(Box<dyn Resistance>),
 }
 
 /// What the check of an element may ask of its scene.
 pub trait Setting {
-    /// A station in words.
+    /// A station of the scene in words.
     fn describe(&self, station: &Station) -> String;
 
     /// Refuses a station that is none of the scene; `object` is what is there, in words.
@@ -80,21 +108,21 @@ pub trait Site {
     /// The place of a station on the mesh of its body.
     ///
     /// # Errors
-    /// When it lies outside its beam.
+    /// When the station lies outside its beam.
     fn place(&self, station: &Station) -> Result<Place, ModelError>;
 
     /// The place of a beam at a parameter of its mesh.
     ///
     /// # Errors
-    /// When it lies outside the mesh.
+    /// When the parameter lies outside the mesh.
     fn place_at(&self, beam: usize, parameter: f64) -> Result<Place, ModelError>;
 
-    /// The mesh of a beam.
+    /// The mesh of a beam, by its index.
     fn mesh(&self, beam: usize) -> &Mesh;
 
-    /// A body at its start: beams come first, then particles.
+    /// A body at its start, by its index: beams come first, then particles.
     fn body(&self, index: usize) -> &dyn BodyDynamics;
 
-    /// An error of geometry as one of a beam.
+    /// Wraps an error of geometry as one of a beam, by its index.
     fn wrong(&self, beam: usize, error: GeometryError) -> ModelError;
 }

@@ -8,19 +8,19 @@ pub struct Exchange {
     pub work: f64,
     pub impulse: Vec2,
     pub angular_impulse: f64,
-    /// Sums of magnitudes, which do not cancel.
+    /// The sum of the magnitudes of all impulses, which do not cancel [force·time].
     pub gross_impulse: f64,
     pub gross_angular_impulse: f64,
 }
 
 impl Exchange {
-    /// That of a single force or moment.
+    /// The exchange of a single force or moment: its work, impulse and angular impulse.
     pub fn of(work: f64, impulse: Vec2, angular_impulse: f64) -> Self {
         let (gross_impulse, gross_angular_impulse) = (impulse.norm(), angular_impulse.abs());
         Self { work, impulse, angular_impulse, gross_impulse, gross_angular_impulse }
     }
 
-    /// That of a part of a step which leads back in time: it takes away what the other parts give twice.
+    /// The exchange of a part of a step that leads back in time: it takes away what the other parts give twice.
     pub fn taken_back(self) -> Self {
         Self {
             gross_impulse: -self.gross_impulse,

@@ -19,7 +19,7 @@ pub struct Follower {
 }
 
 impl Follower {
-    /// A force in the frame of the section at a place.
+    /// A follower force `force` [force] in the frame of the section at a place.
     pub fn new(place: Place, force: Vec2) -> Self {
         let tracker = Tracker::new(place);
         Self { tracker, force, carried: Vec2::zeros(), current: Vec2::zeros() }
@@ -41,7 +41,7 @@ impl Follower {
         (self.carried, self.current) = (Vec2::zeros(), Vec2::zeros());
     }
 
-    /// Subtracts `factor` times the force of an iterate.
+    /// Subtracts `factor` times the follower force in an iterate from `out`.
     pub fn subtract_from(&mut self, at: Iterate<'_>, factor: f64, out: &mut [f64]) {
         let (rotation, ..) = self.rotations(at);
         let force = rotation.to_space(self.force) * factor;
@@ -54,12 +54,12 @@ impl Follower {
         }
     }
 
-    /// The largest component of the force.
+    /// The largest component of the follower force [force].
     pub fn largest(&self) -> f64 {
         self.force.amax()
     }
 
-    /// Adds the derivative of minus `weight` times `factor` times the force by the increments.
+    /// Adds the derivative of minus `weight` times `factor` times the follower force by the increments to the tangent.
     pub fn add_tangent(
         &self,
         at: Iterate<'_>,
@@ -87,7 +87,7 @@ impl Follower {
         }
     }
 
-    /// Adds to a sum what it gave in the step of the movements that the bodies gathered last.
+    /// Adds to a sum the work and impulse of the follower force in the step of the movements that the bodies gathered last.
     pub fn add_exchange(&self, bodies: &[Body], duration: f64, sum: &mut Exchange) {
         let body = self.body(bodies);
         let force = self.carried + self.current;

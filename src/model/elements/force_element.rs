@@ -7,7 +7,7 @@ use crate::linalg::BandedMatrix;
 use crate::loads::LoadError;
 use crate::model::bodies::Body;
 
-/// Where forces of a stage are taken. At the ends of a step increments of the angle itself are interpolated.
+/// The shares of a step at which the forces of a stage are taken. At the ends of a step increments of the angle itself are interpolated.
 pub fn collocation(stage: Stage) -> Collocation {
     let (tau, sigma, rotations) = match stage {
         Stage::Start => (0.0, 0.0, RotationIncrement::Angle),
@@ -21,13 +21,13 @@ pub fn collocation(stage: Stage) -> Collocation {
 /// The iterate of a step, in which an element is asked for its forces.
 #[derive(Clone, Copy)]
 pub struct Iterate<'a> {
-    /// Beams, then particles, at the start of the step.
+    /// The beams, then the particles of the model, at the start of the step.
     pub bodies: &'a [Body],
-    /// Where forces are taken.
+    /// The stage of the step at which forces are taken.
     pub stage: Stage,
     /// The movements of the unknowns from the start of the step on [length, rad].
     pub increments: &'a [f64],
-    /// By what forces are multiplied.
+    /// The factor by which forces are multiplied [-].
     pub weight: f64,
 }
 
@@ -37,7 +37,7 @@ pub struct Iterate<'a> {
 /// forces that do exactly the work by which its energy changes (a discrete gradient), and keeps that energy; what other elements give
 /// is work. What an element does not have, it need not implement. It is called by dynamic dispatch, once an element and iterate.
 pub trait ForceElement {
-    /// What it is called in messages.
+    /// The name of the element in messages.
     fn name(&self) -> &str;
 
     /// Prepares a step that takes forces at the given stages: evaluates what depends on time only.
@@ -48,7 +48,7 @@ pub trait ForceElement {
         Ok(())
     }
 
-    /// Takes the value that it has just after a time, at the end of any movement.
+    /// Gives the element the value that it has just after a time, at the end of any movement.
     ///
     /// # Errors
     /// When it has no finite value then.
@@ -56,48 +56,48 @@ pub trait ForceElement {
         Ok(())
     }
 
-    /// Whether it may have another value just after a time than just before it.
+    /// Whether the element may have another value just after a time than just before it.
     fn may_jump_at(&self, _time: f64) -> bool {
         false
     }
 
-    /// Subtracts the forces on bodies in an iterate; the largest force and the largest moment of the whole element on a control point.
+    /// Subtracts the forces on bodies in an iterate; gives the largest force and the largest moment of the whole element on a control point.
     fn subtract_from(&mut self, at: Iterate<'_>, out: &mut [f64]) -> (f64, f64);
 
-    /// Adds the derivative of minus the forces by the increments; there are so many unknowns.
+    /// Adds the derivative of minus the element's forces by the increments to the tangent; there are `_unknowns` increments.
     fn add_tangent(&self, _at: Iterate<'_>, _unknowns: usize, _tangent: &mut BandedMatrix) {}
 
-    /// What it gave in the step of the movements that the bodies gathered last; the change of its own energy is no work.
+    /// What the element gave in the step of the movements that the bodies gathered last; the change of its own energy is no work.
     fn exchange(&self, bodies: &[Body], duration: f64) -> Exchange;
 
-    /// The energy that is stored in it at the start of the step, if it has one [energy].
+    /// The energy that is stored in the element at the start of the step, if it has one [energy].
     fn energy(&self, _bodies: &[Body]) -> Option<f64> {
         None
     }
 
-    /// Whether its forces turn with a section, so that they have no potential.
+    /// Whether the element's forces turn with a section, so that they have no potential.
     fn turns(&self) -> bool {
         false
     }
 
-    /// The number of sections whose angle it follows.
+    /// The number of sections whose angle the element follows.
     fn followed_sections(&self) -> usize {
         0
     }
 
-    /// Accepts the movements that the bodies gathered last.
+    /// Lets the element accept the movements that the bodies gathered last.
     fn advance(&mut self, _bodies: &[Body], _rotations: RotationIncrement) {}
 
-    /// Appends the state at the start of a step.
+    /// Appends the state of the element at the start of a step.
     fn save(&self, _state: &mut Vec<f64>) {}
 
-    /// Takes the state back, in the order in which it was appended.
+    /// Takes the state of the element back, in the order in which it was appended.
     fn restore(&mut self, _next: &mut dyn FnMut() -> f64) {}
 
-    /// How a step uses it, in words, with any of these methods.
+    /// How a step uses the element, in words, with any of these methods.
     fn explain(&self, methods: &[Method]) -> String;
 
-    /// How many functions of scripts it calls.
+    /// The number of functions of scripts that the element calls.
     fn functions(&self) -> usize {
         0
     }

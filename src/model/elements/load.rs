@@ -9,9 +9,9 @@ use crate::geometry::{GaussRule, Vec2};
 use crate::integrators::{Interval, Method, Stage};
 use crate::linalg::BandedMatrix;
 use crate::loads::{Frame, Load, LoadError, LoadKind, Schedule, Side, VALUES_OF_A_MEAN};
-use crate::model::ModelError;
 use crate::model::bodies::Body;
 use crate::model::words::{finite, in_words, plural};
+use crate::model::{ModelError, Turning};
 
 impl Description for Load {
     fn check(&self, setting: &dyn Setting) -> Result<(), ModelError> {
@@ -40,8 +40,8 @@ impl Description for Load {
         | LoadKind::Force { station, frame: Frame::Follower, .. } = &self.kind
             && let BodyIndex::Particle(_) = station.body
         {
-            let advice = "only a force of fixed direction can act on it";
-            return Err(ModelError::ParticleTurned { object: self.name.clone(), advice });
+            let (object, by) = (self.name.clone(), Turning::Load);
+            return Err(ModelError::ParticleTurned { object, by });
         }
         let action = match &self.kind {
             LoadKind::Force { station, force, frame: Frame::Dead } => {

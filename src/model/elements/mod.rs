@@ -1,14 +1,19 @@
-//! What acts on the bodies: point masses, weight, loads and supports. A further kind of element is a file here and a variant of
+//! What acts on the bodies: point masses, weight, loads, springs and supports. A further kind of element is a file here and a variant of
 //! [`Element`].
 
 mod all;
 mod element;
+mod elongation;
 mod exchange;
 mod follower;
 mod force_element;
 mod load;
 mod pattern;
 mod point_mass;
+mod resistance;
+mod restoring;
+mod spring;
+mod spring_damper;
 mod supports;
 mod weight;
 
@@ -17,5 +22,8 @@ pub use element::{Element, Setting, Site};
 pub use exchange::Exchange;
 pub use force_element::{ForceElement, Iterate, collocation};
 pub use point_mass::PointMass;
+pub use resistance::Resistance;
+pub use restoring::RestoringLaw;
+pub use spring::{Anchor, Origin, Spring, SpringKind};
 pub use supports::{Support, Supports};
 pub use weight::Weight;

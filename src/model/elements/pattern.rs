@@ -15,21 +15,21 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// A force and a moment at a place.
+    /// The pattern of a force and a moment at a place.
     pub fn at(place: &Place, force: Movement) -> Self {
         let mut pattern = Self::default();
         pattern.push_at(place, force);
         pattern
     }
 
-    /// Adds a force and a moment at a place, in shares of the functions there.
+    /// Adds a force and a moment at a place to the pattern, in shares of the functions there.
     pub fn push_at(&mut self, place: &Place, force: Movement) {
         for (point, share) in place.weights() {
             self.push(place.body, point, force.map(|value| share * value));
         }
     }
 
-    /// Adds a force and a moment on a control point.
+    /// Adds a force and a moment on a control point to the pattern.
     pub fn push(&mut self, body: usize, point: usize, force: Movement) {
         let [x, y, moment] = force.map(f64::abs);
         self.largest = (self.largest.0.max(x).max(y), self.largest.1.max(moment));
@@ -44,12 +44,12 @@ impl Pattern {
         }
     }
 
-    /// The largest force and the largest moment on a control point.
+    /// The largest force [force] and the largest moment [force·length] on a control point of the pattern times `factor`.
     pub fn largest(&self, factor: f64) -> (f64, f64) {
         (factor.abs() * self.largest.0, factor.abs() * self.largest.1)
     }
 
-    /// What it gives in a step of the movements that the bodies gathered last, acting at their midpoint.
+    /// The work and impulse of the pattern in a step of the movements that the bodies gathered last, acting at their midpoint.
     pub fn exchange(&self, bodies: &[Body], factor: f64, duration: f64) -> Exchange {
         let mut sum = Exchange::default();
         for (body, point, [fx, fy, moment]) in &self.entries {
@@ -65,11 +65,16 @@ impl Pattern {
         sum
     }
 
-    /// `Σ f·x`: minus the potential of these forces, were they constant [energy].
+    /// The sum `Σ f·x` of the pattern's forces times places: minus the potential of these forces, were they constant [energy].
     pub fn potential_work(&self, bodies: &[Body]) -> f64 {
+        self.potential_work_on(bodies, |_| true)
+    }
+
+    /// The part of it that belongs to some bodies [energy].
+    pub fn potential_work_on(&self, bodies: &[Body], counts: impl Fn(usize) -> bool) -> f64 {
         let work = |(body, point, [fx, fy, _]): &(usize, usize, Movement)| {
             bodies[*body].dynamics.control_points()[*point].dot(&Vec2::new(*fx, *fy))
         };
-        self.entries.iter().map(work).sum()
+        self.entries.iter().filter(|(body, ..)| counts(*body)).map(work).sum()
     }
 }

@@ -5,17 +5,17 @@ use serde::{Deserialize, Serialize};
 use super::element::{Assembled, Description, Setting, Site};
 use crate::beams::{Place, Station};
 use crate::geometry::{Vec2, cross};
-use crate::model::ModelError;
 use crate::model::bodies::{Body, Momenta};
+use crate::model::{ModelError, Turning};
 
-/// A mass at a station.
+/// A point mass: a mass at a station, as a scene describes it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PointMass {
-    /// Where it is.
+    /// The station at which the point mass is.
     pub station: Station,
-    /// How heavy it is [mass].
+    /// The mass of the point mass [mass].
     pub mass: f64,
-    /// Its inertia against rotation [mass·length²].
+    /// The inertia of the point mass against rotation [mass·length²].
     pub rotary_inertia: f64,
 }
 
@@ -35,8 +35,8 @@ impl Description for PointMass {
             return refused("rotary inertia", *rotary_inertia, allowed);
         }
         if *rotary_inertia > 0.0 && station.beam().is_none() {
-            let advice = "leave out the rotary inertia";
-            return Err(ModelError::ParticleTurned { object: object(), advice });
+            let by = Turning::RotaryInertia;
+            return Err(ModelError::ParticleTurned { object: object(), by });
         }
         Ok(())
     }
@@ -47,7 +47,7 @@ impl Description for PointMass {
     }
 }
 
-/// A mass at a place of a body: it moves with the control points whose functions are non-zero there.
+/// A point mass at a place of a body of a model: it moves with the control points whose functions are not zero there.
 #[derive(Debug, Clone, Copy)]
 pub struct Lump {
     pub place: Place,
@@ -60,7 +60,7 @@ impl Lump {
         [self.mass, self.mass, self.rotary_inertia]
     }
 
-    /// Adds `factor · M · rates`.
+    /// Adds `factor · M · rates` of the point mass to `out`, one entry for each unknown.
     pub fn add_inertia(&self, bodies: &[Body], factor: f64, rates: &[f64], out: &mut [f64]) {
         let body = &bodies[self.place.body];
         let rate = body.at(&self.place, rates);
@@ -73,7 +73,7 @@ impl Lump {
         }
     }
 
-    /// Gives `factor · M` to `add`: row, column and value; several of one place add up.
+    /// Gives the entries of `factor · M` of the point mass to `add`: row, column and value; several of one place add up.
     pub fn inertia_entries(
         &self,
         bodies: &[Body],
@@ -94,7 +94,7 @@ impl Lump {
         }
     }
 
-    /// Momenta and twice the kinetic energy.
+    /// Momenta and twice the kinetic energy of the point mass.
     pub fn momenta(&self, bodies: &[Body], rates: &[f64]) -> Momenta {
         let body = &bodies[self.place.body];
         let [vx, vy, spin] = body.at(&self.place, rates);

@@ -28,17 +28,17 @@ impl Support {
 pub struct Supports(Vec<Support>);
 
 impl Supports {
-    /// In the order of their degrees of freedom.
+    /// The supports of a model, given in the order of their degrees of freedom.
     pub fn new(all: Vec<Support>) -> Self {
         Self(all)
     }
 
-    /// How many degrees of freedom are held.
+    /// The number of supported degrees of freedom.
     pub fn count(&self) -> usize {
         self.0.len()
     }
 
-    /// All of them.
+    /// The supports, in the order of their degrees of freedom.
     pub fn iter(&self) -> impl Iterator<Item = &Support> {
         self.0.iter()
     }
@@ -52,7 +52,7 @@ impl Supports {
         self.0.iter().zip(residual[first..].iter().copied())
     }
 
-    /// What they give in such a time with the reactions of a residual.
+    /// The work and impulse that the supports give in a time with the reactions of a residual.
     pub fn exchange(&self, bodies: &[Body], residual: &[f64], duration: f64) -> Exchange {
         let mut sum = Exchange::default();
         for (support, reaction) in self.with_reactions(residual) {

@@ -15,7 +15,7 @@ pub struct Weight {
 }
 
 impl Weight {
-    /// That of beams with their sections, in a field of gravity [length/time²].
+    /// The weight of beams with their sections, in a field of gravity [length/time²].
     pub fn new<'a>(
         gravity: Vec2,
         beams: impl Iterator<Item = (&'a dyn BodyDynamics, &'a Section)>,
@@ -30,7 +30,12 @@ impl Weight {
         Self { gravity, forces }
     }
 
-    /// Adds that of a point mass.
+    /// The part of the potential that belongs to a body [energy].
+    pub fn energy_of(&self, bodies: &[Body], body: usize) -> f64 {
+        -self.forces.potential_work_on(bodies, |other| other == body)
+    }
+
+    /// Adds the weight of a point mass.
     pub fn add(&mut self, mass: &Lump) {
         for (point, share) in mass.place.weights() {
             let force = self.gravity * (share * mass.mass);

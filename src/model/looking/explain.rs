@@ -4,41 +4,41 @@ use crate::beams::PointCounts;
 use crate::geometry::Vec2;
 use crate::integrators::{Constraints, INTEGRATORS, Mechanism, Method};
 use crate::joints::{Component, Joint, Partner, SLIDING_RULES, StartVelocities};
-use crate::model::elements::ForceElement;
+use crate::model::elements::{ForceElement, Resistance};
 use crate::model::words::{MOST, in_words, plural};
 use crate::model::{BeamDefinition, Model, ModelError, Scene};
 
-/// A part of the mechanics.
+/// A part of the mechanics, and whether a simulation uses it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Part {
-    /// What it is.
+    /// The part of the mechanics in words.
     pub name: String,
-    /// Whether it is used.
+    /// Whether the part is used, and how or what is saved.
     pub usage: Usage,
 }
 
-/// Whether a part is used.
+/// Whether a part of the mechanics is used.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Usage {
-    /// It is: how much, or why.
+    /// The part is used: how much, or why.
     Used(String),
-    /// It is not: what is saved.
+    /// The part is not used: what is saved by that.
     LeftOut(String),
 }
 
 impl Part {
-    /// A part that is used.
+    /// A part of the mechanics that is used, and how.
     pub fn used(name: impl Into<String>, how: impl Into<String>) -> Self {
         Self { name: name.into(), usage: Usage::Used(how.into()) }
     }
 
-    /// Steps, in words, and the times at which they are cut.
+    /// The steps of a simulation as a part that is used: their size in words, and the times at which they are cut.
     pub fn steps(size: &str, cuts: &[f64]) -> Self {
         let cut = in_words(cuts).map(|times| format!("cut ahead at t = {times}"));
         Self::used("steps", format!("{size}, {}", cut.unwrap_or("no cuts ahead".to_owned())))
     }
 
-    /// A part that is left out.
+    /// A part of the mechanics that is left out, and what is saved by that.
     pub fn left_out(name: impl Into<String>, saved: impl Into<String>) -> Self {
         Self { name: name.into(), usage: Usage::LeftOut(saved.into()) }
     }
@@ -64,6 +64,7 @@ impl Model {
         parts.extend([self.explain_joints(scene), self.explain_supports(scene)]);
         parts.extend([self.explain_sliders(scene), self.explain_gravity(methods)]);
         parts.extend(self.explain_loads(methods));
+        parts.extend(self.explain_springs());
         parts.extend([self.explain_angles(), explain_start(scene)]);
         parts
     }
@@ -177,6 +178,23 @@ impl Model {
             let scripts = plural(rest.iter().sum(), "function");
             let how = format!("{} more, {scripts} of scripts among them", rest.len());
             parts.push(Part::used("loads", how));
+        }
+        parts
+    }
+
+    fn explain_springs(&self) -> Vec<Part> {
+        let all = self.elements().resistances();
+        let one = |spring: &dyn Resistance| Part::used(spring.name(), spring.explain());
+        let mut parts: Vec<Part> = all.clone().take(MOST).map(one).collect();
+        if parts.is_empty() {
+            return vec![Part::left_out(
+                "springs",
+                "nothing beside the beams stores energy, nothing damps",
+            )];
+        }
+        let rest = all.skip(MOST).count();
+        if rest > 0 {
+            parts.push(Part::used("springs", format!("{rest} more")));
         }
         parts
     }

@@ -2,12 +2,18 @@
 
 mod along;
 mod explain;
+mod joint_forces;
 mod placement;
 mod queries;
 mod section_forces;
+mod sensing;
 mod sliders;
+mod springs;
 
 pub use along::AlongSample;
 pub use explain::{Part, Usage};
+pub use joint_forces::Transmission;
 pub use placement::{Distance, Placement};
 pub use section_forces::{CrossSection, SectionSample};
+pub use sensing::Sensing;
+pub use springs::SpringState;

@@ -4,14 +4,14 @@ use crate::elementary::atan2;
 use crate::geometry::{Vec2, cross, larger};
 use crate::model::Model;
 
-/// Control points of all bodies, and normals of their sections.
+/// The placement of a model: where its control points are, and the normals of its sections.
 #[derive(Debug, Clone, Default)]
 pub struct Placement {
     points: Vec<Vec2>,
     normals: Vec<Vec2>,
 }
 
-/// How far two placements are apart.
+/// The distance between two placements of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Distance {
     /// The largest distance between control points [length].
@@ -33,7 +33,7 @@ impl Placement {
 }
 
 impl Model {
-    /// Writes where everything is over what a placement holds.
+    /// Writes where everything in the model is over what a placement holds.
     pub fn write_placement(&self, placement: &mut Placement) {
         placement.points.clear();
         placement.normals.clear();

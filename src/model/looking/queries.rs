@@ -17,12 +17,12 @@ impl Model {
         self.bodies().iter().map(|body| body.dynamics.control_points())
     }
 
-    /// Where a place is [length].
+    /// The point where a place of the model is [length].
     pub fn position(&self, place: &Place) -> Vec2 {
         self.bodies().position(place)
     }
 
-    /// How fast a place moves [length/time].
+    /// The velocity of a place of the model [length/time].
     pub fn velocity(&self, place: &Place) -> Vec2 {
         let [x, y, _] = self.bodies()[place.body].at(place, self.rates());
         Vec2::new(x, y)
@@ -30,16 +30,25 @@ impl Model {
 
     /// The angle of the section at a station, unwrapped [rad]; none when the scene did not know it at the start.
     pub fn angle(&self, scene: &Scene, station: &Station) -> Option<f64> {
+        self.section_angle(self.followed_section(scene, station)?)
+    }
+
+    /// The angle of a section that is followed, by its number, unwrapped [rad].
+    pub fn section_angle(&self, section: usize) -> Option<f64> {
+        self.bodies().angle(section)
+    }
+
+    /// The number of the section at a station among those that are followed; none when the scene did not know it at the start.
+    pub fn followed_section(&self, scene: &Scene, station: &Station) -> Option<usize> {
         let beam = station.beam()?;
-        let section = if station.arc_length == 0.0 {
+        Some(if station.arc_length == 0.0 {
             2 * beam
         } else if station.arc_length == scene.beams[beam].axis.length() {
             2 * beam + 1
         } else {
             let known = scene.stations.iter().position(|other| other == station)?;
             2 * scene.beams.len() + known
-        };
-        self.bodies().angle(section)
+        })
     }
 
     /// The angles of the sections at the start and the end of a beam, unwrapped [rad].
@@ -48,7 +57,7 @@ impl Model {
         (angle(2 * beam), angle(2 * beam + 1))
     }
 
-    /// Which unknown movements are rotations.
+    /// Which unknown movements of the model are rotations, one entry for each.
     pub fn rotations(&self) -> &[bool] {
         self.unknown_movements().rotations()
     }
@@ -61,7 +70,7 @@ impl Model {
         self.bodies().iter().map(of_body).collect()
     }
 
-    /// The first load that turns with a section, which has no potential.
+    /// The name of the first load of the model that turns with a section, which has no potential.
     pub fn follower(&self) -> Option<&str> {
         self.elements().forces().find(|element| element.turns()).map(|element| element.name())
     }

@@ -12,7 +12,7 @@ impl Model {
         self.sliders().iter().map(|slider| slider.name.as_str())
     }
 
-    /// What a slider does.
+    /// What a slider does at present, by its index: slide, rest at a stop, or fly free.
     pub fn slider_state(&self, slider: usize) -> SliderState {
         self.slider(slider).state
     }
@@ -44,9 +44,9 @@ impl Model {
         self.slider(slider).arc_length()
     }
 
-    /// How much of its master, as drawn, a slider passes in a unit of time, positive towards its end [length/time].
+    /// How much of its master, as drawn, a slider passes in a unit of time, positive towards the master's end [length/time].
     ///
-    /// That of the present velocities; zero for one that is held or released.
+    /// The speed is that of the present velocities; zero for a slider that is held or released.
     pub fn slider_speed(&self, slider: usize) -> f64 {
         self.slider(slider).speed(self.bodies(), self.rates())
     }

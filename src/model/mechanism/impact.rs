@@ -15,18 +15,18 @@ use crate::model::sliders::Blow;
 const GIVES: f64 = 1e-9;
 
 /// A slider, and the component of its relative velocity on which an impulse acts.
-type Direction = (usize, Vec2);
+pub(super) type Direction = (usize, Vec2);
 
 /// What a unit impulse transmits, and how the velocities answer.
-struct Answer {
+pub(super) struct Answer {
     /// `Gᵀ`, on all degrees of freedom.
-    forces: Vec<f64>,
+    pub(super) forces: Vec<f64>,
     /// `M⁻¹ Gᵀ`, of the unknowns.
-    rates: Vec<f64>,
+    pub(super) rates: Vec<f64>,
 }
 
 impl Model {
-    /// Takes away the velocities across all masters, by the impulses that change least (Gauss's principle of least constraint).
+    /// Takes away the velocities of sliders across all masters, by the impulses that change least (Gauss's principle of least constraint).
     ///
     /// # Errors
     /// When the impulses are not determined.
@@ -38,7 +38,7 @@ impl Model {
     /// A slider bounces off the end of its master, as off an elastic stop: all velocities relative to masters are reversed in
     /// the directions that transmit forces, which keeps the energy (`P·(G v⁺ + G v⁻) = 0`).
     ///
-    /// Tells what the two set against it: waves run from what gave way.
+    /// Tells which masses the two set against the blow: waves run from what gave way.
     ///
     /// # Errors
     /// When the impulse is not determined.
@@ -58,7 +58,7 @@ impl Model {
         Ok(Blow { slave, master })
     }
 
-    /// Takes down how many times as long as a blow at the end of a master the steps are [time].
+    /// Notes how many times as long as a slider's blow at an end of its master the steps of `dt` are [time].
     pub fn note_blow(&mut self, slider: usize, blow: Blow, dt: f64) {
         self.sliders[slider].note_blow(&self.bodies, blow, dt);
     }
@@ -73,12 +73,12 @@ impl Model {
         (slave.dot(&unit), (slave - relative).dot(&unit))
     }
 
-    /// The speed of the fastest control point [length/time].
+    /// The speed of the fastest control point of the model [length/time].
     pub(in crate::model) fn fastest_speed(&self) -> f64 {
         self.bodies.fastest_speed(&self.motion.rates)
     }
 
-    /// How fast a slave moves across its master [length/time].
+    /// The speed of a slave across its master [length/time].
     pub(in crate::model) fn speed_across(&self, slider: usize) -> f64 {
         let slider = &self.sliders[slider];
         slider.across(&self.bodies).dot(&slider.relative_velocity(&self.bodies, &self.motion.rates))
@@ -89,7 +89,7 @@ impl Model {
         self.sliders.iter().map(|slider| slider.across(&self.bodies)).enumerate().collect()
     }
 
-    fn answers(&self, inertia: &BandedLu<'_>, directions: &[Direction]) -> Vec<Answer> {
+    pub(super) fn answers(&self, inertia: &BandedLu<'_>, directions: &[Direction]) -> Vec<Answer> {
         let answer = |(slider, unit): &Direction| {
             let mut forces = vec![0.0; self.degrees_of_freedom()];
             self.sliders[*slider].transmit(&self.bodies, *unit, &mut forces);
@@ -128,7 +128,7 @@ impl Model {
         Ok(impulses)
     }
 
-    /// How velocities across the masters answer to unit impulses across them: `G M⁻¹ Gᵀ`.
+    /// The velocities across the masters that unit impulses across them cause: `G M⁻¹ Gᵀ`, a row for each direction [1/mass].
     pub(in crate::model) fn response_across(&self) -> Result<Vec<Vec<f64>>, LinearError> {
         let mut inertia = self.banded_inertia();
         let answers = self.answers(&inertia.factorise()?, &self.across());

@@ -24,14 +24,14 @@ impl Model {
         self.elements.inertia_entries(&self.bodies, 1.0, self.unknowns.count(), add);
     }
 
-    /// The inertia matrix of the unknowns, by rows.
+    /// The inertia matrix of the model's unknown movements, by rows [mass, mass·length, mass·length²].
     pub fn sparse_inertia(&self) -> SymmetricSparse {
         SymmetricSparse::new(self.unknowns.count(), |add| {
             self.inertia_entries(&mut |row, column, value| add(row, column, value));
         })
     }
 
-    /// The inertia matrix of the unknowns, as a band.
+    /// The inertia matrix of the model's unknown movements, as a band [mass, mass·length, mass·length²].
     pub(super) fn banded_inertia(&self) -> BandedMatrix {
         let mut inertia =
             BandedMatrix::zeros(self.unknowns.count(), self.unknowns.half_bandwidth());
@@ -39,7 +39,7 @@ impl Model {
         inertia
     }
 
-    /// The diagonal of the inertia matrix.
+    /// The diagonal of the inertia matrix of the model's unknown movements [mass, mass·length²].
     pub(super) fn diagonal_of_inertia(&self) -> Vec<f64> {
         let mut diagonal = vec![0.0; self.unknowns.count()];
         self.inertia_entries(&mut |row, column, value| {

@@ -8,48 +8,52 @@ use crate::geometry::{Vec2, larger};
 /// The energy of a model, in parts [energy].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energy {
-    /// `½ ∫ ρA |ẋ|² + ρI θ̇² dX`, and that of point masses.
+    /// The kinetic energy `½ ∫ ρA |ẋ|² + ρI θ̇² dX`, with that of point masses [energy].
     pub kinetic: f64,
-    /// `½ ∫ Γ·CΓ + EI κ² dX`
+    /// The strain energy `½ ∫ Γ·CΓ + EI κ² dX` [energy].
     pub strain: f64,
-    /// Of gravity, zero at the origin.
+    /// The potential energy of gravity, zero at the origin [energy].
     pub potential: f64,
+    /// `Σ U`, in springs and tendons.
+    pub stored: f64,
 }
 
 impl Energy {
-    /// Their sum.
+    /// The sum of kinetic, strain and potential energy [energy].
     pub fn total(&self) -> f64 {
-        self.kinetic + self.strain + self.potential
+        self.kinetic + self.strain + self.potential + self.stored
     }
 }
 
 /// What is measured of a model at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Measures {
-    /// Time.
+    /// The time at which the model is measured [time].
     pub time: f64,
-    /// `E`, in parts.
+    /// The energy `E` of the model, in parts [energy].
     pub energy: Energy,
-    /// `W`: work of the loads so far [energy].
+    /// The work `W` of the loads so far [energy].
     pub work: f64,
-    /// `p` [mass·length/time]
+    /// `D`: what dampers have dissipated so far [energy].
+    pub dissipated: f64,
+    /// The linear momentum `p` of the model [mass·length/time].
     pub momentum: Vec2,
-    /// `∫ F dt` of loads, gravity and supports so far.
+    /// The impulse `∫ F dt` of loads, gravity and supports so far [force·time].
     pub impulse: Vec2,
-    /// `L` about the origin [mass·length²/time].
+    /// The angular momentum `L` of the model about the origin [mass·length²/time].
     pub angular_momentum: f64,
-    /// `∫ M dt` of loads, gravity and supports so far, about the origin.
+    /// The angular impulse `∫ M dt` of loads, gravity and supports so far, about the origin [force·length·time].
     pub angular_impulse: f64,
-    /// `∫ |F| dt`, every load and support by itself.
+    /// The sum `∫ |F| dt` of the magnitudes of impulses so far, every load and support by itself [force·time].
     pub gross_impulse: f64,
-    /// `∫ |M| dt`, every load and support by itself.
+    /// The sum `∫ |M| dt` of the magnitudes of angular impulses so far, every load and support by itself [force·length·time].
     pub gross_angular_impulse: f64,
-    /// The largest distance between the partners of a joint [length].
+    /// The largest distance between the partners of a joint of the model [length].
     pub gap: f64,
 }
 
 impl Model {
-    /// Energy, momenta and what was exchanged so far.
+    /// Measures energy and momenta of the model, and work and impulse so far.
     pub fn measure(&mut self) -> Measures {
         let rates = &self.motion.rates;
         let mut momenta = self.bodies.momenta(rates);
@@ -58,11 +62,13 @@ impl Model {
             kinetic: 0.5 * momenta.twice_kinetic,
             strain: self.bodies.strain_energy(),
             potential: self.elements.energy(&self.bodies),
+            stored: self.elements.stored(),
         };
         Measures {
             time: self.motion.time,
             energy,
             work: self.exchanged.work,
+            dissipated: self.elements.dissipated(),
             momentum: momenta.linear,
             impulse: self.exchanged.impulse,
             angular_momentum: momenta.angular,

@@ -9,7 +9,7 @@ use crate::geometry::{Vec2, larger};
 use crate::integrators::Stage;
 use crate::linalg::BandedMatrix;
 
-/// The largest of the forces that meet at rest.
+/// The largest of the forces that meet in a model at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StaticForces {
     /// The largest force: in a section, or of a load [force].
@@ -21,12 +21,13 @@ pub struct StaticForces {
 }
 
 impl Model {
-    /// Takes the section forces of the last movement for a start of the next.
+    /// Begins a movement between two places at rest: its section forces start from those of the last one.
     pub fn begin_movement(&mut self) {
         self.bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
+        self.elements.begin_movement();
     }
 
-    /// Adds the internal forces minus `load_factor` times the loads, with the section forces as they are.
+    /// Adds the internal forces of the model minus `load_factor` times the loads, with the section forces as they are.
     pub fn add_static_forces(
         &mut self,
         movements: &[f64],
@@ -42,7 +43,7 @@ impl Model {
         }
     }
 
-    /// Adds the condensed internal forces minus `load_factor` times the loads, and their derivative by the movements.
+    /// Adds the condensed internal forces of the model minus `load_factor` times the loads, and their derivative by the movements.
     pub fn add_linearised_static_forces(
         &mut self,
         movements: &[f64],
@@ -53,7 +54,7 @@ impl Model {
         self.add_linearised(Stage::End, movements, (1.0, load_factor), out, tangent);
     }
 
-    /// Subtracts `load_factor` times the loads and the weight; returns the largest force and moment of a whole load on a
+    /// Subtracts `load_factor` times the loads and the weight of the model; gives the largest force and moment of a whole load on a
     /// control point.
     pub fn subtract_static_loads(
         &mut self,
@@ -64,7 +65,7 @@ impl Model {
         self.subtract_loads(Stage::End, movements, load_factor, out)
     }
 
-    /// Moves everything, and leaves it at rest there.
+    /// Moves the model by some movements of its unknowns [length, rad], and leaves it at rest there.
     pub fn move_by(&mut self, movements: &[f64]) {
         self.bodies.gather(movements);
         self.elements.advance(&self.bodies, RotationIncrement::Angle);

@@ -20,7 +20,7 @@ pub struct ModelState {
 }
 
 impl ModelState {
-    /// An empty one, with room for as much.
+    /// An empty state, with room for as much as this one.
     pub fn blank(&self) -> Self {
         Self {
             numbers: Vec::with_capacity(self.numbers.len()),
@@ -29,7 +29,7 @@ impl ModelState {
         }
     }
 
-    /// The memory that it takes besides itself [bytes].
+    /// The memory that the state takes besides itself [bytes].
     pub fn bytes(&self) -> usize {
         self.numbers.capacity() * size_of::<f64>()
             + self.sliders.capacity() * size_of::<SliderState>()
@@ -37,7 +37,7 @@ impl ModelState {
 }
 
 impl Model {
-    /// Everything that the motion from here on depends on, and the sums so far.
+    /// The state of the model: everything that its motion from here on depends on, and the sums of work and impulse so far.
     pub fn state(&self) -> ModelState {
         let mut state = ModelState::default();
         self.write_state(&mut state);
@@ -80,7 +80,7 @@ impl Model {
     /// Takes a state from a file, as [`restore`](Self::restore) does for one that is known to be of this model.
     ///
     /// # Errors
-    /// When it cannot be one of this model.
+    /// When it cannot be a state of this model.
     pub fn restore_checked(&mut self, state: &ModelState) -> Result<(), ModelError> {
         let refused = |reason: &'static str| ModelError::State { reason };
         let numbers = &state.numbers;

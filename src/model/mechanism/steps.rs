@@ -11,7 +11,7 @@ use crate::linalg::{BandedMatrix, Border, BorderShape};
 use crate::model::elements::{Exchange, Iterate, collocation};
 
 impl Model {
-    /// Adds what the bodies resist with; the largest that was met.
+    /// Adds what bodies, springs and dampers resist with; the largest that was met.
     pub(super) fn add_internal_forces(
         &mut self,
         stage: Stage,
@@ -23,10 +23,12 @@ impl Model {
         for body in self.bodies.iter_mut() {
             summary.join(&body.add_forces(collocation(stage), increments, weight, out));
         }
+        let at = Iterate { bodies: &self.bodies, stage, increments, weight };
+        self.elements.add_resistance(at, out, &mut summary);
         summary
     }
 
-    /// Subtracts the forces of the elements; the largest force and the largest moment of one on a control point.
+    /// Subtracts the forces of all elements from a force vector; gives the largest force and the largest moment of one on a control point.
     pub(super) fn subtract_loads(
         &mut self,
         stage: Stage,
@@ -38,7 +40,7 @@ impl Model {
         self.elements.subtract_from(at, out)
     }
 
-    /// Adds what the bodies resist with, condensed, and minus `share` times what the elements give, with the derivatives.
+    /// Adds what bodies, springs and dampers resist with, condensed, and minus `share` times what the elements give, with the derivatives.
     pub(super) fn add_linearised(
         &mut self,
         stage: Stage,
@@ -50,9 +52,12 @@ impl Model {
         for body in self.bodies.iter_mut() {
             body.add_linearised_forces(collocation(stage), increments, weight, out, tangent);
         }
+        let (at, unknowns) =
+            (Iterate { bodies: &self.bodies, stage, increments, weight }, self.unknowns.count());
+        self.elements.add_linearised_resistance(at, out, unknowns, tangent);
         self.subtract_loads(stage, increments, share, out);
         let at = Iterate { bodies: &self.bodies, stage, increments, weight: share };
-        self.elements.add_tangent(at, self.unknowns.count(), tangent);
+        self.elements.add_tangent(at, unknowns, tangent);
     }
 
     fn exchange_in_step(&self, residual: &[f64]) -> Exchange {
@@ -91,10 +96,12 @@ impl Forces for Model {
 
     fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]) {
         self.bodies.iter_mut().for_each(|body| body.add_mismatch_forces(weight, out));
+        self.elements.add_mismatch_forces(&self.bodies, weight, out);
     }
 
     fn correct_section_forces(&mut self, correction: &[f64]) {
         self.bodies.iter_mut().for_each(|body| body.correct_section_forces(correction));
+        self.elements.correct(&self.bodies, correction);
     }
 
     fn relative_imbalance(&self, residual: &[f64]) -> f64 {

@@ -9,7 +9,7 @@ use crate::elementary::square;
 use crate::linalg::{PreciseBand, SymmetricSparse};
 
 impl Model {
-    /// Gives every span of every body, as at rest: the unknowns of its components, and its rows. Those of supported components stand
+    /// Gives every span of every body, and every spring, as at rest: the unknowns of its components, and its rows. Those of supported components stand
     /// behind the unknowns of all.
     pub fn each_span_at_rest(&self, take: &mut dyn FnMut(&[usize], &SpanAtRest)) {
         for body in self.bodies.iter() {
@@ -19,6 +19,7 @@ impl Model {
                 take(degrees.as_flattened(), span);
             });
         }
+        self.elements.each_at_rest(&self.bodies, take);
     }
 
     /// About the square of the slowest bending, as if all beams were one: the least `EI` over the largest `ρA` and the fourth power of

@@ -8,7 +8,7 @@ pub struct Accelerations {
 }
 
 impl Accelerations {
-    /// Takes room for so many, not known yet.
+    /// Takes room for the accelerations of so many unknowns, which are not known yet.
     pub fn keep(&mut self, unknowns: usize) {
         *self = Self { values: vec![0.0; unknowns], are_known: false };
     }
@@ -24,13 +24,13 @@ impl Accelerations {
         }
     }
 
-    /// What holds no longer after a sudden change.
+    /// Forgets accelerations that hold no longer after a sudden change.
     pub fn forget(&mut self) {
         self.values.fill(0.0);
         self.are_known = false;
     }
 
-    /// Whether there are any, and they are known.
+    /// Whether accelerations are kept, and known.
     pub fn are_known(&self) -> bool {
         self.are_known
     }

@@ -5,15 +5,15 @@ use serde::{Deserialize, Serialize};
 use super::resolution::Missed;
 use crate::elementary::square;
 
-/// What the next step is best guessed from.
+/// What the next step of a model is best guessed from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Trend {
-    /// No step has been taken: the rates at its start are all there is.
+    /// No step has been taken: the rates at the start of the next one are all there is.
     #[default]
     Unknown,
-    /// The rates at its start.
+    /// The next step is best guessed from the rates at its start.
     Smooth,
-    /// The mean rates of the last step: those at its end alternate from step to step.
+    /// The next step is best guessed from the mean rates of the last one: those at its end alternate from step to step.
     Rough,
 }
 
@@ -31,12 +31,12 @@ pub struct Forecast {
 }
 
 impl Forecast {
-    /// Before the first step.
+    /// The forecast before the first step.
     pub fn new(rates: &[f64], inertia: Vec<f64>) -> Self {
         Self { mean_rates: rates.to_vec(), trend: Trend::Unknown, inertia }
     }
 
-    /// The rates to go on with, given those at the start of the step.
+    /// The rates to guess the next step with, given those at its start [length/time, 1/time].
     pub fn rates<'a>(&'a self, at_start: &'a [f64]) -> &'a [f64] {
         match self.trend {
             Trend::Unknown | Trend::Smooth => at_start,
@@ -66,12 +66,12 @@ impl Forecast {
         missed
     }
 
-    /// Takes over a sudden change of all rates.
+    /// Takes over a sudden change of all rates [length/time, 1/time].
     pub fn jump(&mut self, change: &[f64]) {
         self.mean_rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
     }
 
-    /// What the next step is guessed from.
+    /// What the next step is best guessed from.
     pub fn trend(&self) -> Trend {
         self.trend
     }

@@ -6,9 +6,9 @@ use super::{Resolution, Step};
 
 /// The present time and rates of a model, and what was learnt of its motion.
 pub struct Motion {
-    /// The end of the last step [time].
+    /// The present time: the end of the last step [time].
     pub time: f64,
-    /// Of the unknowns [length/time, 1/time].
+    /// The rates of the unknown movements at the present time [length/time, 1/time].
     pub rates: Vec<f64>,
     pub accelerations: Accelerations,
     forecast: Forecast,
@@ -16,7 +16,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// At t = 0 with these rates; motions below some energy are rounding [energy].
+    /// The motion at t = 0 with some rates; motions below the energy `noise` are rounding [energy].
     pub fn new(rates: Vec<f64>, noise: f64) -> Self {
         Self {
             time: 0.0,
@@ -37,12 +37,12 @@ impl Motion {
         self.forecast.rates(&self.rates)
     }
 
-    /// How far the steps so far resolve the motion.
+    /// How far the steps so far resolve the motion of the model.
     pub fn resolution(&self) -> &Resolution {
         &self.resolution
     }
 
-    /// Accepts the increments of a step and the rates at its end, and learns from them.
+    /// Accepts the increments of a step and the rates at its end, and learns from them for the next.
     pub fn advance(&mut self, step: &Step, increments: &[f64], rates: &[f64]) {
         let duration = step.interval.duration();
         let missed = self.forecast.learn(&self.rates, increments, duration);
@@ -51,19 +51,19 @@ impl Motion {
         self.time = step.interval.end;
     }
 
-    /// Takes over a sudden change of all rates.
+    /// Takes over a sudden change of all rates [length/time, 1/time].
     pub fn jump(&mut self, change: &[f64]) {
         self.rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
         self.forecast.jump(change);
         self.accelerations.forget();
     }
 
-    /// What the next step is guessed from, which is no number.
+    /// What the next step is guessed from: the part of the state that is no number.
     pub fn trend(&self) -> Trend {
         self.forecast.trend()
     }
 
-    /// Appends time, rates and what was learnt in numbers; accelerations are saved by themselves.
+    /// Appends time, rates and what was learnt of the motion in numbers; accelerations are saved by themselves.
     pub fn save(&self, numbers: &mut Vec<f64>) {
         numbers.push(self.time);
         numbers.extend(&self.rates);
@@ -71,7 +71,7 @@ impl Motion {
         self.resolution.save(numbers);
     }
 
-    /// Takes these back, in the order in which they were appended.
+    /// Takes time, rates and what was learnt of the motion back, in the order in which they were appended.
     pub fn restore(&mut self, trend: Trend, next: &mut dyn FnMut() -> f64) {
         self.time = next();
         self.rates.iter_mut().for_each(|rate| *rate = next());

@@ -6,18 +6,18 @@ use crate::elementary::square;
 /// What the guesses for a step were worth, in the norm of the diagonal of the inertia matrix: twice an energy each [energy].
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Missed {
-    /// `Σ m (v̄ - v0)²`, of the mean rates `v̄` of the step and those at its start.
+    /// The miss `Σ m (v̄ - v0)²` of a guess from the rates `v0` at the start of the step; `v̄` are the mean rates of the step [energy].
     pub by_start: f64,
-    /// `Σ m (v̄ - v̄₋)²`, `v̄₋` being the mean rates of the step before.
+    /// The miss `Σ m (v̄ - v̄₋)²` of a guess from the mean rates `v̄₋` of the step before [energy].
     pub by_mean: f64,
-    /// `Σ m v̄²`
+    /// The motion `Σ m v̄²` of the step itself [energy].
     pub moved: f64,
 }
 
 /// Steps whose lengths differ by less than this, as a part of them, are equally long.
 const EQUALLY_LONG: f64 = 1e-3;
 
-/// How far the steps behind the present resolve its motion. It is a part of the state: steps that are taken back do not count.
+/// How far the steps behind the present resolve the motion. It is a part of the state: steps that are taken back do not count.
 ///
 /// A vibration `v = a cos ωt` that steps of the energy–momentum method turn by `φ` each, `tan(φ/2) = ω h/2`, has in the mean over its
 /// phases `Σ m v̄² = ½ m a² cos²(φ/2)`, `S = Σ m (v̄ - v0)² = ½ m a² sin²(φ/2)` and `M = Σ m (v̄ - v̄₋)² = ½ m a² sin²φ`. So
@@ -40,7 +40,7 @@ pub struct Resolution {
 }
 
 impl Resolution {
-    /// Before the first step, with the energy below which all motion is rounding.
+    /// The resolution before the first step, with the energy below which all motion is rounding [energy].
     pub(super) fn above(noise: f64) -> Self {
         Self { kinetic: 0.0, unresolved: 0.0, bent: 0.0, last: 0.0, rotation: 0.0, noise }
     }

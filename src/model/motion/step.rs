@@ -6,11 +6,11 @@ use crate::integrators::Interval;
 /// The interval of the present step, and the largest force and moment of each kind in it.
 pub struct Step {
     pub interval: Interval,
-    /// Of the inertia of the rates at its start, twice over its duration.
+    /// The force and moment of the inertia of the rates at the start of the step, twice over its duration [force, force·length].
     pub inertia: (f64, f64),
     pub loads: (f64, f64),
     pub summary: ForceSummary,
-    /// The largest force of a contact [force].
+    /// The largest force of a contact that was met in the step [force].
     pub contact: f64,
     pub rotations: RotationIncrement,
     /// Whether loads may jump where the step begins, as far as accelerations are kept.
@@ -20,7 +20,7 @@ pub struct Step {
 }
 
 impl Step {
-    /// Before the first step of a model with so many degrees of freedom.
+    /// The present step of a model with so many degrees of freedom, before the first one begins.
     pub fn new(degrees_of_freedom: usize) -> Self {
         Self {
             interval: Interval::between(0.0, 0.0),
@@ -34,13 +34,13 @@ impl Step {
         }
     }
 
-    /// Begins a step, in which nothing was met yet.
+    /// Begins a step over an interval, in which no force was met yet.
     pub fn begin(&mut self, interval: Interval, jumps: bool) {
         let scratch = std::mem::take(&mut self.scratch);
         *self = Self { interval, jumps, scratch, ..Self::new(0) };
     }
 
-    /// Room for forces on all degrees of freedom, of which none acts yet.
+    /// The room for forces on all degrees of freedom, of which none acts yet.
     pub fn no_forces(&mut self) -> &mut [f64] {
         self.scratch.fill(0.0);
         &mut self.scratch

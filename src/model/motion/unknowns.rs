@@ -9,22 +9,22 @@ pub struct Unknowns {
 }
 
 impl Unknowns {
-    /// Unknowns of which some are rotations, with the half-bandwidth of the matrices of a step.
+    /// The unknown movements of a model, of which some are rotations, with the half-bandwidth of the matrices of a step.
     pub fn new(is_rotation: Vec<bool>, half_bandwidth: usize) -> Self {
         Self { is_rotation, half_bandwidth }
     }
 
-    /// How many there are.
+    /// The number of unknown movements of the model.
     pub fn count(&self) -> usize {
         self.is_rotation.len()
     }
 
-    /// How far from the diagonal matrices reach.
+    /// The half-bandwidth of the matrices of a step: how far from the diagonal they have entries.
     pub fn half_bandwidth(&self) -> usize {
         self.half_bandwidth
     }
 
-    /// Which are rotations.
+    /// Which unknown movements are rotations, one entry for each.
     pub fn rotations(&self) -> &[bool] {
         &self.is_rotation
     }

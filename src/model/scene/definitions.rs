@@ -10,9 +10,9 @@ use crate::geometry::{Curve, Vec2};
 pub struct StartMotion {
     /// The velocity of the point `about` [length/time].
     pub velocity: Vec2,
-    /// The rate of rotation [1/time].
+    /// The rate of rotation of the beam at the start [1/time].
     pub spin: f64,
-    /// The point it turns about; its centre of mass when not given.
+    /// The point the beam turns about; its centre of mass when not given [length].
     pub about: Option<Vec2>,
 }
 
@@ -25,46 +25,46 @@ impl Default for StartMotion {
 /// A beam of a scene.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct BeamDefinition {
-    /// Its name in messages and reports.
+    /// The name of the beam in messages and reports.
     pub name: String,
-    /// Its axis, stress-free as drawn.
+    /// The axis of the beam [length], stress-free as drawn.
     pub axis: Curve,
-    /// Basis and quadrature.
+    /// The mesh of the beam: basis and quadrature.
     pub mesh: Mesh,
-    /// Stiffness and inertia.
+    /// The section of the beam: stiffness and inertia.
     pub section: Section,
-    /// How it moves at the start.
+    /// How the beam moves at the start.
     pub motion: StartMotion,
 }
 
 impl BeamDefinition {
-    /// Its mass, without what stands on it [mass].
+    /// The mass of the beam, without what stands on it [mass].
     pub fn mass(&self) -> f64 {
         self.section.mass_per_length * self.axis.length()
     }
 
-    /// Whether it moves when the scene starts.
+    /// Whether the beam moves when the scene starts.
     pub fn starts_in_motion(&self) -> bool {
         self.motion.velocity != Vec2::zeros() || self.motion.spin != 0.0
     }
 }
 
-/// A point that moves by itself; its mass is one of the masses of the scene.
+/// A particle of a scene: a point that moves by itself; its mass is one of the masses of the scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ParticleDefinition {
-    /// Its name in messages and reports.
+    /// The name of the particle in messages and reports.
     pub name: String,
-    /// Where it starts [length].
+    /// The place where the particle starts [length].
     pub position: Vec2,
 }
 
 /// A velocity at the start of the node at a station alone.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StationVelocity {
-    /// Where.
+    /// The station whose node has the velocity.
     pub station: Station,
-    /// [length/time]
+    /// The velocity of the node at the start [length/time].
     pub velocity: Vec2,
-    /// [1/time]; as the beam has it when not given.
+    /// The rate of rotation of the node at the start [1/time]; as the beam has it when not given.
     pub spin: Option<f64>,
 }

@@ -4,46 +4,48 @@ use serde::{Deserialize, Serialize};
 
 use super::stored::StoredScene;
 use super::ties::check_ties;
-use super::{BeamDefinition, ParticleDefinition, StationVelocity};
+use super::{BeamDefinition, ParticleDefinition, Sensor, StationVelocity};
 use crate::beams::{BodyIndex, Mesh, Place, Station};
 use crate::geometry::Vec2;
 use crate::joints::{Joint, JointKind, Partner, Slider};
 use crate::loads::{Load, LoadKind, Schedule};
 use crate::model::ModelError;
-use crate::model::elements::{Element, PointMass, Setting};
+use crate::model::elements::{Element, PointMass, Setting, Spring};
 use crate::model::words::{refusal, rounded};
 
 /// What is simulated: beams, particles, joints, masses and loads.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(try_from = "StoredScene")]
 pub struct Scene {
-    /// For messages and reports.
+    /// The name of the scene, for messages and reports.
     pub name: String,
-    /// In the order in which they were added.
+    /// The beams of the scene, in the order in which they were added.
     pub beams: Vec<BeamDefinition>,
-    /// In the order in which they were added.
+    /// The particles of the scene, in the order in which they were added.
     pub particles: Vec<ParticleDefinition>,
-    /// Places whose angle is followed, besides the ends of all beams.
+    /// The stations whose angle is followed, besides the ends of all beams.
     pub stations: Vec<Station>,
-    /// Supports and joints between beams.
+    /// The joints of the scene: supports and joints between beams.
     pub joints: Vec<Joint>,
-    /// Joints that slide.
+    /// The sliding joints of the scene.
     pub sliders: Vec<Slider>,
-    /// Velocities of single nodes.
+    /// The start velocities of single nodes.
     pub velocities: Vec<StationVelocity>,
-    /// Masses and loads, in the order in which they were added.
+    /// Masses, loads and springs, in the order in which they were added.
     pub elements: Vec<Element>,
-    /// Acceleration of free fall [length/time²].
+    /// The acceleration of free fall [length/time²].
     pub gravity: Vec2,
+    /// Quantities that are recorded besides those that every history has.
+    pub sensors: Vec<Sensor>,
 }
 
 impl Scene {
-    /// The length of the longest beam, if there is one [length].
+    /// The length of the longest beam of the scene, if there is one [length].
     pub fn longest_beam(&self) -> Option<f64> {
         self.beams.iter().map(|beam| beam.axis.length()).reduce(f64::max)
     }
 
-    /// How far strain energies may be off by rounding: `ε Σ (EA L + EI/L)` [energy].
+    /// How far strain energies of the scene may be off by rounding: `ε Σ (EA L + EI/L)` [energy].
     pub fn rounding_energy(&self) -> f64 {
         let stiffness = self.beams.iter().map(|beam| {
             let length = beam.axis.length();
@@ -52,13 +54,13 @@ impl Scene {
         f64::EPSILON * stiffness.sum::<f64>()
     }
 
-    /// The mass of everything as it is drawn [mass].
+    /// The mass of the scene as it is drawn [mass].
     pub fn mass(&self) -> f64 {
         let beams: f64 = self.beams.iter().map(BeamDefinition::mass).sum();
         beams + self.masses().map(|mass| mass.mass).sum::<f64>()
     }
 
-    /// The speed of the fastest axial wave; zero where there are no beams [length/time].
+    /// The speed of the fastest axial wave in the scene's beams; zero where there are no beams [length/time].
     pub(in crate::model) fn fastest_wave(&self) -> f64 {
         let squares = self
             .beams
@@ -67,7 +69,7 @@ impl Scene {
         squares.fold(0.0, f64::max).sqrt()
     }
 
-    /// The joints that hold a beam.
+    /// The joints that hold a beam, by its index.
     pub fn joints_of(&self, beam: usize) -> impl Iterator<Item = &Joint> {
         self.joints.iter().filter(move |joint| {
             let other = match joint.partner {
@@ -78,7 +80,7 @@ impl Scene {
         })
     }
 
-    /// Point masses, those of particles among them, in the order in which they were added.
+    /// The point masses of the scene, those of particles among them, in the order in which they were added.
     pub fn masses(&self) -> impl Iterator<Item = &PointMass> + Clone {
         self.elements.iter().filter_map(|element| match element {
             Element::PointMass(mass) => Some(mass),
@@ -86,7 +88,7 @@ impl Scene {
         })
     }
 
-    /// Loads, in the order in which they were added.
+    /// The loads of the scene, in the order in which they were added.
     pub fn loads(&self) -> impl Iterator<Item = &Load> + Clone {
         self.elements.iter().filter_map(|element| match element {
             Element::Load(load) => Some(load),
@@ -94,12 +96,20 @@ impl Scene {
         })
     }
 
-    /// The schedules of elements, each with the name of its element.
+    /// Springs, dampers and tendons, in the order in which they were added.
+    pub fn springs(&self) -> impl Iterator<Item = &Spring> + Clone {
+        self.elements.iter().filter_map(|element| match element {
+            Element::Spring(spring) => Some(spring),
+            _ => None,
+        })
+    }
+
+    /// The schedules of the scene's elements, each with the name of its element.
     pub fn schedules(&self) -> impl Iterator<Item = (&str, &Schedule)> {
         self.elements.iter().filter_map(|element| element.description().schedule())
     }
 
-    /// An empty scene.
+    /// An empty scene of a name.
     pub fn new(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),
@@ -111,10 +121,11 @@ impl Scene {
             velocities: Vec::new(),
             elements: Vec::new(),
             gravity: Vec2::zeros(),
+            sensors: Vec::new(),
         }
     }
 
-    /// Adds a beam and returns its index.
+    /// Adds a beam to the scene and returns its index.
     ///
     /// # Errors
     /// When something of that name exists, or the name is empty or cannot be printed.
@@ -124,7 +135,7 @@ impl Scene {
         Ok(self.beams.len() - 1)
     }
 
-    /// Adds a particle and returns its station.
+    /// Adds a particle to the scene and returns its station.
     ///
     /// # Errors
     /// When something of that name exists, the name is empty or cannot be printed, or the mass is not positive and finite.
@@ -142,7 +153,7 @@ impl Scene {
         Ok(station)
     }
 
-    /// Adds a sliding joint and returns its index.
+    /// Adds a sliding joint to the scene and returns its index.
     ///
     /// # Errors
     /// When something of that name exists, the slave is not on the master or part of it, or it slides there already.
@@ -158,7 +169,8 @@ impl Scene {
         let beams = self.beams.iter().map(|beam| ("beam", &beam.name));
         let particles = self.particles.iter().map(|particle| ("particle", &particle.name));
         let sliders = self.sliders.iter().map(|slider| ("slider", &slider.name));
-        beams.chain(particles).chain(sliders)
+        let springs = self.springs().map(|spring| ("spring", &spring.name));
+        beams.chain(particles).chain(sliders).chain(springs)
     }
 
     pub(in crate::model) fn check_name(
@@ -181,10 +193,10 @@ impl Scene {
         names.find(|name| self.names().all(|(_, other)| other != name)).unwrap_or_default()
     }
 
-    /// The station of a beam at an arc length; it is followed from the start.
+    /// The station of a beam at an arc length [length]; its angle is followed from the start.
     ///
     /// # Errors
-    /// When it lies outside the beam.
+    /// When the station lies outside the beam.
     pub fn station(&mut self, beam: usize, arc_length: f64) -> Result<Station, ModelError> {
         let definition = &self.beams[beam];
         let length = definition.axis.length();
@@ -203,7 +215,7 @@ impl Scene {
         Ok(station)
     }
 
-    /// Ties a station to the ground or to another station.
+    /// Ties a station of the scene to the ground or to another station.
     ///
     /// # Errors
     /// When both stations are one, do not meet, or one is tied already.
@@ -220,7 +232,7 @@ impl Scene {
         })
     }
 
-    /// Puts a mass on a station.
+    /// Puts a point mass on a station of the scene.
     ///
     /// # Errors
     /// When the mass is not positive and finite, or its inertia negative.
@@ -228,7 +240,7 @@ impl Scene {
         self.add_element(Element::PointMass(mass))
     }
 
-    /// Adds an element of any kind.
+    /// Adds an element of any kind to the scene.
     ///
     /// # Errors
     /// When a number of it is out of its range, or a station is none of the scene.
@@ -238,7 +250,16 @@ impl Scene {
         Ok(())
     }
 
-    /// Adds a load.
+    /// Adds a spring, a damper or a tendon.
+    ///
+    /// # Errors
+    /// When something of that name exists, a number of it is out of its range, or a station is none of the scene.
+    pub fn add_spring(&mut self, spring: Spring) -> Result<(), ModelError> {
+        self.check_name("spring", &spring.name)?;
+        self.add_element(Element::Spring(spring))
+    }
+
+    /// Adds a load to the scene; its name is made of its kind.
     pub fn add_load(&mut self, kind: LoadKind, schedule: Schedule) {
         let name = match &kind {
             LoadKind::Force { station, .. } => format!("force at {}", self.describe(station)),
@@ -255,10 +276,10 @@ impl Scene {
         station.beam().map_or(0.0, |beam| self.beams[beam].axis.length())
     }
 
-    /// Where a station is as drawn [length].
+    /// The point where a station is as drawn [length].
     ///
     /// # Errors
-    /// When it lies outside its beam.
+    /// When the station lies outside its beam.
     pub fn drawn_at(&self, station: &Station) -> Result<Vec2, ModelError> {
         match station.body {
             BodyIndex::Beam(beam) => {
@@ -270,10 +291,10 @@ impl Scene {
         }
     }
 
-    /// The place of a station, given the meshes of the beams.
+    /// The place of a station on its body, given the meshes of the beams.
     ///
     /// # Errors
-    /// When it lies outside its beam.
+    /// When the station lies outside its beam.
     pub fn place(&self, station: &Station, meshes: &[Mesh]) -> Result<Place, ModelError> {
         match station.body {
             BodyIndex::Beam(index) => {
@@ -287,7 +308,7 @@ impl Scene {
         }
     }
 
-    /// The body that a station is on, in words.
+    /// The body that a station is on, in words such as `beam 'arm'`.
     pub fn name_of_body(&self, station: &Station) -> String {
         match station.body {
             BodyIndex::Beam(beam) => format!("beam '{}'", self.beams[beam].name),

@@ -26,13 +26,10 @@ impl Scene {
         let names = (plain.beams.iter_mut().map(|beam| &mut beam.name))
             .chain(plain.particles.iter_mut().map(|particle| &mut particle.name))
             .chain(plain.sliders.iter_mut().map(|slider| &mut slider.name))
-            .chain(plain.elements.iter_mut().filter_map(|element| match element {
-                Element::Load(load) => Some(&mut load.name),
-                Element::PointMass(_) => None,
-            }));
+            .chain(plain.elements.iter_mut().filter_map(Element::name_mut));
         names.for_each(String::clear);
         // What stands in one list is of several kinds, between which the order is nobody's choice.
-        plain.elements.sort_by_key(|element| matches!(element, Element::Load(_)));
+        plain.elements.sort_by_key(Element::kind);
         serde_json::to_value(plain)
     }
 }

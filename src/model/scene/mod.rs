@@ -3,10 +3,12 @@
 mod definitions;
 mod description;
 mod likeness;
+mod sensors;
 mod sliders;
 mod stored;
 mod ties;
 
 pub use definitions::{BeamDefinition, ParticleDefinition, StartMotion, StationVelocity};
 pub use description::Scene;
+pub use sensors::{Probe, Quantity, Sensor, Value};
 pub use ties::{Ties, same_place};

@@ -6,7 +6,7 @@ use crate::beams::Station;
 use crate::geometry::nearest;
 use crate::joints::Slider;
 use crate::model::ModelError;
-use crate::model::words::{SliderError, SliderParts, written};
+use crate::model::words::{Approach, SliderError, SliderParts, written};
 
 /// Largest distance of a slave from its master when the scene starts, relative to the length of the master and the distance
 /// from the origin: a scene may be drawn in six digits, and the slave is moved onto its master exactly.
@@ -46,16 +46,11 @@ impl Scene {
         let best = self.nearest_arc_length(slider.master, &slider.slave)?;
         let distance = (from - self.drawn_at(&Station::on_beam(slider.master, best))?).norm();
         let place = best / length;
-        let advice = if distance <= tolerance {
-            format!(
-                "it lies on that beam at {place} of its length: give that as `at`, or leave `at` out"
-            )
-        } else {
-            format!(
-                "move one of them: the beam comes no nearer than {distance:.3e}, at {place} of its length"
-            )
+        let nearest = match distance <= tolerance {
+            true => Approach::On { place },
+            false => Approach::Apart { place, distance },
         };
-        Err(SliderError::Open { parts, from: written(from), to: written(to), gap, advice }.into())
+        Err(SliderError::Open { parts, from: written(from), to: written(to), gap, nearest }.into())
     }
 
     pub(in crate::model) fn parts(&self, slider: &Slider) -> SliderParts {

@@ -14,7 +14,10 @@ use crate::model::words::finite;
 /// Most sliders of a stored scene: the matrix of a step grows with their square, and a small file must not make it huge.
 const MOST_SLIDERS: usize = 2000;
 
-/// A [`Scene`] as it is stored, not yet checked.
+/// Most quantities that a stored scene records.
+const MOST_SENSORS: usize = 10_000;
+
+/// A [`Scene`] as it is stored in a file, not yet checked.
 #[derive(Deserialize)]
 pub struct StoredScene {
     name: String,
@@ -26,6 +29,8 @@ pub struct StoredScene {
     velocities: Vec<StationVelocity>,
     elements: Vec<Element>,
     gravity: Vec2,
+    /// Their names.
+    sensors: Vec<String>,
 }
 
 impl TryFrom<StoredScene> for Scene {
@@ -84,6 +89,15 @@ impl TryFrom<StoredScene> for Scene {
         scene.velocities = stored.velocities;
         finite("scene", "gravity", stored.gravity.as_slice())?;
         scene.gravity = stored.gravity;
+        if stored.sensors.len() > MOST_SENSORS {
+            return Err(ModelError::Value {
+                object: format!("scene '{}'", scene.name),
+                name: "number of sensors",
+                value: stored.sensors.len() as f64,
+                allowed: "at most 10000 in a file",
+            });
+        }
+        stored.sensors.iter().try_for_each(|sensor| scene.record(sensor))?;
         Ok(scene)
     }
 }

@@ -4,12 +4,12 @@ use super::Scene;
 use crate::beams::Station;
 use crate::joints::{JointKind, Partner};
 use crate::model::ModelError;
-use crate::model::words::written;
+use crate::model::words::{Turning, written};
 
 /// Largest gap of a joint when the scene starts, relative to the length of its beam and its distance from the origin.
 const CLOSED: f64 = 1e-12;
 
-/// Sets of things that are one: union–find with path halving.
+/// Sets of things, by their numbers, that are one: union–find with path halving.
 pub struct Ties {
     parent: Vec<usize>,
 }
@@ -27,7 +27,7 @@ impl Ties {
         at
     }
 
-    /// Makes two things one; false when they were already.
+    /// Makes two things, by their numbers, one; false when they were one already.
     pub fn tie(&mut self, a: usize, b: usize) -> bool {
         let (a, b) = (self.root(a), self.root(b));
         // The smaller index stays the root, so that index 0, the ground, always is one.
@@ -60,8 +60,8 @@ pub fn check_ties(scene: &Scene) -> Result<(), ModelError> {
             Partner::Station(other) => vec![joint.station, *other],
         };
         if joint.kind == JointKind::Rigid && stations.iter().any(|at| at.beam().is_none()) {
-            let advice = "use scene.hinge(…), or scene.mass(…) on the beam";
-            return Err(ModelError::ParticleTurned { object: joint.name.clone(), advice });
+            let (object, by) = (joint.name.clone(), Turning::RigidJoint);
+            return Err(ModelError::ParticleTurned { object, by });
         }
         if let Partner::Station(other) = &joint.partner {
             if partner == Some(place) {

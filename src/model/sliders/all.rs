@@ -11,7 +11,7 @@ use crate::linalg::{Border, BorderShape};
 use crate::model::bodies::Body;
 use crate::model::words::{ModelError, SliderError};
 
-/// The sliders of a model, in the order of the scene. As a slice it is these.
+/// The sliders of a model, in the order of the scene; it derefs to the slice of them.
 #[derive(Default)]
 pub struct Sliders {
     all: Vec<Sliding>,
@@ -34,7 +34,7 @@ impl DerefMut for Sliders {
 }
 
 impl Sliders {
-    /// In the order of the scene.
+    /// The sliders of a model, given in the order of the scene.
     pub fn new(all: Vec<Sliding>) -> Self {
         Self { all, aim: None }
     }
@@ -52,7 +52,7 @@ impl Sliders {
         }
     }
 
-    /// Guesses that all slide on as they do.
+    /// Guesses the unknowns of all contacts for a step: every slider slides on as it does.
     pub fn predict(
         &self,
         bodies: &[Body],
@@ -63,7 +63,7 @@ impl Sliders {
         self.iter().for_each(|slider| slider.predict(bodies, rates, interval, unknowns));
     }
 
-    /// Adds the forces and the equations of all contacts; the largest force of a contact [force].
+    /// Adds the forces and the equations of all contacts to a residual; gives the largest force of a contact [force].
     pub fn add(
         &mut self,
         bodies: &[Body],
@@ -76,7 +76,7 @@ impl Sliders {
         })
     }
 
-    /// Adds the forces and the equations of all contacts, and their derivatives.
+    /// Adds the forces and the equations of all contacts to a residual, and their derivatives to the tangent.
     pub fn add_linearised(
         &mut self,
         bodies: &[Body],
@@ -90,7 +90,7 @@ impl Sliders {
         }
     }
 
-    /// The largest violation of an equation: of lengths relative to the lengths met, of forces as `relative` has it [-].
+    /// The largest violation of an equation of a contact: of lengths relative to the lengths met, of forces as `relative` has it [-].
     pub fn violation(&self, equations: &[f64], relative: impl Fn(f64) -> f64) -> f64 {
         self.iter().fold(0.0, |largest, slider| {
             let (length, force) = slider.violation(equations);
@@ -119,12 +119,12 @@ impl Sliders {
         furthest.map_or(Ok(()), Err)
     }
 
-    /// The shortest chord of a way, relative to the length of that way [-].
+    /// The shortest chord of the way of a slider, relative to the length of that way [-].
     pub fn shortest_chord(&self) -> f64 {
         self.iter().map(Sliding::chord).fold(f64::INFINITY, f64::min)
     }
 
-    /// Accepts a step of such an ending; the bodies are at its end already.
+    /// Lets all sliders accept a step of such an ending; the bodies are at its end already.
     pub fn advance(&mut self, bodies: &[Body], unknowns: &[f64], ending: Ending) {
         self.iter_mut().for_each(|slider| slider.advance(bodies, unknowns, ending));
     }
@@ -134,22 +134,22 @@ impl Sliders {
         self.iter().map(|slider| slider.gap(bodies).norm()).fold(0.0, larger)
     }
 
-    /// What each does at present.
+    /// What each slider does at present, in order.
     pub fn states(&self) -> impl Iterator<Item = SliderState> {
         self.iter().map(|slider| slider.state)
     }
 
-    /// Appends the numbers of all; their states are no numbers.
+    /// Appends the numbers of all sliders; their states are no numbers.
     pub fn save(&self, numbers: &mut Vec<f64>) {
         self.iter().for_each(|slider| slider.save(numbers));
     }
 
-    /// Takes states and numbers back, in their order.
+    /// Takes states and numbers of all sliders back, in their order.
     pub fn restore(&mut self, states: &[SliderState], next: &mut dyn FnMut() -> f64) {
         self.iter_mut().zip(states).for_each(|(slider, state)| slider.restore(*state, next));
     }
 
-    /// Whether the numbers of sliders may be those of these.
+    /// Whether stored numbers of sliders may be those of these sliders.
     pub fn fit(&self, numbers: &[f64]) -> bool {
         let mut pairs = self.iter().zip(numbers.chunks_exact(Sliding::SAVED));
         pairs.all(|(slider, own)| slider.may_be_at(own[0]))
@@ -161,8 +161,8 @@ impl Sliders {
         SliderError::Overdetermined { sliders: names.join("', '") }.into()
     }
 
-    /// The directions in which all transmit forces, with the number of the slider: across the masters, and along them where they are
-    /// held or `strikes`.
+    /// The directions [-] in which all contacts transmit forces, with the number of the slider: across the masters, and along them where
+    /// sliders are held or `strikes`.
     pub fn directions(&self, bodies: &[Body], strikes: usize) -> Vec<(usize, Vec2)> {
         let of_slider = |(at, slider): (usize, &Sliding)| {
             let (across, along) = (slider.across(bodies), slider.along(bodies));

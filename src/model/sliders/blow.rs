@@ -7,16 +7,16 @@ use crate::elementary::square;
 /// heavy that it does not give way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Blow {
-    /// The slave's [mass].
+    /// The mass of the slave that answers at once to a blow [mass].
     pub slave: Option<f64>,
-    /// The master's [mass].
+    /// The mass of the master that answers at once to a blow [mass].
     pub master: Option<f64>,
 }
 
-/// A beam as a blow runs through it.
+/// A beam as a bar through which the wave of a blow runs.
 #[derive(Debug, Clone, Copy)]
 pub struct Bar {
-    /// As drawn [length].
+    /// The length of the beam as drawn [length].
     pub length: f64,
     pub section: Section,
 }

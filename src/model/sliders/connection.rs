@@ -5,14 +5,14 @@ use crate::joints::{CONTACT_UNKNOWNS, Contact, Equation};
 use crate::linalg::Border;
 use crate::model::bodies::Body;
 
-/// What a slider connects.
+/// What a slider connects, by the places of its unknowns in the vectors of the model.
 #[derive(Debug, Clone, Copy)]
 pub struct Connection {
-    /// The body that is slid on.
+    /// The index of the body that is slid on.
     pub master: usize,
-    /// The body that slides, and its control point.
+    /// The index of the body that slides, and that of its control point.
     pub slave: (usize, usize),
-    /// The number of the slider among those of the model.
+    /// The index of the slider among those of the model.
     pub index: usize,
 }
 
@@ -42,7 +42,7 @@ impl Connection {
         of_master.iter().zip(on_master).for_each(|(at, force)| add(*at, force));
     }
 
-    /// Adds the forces on slave and master, and behind the movements the values of the equations.
+    /// Adds the contact forces on slave and master to a residual, and behind the movements the values of the contact's equations.
     pub fn add_values(
         &self,
         bodies: &[Body],

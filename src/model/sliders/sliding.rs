@@ -11,7 +11,7 @@ use crate::joints::{
 use crate::linalg::Border;
 use crate::model::bodies::Body;
 
-/// A slider with its contact.
+/// A slider of a model with its contact: where it is, and what acts there.
 #[derive(Debug, Clone)]
 pub struct Sliding {
     pub name: String,
@@ -19,13 +19,13 @@ pub struct Sliding {
     pub rule: SlidingRule,
     pub ends: EndAction,
     pub state: SliderState,
-    /// Where on the master it is: `ξ`.
+    /// The parameter `ξ` of the master at which the slider is [-].
     pub parameter: f64,
-    /// Of the last step.
+    /// The unknowns of the contact that the last step has found: force, couple and way.
     pub unknowns: ContactUnknowns,
-    /// The most spans that it passed in a step.
+    /// The most spans of its master that the slider passed in a step [-].
     pub most_spans: f64,
-    /// How many times as long as a blow a step was, at the bounce where that is most.
+    /// How many times as long as a blow a step was, at the bounce of the slider where that is most [-].
     pub blows_in_a_step: f64,
     /// The master as drawn.
     track: Track,
@@ -84,7 +84,7 @@ impl Sliding {
         new
     }
 
-    /// The most entries that its equations have.
+    /// The most entries that the equations of the contact have.
     pub fn row_entries(&self) -> usize {
         CONTACT_UNKNOWNS * 2 * (1 + self.passage.basis().functions())
     }
@@ -101,27 +101,27 @@ impl Sliding {
         self.state == SliderState::Sliding
     }
 
-    /// It rests against the stop at an end of its master.
+    /// Makes the slider rest against the stop at an end of its master.
     pub fn hold(&mut self, end: TrackEnd) {
         self.state = SliderState::Held(end);
     }
 
-    /// It leaves its master.
+    /// Lets the slider leave its master.
     pub fn release(&mut self) {
         self.state = SliderState::Released;
         self.unknowns = ContactUnknowns::zeros();
     }
 
-    /// How many numbers it saves, the parameter first.
+    /// How many numbers a slider saves, the parameter first.
     pub const SAVED: usize = 3 + CONTACT_UNKNOWNS;
 
-    /// Appends its numbers; its state is no number.
+    /// Appends the numbers of the slider; its state is no number.
     pub fn save(&self, numbers: &mut Vec<f64>) {
         numbers.extend([self.parameter, self.most_spans, self.blows_in_a_step]);
         numbers.extend(self.unknowns.to_array());
     }
 
-    /// Takes its state and its numbers back, in the order in which these were appended.
+    /// Takes state and numbers of the slider back, in the order in which these were appended.
     pub fn restore(&mut self, state: SliderState, next: &mut dyn FnMut() -> f64) {
         self.state = state;
         (self.parameter, self.most_spans, self.blows_in_a_step) = (next(), next(), next());
@@ -129,22 +129,22 @@ impl Sliding {
         self.here.go(self.parameter, self.parameter);
     }
 
-    /// Whether a parameter is one of its master.
+    /// Whether a parameter is one of the slider's master.
     pub fn may_be_at(&self, parameter: f64) -> bool {
         self.track.has(parameter)
     }
 
-    /// How far it is from an end of the master, as a part of the parameters of its master [-].
+    /// How far the slider is from an end of its master, as a part of the parameters of the master [-].
     pub fn distance_to(&self, end: TrackEnd) -> f64 {
         self.track.distance(self.parameter, end)
     }
 
-    /// Whether it is at an end of the master.
+    /// Whether the slider is at an end of its master.
     pub fn is_at(&self, end: TrackEnd) -> bool {
         self.distance_to(end) <= LANDED
     }
 
-    /// Its place along the master as drawn: 0 at the start, 1 at the end [-].
+    /// The place of the slider along its master as drawn: 0 at the start, 1 at the end [-].
     pub fn position(&self) -> f64 {
         // Arrivals are a few digits short of the end, or beyond it.
         if self.is_at(TrackEnd::Start) {
@@ -156,17 +156,17 @@ impl Sliding {
         self.track.part_before(self.parameter)
     }
 
-    /// How far it is from the start of its master, as drawn [length].
+    /// How far the slider is from the start of its master, as drawn [length].
     pub fn arc_length(&self) -> f64 {
         self.position() * self.track.length()
     }
 
-    /// How much of its master, as drawn, it passes in a unit of time, positive towards the end [length/time].
+    /// How much of its master, as drawn, the slider passes in a unit of time, positive towards the end [length/time].
     pub fn speed(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         self.track.stretch(self.parameter) * self.rate(bodies, rates)
     }
 
-    /// Takes down how many times as long as a blow at the end of its master the steps are [time].
+    /// Notes how many times as long as a blow at the end of the slider's master the steps of `dt` are [time].
     ///
     /// A blow on a beam lasts at least until its wave has come back, twice the length over `c` (Saint-Venant 1883), or, on a light
     /// slave, until that has come to rest, which takes some `m/(c ρA)`. Where nothing gives way, there is no wave to resolve.
@@ -209,18 +209,18 @@ impl Sliding {
         self.tangent(bodies).normalize()
     }
 
-    /// The direction across it [-].
+    /// The direction across the master where the slider is [-].
     pub fn across(&self, bodies: &[Body]) -> Vec2 {
         perpendicular(self.along(bodies))
     }
 
-    /// Adds `Gᵀ P` for an impulse `P`, or a force: on the slave, and the opposite one on the master.
+    /// Adds `Gᵀ P` for an impulse `P`, or a force, of the contact to `out`: on the slave, and the opposite one on the master.
     pub fn transmit(&self, bodies: &[Body], impulse: Vec2, out: &mut [f64]) {
         let on_master = self.here.end().iter().map(|weight| impulse * -*weight);
         self.connection.add_forces(bodies, impulse, self.here.first(), on_master, out);
     }
 
-    /// From the slave to its place on the master.
+    /// The vector from the slave to its place on the master [length].
     pub fn gap(&self, bodies: &[Body]) -> Vec2 {
         if self.state == SliderState::Released {
             return Vec2::zeros();
@@ -244,7 +244,18 @@ impl Sliding {
         bodies[body].vector_at(point, rates)
     }
 
-    /// `dξ/dt` of the present velocities [1/time].
+    /// How its place on the master accelerates because the slave moves on: `2 ξ̇ Σ B_i' v_i + ξ̇² Σ B_i'' x_i` [length/time²].
+    pub fn carried(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
+        let rate = self.rate(bodies, rates);
+        let master = &bodies[self.connection.master];
+        let points = master.dynamics.control_points();
+        let Ok(values) = self.here.basis().evaluate(self.parameter) else { return Vec2::zeros() };
+        let turning = values.slopes().iter().zip(values.first..);
+        let turning: Vec2 = turning.map(|(by, at)| master.vector_at(at, rates) * *by).sum();
+        turning * (2.0 * rate) + values.combine(2, points) * (rate * rate)
+    }
+
+    /// The rate `dξ/dt` of the slider's parameter with the present velocities [1/time].
     pub fn rate(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         match self.state {
             SliderState::Sliding => {
@@ -261,7 +272,7 @@ impl Sliding {
         ContactUnknowns::of(own)
     }
 
-    /// Guesses that it slides on as it does, and that the contact force stays.
+    /// Guesses the unknowns of the contact for a step: the slider slides on as it does, and its force stays.
     pub fn predict(
         &self,
         bodies: &[Body],
@@ -296,7 +307,7 @@ impl Sliding {
         Contact { passage, master: (before, moved), slave_moved, unknowns, length: *length }
     }
 
-    /// Adds the forces on slave and master, and behind the movements the equations of the contact; returns the contact force.
+    /// Adds the forces on slave and master to a residual, and behind the movements the equations of the contact; gives the contact force [force].
     pub fn add(
         &mut self,
         bodies: &[Body],
@@ -315,7 +326,7 @@ impl Sliding {
         force
     }
 
-    /// The same, with all derivatives.
+    /// Adds forces and equations of the contact to a residual, and their derivatives by movements and contact unknowns to the tangent.
     pub fn add_linearised(
         &mut self,
         bodies: &[Body],
@@ -331,7 +342,7 @@ impl Sliding {
         connection.add_derivatives(bodies, &contact, &equations, movements, border);
     }
 
-    /// The largest violations: relative to the lengths met, and a force [force].
+    /// The largest violations of the contact's equations: of lengths relative to the lengths met [-], and of forces [force].
     pub fn violation(&self, equations: &[f64]) -> (f64, f64) {
         let values = equations[self.connection.places()].iter().zip(self.units);
         values.fold((0.0, 0.0), |(length, force), (value, unit)| match unit {
@@ -340,17 +351,17 @@ impl Sliding {
         })
     }
 
-    /// How long the chord of its way is in the mean configuration, relative to the length of the master for that way.
+    /// The length of the chord of the slider's way in the mean configuration, relative to the length of the master for that way [-].
     pub fn chord(&self) -> f64 {
         if self.is_sliding() { self.chord } else { 1.0 }
     }
 
-    /// How far beyond an end of the master the unknowns lead, relative to its parameters.
+    /// How far beyond an end of the master the unknowns of the contact lead, relative to the master's parameters [-].
     pub fn beyond(&self, unknowns: &[f64], end: TrackEnd) -> f64 {
         self.track.beyond(self.parameter + self.read(unknowns).way, end)
     }
 
-    /// Accepts a step; the bodies are at its end already.
+    /// Lets the slider accept a step; the bodies are at its end already.
     ///
     /// A stop that had to pull lets go, but not within a step.
     pub fn advance(&mut self, bodies: &[Body], unknowns: &[f64], ending: Ending) {

@@ -4,20 +4,20 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Curve, corresponding};
 
-/// How far a slider may end beside the end of its master and still be there, relative to the master's parameters.
+/// How far a slider may end beside the end of its master and still be there, relative to the master's parameters [-].
 pub const LANDED: f64 = 4e-15;
 
-/// An end of the master.
+/// An end of the master of a slider.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TrackEnd {
-    /// Where its parameter starts.
+    /// The end where the parameter of the master starts.
     Start,
-    /// Where its parameter ends.
+    /// The end where the parameter of the master ends.
     End,
 }
 
 impl TrackEnd {
-    /// A word for messages and scripts.
+    /// The name of the end for messages and scripts, such as `start`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Start => "start",
@@ -25,7 +25,7 @@ impl TrackEnd {
         }
     }
 
-    /// The sign of `dξ/dt` with which it is reached.
+    /// The sign of `dξ/dt` with which a slider reaches the end [-].
     pub(in crate::model) fn outward(self) -> f64 {
         match self {
             Self::Start => -1.0,
@@ -37,16 +37,16 @@ impl TrackEnd {
 /// What a slider does at present.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SliderState {
-    /// It slides.
+    /// The slider slides along its master.
     Sliding,
-    /// It rests against the stop at an end.
+    /// The slider rests against the stop at an end of its master.
     Held(TrackEnd),
-    /// It has left its master.
+    /// The slider has left its master.
     Released,
 }
 
 impl SliderState {
-    /// A word for reports.
+    /// The state of the slider in a word, for reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Sliding => "sliding",
@@ -59,9 +59,9 @@ impl SliderState {
 /// The end of a master at which a slider may arrive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TrackLimit {
-    /// The slider.
+    /// The index of the slider.
     pub slider: usize,
-    /// The end of its master.
+    /// The end of the slider's master.
     pub end: TrackEnd,
 }
 
@@ -71,18 +71,18 @@ impl TrackLimit {
         [TrackEnd::Start, TrackEnd::End].map(|end| Self { slider, end })
     }
 
-    /// Its number among those of all sliders.
+    /// The number of this limit among those of all sliders.
     pub fn number(self) -> usize {
         2 * self.slider + self.end as usize
     }
 
-    /// The limit of that number.
+    /// The limit of a slider by its number among those of all sliders.
     pub fn of(number: usize) -> Self {
         Self::both(number / 2)[number % 2]
     }
 }
 
-/// The beam that is slid on, as drawn, with the parameters of its mesh.
+/// The master of a slider: a beam as drawn, with the parameters of its mesh.
 #[derive(Debug, Clone)]
 pub struct Track {
     axis: Curve,
@@ -91,22 +91,22 @@ pub struct Track {
 }
 
 impl Track {
-    /// A beam by its axis as drawn, with the first and the last parameter of its mesh.
+    /// The track along a beam, given by its axis as drawn and the first and the last parameter of its mesh.
     pub fn new(axis: Curve, domain: (f64, f64)) -> Self {
         Self { axis, domain }
     }
 
-    /// The first and the last parameter of the mesh.
+    /// The first and the last parameter of the mesh of the master [-].
     pub fn domain(&self) -> (f64, f64) {
         self.domain
     }
 
-    /// Its length as drawn [length].
+    /// The length of the master as drawn [length].
     pub fn length(&self) -> f64 {
         self.axis.length()
     }
 
-    /// The parameter of an end.
+    /// The parameter of an end of the master [-].
     pub fn end(&self, end: TrackEnd) -> f64 {
         match end {
             TrackEnd::Start => self.domain.0,
@@ -114,13 +114,13 @@ impl Track {
         }
     }
 
-    /// How far a parameter is from an end, as a part of all parameters [-].
+    /// How far a parameter is from an end of the master, as a part of all parameters [-].
     pub fn distance(&self, parameter: f64, end: TrackEnd) -> f64 {
         let (first, last) = self.domain;
         (self.end(end) - parameter).abs() / (last - first)
     }
 
-    /// How far a parameter lies beyond an end, as a part of all parameters [-]; negative before it.
+    /// How far a parameter lies beyond an end of the master, as a part of all parameters [-]; negative before it.
     pub fn beyond(&self, parameter: f64, end: TrackEnd) -> f64 {
         let (first, last) = self.domain;
         let distance = match end {
@@ -130,20 +130,20 @@ impl Track {
         distance / (last - first)
     }
 
-    /// Whether a parameter is one of the mesh, or beside an end by rounding.
+    /// Whether a parameter is one of the master's mesh, or beside an end by rounding.
     pub fn has(&self, parameter: f64) -> bool {
         let (first, last) = self.domain;
         let slack = LANDED * (last - first);
         (first - slack..=last + slack).contains(&parameter)
     }
 
-    /// The part of the length as drawn that lies before a parameter [-].
+    /// The part of the master's length as drawn that lies before a parameter [-].
     pub fn part_before(&self, parameter: f64) -> f64 {
         let along = self.axis.length_to(self.drawn(parameter));
         along.map_or(f64::NAN, |along| along / self.axis.length())
     }
 
-    /// The length as drawn that belongs to a unit of the parameter there [length].
+    /// The length of the master as drawn that belongs to a unit of the parameter there [length].
     pub fn stretch(&self, parameter: f64) -> f64 {
         let (start, end) = self.axis.domain();
         let (first, last) = self.domain;

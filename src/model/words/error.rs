@@ -8,87 +8,105 @@ use crate::geometry::GeometryError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ModelError {
     /// There is nothing to simulate.
-    #[error(
-        "the scene '{scene}' has no beams and no particles; add one with scene.beam(#{{ axis: …, section: … }}) or scene.particle([x, y], mass)"
-    )]
+    #[error("the scene '{scene}' has no beams and no particles")]
     Empty {
-        /// Its name.
+        /// The name of the scene with nothing in it.
         scene: String,
     },
-    /// A name that nobody could read.
+    /// A name that nobody could read or type.
     #[error("{name:?} is no name for a {kind}: {why}; use letters, numbers and spaces")]
     Unnamed {
-        /// What should be called that.
+        /// The kind of thing that should have the unreadable name.
         kind: &'static str,
-        /// The name.
+        /// The unreadable name.
         name: String,
-        /// Why it cannot be read.
+        /// The reason why the name cannot be read.
         why: &'static str,
     },
-    /// Two things of the same name.
+    /// Two things of a scene with the same name.
     #[error("the scene already has a {kind} '{name}'; give this {new} another name")]
     DuplicateName {
-        /// What is called that.
+        /// The kind of thing that has the name already.
         kind: &'static str,
-        /// What should be called that as well.
+        /// The kind of thing that should have the name as well.
         new: &'static str,
-        /// The name.
+        /// The name that two things would share.
         name: String,
     },
     /// A station off its beam.
-    #[error(
-        "station {station} is outside [0, {length}] of beam '{beam}'; use beam.end for its end"
-    )]
+    #[error("station {station} is outside [0, {length}] of beam '{beam}'")]
     StationOutside {
-        /// The beam.
+        /// The name of the beam whose station was asked for.
         beam: String,
-        /// The arc length asked for.
+        /// The arc length asked for, which is off the beam [length].
         station: f64,
-        /// The length of the beam.
+        /// The length of the beam whose station was asked for [length].
         length: f64,
     },
     /// Section forces of what has no section.
-    #[error("{body} has no cross section: give a station of a beam")]
+    #[error("{body} has no cross section")]
     NoSection {
         /// The particle.
         body: String,
     },
-    /// A joint of a place with itself.
+    /// Forces at a moment at which there are none.
+    #[error("forces and accelerations at t = {time} cannot be had: {reason}")]
+    NoInstant {
+        /// When.
+        time: f64,
+        /// Why.
+        reason: String,
+    },
+    /// A quantity to record that there is not.
+    #[error("there is no quantity '{name}' to record: {why}")]
+    NoSensor {
+        /// What was asked for.
+        name: String,
+        /// What is wrong with it.
+        why: String,
+    },
+    /// A quantity that is recorded already.
+    #[error("'{name}' is a column of the history already; give this one another name")]
+    DuplicateSensor {
+        /// Its name.
+        name: String,
+    },
+    /// A joint that would tie a place to itself.
     #[error("{joint}: both stations are the same place of {body}; a joint needs two places")]
     JointWithItself {
-        /// The joint.
+        /// The name of the joint that would tie a place to itself.
         joint: String,
-        /// The beam or particle.
+        /// The beam or particle that would be tied to itself, in words.
         body: String,
     },
-    /// Partners that do not meet.
+    /// A joint whose partners do not meet.
     #[error(
         "{joint}: its stations at {from} and {to} are {gap} apart; they must lie at the same place when the scene starts: move one of them"
     )]
     OpenJoint {
-        /// The joint.
+        /// The name of the joint whose partners do not meet.
         joint: String,
-        /// One place.
+        /// The first partner of the joint in words.
         from: String,
-        /// The other.
+        /// The second partner of the joint in words.
         to: String,
-        /// The distance.
+        /// The distance between the partners that do not meet [length].
         gap: f64,
     },
-    /// A place whose movement is already tied in that way.
+    /// A joint of a place whose movement is already tied in that way.
     #[error("{joint}: {place} is already {how}; remove one of the two joints")]
     AlreadyTied {
-        /// The joint.
+        /// The name of the joint that would tie a place again.
         joint: String,
-        /// The place.
+        /// The place that is tied already, in words.
         place: String,
-        /// By what.
+        /// What ties the place already, in words.
         how: String,
     },
-    /// Everything is held.
+    /// A scene in which everything is held: nothing moves.
     #[error("the scene '{scene}' has nothing that can move: every unknown is held by a support")]
     NothingMoves {
-        /// Its name.
+        /// The name of the scene in which nothing moves.
         scene: String,
     },
     /// Start velocities that tied things do not share.
@@ -96,68 +114,83 @@ pub enum ModelError {
         "{body} starts with a velocity of {velocity} at its {place}, but {other}; give it a start velocity that fits"
     )]
     StartVelocity {
-        /// The beam or particle.
+        /// The beam or particle whose start velocity does not fit, in words.
         body: String,
-        /// Which component of which place.
+        /// The component and place whose start velocity does not fit, in words.
         place: String,
-        /// Its value.
+        /// The start velocity that does not fit [length/time, or 1/time for a rotation].
         velocity: f64,
-        /// What it is tied to.
+        /// What the place is tied to, with its velocity, in words.
         other: String,
     },
     /// A joint, load, inertia or spin that would turn a particle.
-    #[error("{object}: a particle does not turn; {advice}")]
+    #[error("{object}: a particle does not turn")]
     ParticleTurned {
-        /// What would turn it.
+        /// The joint, load, inertia or spin that would turn a particle, in words.
         object: String,
-        /// What would be right.
-        advice: &'static str,
+        /// What that is.
+        by: Turning,
     },
-    /// A sliding joint that cannot be.
+    /// A sliding joint that is impossible.
     #[error(transparent)]
     Slider(Box<SliderError>),
-    /// A number that is out of range.
+    /// A number of a scene that is out of its range.
     #[error("{object}: {name} is {value}, but must be {allowed}")]
     Value {
-        /// What it belongs to.
+        /// The object to which the refused number belongs, in words.
         object: String,
-        /// The property.
+        /// The name of the refused property.
         name: &'static str,
-        /// Its value.
+        /// The value of the refused property, in its unit.
         value: f64,
-        /// What it may be.
+        /// The values that the refused property may have, in words.
         allowed: &'static str,
     },
-    /// A stored part of a scene that is about something that is not there.
+    /// A stored part of a scene that refers to something that is not there.
     #[error("{object} is on {kind} number {index}, but the scene has only {count}")]
     Missing {
-        /// What is about it.
+        /// The part of the scene that refers to something missing, in words.
         object: &'static str,
-        /// The kind of what is missing.
+        /// The kind of the thing that is missing.
         kind: &'static str,
-        /// Its index.
+        /// The index of the thing that is missing.
         index: usize,
-        /// How many there are.
+        /// The number of things of that kind in the scene.
         count: usize,
     },
-    /// A stored state that is none of the model.
+    /// A stored state that is not one of the model.
     #[error("the state does not fit the scene: {reason}")]
     State {
-        /// What does not fit.
+        /// Why the stored state does not fit the model.
         reason: &'static str,
     },
     /// A beam that cannot be put on its mesh.
     #[error("beam '{beam}': {source}")]
     Beam {
-        /// The beam.
+        /// The name of the beam that cannot be put on its mesh.
         beam: String,
-        /// Why.
+        /// The reason why the beam cannot be put on its mesh.
         source: BeamError,
     },
 }
 
+/// What would turn a particle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Turning {
+    /// A rigid joint.
+    RigidJoint,
+    /// The rotary inertia of a point mass.
+    RotaryInertia,
+    /// A moment, or a force that follows a section.
+    Load,
+    /// A spin at the start.
+    Spin,
+    /// A torsion spring.
+    TorsionSpring,
+}
+
 impl ModelError {
-    /// For `map_err`: a geometry error of a beam.
+    /// For `map_err`: makes a geometry error one of a beam, by its name.
     pub(in crate::model) fn geometry(beam: &str) -> impl Fn(GeometryError) -> Self + '_ {
         move |source| Self::Beam { beam: beam.to_owned(), source: source.into() }
     }
@@ -168,7 +201,7 @@ impl ModelError {
     }
 }
 
-/// Refuses numbers that are not finite: a property of an object.
+/// Refuses numbers that are not finite; they are a property, of a name, of an object in words.
 pub fn finite(object: &str, name: &'static str, values: &[f64]) -> Result<(), ModelError> {
     match values.iter().find(|value| !value.is_finite()) {
         Some(&value) => {

@@ -5,7 +5,7 @@ mod names;
 mod numbers;
 mod slider_error;
 
-pub use error::{ModelError, finite};
+pub use error::{ModelError, Turning, finite};
 pub use names::refusal;
 pub use numbers::{MOST, in_words, plural, rounded, written};
-pub use slider_error::{SliderError, SliderParts};
+pub use slider_error::{Approach, SliderError, SliderParts};

@@ -37,7 +37,7 @@ enum Alphabet {
     Cherokee,
 }
 
-/// Why nobody could read or type a name, if so.
+/// The reason why nobody could read or type a name; none for a good one.
 pub fn refusal(name: &str) -> Option<&'static str> {
     let code = |letter: char| u32::from(letter);
     let is_hidden = |letter: char| {

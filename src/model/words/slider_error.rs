@@ -1,62 +1,92 @@
 //! What can be wrong with a sliding joint.
 
-/// The parts of a slider in words.
+use std::fmt;
+
+/// The parts of a slider in words, for messages.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SliderParts {
-    /// Its name.
+    /// The name of the slider.
     pub slider: String,
-    /// The point that slides.
+    /// The slave of the slider, the point that slides, in words.
     pub slave: String,
-    /// The name of the beam that it slides on.
+    /// The name of the slider's master, the beam on which it slides.
     pub beam: String,
+}
+
+/// The place of a beam that is nearest to a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Approach {
+    /// The point lies on the beam.
+    On {
+        /// Where, as a part of the length of the beam [-].
+        place: f64,
+    },
+    /// It does not.
+    Apart {
+        /// The nearest place, as a part of the length of the beam [-].
+        place: f64,
+        /// How far that is [length].
+        distance: f64,
+    },
+}
+
+impl fmt::Display for Approach {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::On { place } => write!(f, "it lies on that beam at {place} of its length"),
+            Self::Apart { place, distance } => {
+                write!(f, "the beam comes no nearer than {distance:.3e}, at {place} of its length")
+            }
+        }
+    }
 }
 
 /// A sliding joint that cannot be described or built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SliderError {
-    /// A slave that is a part of its master.
+    /// A slider whose slave is a part of its master.
     #[error(
         "slider '{}': {} is on the beam '{}' itself; a beam cannot slide on itself, choose another beam",
         _0.slider, _0.slave, _0.beam
     )]
     OnItself(SliderParts),
-    /// A slave that is not on its master.
+    /// A slider whose slave is not on its master.
     #[error(
-        "slider '{}': {} is at {from}, {gap:.3e} from its place {to} on the beam '{}'; {advice}",
+        "slider '{}': {} is at {from}, {gap:.3e} from its place {to} on the beam '{}'; {nearest}",
         parts.slider, parts.slave, parts.beam
     )]
     Open {
-        /// The slider.
+        /// The slider whose slave is not on its master.
         parts: SliderParts,
-        /// Where the slave is.
+        /// The place of the slave, in words.
         from: String,
-        /// Where it should be.
+        /// The place on the master where the slave should be, in words.
         to: String,
-        /// How far that is [length].
+        /// The distance of the slave from that place on the master [length].
         gap: f64,
-        /// What would be right.
-        advice: String,
+        /// Where the beam comes nearest to it.
+        nearest: Approach,
     },
-    /// A slave that slides on the same master already.
+    /// A slider whose slave slides on the same master already.
     #[error(
         "slider '{}': {} already slides on the beam '{}'; remove one of the two sliders",
         _0.slider, _0.slave, _0.beam
     )]
     Twice(SliderParts),
-    /// A slave that is tied to its master as well.
+    /// A slider whose slave is tied to its master as well.
     #[error(
         "slider '{}': {} is also joined to the beam '{}', on which it then cannot slide; remove the joint or the slider",
         _0.slider, _0.slave, _0.beam
     )]
     Tied(SliderParts),
-    /// Start velocities that would leave the master.
+    /// Start velocities with which a slider would leave its master.
     #[error(
-        "slider '{slider}': at the start its point moves across its beam with a speed of {speed}; start it with the velocity of the beam there and whatever it has along the beam, or give the slider the option velocities: \"project\", which takes the nearest velocities that fit"
+        "slider '{slider}': at the start its point moves across its beam with a speed of {speed}"
     )]
     LeavesMaster {
-        /// The slider.
+        /// The name of the slider with such start velocities.
         slider: String,
-        /// The relative speed across the master [length/time].
+        /// The speed of the slave relative to its master, across it [length/time].
         speed: f64,
     },
     /// A slider between places that are held already.
@@ -70,7 +100,7 @@ pub enum SliderError {
         "the sliders '{sliders}' hold each other: their contact forces are not determined; remove one of them, or a support"
     )]
     Overdetermined {
-        /// Their names.
+        /// The names of the sliders whose forces are not determined.
         sliders: String,
     },
 }

@@ -20,7 +20,7 @@ const BETWEEN: usize = 3;
 const LETTER_EVERY: usize = 16;
 
 impl LineChart {
-    /// The chart as text of at most the width and the height of `style`.
+    /// The chart as text for a terminal, of at most the width and the height of `style`.
     ///
     /// Without colours several curves are told apart by letters: on their curves in braille, instead of dots in ASCII.
     pub fn text(&self, style: &Style) -> String {
@@ -336,7 +336,7 @@ mod tests {
         assert!(LineChart::new("").text(&PLAIN).contains("no data"));
     }
 
-    /// The characters that are seen of a line.
+    /// The characters that are seen of a line, without what colours it.
     pub fn seen(line: &str) -> usize {
         let mut inside = false;
         let visible = line.chars().filter(|&letter| {

@@ -6,24 +6,24 @@ use super::sheet::Ink;
 use crate::output::canvas::{Area, Point};
 use crate::output::curve::pieces;
 
-/// Dots across and down a character.
+/// The number of dots across a character.
 pub const ACROSS: usize = 2;
-/// Dots down a character.
+/// The number of dots down a character.
 pub const DOWN: usize = 4;
 
 /// The bit of each dot in the number of its braille character: first column from above, then the second one.
 const BITS: [[u8; DOWN]; ACROSS] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
 
-/// How a curve is drawn.
+/// How a curve is drawn in dots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trace {
-    /// Dot beside dot.
+    /// The curve is drawn dot beside dot.
     Solid,
-    /// Every third dot.
+    /// The curve is drawn with every third dot.
     Dotted,
 }
 
-/// Dots in characters.
+/// A raster of dots in characters, on which curves are drawn in a terminal.
 #[derive(Clone, Debug)]
 pub struct Dots {
     columns: usize,
@@ -32,19 +32,19 @@ pub struct Dots {
 }
 
 impl Dots {
-    /// A blank raster of so many characters.
+    /// A blank raster of so many columns and rows of characters.
     pub fn new(columns: usize, rows: usize) -> Self {
         Self { columns, rows, cells: vec![(0, Ink::Plain); columns * rows] }
     }
 
-    /// The number of dots less one across and down: the coordinates of the last dot.
+    /// The coordinates of the last dot of the raster: the number of dots less one across and down.
     pub fn last(&self) -> Point {
         let last = |dots: usize| dots.saturating_sub(1) as f64;
         (last(ACROSS * self.columns), last(DOWN * self.rows))
     }
 
-    /// Draws a curve through points given in dots from the upper left one. Points that are not finite leave a gap; what lies
-    /// beyond the raster is cut off.
+    /// Draws a curve on the raster, through points given in dots from the upper left one. Points that are not finite leave a gap; what
+    /// lies beyond the raster is cut off.
     pub fn curve(&mut self, points: impl IntoIterator<Item = Point>, trace: Trace, ink: Ink) {
         if self.cells.is_empty() {
             return;
@@ -73,7 +73,7 @@ impl Dots {
         }
     }
 
-    /// The characters that have dots: column, row, dots and ink.
+    /// The characters of the raster that have dots: column, row, dots and ink.
     pub fn drawn(&self) -> impl Iterator<Item = (usize, usize, u8, Ink)> {
         let of_cell = |(at, (mask, ink)): (usize, &(u8, Ink))| {
             (*mask != 0).then(|| (at % self.columns, at / self.columns, *mask, *ink))
@@ -94,7 +94,7 @@ fn way(from: (i64, i64), to: (i64, i64)) -> impl Iterator<Item = (i64, i64)> {
 }
 
 impl Glyphs {
-    /// The character that looks like these dots.
+    /// The character that looks like these dots, one bit for each.
     pub(super) fn of_dots(self, mask: u8) -> char {
         match self {
             Self::Braille => char::from_u32(0x2800 + u32::from(mask)).unwrap_or(' '),

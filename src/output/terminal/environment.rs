@@ -38,7 +38,7 @@ impl Style {
         style.on_terminal(columns, lines)
     }
 
-    /// The same for a terminal of so many columns and lines.
+    /// The style for the terminal that the environment describes, of so many columns and lines.
     #[must_use]
     pub fn on_terminal(self, columns: usize, lines: usize) -> Self {
         let height = lines.saturating_sub(LEFT_FREE).clamp(HEIGHTS.0, HEIGHTS.1);

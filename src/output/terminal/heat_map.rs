@@ -11,7 +11,7 @@ const BETWEEN: usize = 2;
 const BLOCK: usize = 3;
 
 impl HeatMap {
-    /// The map as text, no line of it wider than that of `style`; its height is that of its rows.
+    /// The heat map as text for a terminal, no line of it wider than that of `style`; its height is that of its rows.
     pub fn text(&self, style: &Style) -> String {
         let glyphs = style.glyphs;
         let cells: Vec<Vec<(char, Ink, String)>> = self

@@ -9,18 +9,18 @@ use crate::output::number::significant;
 use crate::output::plane::Limits;
 use crate::output::width::columns;
 
-/// A place that is marked.
+/// What a mark in a picture of a configuration stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// A point mass that moves by itself.
+    /// The mark is a point mass that moves by itself.
     Particle,
-    /// A place that slides along a beam.
+    /// The mark is a place that slides along a beam.
     Slider,
     /// A place where beams are tied to each other.
     Joint,
-    /// A support that holds a position.
+    /// The mark is a support that holds a position.
     Hinge,
-    /// A support that holds position and angle.
+    /// The mark is a support that holds position and angle.
     Clamp,
 }
 
@@ -46,7 +46,7 @@ const LEAST: (usize, usize) = (12, 5);
 /// Blank dots between the drawing and its frame.
 const MARGIN: f64 = 2.0;
 
-/// What is drawn.
+/// A picture of a configuration as text for a terminal: beams and marks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ConfigurationPicture {
     title: String,
@@ -67,30 +67,30 @@ struct Window {
 }
 
 impl ConfigurationPicture {
-    /// A picture of nothing.
+    /// A picture of a configuration with nothing in it.
     pub fn new(title: impl Into<String>) -> Self {
         Self { title: title.into(), ..Self::default() }
     }
 
-    /// Says when it was.
+    /// Says the time of the configuration in its picture.
     pub fn time(mut self, time: f64) -> Self {
         self.time = Some(time);
         self
     }
 
-    /// Adds a beam.
+    /// Adds a beam to the picture.
     pub fn line(mut self, points: Vec<Point>) -> Self {
         self.lines.push(points);
         self
     }
 
-    /// Adds a beam as it was before: dotted, and dimmer where there are colours.
+    /// Adds a beam to the picture as it was before: dotted, and dimmer where there are colours.
     pub fn ghost(mut self, points: Vec<Point>) -> Self {
         self.ghost.push(points);
         self
     }
 
-    /// Adds a mark.
+    /// Adds a mark to the picture.
     pub fn mark(mut self, mark: Mark, at: Point) -> Self {
         self.marks.push((mark, at));
         self
@@ -102,7 +102,7 @@ impl ConfigurationPicture {
         self
     }
 
-    /// The picture as text of at most the width and the height of `style`; less high where the drawing is flat.
+    /// The picture as text for a terminal, of at most the width and the height of `style`; less high where the drawing is flat.
     pub fn text(&self, style: &Style) -> String {
         let has_frame = style.width >= LEAST.0 && style.height >= LEAST.1;
         let border = usize::from(has_frame);

@@ -3,15 +3,15 @@
 use super::{Colours, Style};
 use crate::output::width::columns_of;
 
-/// What a character is drawn with.
+/// The colour in which a character is drawn in a terminal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Ink {
-    /// As the terminal writes.
+    /// The character is drawn as the terminal writes.
     #[default]
     Plain,
-    /// Dimmer.
+    /// The character is drawn dimmer.
     Faint,
-    /// The colour of a series, by its number.
+    /// The character is drawn in the colour of a series, by its number.
     Series(usize),
 }
 
@@ -21,7 +21,7 @@ const HUES: [u8; 6] = [36, 33, 35, 32, 34, 31];
 /// The place behind a character that takes two columns.
 const COVERED: char = '\0';
 
-/// Characters in lines and columns; what is written beyond them is lost.
+/// A sheet of characters in lines and columns; what is written beyond them is lost.
 #[derive(Clone, Debug)]
 pub struct Sheet {
     style: Style,
@@ -34,14 +34,14 @@ impl Sheet {
         Self { style: *style, cells: vec![(' ', Ink::Plain); style.width * style.height] }
     }
 
-    /// Puts a character at a place.
+    /// Puts a character at a place of the sheet.
     pub fn put(&mut self, column: usize, row: usize, letter: char, ink: Ink) {
         if column < self.style.width && row < self.style.height {
             self.cells[row * self.style.width + column] = (letter, ink);
         }
     }
 
-    /// Writes a text from a place to the right, typeset in the characters of the style.
+    /// Writes a text on the sheet from a place to the right, typeset in the characters of the style.
     pub fn write(&mut self, column: usize, row: usize, text: &str, ink: Ink) {
         let mut column = column;
         for letter in self.style.glyphs.typeset(text).chars() {
@@ -59,7 +59,7 @@ impl Sheet {
         }
     }
 
-    /// The lines, joined by line breaks, without blanks at their ends.
+    /// The lines of the sheet, joined by line breaks, without blanks at their ends.
     pub fn render(&self) -> String {
         if self.style.width == 0 {
             return String::new();

@@ -2,39 +2,39 @@
 
 use crate::output::width::cut;
 
-/// The characters that pictures are made of.
+/// The characters that pictures in a terminal are made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Glyphs {
-    /// Eight braille dots a character, lines of boxes, true minus signs: for terminals that know UTF-8.
+    /// Pictures have eight braille dots a character, lines of boxes, true minus signs: for terminals that know UTF-8.
     Braille,
-    /// Letters and signs of ASCII only.
+    /// Pictures have letters and signs of ASCII only.
     Ascii,
 }
 
-/// Whether text has colours.
+/// Whether text in a terminal has colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colours {
-    /// Plain text, the same everywhere.
+    /// Text is plain, the same everywhere.
     None,
-    /// For a terminal.
+    /// Text has the colours of ANSI sequences, for a terminal.
     Ansi,
 }
 
-/// How a picture is set: no line of it is wider than `width`, and it has no more than `height` lines.
+/// How a picture in a terminal is set: no line of it is wider than `width`, and it has no more than `height` lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Style {
-    /// The characters.
+    /// The characters that the picture is made of.
     pub glyphs: Glyphs,
-    /// Whether there are colours.
+    /// Whether the picture has colours.
     pub colours: Colours,
-    /// Characters in a line.
+    /// The largest number of characters in a line of the picture.
     pub width: usize,
-    /// Lines.
+    /// The largest number of lines of the picture.
     pub height: usize,
 }
 
 impl Style {
-    /// The same in another size.
+    /// The same style in another size, in characters and lines.
     #[must_use]
     pub fn sized(self, width: usize, height: usize) -> Self {
         Self { width, height, ..self }
@@ -42,7 +42,7 @@ impl Style {
 }
 
 impl Glyphs {
-    /// The one that is meant for these glyphs.
+    /// Of two choices, the one that is meant for these glyphs.
     pub(super) fn choose<T>(self, braille: T, ascii: T) -> T {
         match self {
             Self::Braille => braille,
@@ -50,7 +50,7 @@ impl Glyphs {
         }
     }
 
-    /// `text` in the characters that may be used, on one line: `10⁻¹²` becomes `1e-12` in ASCII.
+    /// The text in the characters that may be used, on one line: `10⁻¹²` becomes `1e-12` in ASCII.
     pub fn typeset(self, text: &str) -> String {
         let line = text.replace(char::is_control, " ");
         match self {
@@ -59,7 +59,7 @@ impl Glyphs {
         }
     }
 
-    /// `text` typeset, and cut where it is wider than `width`.
+    /// The text typeset, and cut where it is wider than `width` characters.
     pub(super) fn fit(self, text: &str, width: usize) -> String {
         cut(&self.typeset(text), width, self.choose('…', '~'))
     }

@@ -7,7 +7,7 @@ use crate::repl::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::pages::help::{self, Page, Span};
 
-/// `:help [name]`
+/// The command `:help [name]`: shows help on a name, or on the prompt.
 pub fn help(shell: &mut Shell, operand: &str) -> Outcome {
     let name = operand.trim_matches('"').trim_end_matches('?').trim_end_matches("()").trim();
     match name {

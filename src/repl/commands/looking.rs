@@ -20,7 +20,7 @@ use crate::simulation::Simulation;
 /// Characters of a value in the list of variables.
 const VALUE_WIDTH: usize = 70;
 
-/// `:vars`
+/// The command `:vars`: lists the variables, functions and modules of the session.
 pub fn variables(shell: &mut Shell, _: &str) -> Outcome {
     let session = shell.session();
     let mut table = Table::new(&["name", "type", "value"]);
@@ -57,17 +57,30 @@ pub fn variables(shell: &mut Shell, _: &str) -> Outcome {
     Outcome::Good
 }
 
-/// `:invariants`
+/// The command `:invariants`: shows how far energy and momenta of the last simulation drift.
 pub fn invariants(shell: &mut Shell, _: &str) -> Outcome {
     shell.show_of_latest("invariants()")
 }
 
-/// `:explain`
+/// The command `:view [FILE]`: writes a page on which the last simulation moves.
+pub fn view(shell: &mut Shell, operand: &str) -> Outcome {
+    let file = if operand.is_empty() { "view.html" } else { operand.trim_matches('"') };
+    // What no name of a file can contain would end the text in which it stands.
+    let name: String = file.chars().filter(|letter| !matches!(letter, '"' | '\\')).collect();
+    let outcome = shell.call_latest(&format!("write_viewer(\"{name}\")"));
+    if outcome == Outcome::Good {
+        let page = shell.session().context().output().folder().join(&name);
+        shell.print(&format!("wrote {}; open it in a browser", page.display()));
+    }
+    outcome
+}
+
+/// The command `:explain`: tells what the last simulation uses and leaves out.
 pub fn explain(shell: &mut Shell, _: &str) -> Outcome {
     shell.show_of_latest("explain()")
 }
 
-/// `:show [time] [options]`
+/// The command `:show [time]`: draws the configuration of the last simulation.
 pub fn show(shell: &mut Shell, operand: &str) -> Outcome {
     let (time, options) = operand.find("#{").map_or((operand, ""), |at| operand.split_at(at));
     let time = match (time.trim().trim_end_matches(',').trim_end(), options) {
@@ -153,7 +166,7 @@ pub fn along(shell: &mut Shell, operand: &str) -> Outcome {
     })
 }
 
-/// Shows what is made of the last simulation for the screen.
+/// Shows what is made of the last simulation for the screen: a picture, or words.
 pub(super) fn draw(
     shell: &mut Shell,
     picture: impl FnOnce(&Simulation, Screen) -> Result<String, ScriptError>,

@@ -16,13 +16,13 @@ const DIGITS: usize = 6;
 
 /// What the session knows of a name: lines to be shown as they are, and a page.
 pub struct Known {
-    /// What a value looks like.
+    /// What the value of the name looks like.
     pub shown: Option<String>,
-    /// What there is to say besides.
+    /// The page of what there is to say of the name besides.
     pub page: Page,
 }
 
-/// What a name stands for in the session, if anything.
+/// What a name stands for in the session of the shell, if anything.
 pub fn known(shell: &mut Shell, name: &str) -> Option<Known> {
     if name.contains('.') {
         return member(shell, name);

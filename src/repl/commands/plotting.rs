@@ -5,16 +5,14 @@ use std::collections::BTreeSet;
 use super::looking::draw;
 use crate::output::{LineChart, Series};
 use crate::repl::curves::{Curve, Over, Shape, parts, shape, summary};
-use crate::repl::following::{Followed, follow};
+use crate::repl::following::{Followed, follow, moves};
 use crate::repl::session::Reply;
 use crate::repl::shell::{Outcome, Screen, Shell, no_simulation};
 use crate::script::diagnose::Diagnostic;
 use crate::script::handles::simulation::{Revisit, SimulationHandle};
 use crate::script::looks::sight;
 use crate::script::source::scanner::{Kind, scan};
-use crate::script::words::error::ScriptError;
 use crate::script::words::nouns::with_article;
-use crate::script::words::stop::Stop;
 use crate::simulation::History;
 
 /// What is drawn when nothing is named.
@@ -26,7 +24,7 @@ enum Part {
     Expression(String),
 }
 
-/// `:plot [curves]`
+/// The command `:plot [curves]`: draws columns of the history, or curves of expressions.
 pub fn plot(shell: &mut Shell, operand: &str) -> Outcome {
     let found: Vec<Part> = parts(operand).into_iter().map(|part| read(shell, part)).collect();
     let mut columns = Vec::new();
@@ -155,7 +153,7 @@ fn expression(shell: &mut Shell, text: &str) -> Drawn {
     let before = shell.session().whereabouts();
     // Even what goes on by mistake moves a copy only.
     let present = subject.as_ref().map(Revisit::at_present).transpose();
-    let present = present.map_err(|error| refuse(shell, error))?;
+    let present = present.map_err(|error| shell.refuse_native(error))?;
     let place = present.as_ref().map(Revisit::place);
     let reply = shell.session_mut().peek(text);
     let has_moved = present.as_ref().map(Revisit::place) != place;
@@ -264,24 +262,5 @@ fn subject(shell: &Shell, text: &str) -> Result<Option<SimulationHandle>, Diagno
         }
         (Some(one), None) => Ok(Some(one)),
         _ => Ok(shell.latest()),
-    }
-}
-
-/// What an expression is told that goes on.
-pub fn moves(text: &str) -> Diagnostic {
-    Diagnostic::general(format!("'{text}' moves a simulation"))
-        .with_hint("draw what only looks; the simulation that it names stayed where it was")
-}
-
-/// Tells an error that came from no script.
-pub fn refuse(shell: &mut Shell, error: ScriptError) -> Outcome {
-    match error {
-        ScriptError::Failure(failure) => {
-            let hint = failure.hint.clone();
-            shell.refuse(&Diagnostic { hint, ..Diagnostic::general(failure.message) })
-        }
-        ScriptError::Stopped(Stop::Interrupt) => shell.tell(Reply::Interrupted),
-        ScriptError::Stopped(stop) => shell.refuse(&Diagnostic::general(stop.words().0)),
-        other => shell.refuse(&Diagnostic::bug(format!("{other:?}"))),
     }
 }

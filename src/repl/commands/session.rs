@@ -7,7 +7,7 @@ use crate::repl::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::source::program::Program;
 
-/// `:save file`
+/// The command `:save file`: writes the session as a script.
 pub fn save(shell: &mut Shell, operand: &str) -> Outcome {
     let operand = operand.trim_matches('"');
     if operand.is_empty() {
@@ -43,7 +43,7 @@ pub fn save(shell: &mut Shell, operand: &str) -> Outcome {
     Outcome::Good
 }
 
-/// `:load file`
+/// The command `:load file`: evaluates a script as if it had been typed.
 pub fn load(shell: &mut Shell, operand: &str) -> Outcome {
     let operand = operand.trim_matches('"');
     if operand.is_empty() {
@@ -56,13 +56,13 @@ pub fn load(shell: &mut Shell, operand: &str) -> Outcome {
     }
 }
 
-/// `:reset`
+/// The command `:reset`: forgets everything but the screen.
 pub fn reset(shell: &mut Shell, _: &str) -> Outcome {
     shell.reset();
     Outcome::Good
 }
 
-/// `:quit`
+/// The command `:quit`: leaves the prompt.
 pub fn quit(_: &mut Shell, _: &str) -> Outcome {
     Outcome::Quit
 }

@@ -4,7 +4,7 @@ use crate::repl::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::words::numbers::format_number;
 
-/// `:step [count]`
+/// The command `:step [count]`: takes steps with the last simulation.
 pub fn step(shell: &mut Shell, operand: &str) -> Outcome {
     let count = match whole(operand, "step") {
         Ok(count) => count,
@@ -23,7 +23,7 @@ pub fn step(shell: &mut Shell, operand: &str) -> Outcome {
     outcome
 }
 
-/// `:run time`
+/// The command `:run time`: runs the last simulation to a time.
 pub fn run(shell: &mut Shell, operand: &str) -> Outcome {
     let Ok(end) = operand.parse::<f64>() else {
         let hint = "write :run T, with the time to run to";
@@ -40,7 +40,7 @@ pub fn run(shell: &mut Shell, operand: &str) -> Outcome {
     outcome
 }
 
-/// `:back [count]`
+/// The command `:back [count]`: takes the last simulation back by steps.
 pub fn back(shell: &mut Shell, operand: &str) -> Outcome {
     match whole(operand, "back") {
         Ok(count) => move_latest(shell, &format!("back({count})")),
@@ -48,7 +48,7 @@ pub fn back(shell: &mut Shell, operand: &str) -> Outcome {
     }
 }
 
-/// `:watch [expression]`
+/// The command `:watch [expression]`: shows an expression after each step.
 pub fn watch(shell: &mut Shell, operand: &str) -> Outcome {
     if operand.is_empty() {
         shell.watch_nothing();

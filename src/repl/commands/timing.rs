@@ -8,7 +8,7 @@ use crate::repl::session::Reply;
 use crate::repl::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
 
-/// `:time input`
+/// The command `:time input`: tells how long an input takes.
 pub fn time(shell: &mut Shell, operand: &str) -> Outcome {
     if operand.is_empty() {
         let told = Diagnostic::general("there is nothing to time");

@@ -19,7 +19,7 @@ use crate::output::{Colours, columns, cut, padded};
 /// Lists as short as this have a line for each candidate, with what it is.
 const SHORT_LIST: usize = 12;
 
-/// Answers for one prompt.
+/// The assistant of the line editor for one prompt: it completes, hints and colours.
 pub struct Assistant {
     vocabulary: Vocabulary,
     columns: usize,
@@ -31,7 +31,7 @@ pub struct Assistant {
 }
 
 impl Assistant {
-    /// For a terminal of so many columns, and a prompt of so many.
+    /// The assistant for a terminal of so many columns, and a prompt of so many.
     pub fn new(
         vocabulary: Vocabulary,
         columns: usize,
@@ -63,7 +63,7 @@ impl Assistant {
 
 impl Helper for Assistant {}
 
-/// A candidate as rustyline lists it.
+/// A candidate of completion as rustyline lists it.
 pub struct Listed {
     display: String,
     replacement: String,

@@ -4,24 +4,24 @@ use crate::script::rows::built_in::{BuiltIn, Ending, Written};
 use crate::script::rows::parameter::Parameter;
 use crate::script::rows::table::{Form, Row};
 
-/// Something that can be completed.
+/// A candidate of completion: something that what is typed may become.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Candidate {
-    /// How it is listed.
+    /// The text with which the candidate is listed.
     pub display: String,
-    /// What is put in the place of what is typed.
+    /// The text that is put in the place of what is typed.
     pub replacement: String,
-    /// One line on what it is; may be empty.
+    /// One line on what the candidate is; may be empty.
     pub summary: String,
 }
 
 impl Candidate {
-    /// A word that is listed as it is written.
+    /// The candidate of a word that is listed as it is written.
     pub fn word(word: &str, summary: &str) -> Self {
         Self { display: word.to_owned(), replacement: word.to_owned(), summary: summary.to_owned() }
     }
 
-    /// A function with its arguments in parentheses, `(from, to)`: the opening one is written too, and both if there
+    /// The candidate of a function with its arguments in parentheses, `(from, to)`: the opening one is written too, and both if there
     /// are no arguments.
     pub fn call(name: &str, arguments: &str, summary: &str) -> Self {
         let brackets = if arguments == "()" { "()" } else { "(" };
@@ -32,7 +32,7 @@ impl Candidate {
         }
     }
 
-    /// A row, in the way in which it is written after a dot, or without one.
+    /// The candidate of a row of the language, in the way in which it is written after a dot, or without one.
     pub fn row(row: &'static Row, before_dot: usize) -> Self {
         match row.form {
             Form::Property(_) | Form::Operator => Self::word(row.name, row.summary),
@@ -53,7 +53,7 @@ impl Candidate {
         }
     }
 
-    /// A key of an option map.
+    /// The candidate of a key of an option map.
     pub fn key(key: &Parameter) -> Self {
         let summary = match key.doc {
             "" => key.expectation(),
@@ -62,7 +62,7 @@ impl Candidate {
         Self { display: key.name.to_owned(), replacement: format!("{}: ", key.name), summary }
     }
 
-    /// A key of the options of a script function.
+    /// The candidate of a key of the options of a script function.
     pub fn told_key(name: &str, about: &str) -> Self {
         Self {
             display: name.to_owned(),
@@ -77,7 +77,7 @@ impl Candidate {
     }
 }
 
-/// Arguments in parentheses, optional ones in brackets.
+/// The parameters of a function as its arguments in parentheses, optional ones in brackets.
 pub fn arguments(parameters: &[Parameter]) -> String {
     let names = parameters.iter().map(|parameter| match parameter.is_required() {
         true => parameter.name.to_owned(),

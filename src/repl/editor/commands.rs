@@ -5,7 +5,7 @@ use super::completion::complete;
 use super::paths::{Files, complete_path};
 use super::surroundings::{CommandWord, Operand, Surroundings};
 
-/// What may stand at the end of `text`, which is a command or a question up to the cursor.
+/// The candidates for the end of `text`, which is a command or a question up to the cursor, and where what they replace begins.
 pub fn complete_command(text: &str, surroundings: &Surroundings) -> (usize, Vec<Candidate>) {
     let begin = text.len() - text.trim_start().len();
     let command = &text[begin..];

@@ -5,9 +5,9 @@ use crate::script::source::scanner::{Bracket, Kind, Token, scan};
 /// Whether an input is complete.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Completeness {
-    /// It can be run, if only to say what is wrong with it.
+    /// The input can be run, if only to say what is wrong with it.
     Complete,
-    /// It goes on; the next line is indented by so many levels.
+    /// The input goes on; the next line is indented by so many levels.
     Open(usize),
 }
 

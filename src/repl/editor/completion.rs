@@ -14,7 +14,7 @@ use crate::script::rows::table::Form;
 use crate::script::source::keywords::KEYWORDS;
 use crate::script::source::scanner::{Bracket, Kind, Token, scan};
 
-/// What may stand in `line` at `position`: where the word that is typed begins, and what it may become.
+/// The candidates for the word that is typed in `line` at `position`, and where that word begins.
 pub fn complete(
     line: &str,
     position: usize,

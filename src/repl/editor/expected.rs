@@ -9,7 +9,7 @@ use crate::script::rows::parameter::Parameter;
 use crate::script::rows::table::{Form, Row};
 use crate::script::source::scanner::Bracket;
 
-/// The parameters of what stands in brackets.
+/// The parameters that are expected in the brackets around the cursor.
 pub struct Expected<'a, 't> {
     types: Types<'a, 't>,
     levels: Vec<Level<'t>>,
@@ -18,29 +18,29 @@ pub struct Expected<'a, 't> {
 /// A row that is called, and how many of its parameters stand before the dot.
 #[derive(Clone, Copy)]
 pub struct Called {
-    /// The row.
+    /// The row that is called.
     pub row: &'static Row,
-    /// One for a function that is written as a method.
+    /// The number of parameters before the dot: one for a function that is written as a method.
     pub before_dot: usize,
 }
 
 impl<'a, 't> Expected<'a, 't> {
-    /// Looks at what stands before the cursor.
+    /// Looks at what stands before the cursor of an input.
     pub fn new(input: &'a Input<'t>, surroundings: &'a Surroundings) -> Self {
         Self { types: Types { input, surroundings }, levels: input.levels() }
     }
 
-    /// The innermost open bracket.
+    /// The innermost open bracket before the cursor.
     pub fn innermost(&self) -> Option<&Level<'t>> {
         self.levels.last()
     }
 
-    /// What the value that is being written may be.
+    /// The parameters that the value may be for which is being written at the cursor.
     pub fn here(&self) -> Vec<&'static Parameter> {
         self.levels.len().checked_sub(1).map_or_else(Vec::new, |depth| self.at(depth))
     }
 
-    /// The keys of the option map whose bracket is the innermost one; none of any other map.
+    /// The keys of the option map whose bracket is the innermost one at the cursor; none of any other map.
     pub fn keys(&self) -> Vec<&'static Parameter> {
         match self.levels.len().checked_sub(2) {
             Some(outer) if self.levels[outer + 1].bracket == Bracket::Map => keys(&self.at(outer)),
@@ -48,7 +48,7 @@ impl<'a, 't> Expected<'a, 't> {
         }
     }
 
-    /// The keys of the options of a function of a module whose bracket is the innermost one.
+    /// The keys of the options of a library function whose bracket is the innermost one at the cursor, with what is said about each.
     pub fn library_keys(&self) -> &'a [(String, String)] {
         let [.., call, map] = self.levels.as_slice() else { return &[] };
         if map.bracket != Bracket::Map || call.bracket != Bracket::Round {
@@ -135,7 +135,7 @@ fn keys(parameters: &[&'static Parameter]) -> Vec<&'static Parameter> {
     parameters.iter().flat_map(|parameter| kinds(&parameter.kind)).flat_map(options).collect()
 }
 
-/// The kinds of which a value may be one.
+/// The kinds of which a value for this kind may be one.
 pub fn kinds(kind: &'static Kind) -> &'static [Kind] {
     match kind {
         Kind::Either(kinds) => kinds,

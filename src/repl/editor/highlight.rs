@@ -7,14 +7,14 @@ use crate::script::looks::highlight::{self, STRAY, Style, draw};
 
 const COMMAND: Style = Style("1");
 
-/// Names that are drawn in colours of their own; made once for each prompt.
+/// The names of a session that are drawn in colours of their own; made once for each prompt.
 pub struct Vocabulary {
     language: highlight::Vocabulary,
     surroundings: Surroundings,
 }
 
 impl Vocabulary {
-    /// The names of a session.
+    /// The names of a session in colours.
     pub fn of(surroundings: Surroundings) -> Self {
         let mut language = highlight::Vocabulary::of_language(&surroundings.catalog);
         for function in &surroundings.functions {
@@ -36,7 +36,7 @@ impl Vocabulary {
     }
 }
 
-/// `text` with colours; a bracket at the cursor and its partner stand out.
+/// The input `text` with colours; a bracket at the cursor and its partner stand out.
 pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> String {
     match is_command(text) && !text.contains('\x1b') {
         true => highlight_command(text, cursor, vocabulary),

@@ -12,12 +12,12 @@ use crate::script::rows::parameter::{Parameter, Presence};
 use crate::script::source::scanner::{Bracket, Kind};
 use crate::script::words::numbers::format_number;
 
-/// What is shown behind the cursor.
+/// A hint that is shown behind the cursor.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hint {
-    /// What is shown.
+    /// The text of the hint that is shown.
     pub shown: String,
-    /// What of it can be taken over into the line.
+    /// The part of the hint that can be taken over into the line.
     pub insertable: Option<String>,
 }
 
@@ -27,14 +27,14 @@ impl Hint {
         (!text.is_empty()).then(|| Self { shown: format!("  {text}"), insertable: None })
     }
 
-    /// What comes next.
+    /// The hint of a text that comes next and can be taken over.
     pub fn rest(text: &str) -> Option<Self> {
         (!text.is_empty())
             .then(|| Self { shown: text.to_owned(), insertable: Some(text.to_owned()) })
     }
 }
 
-/// What can be said with the cursor at the end of `line`: the rest of the only name that fits, the signature of the call
+/// The hint for the cursor at the end of `line`: the rest of the only name that fits, the signature of the call
 /// whose arguments are being written, the keys of its options.
 pub fn hint(line: &str, position: usize, surroundings: &Surroundings) -> Option<Hint> {
     if position != line.len() || line.trim().is_empty() {

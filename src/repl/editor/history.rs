@@ -3,13 +3,13 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// The variable of the environment that names the file; empty for none.
+/// The variable of the environment that names the file of the history; empty for none.
 pub const VARIABLE: &str = "WITHY_HISTORY";
 
-/// The entries that are kept.
+/// The number of entries of the history that are kept.
 pub const MOST_ENTRIES: usize = 5000;
 
-/// The longest entry that is kept, in bytes: what is longer was pasted, and belongs into a file.
+/// The length of the longest entry of the history that is kept [bytes]: what is longer was pasted, and belongs into a file.
 pub const LONGEST_ENTRY: usize = 64 << 10;
 
 /// The file of the history: what `setting` names, nothing if it is empty, and without it a file in the user's folder for
@@ -25,7 +25,7 @@ pub fn file(setting: Option<OsString>) -> Option<PathBuf> {
     }
 }
 
-/// Whether an entry is worth keeping.
+/// Whether an entry is worth keeping in the history.
 pub fn is_kept(entry: &str) -> bool {
     !entry.trim().is_empty() && entry.len() <= LONGEST_ENTRY
 }

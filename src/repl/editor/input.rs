@@ -5,13 +5,13 @@ use crate::script::source::scanner::{Bracket, Kind, Token, pair, scan};
 /// Open brackets that are looked at: what stands further outside does not matter at the cursor.
 const MOST_LEVELS: usize = 64;
 
-/// What stands before the cursor.
+/// What stands before the cursor of an input, as tokens.
 pub struct Input<'t> {
-    /// The text up to the cursor.
+    /// The text of the input up to the cursor.
     pub text: &'t str,
-    /// Its tokens, spaces and comments left out.
+    /// The tokens of the text, spaces and comments left out.
     pub tokens: Vec<Token>,
-    /// What ends at the cursor, also a space or a comment.
+    /// The token that ends at the cursor, also a space or a comment.
     pub last: Option<Token>,
     /// For each token the bracket that it opens or closes with.
     partners: Vec<Option<usize>>,
@@ -22,29 +22,29 @@ pub struct Input<'t> {
 /// A bracket that is open at the cursor.
 #[derive(Clone, Copy, Debug)]
 pub struct Level<'t> {
-    /// What kind of bracket.
+    /// The kind of the bracket.
     pub bracket: Bracket,
-    /// The number of its token.
+    /// The index of the bracket's token.
     pub opener: usize,
-    /// How many commas stand in it so far.
+    /// The number of commas that stand in the bracket so far.
     pub commas: usize,
-    /// In a map the key whose value is being written.
+    /// The key whose value is being written, where the bracket is that of a map.
     pub key: Option<&'t str>,
 }
 
-/// What is called.
+/// The name that a bracket calls.
 #[derive(Clone, Copy, Debug)]
 pub struct Callee<'t> {
-    /// Its name.
+    /// The name of the function that is called.
     pub name: &'t str,
-    /// The last token of the value on which it is called.
+    /// The index of the last token of the value whose method is called.
     pub receiver: Option<usize>,
-    /// The module that it belongs to.
+    /// The module that the called function belongs to.
     pub module: Option<&'t str>,
 }
 
 impl<'t> Input<'t> {
-    /// The part of `text` before `position`.
+    /// The input before `position` of `text`, as tokens.
     pub fn before(text: &'t str, position: usize) -> Self {
         let text = text.get(..position).unwrap_or(text);
         let all = scan(text);
@@ -54,27 +54,27 @@ impl<'t> Input<'t> {
         Self { text, tokens, last, partners, open }
     }
 
-    /// What is written at a token.
+    /// The text of a token of the input, by the token's index.
     pub fn written(&self, index: usize) -> &'t str {
         self.tokens.get(index).map_or("", |token| token.of(self.text))
     }
 
-    /// What a token is.
+    /// The kind of a token of the input, by the token's index; none where there is no token.
     pub fn kind(&self, index: usize) -> Option<Kind> {
         self.tokens.get(index).map(|token| token.kind)
     }
 
-    /// The other bracket of a pair.
+    /// The index of the bracket that closes or opens what a bracket, by its index, opens or closes.
     pub fn partner(&self, index: usize) -> Option<usize> {
         self.partners.get(index).copied().flatten()
     }
 
-    /// Whether a dot stands there.
+    /// Whether the token of an index is a dot.
     pub fn is_dot(&self, index: usize) -> bool {
         matches!(self.written(index), "." | "?.")
     }
 
-    /// The name that is being written at the cursor, and where it begins; empty between names.
+    /// The name that is being written at the cursor, and where it begins in the input [bytes]; empty between names.
     pub fn name(&self) -> (usize, &'t str) {
         match self.last {
             Some(token) if token.kind == Kind::Word => (token.start, token.of(self.text)),

@@ -12,10 +12,10 @@ use rustyline::{
 use super::completeness::{Completeness, completeness};
 use super::completion::INDENTATION;
 
-/// The entries of the history, as the arrows need to know them.
+/// The entries of the line editor's history, shared with the keys that walk through it.
 pub type Entries = Arc<Mutex<HashSet<String>>>;
 
-/// Binds the keys.
+/// Binds the keys of the line editor.
 pub fn bind<H: Helper, I: History>(editor: &mut Editor<H, I>, entries: &Entries) {
     let conditional = |rule: Rule| EventHandler::Conditional(Box::new(rule));
     editor.bind_sequence(KeyEvent(KeyCode::Enter, Modifiers::NONE), conditional(Rule::Enter));

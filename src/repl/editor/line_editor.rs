@@ -15,13 +15,13 @@ use super::keys::{self, Entries};
 use super::surroundings::Surroundings;
 use crate::output::Colours;
 
-/// Which keys edit.
+/// The keys with which lines are edited.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Keys {
-    /// Those of Emacs, as in most shells.
+    /// Lines are edited with the keys of Emacs, as in most shells.
     #[default]
     Emacs,
-    /// Those of vi, beginning in insert mode.
+    /// Lines are edited with the keys of vi, beginning in insert mode.
     Vi,
 }
 
@@ -29,7 +29,7 @@ impl Keys {
     /// The variable of the environment that chooses the keys.
     pub const VARIABLE: &str = "WITHY_KEYS";
 
-    /// The keys called `name`.
+    /// The editing keys of a name, such as `emacs` or `vi`; none for another name.
     pub fn named(name: &str) -> Option<Self> {
         match name.to_ascii_lowercase().as_str() {
             "emacs" => Some(Self::Emacs),
@@ -39,10 +39,10 @@ impl Keys {
     }
 }
 
-/// How an editor behaves.
+/// How a line editor behaves.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Which keys edit.
+    /// The keys with which lines are edited.
     pub keys: Keys,
     /// Whether lines are drawn in colours.
     pub colours: Colours,
@@ -51,7 +51,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// What the environment asks for by `WITHY_KEYS` and `WITHY_HISTORY`.
+    /// The options that the environment asks for by `WITHY_KEYS` and `WITHY_HISTORY`.
     pub fn from_environment(colours: Colours) -> Self {
         let keys = env::var(Keys::VARIABLE).ok().and_then(|name| Keys::named(&name));
         let history = history::file(env::var_os(history::VARIABLE));
@@ -59,21 +59,21 @@ impl Options {
     }
 }
 
-/// What came of a prompt.
+/// What a person has typed at a prompt.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Typed {
     /// A complete input, of one line or more.
     Line(String),
-    /// Ctrl-C: what was typed is thrown away.
+    /// Ctrl-C was typed: what stood there is thrown away.
     Interrupted,
-    /// Ctrl-D on an empty line, or the end of what is piped in.
+    /// Ctrl-D was typed on an empty line, or what is piped in has ended.
     End,
 }
 
 /// Columns of a terminal that does not tell.
 const USUAL_COLUMNS: usize = 80;
 
-/// Reads inputs, and remembers them across sessions.
+/// A line editor: it reads inputs, and remembers them across sessions.
 pub struct Editor {
     lines: rustyline::Editor<Assistant, FileHistory>,
     history: Option<PathBuf>,
@@ -83,7 +83,7 @@ pub struct Editor {
 }
 
 impl Editor {
-    /// An editor on this terminal. A history that cannot be read is noted and left alone.
+    /// A line editor on this terminal. A history that cannot be read is noted and left alone.
     ///
     /// # Errors
     /// If the terminal cannot be used.
@@ -122,13 +122,13 @@ impl Editor {
         }
     }
 
-    /// Columns and lines of the terminal, if it tells.
+    /// The columns and lines of the terminal; none where the terminal does not tell.
     pub fn size(&mut self) -> Option<(usize, usize)> {
         let (columns, lines) = self.lines.dimensions()?;
         Some((usize::from(columns), usize::from(lines)))
     }
 
-    /// What went wrong with the history, once.
+    /// What went wrong with the history; told once.
     pub fn take_note(&mut self) -> Option<String> {
         self.note.take()
     }

@@ -7,12 +7,12 @@ use super::candidates::{Candidate, fitting};
 use crate::script::library::MODULES;
 use crate::script::rows::sources::FOLDER;
 
-/// Which files are meant.
+/// The files that a completion offers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Files {
-    /// All.
+    /// All files are offered.
     Any,
-    /// Scripts, named without their ending.
+    /// Scripts are offered, named without their ending.
     Modules,
 }
 

@@ -3,7 +3,7 @@
 use super::surroundings::{CommandWord, Function, Module, Operand, Surroundings, Variable};
 use crate::script::packages::language;
 
-/// What such a session holds.
+/// The names of a session for tests: a beam, a simulation, functions, modules.
 pub fn surroundings() -> Surroundings {
     let variable = |name: &str, of: &str, keys: &[&str]| Variable {
         name: name.into(),

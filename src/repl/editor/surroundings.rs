@@ -8,17 +8,17 @@ use crate::script::rows::catalog::Catalog;
 /// appeared. A session takes one before each line; it holds names only, so it is small however large the values are.
 #[derive(Clone)]
 pub struct Surroundings {
-    /// The language.
+    /// The language of the session.
     pub catalog: Catalog,
-    /// Variables and constants of the session.
+    /// The variables and constants of the session.
     pub variables: Vec<Variable>,
-    /// Functions defined in the session.
+    /// The functions defined in the session.
     pub functions: Vec<Function>,
-    /// Imported modules.
+    /// The modules imported into the session.
     pub modules: Vec<Module>,
-    /// What can be written after `:`.
+    /// The commands that can be written after `:`.
     pub commands: Vec<CommandWord>,
-    /// Columns of the history of the last simulation.
+    /// The columns of the history of the last simulation.
     pub columns: Vec<String>,
     /// The folder in which names of files begin.
     pub folder: PathBuf,
@@ -27,66 +27,66 @@ pub struct Surroundings {
 /// A variable of the session.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
-    /// Its name.
+    /// The name of the variable.
     pub name: String,
-    /// Its type in the words of the language: `simulation`, `number`, `map`, …
+    /// The type of the variable in the words of the language: `simulation`, `number`, `map`, …
     pub of: String,
-    /// The keys of a map; none of anything else.
+    /// The keys of a variable that holds a map; none of anything else.
     pub keys: Vec<String>,
 }
 
-/// A script function.
+/// A script function of the session or of a module.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Function {
-    /// Its name.
+    /// The name of the script function.
     pub name: String,
-    /// The names of its parameters.
+    /// The names of the script function's parameters.
     pub parameters: Vec<String>,
-    /// One line on what it does; may be empty.
+    /// One line on what the script function does; may be empty.
     pub summary: String,
-    /// The keys of its options, each with what is said about it.
+    /// The keys of the script function's options, each with what is said about it.
     pub keys: Vec<(String, String)>,
 }
 
-/// An imported module.
+/// A module imported into the session.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Module {
-    /// What stands before `::`.
+    /// The name of the module before `::`.
     pub alias: String,
-    /// What stands after it.
+    /// The functions of the module, which are named after `::`.
     pub functions: Vec<Function>,
 }
 
 /// A command of the prompt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CommandWord {
-    /// How it is written, with its colon: `:step`.
+    /// The command as it is written, with its colon: `:step`.
     pub name: &'static str,
-    /// One line on what it does.
+    /// One line on what the command does.
     pub summary: &'static str,
-    /// What is written after it.
+    /// What is written after the command.
     pub operand: Operand,
 }
 
-/// What is written after a command.
+/// What is written after a command of the prompt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operand {
-    /// Nothing.
+    /// Nothing is written after the command.
     Nothing,
-    /// A name of the language.
+    /// A name of the language is written after the command.
     Name,
-    /// The name of a file.
+    /// The name of a file is written after the command.
     File,
-    /// An expression.
+    /// An expression is written after the command.
     Expression,
-    /// Columns of the history, or expressions that make curves.
+    /// Columns of the history, or expressions that make curves, are written after the command.
     Curves,
-    /// A number.
+    /// A number is written after the command.
     Number,
 }
 
 impl Surroundings {
-    /// Those of a session in which nothing has happened.
+    /// The surroundings of a session in which nothing has happened.
     pub fn of_language(catalog: Catalog) -> Self {
         Self {
             catalog,

@@ -3,11 +3,11 @@
 //! Between two prompts a terminal assembles lines itself, and acts on some keys: an early Ctrl-D or Ctrl-R would be gone. So it
 //! is told for the whole session to hand keys on as they are. Ctrl-C and Ctrl-Z keep their meaning.
 
-/// Holds the terminal as long as it lives, and then gives it back as it was.
+/// Holds the terminal, so that keys typed ahead are kept, as long as it lives, and then gives it back as it was.
 pub struct TypedAhead(());
 
 impl TypedAhead {
-    /// Takes the terminal that is typed at. One that cannot be told so is left as it is.
+    /// Holds the terminal that is typed at. One that cannot be held is left as it is.
     pub fn keep() -> Self {
         terminal::take();
         Self(())
@@ -19,7 +19,7 @@ impl TypedAhead {
     }
 }
 
-/// The terminal while another program has it.
+/// A guard that lasts while another program has the terminal.
 pub struct Lent(bool);
 
 impl Drop for Lent {
@@ -36,7 +36,7 @@ impl Drop for TypedAhead {
     }
 }
 
-/// Gives the terminal back as it was; for whoever ends the process without unwinding.
+/// Gives the terminal back as it was; for code that ends the process without unwinding.
 pub fn give_back() {
     terminal::give_back();
 }
@@ -64,7 +64,7 @@ mod terminal {
         }
     }
 
-    /// Whether it was held.
+    /// Gives the terminal back as it was; whether it was held.
     pub fn give_back() -> bool {
         let original = AS_IT_WAS.lock().unwrap_or_else(PoisonError::into_inner).take();
         if let Some(original) = &original {

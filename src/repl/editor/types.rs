@@ -13,12 +13,12 @@ const LONGEST_CHAIN: usize = 32;
 /// Parentheses and declarations that are followed into each other.
 const DEEPEST: usize = 16;
 
-/// Reads types off the tokens before the cursor, what the session holds, and what rows say that they return.
+/// Finds types of values before the cursor, from tokens, what the session holds, and what rows say that they return.
 #[derive(Clone, Copy)]
 pub struct Types<'a, 't> {
-    /// What stands before the cursor.
+    /// The input before the cursor.
     pub input: &'a Input<'t>,
-    /// What the session holds.
+    /// The names that the session holds.
     pub surroundings: &'a Surroundings,
 }
 

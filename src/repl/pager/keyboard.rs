@@ -2,26 +2,26 @@
 
 use std::io;
 
-/// What was pressed.
+/// What was pressed on the keyboard of a pager.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pressed {
-    /// A key, or a part of what it sends.
+    /// A key was pressed: the byte that it sends, or a part of it.
     Byte(u8),
-    /// Ctrl-C.
+    /// Ctrl-C was pressed.
     Interrupt,
-    /// Nothing any more.
+    /// Nothing is pressed any more: the keyboard's input has ended.
     End,
 }
 
-/// Where keys come from.
+/// A keyboard: where the keys of a pager come from.
 pub trait Keyboard {
-    /// Waits for the next one.
+    /// Waits for the next key of the keyboard.
     ///
     /// # Errors
     /// When the terminal fails.
     fn read(&mut self, was_interrupted: &dyn Fn() -> bool) -> io::Result<Pressed>;
 
-    /// What a key has sent after an escape character, which may be nothing.
+    /// The bytes that a key has sent after an escape character, which may be none.
     ///
     /// # Errors
     /// When the terminal fails.
@@ -50,13 +50,13 @@ mod of_system {
     pub struct Terminal(());
 
     impl Terminal {
-        /// It, if there is one.
+        /// The terminal that is typed at, if there is one.
         pub fn open() -> Option<Self> {
             Some(Self(()))
         }
     }
 
-    /// Whether keys wait that were typed before.
+    /// Whether keys wait at the terminal that were typed before.
     pub fn keys_wait() -> bool {
         has_keys(0).unwrap_or(false)
     }
@@ -120,17 +120,17 @@ mod of_system {
 
     use super::{Keyboard, Pressed};
 
-    /// No terminal.
+    /// The terminal that is typed at, on a system where none is known.
     pub struct Terminal(());
 
     impl Terminal {
-        /// Nothing.
+        /// No terminal: this system has none that is known.
         pub fn open() -> Option<Self> {
             None
         }
     }
 
-    /// Not that anybody knew.
+    /// Whether keys wait at the terminal: not that anybody knew on this system.
     pub fn keys_wait() -> bool {
         false
     }

@@ -23,7 +23,7 @@ enum Wish {
     Nothing,
 }
 
-/// Lines of a terminal of so many columns that a text takes.
+/// The number of lines of a terminal with so many columns that a text takes.
 pub fn rows(text: &str, columns: usize) -> usize {
     let width = |line: &str| crate::output::columns(&letters(line));
     text.lines().map(|line| width(line).div_ceil(columns).max(1)).sum()
@@ -85,7 +85,7 @@ impl Pages<'_> {
     }
 }
 
-/// Shows a text on a terminal of so many lines, as far as the keys say; the end of the text is the end.
+/// Shows a text page by page on a terminal of so many lines, as far as the keys say; the end of the text is the end.
 ///
 /// # Errors
 /// When the terminal fails.

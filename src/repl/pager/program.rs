@@ -13,10 +13,10 @@ const WATCHFUL: Duration = Duration::from_millis(10);
 /// What less is told unless somebody has: to end where all fits, to show colours, to leave what was shown.
 const LESS: (&str, &str) = ("LESS", "FRX");
 
-/// Lets a program show a text, and waits for its end. Ctrl-C is for the program.
+/// Lets a pager program show a text, and waits for its end. Ctrl-C is for that program.
 ///
 /// # Errors
-/// When it does not start.
+/// When the program does not start.
 pub fn show(program: &str, text: &str, was_interrupted: &dyn Fn() -> bool) -> io::Result<()> {
     let mut words = program.split_whitespace();
     let mut command = Command::new(words.next().unwrap_or_default());

@@ -3,12 +3,13 @@
 use rhai::{AST, Dynamic};
 
 use super::{Reply, Session};
+use crate::script::state::watchdog::Watchdog;
 
-/// Somebody who has an input evaluated again and again, each time from the same variables.
+/// Somebody who has an input of a session evaluated again and again, each time from the same variables.
 pub trait Rounds {
-    /// Makes ready for the next round; `false` when there were enough.
+    /// Makes ready for the next round of evaluation; `false` when there were enough.
     fn begin(&mut self) -> bool;
-    /// Takes what came of a round.
+    /// Takes the value that a round of evaluation has given.
     fn end(&mut self, value: Dynamic);
 }
 
@@ -30,7 +31,7 @@ impl Rounds for Once {
 }
 
 impl Session {
-    /// Evaluates an expression that leaves nothing behind but what it does to scenes and simulations.
+    /// Evaluates an expression that leaves nothing behind in the session but what it does to scenes and simulations.
     pub fn peek(&mut self, text: &str) -> Reply {
         let mut once = Once::default();
         match self.peek_in_rounds(text, &mut once) {
@@ -40,28 +41,33 @@ impl Session {
         }
     }
 
-    /// The same in rounds: the text is read once, and variables are before each round what they were before the first.
+    /// Evaluates an expression in rounds: the text is read once, and variables are before each round what they were before the first.
     ///
     /// # Errors
-    /// What came of the round that did not work: the last one.
+    /// The reply to the round that did not work: the last one.
     pub fn peek_in_rounds(&mut self, text: &str, rounds: &mut dyn Rounds) -> Result<(), Reply> {
         let program = self.transcript.typed(text);
         let text = program.text.clone();
         let before = self.transcript.add(program);
         let (checkpoint, library) = (self.checkpoint(), self.library.clone());
-        let outcome =
-            self.begin(&text, before).and_then(|(ast, _watchdog)| self.go_round(&ast, rounds));
+        let begun = self.begin(&text, before);
+        let outcome = begun.and_then(|(ast, guard)| self.go_round(&guard, &ast, rounds));
         self.restore(checkpoint);
         self.library = library;
         self.transcript.forget_last();
         outcome
     }
 
-    fn go_round(&mut self, ast: &AST, rounds: &mut dyn Rounds) -> Result<(), Reply> {
+    fn go_round(
+        &mut self,
+        guard: &Watchdog,
+        ast: &AST,
+        rounds: &mut dyn Rounds,
+    ) -> Result<(), Reply> {
         // With the functions of the input, which its closures are.
         let start = self.checkpoint();
         while rounds.begin() {
-            let value = self.run(ast.statements())?;
+            let value = self.run(guard, ast.statements())?;
             rounds.end(value);
             self.restore(start.clone());
         }

@@ -7,12 +7,12 @@ use crate::script::diagnose::Diagnostic;
 use crate::script::looks::present::present;
 
 impl Shell {
-    /// Whether anything is watched.
+    /// Whether any expression is watched.
     pub fn is_watching(&self) -> bool {
         !self.watched.is_empty()
     }
 
-    /// Watches one more expression, and shows it.
+    /// Watches one more expression, and shows its value.
     pub fn watch(&mut self, expression: &str) -> Outcome {
         let expression = expression.trim_end_matches(';').to_owned();
         if !self.watched.contains(&expression) {
@@ -21,12 +21,12 @@ impl Shell {
         self.show_watched()
     }
 
-    /// Watches nothing any more.
+    /// Stops watching all expressions.
     pub fn watch_nothing(&mut self) {
         self.watched.clear();
     }
 
-    /// Shows the watched expressions in a line.
+    /// Shows the values of the watched expressions in a line.
     pub fn show_watched(&mut self) -> Outcome {
         let mut parts = Vec::new();
         if let Some(latest) = self.latest() {

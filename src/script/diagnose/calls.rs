@@ -14,7 +14,7 @@ use crate::script::source::program::Program;
 use crate::script::words::nouns::{type_word, with_article};
 use crate::script::words::suggest::{nearest, related};
 
-/// What is known, to be held against what was asked for.
+/// What a script asked for and is not known, with what is known to be held against it.
 pub struct Unknown<'a> {
     pub catalog: &'a Catalog,
     pub program: &'a Program,
@@ -25,7 +25,7 @@ pub struct Unknown<'a> {
 type Words = (String, Option<String>);
 
 impl Unknown<'_> {
-    /// For the engine's "Function not found: name (types)".
+    /// The words for the engine's "Function not found: name (types)".
     pub fn function(&self, signature: &str, at: Position) -> Words {
         let (name, types) = signature.split_once(" (").unwrap_or((signature, ")"));
         let types: Vec<&str> = types
@@ -103,7 +103,7 @@ impl Unknown<'_> {
         (message, Some(hint))
     }
 
-    /// What stands before `::` and was not imported.
+    /// The words for a name before `::` that was not imported.
     pub fn module(&self, name: &str) -> Words {
         let message = format!("nothing was imported as '{name}'");
         let imports = || self.outline.imports.iter().map(|(known, _)| known.as_str());
@@ -230,7 +230,7 @@ impl Unknown<'_> {
         }
     }
 
-    /// For the engine's "Unknown property 'p' - … for type 't'" and "No writable property 'p' - …".
+    /// The words for the engine's "Unknown property 'p' - … for type 't'" and "No writable property 'p' - …".
     pub fn property(&self, text: &str) -> Words {
         let mut quoted = text.split('\'').skip(1).step_by(2);
         let (Some(name), Some(of)) = (quoted.next(), quoted.next().map(type_word)) else {
@@ -300,7 +300,7 @@ fn forms(built_ins: &[&BuiltIn]) -> String {
     forms.join(" or ")
 }
 
-/// Where the library has a function of this name.
+/// The place in the library of a function of this name, in words.
 pub fn of_library(name: &str) -> Option<String> {
     let mut found = pages().iter().filter_map(|page| Some((page, page.named(name)?)));
     let (page, function) = found.next()?;

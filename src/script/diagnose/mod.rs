@@ -1,6 +1,7 @@
 //! Every error of a script as one message: what is wrong, where, what to do, and the calls that led there.
 
 mod calls;
+mod diagnostic;
 pub(in crate::script) mod elsewhere;
 mod faults;
 mod habits;
@@ -10,134 +11,6 @@ mod parsing;
 mod render;
 mod translate;
 
-use std::fmt;
-use std::sync::Arc;
-
-use crate::script::source::program::{Program, Unreadable};
-use crate::script::words::brief::brief;
+pub use diagnostic::{Blame, Callee, Diagnostic, Location, Step};
 pub use render::Colours;
 pub use translate::{Explainer, is_interrupt, is_waiting};
-
-/// An error as it is shown to people.
-#[derive(Clone, Debug)]
-pub struct Diagnostic {
-    /// What is wrong.
-    pub message: String,
-    /// What to do.
-    pub hint: Option<String>,
-    /// Where, if it is about a place in a script.
-    pub location: Option<Location>,
-    /// The calls of script functions that led there, innermost first.
-    pub trace: Vec<Step>,
-    /// Whose mistake it is.
-    pub blame: Blame,
-}
-
-/// Whose mistake an error is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Blame {
-    /// The script, or the way it was called.
-    User,
-    /// This program.
-    Us,
-}
-
-/// A piece of one line of a script.
-#[derive(Clone, Debug)]
-pub struct Location {
-    /// The script it is in.
-    pub program: Arc<Program>,
-    /// Line, from 1.
-    pub line: usize,
-    /// Column in characters, from 1.
-    pub column: usize,
-    /// Length in characters.
-    pub length: usize,
-}
-
-/// One call on the way to an error.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Step {
-    /// What was called.
-    pub callee: Callee,
-    /// The line of the call, if it is known.
-    pub line: Option<usize>,
-    /// The file of the call, if it is not the one that was run.
-    pub file: Option<String>,
-}
-
-/// What a call on the way to an error has called.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Callee {
-    /// A function by its name.
-    Function(String),
-    /// A function without a name.
-    Closure,
-    /// A file that was imported.
-    File(String),
-    /// Nothing: the line of the standard library at which the error arose.
-    Library,
-}
-
-impl Diagnostic {
-    /// An error that is about no place in a script.
-    pub fn general(message: impl Into<String>) -> Self {
-        Self {
-            message: brief(message.into()),
-            hint: None,
-            location: None,
-            trace: Vec::new(),
-            blame: Blame::User,
-        }
-    }
-
-    /// A mistake of this program.
-    pub fn bug(message: impl fmt::Display) -> Self {
-        let mut diagnostic = Self::general(format!("withy has made a mistake: {message}"));
-        diagnostic.hint = Some(
-            "this is a bug in withy, not in your script; please report it with the script".into(),
-        );
-        diagnostic.blame = Blame::Us;
-        diagnostic
-    }
-
-    /// Adds what to do.
-    #[must_use]
-    pub fn with_hint(mut self, hint: impl Into<String>) -> Self {
-        self.hint = Some(brief(hint.into()));
-        self
-    }
-
-    /// What is wrong and where, in one line: for tables.
-    pub fn line(&self) -> String {
-        let told = self.message.split_whitespace().collect::<Vec<_>>().join(" ");
-        match self.location.as_ref().filter(|at| !at.program.name.is_empty()) {
-            Some(at) => format!("{told} ({}, line {})", at.program.name, at.line),
-            None => told,
-        }
-    }
-
-    /// Adds something else to do, on a line of its own.
-    #[must_use]
-    pub fn with_another_hint(mut self, hint: &str) -> Self {
-        self.hint = Some(self.hint.map_or_else(|| hint.into(), |first| format!("{first}\n{hint}")));
-        self
-    }
-
-    /// `file:line:column`, for tests and editors.
-    pub fn place(&self) -> Option<String> {
-        self.location.as_ref().map(|at| format!("{}:{}:{}", at.program.name, at.line, at.column))
-    }
-}
-
-impl From<Unreadable> for Diagnostic {
-    fn from(refused: Unreadable) -> Self {
-        Self::general(refused.told).with_hint(refused.hint)
-    }
-}
-
-impl fmt::Display for Diagnostic {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.render(Colours::None))
-    }
-}

@@ -2,7 +2,7 @@
 
 use crate::script::words::nouns::with_article;
 
-/// For the operator `symbol` between, or before, values of these types.
+/// What is wrong with the operator `symbol` between, or before, values of these types, and what to do.
 pub fn explain(symbol: &str, types: &[&str]) -> (String, Option<String>) {
     let words: Vec<_> = types.iter().map(|name| with_article(name)).collect();
     let message = match (symbol, words.as_slice()) {

@@ -121,7 +121,7 @@ impl std::fmt::Display for Step {
 }
 
 impl Location {
-    /// What stands there.
+    /// The text of the piece of the script.
     pub fn text(&self) -> &str {
         &self.program.text[self.bytes()]
     }

@@ -21,13 +21,13 @@ use crate::script::words::nouns::{type_word, with_article};
 use crate::script::words::stop::Stop;
 use crate::script::words::suggest::nearest;
 
-/// What the words of an error are drawn from.
+/// What explains errors of the engine to people, with all that its words are drawn from.
 pub struct Explainer<'a> {
     /// The script that was run.
     pub program: &'a Program,
-    /// The names that the language has.
+    /// The catalogue of names that the language has.
     pub catalog: &'a Catalog,
-    /// The engine that ran it.
+    /// The engine that ran the script.
     pub engine: &'a Engine,
 }
 
@@ -332,6 +332,7 @@ fn source(program: &Program, named: &str) -> Program {
     if let Some(Ok(module)) = library::find(named) {
         return module.program();
     }
+    // A file that is gone by now has no lines to show: the error is told with its name.
     Program::load(Path::new(named)).unwrap_or_else(|_| Program {
         name: named.into(),
         text: "".into(),

@@ -9,7 +9,7 @@ use rhai::{Array, Dynamic, Engine, EvalAltResult, FnPtr, INT, Map, NativeCallCon
 use crate::script::words::error::{EngineResult, ScriptError};
 use crate::script::words::numbers::describe;
 
-/// Registers them under the names that they have in Rhai.
+/// Registers the methods of arrays and maps that call a function for each element, under the names that they have in Rhai.
 pub fn install(engine: &mut Engine) {
     install_searches(engine);
     install_sieves(engine);
@@ -228,7 +228,7 @@ impl<'a> Asked<'a> {
     }
 }
 
-/// The answer of a test.
+/// The answer of a test that a script function gave, as a truth value.
 pub(super) fn truth(native: &NativeCallContext, answer: &Dynamic) -> EngineResult<bool> {
     answer.as_bool().map_err(|_| {
         let got = describe(native.engine(), answer);

@@ -29,19 +29,19 @@ const SEED: [u64; 4] =
 /// Texts that are kept once, however often they occur.
 const TEXTS_SHARED: usize = 256;
 
-/// A function that is not to be used.
+/// A function of Rhai that is not to be used in the language.
 pub struct Refused {
-    /// Its name.
+    /// The name of the function that is refused.
     pub name: &'static str,
-    /// How many arguments it would have.
+    /// The counts of arguments that the refused function would have.
     pub counts: &'static [usize],
-    /// Why not.
+    /// The reason why the function is refused.
     pub reason: &'static str,
-    /// What to write.
+    /// What to write instead of the refused function.
     pub instead: &'static str,
 }
 
-/// All of them.
+/// All functions of Rhai that the language refuses.
 pub const REFUSED: &[Refused] = &[
     Refused {
         name: "exit",

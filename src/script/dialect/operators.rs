@@ -15,7 +15,7 @@ use crate::elementary::power;
 use crate::script::source::syntax::{LONGEST_CHAIN, OWN, Operand, REPLACED, power_name};
 use crate::script::words::error::{EngineResult, ScriptError};
 
-/// Registers the operators on numbers, under our own names and where possible under the engine's.
+/// Registers the operators on numbers, under the language's own names and where possible under the engine's.
 pub fn install(engine: &mut Engine) {
     register_comparison(engine, "<", |x, y| x < y, |m, n| m < n);
     register_comparison(engine, ">", |x, y| x > y, |m, n| m > n);

@@ -10,7 +10,7 @@ use crate::script::source::syntax::mark;
 use crate::script::source::text::Source;
 use crate::script::words::error::ScriptError;
 
-/// Most lines of a source, and most characters of a line: a little less than Rhai can count.
+/// The most lines of a source, and the most characters of a line: a little less than Rhai can count.
 pub const MOST: usize = 65_000;
 
 /// Parses `source` as if it stood behind so many empty lines, with the constants of `scope` known.

@@ -9,7 +9,7 @@ use crate::script::source::syntax::OWN;
 use crate::script::state::context::Context;
 use crate::script::words::error::EngineResult;
 
-/// After so many elements it is asked whether to go on.
+/// The number of elements after which it is asked whether to go on.
 pub(super) const PULSE: usize = 4096;
 
 /// Registers it, with and without a function that says whether two neighbours are the same.

@@ -19,7 +19,7 @@ impl Piece for ImmutableString {
     }
 }
 
-/// Takes the place of Rhai's own functions.
+/// Registers `text.replace(found, other)`, of texts and characters, in the place of Rhai's own.
 pub fn install(engine: &mut Engine) {
     engine.register_fn("replace", replace::<ImmutableString, ImmutableString>);
     engine.register_fn("replace", replace::<ImmutableString, char>);

@@ -4,7 +4,6 @@ use std::ops::{Range, RangeInclusive};
 
 use rhai::{Dynamic, Engine, FnPtr, INT, ImmutableString, Map, OptimizationLevel};
 
-use super::imports::FolderResolver;
 use crate::analysis::is_out_of_patience;
 use crate::script::dialect::{
     constants, elements, foundation, operators, repetitions, replacing, sorting,
@@ -50,11 +49,6 @@ pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     constants::install(&mut engine, catalog);
     connect(&mut engine, context);
     Ok(engine)
-}
-
-/// Lets `import "name"` find files in the script's folder.
-pub fn import_from(engine: &mut Engine, folder: &std::path::Path) {
-    engine.set_module_resolver(FolderResolver::new(folder));
 }
 
 fn limit(engine: &mut Engine, context: &Context) {

@@ -9,7 +9,7 @@ use rhai::{
     Engine, EvalAltResult, GlobalRuntimeState, Module, ModuleResolver, Position, Scope, Shared,
 };
 
-use super::runner::parse;
+use super::parse::parse;
 use crate::script::library;
 use crate::script::source::program::{LARGEST_SCRIPT, Program};
 use crate::script::state::files::{InputFolder, InputFolders};
@@ -34,7 +34,7 @@ struct ReadModule {
 }
 
 impl FolderResolver {
-    /// Files in a folder and below.
+    /// A resolver of modules that are files in a folder and below.
     pub fn new(folder: &Path) -> Self {
         Self {
             folder: folder.to_owned(),

@@ -1,7 +1,10 @@
 //! The engine of a run: built, asked to read and to run, and what it imports.
 
 mod build;
+pub mod host;
 mod imports;
+pub mod parse;
 pub mod runner;
+pub mod stack;
 
-pub use build::{build, import_from};
+pub use build::build;

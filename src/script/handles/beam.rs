@@ -6,28 +6,28 @@ use crate::script::looks::details;
 use crate::script::rows::kind::{Details, Scripted};
 use crate::script::words::error::ScriptError;
 
-/// A beam of a scene.
+/// A handle on a beam of a scene.
 #[derive(Clone)]
 pub struct BeamHandle {
-    /// The scene.
+    /// The scene that the beam is in.
     pub scene: SceneHandle,
-    /// Which of its beams, from 0.
+    /// The index of the beam among those of its scene, from 0.
     pub index: usize,
 }
 
 impl BeamHandle {
-    /// The index of the beam, if it is one of the scene.
+    /// The index of the beam, if it is one of the given scene.
     pub fn own(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
         scene.expect_same(&self.scene, "beam")?;
         Ok(self.index)
     }
 
-    /// Its length as drawn [length].
+    /// The length of the beam as drawn [length].
     pub fn length(&self) -> f64 {
         self.scene.scene().borrow().beams[self.index].axis.length()
     }
 
-    /// Its name.
+    /// The name of the beam.
     pub fn name(&self) -> String {
         self.scene.scene().borrow().beams[self.index].name.clone()
     }

@@ -1,6 +1,6 @@
 //! Functions of a script that wait for a time of a simulation.
 
-/// Functions in the order of their times, and which of them were called.
+/// Functions that are called at their times in a run, and which of them were called.
 #[derive(Clone)]
 pub struct Events<F> {
     functions: Vec<(f64, F)>,
@@ -14,13 +14,13 @@ impl<F> Default for Events<F> {
 }
 
 impl<F: Clone> Events<F> {
-    /// Adds a function; of several for one time, the first that was added is called first.
+    /// Adds a function for a time; of several for one time, the first that was added is called first.
     pub fn insert(&mut self, time: f64, function: F) {
         let place = self.functions.partition_point(|(other, _)| *other <= time);
         self.functions.insert(place.max(self.called), (time, function));
     }
 
-    /// When the next function is to be called.
+    /// The time at which the next function is to be called, if one waits.
     pub fn next_time(&self) -> Option<f64> {
         self.functions.get(self.called).map(|(time, _)| *time)
     }
@@ -32,13 +32,13 @@ impl<F: Clone> Events<F> {
         Some(due.clone())
     }
 
-    /// Time has gone back: functions for later times will be called again.
+    /// Takes in that time has gone back: functions for later times will be called again.
     pub fn go_back(&mut self, now: f64) {
         let passed = self.functions.partition_point(|(time, _)| *time <= now);
         self.called = self.called.min(passed);
     }
 
-    /// How many functions are still to be called.
+    /// The number of functions that are still to be called.
     pub fn waiting(&self) -> usize {
         self.functions.len() - self.called
     }

@@ -11,19 +11,19 @@ use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::format_number;
 use crate::simulation::{History, Sample};
 
-/// A part of the history of a simulation; it grows with it.
+/// A handle on a part of the history of a simulation; it grows with it.
 #[derive(Clone)]
 pub struct HistoryHandle {
-    /// Whose history it is.
+    /// The simulation whose history it is.
     pub of: SimulationHandle,
-    /// First time.
+    /// The first time of the part [time].
     pub from: f64,
-    /// Last time.
+    /// The last time of the part [time].
     pub to: f64,
 }
 
 impl HistoryHandle {
-    /// Reads the rows.
+    /// Reads the rows of the part of the history.
     pub fn read<T>(&self, read: impl FnOnce(&History) -> T) -> T {
         let simulation = self.of.simulation();
         let all = simulation.history();
@@ -34,7 +34,7 @@ impl HistoryHandle {
         }
     }
 
-    /// The error of a window in which nothing was recorded.
+    /// The error of a part of a history in which nothing was recorded.
     pub fn no_rows(&self, call: &Call) -> ScriptError {
         let now = format_number(self.of.time());
         let recording = self.of.simulation().recording();
@@ -46,12 +46,12 @@ impl HistoryHandle {
             .hint(format!("the simulation has run from t = 0 to {now}{recorded}"))
     }
 
-    /// The names of its columns in a line.
+    /// The names of the columns of the history in a line.
     pub fn column_names(&self) -> String {
         column_names(self.of.simulation().history())
     }
 
-    /// Refuses what is not the name of one of its columns; `argument` is where the script gives it.
+    /// Refuses what is not the name of a column of the history; `argument` is where the script gives it.
     pub fn expect_column(
         &self,
         call: &Call,
@@ -71,7 +71,7 @@ impl HistoryHandle {
             .at(Place::Argument(argument)))
     }
 
-    /// The part of it between two times.
+    /// The part of this part of the history between two times.
     pub fn between(&self, from: f64, to: f64) -> Self {
         Self { of: self.of.clone(), from: self.from.max(from), to: self.to.min(to) }
     }

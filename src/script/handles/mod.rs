@@ -8,3 +8,4 @@ pub mod report;
 pub mod scene;
 pub mod simulation;
 pub mod station;
+pub mod step_size;

@@ -8,14 +8,14 @@ use crate::simulation::{Note, Simulation};
 /// Whether notes are printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Printing {
-    /// When a run ends.
+    /// Notes are printed when a run ends.
     #[default]
     AtTheEnd,
-    /// They are kept for those who ask.
+    /// Notes are not printed: they are kept for those who ask.
     Never,
 }
 
-/// What has been told of a simulation.
+/// The notes of a simulation that have been told.
 #[derive(Debug, Clone, Default)]
 pub struct Notes {
     printing: Printing,
@@ -23,7 +23,7 @@ pub struct Notes {
 }
 
 impl Notes {
-    /// Nothing so far.
+    /// Notes of which none has been told so far.
     pub fn new(printing: Printing) -> Self {
         Self { printing, told: RefCell::default() }
     }

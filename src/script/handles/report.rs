@@ -80,11 +80,12 @@ impl Reporter for SimulationHandle {
             .then(|| history_table(self.name(), simulation.history()))?;
         let plain = |letter: char| if letter.is_alphanumeric() { letter } else { '-' };
         let name: String = self.name().chars().map(plain).collect();
+        // Columns of one history are equally long, so that they always make a text.
         Some((format!("{name}-stopped.csv"), table.to_text().ok()?))
     }
 }
 
-/// All columns of a history.
+/// The table of all columns of a history.
 pub fn history_table(name: &str, history: &History) -> CsvTable {
     let table = CsvTable::new().comment(format!("simulation: {name}"));
     history.columns().fold(table, |table, (column, dimension)| {

@@ -8,40 +8,55 @@ use crate::beams::Station;
 use crate::model::Scene;
 use crate::script::looks::details;
 use crate::script::rows::kind::{Details, Scripted};
+use crate::script::rows::stored::StoredFunction;
 use crate::script::words::error::ScriptError;
 
-/// A scene that a script holds.
+/// A handle on a scene that a script holds.
 #[derive(Clone)]
-pub struct SceneHandle(Rc<RefCell<Scene>>);
+pub struct SceneHandle {
+    scene: Rc<RefCell<Scene>>,
+    /// Functions that fill columns, in the order of the columns.
+    functions: Rc<RefCell<Vec<Rc<StoredFunction>>>>,
+}
 
 impl SceneHandle {
-    /// A handle on a scene of its own.
+    /// A new handle on a scene.
     pub fn new(scene: Scene) -> Self {
-        Self(Rc::new(RefCell::new(scene)))
+        Self { scene: Rc::new(RefCell::new(scene)), functions: Rc::default() }
     }
 
-    /// The scene itself.
+    /// The scene of the handle, to look at or to change it.
     pub fn scene(&self) -> &RefCell<Scene> {
-        &self.0
+        &self.scene
     }
 
-    /// The scene itself, shared.
+    /// The scene of the handle, shared with it.
     pub fn shared(&self) -> Rc<RefCell<Scene>> {
-        Rc::clone(&self.0)
+        Rc::clone(&self.scene)
     }
 
-    /// The station of a handle, if it is one of this scene.
+    /// Keeps a function that fills the last column that was described.
+    pub fn keep_function(&self, function: StoredFunction) {
+        self.functions.borrow_mut().push(Rc::new(function));
+    }
+
+    /// The functions that fill the first columns of those that somebody outside fills.
+    pub fn functions(&self, columns: usize) -> Vec<Rc<StoredFunction>> {
+        self.functions.borrow().iter().take(columns).cloned().collect()
+    }
+
+    /// The station of another handle, if it is one of this scene.
     pub fn own(&self, handle: &StationHandle) -> Result<Station, ScriptError> {
         self.expect_same(&handle.scene, "station")?;
         Ok(handle.station)
     }
 
-    /// Refuses a thing of another scene; `what` is the kind of the thing.
+    /// Refuses a thing of another scene than this; `what` is the kind of the thing.
     pub fn expect_same(&self, other: &Self, what: &str) -> Result<(), ScriptError> {
-        if Rc::ptr_eq(&self.0, &other.0) {
+        if Rc::ptr_eq(&self.scene, &other.scene) {
             return Ok(());
         }
-        let (mine, other) = (&self.0.borrow().name, &other.0.borrow().name);
+        let (mine, other) = (&self.scene.borrow().name, &other.scene.borrow().name);
         let told = match mine == other {
             true => format!("the {what} belongs to another scene that is called '{other}' too"),
             false => format!("the {what} belongs to the scene '{other}', not to '{mine}'"),
@@ -55,7 +70,7 @@ impl Scripted for SceneHandle {
     const DOC: &'static str = "A description of beams, particles, joints, masses and loads.";
 
     fn show(&self) -> String {
-        let scene = self.0.borrow();
+        let scene = self.scene.borrow();
         let count = |(number, what): (usize, &str)| {
             format!("{number} {what}{}", if number == 1 { "" } else { "s" })
         };
@@ -68,6 +83,6 @@ impl Scripted for SceneHandle {
     }
 
     fn details(&self) -> Details {
-        details::of_scene(&self.0.borrow())
+        details::of_scene(&self.scene.borrow())
     }
 }

@@ -1,6 +1,7 @@
 //! A simulation that a script holds: steps, events, progress and interrupts.
 
 mod revisit;
+mod sensing;
 
 use std::cell::{Cell, Ref, RefCell};
 use std::rc::Rc;
@@ -21,10 +22,11 @@ use crate::script::words::numbers::format_number;
 use crate::script::words::stop::Stop;
 use crate::simulation::{Monitor, Simulation, SimulationError, StepSize};
 use crate::vibration::{Modes, VibrationError};
+use sensing::Sensing;
 
 pub use revisit::Revisit;
 
-/// A running simulation; clones are the same one.
+/// A handle on a running simulation; clones are the same one.
 #[derive(Clone)]
 pub struct SimulationHandle(Rc<Live>);
 
@@ -38,13 +40,14 @@ struct Live {
     /// Whether the user knows that the run ended earlier than the script wanted.
     is_ending_told: Cell<bool>,
     notes: Notes,
+    sensing: Sensing,
 }
 
-/// How far a script goes on, or back.
+/// How far a script lets a simulation go on, or back.
 pub enum Goal {
-    /// So many steps.
+    /// The simulation goes so many steps.
     Steps(usize),
-    /// To a time.
+    /// The simulation goes to a time.
     Time(f64),
 }
 
@@ -53,6 +56,16 @@ struct Watch<'a> {
     context: &'a Context,
     /// Steps beyond this time are no longer wanted.
     end: f64,
+    /// Whether functions want to look after every step.
+    pauses: bool,
+    /// Whether it stopped for that and nothing else.
+    is_paused: bool,
+}
+
+impl<'a> Watch<'a> {
+    fn new(context: &'a Context, end: f64) -> Self {
+        Self { context, end, pauses: false, is_paused: false }
+    }
 }
 
 impl Monitor for Watch<'_> {
@@ -60,7 +73,9 @@ impl Monitor for Watch<'_> {
         self.context.progress().reach(time);
         self.context.meter().count_step();
         let may_step = time >= self.end || self.context.meter().allows_a_step();
-        may_step && !self.context.is_stopped()
+        let goes_on = may_step && !self.context.is_stopped();
+        self.is_paused = goes_on && self.pauses;
+        goes_on && !self.pauses
     }
 }
 
@@ -74,7 +89,7 @@ impl Monitor for Pretence<'_> {
 }
 
 impl SimulationHandle {
-    /// A handle on a simulation at its start; it will be in the report of the run.
+    /// A handle on a simulation at its start, which will be in the report of the run.
     pub fn new(
         simulation: Simulation,
         scene: SceneHandle,
@@ -83,6 +98,7 @@ impl SimulationHandle {
         context: &Context,
     ) -> Self {
         let live = Live {
+            sensing: Sensing::new(scene.functions(simulation.outside_columns())),
             name,
             scene,
             notes,
@@ -97,7 +113,7 @@ impl SimulationHandle {
         handle
     }
 
-    /// A copy that goes its own way from here, with the same functions for times to come.
+    /// A copy of the simulation that goes its own way from here, with the same functions for times to come.
     pub fn fork(&self, name: String, context: &Context) -> Result<Self, ScriptError> {
         let simulation = self.simulation().fork()?;
         let fork = Self::new(simulation, self.0.scene.clone(), name, self.0.notes.clone(), context);
@@ -110,7 +126,7 @@ impl SimulationHandle {
         context.note_simulation(Dynamic::from(self.clone()));
     }
 
-    /// The lowest modes about its present configuration.
+    /// The lowest modes of vibration about the simulation's present configuration.
     pub fn modes(
         &self,
         count: usize,
@@ -119,42 +135,42 @@ impl SimulationHandle {
         self.0.simulation.borrow().modes(count, goes_on)
     }
 
-    /// Changes the memory for states to go back to [bytes].
+    /// Changes the memory that the simulation may take for states to go back to [bytes].
     pub fn keep_snapshots(&self, limit: usize) {
         self.0.simulation.borrow_mut().keep_snapshots(limit);
     }
 
-    /// How many functions wait for a time.
+    /// The number of functions that wait for a time of the simulation.
     pub fn events_waiting(&self) -> usize {
         self.0.events.borrow().waiting()
     }
 
-    /// The simulation itself.
+    /// The simulation of the handle, to look at it.
     pub fn simulation(&self) -> Ref<'_, Simulation> {
         self.0.simulation.borrow()
     }
 
-    /// The scene that was started.
+    /// The scene that the simulation was started from.
     pub fn scene(&self) -> &SceneHandle {
         &self.0.scene
     }
 
-    /// Whether both are the same simulation.
+    /// Whether another handle is on the same simulation.
     pub fn is_same(&self, other: &Self) -> bool {
         Rc::ptr_eq(&self.0, &other.0)
     }
 
-    /// Its name.
+    /// The name of the simulation.
     pub fn name(&self) -> &str {
         &self.0.name
     }
 
-    /// Where it is.
+    /// The present time of the simulation [time].
     pub fn time(&self) -> f64 {
         self.simulation().time()
     }
 
-    /// Calls a script function when a time is reached.
+    /// Makes the simulation call a script function when it reaches a time.
     pub fn at(&self, time: f64, function: StoredFunction) -> Result<(), ScriptError> {
         let now = self.time();
         let is_late = if self.0.is_firing.get() { time <= now } else { time < now };
@@ -171,8 +187,9 @@ impl SimulationHandle {
         Ok(())
     }
 
-    /// Goes back to a state that was; a dry build goes as near as it can.
+    /// Takes the simulation back to a state that it was in; a dry build goes as near as it can.
     pub fn go_back(&self, call: &Call, goal: &Goal) -> Result<(), ScriptError> {
+        self.0.sensing.expect_idle()?;
         let mut simulation = self.0.simulation.borrow_mut();
         match (call.context().mode(), goal) {
             (Mode::Run, Goal::Steps(steps)) => simulation.back(*steps)?,
@@ -181,6 +198,7 @@ impl SimulationHandle {
             (Mode::DryBuild, Goal::Time(time)) => simulation.pretend_rewind(*time),
         }
         drop(simulation);
+        self.sense()?;
         self.0.events.borrow_mut().go_back(self.time() + self.slack());
         self.0.is_ending_told.set(false);
         self.is_latest(call.context());
@@ -192,8 +210,9 @@ impl SimulationHandle {
         self.simulation().slack()
     }
 
-    /// Goes on, calling the functions of the events on its way.
+    /// Lets the simulation go on, calling the functions of the events on its way.
     pub fn go_on(&self, call: &Call, goal: &Goal) -> Result<(), ScriptError> {
+        self.0.sensing.expect_idle()?;
         let context = call.context();
         let dt = self.simulation().dt();
         let now = self.time();
@@ -228,9 +247,10 @@ impl SimulationHandle {
                 context.proceed()?;
             }
             // How many parts the step needs is not known beforehand: it is always finished.
-            let mut watch = Watch { context, end: f64::NEG_INFINITY };
+            let mut watch = Watch::new(context, f64::NEG_INFINITY);
             let stepped = self.0.simulation.borrow_mut().step(&mut watch);
             stepped.map_err(|error| explain(error, call.context()))?;
+            self.sense()?;
             self.fire_due()?;
         }
         Ok(())
@@ -257,9 +277,7 @@ impl SimulationHandle {
             if self.time() < stop - slack && !context.meter().allows_a_step() {
                 context.proceed()?;
             }
-            let mut watch = Watch { context, end: stop - slack };
-            let ran = self.0.simulation.borrow_mut().run_to(stop, &mut watch);
-            ran.map_err(|error| explain(error, call.context()))?;
+            self.run_and_sense(call, stop, slack)?;
             self.fire_due()?;
             if self.has_ended() && self.time() < end {
                 let when = format!("before t = {}", format_number(end));
@@ -280,6 +298,7 @@ impl SimulationHandle {
         let mut watch = Pretence(call.context());
         let pretended = self.0.simulation.borrow_mut().pretend_to(end, &mut watch);
         pretended.map_err(|error| explain(error, call.context()))?;
+        self.sense()?;
         self.fire_due()
     }
 
@@ -297,21 +316,11 @@ impl SimulationHandle {
     }
 }
 
-/// An error of a run in the words of the script: interrupts stay interrupts, errors of closures keep their place.
+/// An error of a run in the words of the script: interrupts stay interrupts.
 fn explain(error: SimulationError, context: &Context) -> ScriptError {
     match error {
         SimulationError::Interrupted { .. } => {
             ScriptError::Stopped(context.stopped_by().unwrap_or(Stop::Interrupt))
-        }
-        SimulationError::Load { .. } => match context.take_callback_error() {
-            Some(error) => ScriptError::Engine(error),
-            None => ScriptError::from(error).hint("a load needs a finite value at all times"),
-        },
-        SimulationError::Step { .. } | SimulationError::Smallest { .. } => ScriptError::from(error).hint(
-            "the history up to there is kept; try a smaller dt or a finer mesh, and check loads, stiffness, units and what is held",
-        ),
-        SimulationError::Tolerance { .. } => {
-            ScriptError::from(error).hint("the history up to there is kept; adaptive steps land on jumps of schedules by themselves, but a function that jumps needs its breaks: schedule(|t| …, [t1, t2])")
         }
         error => error.into(),
     }

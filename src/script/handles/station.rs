@@ -12,23 +12,23 @@ use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Details, Scripted};
 use crate::script::words::error::ScriptError;
 
-/// A station of a beam of a scene.
+/// A handle on a station of a body of a scene.
 #[derive(Clone)]
 pub struct StationHandle {
-    /// The scene.
+    /// The scene that the station is in.
     pub scene: SceneHandle,
-    /// The station in it.
+    /// The station in its scene.
     pub station: Station,
 }
 
 impl StationHandle {
-    /// Its place in a simulation, if that is one of its scene.
+    /// The place of the station in a simulation, if that is one of its scene.
     pub fn on(&self, handle: &SimulationHandle) -> Result<beams::Place, ScriptError> {
         let simulation = handle.simulation();
         self.within(handle.scene(), simulation.scene(), simulation.model().meshes())
     }
 
-    /// Its place among the meshes of a scene that was built when it was `built`, if it is one of that scene.
+    /// The place of the station among the meshes of a scene that was built when it was `built`, if it is one of that scene.
     pub fn within(
         &self,
         of: &SceneHandle,
@@ -63,7 +63,7 @@ impl Scripted for StationHandle {
     }
 }
 
-/// The scene that is called, and one of its stations.
+/// The scene whose method is called, and one of its stations, which is an argument of the call.
 pub fn here(call: &Call, name: &str) -> Result<(Station, Rc<RefCell<Scene>>), ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let station = scene.own(&call.get::<StationHandle>(name)?)?;

@@ -14,7 +14,7 @@ library: a file of your own in a folder `std` is never read in its place, nor at
 `help(\"sections::rectangle\")`. The files in [stdlib/](../stdlib) are meant to be read: copy what you want to change. Every example runs.
 ";
 
-/// The pages of all modules in Markdown.
+/// The pages of all modules of the library, in Markdown.
 pub fn document() -> String {
     let mut text = HEAD.to_owned();
     text.push('\n');

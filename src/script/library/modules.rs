@@ -5,14 +5,14 @@ use crate::script::source::program::Program;
 use crate::script::words::error::ScriptError;
 use crate::script::words::suggest::nearest;
 
-/// A module of the library.
+/// A module of the standard library.
 #[derive(Debug)]
 pub struct Module {
-    /// Its name in an import.
+    /// The name of the module in an import.
     pub name: &'static str,
-    /// Its file, as messages name it.
+    /// The file of the module, as messages name it.
     pub file: &'static str,
-    /// Its text.
+    /// The text of the module.
     pub text: &'static str,
 }
 
@@ -27,7 +27,7 @@ macro_rules! module {
     };
 }
 
-/// All modules, in the order of their page.
+/// All modules of the standard library, in the order of their page.
 pub const MODULES: &[Module] = &[
     module!("sections"),
     module!("shapes"),
@@ -38,7 +38,7 @@ pub const MODULES: &[Module] = &[
 ];
 
 impl Module {
-    /// Its text as a program.
+    /// The text of the module as a program.
     pub fn program(&self) -> Program {
         Program::named(self.file, self.text)
     }

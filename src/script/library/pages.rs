@@ -6,43 +6,43 @@ use std::sync::LazyLock;
 use super::modules::{MODULES, Module};
 use crate::script::rows::sources::FOLDER;
 
-/// What is said about a module.
+/// The page of a module of the standard library: what is said about it.
 #[derive(Debug)]
 pub struct ModulePage {
-    /// The module.
+    /// The module that the page is about.
     pub module: &'static Module,
-    /// What it is for.
+    /// What the module is for.
     pub about: Vec<Block>,
-    /// Its public functions, in the order of the file.
+    /// The public functions of the module, in the order of the file.
     pub functions: Vec<ModuleFunction>,
 }
 
-/// What is said about a function of a module.
+/// What is said about a function of a module of the standard library.
 #[derive(Debug)]
 pub struct ModuleFunction {
-    /// Its name behind that of the module: `sections::rectangle`.
+    /// The name of the function behind that of the module: `sections::rectangle`.
     pub full_name: String,
-    /// The names of what it takes.
+    /// The names of the function's parameters.
     pub parameters: Vec<String>,
-    /// The summary, what it takes, sources, and examples.
+    /// What is said of the function: the summary, what it takes, sources, and examples.
     pub text: Vec<Block>,
 }
 
-/// A part of what is said.
+/// A block of what is said about a module or a function.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Block {
-    /// Sentences.
+    /// The block is a paragraph of sentences.
     Paragraph(String),
-    /// An entry of a list.
+    /// The block is an entry of a list.
     Item(String),
-    /// A script that runs.
+    /// The block is a script that runs.
     Example(String),
 }
 
 static PAGES: LazyLock<Vec<ModulePage>> =
     LazyLock::new(|| MODULES.iter().map(ModulePage::of).collect());
 
-/// The pages of all modules.
+/// The pages of all modules of the standard library.
 pub fn pages() -> &'static [ModulePage] {
     &PAGES
 }
@@ -73,7 +73,7 @@ impl ModulePage {
         page
     }
 
-    /// The function that is called so, with or without the name of the module before it.
+    /// The function of the page that is called so, with or without the name of the module before it.
     pub fn named(&self, name: &str) -> Option<&ModuleFunction> {
         self.functions.iter().find(|known| known.full_name == name || known.name() == name)
     }
@@ -92,17 +92,17 @@ impl ModuleFunction {
         })
     }
 
-    /// Its own name.
+    /// The name of the function without that of its module.
     pub fn name(&self) -> &str {
         self.full_name.rsplit("::").next().unwrap_or_default()
     }
 
-    /// How it is written when its module has the name that it has in the library.
+    /// How the function is written when its module has the name that it has in the library.
     pub fn signature(&self) -> String {
         format!("{}({})", self.full_name, self.parameters.join(", "))
     }
 
-    /// The first paragraph.
+    /// The summary of the function: the first paragraph.
     pub fn summary(&self) -> &str {
         match self.text.first() {
             Some(Block::Paragraph(text)) => text,
@@ -110,7 +110,7 @@ impl ModuleFunction {
         }
     }
 
-    /// The keys of its options, each with what is said about it.
+    /// The keys of the function's options, each with what is said about it.
     pub fn keys(&self) -> Vec<(String, String)> {
         let mut keys: Vec<(String, String)> = Vec::new();
         let items = self.text.iter().filter_map(|block| match block {
@@ -130,7 +130,7 @@ impl ModuleFunction {
         keys
     }
 
-    /// Its examples.
+    /// The examples of the function.
     pub fn examples(&self) -> impl Iterator<Item = &str> {
         self.text.iter().filter_map(|block| match block {
             Block::Example(script) => Some(script.as_str()),

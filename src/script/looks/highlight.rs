@@ -11,23 +11,23 @@ use crate::script::source::scanner::{Kind, Token, pair, scan};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Style(pub &'static str);
 
-/// A keyword.
+/// The style of a keyword.
 pub const KEYWORD: Style = Style("35");
-/// A number.
+/// The style of a number.
 pub const NUMBER: Style = Style("36");
-/// A text.
+/// The style of a text.
 pub const TEXT: Style = Style("32");
-/// A comment.
+/// The style of a comment.
 pub const COMMENT: Style = Style("2");
-/// The name of a function.
+/// The style of the name of a function.
 pub const FUNCTION: Style = Style("34");
-/// The name of a number.
+/// The style of the name of a number.
 pub const CONSTANT: Style = Style("36");
-/// A member that its value has not.
+/// The style of a member that its value has not.
 pub const UNKNOWN_MEMBER: Style = Style("4");
-/// The bracket at the cursor, and its partner.
+/// The style of the bracket at the cursor, and of its partner.
 pub const PARTNER: Style = Style("1;4");
-/// What does not belong there.
+/// The style of what does not belong where it stands.
 pub const STRAY: Style = Style("31");
 
 /// Names that are drawn in colours of their own; made once for many texts, as lines are drawn at each key.
@@ -42,7 +42,7 @@ pub struct Vocabulary {
 }
 
 impl Vocabulary {
-    /// The names of the language itself: enough for a file.
+    /// The vocabulary of the language itself: enough for a file.
     pub fn of_language(catalog: &Catalog) -> Self {
         let built_in = catalog.built_ins().filter(|known| known.is_function());
         let built_in = built_in.map(|known| known.name().to_owned());
@@ -61,19 +61,19 @@ impl Vocabulary {
         Self { functions, constants, members, variables: HashMap::new(), modules: HashMap::new() }
     }
 
-    /// Knows a function more.
+    /// Adds the name of a function to the vocabulary.
     pub fn add_function(&mut self, name: &str) {
         self.functions.insert(name.to_owned());
     }
 
-    /// Knows a variable more, and its type in the words of the language.
+    /// Adds the name of a variable to the vocabulary, and its type in the words of the language.
     pub fn add_variable(&mut self, name: &str, of: &str) {
         if let Some((of, _)) = self.members.get_key_value(of) {
             self.variables.insert(name.to_owned(), *of);
         }
     }
 
-    /// Knows the functions of a module, by the name that it was given.
+    /// Adds the functions of a module to the vocabulary, by the name that the module was given.
     pub fn add_module<'n>(&mut self, alias: &str, functions: impl Iterator<Item = &'n str>) {
         self.modules.insert(alias.to_owned(), functions.map(str::to_owned).collect());
     }
@@ -155,7 +155,7 @@ fn bracket_at(tokens: &[Token], cursor: usize) -> Option<usize> {
     under.or_else(|| tokens.iter().position(|token| token.end == cursor && is_bracket(token)))
 }
 
-/// Adds a text in a style, if it has one.
+/// Adds a text in a style, if it has one, to what is drawn.
 pub fn draw(drawn: &mut String, text: &str, style: Option<Style>) {
     match style.filter(|_| !text.is_empty()) {
         Some(Style(numbers)) => {

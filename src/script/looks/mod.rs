@@ -2,6 +2,7 @@
 
 pub mod along;
 pub mod details;
+pub mod film;
 pub mod highlight;
 pub mod motion;
 pub mod present;

@@ -67,7 +67,7 @@ pub fn present(catalog: &Catalog, value: &Dynamic, width: usize) -> String {
     Presenter { catalog, width: width.max(20) }.show(value)
 }
 
-/// The same in one line: collections elided until they fit, of all else the first line.
+/// Shows a value of a language in one line of `width` characters: collections elided until they fit, of all else the first line.
 pub fn present_in_a_line(catalog: &Catalog, value: &Dynamic, width: usize) -> String {
     let presenter = Presenter { catalog, width };
     if is_collection(value) {

@@ -38,12 +38,12 @@ pub fn history_chart(
     Ok(line_chart(title, history, columns, History::column).y_label(label).text(style))
 }
 
-/// A chart of the drifts of energy and momenta on a logarithmic axis, as text for a terminal.
+/// A chart of the drifts of a history's energy and momenta on a logarithmic axis, as text for a terminal.
 pub fn drift_chart(history: &History, style: &Style) -> String {
     drift_lines("", history).text(style)
 }
 
-/// What a chart of the drifts would show, in lines: where there is no terminal.
+/// What a chart of the drifts of a history would show, in lines: where there is no terminal.
 pub fn drift_summary(history: &History) -> String {
     let line = |(name, of): &(&str, Invariant)| {
         format!("drift of {}: {}", name.replace('_', " "), scientific(history.drift(*of), 2))
@@ -52,7 +52,7 @@ pub fn drift_summary(history: &History) -> String {
     moving.map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// What a chart would show, in a line: where there is no terminal.
+/// What a chart of a column of a history would show, in a line: where there is no terminal.
 ///
 /// # Errors
 /// When the column is unknown, with the names that there are.
@@ -111,7 +111,7 @@ pub fn configuration_picture(
     Ok(marks.fold(picture, |picture, (mark, at)| picture.mark(mark, (at.x, at.y))).text(style))
 }
 
-/// What a picture of the configuration would show, in lines: where there is no terminal.
+/// What a picture of the configuration of a simulation would show, in lines: where there is no terminal.
 ///
 /// # Errors
 /// When an axis has a point without a tangent.
@@ -157,7 +157,7 @@ fn marked(simulation: &Simulation) -> (Vec<Mark>, Vec<Station>) {
     supports.chain(scene.sliders.iter().map(|slider| (Mark::Slider, slider.slave))).unzip()
 }
 
-/// Columns of a history over time, read in one of its ways.
+/// A chart of columns of a history over time, read in one of its ways.
 pub fn line_chart(
     title: impl Into<String>,
     history: &History,
@@ -171,7 +171,7 @@ pub fn line_chart(
     })
 }
 
-/// The drifts of energy and momenta over time, on a logarithmic axis.
+/// A chart of the drifts of a history's energy and momenta over time, on a logarithmic axis.
 pub fn drift_lines(title: impl Into<String>, history: &History) -> LineChart {
     let chart =
         LineChart::new(title).x_label("t").y_label("relative drift").y_scale(Scale::Logarithmic);
@@ -211,14 +211,14 @@ fn expect_column(history: &History, name: &str) -> Result<&'static str, ScriptEr
     })
 }
 
-/// What to write instead of a name that is no column.
+/// What to write instead of a name that is no column of a history.
 pub fn column_hint(history: &History, name: &str) -> String {
     let meant = nearest(name, history.columns().map(|(name, _)| name));
     let suggestion = meant.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
     format!("{suggestion}columns: {}", column_names(history))
 }
 
-/// The names of the columns in a line.
+/// The names of the columns of a history in a line.
 pub fn column_names(history: &History) -> String {
     history.columns().map(|(name, _)| name).collect::<Vec<_>>().join(", ")
 }

@@ -8,7 +8,7 @@ use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
 
-/// Helpers on arrays of numbers.
+/// The domain of helpers on arrays of numbers.
 pub const TABLE: Table = Table {
     name: "arrays",
     doc: "Arrays of numbers. Indices count from 0, and -1 is the last.",

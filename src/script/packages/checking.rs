@@ -14,7 +14,7 @@ use crate::script::words::checks::FailedCheck;
 use crate::script::words::error::{Failure, ScriptError};
 use crate::script::words::numbers::format_number;
 
-/// Checks, and what `catch` receives.
+/// The domain of checks, and of what `catch` receives.
 pub const TABLE: Table = Table {
     name: "checks",
     doc: "Checks are recorded and the script goes on. If one fails, `withy run` ends with exit code 1.",

@@ -5,9 +5,6 @@ use std::rc::Rc;
 use rhai::{Array, Dynamic};
 
 use super::integrators::INTEGRATOR;
-use super::precision_studies::{
-    COLUMNS, DTS, LENGTH, MESHES, METHODS, NAME, PATIENCE, REFERENCE, SCENE_OF, TIMES,
-};
 use crate::analysis::{Convergence, Ladder};
 use crate::integrators::Method;
 use crate::script::rows::call::Call;
@@ -18,9 +15,10 @@ use crate::script::rows::table::{Table, function, method, property};
 use crate::script::studies::convergence::{expect_quantity, find, map_of, study};
 use crate::script::studies::convergence_chart::chart;
 use crate::script::studies::convergence_table::table;
+use crate::script::studies::options::ErrorOptions;
 use crate::script::words::error::ScriptError;
 
-/// Studies of convergence.
+/// The domain of studies of convergence.
 pub const TABLE: Table = Table {
     name: "convergence",
     doc: "How errors fall when the step size or the mesh is refined, for every quantity, and at which order.",
@@ -28,8 +26,8 @@ pub const TABLE: Table = Table {
     setup: SETUP_OF_LADDERS,
     constants: &[],
     rows: &[
-        function("study_convergence", &[options("options", CONVERGENCE_KEYS)], |call| {
-            let study = study(call, &call.options("options")?)?;
+        function("study_convergence", &[options("options", ErrorOptions::KEYS)], |call| {
+            let study = study(call, &ErrorOptions::of(&call.options("options")?)?)?;
             Ok(Dynamic::from(ConvergenceStudy(Rc::new(study))))
         })
         .returns(Returns::object(CONVERGENCE))
@@ -79,8 +77,6 @@ const SETUP_OF_LADDERS: &str = "let s = section(#{ EA: 100, GA: 100, EI: 10, rho
 const CONVERGENCE: Type = Type::of::<ConvergenceStudy>();
 const QUANTITY: Parameter =
     text("quantity").doc("\"positions\", all of them together, or one that the table shows");
-const CONVERGENCE_KEYS: &[Parameter] =
-    &[NAME, SCENE_OF, MESHES, METHODS, DTS, TIMES, REFERENCE, COLUMNS, LENGTH, PATIENCE];
 
 /// A finished study.
 #[derive(Clone)]

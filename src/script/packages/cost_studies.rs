@@ -2,23 +2,21 @@
 
 use rhai::{Array, Dynamic};
 
-use super::integrators::INTEGRATOR;
 use crate::analysis::{Outcome, Patience, StepCost, step_costs};
 use crate::output::Panel;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Scripted, Type};
-use crate::script::rows::parameter::{
-    Parameter, Presence, anything, callback, name, number, object, options, whole,
-};
+use crate::script::rows::parameter::options;
 use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Table, function, property};
 use crate::script::state::settings::Mode;
 use crate::script::studies::cost::{CostTable, Way, cases};
 use crate::script::studies::desk::print_table;
+use crate::script::studies::options::CostOptions;
 use crate::script::studies::plan::{patience, study_name};
 use crate::script::words::error::ScriptError;
 
-/// Costs.
+/// The domain of studies of what the features of a scene cost.
 pub const TABLE: Table = Table {
     name: "costs",
     doc: "What a step costs, and what each feature of a scene adds.",
@@ -31,7 +29,7 @@ pub const TABLE: Table = Table {
             };",
     constants: &[],
     rows: &[
-        function("study_cost", &[options("options", STUDY)], study)
+        function("study_cost", &[options("options", CostOptions::KEYS)], study)
             .returns(Returns::object(COST_TABLE))
             .summary("Measures what a step of a scene costs, alone and with features added one by one.")
             .doc(
@@ -63,19 +61,6 @@ pub const TABLE: Table = Table {
 
 const COST_TABLE: Type = Type::of::<CostTable>();
 
-const STUDY: &[Parameter] = &[
-    name("name").doc("of the study and its files"),
-    callback("scene").doc("|| …, a function that makes the scene"),
-    number("dt").positive().unit("time").doc("the step size"),
-    anything("features").doc("names and functions: #{ gravity: |scene| … }").optional(),
-    object("integrator", INTEGRATOR).doc("energy_momentum() unless given").optional(),
-    whole("steps").positive().or(Presence::Whole(200)).doc("of each run"),
-    whole("repeats")
-        .positive()
-        .or(Presence::Whole(5))
-        .doc("how often each run is timed; it records every step unless the row says otherwise"),
-];
-
 impl Scripted for CostTable {
     const NAME: &'static str = "table of costs";
     const DOC: &'static str = "What a step of a scene costs, with one feature or another.";
@@ -86,23 +71,22 @@ impl Scripted for CostTable {
 }
 
 fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let options = call.options("options")?;
+    let options = CostOptions::of(&call.options("options")?)?;
     let context = call.context();
-    let method = options.get_if("integrator").unwrap_or_default();
-    let way = Way { method, dt: options.number("dt")?, steps: options.count("steps")? };
+    let method = options.integrator.unwrap_or_default();
+    let way = Way { method, dt: options.dt, steps: options.steps };
     let cases = cases(call, &options, way)?;
-    let name = study_name(call, &options)?;
+    let name = study_name(call, &options.name)?;
     let repeats = match context.mode() {
         Mode::DryBuild => {
             let pretended = |case| StepCost::unmeasured(case, Outcome::Finished);
             let costs = cases.iter().map(pretended).collect();
             return Ok(Dynamic::from(CostTable::new(name, costs)));
         }
-        Mode::Run => context.studies().repeats.map_or_else(|| options.count("repeats"), Ok)?,
+        Mode::Run => context.studies().repeats.unwrap_or(options.repeats),
     };
     let patience = patience(call, Patience::default().wall.as_secs_f64());
     let costs = step_costs(&cases, patience, repeats, &mut || context.stopped_by().is_none());
-    context.forget_callback_errors();
     let Some(costs) = costs else {
         return Err(context.why_stopped("a study of costs"));
     };

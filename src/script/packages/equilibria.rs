@@ -25,7 +25,7 @@ use crate::script::words::error::ScriptError;
 use crate::simulation::Simulation;
 use crate::statics::{ArcLength, Control, Equilibrium, Loading, Stability, StaticsError};
 
-/// Equilibrium.
+/// The domain of equilibria: scenes at rest under their loads.
 pub const TABLE: Table = Table {
     name: "equilibrium",
     doc: "Where a scene rests under its loads. Loads are put on together, in steps from nothing to the whole; what happens over \
@@ -158,7 +158,7 @@ pub const TABLE: Table = Table {
     ],
 };
 
-/// How examples get something bent.
+/// The lines by which examples get something bent.
 pub(super) const BENT: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });\n\
@@ -189,7 +189,7 @@ const ARC_LENGTH: &[Parameter] = &[
     whole("points").between(3.0, 100_000.0).or(Presence::Whole(1000)).doc("most points of the path, which then ends where it is"),
 ];
 
-/// An equilibrium that a script holds; clones are the same one.
+/// A handle on an equilibrium that a script holds; clones are the same one.
 #[derive(Clone)]
 pub struct EquilibriumHandle(Rc<Held>);
 
@@ -199,17 +199,17 @@ struct Held {
 }
 
 impl EquilibriumHandle {
-    /// The equilibrium itself.
-    pub fn rest(&self) -> Ref<'_, Equilibrium> {
-        self.0.rest.borrow()
-    }
-
-    /// The scene of which it is one.
+    /// The scene that it is of.
     pub fn scene(&self) -> &SceneHandle {
         &self.0.scene
     }
 
-    /// The place of a station of its scene.
+    /// The equilibrium of the handle, to look at it.
+    pub fn rest(&self) -> Ref<'_, Equilibrium> {
+        self.0.rest.borrow()
+    }
+
+    /// The place of a station of the equilibrium's scene.
     pub fn place(&self, station: &StationHandle) -> Result<Place, ScriptError> {
         let rest = self.rest();
         station.within(&self.0.scene, rest.scene(), rest.model().meshes())
@@ -301,16 +301,6 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let rest = match found {
         Err(StaticsError::Interrupted { .. }) => {
             return Err(context.why_stopped("the search for an equilibrium"));
-        }
-        Err(error @ StaticsError::Load { .. }) => {
-            return Err(match context.take_callback_error() {
-                Some(error) => ScriptError::Engine(error),
-                None => error.into(),
-            });
-        }
-        Err(error @ StaticsError::Lost { .. }) => {
-            let hint = "take more load_steps; where the structure snaps through, follow it with control: arc_length(), or stop before with load_factor";
-            return Err(ScriptError::from(error).hint(hint));
         }
         found => found?,
     };

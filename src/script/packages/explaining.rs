@@ -17,7 +17,7 @@ use crate::script::rows::table::{Table, function, method};
 /// Characters in a line of a description.
 const WIDTH: usize = 100;
 
-/// Looking closely.
+/// The domain of explanations: looking closely at what a simulation uses.
 pub const TABLE: Table = Table {
     name: "looking closely",
     doc: "What a scene makes its simulation do, and what a value is.",

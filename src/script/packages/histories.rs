@@ -15,7 +15,7 @@ use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::format_number;
 use crate::simulation::{History, Invariant};
 
-/// Histories.
+/// The domain of histories.
 pub const TABLE: Table = Table {
     name: "histories",
     doc: "A row for each step, or as the option record says. Columns: t, kinetic, strain, potential, energy, work, momentum_x, momentum_y, impulse_x, \
@@ -44,7 +44,7 @@ pub const TABLE: Table = Table {
             .returns(Returns::NUMBER)
             .summary("The largest change of an invariant since the first row, relative to its scale.")
             .doc(
-                "energy: E - W relative to the largest energy; momentum: p - ∫F dt and angular_momentum: L - ∫M dt relative to \
+                "energy: E - W + D relative to the largest energy; momentum: p - ∫F dt and angular_momentum: L - ∫M dt relative to \
                  the largest momenta that the energy allows; gap: the largest gap of a joint, a length.",
             )
             .example("sim.run_to(1);\ncheck(sim.history.drift(\"energy\") < 1e-12);")
@@ -115,7 +115,8 @@ fn drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(drift.ok_or_else(|| history.no_rows(call))?.into())
 }
 
-fn column(
+/// A column of the history that is called, by the name that is given.
+pub(super) fn column(
     call: &Call,
     read: fn(&History, &str) -> Option<Vec<f64>>,
 ) -> Result<Vec<f64>, ScriptError> {

@@ -9,7 +9,7 @@ use crate::script::rows::parameter::{Parameter, Presence, number, options};
 use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function};
 
-/// Integrators.
+/// The domain of integrators.
 pub const TABLE: Table = Table {
     name: "integrators",
     doc: "Ways to take a step. A scene is started with one: scene.start(#{ integrator: energy_momentum(), dt: 0.1 }).",

@@ -15,7 +15,7 @@ use crate::script::rows::parameter::{
 use crate::script::rows::table::{Table, method};
 use crate::script::words::error::ScriptError;
 
-/// Loads.
+/// The domain of loads.
 pub const TABLE: Table = Table {
     name: "loads",
     doc: "A load is where, what and when. Without a schedule it acts always; a number or a function of time will do too.",

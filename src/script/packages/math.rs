@@ -10,7 +10,7 @@ use crate::script::rows::table::{Body, Constant, Row, Table, function};
 use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::as_number;
 
-/// Functions and constants of numbers.
+/// The domain of functions and constants of numbers.
 pub const TABLE: Table = Table {
     name: "numbers",
     doc: "Elementary functions. Whole numbers are welcome everywhere, angles are in radians, and infinite or undefined \
@@ -37,7 +37,7 @@ pub const TABLE: Table = Table {
             "sin",
             |call| map(call, elementary::sin),
             "The sine.",
-            "check(sin(PI / 6) - 0.5 < 1e-15);",
+            "check(abs(sin(PI / 6) - 0.5) < 1e-15);",
         ),
         of_x("cos", |call| map(call, elementary::cos), "The cosine.", "check(cos(0) == 1);"),
         of_x("tan", |call| map(call, elementary::tan), "The tangent.", "check(tan(0) == 0);"),

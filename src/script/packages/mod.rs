@@ -1,6 +1,7 @@
 //! The domains of the language, one file each. A new domain is a new file and a line in [`TABLES`].
 
 mod along_pictures;
+mod animations;
 mod arrays;
 mod chart_options;
 mod checking;
@@ -13,6 +14,7 @@ pub mod geometry;
 mod help;
 mod histories;
 mod integrators;
+mod language;
 mod loads;
 mod math;
 mod modes;
@@ -27,18 +29,22 @@ mod saving;
 mod scenes;
 mod schedules;
 mod sections;
+mod sensors;
 mod simulations;
 mod sliding;
+mod springs;
 mod stability_studies;
+mod statistics;
 mod step_sizes;
 mod text;
 mod time_travel;
 mod vectors;
+mod viewers;
 
-use crate::script::rows::catalog::Catalog;
 use crate::script::rows::table::Table;
+pub use language::language;
 
-/// All domains, in the order of the reference.
+/// The domains of the language, in the order of the reference.
 pub const TABLES: &[&Table] = &[
     &math::TABLE,
     &vectors::TABLE,
@@ -54,20 +60,25 @@ pub const TABLES: &[&Table] = &[
     &step_sizes::TABLE,
     &scenes::TABLE,
     &loads::TABLE,
+    &springs::TABLE,
     &equilibria::TABLE,
     &modes::TABLE,
     &simulations::TABLE,
     &notes::TABLE,
     &recording::TABLE,
+    &sensors::TABLE,
     &time_travel::TABLE,
     &saving::TABLE,
     &sliding::TABLE,
     &histories::TABLE,
+    &statistics::TABLE,
     &explaining::TABLE,
     &curve_pictures::TABLE,
     &pictures::TABLE,
     &along_pictures::TABLE,
     &rest_pictures::TABLE,
+    &viewers::TABLE,
+    &animations::TABLE,
     &stability_studies::TABLE,
     &cost_studies::TABLE,
     &precision_studies::TABLE,
@@ -75,11 +86,6 @@ pub const TABLES: &[&Table] = &[
     &reading_options::TABLE,
     &help::TABLE,
 ];
-
-/// The language of withy.
-pub fn language() -> Catalog {
-    Catalog::of(TABLES)
-}
 
 #[cfg(test)]
 mod tests;

@@ -20,7 +20,7 @@ use crate::script::rows::table::{Body, Row, Table, method, property};
 use crate::script::words::error::{Place, ScriptError};
 use crate::vibration::{Mode, Modes, VibrationError};
 
-/// Modes.
+/// The domain of natural modes.
 pub const TABLE: Table = Table {
     name: "modes",
     doc: "How a scene vibrates by little about a configuration: natural frequencies and their shapes, the lowest first. A \
@@ -107,13 +107,13 @@ const VIBRATING: &str = "let scene = new_scene(\"example\");\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [4, 0]), basis: bspline(8), section: s });\n\
     scene.clamp(rod.start);";
 
-/// How many modes are looked for.
+/// The parameter for how many modes are looked for.
 pub(super) const COUNT: Parameter = whole("count").positive().or(Presence::Whole(6));
 
 /// The modes type, for other domains.
 pub const MODES: Type = Type::of::<ModesHandle>();
 
-/// Modes that a script holds, with the scene that has them.
+/// A handle on modes that a script holds, with the scene that has them.
 #[derive(Clone)]
 pub struct ModesHandle(Rc<Held>);
 
@@ -124,12 +124,12 @@ struct Held {
 }
 
 impl ModesHandle {
-    /// Modes of a scene as it was built.
+    /// A handle on modes of a scene as it was built.
     pub fn new(of: SceneHandle, scene: &Scene, modes: Modes) -> Self {
         Self(Rc::new(Held { of, scene: scene.clone(), modes }))
     }
 
-    /// The scene that has the modes, as it was built, and the modes.
+    /// The scene that has the modes, as it was built, and the modes of the handle.
     pub fn held(&self) -> (&Scene, &Modes) {
         (&self.0.scene, &self.0.modes)
     }
@@ -164,13 +164,13 @@ impl Scripted for ModesHandle {
     }
 }
 
-/// Sees that there is memory for so many modes as the call asks for.
+/// Checks that there is memory for as many modes as the call asks for.
 pub(super) fn expect_room(call: &Call, model: &Model) -> Result<(), ScriptError> {
     let needed = Modes::memory(model, call.count("count")?);
     call.context().expect_room("so many modes of so large a scene", needed)
 }
 
-/// Looks for so many modes as the call asks for, until the run is stopped.
+/// Looks for as many modes as the call asks for, until the run is stopped.
 pub(super) fn look(
     call: &Call,
     find: impl FnOnce(usize, &mut dyn FnMut() -> bool) -> Result<Modes, VibrationError>,

@@ -8,7 +8,7 @@ use crate::script::handles::simulation::SimulationHandle;
 use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Table, property};
 
-/// Notes.
+/// The domain of notes on what steps do not resolve.
 pub const TABLE: Table = Table {
     name: "notes",
     doc: "Steps may keep energy and momenta to rounding and be too long to mean anything. While a simulation runs, it measures how well its \
@@ -38,6 +38,6 @@ pub const TABLE: Table = Table {
     .see(&["start", "explain", "run_to"])],
 };
 
-/// What becomes of notes when a run ends, and the word for it.
+/// The words for what becomes of notes when a run ends.
 pub(super) const PRINTING: [(&str, Printing); 2] =
     [("print", Printing::AtTheEnd), ("keep", Printing::Never)];

@@ -27,7 +27,7 @@ use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
 use crate::simulation::History;
 
-/// Pictures and files.
+/// The domain of pictures and files.
 pub const TABLE: Table = Table {
     name: "pictures",
     doc: "Pictures are SVG or PNG by the ending of the file name, tables are CSV; all go into the output folder. Given an \
@@ -67,12 +67,12 @@ pub const TABLE: Table = Table {
     ],
 };
 
-const MOVING: Parameter =
+pub(super) const MOVING: Parameter =
     either("of", &[Kind::Object(SIMULATION), Kind::Array]).doc("a simulation, or an array of them");
 const RECORDED: Parameter =
     either("of", &[Kind::Object(SIMULATION), Kind::Object(HISTORY), Kind::Array])
         .doc("a simulation or history, or an array of them");
-const FILE: Parameter = text("file").doc("its name in the output folder");
+pub(super) const FILE: Parameter = text("file").doc("its name in the output folder");
 const COLUMNS: Parameter = array("columns").doc("names of columns of the history");
 const HISTORY_OPTIONS: &[Parameter] = &[
     text("title").doc("the name of the simulation unless given").optional(),
@@ -95,7 +95,7 @@ const HISTORY_OPTIONS: &[Parameter] = &[
 /// Most simulations in one picture.
 const MOST_SIDE_BY_SIDE: usize = 100;
 
-pub(super) fn things<T: Scripted>(
+fn things<T: Scripted>(
     call: &Call,
     convert: fn(&Dynamic) -> Option<T>,
 ) -> Result<Vec<T>, ScriptError> {
@@ -116,6 +116,11 @@ pub(super) fn things<T: Scripted>(
     })
 }
 
+/// The simulations given.
+pub(super) fn simulations(call: &Call) -> Result<Vec<SimulationHandle>, ScriptError> {
+    things(call, as_simulation)
+}
+
 /// The histories given, none of them empty.
 fn histories(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     let histories = things(call, as_history)?;
@@ -132,7 +137,7 @@ fn histories_over_time(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     Ok(histories)
 }
 
-pub(super) fn as_simulation(value: &Dynamic) -> Option<SimulationHandle> {
+fn as_simulation(value: &Dynamic) -> Option<SimulationHandle> {
     value.clone().try_cast()
 }
 
@@ -141,7 +146,7 @@ fn as_history(value: &Dynamic) -> Option<HistoryHandle> {
     value.clone().try_cast::<HistoryHandle>().or_else(|| as_simulation(value).map(whole))
 }
 
-/// Writes a picture in the format that the ending of its name asks for.
+/// Writes a picture into the output folder, in the format that the ending of its name asks for; gives nothing to the script.
 pub(super) fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic, ScriptError> {
     let file = call.text("file")?;
     let kind = PictureKind::of(Path::new(file.as_str()))?;
@@ -154,7 +159,7 @@ pub(super) fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic,
     Ok(Dynamic::UNIT)
 }
 
-/// A point as it is drawn.
+/// A point in plain numbers, as it is drawn.
 pub(super) fn plain(point: &Vec2) -> (f64, f64) {
     (point.x, point.y)
 }
@@ -194,19 +199,19 @@ fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
         whose.into_iter().try_for_each(|of| expect_all_rows(call, of, "`average`"))?;
     }
     let names = columns(call, &histories)?;
+    let title = options.text_if_given("title")?;
     let values = |history: &History, name: &str| {
         read(history, name).map(|values| values.into_iter().map(shown).collect())
     };
     let chart = |of: &HistoryHandle| {
-        let title = options.text("title");
-        let title = title.map_or_else(|_| of.of.name().to_owned(), |title| title.to_string());
+        let title = title.clone().unwrap_or_else(|| of.of.name().to_owned());
         of.read(|history| line_chart(title, history, &names, values))
     };
     let mut charts: Vec<LineChart> = histories.iter().map(chart).collect();
     if options.text("axes")? == "shared" && charts.len() > 1 {
-        let title = options.text("title").unwrap_or_default();
+        let title = title.clone().unwrap_or_default();
         let named: Vec<String> = histories.iter().map(|of| of.of.name().to_owned()).collect();
-        charts = vec![LineChart::shared(title.as_str(), named.into_iter().zip(charts))];
+        charts = vec![LineChart::shared(title, named.into_iter().zip(charts))];
     }
     let dress = |chart: LineChart| {
         let chart = chart.y_scale(scale).each(|at, series| marked(&options, at, series));
@@ -235,7 +240,7 @@ fn plot_drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
     write_charts(call, histories_over_time(call)?.iter().map(chart).collect())
 }
 
-/// Writes a table, if the name of its file ends as it should.
+/// Writes a table into the output folder, if the name of its file ends as it should; gives nothing to the script.
 pub(super) fn write_csv(call: &Call, table: CsvTable) -> Result<Dynamic, ScriptError> {
     let file = call.text("file")?;
     if !file.ends_with(".csv") {
@@ -253,8 +258,7 @@ fn write_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 fn write_states(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let [of] =
-        things(call, as_simulation)?.try_into().map_err(|_| call.error("takes one simulation"))?;
+    let [of] = simulations(call)?.try_into().map_err(|_| call.error("takes one simulation"))?;
     let simulation = of.simulation();
     let trajectory = simulation.trajectory();
     let scene = simulation.scene();

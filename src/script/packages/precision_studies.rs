@@ -4,17 +4,14 @@ use std::rc::Rc;
 
 use rhai::{Array, Dynamic};
 
-use super::integrators::INTEGRATOR;
 use crate::analysis::Precision;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Details, Kind, Range, Scripted, Type};
-use crate::script::rows::parameter::{
-    Parameter, Presence, anything, array, callback, either, name, number, numbers, object, options,
-    text, whole,
-};
+use crate::script::rows::parameter::{Parameter, either, number, options};
 use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Row, Table, function, method, property};
 use crate::script::state::settings::Mode;
+use crate::script::studies::options::{ErrorOptions, FinestOptions, PRECISION_KEYS, TimedOptions};
 use crate::script::studies::precision::study;
 use crate::script::studies::precision_comparison::comparison;
 use crate::script::studies::precision_rows::{map_of, table};
@@ -22,7 +19,7 @@ use crate::script::studies::reference::FinestRun;
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::{as_number, format_number};
 
-/// Studies of error against run time.
+/// The domain of studies of error against run time.
 pub const TABLE: Table = Table {
     name: "error against run time",
     doc: "A study runs a scene in many ways and says what they say together. withy study FILE keeps what is finished when it is \
@@ -32,7 +29,8 @@ pub const TABLE: Table = Table {
     constants: &[],
     rows: &[
         function("study_work_precision", &[options("options", PRECISION_KEYS)], |call| {
-            let study = study(call, &call.options("options")?)?;
+            let options = call.options("options")?;
+            let study = study(call, &ErrorOptions::of(&options)?, &TimedOptions::of(&options)?)?;
             Ok(Dynamic::from(PrecisionStudy(Rc::new(study))))
         })
         .returns(Returns::object(PRECISION))
@@ -50,7 +48,7 @@ pub const TABLE: Table = Table {
              check(study.rows.len() == 8);",
         )
         .see(&["finest_run", "study_convergence", "cheapest", "front"]),
-        function("finest_run", &[options("options", FINEST_KEYS).optional()], finest_run)
+        function("finest_run", &[options("options", FinestOptions::KEYS).optional()], finest_run)
             .returns(Returns::object(FINEST_RUN))
             .summary("As a reference of a study: a run of our own, marked as such in the results.")
             .doc(
@@ -109,8 +107,7 @@ pub const TABLE: Table = Table {
 };
 
 const PRECISION: Type = Type::of::<PrecisionStudy>();
-/// A reference that is a run of our own, for other domains.
-pub(super) const FINEST_RUN: Type = Type::of::<FinestRun>();
+const FINEST_RUN: Type = Type::of::<FinestRun>();
 
 /// How examples get a scene, and a study of it.
 const SETUP: &str = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
@@ -123,55 +120,6 @@ const ERRORS: Parameter =
     either("error", &[Kind::Number(Range::Positive), Kind::Numbers]).doc("an error, or several");
 
 const ERROR: Parameter = number("error").positive().doc("an error");
-
-/// Of all studies of errors.
-pub(super) const NAME: Parameter = name("name").doc("of the study and of its files");
-pub(super) const SCENE_OF: Parameter = callback("scene").doc("|mesh| …, makes the scene on a mesh");
-pub(super) const MESHES: Parameter = array("meshes").doc("what `scene` is called with, one by one");
-pub(super) const METHODS: Parameter = array("integrators").doc("at least one");
-pub(super) const DTS: Parameter =
-    array("dts").unit("time").doc("step sizes, adaptive(#{ tolerance: 1e-4 }) among them");
-pub(super) const TIMES: Parameter =
-    numbers("times").unit("time").doc("when results are compared; the last one ends a run");
-pub(super) const REFERENCE: Parameter =
-    either("reference", &[Kind::Text, Kind::Object(FINEST_RUN)])
-        .doc("the name of a table, or finest_run(…), which holds unless given")
-        .optional();
-pub(super) const COLUMNS: Parameter = anything("columns")
-    .doc("columns of the reference that are columns of the history: #{ S: \"slider1.position\" }, or with a factor: [\"…\", 3.2]")
-    .optional();
-pub(super) const LENGTH: Parameter = number("length")
-    .positive()
-    .unit("length")
-    .doc("errors of positions are relative to it; that of the longest beam unless given")
-    .optional();
-pub(super) const PATIENCE: Parameter = number("patience")
-    .positive()
-    .or(Presence::Number(600.0))
-    .doc("seconds that one run may take; it fails when it takes more");
-
-const PRECISION_KEYS: &[Parameter] = &[
-    NAME,
-    SCENE_OF,
-    MESHES,
-    METHODS,
-    DTS,
-    TIMES,
-    REFERENCE,
-    COLUMNS,
-    LENGTH,
-    PATIENCE,
-    text("rivals").doc("the name of a table of what other programs need").optional(),
-    whole("repeats").positive().or(Presence::Whole(5)).doc(
-        "how often a run is timed, with every step recorded; fewer when that takes more than 10 s",
-    ),
-];
-
-const FINEST_KEYS: &[Parameter] = &[
-    anything("mesh").doc("what `scene` is called with").optional(),
-    number("dt").positive().unit("time").doc("its step size").optional(),
-    object("integrator", INTEGRATOR).optional(),
-];
 
 const fn of_study(name: &'static str, body: crate::script::rows::table::Body) -> Row {
     property(PRECISION, name, body)
@@ -201,12 +149,9 @@ impl Scripted for PrecisionStudy {
 }
 
 fn finest_run(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let options = call.options_or_defaults("options")?;
-    Ok(Dynamic::from(FinestRun {
-        mesh: options.value("mesh").ok(),
-        dt: options.number_if_given("dt"),
-        method: options.get_if("integrator"),
-    }))
+    let options = FinestOptions::of(&call.options_or_defaults("options")?)?;
+    let FinestOptions { mesh, dt, integrator } = options;
+    Ok(Dynamic::from(FinestRun { mesh, dt, method: integrator }))
 }
 
 fn cheapest(call: &mut Call) -> Result<Dynamic, ScriptError> {

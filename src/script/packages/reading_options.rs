@@ -12,7 +12,7 @@ use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::nouns::with_article;
 use crate::script::words::suggest::nearest;
 
-/// Options and arguments of a script's own functions.
+/// The domain of options and arguments of a script's own functions.
 pub const TABLE: Table = Table {
     name: "options of functions",
     doc: "What a function of a script needs to take options and arguments as the functions of withy do.",
@@ -174,6 +174,7 @@ fn accept(
         if words == type_name {
             return Ok(value);
         }
+        // A kind that refuses it is not the one: if all do, that is told below.
         let accept = |kind| call.accept(owner, name, (kind, wanted), value.clone()).ok();
         if let Some(accepted) = kind_named(words).and_then(accept) {
             return Ok(written(accepted));

@@ -15,7 +15,7 @@ use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::format_number;
 use crate::simulation::Recording;
 
-/// Recording.
+/// The domain of recording: which states of a run get a row.
 pub const TABLE: Table = Table {
     name: "recording",
     doc: "A simulation records every step: a row in its history, a configuration for pictures. A long run need not: \
@@ -54,7 +54,7 @@ impl Scripted for Recording {
     }
 }
 
-/// Refuses what needs a row for every step.
+/// Refuses a call that needs a row of the history for every step.
 pub(super) fn expect_all_rows(
     call: &Call,
     of: &SimulationHandle,
@@ -72,7 +72,7 @@ pub(super) fn expect_all_rows(
     Err(call.error(told).hint("start it without the option record: scene.start(#{ dt: … })"))
 }
 
-/// Refuses to draw over time what has been recorded at the ends of runs only.
+/// Refuses a call that draws over time what has been recorded at the ends of runs only.
 pub(super) fn expect_rows_between(call: &Call, of: &SimulationHandle) -> Result<(), ScriptError> {
     let simulation = of.simulation();
     if simulation.recording() != Recording::Nothing || simulation.has_all_rows() {
@@ -82,7 +82,7 @@ pub(super) fn expect_rows_between(call: &Call, of: &SimulationHandle) -> Result<
     Err(call.error(told).hint("start it with the option record: every(100), or without it"))
 }
 
-/// Refuses a picture of a time from which too far away the nearest recorded configuration is.
+/// Refuses a picture of a time from which the nearest recorded configuration is too far away.
 pub(super) fn expect_near(
     call: &Call,
     of: &SimulationHandle,

@@ -19,7 +19,7 @@ use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
 use crate::simulation::Outline;
 
-/// Pictures of equilibria and modes.
+/// The domain of pictures of equilibria and modes.
 pub const TABLE: Table = Table {
     name: "pictures of equilibria and modes",
     doc: "Like pictures of simulations: SVG or PNG by the ending of the file name, tables as CSV, into the output folder.",
@@ -68,7 +68,7 @@ fn plot_equilibrium(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options_or_defaults("options")?;
     let rest = handle.rest();
     let scene = rest.scene();
-    let title = options.text("title").map_or_else(|_| scene.name.clone(), |text| text.to_string());
+    let title = options.text_if_given("title")?.unwrap_or_else(|| scene.name.clone());
     let mut picture = MotionPicture::new(title)
         .beams(scene.beams.iter().map(|beam| beam.name.clone()))
         .time_label("load factor");

@@ -22,7 +22,7 @@ use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::suggest::nearest;
 use crate::simulation::Simulation;
 
-/// Saving and loading.
+/// The domain of saving and loading simulations.
 pub const TABLE: Table = Table {
     name: "saving",
     doc: "A simulation can be saved and loaded, also by another script, and goes on bit for bit. What a loaded scene holds is found by name.",
@@ -93,7 +93,8 @@ const NAME: Parameter = text("name");
 fn save(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let file = handle.simulation().to_bytes(handle.name());
-    let file = file.map_err(|error| call.error(format!("'{}': {error}", handle.name())))?;
+    let file =
+        file.map_err(|error| call.error(format!("'{}': {error}", handle.name())).advised(&error))?;
     let written = call.context().write_to_read(&call.text("file")?, file);
     written.map_err(|error| error.at(Place::Argument(0)))?;
     let waiting = handle.events_waiting();
@@ -111,7 +112,8 @@ fn load(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let file = call.context().read_file(&name).map_err(|error| error.at(Place::Argument(0)))?;
     let loaded = Simulation::from_bytes(&file);
     let (name, mut simulation) = loaded.map_err(|error| {
-        call.error(format!("cannot load \"{name}\": {error}")).at(Place::Argument(0))
+        let refused = call.error(format!("cannot load \"{name}\": {error}"));
+        refused.advised(&error).at(Place::Argument(0))
     })?;
     simulation.keep_snapshots(call.context().snapshots());
     let scene = SceneHandle::new(simulation.scene().clone());

@@ -24,7 +24,7 @@ use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function, method, property};
 use crate::script::words::error::{Place, ScriptError};
 
-/// Scenes and what stands in them.
+/// The domain of scenes and what stands in them.
 pub const TABLE: Table = Table {
     name: "scenes",
     doc: "A scene is a description: beams, particles, joints, masses and loads. scene.start(…) makes a simulation of it.",
@@ -132,7 +132,7 @@ pub const TABLE: Table = Table {
     ],
 };
 
-/// How examples get a beam.
+/// The lines by which examples get a beam.
 pub(super) const ROD: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });";
@@ -172,7 +172,7 @@ const PARTICLE_KEYS: &[Parameter] = &[
 fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let options = call.options("options")?;
-    let named = options.text("name").map(|name| name.to_string());
+    let named = options.text_if_given("name")?;
     let mesh = match mesh_of(&options, "basis") {
         Some(mesh) => mesh,
         None => Mesh::bspline(SPANS, 3, 2)?,
@@ -187,7 +187,7 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
         about: if options.has("about") { Some(options.point("about")?) } else { None },
     };
     let definition = BeamDefinition {
-        name: named.unwrap_or_else(|_| scene.scene().borrow().free_name("beam")),
+        name: named.unwrap_or_else(|| scene.scene().borrow().free_name("beam")),
         axis: Curve::clone(&*options.get::<Rc<Curve>>("axis")?),
         mesh,
         section: options.get("section")?,
@@ -201,9 +201,9 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
 fn particle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let options = call.options_or_defaults("options")?;
-    let name = options.text("name").map(|name| name.to_string());
+    let name = options.text_if_given("name")?;
     let definition = ParticleDefinition {
-        name: name.unwrap_or_else(|_| scene.scene().borrow().free_name("particle")),
+        name: name.unwrap_or_else(|| scene.scene().borrow().free_name("particle")),
         position: call.point("position")?,
     };
     let added = scene.scene().borrow_mut().add_particle(definition, call.number("mass")?);

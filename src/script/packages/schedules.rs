@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use rhai::{Dynamic, EvalAltResult, FnPtr};
 
-use crate::loads::{Operation, Schedule, Side};
+use crate::loads::{FunctionError, Operation, Schedule, Side};
 use crate::script::diagnose::Explainer;
 use crate::script::looks::details;
 use crate::script::rows::arguments::Arguments;
@@ -20,8 +20,9 @@ use crate::script::rows::table::{Table, function, method, operator};
 use crate::script::source::program::Program;
 use crate::script::state::context::Context;
 use crate::script::words::error::ScriptError;
+use crate::script::words::raised::Raised;
 
-/// Schedules.
+/// The domain of schedules: factors of loads over time.
 pub const TABLE: Table = Table {
     name: "schedules",
     doc: "A schedule is a factor over time that multiplies a load. Steps end where a schedule jumps or bends.",
@@ -79,11 +80,7 @@ pub const TABLE: Table = Table {
             .doc("It is called two or three times a step, never inside the iteration. A jump that is not declared costs accuracy.")
             .example("let load = schedule(|t| exp(-t) * sin(3 * t));\ncheck(load.at(0) == 0);"),
         method(SCHEDULE, "at", &[number("t").unit("time")], |call| {
-            let value = call.receiver::<Schedule>()?.value(call.number("t")?, Side::After);
-            // An error of a script function keeps its own place.
-            value.map(Dynamic::from).map_err(|error| {
-                call.context().take_callback_error().map_or_else(|| error.into(), ScriptError::Engine)
-            })
+            Ok(call.receiver::<Schedule>()?.value(call.number("t")?, Side::After)?.into())
         })
         .returns(Returns::NUMBER)
         .summary("The factor at a time, just after it where it jumps.")
@@ -134,7 +131,7 @@ pub const TABLE: Table = Table {
 
 /// The schedule type, for other domains.
 pub const SCHEDULE: Type = Type::of::<Schedule>();
-/// What may stand for a schedule: one, a number that is constant, or a function of time.
+/// The kinds of value that may stand for a schedule: one, a number that is constant, or a function of time.
 pub const SCHEDULE_KINDS: &[Kind] =
     &[Kind::Object(SCHEDULE), Kind::Number(Range::Finite), Kind::Function];
 
@@ -192,11 +189,9 @@ fn stored(call: &Call, function: FnPtr, breaks: Vec<f64>) -> Result<Schedule, Sc
     let stored = call.store(function, "the function of a schedule");
     let function = Rc::new(move |t| {
         stored.number_of(t).map_err(|error| match error {
-            NoNumber::Other(words) => words,
+            NoNumber::Other(words) => FunctionError::new(words),
             NoNumber::Failed(error) => {
-                let words = words(stored.context(), &error);
-                stored.context().keep_callback_error(error);
-                words
+                FunctionError::new(Raised::new(words(stored.context(), &error), error))
             }
         })
     });
@@ -212,7 +207,7 @@ fn words(context: &Context, error: &EvalAltResult) -> String {
     Explainer { program: &program, catalog: &catalog, engine: &engine }.explain(error).line()
 }
 
-/// The schedule of a load: given in one of [`SCHEDULE_KINDS`], or always 1.
+/// The schedule of a load from the arguments of a call: given in one of [`SCHEDULE_KINDS`], or always 1.
 pub(super) fn schedule_of(
     call: &Call,
     arguments: &Arguments,

@@ -23,7 +23,7 @@ use crate::script::words::error::{Place, ScriptError};
 /// Digits of a stiffness or an inertia where it is shown.
 const DIGITS: usize = 7;
 
-/// Sections and meshes.
+/// The domain of sections and meshes.
 pub const TABLE: Table = Table {
     name: "sections",
     doc: "What a beam is made of and how it is discretised. Any consistent set of units will do.",
@@ -290,11 +290,11 @@ fn with_quadrature(mesh: Mesh, options: &Options) -> Result<Dynamic, ScriptError
     ))
 }
 
-/// A mesh given as such or as a knot vector.
+/// The mesh in an argument, given as such or as a knot vector.
 pub(super) fn mesh_of(arguments: &Arguments, name: &str) -> Option<Mesh> {
     let knots = |knots: Rc<KnotVector>| Mesh::new(Basis::BSpline(KnotVector::clone(&knots)));
     arguments.get_if::<Mesh>(name).or_else(|| arguments.get_if::<Rc<KnotVector>>(name).map(knots))
 }
 
-/// What [`mesh_of`] reads.
+/// The kinds of value that [`mesh_of`] reads as a mesh.
 pub(super) const MESH_KINDS: &[Kind] = &[Kind::Object(MESH), Kind::Object(KNOTS)];

@@ -21,6 +21,7 @@ use crate::script::handles::notes::Notes;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::{Goal, SimulationHandle};
 use crate::script::handles::station::StationHandle;
+use crate::script::handles::step_size::step_size;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Kind, Range, Scripted, Type};
 use crate::script::rows::parameter::{
@@ -29,9 +30,9 @@ use crate::script::rows::parameter::{
 use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Row, Table, method, property};
 use crate::script::words::error::ScriptError;
-use crate::simulation::{Invariant, Recording, Settings, Simulation, SimulationError, StepControl};
+use crate::simulation::{Invariant, Recording, Settings, Simulation, SimulationError};
 
-/// Simulations.
+/// The domain of simulations.
 pub const TABLE: Table = Table {
     name: "simulations",
     doc: "A simulation is live: step it, look, step on. Everything it went through is in its history.",
@@ -103,10 +104,10 @@ pub const TABLE: Table = Table {
         method(SIMULATION, "invariants", &[], |call| Ok(Dynamic::from(Invariants::of(&call.receiver()?))))
             .returns(Returns::object(INVARIANTS))
             .summary("How well energy, momenta and gap were kept so far; prints as a table.")
-            .doc("The values are E - W, p - ∫F dt and L - ∫M dt, with what loads, gravity and supports have given taken off.")
+            .doc("The values are E - W + D, p - ∫F dt and L - ∫M dt, with what loads, gravity and supports have given taken off.")
             .example("sim.run_to(1);\nprint(sim.invariants());\ncheck(sim.invariants().energy < 1e-12);")
             .see(&["drift"]),
-        invariant("energy", |call| Ok(drift(call)?[0].into())).summary("The largest relative change of E - W."),
+        invariant("energy", |call| Ok(drift(call)?[0].into())).summary("The largest relative change of E - W + D."),
         invariant("momentum", |call| Ok(drift(call)?[1].into())).summary("The largest relative change of p - ∫F dt."),
         invariant("angular_momentum", |call| Ok(drift(call)?[2].into())).summary("The largest relative change of L - ∫M dt."),
         invariant("gap", |call| Ok(drift(call)?[3].into())).summary("The largest gap of a joint [length]."),
@@ -153,7 +154,7 @@ pub const TABLE: Table = Table {
     ],
 };
 
-/// How examples get a simulation.
+/// The lines by which examples get a simulation.
 pub(super) const SPINNING: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s, spin: 1 });\n\
@@ -247,7 +248,7 @@ fn start(call: &mut Call) -> Result<Dynamic, ScriptError> {
     begin(call, handle, |settings| Simulation::start(scene, settings))
 }
 
-/// A simulation as the options ask for it.
+/// Starts a simulation as the options of a call ask for it.
 pub(super) fn begin(
     call: &Call,
     of: SceneHandle,
@@ -256,21 +257,22 @@ pub(super) fn begin(
     let options = call.options("options")?;
     let settings = Settings {
         method: options.get_if::<Method>("integrator").unwrap_or_default(),
-        dt: match options.get_if::<StepControl>("dt") {
-            Some(control) => control.into(),
-            None => options.number("dt")?.into(),
-        },
+        dt: step_size(&options.value("dt")?)
+            .ok_or_else(|| ScriptError::bug("a step size is neither a number nor adaptive"))?,
         tolerance: Tolerance::default(),
     };
     let mut simulation = start(settings)?;
-    let name = options.text("name").map(|name| name.to_string());
-    let name = name.unwrap_or_else(|_| simulation.scene().name.clone());
+    let name = options.text_if_given("name")?;
+    let name = name.unwrap_or_else(|| simulation.scene().name.clone());
     let limit = options.number_if_given("snapshots").map(bytes);
     simulation.record(options.get_if::<Recording>("record").unwrap_or_default());
     simulation.keep_snapshots(limit.unwrap_or_else(|| call.context().snapshots()));
-    let printing = options.text("notes").map(|word| meant(&PRINTING, &word)).unwrap_or_default();
+    let printing =
+        options.text_if_given("notes")?.map(|word| meant(&PRINTING, &word)).unwrap_or_default();
     let notes = Notes::new(printing);
-    Ok(Dynamic::from(SimulationHandle::new(simulation, of, name, notes, call.context())))
+    let started = SimulationHandle::new(simulation, of, name, notes, call.context());
+    started.sense()?;
+    Ok(Dynamic::from(started))
 }
 
 fn measures(handle: &SimulationHandle) -> Measures {
@@ -306,7 +308,7 @@ fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     followed(call, &station, simulation.model().angle(simulation.scene(), &station.station))
 }
 
-/// The angle at a station, if it was followed from the start.
+/// The angle of the section at a station [rad], if it was followed from the start.
 pub(super) fn followed(
     call: &Call,
     station: &StationHandle,

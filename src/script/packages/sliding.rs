@@ -22,7 +22,7 @@ use crate::script::rows::table::{Row, Table, function, method, property};
 use crate::script::words::error::{Place, ScriptError};
 use crate::simulation::Arrival;
 
-/// Sliding joints.
+/// The domain of sliding joints.
 pub const TABLE: Table = Table {
     name: "sliding joints",
     doc: "A slider keeps a station, the end of a beam or a particle, on the axis of another beam, along which it slides without \
@@ -167,7 +167,7 @@ const SLIDER_KEYS: &[Parameter] = &[
     text("name").optional(),
 ];
 
-/// A slider of a scene.
+/// A handle on a slider of a scene.
 #[derive(Clone)]
 pub(super) struct SliderHandle {
     pub(super) scene: SceneHandle,
@@ -180,7 +180,7 @@ impl SliderHandle {
     }
 
     /// Its index in a simulation, if that is one of its scene.
-    fn on(&self, handle: &SimulationHandle) -> Result<usize, ScriptError> {
+    pub(super) fn on(&self, handle: &SimulationHandle) -> Result<usize, ScriptError> {
         handle.scene().expect_same(&self.scene, "slider")?;
         if self.index < handle.simulation().scene().sliders.len() {
             return Ok(self.index);
@@ -239,9 +239,9 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let master = call.get::<BeamHandle>("beam")?.own(&handle)?;
     let options = call.options_or_defaults("options")?;
     let at = options.number_if_given("at");
-    let name = options.text("name").map(|name| name.to_string());
+    let name = options.text_if_given("name")?;
     let definition = Slider {
-        name: name.unwrap_or_else(|_| scene.borrow().free_name("slider")),
+        name: name.unwrap_or_else(|| scene.borrow().free_name("slider")),
         slave,
         master,
         arc_length: start(&scene.borrow(), slave, master, at)?,
@@ -262,7 +262,7 @@ fn start(scene: &Scene, slave: Station, master: usize, at: Option<f64>) -> Resul
     }
 }
 
-/// What one of the words of a choice stands for; a row lets no other words through.
+/// The value that one of the words of a choice stands for; a row lets no other words through.
 pub(super) fn meant<T: Copy + Default>(words: &[(&str, T)], word: &str) -> T {
     let found = words.iter().find(|(other, _)| *other == word);
     found.map(|(_, meaning)| *meaning).unwrap_or_default()

@@ -2,23 +2,21 @@
 
 use rhai::{Array, Dynamic};
 
-use super::integrators::INTEGRATOR;
 use crate::analysis::{Case, Outcome, Verdict};
 use crate::output::Panel;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Scripted, Type};
-use crate::script::rows::parameter::{
-    Parameter, Presence, anything, callback, choice, name, number, object, options,
-};
+use crate::script::rows::parameter::options;
 use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Table, function, property};
 use crate::script::state::settings::Mode;
 use crate::script::studies::desk::{Desk, Task, print_table};
+use crate::script::studies::options::StabilityOptions;
 use crate::script::studies::plan::patience;
 use crate::script::studies::stability::{Shown, StabilityMap, StabilityPlan};
 use crate::script::words::error::ScriptError;
 
-/// Stability maps.
+/// The domain of stability maps.
 pub const TABLE: Table = Table {
     name: "stability maps",
     doc: "What becomes of a simulation on the edge: a run for every combination of parameters, on all cores.",
@@ -31,7 +29,7 @@ pub const TABLE: Table = Table {
             };",
     constants: &[],
     rows: &[
-        function("study_stability", &[options("options", STUDY)], study)
+        function("study_stability", &[options("options", StabilityOptions::KEYS)], study)
             .returns(Returns::object(STABILITY_MAP))
             .summary("Runs a scene for all combinations of parameters and shows which runs come to their end, and whose energy grows.")
             .doc(
@@ -62,25 +60,6 @@ pub const TABLE: Table = Table {
 
 const STABILITY_MAP: Type = Type::of::<StabilityMap>();
 
-const STUDY: &[Parameter] = &[
-    name("name").doc("of the study and its files"),
-    callback("scene").doc("|cell| …, a function that makes the scene of a cell"),
-    anything("rows").doc("a name and its values: #{ stiffness: [1e4, 1e8] }"),
-    anything("columns").doc("a name and its values: #{ dt: [0.1, 0.2] }"),
-    anything("maps").doc("a name and its values, one map for each").optional(),
-    object("integrator", INTEGRATOR).doc("energy_momentum() unless given").optional(),
-    number("dt").positive().unit("time").doc("the step size of all cells").optional(),
-    number("end").positive().unit("time").doc("the end of all runs").optional(),
-    choice("show", &["energy growth", "iterations", "retries"])
-        .or(Presence::Text("energy growth"))
-        .doc("what colours the cells"),
-    number("patience")
-        .positive()
-        .unit("s")
-        .or(Presence::Number(60.0))
-        .doc("the longest that a cell may take by the clock"),
-];
-
 impl Scripted for StabilityMap {
     const NAME: &'static str = "stability map";
     const DOC: &'static str = "What became of a run for every combination of parameters.";
@@ -92,15 +71,17 @@ impl Scripted for StabilityMap {
 }
 
 fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let options = call.options("options")?;
-    let scene = options.callback("scene")?;
-    call.expect_arguments(&scene, 1, "|cell| …, a function that makes the scene of a cell")?;
+    let options = StabilityOptions::of(&call.options("options")?)?;
+    call.expect_arguments(
+        &options.scene,
+        1,
+        "|cell| …, a function that makes the scene of a cell",
+    )?;
     let plan = StabilityPlan::read(call, &options)?;
-    let made = plan.cases(call, &options, &scene)?;
+    let made = plan.cases(call, &options)?;
     let context = call.context();
-    let patience = patience(call, options.number("patience")?);
-    let shown = options.text("show")?;
-    let shown = Shown::ALL.iter().find(|(name, _)| *name == shown.as_str());
+    let patience = patience(call, options.patience);
+    let shown = Shown::ALL.iter().find(|(name, _)| *name == options.show);
     let shown = shown.map_or(Shown::EnergyGrowth, |(_, shown)| *shown);
     let desk = Desk::open(context, &plan.name)?;
     let verdicts = match context.mode() {

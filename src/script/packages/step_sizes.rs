@@ -10,7 +10,7 @@ use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
 use crate::simulation::{StepControl, StepSize};
 
-/// Step sizes.
+/// The domain of step sizes.
 pub const TABLE: Table = Table {
     name: "step sizes",
     doc: "A scene is started with a step size, dt: 0.1, or with a tolerance, dt: adaptive(#{ tolerance: 1e-4 }).",
@@ -27,7 +27,7 @@ pub const TABLE: Table = Table {
             largest: bound("largest"),
         };
         let checked = StepSize::from(control).check();
-        checked.map_err(|error| ScriptError::new(error.to_string()).at(Place::Argument(0)))?;
+        checked.map_err(|error| ScriptError::from(error).at(Place::Argument(0)))?;
         Ok(Dynamic::from(control))
     })
     .returns(Returns::object(STEP_CONTROL))

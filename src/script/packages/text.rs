@@ -10,7 +10,7 @@ use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::{format_fixed, format_scientific};
 
-/// Formats for numbers.
+/// The domain of formats for numbers.
 pub const TABLE: Table = Table {
     name: "text",
     doc: "Numbers print with as many digits as they need: 0.05, 3, 1e-12. These functions choose the digits, and \
@@ -46,6 +46,7 @@ fn write(call: &Call, format: fn(f64, usize) -> String) -> Result<Dynamic, Scrip
 
 fn tabulate(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let words = |cell: &Dynamic| {
+        // What is no text is shown.
         let text = cell.clone().into_immutable_string().map(|text| text.to_string());
         text.unwrap_or_else(|_| call.show(cell))
     };

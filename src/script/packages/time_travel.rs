@@ -10,7 +10,7 @@ use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, method};
 use crate::script::words::error::ScriptError;
 
-/// Going back.
+/// The domain of going back in a simulation.
 pub const TABLE: Table = Table {
     name: "going back",
     doc: "A simulation can go back to states that it was in, bit for bit, as long as these fit into the memory set aside for them. \
@@ -40,7 +40,7 @@ pub const TABLE: Table = Table {
         .see(&["back", "run_to"]),
         method(SIMULATION, "fork", &[name("name").optional()], |call| {
             let handle = call.receiver::<SimulationHandle>()?;
-            let name = call.text("name").map_or_else(|_| format!("{} fork", handle.name()), |name| name.to_string());
+            let name = call.text_if_given("name")?.unwrap_or_else(|| format!("{} fork", handle.name()));
             Ok(Dynamic::from(handle.fork(name, call.context())?))
         })
         .returns(Returns::object(SIMULATION))
@@ -60,7 +60,7 @@ pub const TABLE: Table = Table {
     ],
 };
 
-/// Megabytes in bytes; more than there can be is as much as there can be.
+/// Megabytes in bytes; more than there can be count as the most that there can be.
 pub(super) fn bytes(megabytes: f64) -> usize {
     (megabytes * 1e6) as usize
 }

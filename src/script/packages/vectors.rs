@@ -13,7 +13,7 @@ use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function, operator, property};
 use crate::script::words::error::ScriptError;
 
-/// Vectors and their arithmetic.
+/// The domain of vectors and their arithmetic.
 pub const TABLE: Table = Table {
     name: "vectors",
     doc: "Points and vectors of the plane, with components x and y.",

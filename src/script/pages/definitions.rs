@@ -13,16 +13,16 @@ use crate::script::rows::catalog::Catalog;
 use crate::script::rows::table::{Form, Row, Table};
 use types::{for_kind, for_value, identifier};
 
-/// A definition file: its name and its text.
+/// A definition file for editors: its name and its text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DefinitionFile {
-    /// Name of the file.
+    /// The name of the definition file.
     pub name: String,
-    /// What it holds.
+    /// The text of the definition file.
     pub text: String,
 }
 
-/// One file for the types of all, and one for each table.
+/// The definition files of a language: one for the types of all, and one for each table.
 pub fn definitions(catalog: &Catalog) -> Vec<DefinitionFile> {
     let mut files =
         vec![DefinitionFile { name: "types.d.rhai".into(), text: types::file(catalog) }];

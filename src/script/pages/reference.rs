@@ -161,12 +161,12 @@ fn see(text: &mut String, names: &[&str]) {
     }
 }
 
-/// What is given back, to be put behind a signature.
+/// What a row gives back, in words to be put behind a signature.
 pub(super) fn gives(returns: &Returns) -> String {
     if returns.is_nothing() { String::new() } else { format!(" → {returns}") }
 }
 
-/// A parameter as an entry of a list, and below it the keys of its map of options.
+/// Adds a parameter as an entry of a list to the text, and below it the keys of its map of options.
 pub(super) fn describe_parameter(text: &mut String, parameter: &Parameter, depth: usize) {
     let doc = if parameter.doc.is_empty() { String::new() } else { format!(", {}", parameter.doc) };
     let _ = writeln!(

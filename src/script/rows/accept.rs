@@ -30,7 +30,7 @@ pub fn accept(
     }
 }
 
-/// As [`accept`], for a parameter that a script describes: `wanted` are its words for what may be given.
+/// Gives `value` in the form that bodies read, for a parameter that a script describes: `wanted` are its words for what may be given.
 pub fn accept_described(
     engine: &Engine,
     owner: &str,
@@ -90,7 +90,7 @@ fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Convers
     Ok(accepted.ok_or(value))
 }
 
-/// A name that stands in tables and is typed.
+/// The name in `value`, which stands in tables and is typed: one that people can read and type.
 pub fn readable(owner: &str, name: &str) -> Result<String, ScriptError> {
     match refusal_of_name(name) {
         None => Ok(name.to_owned()),

@@ -8,7 +8,7 @@ use super::parameter::Parameter;
 use crate::geometry::Vec2;
 use crate::script::words::error::ScriptError;
 
-/// Values that were checked against their parameters; what was left out holds its default, if it has one.
+/// The arguments of a call, checked against their parameters; what was left out holds its default, if it has one.
 #[derive(Clone)]
 pub struct Arguments {
     parameters: &'static [Parameter],
@@ -27,7 +27,7 @@ impl Arguments {
         Self { parameters, values }
     }
 
-    /// Whether there is a value, given or by default.
+    /// Whether the argument has a value, given or by default.
     pub fn has(&self, name: &str) -> bool {
         self.find(name).is_ok()
     }
@@ -43,67 +43,75 @@ impl Arguments {
         self.parameters.iter().find(|parameter| parameter.name == name)
     }
 
-    /// A number.
+    /// The argument as a number.
     pub fn number(&self, name: &str) -> Result<f64, ScriptError> {
         self.find(name)?.as_float().map_err(|held| wrong_read(name, held))
     }
 
-    /// A number, if there is one.
+    /// The argument as a number, if there is one.
     pub fn number_if_given(&self, name: &str) -> Option<f64> {
         self.number(name).ok()
     }
 
-    /// A whole number.
+    /// The argument as a whole number.
     pub fn whole(&self, name: &str) -> Result<INT, ScriptError> {
         self.find(name)?.as_int().map_err(|held| wrong_read(name, held))
     }
 
-    /// A whole number that counts something; its row must keep it from being negative.
+    /// The argument as a whole number that counts something; its row must keep it from being negative.
     pub fn count(&self, name: &str) -> Result<usize, ScriptError> {
         usize::try_from(self.whole(name)?).map_err(|_| wrong_read(name, "a negative number"))
     }
 
-    /// A text.
+    /// The argument as a text.
     pub fn text(&self, name: &str) -> Result<ImmutableString, ScriptError> {
         self.find(name)?.clone().into_immutable_string().map_err(|held| wrong_read(name, held))
     }
 
-    /// A truth value.
+    /// A text, if there is one.
+    ///
+    /// # Errors
+    /// When there is something else, which its row must exclude.
+    pub fn text_if_given(&self, name: &str) -> Result<Option<String>, ScriptError> {
+        self.has(name).then(|| self.text(name).map(String::from)).transpose()
+    }
+
+    /// The argument as a truth value.
     pub fn boolean(&self, name: &str) -> Result<bool, ScriptError> {
         self.find(name)?.as_bool().map_err(|held| wrong_read(name, held))
     }
 
-    /// A point or vector.
+    /// The argument as a point or vector.
     pub fn point(&self, name: &str) -> Result<Vec2, ScriptError> {
         self.get(name)
     }
 
-    /// An array of anything.
+    /// The argument as an array of anything.
     pub fn array(&self, name: &str) -> Result<Array, ScriptError> {
         self.get(name)
     }
 
-    /// An array of numbers.
+    /// The argument as an array of numbers.
     pub fn numbers(&self, name: &str) -> Result<Vec<f64>, ScriptError> {
         self.get(name)
     }
 
-    /// An array of points.
+    /// The argument as an array of points.
     pub fn points(&self, name: &str) -> Result<Vec<Vec2>, ScriptError> {
         self.get(name)
     }
 
-    /// A script function, to be called back with [`Call::invoke`](super::call::Call::invoke).
+    /// The argument as a script function, to be called back with [`Call::invoke`](super::call::Call::invoke).
     pub fn callback(&self, name: &str) -> Result<FnPtr, ScriptError> {
         self.get(name)
     }
 
-    /// A map of options.
+    /// The argument as a map of options.
     pub fn options(&self, name: &str) -> Result<Options, ScriptError> {
         self.get(name)
     }
 
-    /// A map of options that may be left out: then all of its keys have their defaults.
+    /// The argument as a map of options that may be left out: then all of its keys have their defaults.
     pub fn options_or_defaults(&self, name: &str) -> Result<Options, ScriptError> {
         match self.parameters.iter().find(|parameter| parameter.name == name) {
             Some(Parameter { kind: Kind::Options(keys), .. }) if !self.has(name) => {
@@ -113,17 +121,17 @@ impl Arguments {
         }
     }
 
-    /// A value of a native type; handles are cloned, which is cheap.
+    /// The argument as a value of a native type; handles are cloned, which is cheap.
     pub fn get<T: Clone + 'static>(&self, name: &str) -> Result<T, ScriptError> {
         self.find(name)?.clone().try_cast().ok_or_else(|| wrong_read(name, "another type"))
     }
 
-    /// A value of a native type, if it is there and of that type: for parameters of either kind.
+    /// The argument as a value of a native type, if it is there and of that type: for parameters of either kind.
     pub fn get_if<T: Clone + 'static>(&self, name: &str) -> Option<T> {
         self.find(name).ok()?.clone().try_cast()
     }
 
-    /// Whatever was given.
+    /// The argument as it was given.
     pub fn value(&self, name: &str) -> Result<Dynamic, ScriptError> {
         self.find(name).cloned()
     }

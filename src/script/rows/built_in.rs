@@ -6,57 +6,57 @@ use super::returns::Returns;
 pub struct BuiltInTable {
     /// The kind of value in the plural, a heading in the reference.
     pub name: &'static str,
-    /// A sentence or two.
+    /// A sentence or two on the functions of Rhai about this kind of value.
     pub doc: &'static str,
-    /// The functions.
+    /// The functions of Rhai about this kind of value.
     pub rows: &'static [BuiltIn],
 }
 
 /// One function of Rhai, with all ways to write it.
 pub struct BuiltIn {
-    /// How it is written: `array.push(value)`, `parse_int(text, [radix])`, `text.len`. All have the same name.
+    /// How the function is written: `array.push(value)`, `parse_int(text, [radix])`, `text.len`. All forms have the same name.
     pub forms: &'static [&'static str],
     /// What it gives back.
     pub returns: Returns,
-    /// One line.
+    /// One line on what the function does.
     pub summary: &'static str,
-    /// More, where a line is not enough.
+    /// More on the function, where a line is not enough.
     pub doc: &'static str,
-    /// A script that runs and shows it at work.
+    /// A script that runs and shows the function at work.
     pub example: &'static str,
-    /// Related names.
+    /// Names that are related to the function.
     pub see: &'static [&'static str],
 }
 
-/// One way to write a function, taken apart.
+/// One way to write a function of Rhai, taken apart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Written {
     /// The kind of value before the dot, or nothing.
     pub receiver: Option<&'static str>,
-    /// Its name.
+    /// The name of the function.
     pub name: &'static str,
     /// Its arguments in parentheses; empty for a property.
     pub arguments: &'static str,
-    /// Names of the arguments that must be given; of a property there are none.
+    /// The names of the arguments that must be given; a property has none.
     pub required: Vec<&'static str>,
-    /// Names of the arguments that may be given after them.
+    /// The names of the arguments that may be given after those that must be.
     pub optional: Vec<&'static str>,
-    /// What stands after the name.
+    /// What stands after the name of the function.
     pub ending: Ending,
 }
 
 /// What stands after the name of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// Nothing: it is read as a property.
+    /// Nothing stands after the name: it is read as a property.
     Property,
-    /// Its arguments.
+    /// The arguments stand after the name.
     Arguments,
-    /// Its arguments, the last of them as often as wanted.
+    /// The arguments stand after the name, the last of them as often as wanted.
     Repeated,
 }
 
-/// A function of Rhai; what it gives back follows with [`BuiltIn::returns`].
+/// A function of Rhai for help and reference; what it gives back follows with [`BuiltIn::returns`].
 pub const fn built_in(
     forms: &'static [&'static str],
     summary: &'static str,
@@ -66,35 +66,35 @@ pub const fn built_in(
 }
 
 impl BuiltIn {
-    /// Says what it gives back.
+    /// Says what the function gives back.
     pub const fn returns(mut self, returns: Returns) -> Self {
         self.returns = returns;
         self
     }
 
-    /// A longer explanation.
+    /// Adds a longer explanation of the function.
     pub const fn doc(mut self, doc: &'static str) -> Self {
         self.doc = doc;
         self
     }
 
-    /// Related names.
+    /// Adds names that are related to the function.
     pub const fn see(mut self, see: &'static [&'static str]) -> Self {
         self.see = see;
         self
     }
 
-    /// Its name in scripts.
+    /// The name of the function in scripts.
     pub fn name(&self) -> &'static str {
         self.forms.first().map_or("", |form| written(form).name)
     }
 
-    /// All ways to write it, taken apart.
+    /// All ways to write the function, taken apart.
     pub fn written(&self) -> impl Iterator<Item = Written> {
         self.forms.iter().map(|form| written(form))
     }
 
-    /// Whether it is a method or a property of values of this type.
+    /// Whether the function is a method or a property of values of this type.
     pub fn is_of(&self, type_name: &str) -> bool {
         self.form_of(type_name).is_some()
     }
@@ -109,7 +109,7 @@ impl BuiltIn {
         self.written().find(|form| form.receiver.is_none())
     }
 
-    /// Whether it is called as a function, without a value before a dot.
+    /// Whether the function is called without a value before a dot.
     pub fn is_function(&self) -> bool {
         self.form_of_function().is_some()
     }
@@ -127,7 +127,7 @@ impl Written {
         inside.filter(|name| !name.is_empty()).map(str::to_owned).collect()
     }
 
-    /// Whether a call with this many values fits, the receiver counted as one.
+    /// Whether a call with `count` values fits this way of writing, the receiver counted as one.
     pub fn takes(&self, count: usize) -> bool {
         let receiver = usize::from(self.receiver.is_some());
         let least = self.required.len() + receiver;

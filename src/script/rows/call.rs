@@ -12,9 +12,9 @@ use super::stored::StoredFunction;
 use super::table::Row;
 use crate::script::state::context::Context;
 use crate::script::words::error::ScriptError;
-use crate::script::words::numbers::{as_number, describe};
+use crate::script::words::numbers::describe;
 
-/// One call of a row, in progress.
+/// One call of a row of the language, in progress.
 pub struct Call<'c, 'r> {
     row: &'static Row,
     context: &'c Context,
@@ -43,12 +43,12 @@ impl<'c, 'r> Call<'c, 'r> {
         Self { row, context, native, receiver, arguments }
     }
 
-    /// What all calls of a run share: output folder, mode, checks, progress.
+    /// The state that all calls of a run share: output folder, mode, checks, progress.
     pub fn context(&self) -> &'c Context {
         self.context
     }
 
-    /// The value whose method or property this is. Handles are cloned, which is cheap.
+    /// The value whose method or property is called. Handles are cloned, which is cheap.
     pub fn receiver<T: Clone + 'static>(&self) -> Result<T, ScriptError> {
         let receiver = self
             .receiver
@@ -59,7 +59,7 @@ impl<'c, 'r> Call<'c, 'r> {
         })
     }
 
-    /// Changes the value whose method or property this is.
+    /// Changes the value whose method or property is called.
     pub fn change_receiver<T: Clone + 'static>(
         &mut self,
         change: impl FnOnce(&mut T),
@@ -79,7 +79,7 @@ impl<'c, 'r> Call<'c, 'r> {
         entered.or(self.native.call_position().line()).unwrap_or(0)
     }
 
-    /// Calls a script function back. Its own errors, positions and trace stay as they are.
+    /// Calls a script function back from this call. Its own errors, positions and trace stay as they are.
     pub fn invoke(
         &self,
         function: &FnPtr,
@@ -87,24 +87,6 @@ impl<'c, 'r> Call<'c, 'r> {
     ) -> Result<Dynamic, ScriptError> {
         self.proceed()?;
         function.call_raw(self.native, None, arguments).map_err(ScriptError::Engine)
-    }
-
-    /// Calls a script function back for a finite number; `role` says what the function stands for, such as `load`.
-    pub fn invoke_for_number(
-        &self,
-        function: &FnPtr,
-        arguments: impl AsMut<[Dynamic]>,
-        role: &str,
-    ) -> Result<f64, ScriptError> {
-        let value = self.invoke(function, arguments)?;
-        as_number(&value).filter(|x| x.is_finite()).ok_or_else(|| {
-            let got = self.describe(&value);
-            ScriptError::new(format!(
-                "{}: the {role} must give a finite number, got {got}",
-                self.row.name
-            ))
-            .hint("the last expression of a function is what it gives")
-        })
     }
 
     /// Refuses a script function that takes another number of arguments; `shape` shows the right one.
@@ -139,12 +121,12 @@ impl<'c, 'r> Call<'c, 'r> {
         StoredFunction::new(function, self.native, self.context, role.to_owned())
     }
 
-    /// Refuses to go on when the run was interrupted; long native loops ask once in every step.
+    /// Refuses to go on with the call when the run was interrupted; long native loops ask once in every step.
     pub fn proceed(&self) -> Result<(), ScriptError> {
         self.context.proceed()
     }
 
-    /// `value` for a parameter of a script's own function: a kind, and the words of the script for it.
+    /// Gives `value` in the form that bodies read, for a parameter of a script's own function: a kind, and the words of the script for it.
     pub fn accept(
         &self,
         owner: &str,
@@ -155,25 +137,26 @@ impl<'c, 'r> Call<'c, 'r> {
         accept_described(self.native.engine(), owner, name, wanted, value)
     }
 
-    /// An error that begins with the name of the row, as all errors about a call do.
+    /// An error of the call that begins with the name of the row, as all errors about a call do.
     pub fn error(&self, what: impl std::fmt::Display) -> ScriptError {
         ScriptError::new(format!("{}: {what}", self.row.name))
     }
 
-    /// `value` in the words of a message.
+    /// A value in the words of a message.
     pub fn describe(&self, value: &Dynamic) -> String {
         describe(self.native.engine(), value)
     }
 
-    /// The name of the type of `value`.
+    /// The name of the type of a value.
     pub fn type_of(&self, value: &Dynamic) -> String {
         self.native.engine().map_type_name(value.type_name()).to_owned()
     }
 
-    /// `value` as the script would print it.
+    /// A value as the script would print it.
     pub fn show(&self, value: &Dynamic) -> String {
         let mut value = value.clone();
         let shown = self.native.call_native_fn_raw("to_debug", true, &mut [&mut value]);
+        // What has no words of its own is shown as the engine shows it.
         shown.map_or_else(|_| value.to_string(), |text| text.to_string())
     }
 }

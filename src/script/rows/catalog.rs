@@ -6,7 +6,7 @@ use super::kind::Type;
 use super::returns::ValueKind;
 use super::table::{Form, Row, Table};
 
-/// The tables that make up a language.
+/// The catalogue of a language: the tables that make it up.
 #[derive(Clone)]
 pub struct Catalog {
     tables: Vec<&'static Table>,
@@ -14,44 +14,44 @@ pub struct Catalog {
 }
 
 impl Catalog {
-    /// A language of these domains, on what is taken over from Rhai.
+    /// The catalogue of a language of these domains, on what is taken over from Rhai.
     pub fn of(tables: &[&'static Table]) -> Self {
         Self { tables: tables.to_vec(), built_ins: builtins::TABLES }
     }
 
-    /// The same with one more table.
+    /// The catalogue with one more table.
     #[must_use]
     pub fn and(mut self, table: &'static Table) -> Self {
         self.tables.push(table);
         self
     }
 
-    /// Its tables, in the order of the reference.
+    /// The tables of the language, in the order of the reference.
     pub fn tables(&self) -> impl Iterator<Item = &'static Table> {
         self.tables.iter().copied()
     }
 
-    /// All rows.
+    /// All rows of the language.
     pub fn rows(&self) -> impl Iterator<Item = &'static Row> {
         self.tables().flat_map(|table| table.rows)
     }
 
-    /// The rows with this name: several when types share a method name.
+    /// The rows of the language with this name: several when types share a method name.
     pub fn named<'a>(&self, name: &'a str) -> impl Iterator<Item = &'static Row> + use<'a, '_> {
         self.rows().filter(move |row| row.name == name)
     }
 
-    /// Names that can be called as functions.
+    /// The names of the language that can be called as functions.
     pub fn function_names(&self) -> impl Iterator<Item = &'static str> {
         self.rows().filter(|row| matches!(row.form, Form::Function)).map(|row| row.name)
     }
 
-    /// The type with this display name.
+    /// The type of the language with this display name.
     pub fn type_named(&self, name: &str) -> Option<Type> {
         self.tables().flat_map(|table| table.types).find(|of| of.name() == name).copied()
     }
 
-    /// Methods and properties of a type.
+    /// The methods and properties of a type of the language.
     pub fn members(&self, of: &str) -> Vec<&'static Row> {
         self.rows()
             .filter(|row| row.receiver().is_some_and(|receiver| receiver.name() == of))
@@ -71,22 +71,22 @@ impl Catalog {
         self.built_ins().filter_map(move |known| Some((known, known.form_of(of)?)))
     }
 
-    /// Names with a fixed value.
+    /// The names of the language with a fixed value.
     pub fn constants(&self) -> impl Iterator<Item = &str> {
         self.tables().flat_map(|table| table.constants).map(|constant| constant.name)
     }
 
-    /// What it takes over from Rhai, in the order of the reference.
+    /// The tables of what the language takes over from Rhai, in the order of the reference.
     pub fn built_in_tables(&self) -> impl Iterator<Item = &'static BuiltInTable> + use<> {
         self.built_ins.iter().copied()
     }
 
-    /// The functions of Rhai.
+    /// The functions of Rhai that the language takes over.
     pub fn built_ins(&self) -> impl Iterator<Item = &'static BuiltIn> + use<> {
         self.built_in_tables().flat_map(|table| table.rows)
     }
 
-    /// The functions of Rhai with this name.
+    /// The functions of Rhai with this name that the language takes over.
     pub fn built_ins_named<'a>(
         &self,
         name: &'a str,

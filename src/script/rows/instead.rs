@@ -5,7 +5,7 @@ use rhai::{Array, Dynamic, FnPtr, Map};
 use super::kind::{Kind, Range};
 use crate::script::words::numbers::{as_number, format_number};
 
-/// What to write, if the mistake is a known one; `given` is the name of the type of `value`.
+/// What to write instead of `value` for a parameter of this kind, if the mistake is a known one; `given` is the name of its type.
 pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
     match kind {
         Kind::Number(_) if is_infinite_or_nan(value) => Some(

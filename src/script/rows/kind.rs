@@ -10,28 +10,28 @@ use crate::script::words::nouns::with_article;
 
 /// A native type that scripts can hold.
 pub trait Scripted: Clone + 'static {
-    /// Its name in messages and help: one or two words.
+    /// The name of the type in messages and help: one or two words.
     const NAME: &'static str;
-    /// One line on what it is.
+    /// One line on what the type is.
     const DOC: &'static str;
-    /// How it is printed.
+    /// The printed form of the value.
     fn show(&self) -> String;
 
-    /// What a person wants to know at a glance besides: labels and values, at most a dozen.
+    /// What a person wants to know of the value at a glance besides: labels and values, at most a dozen.
     fn details(&self) -> Details {
         Details::new()
     }
 
-    /// Why it cannot be used now, if so: a native call that calls a script function back may be at work on it.
+    /// Why the value cannot be used now, if so: a native call that calls a script function back may be at work on it.
     fn is_busy(&self) -> Option<String> {
         None
     }
 }
 
-/// Labels and values, set as aligned lines.
+/// The details of a value of a script: labels and values, set as aligned lines.
 pub type Details = Vec<(String, String)>;
 
-/// A [`Scripted`] type as a value, for rows.
+/// A [`Scripted`] type as a value, for rows of tables.
 #[derive(Clone, Copy)]
 pub struct Type {
     name: &'static str,
@@ -44,7 +44,7 @@ pub struct Type {
 }
 
 impl Type {
-    /// The type `T`.
+    /// The native type `T` as a type of the language.
     pub const fn of<T: Scripted>() -> Self {
         Self {
             name: T::NAME,
@@ -57,37 +57,37 @@ impl Type {
         }
     }
 
-    /// Its name in scripts.
+    /// The name of the type in scripts.
     pub const fn name(&self) -> &'static str {
         self.name
     }
 
-    /// What it is.
+    /// One line on what the type is.
     pub const fn doc(&self) -> &'static str {
         self.doc
     }
 
-    /// Its identity.
+    /// The identity of the native type.
     pub fn id(&self) -> TypeId {
         (self.id)()
     }
 
-    /// How a value is printed, if it is one of this type.
+    /// The printed form of a value, if it is one of this type.
     pub fn show(&self, value: &Dynamic) -> Option<String> {
         (self.show)(value)
     }
 
-    /// What there is to know about a value besides, if it is one of this type.
+    /// The details of a value, if it is one of this type.
     pub fn details(&self, value: &Dynamic) -> Option<Details> {
         (self.details)(value)
     }
 
-    /// What says why a value cannot be used now, if it is of this type and busy.
+    /// The function that says why a value cannot be used now, if it is of this type and busy.
     pub fn busy(&self) -> fn(&Dynamic) -> Option<String> {
         self.busy
     }
 
-    /// Gives it a name and a printed form in the engine.
+    /// Gives the type a name and a printed form in the engine.
     pub fn register(&self, engine: &mut Engine) {
         (self.register)(engine);
     }
@@ -100,69 +100,66 @@ fn register<T: Scripted>(engine: &mut Engine) {
     }
 }
 
-/// What may be given for a parameter.
+/// The kind of value that may be given for a parameter.
 #[derive(Clone, Copy)]
 pub enum Kind {
-    /// A number; whole numbers are welcome.
+    /// A number may be given for the parameter; whole numbers are welcome.
     Number(Range),
-    /// Any number, left whole if it is whole; infinite and not-a-number included.
+    /// Any number may be given for the parameter, and is left whole if it is whole; infinite and not-a-number included.
     Numeric,
-    /// A whole number; a number without a fraction, such as `3.0`, is welcome.
+    /// A whole number may be given for the parameter; a number without a fraction, such as `3.0`, is welcome.
     Whole(Range),
-    /// A text.
+    /// A text may be given for the parameter.
     Text,
-    /// A text that people can read in tables, and type.
+    /// A text may be given for the parameter that people can read in tables, and type.
     Name,
-    /// One of these texts.
+    /// One of these texts may be given for the parameter.
     Choice(&'static [&'static str]),
-    /// `true` or `false`.
+    /// `true` or `false` may be given for the parameter.
     Boolean,
-    /// A vector or an array `[x, y]`.
+    /// A vector or an array `[x, y]` may be given for the parameter.
     Point,
-    /// An array of anything.
+    /// An array of anything may be given for the parameter.
     Array,
-    /// An array of finite numbers.
+    /// An array of finite numbers may be given for the parameter.
     Numbers,
-    /// An array of points.
+    /// An array of points may be given for the parameter.
     Points,
-    /// A function or closure.
+    /// A function or closure may be given for the parameter.
     Function,
-    /// A map of options with these keys.
+    /// A map of options with these keys may be given for the parameter.
     Options(&'static [Parameter]),
-    /// A value of one of our types.
+    /// A value of one of our types may be given for the parameter.
     Object(Type),
-    /// One of these, tried in order.
+    /// A value of one of these kinds may be given for the parameter, tried in order.
     Either(&'static [Kind]),
-    /// Anything.
+    /// Anything may be given for the parameter.
     Anything,
 }
 
-/// Which numbers are allowed.
+/// The range of numbers that are allowed for a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Range {
-    /// Any finite number.
+    /// Any finite number is allowed.
     Finite,
-    /// Greater than zero.
+    /// Numbers greater than zero are allowed.
     Positive,
-    /// Zero or greater.
+    /// Numbers of zero or greater are allowed.
     NonNegative,
-    /// At least this.
-    AtLeast(f64),
-    /// From the first to the second, both included.
+    /// Numbers from the first to the second are allowed, both included.
     Between(f64, f64),
-    /// Infinite and not-a-number included.
+    /// All numbers are allowed, infinite and not-a-number included.
     Unlimited,
 }
 
 impl Range {
-    /// Whether `x` is allowed.
+    /// Whether the number `x` is in the range.
     pub fn contains(self, x: f64) -> bool {
         let bounded = match self {
             Self::Unlimited => return true,
             Self::Finite => true,
             Self::Positive => x > 0.0,
             Self::NonNegative => x >= 0.0,
-            Self::AtLeast(least) => x >= least,
             Self::Between(least, most) => (least..=most).contains(&x),
         };
         x.is_finite() && bounded
@@ -174,14 +171,13 @@ impl Range {
             Self::Finite | Self::Unlimited => format!("a {noun}"),
             Self::Positive => format!("a positive {noun}"),
             Self::NonNegative => format!("a {noun} of zero or more"),
-            Self::AtLeast(least) => format!("a {noun} of at least {least}"),
             Self::Between(least, most) => format!("a {noun} from {least} to {most}"),
         }
     }
 }
 
 impl Kind {
-    /// Whether values of this type can be meant, whatever they hold.
+    /// Whether values of the type with this name can be meant, whatever they hold.
     pub fn takes(&self, type_name: &str) -> bool {
         match self {
             Self::Number(_) | Self::Whole(_) | Self::Numeric => {
@@ -234,7 +230,7 @@ mod tests {
 
     #[test]
     fn ranges_refuse_what_is_not_finite() {
-        for range in [Range::Finite, Range::Positive, Range::NonNegative, Range::AtLeast(1.0)] {
+        for range in [Range::Finite, Range::Positive, Range::NonNegative] {
             assert!(!range.contains(f64::NAN) && !range.contains(f64::INFINITY), "{range:?}");
         }
         assert!(Range::Unlimited.contains(f64::NAN));

@@ -26,12 +26,12 @@ impl Deref for Options {
 }
 
 impl Options {
-    /// Those of a map in which nothing is given.
+    /// The options of a map in which nothing is given: all defaults.
     pub fn defaults(keys: &'static [Parameter]) -> Self {
         Self { arguments: Arguments::new(keys, Vec::new()) }
     }
 
-    /// Checks `map` against `keys` on behalf of `owner`.
+    /// Checks `map` against `keys` on behalf of `owner`, the function or option map that asks.
     pub fn read(
         engine: &Engine,
         owner: &str,

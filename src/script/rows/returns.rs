@@ -18,7 +18,7 @@ pub enum ValueKind {
     Whole,
     /// `true` or `false`.
     Truth,
-    /// A text.
+    /// A text may be given for the parameter.
     Text,
     /// A single character.
     Character,
@@ -32,7 +32,7 @@ pub enum ValueKind {
     Map,
     /// An array of values of one kind.
     Array(&'static ValueKind),
-    /// A value of one of our types.
+    /// A value of one of our types may be given for the parameter.
     Object(Type),
     /// A value of one of these kinds, the likely one first.
     OneOf(&'static [ValueKind]),
@@ -177,7 +177,7 @@ impl Returns {
         Self::of(ValueKind::OneOf(kinds))
     }
 
-    /// Its dimension.
+    /// Says the dimension of the parameter.
     pub const fn unit(mut self, unit: &'static str) -> Self {
         self.unit = unit;
         self

@@ -11,7 +11,7 @@ use super::catalog::Catalog;
 use crate::script::source::syntax::Reader;
 use crate::script::words::stop::Stop;
 
-/// What names of modules of the library begin with. Files of a script's own folder never have such a name.
+/// The folder that names of modules of the library begin with. Files of a script's own folder never have such a name.
 pub const FOLDER: &str = "std/";
 
 /// The names of all script functions and closures that an engine has read, with their files, and the line that the standard
@@ -26,7 +26,7 @@ pub struct Sources {
     reader: Reader,
 }
 
-/// Lasts as long as a call into the library.
+/// A guard that lasts as long as a call into the library.
 pub struct InLibrary {
     entered_at: Rc<Cell<Option<usize>>>,
     before: Option<usize>,
@@ -50,7 +50,7 @@ impl Sources {
         engine.set_default_tag(rhai::Dynamic::from(Self { catalog, reader, ..Self::default() }));
     }
 
-    /// The names that the language has; none for an engine that does not speak it.
+    /// The catalogue of the language that the engine speaks; none for an engine that does not speak it.
     pub fn catalog(&self) -> Option<Rc<Catalog>> {
         self.catalog.clone()
     }
@@ -60,7 +60,7 @@ impl Sources {
         engine.default_tag().clone().try_cast().unwrap_or_default()
     }
 
-    /// Tells the engine that another text begins.
+    /// Tells the engine that it begins to read another text.
     pub fn begin_reading(&self) {
         self.reader.begin();
     }
@@ -70,12 +70,12 @@ impl Sources {
         self.reader.undisturbed(work)
     }
 
-    /// What stopped the reading of the last text before its end.
+    /// What stopped the reading of the last text before its end, if something did.
     pub fn reading_stopped(&self) -> Option<Stop> {
         self.reader.stopped()
     }
 
-    /// Notes the functions of a file.
+    /// Notes the functions and closures of a file.
     pub fn note(&self, ast: &AST, source: &str) {
         let mut known = self.functions.borrow_mut();
         for function in ast.iter_functions() {

@@ -29,10 +29,10 @@ impl StoredFunction {
         Self { function, surroundings, context: context.clone(), role }
     }
 
-    /// Calls it. Levels of calls are counted from the native call that is running, whose position its errors get.
+    /// Calls the function. Levels of calls are counted from the native call that is running, whose position its errors get.
     ///
     /// # Errors
-    /// Those of the script; also when the run was stopped.
+    /// The errors of the script; also when the run was stopped.
     pub fn call(&self, arguments: impl AsMut<[Dynamic]>) -> Result<Dynamic, Box<EvalAltResult>> {
         self.context.proceed().map_err(|error| error.into_engine(Position::NONE))?;
         let Some(engine) = self.context.engine() else {
@@ -54,10 +54,10 @@ impl StoredFunction {
         called
     }
 
-    /// Calls it with a number for a number.
+    /// Calls the function with a number for a number.
     ///
     /// # Errors
-    /// Its own, or that it gives something else; of its own the context keeps place and trace.
+    /// The function's own error, or that it gives something else; of the own one the context keeps place and trace.
     pub fn number_of(&self, argument: f64) -> Result<f64, NoNumber> {
         let value = self.call([Dynamic::from(argument)]).map_err(NoNumber::Failed)?;
         as_number(&value).ok_or_else(|| {
@@ -67,7 +67,12 @@ impl StoredFunction {
         })
     }
 
-    /// What the calls of its run share.
+    /// What it is called in messages.
+    pub fn role(&self) -> &str {
+        &self.role
+    }
+
+    /// The state that all calls of the function's run share.
     pub fn context(&self) -> &Context {
         &self.context
     }
@@ -75,8 +80,8 @@ impl StoredFunction {
 
 /// Why a script function gave no number.
 pub enum NoNumber {
-    /// It failed.
+    /// The script function failed.
     Failed(Box<EvalAltResult>),
-    /// It gave something else, in words.
+    /// The script function gave something else than a number, in words.
     Other(String),
 }

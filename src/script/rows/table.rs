@@ -15,84 +15,84 @@ use crate::script::words::error::ScriptError;
 /// The native body of a row. Its arguments were counted, converted and range-checked before it is called.
 pub type Body = fn(&mut Call<'_, '_>) -> Result<Dynamic, ScriptError>;
 
-/// Everything that one domain adds to the language.
+/// A table: everything that one domain adds to the language.
 pub struct Table {
-    /// Short name of the domain, a heading in the language reference.
+    /// The short name of the domain, a heading in the language reference.
     pub name: &'static str,
     /// A sentence or two on what the domain is for.
     pub doc: &'static str,
-    /// The types that the domain brings.
+    /// The types that the domain brings to the language.
     pub types: &'static [Type],
-    /// Lines that all examples of the domain begin with; empty when they need none.
+    /// The lines that all examples of the domain begin with; empty when they need none.
     pub setup: &'static str,
-    /// Names with a fixed value.
+    /// The names with a fixed value that the domain brings.
     pub constants: &'static [Constant],
-    /// Functions, methods, properties and operators.
+    /// The functions, methods, properties and operators of the domain.
     pub rows: &'static [Row],
 }
 
 /// A name with a fixed numeric value, visible everywhere, also inside functions.
 pub struct Constant {
-    /// Name in scripts.
+    /// The name of the constant in scripts.
     pub name: &'static str,
-    /// Its value.
+    /// The value of the constant.
     pub value: f64,
-    /// One line on what it is.
+    /// One line on what the constant is.
     pub summary: &'static str,
 }
 
 /// How a row is written in a script.
 #[derive(Clone, Copy)]
 pub enum Form {
-    /// `name(a, b)`, or equally `a.name(b)`.
+    /// The row is written as `name(a, b)`, or equally `a.name(b)`.
     Function,
-    /// `receiver.name(a, b)` on one type only.
+    /// The row is written as `receiver.name(a, b)` on one type only.
     Method(Type),
-    /// `receiver.name`, and with a setter `receiver.name = value`.
+    /// The row is written as `receiver.name`, and with a setter `receiver.name = value`.
     Property(Type),
-    /// `a + b`.
+    /// The row is written as `a + b`.
     Operator,
 }
 
-/// One exposed function, method, property or operator.
+/// A row of the language: one function, method, property or operator.
 pub struct Row {
-    /// Name in scripts.
+    /// The name of the row in scripts.
     pub name: &'static str,
-    /// How it is written.
+    /// How the row is written in a script.
     pub form: Form,
-    /// What it takes; optional parameters stand last.
+    /// The parameters of the row; optional ones stand last.
     pub parameters: &'static [Parameter],
     /// What it gives back.
     pub returns: Returns,
-    /// One line.
+    /// One line on what the row does.
     pub summary: &'static str,
-    /// More, where a line is not enough.
+    /// More on the row, where a line is not enough.
     pub doc: &'static str,
     /// A script that runs and shows the row at work.
     pub example: &'static str,
-    /// Related names.
+    /// Names that are related to the row.
     pub see: &'static [&'static str],
-    /// What it does.
+    /// The native function that does what the row does.
     pub body: Body,
-    /// For a property that can be assigned: the new value and what to do with it.
+    /// The writing half of a property that can be assigned: the new value and what to do with it.
     pub setter: Option<Setter>,
 }
 
 /// The writing half of a property.
 #[derive(Clone, Copy)]
 pub struct Setter {
-    /// The value assigned.
+    /// The parameter for the value that is assigned.
     pub value: &'static [Parameter; 1],
-    /// What to do with it.
+    /// The native function that assigns the value.
     pub body: Body,
 }
 
-/// A function: `name(a, b)`.
+/// A row for a function: `name(a, b)`.
 pub const fn function(name: &'static str, parameters: &'static [Parameter], body: Body) -> Row {
     Row::new(name, Form::Function, parameters, body)
 }
 
-/// A method on values of one type: `receiver.name(a, b)`.
+/// A row for a method on values of one type: `receiver.name(a, b)`.
 pub const fn method(
     of: Type,
     name: &'static str,
@@ -102,12 +102,12 @@ pub const fn method(
     Row::new(name, Form::Method(of), parameters, body)
 }
 
-/// A property of values of one type: `receiver.name`.
+/// A row for a property of values of one type: `receiver.name`.
 pub const fn property(of: Type, name: &'static str, body: Body) -> Row {
     Row::new(name, Form::Property(of), &[], body)
 }
 
-/// An operator between two values, at least one of which has a type of ours.
+/// A row for an operator between two values, at least one of which has a type of ours.
 pub const fn operator(symbol: &'static str, operands: &'static [Parameter], body: Body) -> Row {
     Row::new(symbol, Form::Operator, operands, body)
 }
@@ -139,42 +139,42 @@ impl Row {
         self
     }
 
-    /// The one line of help that every row must have.
+    /// Adds the one line of help that every row must have.
     pub const fn summary(mut self, summary: &'static str) -> Self {
         self.summary = summary;
         self
     }
 
-    /// A longer explanation.
+    /// Adds a longer explanation of the row.
     pub const fn doc(mut self, doc: &'static str) -> Self {
         self.doc = doc;
         self
     }
 
-    /// The runnable example that every row must have.
+    /// Adds the runnable example that every row must have.
     pub const fn example(mut self, example: &'static str) -> Self {
         self.example = example;
         self
     }
 
-    /// Related names.
+    /// Adds names that are related to the row.
     pub const fn see(mut self, see: &'static [&'static str]) -> Self {
         self.see = see;
         self
     }
 
-    /// Lets the property be assigned.
+    /// Lets the property of the row be assigned.
     pub const fn writable(mut self, value: &'static [Parameter; 1], body: Body) -> Self {
         self.setter = Some(Setter { value, body });
         self
     }
 
-    /// How many arguments must be given.
+    /// The number of arguments that must be given to the row.
     pub fn required(&self) -> usize {
         self.parameters.iter().filter(|parameter| parameter.is_required()).count()
     }
 
-    /// The type whose method or property this is.
+    /// The type whose method or property the row is.
     pub fn receiver(&self) -> Option<Type> {
         match self.form {
             Form::Method(of) | Form::Property(of) => Some(of),

@@ -1,22 +1,22 @@
 //! Short pages on the language itself, each with an example that runs.
 
-/// A page on a part of the language.
+/// A topic of the help: a page on a part of the language.
 pub struct Topic {
-    /// Its name, a heading in the reference.
+    /// The name of the topic, a heading in the reference.
     pub name: &'static str,
-    /// Words of the language that it explains, and other names for it.
+    /// The words of the language that the topic explains, and other names for it.
     pub words: &'static [&'static str],
-    /// One line.
+    /// One line on the topic.
     pub summary: &'static str,
-    /// A few sentences.
+    /// A few sentences on the topic.
     pub doc: &'static str,
-    /// A script that runs.
+    /// A script that runs and shows what the topic is about.
     pub example: &'static str,
-    /// Related names.
+    /// Names that are related to the topic.
     pub see: &'static [&'static str],
 }
 
-/// All topics, in the order in which to read them.
+/// All topics of the help, in the order in which to read them.
 pub const TOPICS: &[Topic] = &[
     Topic {
         name: "numbers",

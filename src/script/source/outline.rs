@@ -5,23 +5,23 @@ use rhai::{Position, Token};
 use super::definitions::{Definition, definitions};
 use super::text::{Lexeme, Source, name_of};
 
-/// Declared names of a script.
+/// The outline of a script: the names that it declares.
 #[derive(Debug, Default)]
 pub struct Outline {
     /// Variables and constants declared outside functions and blocks, with their lines.
     pub top_level: Vec<(String, usize)>,
-    /// All variables, loop variables and parameters.
+    /// The names of all variables, loop variables and parameters of the script.
     pub variables: Vec<String>,
-    /// Script functions with their counts of parameters.
+    /// The script's functions with their counts of parameters.
     pub functions: Vec<(String, usize)>,
-    /// Keys of map literals.
+    /// The keys of map literals in the script.
     pub keys: Vec<String>,
-    /// What is imported, with the names that it gets.
+    /// The paths that the script imports, with the names that they get.
     pub imports: Vec<(String, String)>,
 }
 
 impl Outline {
-    /// Reads `source`, which need not be correct.
+    /// The outline of `source`, which need not be correct.
     pub fn of(source: &Source) -> Self {
         let tokens = source.tokens();
         let mut outline = Self::default();

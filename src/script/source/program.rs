@@ -11,11 +11,11 @@ pub const LARGEST_SCRIPT: u64 = 16 << 20;
 /// A script to be run: its name in messages, its text, and the folder that `import` looks in.
 #[derive(Clone, Debug)]
 pub struct Program {
-    /// Name in messages.
+    /// The name of the script in messages.
     pub name: String,
     /// Its text.
     pub text: Source,
-    /// Where imports are found.
+    /// The folder in which the script's imports are found.
     pub folder: PathBuf,
 }
 
@@ -23,9 +23,9 @@ pub struct Program {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{told}")]
 pub struct Unreadable {
-    /// What is wrong with which file.
+    /// What is wrong with which file, in words.
     pub told: String,
-    /// What to do about it.
+    /// What to do about a script that cannot be read.
     pub hint: String,
 }
 
@@ -55,7 +55,7 @@ impl Program {
         Self::from_bytes(path, bytes)
     }
 
-    /// The script that a file holds.
+    /// The script that a file holds, from its bytes.
     ///
     /// # Errors
     /// When it is not UTF-8.
@@ -77,7 +77,7 @@ impl Program {
         Ok(Self { name, text: text.into(), folder: folder.into() })
     }
 
-    /// The byte offset of a line and column, both from 1 and columns in characters.
+    /// The byte offset of a line and column of the script, both from 1 and columns in characters.
     pub fn offset(&self, line: usize, column: usize) -> usize {
         self.text.offset(line, column)
     }

@@ -11,17 +11,17 @@ use rhai::{Dynamic, Engine, EvalContext, Position, Token};
 use super::definitions::{closing, nesting};
 use super::text::{Lexeme, name_of};
 
-/// The private-use character that stands for the statement in a loop with one variable.
+/// The private-use character that stands for the statement of rounds in a loop with one variable.
 pub const ONE: char = '\u{E003}';
-/// The one in a loop that counts as well.
+/// The private-use character that stands for the statement of rounds in a loop that counts as well.
 pub const TWO: char = '\u{E004}';
 
-/// The name of the statement for the parser, in a loop with one variable.
+/// The name of the statement of rounds for the parser, in a loop with one variable.
 pub const ONE_NAME: &str = "\u{E003}";
-/// Its name in a loop that counts as well.
+/// The name of the statement of rounds for the parser, in a loop that counts as well.
 pub const TWO_NAME: &str = "\u{E004}";
 
-/// Teaches `engine` the statement.
+/// Teaches `engine` the statement of rounds, which makes a body of a loop begin with fresh variables.
 pub fn install(engine: &mut Engine) {
     for (name, variables) in [(ONE_NAME, 1), (TWO_NAME, 2)] {
         engine.register_custom_syntax_with_state_raw(
@@ -48,7 +48,7 @@ fn declare_again(context: &mut EvalContext, variables: usize) {
     }
 }
 
-/// Where bodies of loops begin that need the statement, with its character.
+/// The places where bodies of loops begin that need the statement of rounds, with its character.
 pub fn bodies(tokens: &[Lexeme]) -> Vec<(Position, char)> {
     let loops = tokens.iter().enumerate().filter(|(_, (token, _))| matches!(token, Token::For));
     loops.filter_map(|(start, _)| body(tokens, start)).collect()
@@ -92,7 +92,7 @@ fn opening(tokens: &[Lexeme], after: usize) -> Option<usize> {
     None
 }
 
-/// Puts the statement behind the brace at `column`, from 0, of a line: in the place of blanks where there are some.
+/// Puts the statement of rounds behind the brace at `column`, from 0, of a line: in the place of blanks where there are some.
 pub fn put(line: &mut Vec<char>, column: usize, letter: char) {
     const LENGTH: usize = 2;
     let is_blank = |letter: &&char| matches!(letter, ' ' | '\t');

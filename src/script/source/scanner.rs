@@ -3,63 +3,63 @@
 //! The engine's own lexer stops at the first error and leaves out comments and spaces; an input is wrong most of the time
 //! while it is typed, and what is drawn must be all of it.
 
-/// A piece of an input, `start..end` in bytes.
+/// A token: a piece of an input, `start..end` in bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Token {
-    /// What it is.
+    /// The kind of the token.
     pub kind: Kind,
-    /// Where it begins.
+    /// Where the token begins in the input [bytes].
     pub start: usize,
-    /// Where it ends.
+    /// Where the token ends in the input [bytes].
     pub end: usize,
 }
 
-/// What a token is.
+/// The kind of a token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Spaces and line ends.
+    /// The token is spaces and line ends.
     Space,
-    /// A comment; a block comment that ends.
+    /// The token is a comment: one to the end of its line, or a block comment that ends.
     Comment,
-    /// A block comment that does not end.
+    /// The token is a block comment that does not end.
     OpenComment,
-    /// A text in quotes or marks, or a letter in apostrophes.
+    /// The token is a text in quotes or marks, or a letter in apostrophes.
     Text,
-    /// A text in quotes that does not end in its line.
+    /// The token is a text in quotes that does not end in its line.
     OpenText,
-    /// A text in backticks, or what of it stands before, between or after interpolations; not all of them need be there.
+    /// The token is a text in backticks, or what of it stands before, between or after interpolations; not all of them need be there.
     Piece,
-    /// A text in backticks, or a text in marks, that does not end.
+    /// The token is a text in backticks, or a text in marks, that does not end.
     OpenPiece,
-    /// A name or a keyword.
+    /// The token is a name or a keyword.
     Word,
-    /// A number.
+    /// The token is a number.
     Number,
-    /// An opening bracket.
+    /// The token is an opening bracket.
     Open(Bracket),
-    /// A closing bracket.
+    /// The token is a closing bracket.
     Close(Bracket),
-    /// An operator or a sign.
+    /// The token is an operator or a sign.
     Symbol,
 }
 
-/// What a bracket opens or closes.
+/// The kind of a bracket, by what it opens or closes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bracket {
-    /// `(`
+    /// The bracket `(` of arguments or values.
     Round,
-    /// `[`, `?[`
+    /// The bracket `[` or `?[` of arrays and indices.
     Square,
-    /// `{`
+    /// The bracket `{` of blocks.
     Curly,
-    /// `#{`
+    /// The bracket `#{` of maps.
     Map,
-    /// `${` in a text
+    /// The bracket `${` of an interpolation in a text.
     Interpolation,
 }
 
 impl Bracket {
-    /// Whether `closer` closes it; the brace does so for maps too.
+    /// Whether the bracket `closer` closes this one; the brace does so for maps too.
     pub fn is_closed_by(self, closer: Self) -> bool {
         match self {
             Self::Map => closer == Self::Curly,
@@ -69,12 +69,12 @@ impl Bracket {
 }
 
 impl Token {
-    /// What is written there.
+    /// The piece of `text` that the token is.
     pub fn of<'t>(&self, text: &'t str) -> &'t str {
         text.get(self.start..self.end).unwrap_or_default()
     }
 
-    /// Whether it means something: neither spaces nor a comment.
+    /// Whether the token means something: it is neither spaces nor a comment.
     pub fn is_significant(&self) -> bool {
         !matches!(self.kind, Kind::Space | Kind::Comment | Kind::OpenComment)
     }
@@ -86,7 +86,7 @@ const SIGNS: &[&str] = &[
     "||", "+=", "-=", "*=", "/=", "%=", "^=", "&=", "|=", "**", "<<", ">>",
 ];
 
-/// The tokens of `text`.
+/// The tokens of `text`, in order and without gaps.
 pub fn scan(text: &str) -> Vec<Token> {
     let mut scanner = Scanner { text, at: 0, open: Vec::new(), is_within_text: false };
     let mut tokens = Vec::new();
@@ -98,7 +98,7 @@ pub fn scan(text: &str) -> Vec<Token> {
     tokens
 }
 
-/// The partners of brackets, and the brackets that stay open.
+/// The partner of each token that is a bracket, and the brackets that stay open, by the indices of tokens.
 pub fn pair(tokens: &[Token]) -> (Vec<Option<usize>>, Vec<usize>) {
     let mut partners = vec![None; tokens.len()];
     let mut open: Vec<(usize, Bracket)> = Vec::new();

@@ -21,7 +21,7 @@ use super::rounds;
 use super::text::Source;
 use crate::script::words::stop::Stop;
 
-/// Prefix of the operators that stand in for Rhai's own.
+/// The prefix of the names of operators that stand in for Rhai's own.
 pub const OWN: &str = "num";
 
 /// Comparison, division and shifts of bits with their precedences in Rhai.
@@ -37,7 +37,7 @@ pub const REPLACED: [(&str, u8); 9] = [
     ("!=", 90),
 ];
 
-/// How many powers may follow each other: `a^b^c^…`.
+/// The most powers that may follow each other: `a^b^c^…`.
 pub const LONGEST_CHAIN: u8 = 16;
 
 /// Rhai's precedence of the power; the next operator above it is at 210.
@@ -60,7 +60,7 @@ pub fn power_name(chain: u8) -> String {
     format!("{OWN}^{chain}")
 }
 
-/// What is remembered of the text that is being read.
+/// The reader of a text: what is remembered of the text that is being read.
 #[derive(Clone, Default)]
 pub struct Reader {
     nesting: Rc<RefCell<Nesting>>,

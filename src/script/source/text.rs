@@ -59,7 +59,7 @@ impl Source {
         matches!(self.tokens().last(), Some((Token::SemiColon, _)))
     }
 
-    /// The byte offset of a line and column, both from 1 and columns in characters.
+    /// The byte offset of a line and column of the script, both from 1 and columns in characters.
     pub fn offset(&self, line: usize, column: usize) -> usize {
         let mut start = 0;
         for (index, text) in self.split_inclusive('\n').enumerate() {

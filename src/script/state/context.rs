@@ -8,7 +8,7 @@ use std::rc::{Rc, Weak};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use rhai::{Dynamic, Engine, EvalAltResult};
+use rhai::{Dynamic, Engine};
 
 use super::files::{OutputFolder, Written};
 use super::journals::Journals;
@@ -23,7 +23,7 @@ use crate::script::words::stop::{MEGABYTE, Stop};
 /// A file that is read takes a few times its length: the bytes, and what is made of them.
 const TIMES_ITS_LENGTH: u64 = 4;
 
-/// Why a value cannot be used now, if it is of a certain type and busy.
+/// A function that tells why a value of a native type cannot be used now, if the value is busy.
 pub type Busy = fn(&Dynamic) -> Option<String>;
 
 /// A cheap handle on the state of one run.
@@ -43,7 +43,6 @@ struct Shared {
     output: OutputFolder,
     checks: RefCell<Checks>,
     reports: Reports,
-    callback_error: RefCell<Option<Box<EvalAltResult>>>,
     /// The names of studies so far.
     study_names: RefCell<HashSet<PathBuf>>,
     snapshots: usize,
@@ -57,7 +56,7 @@ struct Shared {
 }
 
 impl Context {
-    /// The state at the start of a run.
+    /// The state at the start of a run with these settings.
     pub fn new(settings: Settings) -> Self {
         Self(Rc::new(Shared {
             mode: settings.mode,
@@ -72,7 +71,6 @@ impl Context {
             output: OutputFolder::new(settings.out, settings.folder, settings.mode),
             checks: RefCell::default(),
             reports: Reports::default(),
-            callback_error: RefCell::default(),
             study_names: RefCell::default(),
             snapshots: settings.snapshots,
             latest_simulation: RefCell::default(),
@@ -84,45 +82,45 @@ impl Context {
         }))
     }
 
-    /// Whether simulations really run.
+    /// Whether simulations of the run really run.
     pub fn mode(&self) -> Mode {
         self.0.mode
     }
 
-    /// The folder for files of the script.
+    /// The folder for files that the script writes.
     pub fn output(&self) -> &OutputFolder {
         &self.0.output
     }
 
-    /// What to tell how far a simulation is.
+    /// What shows how far a simulation of the run is.
     pub fn progress(&self) -> &dyn Progress {
         &*self.0.progress
     }
 
-    /// How studies are made.
+    /// How the studies of the run are made.
     pub fn studies(&self) -> StudyWishes {
         self.0.studies
     }
 
-    /// What is kept of the studies until the script has come to its end.
+    /// The journals of the run: what is kept of its studies until the script has come to its end.
     pub fn journals(&self) -> &Journals {
         &self.0.journals
     }
 
-    /// Takes a name for a study; whether no other one had it, however it is written.
+    /// Takes a name for a study of the run; whether no other one had it, however it is written.
     pub fn claim_study(&self, name: &str) -> bool {
         self.0.study_names.borrow_mut().insert(PathBuf::from(name))
     }
 
-    /// Refuses to go on after an interrupt, beyond a limit, or when nobody reads the output any more.
+    /// Refuses to go on with the run after an interrupt, beyond a limit, or when nobody reads the output any more.
     pub fn proceed(&self) -> Result<(), ScriptError> {
         self.stopped_by().map_or(Ok(()), |stop| Err(ScriptError::Stopped(stop)))
     }
 
-    /// Sees that there is room for something that takes memory all at once, before anybody could stop it [bytes].
+    /// Checks that there is room for something that takes memory all at once, before anybody could stop it [bytes].
     ///
     /// # Errors
-    /// When a run may not use so much.
+    /// When a run may not use so much memory.
     pub fn expect_room(&self, what: &str, bytes: u64) -> Result<(), ScriptError> {
         match self.meter().limits().memory.filter(|limit| bytes > *limit) {
             None => Ok(()),
@@ -162,7 +160,7 @@ impl Context {
         self.0.meter.passed()
     }
 
-    /// What the run may use, and how much of it is used. Whoever lets a script run calls
+    /// What the run may use, and how much of it is used. Code that lets a script run calls
     /// [`watch`](Meter::watch) before, and keeps the guard until it has ended.
     pub fn meter(&self) -> &Meter {
         &self.0.meter
@@ -214,7 +212,7 @@ impl Context {
         }
     }
 
-    /// Writes out what is buffered.
+    /// Writes out the printed text that is buffered.
     pub fn flush(&self) {
         let written = self.0.printed.borrow_mut().flush();
         self.notice(written);
@@ -240,7 +238,7 @@ impl Context {
         self.output().write(name, content).map(|written| self.tell_kept(written))
     }
 
-    /// The same for a file that the script may [read](Self::read_file) again, which a dry build then can too.
+    /// Writes a file that the script may [read](Self::read_file) again, which a dry build then can too. What stood there is kept as for other files.
     ///
     /// # Errors
     /// When it cannot be written, or the run may write no more.
@@ -276,24 +274,9 @@ impl Context {
         written.path
     }
 
-    /// Changes the record of checks.
+    /// Changes the record of the checks of the run.
     pub fn with_checks<T>(&self, change: impl FnOnce(&mut Checks) -> T) -> T {
         change(&mut self.0.checks.borrow_mut())
-    }
-
-    /// Keeps the error of a script function that was called from inside a native loop.
-    pub fn keep_callback_error(&self, error: Box<EvalAltResult>) {
-        self.0.callback_error.replace(Some(error));
-    }
-
-    /// The error that was kept last, if there is one.
-    pub fn take_callback_error(&self) -> Option<Box<EvalAltResult>> {
-        self.0.callback_error.take()
-    }
-
-    /// Forgets errors of script functions that are told otherwise: those in the cases of a study.
-    pub fn forget_callback_errors(&self) {
-        self.0.callback_error.take();
     }
 
     /// The memory that a simulation may take for states to go back to, unless the script says otherwise [bytes].
@@ -327,12 +310,12 @@ impl Context {
         self.0.engine.borrow().upgrade()
     }
 
-    /// Notes how deep in calls of script functions the running native call is.
+    /// Notes at which depth of calls of script functions the running native call is.
     pub fn enter(&self, level: usize) {
         self.0.level.set(level);
     }
 
-    /// How deep in calls of script functions the running native call is.
+    /// The depth of calls of script functions at which the running native call is.
     pub fn level(&self) -> usize {
         self.0.level.get()
     }
@@ -350,12 +333,12 @@ impl Context {
         self.0.is_calling_back.get()
     }
 
-    /// Notes how to ask values of a native type whether they are busy.
+    /// Keeps a function that tells whether values of a native type are busy.
     pub fn know(&self, busy: Busy) {
         self.0.busy.borrow_mut().push(busy);
     }
 
-    /// Why a value cannot be used now, if so.
+    /// Why a value cannot be used now, if it is busy.
     pub fn busy(&self, value: &Dynamic) -> Option<String> {
         self.0.busy.borrow().iter().find_map(|busy| busy(value))
     }

@@ -30,9 +30,9 @@ pub struct OutputFolder {
 /// A file that was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
-    /// Where it is.
+    /// The path of the file that was written.
     pub path: PathBuf,
-    /// Where a file is kept that had its name and was not written by this program, or was changed since.
+    /// The path of an older file of the same name, which is kept because it was not written by this program, or was changed since.
     pub kept: Option<PathBuf>,
 }
 
@@ -118,12 +118,12 @@ impl OutputFolder {
         })
     }
 
-    /// The files written so far.
+    /// The files of the output folder that were written so far.
     pub fn written(&self) -> Vec<PathBuf> {
         self.written.borrow().clone()
     }
 
-    /// The folder itself, which need not exist yet.
+    /// The path of the output folder, which need not exist yet.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
@@ -163,11 +163,11 @@ fn kept_name(path: &Path, number: usize) -> PathBuf {
 
 /// A folder that a script may read from.
 pub struct InputFolder {
-    /// A word for it.
+    /// A word for the folder in messages.
     pub word: &'static str,
-    /// Where it is.
+    /// The path of the folder to read from.
     pub path: PathBuf,
-    /// How it is opened.
+    /// How the folder to read from is opened.
     pub open: fn(&Path) -> io::Result<Folder>,
 }
 
@@ -182,7 +182,7 @@ impl InputFolder {
 pub struct InputFolders(Vec<InputFolder>);
 
 impl InputFolders {
-    /// Folders in the order in which a file is looked for.
+    /// The folders that a script may read from, in the order in which a file is looked for.
     pub fn new(folders: impl IntoIterator<Item = InputFolder>) -> Self {
         Self(folders.into_iter().collect())
     }

@@ -11,7 +11,7 @@ use super::settings::JournalWish;
 use crate::analysis::{Journal, JournalError};
 use crate::script::words::error::ScriptError;
 
-/// The journals of a run.
+/// The journals of a run: what is kept of its studies.
 #[derive(Default)]
 pub struct Journals {
     open: RefCell<Vec<Journal>>,
@@ -19,7 +19,7 @@ pub struct Journals {
     kept: Cell<usize>,
 }
 
-/// One of them.
+/// The number of one of the journals of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct JournalNumber(usize);
 
@@ -45,14 +45,14 @@ impl Journals {
         Ok(Some(JournalNumber(open.len() - 1)))
     }
 
-    /// What a journal knows of a case.
+    /// The result of a case that a journal knows, by the case's fingerprint.
     pub fn find<T: DeserializeOwned>(&self, journal: JournalNumber, fingerprint: u64) -> Option<T> {
         let found = self.open.borrow().get(journal.0)?.find(fingerprint);
         self.kept.set(self.kept.get() + usize::from(found.is_some()));
         found
     }
 
-    /// Writes down what was found of a case; gives the bytes that this takes.
+    /// Writes down in a journal what was found of a case; gives the bytes that this takes.
     ///
     /// # Errors
     /// When the file cannot be written.
@@ -74,7 +74,7 @@ impl Journals {
         self.kept.get()
     }
 
-    /// The whole script has come to its end: there is nothing to go on with.
+    /// Removes the journals of a script that has come to its end: there is nothing to go on with.
     ///
     /// # Errors
     /// When a file cannot be removed.

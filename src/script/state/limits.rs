@@ -17,28 +17,44 @@ pub const DEFAULT_MEGABYTES_WRITTEN: u64 = 10_000;
 pub const DEFAULT_FILES: u64 = 100_000;
 /// The default limit of calls within calls.
 pub const DEFAULT_DEPTH: usize = 400;
-/// The most calls within calls that can be allowed: they fit [`STACK_BYTES`](crate::script::engine::runner::STACK_BYTES).
+/// The most calls within calls that can be allowed: they fit [`LEAST_STACK`].
 pub const DEEPEST: usize = 1000;
+/// Address space for the stack of [`DEEPEST`] calls within calls; memory is used only as deep as a script really goes [bytes].
+pub const LEAST_STACK: usize = 256 << 20;
+/// Most address space for the stack that values need when they are let go [bytes].
+const LARGEST_FOR_VALUES: usize = 16 << 30;
 
-/// What a run may use. `None` is without limit.
+/// The limits of what a run may use. `None` is without limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Time on the clock.
+    /// The longest time of the run by the clock.
     pub time: Option<Duration>,
-    /// Steps of all simulations together, failed tries included.
+    /// The most steps of all simulations of the run together, failed tries included.
     pub steps: Option<u64>,
-    /// Memory that the whole process really occupies [bytes].
+    /// The most memory that the whole process really occupies [bytes].
     pub memory: Option<u64>,
-    /// Calls of script functions within calls, at most [`DEEPEST`].
+    /// The most calls of script functions within calls, at most [`DEEPEST`].
     pub depth: usize,
-    /// What is printed and written into files, all together [bytes].
+    /// The most that is printed and written into files, all together [bytes].
     pub written: Option<u64>,
-    /// Files written; one that is written again counts again.
+    /// The most files that are written; one that is written again counts again.
     pub files: Option<u64>,
 }
 
 /// Ends the whole program: a limit was passed, and what runs did not hear of it or grows too fast.
 pub type LastResort = Arc<dyn Fn(Stop) + Send + Sync>;
+
+impl Limits {
+    /// Address space for a stack that a script within these limits cannot exhaust [bytes].
+    ///
+    /// Closures that hold closures that hold closures … are let go one within the other. A link of such a chain takes less stack than
+    /// twice its memory, so the memory allowed bounds the stack that it may need.
+    pub fn stack(&self) -> usize {
+        let memory = self.memory.unwrap_or(DEFAULT_MEGABYTES * MEGABYTE);
+        let memory = usize::try_from(memory).unwrap_or(LARGEST_FOR_VALUES);
+        LEAST_STACK + 2 * memory.min(LARGEST_FOR_VALUES)
+    }
+}
 
 impl Default for Limits {
     fn default() -> Self {
@@ -74,18 +90,18 @@ const MOST_PRETENDED: u64 = 100_000;
 /// Whether a run of this process has heard that it was interrupted: it is about to stop, and to keep what ran.
 pub static INTERRUPT_HEARD: AtomicBool = AtomicBool::new(false);
 
-/// What a watchdog has to say.
+/// The state of a watchdog that has nothing to say.
 pub(super) const QUIET: u8 = 0;
 pub(super) const TOO_LATE: u8 = 1;
 pub(super) const TOO_LARGE: u8 = 2;
 
 impl Meter {
-    /// Nothing is used yet.
+    /// The meter of a run of which nothing is used yet.
     pub fn new(limits: Limits) -> Self {
         Self::guarded(limits, None)
     }
 
-    /// The same, with somebody who ends the program when a limit is passed and nothing hears of it.
+    /// The meter of a run of which nothing is used yet, with code that ends the program when a limit is passed and nothing hears of it.
     pub fn guarded(limits: Limits, resort: Option<LastResort>) -> Self {
         Self {
             limits,
@@ -100,12 +116,12 @@ impl Meter {
         }
     }
 
-    /// What may be used.
+    /// The limits of what the run may use.
     pub fn limits(&self) -> &Limits {
         &self.limits
     }
 
-    /// Which limit was passed, if one was.
+    /// The limit of the run that was passed, if one was.
     pub fn passed(&self) -> Option<Stop> {
         match self.alarm.load(Ordering::Relaxed) {
             TOO_LATE => self.limits.time.map(Stop::Time),
@@ -127,12 +143,12 @@ impl Meter {
         self.pretended.get() > 0
     }
 
-    /// Counts a step, or a try of one.
+    /// Counts a step of a simulation of the run, or a try of one.
     pub fn count_step(&self) {
         self.steps.set(self.steps.get() + 1);
     }
 
-    /// Counts the steps of a run that was made elsewhere.
+    /// Counts steps of the run that were made elsewhere.
     pub fn count_steps(&self, steps: usize) {
         self.steps.set(self.steps.get().saturating_add(steps as u64));
     }
@@ -146,7 +162,7 @@ impl Meter {
         allowed
     }
 
-    /// Stops the run.
+    /// Stops the run for a reason, as soon as it asks.
     pub fn stop(&self, why: Stop) {
         self.stopped.set(self.stopped.get().or(Some(why)));
     }
@@ -159,7 +175,7 @@ impl Meter {
         beyond.is_none()
     }
 
-    /// The same for a file of so many bytes.
+    /// Counts a file of so many bytes that is to be written, and whether it may be; if not, the limit counts as passed.
     pub fn allows_a_file(&self, bytes: u64) -> bool {
         self.files.set(self.files.get() + 1);
         match self.limits.files.filter(|limit| self.files.get() > *limit) {

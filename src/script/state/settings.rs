@@ -8,10 +8,10 @@ use std::sync::atomic::AtomicBool;
 use super::limits::{LastResort, Limits};
 use crate::script::words::progress::{NoProgress, Progress};
 
-/// Whether simulations really run.
+/// Whether simulations of a run really run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// Everything runs.
+    /// Everything of the run really runs.
     Run,
     /// Scenes are built and checked; nothing is stepped, printed, judged or written.
     DryBuild,
@@ -19,53 +19,53 @@ pub enum Mode {
 
 /// How a run talks to the world outside. Made by the command line, the prompt or a test.
 pub struct Settings {
-    /// Whether simulations really run.
+    /// Whether simulations of the run really run.
     pub mode: Mode,
-    /// Where files of the script go; made when the first one is written.
+    /// The folder for files of the script; made when the first one is written.
     pub out: PathBuf,
-    /// Where the script is, beside which it may read files.
+    /// The folder of the script, beside which it may read files.
     pub folder: PathBuf,
     /// The memory that each simulation may take for states to go back to, unless the script says otherwise [bytes].
     pub snapshots: usize,
-    /// Set from outside (Ctrl-C) to stop as soon as possible.
+    /// The flag that is set from outside (Ctrl-C) to stop the run as soon as possible.
     pub interrupt: Arc<AtomicBool>,
-    /// What the run may use.
+    /// The limits of what the run may use.
     pub limits: Limits,
-    /// Where `print` writes.
+    /// The writer that `print` writes to.
     pub printed: Box<dyn Write + Send>,
-    /// Where failed checks and `debug` are told, at once.
+    /// The writer to which failed checks and `debug` are told, at once.
     pub told: Box<dyn Write + Send>,
-    /// What shows how far a simulation is.
+    /// What shows how far a simulation of the run is.
     pub progress: Box<dyn Progress + Send>,
-    /// How studies are made.
+    /// How the studies of the run are made.
     pub studies: StudyWishes,
-    /// What ends the whole program when a limit is passed and nothing hears of it.
+    /// What ends the whole program when a limit of the run is passed and nothing hears of it.
     pub last_resort: Option<LastResort>,
 }
 
 /// How the studies of a run are made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StudyWishes {
-    /// Whether they can go on where an earlier run of them was interrupted.
+    /// Whether the studies can go on where an earlier run of them was interrupted.
     pub journal: JournalWish,
-    /// How often cases are timed, whatever the script says.
+    /// How often cases of the studies are timed, whatever the script says.
     pub repeats: Option<usize>,
 }
 
 /// What becomes of finished cases when a study is interrupted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum JournalWish {
-    /// They are lost.
+    /// Finished cases are lost.
     #[default]
     Without,
-    /// They are kept in the output folder, and those that are there are not run again.
+    /// Finished cases are kept in the output folder, and those that are there are not run again.
     GoOn,
-    /// They are kept in the output folder; what is there is forgotten first.
+    /// Finished cases are kept in the output folder; what is there is forgotten first.
     Anew,
 }
 
 impl Settings {
-    /// A run that writes to nowhere, for dry builds and as a start for others.
+    /// The settings of a run that writes to nowhere, for dry builds and as a start for others.
     pub fn silent(mode: Mode) -> Self {
         Self {
             mode,

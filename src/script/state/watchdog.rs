@@ -19,7 +19,7 @@ const PATIENCE: f64 = 0.7;
 const LEAST_PATIENCE: Duration = Duration::from_millis(700);
 const MOST_PATIENCE: Duration = Duration::from_secs(5);
 
-/// A thread that watches the clock and the memory; it ends when this is dropped.
+/// A watchdog: a thread that watches the clock and the memory of a run; it ends when this is dropped.
 pub struct Watchdog {
     /// The thread ends when this is let go.
     leash: Option<Sender<()>>,

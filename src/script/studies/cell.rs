@@ -2,14 +2,14 @@
 
 use rhai::{Dynamic, EvalAltResult, Map};
 
+use super::options::StabilityOptions;
 use super::parameters::label;
-use super::plan::{STEP_SIZE, step_size};
 use crate::analysis::Case;
 use crate::integrators::Method;
 use crate::newton::Tolerance;
 use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::step_size::{STEP_SIZE, step_size};
 use crate::script::rows::call::Call;
-use crate::script::rows::options::Options;
 use crate::script::words::error::{Failure, Place, ScriptError};
 use crate::script::words::numbers::as_number;
 use crate::script::words::suggest::nearest;
@@ -24,17 +24,18 @@ pub fn thrown(call: &Call, error: &EvalAltResult) -> Option<String> {
         EvalAltResult::ErrorInFunctionCall(_, _, inner, _) => thrown(call, inner),
         EvalAltResult::ErrorRuntime(value, _) => Some(match value.read_lock::<Failure>() {
             Some(failure) => failure.message.clone(),
+            // What is no text is shown.
             None => value.clone().into_string().unwrap_or_else(|_| call.show(value)),
         }),
         _ => None,
     }
 }
 
-/// A case from a scene, or from a map of the scene and how it is simulated; what it leaves open is taken from the values of
+/// A case of a study from a scene, or from a map of the scene and how it is simulated; what it leaves open is taken from the values of
 /// the cell, then from the options of the study.
 pub fn case(
     call: &Call,
-    options: &Options,
+    options: &StabilityOptions,
     values: &Map,
     given: Dynamic,
 ) -> Result<Case, ScriptError> {
@@ -63,17 +64,17 @@ pub fn case(
             .clone()
             .try_cast::<Method>()
             .ok_or_else(|| wrong("integrator", &value, "for example trapezoidal()"))?,
-        None => options.get_if("integrator").unwrap_or_default(),
+        None => options.integrator.unwrap_or_default(),
     };
     let dt = match find("dt") {
         Some(value) => step_size(&value).ok_or_else(|| wrong("dt", &value, STEP_SIZE))?,
-        None => options.number_if_given("dt").ok_or_else(|| missing("dt"))?.into(),
+        None => options.dt.ok_or_else(|| missing("dt"))?.into(),
     };
     let end = match find("end") {
         Some(value) => as_number(&value)
             .filter(|end| end.is_finite() && *end > 0.0)
             .ok_or_else(|| wrong("end", &value, "give a positive number"))?,
-        None => options.number_if_given("end").ok_or_else(|| missing("end"))?,
+        None => options.end.ok_or_else(|| missing("end"))?,
     };
     let settings = Settings { method, dt, tolerance: Tolerance::default() };
     let stops = vec![end];

@@ -6,6 +6,7 @@ use super::convergence_chart::chart;
 use super::convergence_table::{head, summary};
 use super::desk::{Desk, print_table};
 use super::labels;
+use super::options::ErrorOptions;
 use super::plan::{Plan, at_key};
 use super::reference::{self, Reference};
 use crate::analysis::{
@@ -14,18 +15,17 @@ use crate::analysis::{
 use crate::integrators::Method;
 use crate::output::{CsvRecords, Panel, format_number};
 use crate::script::rows::call::Call;
-use crate::script::rows::options::Options;
 use crate::script::state::settings::Mode;
 use crate::script::words::error::ScriptError;
 use crate::simulation::{Settings, StepSize};
 
 /// Makes the study that the options ask for; in a dry build nothing runs.
-pub fn study(call: &Call, options: &Options) -> Result<Convergence, ScriptError> {
+pub fn study(call: &Call, options: &ErrorOptions) -> Result<Convergence, ScriptError> {
     let mut plan = Plan::read(call, options)?;
     let refined = refined(call, &plan)?;
     let reference = Reference::read(call, options, &mut plan)?;
     if plan.subjects.len() > 1 {
-        reference::expect_finer_than_all_meshes(call, options)?;
+        reference::expect_finer_than_all_meshes(call, options.reference.as_ref())?;
     }
     let desk = Desk::open(call.context(), &plan.name)?;
     let combinations = all_combinations(&plan.subjects, &plan.all_settings());
@@ -97,7 +97,7 @@ fn write(call: &Call, study: &Convergence) -> Result<(), ScriptError> {
     Ok(())
 }
 
-/// What sizes are sizes of.
+/// What the sizes of the study are sizes of: steps or meshes.
 pub(super) fn size_name(study: &Convergence) -> &'static str {
     match study.refined {
         Refined::Step => "dt",
@@ -133,7 +133,7 @@ fn records(study: &Convergence) -> CsvRecords {
     }
 }
 
-/// A ladder as a map of a script.
+/// The errors of one quantity as a map of a script.
 pub fn map_of(study: &Convergence, ladder: &Ladder) -> Map {
     let array = |values: Vec<f64>| -> Dynamic {
         values.into_iter().map(Dynamic::from).collect::<rhai::Array>().into()
@@ -153,7 +153,7 @@ pub fn map_of(study: &Convergence, ladder: &Ladder) -> Map {
     facts.into_iter().map(|(name, value)| (name.into(), value)).collect()
 }
 
-/// Whether a study has a quantity; the names that there are where not.
+/// Refuses a quantity that the study has not, with the names that there are.
 pub fn expect_quantity(
     call: &Call,
     study: &Convergence,
@@ -167,7 +167,7 @@ pub fn expect_quantity(
     Err(call.error(told).hint(format!("quantities: {}", known.join(", "))))
 }
 
-/// The ladder of a quantity with an integrator; none in a dry build, which has not seen all quantities.
+/// The errors of a quantity with an integrator; none in a dry build, which has not seen all quantities.
 ///
 /// # Errors
 /// When the study has no such quantity or integrator; they name those that there are.

@@ -14,7 +14,7 @@ struct Slope {
     ends: [(f64, f64); 2],
 }
 
-/// Errors of a quantity over the sizes, with lines of the orders that are claimed, or else of those that are seen.
+/// A chart of the errors of a quantity over the sizes, with lines of the orders that are claimed, or else of those that are seen.
 pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
     let relative = match quantity.starts_with("position") {
         true => " / length",

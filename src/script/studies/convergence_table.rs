@@ -5,14 +5,14 @@ use super::labels;
 use crate::analysis::{ALL_POSITIONS, Convergence, Ladder, Refined};
 use crate::output::{Cell, Table, significant};
 
-/// For every quantity: errors and orders of all integrators side by side, the order of all rungs together below.
+/// A table for every quantity of the study as text: errors and orders of all integrators side by side, the order of all rungs together below.
 pub fn table(study: &Convergence) -> String {
     let tables = study.quantities().into_iter().map(|of| table_of(study, of));
     let tables: String = tables.map(|table| format!("\n\n{table}")).collect();
     format!("{}{tables}{}", head(study), failures(study))
 }
 
-/// The same in short: the table of all positions together, and the orders of the other quantities.
+/// The study in short as text: the table of all positions together, and the orders of the other quantities.
 pub fn summary(study: &Convergence) -> String {
     let positions = table_of(study, ALL_POSITIONS);
     format!("{}\n\n{positions}{}{}", head(study), other_orders(study), failures(study))

@@ -3,6 +3,7 @@
 use rhai::{Dynamic, FnPtr, Map};
 
 use super::labels;
+use super::options::CostOptions;
 use crate::analysis::{Case, CostCase, FEATURES, StepCost};
 use crate::integrators::{INTEGRATORS, Method};
 use crate::model::Scene;
@@ -10,7 +11,6 @@ use crate::newton::Tolerance;
 use crate::output::{BarChart, Cell, CsvRecords, Table, format_number, significant};
 use crate::script::handles::scene::SceneHandle;
 use crate::script::rows::call::Call;
-use crate::script::rows::options::Options;
 use crate::script::words::error::{Place, ScriptError};
 use crate::simulation::{Recording, Settings};
 
@@ -23,18 +23,18 @@ const PLAIN: [&str; 2] = ["the scene alone", "the same again"];
 /// Times of the same work that differ by more than this factor cast doubt on all ratios.
 const TRUSTED_RATIO: f64 = 1.1;
 
-/// How the steps of all rows are taken, unless a row is about that.
+/// How the steps of all rows of a study of costs are taken, unless a row is about that.
 #[derive(Clone, Copy)]
 pub struct Way {
-    /// The integrator.
+    /// The integrator of the study's steps.
     pub method: Method,
-    /// [time]
+    /// The step size of the study [time].
     pub dt: f64,
-    /// How many.
+    /// The number of steps of each run of the study.
     pub steps: usize,
 }
 
-/// What the features of a scene cost.
+/// A table of what the features of a scene cost.
 #[derive(Clone)]
 pub struct CostTable {
     name: String,
@@ -52,11 +52,11 @@ impl Way {
 }
 
 /// The rows of a study: the scene alone, twice; with each feature; and in each other way.
-pub fn cases(call: &Call, options: &Options, way: Way) -> Result<Vec<CostCase>, ScriptError> {
-    let make = options.callback("scene")?;
-    call.expect_arguments(&make, 0, "|| …, a function that makes the scene")?;
+pub fn cases(call: &Call, options: &CostOptions, way: Way) -> Result<Vec<CostCase>, ScriptError> {
+    let make = &options.scene;
+    call.expect_arguments(make, 0, "|| …, a function that makes the scene")?;
     let handle = || {
-        let given = call.invoke(&make, [])?;
+        let given = call.invoke(make, [])?;
         given.clone().try_cast::<SceneHandle>().ok_or_else(|| {
             let got = call.describe(&given);
             call.error(format!("the function gives {got} instead of a scene"))
@@ -69,9 +69,9 @@ pub fn cases(call: &Call, options: &Options, way: Way) -> Result<Vec<CostCase>, 
     for name in PLAIN {
         cases.push(way.case(name, fresh()?));
     }
-    match options.has("features") {
-        true => {
-            let features: Map = options.value("features")?.try_cast().ok_or_else(|| {
+    match &options.features {
+        Some(features) => {
+            let features: Map = features.clone().try_cast().ok_or_else(|| {
                 call.error("features must be a map of names and functions")
                     .hint("for example #{ gravity: |scene| scene.gravity([0, -9.81]) }")
                     .at(Place::Key("features".into()))
@@ -90,7 +90,7 @@ pub fn cases(call: &Call, options: &Options, way: Way) -> Result<Vec<CostCase>, 
                 cases.push(way.case(name.as_str(), scene));
             }
         }
-        false => {
+        None => {
             let has_beams = !cases[0].case.scene.beams.is_empty();
             for feature in FEATURES.iter().filter(|_| has_beams) {
                 let mut scene = fresh()?;
@@ -113,7 +113,7 @@ pub fn cases(call: &Call, options: &Options, way: Way) -> Result<Vec<CostCase>, 
 }
 
 impl CostTable {
-    /// The table of some costs, that of the scene alone first.
+    /// The table of some costs of steps, that of the scene alone first.
     pub fn new(name: String, costs: Vec<StepCost>) -> Self {
         Self { name, costs }
     }
@@ -129,7 +129,7 @@ impl CostTable {
         cost.shortest.as_secs_f64() / alone
     }
 
-    /// A map for each row.
+    /// The rows of the study as maps of a script.
     pub fn rows(&self) -> Vec<Map> {
         let row = |cost: &StepCost| {
             let whole = |count: usize| Dynamic::from(count as rhai::INT);
@@ -151,7 +151,7 @@ impl CostTable {
         self.costs.iter().map(row).collect()
     }
 
-    /// The table as text.
+    /// The table of the study as text.
     pub fn text(&self) -> String {
         let heads = [
             "feature",
@@ -214,7 +214,7 @@ impl CostTable {
         })
     }
 
-    /// The table for other programs.
+    /// The table of the study for other programs.
     pub fn records(&self) -> CsvRecords {
         let rows = self.rows();
         let names = [
@@ -241,7 +241,7 @@ impl CostTable {
         }
     }
 
-    /// The times as bars, the scene alone marked.
+    /// The times of the study as bars, the scene alone marked.
     pub fn chart(&self) -> BarChart {
         let micro = |cost: &StepCost| cost.shortest.as_secs_f64() * 1e6;
         let empty =

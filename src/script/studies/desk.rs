@@ -13,9 +13,9 @@ use crate::script::state::journals::JournalNumber;
 use crate::script::state::settings::Mode;
 use crate::script::words::error::ScriptError;
 
-/// What is found of a case.
+/// What a study finds of a case.
 pub trait Finding: Serialize + DeserializeOwned {
-    /// Whether the journal keeps it: what ran out of patience may come to its end another time.
+    /// Whether the journal keeps what was found: what ran out of patience may come to its end another time.
     fn is_final(&self) -> bool;
 }
 
@@ -45,19 +45,19 @@ pub fn print_table(context: &Context, table: &str) {
     }
 }
 
-/// A study at work.
+/// A desk: a study at work on its cases.
 pub struct Desk<'c> {
     context: &'c Context,
     name: String,
     journal: Option<JournalNumber>,
 }
 
-/// A kind of work that is done with each of some cases.
+/// A kind of work that a study does with each of some cases.
 #[derive(Clone, Copy)]
 pub struct Task<'t> {
-    /// What is done, in a word or two.
+    /// What is done with the cases, in a word or two.
     pub name: &'t str,
-    /// What the results depend on besides the cases.
+    /// What the results of the work depend on besides the cases, as bytes.
     pub parts: &'t [u8],
 }
 
@@ -69,7 +69,7 @@ impl Task<'_> {
 }
 
 impl<'c> Desk<'c> {
-    /// Makes room for a study, whose name is that of its files; a journal is opened where the run wants one.
+    /// Makes room for a study at work, whose name is that of its files; a journal is opened where the run wants one.
     ///
     /// # Errors
     /// When the name is not one of a file in the output folder, or the journal cannot be read.
@@ -120,7 +120,6 @@ impl<'c> Desk<'c> {
             },
         );
         context.progress().end();
-        context.forget_callback_errors();
         trouble.map_or(Ok(()), Err)?;
         for (at, result) in unknown.into_iter().zip(found) {
             results[at] = result;
@@ -158,7 +157,6 @@ impl<'c> Desk<'c> {
         let results = results.collect();
         // The bar ends before a reason to stop is told.
         context.progress().end();
-        context.forget_callback_errors();
         results
     }
 

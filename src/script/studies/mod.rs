@@ -7,6 +7,7 @@ pub mod convergence_table;
 pub mod cost;
 pub mod desk;
 pub mod labels;
+pub mod options;
 pub mod parameters;
 pub mod plan;
 pub mod precision;

@@ -7,35 +7,34 @@ use crate::integrators::Method;
 use crate::output::significant;
 use crate::script::rows::accept::readable;
 use crate::script::rows::call::Call;
-use crate::script::rows::options::Options;
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::{as_number, format_number};
 
 /// The most significant digits of a number in a label.
 const DIGITS: usize = 6;
 
-/// A name and its values.
+/// A swept parameter of a study: a name and its values.
 #[derive(Clone, Debug)]
 pub struct Swept {
-    /// The key under which a cell finds its value.
+    /// The key under which a cell of the study finds its value.
     pub name: String,
-    /// The values.
+    /// The values of the swept parameter.
     pub values: Array,
-    /// A text for each of them.
+    /// A label for each value of the swept parameter.
     pub labels: Vec<String>,
 }
 
 impl Swept {
-    /// Reads an option that is a map of one key, such as `#{ dt: [0.1, 0.2] }`.
-    pub fn read(call: &Call, options: &Options, key: &str) -> Result<Self, ScriptError> {
+    /// Reads the value of the option `key`, which is a map of one name, such as `#{ dt: [0.1, 0.2] }`.
+    pub fn read(call: &Call, key: &str, given: &Dynamic) -> Result<Self, ScriptError> {
         let wrong = |told: String| {
             call.error(told)
                 .hint(format!("write {key}: #{{ dt: [0.1, 0.2] }}, a name and its values"))
                 .at(Place::Key(key.to_owned()))
         };
-        let given = options.value(key)?;
-        let got = call.describe(&given);
-        let given = given.try_cast::<Map>().ok_or_else(|| wrong(format!("{key} is {got}")))?;
+        let got = call.describe(given);
+        let given =
+            given.clone().try_cast::<Map>().ok_or_else(|| wrong(format!("{key} is {got}")))?;
         let (1, Some((name, values))) = (given.len(), given.iter().next()) else {
             return Err(wrong(format!("{key} has {} names, but one is expected", given.len())));
         };
@@ -46,17 +45,17 @@ impl Swept {
         Ok(Self { name, values, labels })
     }
 
-    /// A single nameless value, for an option that is left out.
+    /// A swept parameter of a single nameless value, for an option that is left out.
     pub fn none() -> Self {
         Self { name: String::new(), values: vec![Dynamic::UNIT], labels: vec![String::new()] }
     }
 
-    /// The value number `index` as a text for other programs: of a number all digits, else its label.
+    /// The value number `index` of the swept parameter as a text for other programs: of a number all digits, else its label.
     pub fn exact(&self, index: usize) -> String {
         as_number(&self.values[index]).map_or_else(|| self.labels[index].clone(), format_number)
     }
 
-    /// Puts the value number `index` under its name.
+    /// Puts the value number `index` of the swept parameter under its name into a map.
     pub fn put(&self, index: usize, into: &mut Map) {
         if !self.name.is_empty() {
             into.insert(self.name.as_str().into(), self.values[index].clone());
@@ -64,7 +63,7 @@ impl Swept {
     }
 }
 
-/// A value in few words: numbers, large ones as powers of ten, and texts as they are, integrators and maps by their names.
+/// The label of a value in few words: numbers, large ones as powers of ten, and texts as they are, integrators and maps by their names.
 pub fn label(call: &Call, value: &Dynamic) -> String {
     if let Some(number) = as_number(value) {
         let short = significant(number, DIGITS);

@@ -1,8 +1,9 @@
 //! What a script asks of a study, read from its options: scenes on meshes, settings, times.
 
-use rhai::{Dynamic, Map};
+use rhai::{Dynamic, FnPtr, Map};
 
 use super::labels;
+use super::options::ErrorOptions;
 use crate::analysis::{Case, Observable, Patience, SYMBOLS, Sheet, Subject};
 use crate::beams::{Mesh, Station};
 use crate::integrators::Method;
@@ -10,48 +11,49 @@ use crate::model::Scene;
 use crate::newton::Tolerance;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::station::StationHandle;
+use crate::script::handles::step_size::{STEP_SIZE, step_size};
 use crate::script::rows::accept::readable;
 use crate::script::rows::call::Call;
-use crate::script::rows::options::Options;
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::{as_number, format_number};
-use crate::simulation::{History, Settings, StepControl, StepSize};
+use crate::simulation::{History, Settings, StepSize};
 
-/// Everything a study needs but its reference.
+/// The plan of a study of errors: everything that it needs but its reference.
 pub struct Plan {
     /// The name of the study and of its files.
     pub name: String,
-    /// A scene for each mesh.
+    /// A scene for each mesh of the study.
     pub subjects: Vec<Subject>,
-    /// The integrators.
+    /// The integrators of the study.
     pub methods: Vec<Method>,
-    /// The step sizes.
+    /// The step sizes of the study.
     pub dts: Vec<StepSize>,
-    /// When results are compared, in order [time].
+    /// The times at which results are compared, in order [time].
     pub times: Vec<f64>,
-    /// What errors of positions are relative to [length].
+    /// The length that errors of positions are relative to [length].
     pub length: f64,
-    /// What a case may take.
+    /// How much a case of the study may take.
     pub patience: Patience,
 }
 
 impl Plan {
-    /// Reads the options that all studies of errors have. Every scene is made, and the first is built, so that mistakes show
+    /// Reads the options that all studies of errors have into a plan. Every scene is made, and the first is built, so that mistakes show
     /// before anything runs.
-    pub fn read(call: &Call, options: &Options) -> Result<Self, ScriptError> {
-        let name = study_name(call, options)?;
-        let methods = all_of::<Method>(call, options, "integrators", "an integrator")?;
-        let dts = step_sizes(call, options)?;
-        let times = positive(call, options, "times")?;
+    pub fn read(call: &Call, options: &ErrorOptions) -> Result<Self, ScriptError> {
+        let name = study_name(call, &options.name)?;
+        let methods = all_of::<Method>(call, "integrators", &options.integrators, "an integrator")?;
+        let dts = step_sizes(call, &options.dts)?;
+        expect_positive(call, "times", &options.times)?;
+        let times = options.times.clone();
         if times.windows(2).any(|pair| pair[0] >= pair[1]) {
             return Err(at_key(call, "times", "the times must ascend", "the last one ends a run"));
         }
-        let meshes = options.array("meshes")?;
+        let meshes = &options.meshes;
         if meshes.is_empty() {
             return Err(at_key(call, "meshes", "there is no mesh", "for example [bspline(14)]"));
         }
-        let scene_of = options.callback("scene")?;
-        call.expect_arguments(&scene_of, 1, "|mesh| …, a function that makes the scene on a mesh")?;
+        let scene_of = &options.scene;
+        call.expect_arguments(scene_of, 1, "|mesh| …, a function that makes the scene on a mesh")?;
         expect_all_different(call, "integrators", &methods, labels::method)?;
         expect_all_different(call, "dts", &dts, StepSize::to_string)?;
         let named = |mesh: &Dynamic| {
@@ -60,20 +62,19 @@ impl Plan {
         let named: Vec<(String, Option<Mesh>)> = meshes.iter().map(named).collect();
         expect_all_different(call, "meshes", &named, |(label, _)| label.clone())?;
         let subjects: Vec<Subject> =
-            meshes.iter().map(|mesh| subject_on(call, options, mesh)).collect::<Result<_, _>>()?;
+            meshes.iter().map(|mesh| subject_on(call, scene_of, mesh)).collect::<Result<_, _>>()?;
         expect_same_observables(call, &subjects[0], &subjects[1..])?;
-        let given = options.number_if_given("length");
-        let length = given.unwrap_or_else(|| size_of(&subjects[0].scene));
-        let patience = patience(call, options.number("patience")?);
+        let length = options.length.unwrap_or_else(|| size_of(&subjects[0].scene));
+        let patience = patience(call, options.patience);
         Ok(Self { name, subjects, methods, dts, times, length, patience })
     }
 
-    /// The settings for an integrator and a step size.
+    /// The settings of a run with an integrator and a step size.
     pub fn settings(method: Method, dt: StepSize) -> Settings {
         Settings { method, dt, tolerance: Tolerance::default() }
     }
 
-    /// All integrators with all step sizes.
+    /// The settings of all integrators of the study with all its step sizes.
     pub fn all_settings(&self) -> Vec<Settings> {
         let with = |method: &Method| {
             let method = *method;
@@ -82,12 +83,12 @@ impl Plan {
         self.methods.iter().flat_map(with).collect()
     }
 
-    /// What is looked at.
+    /// The observables that the study looks at.
     pub fn observables(&self) -> &[Observable] {
         &self.subjects[0].observables
     }
 
-    /// The history of a run that has just begun, for its columns; the scene is built for it.
+    /// The history of a run of the study that has just begun, for its columns; the scene is built for it.
     pub fn history(&self) -> Result<History, ScriptError> {
         let (scene, stops) = (self.subjects[0].scene.clone(), self.times.clone());
         let case = Case { scene, settings: self.all_settings()[0], stops };
@@ -96,7 +97,7 @@ impl Plan {
         Ok(built.history().clone())
     }
 
-    /// Looks at more than stations: at columns of the history. Those that a table of solutions has are meant by its names: the
+    /// Makes the study look at more than stations: at columns of the history. Those that a table of solutions has are meant by its names: the
     /// symbols E, KE, SE, px, py and Lz, names of columns, or what `given` says they are. Without a table all columns are.
     pub fn add_columns(
         &mut self,
@@ -134,6 +135,7 @@ fn column_of(
 ) -> Result<Observable, ScriptError> {
     let name =
         &readable("columns", name).map_err(|error| error.at(Place::Key("columns".into())))?;
+    // What is no array is a name alone.
     let parts = meant.clone().into_array().unwrap_or_else(|_| vec![meant.clone()]);
     let text = |value: &Dynamic| value.clone().into_string().ok();
     let (column, factor) = match parts.as_slice() {
@@ -160,14 +162,13 @@ fn column_of(
 }
 
 /// The name of a study and of its files, which no other study of the run has.
-pub fn study_name(call: &Call, options: &Options) -> Result<String, ScriptError> {
-    let name = options.text("name")?.to_string();
-    if !call.context().claim_study(&name) {
+pub fn study_name(call: &Call, name: &str) -> Result<String, ScriptError> {
+    if !call.context().claim_study(name) {
         let told = format!("there is a study '{name}' in this run already");
         let hint = "give each study a name of its own, for its files would be overwritten";
         return Err(at_key(call, "name", told, hint));
     }
-    Ok(name)
+    Ok(name.to_owned())
 }
 
 /// Refuses to do the same work twice under one name.
@@ -184,7 +185,7 @@ fn expect_all_different<T: PartialEq>(
     })
 }
 
-/// An error about an option.
+/// An error of a call about one of its options.
 pub fn at_key(
     call: &Call,
     key: &str,
@@ -197,24 +198,23 @@ pub fn at_key(
 /// The values of an array that must all be of one type, at least one.
 fn all_of<T: Clone + 'static>(
     call: &Call,
-    options: &Options,
     key: &str,
+    array: &[Dynamic],
     what: &str,
 ) -> Result<Vec<T>, ScriptError> {
-    let array = options.array(key)?;
     let one = |value: &Dynamic| {
         value.clone().try_cast::<T>().ok_or_else(|| {
             let told = format!("{key} must hold {what} each, got {}", call.describe(value));
             at_key(call, key, told, "for example [energy_momentum(), fourth_order()]")
         })
     };
-    match array.as_slice() {
+    match array {
         [] => Err(at_key(call, key, format!("{key} is empty"), format!("give {what} or more"))),
         values => values.iter().map(one).collect(),
     }
 }
 
-/// What a case may take: so many seconds, and no more steps than the whole run may take.
+/// How much a case of a study may take: so many seconds, and no more steps than the whole run may take.
 pub fn patience(call: &Call, seconds: f64) -> Patience {
     let steps = call.context().meter().limits().steps;
     Patience {
@@ -223,32 +223,21 @@ pub fn patience(call: &Call, seconds: f64) -> Patience {
     }
 }
 
-/// A step size: a positive number, or adaptive(…); none when it is something else.
-pub fn step_size(value: &Dynamic) -> Option<StepSize> {
-    let fixed = as_number(value).filter(|dt| dt.is_finite() && *dt > 0.0);
-    let control = || value.clone().try_cast::<StepControl>().map(StepSize::from);
-    fixed.map(StepSize::from).or_else(control)
-}
-
-/// How a step size is written.
-pub const STEP_SIZE: &str = "give positive numbers, or adaptive(#{ tolerance: 1e-4 })";
-
 /// Step sizes, at least one.
-fn step_sizes(call: &Call, options: &Options) -> Result<Vec<StepSize>, ScriptError> {
+fn step_sizes(call: &Call, dts: &[Dynamic]) -> Result<Vec<StepSize>, ScriptError> {
     let one = |value: &Dynamic| {
         step_size(value).ok_or_else(|| {
             at_key(call, "dts", format!("dts holds {}", call.describe(value)), STEP_SIZE)
         })
     };
-    match options.array("dts")?.as_slice() {
+    match dts {
         [] => Err(at_key(call, "dts", "dts is empty", "give one step size or more")),
         values => values.iter().map(one).collect(),
     }
 }
 
-/// Positive numbers, at least one.
-fn positive(call: &Call, options: &Options, key: &str) -> Result<Vec<f64>, ScriptError> {
-    let numbers = options.numbers(key)?;
+/// Refuses numbers that are not positive; there must be one at least.
+fn expect_positive(call: &Call, key: &str, numbers: &[f64]) -> Result<(), ScriptError> {
     match numbers.iter().find(|number| **number <= 0.0) {
         _ if numbers.is_empty() => {
             Err(at_key(call, key, format!("{key} is empty"), "give one positive number or more"))
@@ -257,7 +246,7 @@ fn positive(call: &Call, options: &Options, key: &str) -> Result<Vec<f64>, Scrip
             let told = format!("{key} holds {}", format_number(*wrong));
             Err(at_key(call, key, told, "give positive numbers"))
         }
-        None => Ok(numbers),
+        None => Ok(()),
     }
 }
 
@@ -267,8 +256,8 @@ fn label_of(call: &Call, mesh: &Dynamic) -> String {
 }
 
 /// The scene on a mesh, from the function of the study.
-pub fn subject_on(call: &Call, options: &Options, mesh: &Dynamic) -> Result<Subject, ScriptError> {
-    let made = call.invoke(&options.callback("scene")?, [mesh.clone()])?;
+pub fn subject_on(call: &Call, scene_of: &FnPtr, mesh: &Dynamic) -> Result<Subject, ScriptError> {
+    let made = call.invoke(scene_of, [mesh.clone()])?;
     subject(call, label_of(call, mesh), &made)
 }
 
@@ -330,7 +319,7 @@ fn usual_stations(scene: &Scene) -> Vec<(String, Station)> {
     ends.chain(particles).collect()
 }
 
-/// Whether other scenes have the stations of the first one; their columns are not looked for yet.
+/// Refuses other scenes of a study without the stations of the first one; their columns are not looked for yet.
 pub fn expect_same_observables(
     call: &Call,
     first: &Subject,

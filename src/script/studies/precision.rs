@@ -1,6 +1,7 @@
 //! Error against run time: the study made, and written into the output folder.
 
 use super::desk::{Desk, Task, print_table};
+use super::options::{ErrorOptions, TimedOptions};
 use super::plan::{Plan, at_key};
 use super::precision_chart::chart;
 use super::precision_rows::{records, table};
@@ -9,17 +10,20 @@ use crate::analysis::{
     Case, Outcome, Precision, PrecisionRow, Rival, Timing, Trial, Truth, all_combinations,
 };
 use crate::script::rows::call::Call;
-use crate::script::rows::options::Options;
 use crate::script::state::settings::Mode;
 use crate::script::words::error::ScriptError;
 
 /// Makes the study that the options ask for; in a dry build nothing runs.
-pub fn study(call: &Call, options: &Options) -> Result<Precision, ScriptError> {
+pub fn study(
+    call: &Call,
+    options: &ErrorOptions,
+    timed: &TimedOptions,
+) -> Result<Precision, ScriptError> {
     let mut plan = Plan::read(call, options)?;
     let reference = Reference::read(call, options, &mut plan)?;
-    let rivals = match options.text("rivals") {
-        Ok(file) => Some((read_sheet(call, "rivals", &file)?, file)),
-        Err(_) => None,
+    let rivals = match &timed.rivals {
+        Some(file) => Some((read_sheet(call, "rivals", file)?, file)),
+        None => None,
     };
     let compared = |truth: &Truth| {
         let Some((sheet, file)) = &rivals else { return Ok(Vec::new()) };
@@ -35,7 +39,7 @@ pub fn study(call: &Call, options: &Options) -> Result<Precision, ScriptError> {
     let combinations = all_combinations(&plan.subjects, &plan.all_settings());
     let cases: Vec<Case> =
         combinations.iter().map(|of| of.case(&plan.subjects, &plan.times)).collect();
-    let repeats = call.context().studies().repeats.unwrap_or(options.count("repeats")?);
+    let repeats = call.context().studies().repeats.unwrap_or(timed.repeats);
     let (trials, timings, truth) = match call.context().mode() {
         Mode::DryBuild => {
             let reason = "a check runs nothing".to_owned();

@@ -14,7 +14,7 @@ fn series_of(row: &PrecisionRow) -> String {
     }
 }
 
-/// Error over run time, one colour for an integrator or a rival, the front of ours drawn through.
+/// A chart of error over run time, one colour for an integrator or a rival, the front of ours drawn through.
 pub fn chart(study: &Precision) -> LineChart {
     let mut chart = LineChart::new(format!(
         "{}: error at {} against run time",

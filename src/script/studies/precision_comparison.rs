@@ -5,7 +5,7 @@ use super::precision_rows::with;
 use crate::analysis::{Precision, machines};
 use crate::output::{Cell, Table, format_number, scientific};
 
-/// The fastest of ours and of every rival for each of some errors.
+/// A table as text of the fastest of ours and of every rival for each of some errors.
 pub fn comparison(study: &Precision, errors: &[f64]) -> String {
     let heads = [
         "error ≤",

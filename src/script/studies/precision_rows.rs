@@ -7,7 +7,7 @@ use crate::analysis::{Precision, PrecisionRow, Timing};
 use crate::output::{Cell, CsvRecords, Table, format_number};
 use crate::simulation::StepSize;
 
-/// All combinations, a table for each mesh, those on the front marked; below, why some failed.
+/// All combinations of the study as text, a table for each mesh, those on the front marked; below, why some failed.
 pub fn table(study: &Precision) -> String {
     let mut text = format!(
         "study '{}': error at {} against run time\nreference: {}",
@@ -93,12 +93,12 @@ fn facts(study: &Precision, row: &PrecisionRow) -> Vec<(String, Dynamic)> {
     facts
 }
 
-/// A row as a map of a script.
+/// A row of the study as a map of a script.
 pub fn map_of(study: &Precision, row: &PrecisionRow) -> Map {
     facts(study, row).into_iter().map(|(name, value)| (name.into(), value)).collect()
 }
 
-/// All rows for other programs.
+/// All rows of the study for other programs.
 pub fn records(study: &Precision) -> CsvRecords {
     let text = |value: Dynamic| match value.as_float() {
         Ok(number) => format_number(number),
@@ -124,7 +124,7 @@ pub fn records(study: &Precision) -> CsvRecords {
     CsvRecords { comments, names: names.unwrap_or_default(), rows }
 }
 
-/// How a row was computed.
+/// How a row of the study was computed, in words.
 pub fn with(row: &PrecisionRow) -> String {
     let (method, dt) = (labels::method(&row.settings.method), labels::step_size(&row.settings));
     format!("{}, {method}, dt = {dt}", row.mesh)

@@ -4,6 +4,7 @@ use rhai::{Dynamic, Map};
 
 use super::desk::{Desk, Task};
 use super::labels;
+use super::options::{ErrorOptions, Wanted};
 use super::plan::{Plan, at_key, expect_same_observables, subject_on};
 use crate::analysis::{
     Case, Outcome, PART_OF_THE_SMALLEST_STEP, Sheet, Trial, Truth, finest_mesh, highest_order,
@@ -13,19 +14,18 @@ use crate::geometry::Vec2;
 use crate::integrators::Method;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Scripted;
-use crate::script::rows::options::Options;
 use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::format_number;
 use crate::simulation::{StepControl, StepSize};
 
-/// A run of our own as a reference, as far as the script says how it is made.
+/// A reference that is a run of our own, as far as the script says how it is made.
 #[derive(Clone, Default)]
 pub struct FinestRun {
-    /// What the function of the study makes the scene of; the finest mesh of the study unless given.
+    /// The mesh of the reference run, from which the function of the study makes the scene; the finest mesh of the study unless given.
     pub mesh: Option<Dynamic>,
-    /// A quarter of the smallest step size of the study unless given [time].
+    /// The step size of the reference run [time]; a quarter of the smallest step size of the study unless given.
     pub dt: Option<f64>,
-    /// That of the highest order in the study unless given.
+    /// The integrator of the reference run; that of the highest order in the study unless given.
     pub method: Option<Method>,
 }
 
@@ -71,11 +71,11 @@ fn doubled(dt: StepSize) -> StepSize {
     }
 }
 
-/// What results are compared with, before anything runs.
+/// The reference of a study, before anything runs.
 pub enum Reference {
-    /// A table of an independent solution, and the name of its file.
+    /// The reference is a table of an independent solution, from a file of this name.
     Table(String, Sheet),
-    /// A run of our own: what is told of it, its case, and the same with twice the step, which shows how well it is known.
+    /// The reference is a run of our own: what is told of it, its case, and the same with twice the step, which shows how well it is known.
     /// Where all runs of the study have its very settings, errors in time are common to all, and there is no second one.
     OwnRun(String, Vec<Case>),
 }
@@ -90,11 +90,14 @@ pub fn read_sheet(call: &Call, key: &str, file: &str) -> Result<Sheet, ScriptErr
 }
 
 /// Refuses to judge meshes by a run on one of them, whose own error would be taken for none.
-pub fn expect_finer_than_all_meshes(call: &Call, options: &Options) -> Result<(), ScriptError> {
-    let is_table = options.text("reference").is_ok();
-    let run = options.get_if::<FinestRun>("reference");
-    if is_table || run.is_some_and(|run| run.mesh.is_some()) {
-        return Ok(());
+pub fn expect_finer_than_all_meshes(
+    call: &Call,
+    reference: Option<&Wanted>,
+) -> Result<(), ScriptError> {
+    match reference {
+        Some(Wanted::Table(_)) => return Ok(()),
+        Some(Wanted::Run(run)) if run.mesh.is_some() => return Ok(()),
+        _ => (),
     }
     let told = "the errors of meshes cannot be told from a run on the finest of them";
     let hint =
@@ -152,10 +155,10 @@ fn expect_other_steps_if_doubled(call: &Call, finest: &Case) -> Result<(), Scrip
 }
 
 /// The option `columns`, if it is given.
-fn columns_of(call: &Call, options: &Options) -> Result<Option<Map>, ScriptError> {
-    let Ok(given) = options.value("columns") else { return Ok(None) };
-    let got = call.describe(&given);
-    given.try_cast::<Map>().map(Some).ok_or_else(|| {
+fn columns_of(call: &Call, options: &ErrorOptions) -> Result<Option<Map>, ScriptError> {
+    let Some(given) = &options.columns else { return Ok(None) };
+    let got = call.describe(given);
+    given.clone().try_cast::<Map>().map(Some).ok_or_else(|| {
         let hint = "write names of the reference with columns of the history: #{ S: \"slider1.position\" }";
         at_key(call, "columns", format!("'columns' must be a map, got {got}"), hint)
     })
@@ -163,24 +166,27 @@ fn columns_of(call: &Call, options: &Options) -> Result<Option<Map>, ScriptError
 
 impl Reference {
     /// Reads the option `reference`, and looks in the plan at what it can be compared with.
-    pub fn read(call: &Call, options: &Options, plan: &mut Plan) -> Result<Self, ScriptError> {
+    pub fn read(call: &Call, options: &ErrorOptions, plan: &mut Plan) -> Result<Self, ScriptError> {
         let columns = columns_of(call, options)?;
-        if let Ok(file) = options.text("reference") {
-            let sheet = read_sheet(call, "reference", &file)?;
-            plan.add_columns(call, columns, Some(&sheet))?;
-            let reference = Self::Table(file.to_string(), sheet);
-            // A wrong table is told of before anything runs.
-            reference.truth(call, plan, &[])?;
-            return Ok(reference);
-        }
-        let run = options.get_if::<FinestRun>("reference").unwrap_or_default();
+        let run = match &options.reference {
+            Some(Wanted::Table(file)) => {
+                let sheet = read_sheet(call, "reference", file)?;
+                plan.add_columns(call, columns, Some(&sheet))?;
+                let reference = Self::Table(file.clone(), sheet);
+                // A wrong table is told of before anything runs.
+                reference.truth(call, plan, &[])?;
+                return Ok(reference);
+            }
+            Some(Wanted::Run(run)) => run.clone(),
+            None => FinestRun::default(),
+        };
         let dt = run.dt.map_or_else(|| finer(&plan.dts), StepSize::from);
         let method = run.method.or_else(|| highest_order(&plan.methods)).unwrap_or_default();
         let finest = finest_mesh(&plan.subjects).unwrap_or(0);
         let subject = match run.mesh {
             None => plan.subjects[finest].clone(),
             Some(mesh) => {
-                let own = [subject_on(call, options, &mesh)?];
+                let own = [subject_on(call, &options.scene, &mesh)?];
                 expect_same_observables(call, &plan.subjects[0], &own)?;
                 let [own] = own;
                 own
@@ -247,7 +253,7 @@ impl Reference {
         }
     }
 
-    /// Runs all cases, and those of the reference with them: what each showed, and what it should have.
+    /// Runs all cases of a study, and those of the reference with them: what each showed, and what it should have.
     pub fn trials(
         &self,
         call: &Call,

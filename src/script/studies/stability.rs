@@ -1,9 +1,10 @@
 //! Stability maps: a run for every combination of parameters, and what became of each.
 
-use rhai::{Dynamic, FnPtr, INT, Map};
+use rhai::{Dynamic, INT, Map};
 
 use super::cell::{case, thrown};
 use super::labels;
+use super::options::StabilityOptions;
 use super::parameters::Swept;
 use super::plan::{at_key, study_name};
 use crate::analysis::{Case, Outcome, Verdict};
@@ -12,7 +13,6 @@ use crate::output::{
     significant,
 };
 use crate::script::rows::call::Call;
-use crate::script::rows::options::Options;
 use crate::script::words::error::ScriptError;
 
 /// Columns of text that a map on a terminal may take.
@@ -23,19 +23,19 @@ const RESULTS: [&str; 7] =
 /// Maps beside each other on a page.
 const ABREAST: usize = 2;
 
-/// What colours the cells.
+/// What colours the cells of a stability map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shown {
-    /// The largest relative growth of the energy.
+    /// The largest relative growth of the energy colours the cells.
     EnergyGrowth,
-    /// Newton iterations of a step, on average.
+    /// The Newton iterations of a step, on average, colour the cells.
     Iterations,
-    /// Failed tries.
+    /// The failed tries of steps colour the cells.
     Retries,
 }
 
 impl Shown {
-    /// All of them, by their names in scripts.
+    /// All that may colour the cells, by their names in scripts.
     pub const ALL: [(&'static str, Self); 3] = [
         ("energy growth", Self::EnergyGrowth),
         ("iterations", Self::Iterations),
@@ -61,20 +61,20 @@ impl Shown {
     }
 }
 
-/// What is studied: maps of rows and columns of cells.
+/// The plan of a stability study: maps of rows and columns of cells.
 #[derive(Clone, Debug)]
 pub struct StabilityPlan {
     /// The name of the study and of its files.
     pub name: String,
-    /// One map for each value.
+    /// The swept parameter with one map for each value.
     pub maps: Swept,
-    /// From above.
+    /// The swept parameter of the rows of a map, from above.
     pub rows: Swept,
-    /// From the left.
+    /// The swept parameter of the columns of a map, from the left.
     pub columns: Swept,
 }
 
-/// A plan with what became of its cells.
+/// A stability map: a plan with what became of its cells.
 #[derive(Clone, Debug)]
 pub struct StabilityMap {
     plan: StabilityPlan,
@@ -85,13 +85,13 @@ pub struct StabilityMap {
 
 impl StabilityPlan {
     /// Reads the options of a study.
-    pub fn read(call: &Call, options: &Options) -> Result<Self, ScriptError> {
-        let maps = match options.has("maps") {
-            true => Swept::read(call, options, "maps")?,
-            false => Swept::none(),
+    pub fn read(call: &Call, options: &StabilityOptions) -> Result<Self, ScriptError> {
+        let maps = match &options.maps {
+            Some(maps) => Swept::read(call, "maps", maps)?,
+            None => Swept::none(),
         };
-        let rows = Swept::read(call, options, "rows")?;
-        let columns = Swept::read(call, options, "columns")?;
+        let rows = Swept::read(call, "rows", &options.rows)?;
+        let columns = Swept::read(call, "columns", &options.columns)?;
         let axes = [("maps", &maps), ("rows", &rows), ("columns", &columns)];
         for (at, (key, axis)) in axes.iter().enumerate() {
             let name = &axis.name;
@@ -105,7 +105,7 @@ impl StabilityPlan {
                 return Err(at_key(call, key, told, "a cell has one value under each name"));
             }
         }
-        Ok(Self { name: study_name(call, options)?, maps, rows, columns })
+        Ok(Self { name: study_name(call, &options.name)?, maps, rows, columns })
     }
 
     /// Numbers of map, row and column of all cells, in order.
@@ -136,21 +136,20 @@ impl StabilityPlan {
         axes.map(|(of, at)| (of.name.as_str(), of.labels[at].as_str())).collect()
     }
 
-    /// The run of each cell, from what the function of the script gives for its values, or what it throws.
+    /// The run of each cell of the plan, from what the function of the script gives for its values, or what it throws.
     ///
     /// # Errors
     /// When it gives something wrong, fails otherwise, or throws at every cell: then it is the function that is wrong.
     pub fn cases(
         &self,
         call: &Call,
-        options: &Options,
-        scene: &FnPtr,
+        options: &StabilityOptions,
     ) -> Result<Vec<Result<Case, String>>, ScriptError> {
         let mut first = None;
         let mut made = Vec::new();
         for at in self.cells() {
             let values = self.values(at);
-            made.push(match call.invoke(scene, [Dynamic::from(values.clone())]) {
+            made.push(match call.invoke(&options.scene, [Dynamic::from(values.clone())]) {
                 Ok(given) => Ok(case(call, options, &values, given)?),
                 Err(ScriptError::Engine(error)) => match thrown(call, &error) {
                     Some(reason) => {
@@ -168,7 +167,7 @@ impl StabilityPlan {
         }
     }
 
-    /// The study with its results.
+    /// The stability map of the plan with the verdicts on its cells.
     pub fn judged(self, shown: Shown, verdicts: Vec<Verdict>) -> StabilityMap {
         StabilityMap { plan: self, shown, verdicts }
     }
@@ -179,7 +178,7 @@ impl StabilityMap {
         self.plan.cells().zip(&self.verdicts)
     }
 
-    /// How many cells there are, and how many came to their end.
+    /// How many cells the map has, and how many came to their end.
     pub fn counts(&self) -> (usize, usize) {
         let finished = self.verdicts.iter().filter(|verdict| verdict.outcome.is_finished());
         (self.verdicts.len(), finished.count())
@@ -190,7 +189,7 @@ impl StabilityMap {
         &self.plan.name
     }
 
-    /// A map for each cell: its values, and what became of it.
+    /// The cells of the map as maps of a script: the values, and what became of each.
     pub fn cells(&self) -> Vec<Map> {
         let cell = |(at, verdict): ([usize; 3], &Verdict)| {
             let mut cell = self.plan.values(at);
@@ -276,14 +275,14 @@ impl StabilityMap {
         format!("{} {}{halved}", self.coloured(verdict), significant(verdict.mean_iterations, 2))
     }
 
-    /// All maps on one page.
+    /// All maps of the study on one page.
     pub fn page(&self) -> Page {
         let maps = self.heat_maps(Self::in_lines);
         let page = Page::grid(ABREAST.min(maps.len()));
         maps.into_iter().fold(page.title(&self.plan.name), Page::panel)
     }
 
-    /// The maps as text, and why cells did not come to their end.
+    /// The maps of the study as text, and why cells did not come to their end.
     pub fn text(&self) -> String {
         let style =
             Style { glyphs: Glyphs::Braille, colours: Colours::None, width: WIDTH, height: 1 };
@@ -313,7 +312,7 @@ impl StabilityMap {
         text
     }
 
-    /// All cells as a table for other programs.
+    /// All cells of the study as a table for other programs.
     pub fn records(&self) -> CsvRecords {
         let numbers = ["energy growth", "mean iterations", "most iterations", "retries", "steps"];
         let first = self.plan.labels([0; 3]);

@@ -5,7 +5,7 @@ const MOST: usize = 1600;
 /// Characters that are kept of the end, where messages say what is allowed.
 const END: usize = 600;
 
-/// The same text, with its middle left out where it is longer than anybody reads.
+/// The text, with its middle left out where it is longer than anybody reads.
 pub fn brief(text: String) -> String {
     // Only a text of so many bytes can have so many characters.
     if text.len() <= MOST {

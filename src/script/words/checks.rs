@@ -1,15 +1,15 @@
 //! The record of what a script checked about its own results.
 
-/// A check that did not hold.
+/// A check of a script that did not hold.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FailedCheck {
-    /// What the script says about it.
+    /// What the script says about the failed check.
     pub message: String,
-    /// Where, from 1.
+    /// The line of the failed check in the script, from 1.
     pub line: usize,
 }
 
-/// How many checks were made, and which failed.
+/// How many checks a script made, and which failed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Checks {
     made: usize,
@@ -17,28 +17,28 @@ pub struct Checks {
 }
 
 impl Checks {
-    /// A check that held.
+    /// Counts a check that held.
     pub fn pass(&mut self) {
         self.made += 1;
     }
 
-    /// A check that did not hold.
+    /// Counts a check that did not hold.
     pub fn fail(&mut self, check: FailedCheck) {
         self.made += 1;
         self.failed.push(check);
     }
 
-    /// How many were made.
+    /// The number of checks that were made.
     pub fn made(&self) -> usize {
         self.made
     }
 
-    /// Those that failed, in the order of the run.
+    /// The checks that failed, in the order of the run.
     pub fn failed(&self) -> &[FailedCheck] {
         &self.failed
     }
 
-    /// One line on the outcome; nothing if nothing was checked.
+    /// One line on the outcome of the checks; nothing if nothing was checked.
     pub fn summary(&self) -> Option<String> {
         match (self.made, self.failed.len()) {
             (0, _) => None,

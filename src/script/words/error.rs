@@ -2,20 +2,22 @@
 
 use rhai::{Dynamic, EvalAltResult, Position};
 
+use super::advice;
 use super::brief::brief;
+use super::raised::Raised;
 use super::stop::Stop;
 
-/// Marks errors of the engine that are our own mistakes.
+/// The words that mark errors of the engine that are our own mistakes.
 pub(in crate::script) const BUG: &str = "a bug in withy";
 
-/// Why a native body gave up.
+/// Why a native function of the language gave up.
 #[derive(Debug)]
 pub enum ScriptError {
     /// The script asked for something that is wrong.
     Failure(Failure),
     /// The run was interrupted from outside or passed a limit; scripts cannot catch this.
     Stopped(Stop),
-    /// Our own mistake; the user is asked to report it.
+    /// The program made a mistake of its own; the user is asked to report it.
     Bug(String),
     /// A script function that was called back failed; its own error is handed on untouched.
     Engine(Box<EvalAltResult>),
@@ -24,38 +26,38 @@ pub enum ScriptError {
 /// A wrong request: the message names the object and the value, the hint says what to do next.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
-    /// What is wrong.
+    /// What is wrong with the request.
     pub message: String,
-    /// What to do.
+    /// What to do about the wrong request.
     pub hint: Option<String>,
-    /// What to underline.
+    /// The part of the call to underline.
     pub place: Place,
 }
 
 /// The part of a call that an error is about.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Place {
-    /// The called name.
+    /// The error is about the called name.
     Call,
-    /// The argument with this number, from 0.
+    /// The error is about the argument with this number, from 0.
     Argument(usize),
-    /// This key of an option map among the arguments.
+    /// The error is about this key of an option map among the arguments.
     Key(String),
 }
 
 impl ScriptError {
-    /// A wrong request.
+    /// The error of a wrong request by the script.
     pub fn new(message: impl Into<String>) -> Self {
         let message = brief(message.into());
         Self::Failure(Failure { message, hint: None, place: Place::Call })
     }
 
-    /// Our own mistake.
+    /// The error of a mistake of this program.
     pub fn bug(message: impl Into<String>) -> Self {
         Self::Bug(message.into())
     }
 
-    /// Adds what to do about it.
+    /// Adds to the error what to do about it.
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         if let Self::Failure(failure) = &mut self {
             failure.hint = Some(brief(hint.into()));
@@ -63,7 +65,15 @@ impl ScriptError {
         self
     }
 
-    /// Points at an argument or a key instead of the call.
+    /// Adds what to do about an error of the layers below that caused it, if there is advice on that.
+    pub fn advised(self, cause: &(dyn std::error::Error + 'static)) -> Self {
+        match advice::on(cause) {
+            Some(advice) => self.hint(advice),
+            None => self,
+        }
+    }
+
+    /// Makes the error point at an argument or a key instead of the call.
     pub fn at(mut self, place: Place) -> Self {
         if let Self::Failure(failure) = &mut self {
             failure.place = place;
@@ -71,7 +81,7 @@ impl ScriptError {
         self
     }
 
-    /// The same error as the engine carries it, at the position of the call.
+    /// The same error in the form in which the engine carries it, at the position of the call.
     pub fn into_engine(self, call: Position) -> Box<EvalAltResult> {
         match self {
             Self::Failure(failure) => {
@@ -84,12 +94,16 @@ impl ScriptError {
     }
 }
 
-/// Errors of the layers below become failures with their own words.
-impl<E: std::error::Error> From<E> for ScriptError {
+/// Errors of the layers below become failures with their own words and what to do about them; those that a script function has caused are
+/// handed on as its own.
+impl<E: std::error::Error + 'static> From<E> for ScriptError {
     fn from(error: E) -> Self {
-        Self::new(error.to_string())
+        match Raised::behind(&error) {
+            Some(raised) => Self::Engine(raised),
+            None => Self::new(error.to_string()).advised(&error),
+        }
     }
 }
 
-/// What the engine's own functions give.
+/// The result of the engine's own functions: a value, or an error with its place in the script.
 pub type EngineResult<T> = Result<T, Box<EvalAltResult>>;

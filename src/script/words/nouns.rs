@@ -1,6 +1,6 @@
 //! Nouns in messages: their articles, and the names of types.
 
-/// `noun` with its article: `a vector`, `an array`; plurals such as `knots` have none.
+/// A noun with its article: `a vector`, `an array`; plurals such as `knots` have none.
 pub fn with_article(noun: &str) -> String {
     // Of a table of costs there is one.
     let head = noun.split(" of ").next().unwrap_or(noun);
@@ -11,7 +11,7 @@ pub fn with_article(noun: &str) -> String {
     }
 }
 
-/// A type in our words, also where the engine used the Rust name.
+/// The word of the language for a type, also where the engine used the Rust name.
 pub fn type_word(name: &str) -> &str {
     match name.trim() {
         "i64" => "whole number",

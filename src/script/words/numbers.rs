@@ -8,12 +8,12 @@ pub use crate::output::format_number;
 /// The largest whole number up to which every whole number has its own `f64`.
 const LARGEST_EXACT: f64 = 9_007_199_254_740_992.0;
 
-/// `value` as a number, if it is one; whole numbers are welcome.
+/// A value of a script as a number, if it is one; whole numbers are welcome.
 pub fn as_number(value: &Dynamic) -> Option<f64> {
     value.as_float().ok().or_else(|| value.as_int().ok().map(|n| n as f64))
 }
 
-/// `value` as a whole number, if it is one or a number without a fraction.
+/// A value of a script as a whole number, if it is one or a number without a fraction.
 pub fn as_whole(value: &Dynamic) -> Option<INT> {
     value.as_int().ok().or_else(|| {
         let x = value.as_float().ok()?;
@@ -21,17 +21,17 @@ pub fn as_whole(value: &Dynamic) -> Option<INT> {
     })
 }
 
-/// `x` with an exponent and `digits` digits after the point: `1.23e-13`.
+/// A number with an exponent and `digits` digits after the point: `1.23e-13`.
 pub fn format_scientific(x: f64, digits: usize) -> String {
     if x.is_finite() { format!("{x:.digits$e}") } else { format_number(x) }
 }
 
-/// `x` with `digits` digits after the point: `0.050`.
+/// A number with `digits` digits after the point: `0.050`.
 pub fn format_fixed(x: f64, digits: usize) -> String {
     if x.is_finite() { format!("{x:.digits$}") } else { format_number(x) }
 }
 
-/// `value` in the middle of a message: `the text "abc"`, `-3`, `an array of 3`.
+/// A value of a script in the middle of a message: `the text "abc"`, `-3`, `an array of 3`.
 pub fn describe(engine: &Engine, value: &Dynamic) -> String {
     if let Ok(text) = value.as_immutable_string_ref() {
         return format!("the text {}", shortened(&text));

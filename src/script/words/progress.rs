@@ -1,24 +1,24 @@
 //! How far a simulation or a study is, for whoever shows it.
 
-/// Something that shows how far a simulation or a study is: a bar on a terminal, nothing in a pipe.
+/// Something that shows how far a simulation or a study has got: a bar on a terminal, nothing in a pipe.
 pub trait Progress {
-    /// A simulation called `name` goes from time `from` to time `to`.
+    /// Begins to show that a simulation called `name` goes from time `from` to time `to`.
     fn begin(&self, name: &str, from: f64, to: f64);
-    /// It has reached time `t`. Cheap enough to be told after every step.
+    /// Shows that the simulation has reached time `t`. Cheap enough to be told after every step.
     fn reach(&self, t: f64);
-    /// A study called `name` has `count` cases to work on.
+    /// Begins to show that a study called `name` has `count` cases to work on.
     fn begin_cases(&self, name: &str, count: usize);
-    /// So many of its cases are done. Cheap enough to be told many times a second.
+    /// Shows that `done` cases of the study are done. Cheap enough to be told many times a second.
     fn reach_case(&self, done: usize);
-    /// The simulation or the study has stopped, at its end or before.
+    /// Ends what is shown: the simulation or the study has stopped, at its end or before.
     fn end(&self);
-    /// Lets `write` write to the terminal without mixing its text with what is shown.
+    /// Lets `write` write to the terminal without mixing its text with the progress that is shown.
     fn step_aside(&self, write: &mut dyn FnMut()) {
         write();
     }
 }
 
-/// Shows nothing.
+/// A progress that shows nothing.
 pub struct NoProgress;
 
 impl Progress for NoProgress {

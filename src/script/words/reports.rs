@@ -5,7 +5,7 @@ use std::collections::HashSet;
 
 /// Something that has gone through a run and can tell of it, such as a simulation.
 pub trait Reporter {
-    /// What it says about itself in the report, asked when the run ends, however it ends.
+    /// What the reporter says about itself in the report, asked when the run ends, however it ends.
     fn report(&self) -> serde_json::Value;
 
     /// A name and the content of a file that keeps what would be lost when the script does not come to its end.
@@ -15,17 +15,17 @@ pub trait Reporter {
 /// Of so many simulations what would be lost is written: a script that made thousands should end soon after it was asked to.
 const MOST_REMAINS: usize = 20;
 
-/// All that can tell of a run.
+/// All reporters of a run, which can tell of it.
 #[derive(Default)]
 pub struct Reports(RefCell<Vec<Box<dyn Reporter>>>);
 
 impl Reports {
-    /// Adds one that can tell.
+    /// Adds a reporter that can tell of the run.
     pub fn add(&self, reporter: Box<dyn Reporter>) {
         self.0.borrow_mut().push(reporter);
     }
 
-    /// Names, each another one, and contents of the files that keep what would be lost of the first simulations; and a note where there
+    /// Names, each another one, and contents of the files that keep what would be lost of the first simulations of a run; and a note where there
     /// are more.
     pub fn remains(&self) -> (Vec<(String, String)>, Option<String>) {
         let reporters = self.0.borrow();
@@ -43,12 +43,12 @@ impl Reports {
         (files, remains.next().map(|_| note))
     }
 
-    /// Lets go of all.
+    /// Lets go of all reporters of the run.
     pub fn forget(&self) {
         self.0.borrow_mut().clear();
     }
 
-    /// What all say about themselves; they are let go.
+    /// What all reporters of the run say about themselves; they are let go.
     pub fn take(&self) -> Vec<serde_json::Value> {
         self.0.take().into_iter().map(|reporter| reporter.report()).collect()
     }

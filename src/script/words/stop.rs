@@ -5,27 +5,27 @@ use std::time::Duration;
 
 use super::numbers::format_number;
 
-/// Bytes of a megabyte.
+/// The bytes of a megabyte.
 pub const MEGABYTE: u64 = 1_000_000;
 
 /// What stopped a run before its end. Scripts cannot catch it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// Ctrl-C, or whoever else set the interrupt flag.
+    /// The run was stopped by Ctrl-C, or whoever else set the interrupt flag.
     Interrupt,
-    /// The reader of the output went away.
+    /// The run was stopped, for the reader of the output went away.
     PipeClosed,
-    /// The run took longer than this.
+    /// The run was stopped, for it took longer than this.
     Time(Duration),
-    /// The simulations wanted more steps than this.
+    /// The run was stopped, for its simulations wanted more steps than this.
     Steps(u64),
-    /// The process occupied more memory than this [bytes].
+    /// The run was stopped, for the process occupied more memory than this [bytes].
     Memory(u64),
-    /// More was to be printed and written than this [bytes].
+    /// The run was stopped, for more was to be printed and written than this [bytes].
     Written(u64),
-    /// More files were to be written than this.
+    /// The run was stopped, for more files were to be written than this.
     Files(u64),
-    /// What the script prints could not be written.
+    /// The run was stopped, for what the script prints could not be written.
     OutputLost(io::ErrorKind),
     /// A dry build pretended to go on with simulations so often that the script must wait for something which only a real one
     /// finds.
@@ -33,7 +33,7 @@ pub enum Stop {
 }
 
 impl Stop {
-    /// What happened, and what to do about it.
+    /// What stopped the run in words, and what to do about it.
     pub fn words(self) -> (String, Option<String>) {
         match self {
             Self::Interrupt => ("the run was interrupted".into(), None),

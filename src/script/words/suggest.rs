@@ -3,7 +3,7 @@
 /// The longest name that may be a slip [bytes].
 const LONGEST: usize = 200;
 
-/// The candidate nearest to `wrong`, unless all are too far to be what was meant.
+/// The candidate nearest to the word `wrong`, unless all are too far to be what was meant.
 pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // The distance takes as long as both names together: nobody means one of ours by such a name.
     if wrong.len() > LONGEST {
@@ -24,7 +24,7 @@ pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -
         .map(|(_, candidate)| candidate)
 }
 
-/// The candidates that have `wrong` as one of their words, or as their beginning: `run_to` for `run`.
+/// The candidates that have the word `wrong` as one of their words, or as their beginning: `run_to` for `run`.
 pub fn related<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     const MOST: usize = 5;
     const SHORTEST: usize = 3;

@@ -14,7 +14,7 @@ use super::ArchiveError;
 const MARK: [u8; 8] = *b"\x89withy\r\n";
 
 /// Of this program. A change of anything that is stored makes it one more.
-const FORMAT: u16 = 7;
+const FORMAT: u16 = 8;
 
 const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 
@@ -44,7 +44,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Puts content into a file.
+/// The bytes of a simulation's file with some content: versions, length and checksum before it.
 pub fn wrap(content: &[u8]) -> Vec<u8> {
     let program = &PROGRAM.as_bytes()[..PROGRAM.len().min(usize::from(u8::MAX))];
     let mut file = MARK.to_vec();
@@ -57,7 +57,7 @@ pub fn wrap(content: &[u8]) -> Vec<u8> {
     file
 }
 
-/// The content of a file.
+/// The content of a simulation's file, once versions, length and checksum are checked.
 pub fn unwrap(file: &[u8]) -> Result<&[u8], ArchiveError> {
     if file.is_empty() || !file.starts_with(&MARK[..file.len().min(MARK.len())]) {
         return Err(ArchiveError::Foreign);

@@ -6,77 +6,79 @@ use crate::simulation::SimulationError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ArchiveError {
     /// A load with a function of a script.
-    #[error(
-        "the {load} has a function as its schedule, and functions cannot be stored; use hold_for, ramp, pulse, smooth_pulse, sine or table, or sums and products of them"
-    )]
+    #[error("the {load} has a function as its schedule, and functions cannot be stored")]
     Function {
-        /// The load.
+        /// The name of the load that follows a function of a script.
         load: String,
     },
+    /// A column that a function of a script fills.
+    #[error("the column '{column}' is filled by a function, and functions cannot be stored")]
+    Sensor {
+        /// The column.
+        column: String,
+    },
     /// Something else.
-    #[error("this is no simulation: it does not begin as files of sim.save(…) do")]
+    #[error("this is no simulation: it does not begin as stored simulations do")]
     Foreign,
-    /// A part is missing.
+    /// A file of a simulation of which a part is missing.
     #[error(
         "the file ends too early: it has {found} bytes, but {needed} are needed; it was cut off"
     )]
     Truncated {
-        /// Its length [bytes].
+        /// The length of the incomplete file [bytes].
         found: usize,
-        /// The length that its header asks for, as far as that is known [bytes].
+        /// The length that the header of the incomplete file asks for, as far as that is known [bytes].
         needed: u64,
     },
-    /// Written by a later program.
+    /// A file of a simulation that was written by a later program.
     #[error(
         "it was written by withy {program} in format {format}, but this is withy {own_program}, which reads format {own}; use a newer withy"
     )]
     Newer {
-        /// What wrote it.
+        /// The program that wrote the file, with its version.
         program: String,
-        /// The format of the file.
+        /// The format of the old file.
         format: u16,
-        /// This program.
+        /// This program, with its version.
         own_program: &'static str,
-        /// The format that it reads.
+        /// The format that this program reads.
         own: u16,
     },
-    /// It is of a format that is not read any more.
+    /// A file of a simulation whose format is not read any more.
     #[error(
         "it was written by withy {program} in format {format}, but only format {own} is read; load it with that withy"
     )]
     Older {
-        /// What wrote it.
+        /// The program that wrote the old file, with its version.
         program: String,
-        /// The format of the file.
+        /// The format of the old file.
         format: u16,
         /// The format that this program reads.
         own: u16,
     },
-    /// Its checksum is wrong.
+    /// A file of a simulation whose checksum is wrong.
     #[error(
         "the file is damaged: its checksum is {found:08x}, but its bytes have {right:08x}; use another copy"
     )]
     Damaged {
-        /// In the file.
+        /// The checksum in the header of the file.
         found: u32,
-        /// Of its bytes.
+        /// The checksum of the bytes of the file.
         right: u32,
     },
-    /// More than there should be.
+    /// A file of a simulation with more bytes than there should be.
     #[error("the file is damaged: {more} bytes follow behind its end; use another copy")]
     Longer {
-        /// How many.
+        /// The number of bytes too many.
         more: u64,
     },
     /// A sound file with a content that makes no sense.
-    #[error(
-        "its content is not that of a simulation: {reason}; it was not written by sim.save(…), or by a withy with a mistake"
-    )]
+    #[error("its content is not that of a simulation: {reason}")]
     Content {
-        /// What is wrong.
+        /// What is wrong with the content of the file.
         reason: String,
     },
-    /// A scene that cannot be built.
+    /// A file with a scene that cannot be built.
     #[error("its scene cannot be built: {0}")]
     Scene(#[from] SimulationError),
 }

@@ -15,7 +15,7 @@ impl Simulation {
         self.clock.dt()
     }
 
-    /// When the next step is to end, if it goes no further than `limit` [time].
+    /// The time at which the next step is to end, if it goes no further than `limit` [time].
     pub fn next_stop(&self, limit: f64) -> f64 {
         let now = self.time();
         let stop = self.clock.grid.next(now, limit);

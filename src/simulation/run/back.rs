@@ -7,8 +7,8 @@ use crate::simulation::snapshots::Snapshot;
 use crate::simulation::{SimulationError, WorkCounts};
 
 impl Simulation {
-    /// Keeps the state after every step from here on, as long as all of them fit into so many bytes; then the oldest but the
-    /// first are forgotten. Zero keeps none, and costs nothing. A smaller limit than before forgets at once.
+    /// Keeps the state of the simulation after every step from here on, as long as all of them fit into `limit` bytes; then the oldest but
+    /// the first are forgotten. Zero keeps none, and costs nothing. A smaller limit than before forgets at once.
     pub fn keep_snapshots(&mut self, limit: usize) {
         let mut snapshots = std::mem::take(&mut self.snapshots);
         snapshots.set_limit(limit, || self.snapshot(self.model.state()));
@@ -20,12 +20,12 @@ impl Simulation {
         self.snapshots.limit()
     }
 
-    /// How many snapshots are kept, and the memory that they take [bytes].
+    /// The number of snapshots that are kept, and the memory that they take [bytes].
     pub fn snapshots_kept(&self) -> (usize, usize) {
         (self.snapshots.count(), self.snapshots.bytes())
     }
 
-    /// Goes back so many steps, bit for bit. Halves of steps count as steps, as they do in the history; cuts of the time grid
+    /// Takes the simulation back so many steps, bit for bit. Halves of steps count as steps, as they do in the history; cuts of the time grid
     /// stay.
     ///
     /// # Errors
@@ -38,7 +38,7 @@ impl Simulation {
         }
     }
 
-    /// Goes back to the end of the last step at or before a time, bit for bit; the present is such an end too.
+    /// Takes the simulation back to the end of the last step at or before a time, bit for bit; the present is such an end too.
     ///
     /// # Errors
     /// When the time is before the start or to come, or the state there is not kept.
@@ -70,12 +70,12 @@ impl Simulation {
         Some(self.snapshots.last_until(time, self.progress.counts.steps)?.steps())
     }
 
-    /// For checking scripts: goes back as [`back`](Self::back) does, or as near as a pretended run allows.
+    /// Goes back so many steps, for checking scripts: as [`back`](Self::back) does, or as near as a pretended run allows.
     pub fn pretend_back(&mut self, steps: usize) {
         self.pretend_back_to(self.progress.counts.steps.saturating_sub(steps));
     }
 
-    /// For checking scripts: goes back as [`rewind`](Self::rewind) does, or as near as a pretended run allows.
+    /// Goes back to a time, for checking scripts: as [`rewind`](Self::rewind) does, or as near as a pretended run allows.
     pub fn pretend_rewind(&mut self, time: f64) {
         self.pretend_back_to(self.steps_until(time + self.slack()).unwrap_or(0));
     }
@@ -108,7 +108,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Takes a state that it has been in, or a copy of it has; rows of the history that came later are gone.
+    /// Takes a state that the simulation has been in, or a copy of it has; rows of the history that came later are gone.
     pub(super) fn stand_at(&mut self, snapshot: &Snapshot) {
         self.model.restore(&snapshot.state);
         self.clock.grid.go_back(snapshot.passed);
@@ -140,7 +140,7 @@ impl Simulation {
         }
     }
 
-    /// Keeps the present state, if snapshots are kept.
+    /// Keeps the present state of the simulation, if snapshots are kept.
     pub(super) fn remember(&mut self) {
         let Some(blank) = self.snapshots.blank() else { return };
         self.clock.grid.reach(self.time());
@@ -148,7 +148,7 @@ impl Simulation {
         self.snapshots.push(snapshot);
     }
 
-    /// The present, written into a state that may have held another.
+    /// A snapshot of the present, written into a state that may have held another.
     pub(super) fn snapshot(&self, mut state: ModelState) -> Snapshot {
         self.model.write_state(&mut state);
         Snapshot {
@@ -164,7 +164,7 @@ impl Simulation {
         }
     }
 
-    /// A copy that has been through the same and goes its own way from here.
+    /// A copy of the simulation that has been through the same and goes its own way from here.
     ///
     /// # Errors
     /// When the scene cannot be built, which it could before.
@@ -174,7 +174,7 @@ impl Simulation {
         Ok(fork)
     }
 
-    /// The same, without states to go back to.
+    /// A copy of the simulation that has been through the same and goes its own way from here, without states to go back to.
     ///
     /// # Errors
     /// When the scene cannot be built, which it could before.

@@ -56,6 +56,9 @@ impl Simulation {
         if let Some((load, _)) = schedules.find(|(_, schedule)| !schedule.can_be_stored()) {
             return Err(ArchiveError::Function { load: load.to_owned() });
         }
+        if let Some(sensor) = self.scene.sensors.iter().find(|sensor| !sensor.can_be_stored()) {
+            return Err(ArchiveError::Sensor { column: sensor.name.clone() });
+        }
         let content = Content {
             name: name.into(),
             scene: Cow::Borrowed(&self.scene),

@@ -6,7 +6,7 @@ use crate::simulation::controller::Controller;
 use crate::simulation::{Recording, WorkCounts};
 
 impl Simulation {
-    /// What this simulation uses and what it leaves out: of its scene, then how it takes steps.
+    /// What this simulation uses and what it leaves out: first of its scene, then how it takes steps.
     pub fn explain(&self) -> Vec<Part> {
         let method = self.settings().method;
         let mut parts = self.model().explain(self.scene(), &[method]);

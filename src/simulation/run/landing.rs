@@ -18,12 +18,12 @@ const NEAR: f64 = 1e-10;
 /// How often a step is halved to see whether a slider at an end leaves it for a while.
 const PROBES: i32 = 12;
 
-/// Most arrivals within one step of the grid.
+/// The most arrivals of sliders within one step of the grid; more are an error.
 pub(super) const MOST_ARRIVALS: usize = 10_000;
 
-/// A step that was cut where a slider arrives.
+/// A step that was cut where a slider arrives at an end of its master.
 pub(super) struct Landing {
-    /// The step; none for a slider that is at the end already and led beyond it by every step.
+    /// The interval of the step and its work; none for a slider that is at the end already and led beyond it by every step.
     pub(super) step: Option<(Interval, NewtonReport)>,
     /// The end that is reached; none where the step ends just before, because longer ones lead by a jump beyond it.
     reached: Option<TrackLimit>,
@@ -184,7 +184,7 @@ impl Simulation {
         }
     }
 
-    /// Does what is to be done where a slider arrives.
+    /// Does what is to be done where a slider arrives: the run stops, or the slider bounces, rests or leaves.
     pub(super) fn arrive(&mut self, landing: &Landing) -> Result<(), SimulationError> {
         let Some(limit) = landing.reached else { return Ok(()) };
         let leads_beyond = self.model.leads_beyond(limit);
@@ -227,7 +227,7 @@ impl Simulation {
         self.progress.arrivals = arrivals;
     }
 
-    /// Sliders that reached the end of their masters so far.
+    /// The arrivals of sliders at the ends of their masters so far.
     pub fn arrivals(&self) -> &[Arrival] {
         &self.progress.arrivals
     }
@@ -237,17 +237,17 @@ impl Simulation {
         self.progress.stopped().is_some()
     }
 
-    /// Why the run has ended, if it has.
+    /// The arrival that has ended the run, in words, if one has.
     pub fn ending(&self) -> Option<String> {
         self.progress.stopped().map(|stopped| self.describe(stopped))
     }
 
-    /// An arrival in words.
+    /// An arrival of the simulation in words.
     pub(super) fn describe(&self, arrival: &Arrival) -> String {
         arrival.describe(&self.scene.sliders[arrival.limit.slider].name)
     }
 
-    /// What a slider does at present.
+    /// What a slider of the simulation does at present, by its index.
     pub fn slider_state(&self, slider: usize) -> SliderState {
         self.model.slider_state(slider)
     }

@@ -2,7 +2,7 @@
 
 use super::Simulation;
 use crate::beams::{SectionForces, Station};
-use crate::model::{ModelError, SectionSample};
+use crate::model::{BodyEnergy, Instant, ModelError, Probe, SectionSample};
 
 impl Simulation {
     /// Section forces and strains at a station, in the present configuration: see [`Model::section_forces`](crate::model::Model::section_forces).
@@ -20,5 +20,34 @@ impl Simulation {
     /// When an axis has a point without a tangent.
     pub fn section_forces_along(&self, beam: usize) -> Result<Vec<SectionSample>, ModelError> {
         self.model.section_forces_along(&self.scene, beam)
+    }
+
+    /// Accelerations and forces at the present moment: see [`Model::instant`](crate::model::Model::instant).
+    ///
+    /// # Errors
+    /// When a load has no value, or contact forces are not determined.
+    pub fn instant(&mut self) -> Result<Instant, ModelError> {
+        self.model.instant()
+    }
+
+    /// The energy of a body by kind: beams come first, then particles.
+    pub fn energy_of(&mut self, body: usize) -> BodyEnergy {
+        self.model.energy_of(body)
+    }
+
+    /// How many columns somebody outside is to fill in after every row, in the order in which they were described.
+    pub fn outside_columns(&self) -> usize {
+        let sensors = self.scene.sensors.iter();
+        sensors.filter(|sensor| sensor.probe == Probe::Outside).count()
+    }
+
+    /// Fills in the values of these columns in the last row of the history.
+    pub fn fill_in(&mut self, values: &[f64]) {
+        let first = self.record.history.extra_width() - self.scene.sensors.len();
+        let sensors = self.scene.sensors.iter().enumerate();
+        let outside = sensors.filter(|(_, sensor)| sensor.probe == Probe::Outside);
+        for ((column, _), value) in outside.zip(values) {
+            self.record.history.fill_in(first + column, *value);
+        }
     }
 }

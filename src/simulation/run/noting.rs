@@ -66,6 +66,7 @@ impl Simulation {
             if self.model.unknowns() > MOST_UNKNOWNS {
                 return None;
             }
+            // Where modes are refused the note tells no period: it is about the steps, and not about the modes.
             let drawn = Model::assemble(&self.scene).ok()?;
             MODES.iter().find_map(|count| {
                 let modes = match Modes::of(&drawn, *count, &mut || true) {

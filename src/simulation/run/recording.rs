@@ -4,12 +4,12 @@ use super::Simulation;
 use crate::simulation::Recording;
 
 impl Simulation {
-    /// Which states are recorded.
+    /// Which states of the simulation are recorded.
     pub fn recording(&self) -> Recording {
         self.record.recording
     }
 
-    /// Changes which states are recorded, from here on.
+    /// Changes which states of the simulation are recorded, from here on.
     pub fn record(&mut self, recording: Recording) {
         self.record.recording = recording;
     }
@@ -19,18 +19,18 @@ impl Simulation {
         self.record.history.samples().len() == self.progress.counts.steps + 1
     }
 
-    /// Whether the state that was just reached is to be recorded.
+    /// Whether the state of the simulation that was just reached is to be recorded.
     pub(super) fn is_worth_a_row(&self) -> bool {
         self.record.recording.is_due(self.progress.counts.steps)
             || self.has_reached(self.clock.goal)
     }
 
-    /// Gives the present a row that stays.
+    /// Gives the present state of the simulation a row of the history that stays.
     pub(super) fn keep_row(&mut self) {
         self.record.keep_row(&mut self.model, self.progress.last_step);
     }
 
-    /// Records the state that was just reached, if it is due, and remembers it, if states are kept.
+    /// Records the state of the simulation that was just reached, if it is due, and remembers it, if states are kept.
     pub(super) fn keep_present(&mut self) {
         if self.is_worth_a_row() {
             self.keep_row();
@@ -38,7 +38,7 @@ impl Simulation {
         self.remember();
     }
 
-    /// Gives the present a row until it is past, unless it has one.
+    /// Gives the present state of the simulation a row of the history until it is past, unless it has one.
     pub(super) fn show_present(&mut self) {
         self.record.show_present(&mut self.model, self.progress.last_step);
     }

@@ -5,7 +5,7 @@ use super::Simulation;
 use crate::simulation::{Monitor, SimulationError};
 
 impl Simulation {
-    /// Steps and times of the states that are kept without a gap up to the present, the present included.
+    /// Steps and times of the states that the simulation keeps without a gap up to the present, the present included.
     pub fn states_kept(&self) -> Vec<(usize, f64)> {
         let steps = self.progress.counts.steps;
         let from = self.snapshots.unbroken_from(steps).unwrap_or(steps);
@@ -27,7 +27,7 @@ impl Simulation {
         found.is_some()
     }
 
-    /// A copy at the present, without states of its own to go back to.
+    /// A copy of the simulation at the present, without states of its own to go back to.
     ///
     /// # Errors
     /// When the scene cannot be built, which it could before.
@@ -35,7 +35,7 @@ impl Simulation {
         self.fork_without_snapshots()
     }
 
-    /// A copy at the start of the run, to make it again.
+    /// A copy of the simulation at the start of the run, to make it again.
     ///
     /// # Errors
     /// When the scene cannot be built, which it could before.

@@ -7,7 +7,7 @@ use crate::model::TrackLimit;
 use crate::simulation::halving::Halving;
 use crate::simulation::{Monitor, SimulationError};
 
-/// How much of an interval was covered.
+/// How much of an interval steps have covered.
 #[derive(PartialEq, Eq)]
 pub(super) enum Covered {
     All,
@@ -15,7 +15,7 @@ pub(super) enum Covered {
 }
 
 impl Simulation {
-    /// Goes on to the end of a step, cutting the way where sliders arrive at ends of their masters.
+    /// Takes the simulation to the end of a step, cutting the way where sliders arrive at ends of their masters.
     pub(super) fn cover_with_arrivals(
         &mut self,
         mut halving: Halving,
@@ -33,7 +33,7 @@ impl Simulation {
         Err(self.rattles())
     }
 
-    /// The error of a slider that does not get away from an end.
+    /// The error of a slider that does not get away from an end of its master.
     pub(super) fn rattles(&self) -> SimulationError {
         let arrival = self.progress.arrivals.last().map_or_else(
             || format!("a slider is about to arrive after t = {}", self.time()),
@@ -95,7 +95,7 @@ impl Simulation {
         Ok(Covered::All)
     }
 
-    /// Asks whether the run goes on.
+    /// Asks the monitor whether the run goes on.
     pub(super) fn ask(&self, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
         let time = self.time();
         if monitor.goes_on(time) { Ok(()) } else { Err(SimulationError::Interrupted { time }) }

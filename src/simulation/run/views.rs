@@ -11,7 +11,7 @@ impl Simulation {
     /// The place of a station on its body.
     ///
     /// # Errors
-    /// When it lies outside its beam.
+    /// When the station lies outside its beam.
     pub fn place(&self, station: &Station) -> Result<Place, ModelError> {
         self.scene.place(station, self.model.meshes())
     }
@@ -28,7 +28,7 @@ impl Simulation {
         Modes::of(&self.model, count, goes_on)
     }
 
-    /// Where a place was, at all times of the trajectory.
+    /// The points where a place was, with the times, at all configurations of the trajectory.
     pub fn path(&self, place: &Place) -> Vec<(f64, Vec2)> {
         let counts: Vec<usize> = self.model.control_points().map(<[Vec2]>::len).collect();
         let offset = counts[..place.body].iter().sum::<usize>();
@@ -70,18 +70,18 @@ impl Simulation {
         Ok(Some(Outline::draw(self.outlines()?, self.record.trajectory.times()[index], &bodies)))
     }
 
-    /// Where stations are [length].
+    /// The points where stations are at present [length].
     ///
     /// # Errors
-    /// When one lies outside its beam.
+    /// When a station lies outside its beam.
     pub fn stations(&self, stations: &[Station]) -> Result<Vec<Vec2>, ModelError> {
         stations.iter().map(|at| Ok(self.model.position(&self.place(at)?))).collect()
     }
 
-    /// Where stations were in the configuration nearest to a time [length].
+    /// The points where stations were in the configuration nearest to a time [length].
     ///
     /// # Errors
-    /// When one lies outside its beam.
+    /// When a station lies outside its beam.
     pub fn stations_near(&self, stations: &[Station], time: f64) -> Result<Vec<Vec2>, ModelError> {
         let Some(index) = self.record.trajectory.nearest(time) else {
             return self.stations(stations);
@@ -92,18 +92,5 @@ impl Simulation {
             Ok(place.interpolate(&bodies[place.body]))
         };
         stations.iter().map(at).collect()
-    }
-
-    /// The control points of all bodies in a configuration of the trajectory.
-    fn control_points_at(&self, index: usize) -> Vec<Vec<Vec2>> {
-        let mut numbers = self.record.trajectory.configuration(index).chunks_exact(2);
-        let of_body = |body: &[Vec2]| {
-            numbers.by_ref().take(body.len()).map(|xy| Vec2::new(xy[0], xy[1])).collect()
-        };
-        self.model.control_points().map(of_body).collect()
-    }
-
-    fn outlines(&self) -> Result<&[Outline], ModelError> {
-        self.drawn.outlines(|| Outline::of_scene(&self.scene, self.model.meshes()))
     }
 }

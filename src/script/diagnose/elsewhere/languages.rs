@@ -1,8 +1,8 @@
 //! Names of Python, MATLAB, JavaScript and C.
 
-use super::{Elsewhere, entry};
+use super::entry::{Elsewhere, entry};
 
-/// Values, functions and methods.
+/// The words of other languages for values, functions and methods.
 pub const WORDS: &[Elsewhere] = &[
     entry(&["True", "TRUE"], "write true", &["conditions"]),
     entry(&["False", "FALSE"], "write false", &["conditions"]),

@@ -1,8 +1,8 @@
 //! Words of mechanics and of other programs for it.
 
-use super::{Elsewhere, entry};
+use super::entry::{Elsewhere, entry};
 
-/// Words of mechanics.
+/// The words of other programs for mechanics.
 pub const WORDS: &[Elsewhere] = &[
     entry(
         &[

@@ -2,10 +2,10 @@
 
 use rhai::ParseErrorType;
 
+use super::cure::{Cure, Habit};
 use super::spot::Spot;
-use super::{Cure, Habit};
 
-/// Conditions and loops.
+/// Habits of other languages in conditions and loops.
 pub const HABITS: &[Habit] =
     &[else_if, word_operator, counting_loop, colon, body, handler, case, end];
 

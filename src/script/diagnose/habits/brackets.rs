@@ -2,10 +2,10 @@
 
 use rhai::ParseErrorType;
 
+use super::cure::{Cure, Habit};
 use super::spot::Spot;
-use super::{Cure, Habit};
 
-/// Brackets.
+/// Habits of other languages with brackets.
 pub const HABITS: &[Habit] = &[map_without_sign, assigned_key, unclosed];
 
 /// `{ EA: 1e4 }`.

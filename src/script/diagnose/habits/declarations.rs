@@ -2,11 +2,11 @@
 
 use rhai::ParseErrorType;
 
+use super::cure::{Cure, Habit};
 use super::spot::Spot;
-use super::{Cure, Habit};
 use crate::script::words::suggest::nearest;
 
-/// Declarations.
+/// Habits of other languages in declarations.
 pub const HABITS: &[Habit] = &[
     function,
     function_body,

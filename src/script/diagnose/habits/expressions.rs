@@ -2,11 +2,11 @@
 
 use rhai::ParseErrorType;
 
+use super::cure::{Cure, Habit};
 use super::spot::Spot;
-use super::{Cure, Habit};
 use crate::script::rows::table::Form;
 
-/// Values.
+/// Habits of other languages in values.
 pub const HABITS: &[Habit] = &[
     choice,
     whole_division,

@@ -2,10 +2,10 @@
 
 use rhai::{LexError, ParseErrorType};
 
+use super::cure::{Cure, Habit};
 use super::spot::Spot;
-use super::{Cure, Habit};
 
-/// Signs and quotes.
+/// Habits of other languages with signs and quotes.
 pub const HABITS: &[Habit] = &[comment, sign, dotted_operator, quotes, formatted_text];
 
 /// `# …` and, where a statement begins, `% …`.

@@ -2,7 +2,7 @@
 
 use rhai::{ParseErrorType, Position, Token};
 
-use super::Cure;
+use super::cure::Cure;
 use crate::script::rows::catalog::Catalog;
 use crate::script::source::program::Program;
 
@@ -18,11 +18,11 @@ struct Word {
     is_joined: bool,
 }
 
-/// Words, and which of them the parser stopped at.
+/// The words around the place where the parser stopped, and which of them it stopped at.
 pub struct Spot<'s> {
     /// The names that the language has.
     pub catalog: &'s Catalog,
-    /// Why the parser gave up.
+    /// The parser's reason to give up.
     pub error: &'s ParseErrorType,
     words: Vec<Word>,
     here: usize,
@@ -70,47 +70,47 @@ impl<'s> Spot<'s> {
         Self { catalog, error, words, here, first, place, gap }
     }
 
-    /// The word so many places behind the one that the parser stopped at, or before it; empty where there is none.
+    /// The word that stands `from_here` places behind the one that the parser stopped at, or before it; empty where there is none.
     pub fn word(&self, from_here: isize) -> &str {
         self.find(from_here).map_or("", |word| word.text.as_str())
     }
 
-    /// The word so many places behind the one that the statement begins with.
+    /// The word that stands `index` places behind the one that the statement begins with.
     pub fn in_statement(&self, index: usize) -> &str {
         self.words.get(self.first + index).map_or("", |word| word.text.as_str())
     }
 
-    /// How many words of the statement stand before the place.
+    /// The number of words of the statement that stand before the place.
     pub fn count(&self) -> usize {
         self.here - self.first
     }
 
-    /// Whether this word follows the one before it without a blank.
+    /// Whether the word that stands `from_here` places behind the parser's follows the one before it without a blank.
     pub fn is_joined(&self, from_here: isize) -> bool {
         self.find(from_here).is_some_and(|word| word.is_joined)
     }
 
-    /// Whether this word is a name.
+    /// Whether the word that stands `from_here` places behind the parser's is a name.
     pub fn is_name(&self, from_here: isize) -> bool {
         matches!(self.find(from_here).map(|word| &word.token), Some(Token::Identifier(_)))
     }
 
-    /// Whether this word is a number.
+    /// Whether the word that stands `from_here` places behind the parser's is a number.
     pub fn is_number(&self, from_here: isize) -> bool {
         self.word(from_here).starts_with(|letter: char| letter.is_ascii_digit())
     }
 
-    /// Whether this word is a number, a text, or a name: the beginning of a value.
+    /// Whether the word that stands `from_here` places behind the parser's is a number, a text, or a name: the beginning of a value.
     pub fn is_value(&self, from_here: isize) -> bool {
         self.is_name(from_here) || self.is_number(from_here) || self.is_text(from_here)
     }
 
-    /// Whether this word is a text.
+    /// Whether the word that stands `from_here` places behind the parser's is a text.
     pub fn is_text(&self, from_here: isize) -> bool {
         self.word(from_here).starts_with(['"', '`', '\''])
     }
 
-    /// Where a word of the statement stands, up to two words behind the place, that is one of these.
+    /// The place and the text of the first word of the statement, up to two words behind the parser's place, that is one of these.
     pub fn find_word(&self, sought: &[&str]) -> Option<(isize, &str)> {
         let last = (self.here + 3).min(self.words.len());
         let mut words = self.words.get(self.first..last)?.iter().enumerate();
@@ -118,7 +118,7 @@ impl<'s> Spot<'s> {
         Some(((self.first + index) as isize - self.here as isize, word.text.as_str()))
     }
 
-    /// The words from one place to before another, as they are written.
+    /// The words of the statement from one place to before another, as they are written.
     pub fn piece(&self, from: isize, to: isize) -> String {
         let mut piece = String::new();
         for index in from..to {
@@ -139,7 +139,7 @@ impl<'s> Spot<'s> {
         self.first as isize - self.here as isize
     }
 
-    /// What the parser missed, and what it says about it.
+    /// What the parser missed at the place, and what it says about it.
     pub fn missing(&self) -> (&str, &str) {
         match self.error {
             ParseErrorType::MissingToken(token, why) => (token, why),
@@ -147,12 +147,12 @@ impl<'s> Spot<'s> {
         }
     }
 
-    /// Whether there is nothing where the parser stopped.
+    /// Whether there is no word where the parser stopped.
     pub fn is_at_end(&self) -> bool {
         self.here >= self.words.len()
     }
 
-    /// A cure at a word.
+    /// The cure at the word that stands `from_here` places behind the parser's.
     pub fn cure(
         &self,
         from_here: isize,

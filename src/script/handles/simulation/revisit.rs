@@ -9,7 +9,7 @@ use crate::script::state::context::Context;
 use crate::script::words::error::ScriptError;
 use crate::simulation::Simulation;
 
-/// As long as it lives, a copy stands in the place of a simulation; then all is as it was.
+/// Puts a copy in the place of a simulation, as long as it lives; then all is as it was.
 pub struct Revisit {
     handle: SimulationHandle,
     /// The copy when it is not in the place of the original.
@@ -19,7 +19,7 @@ pub struct Revisit {
 }
 
 impl Revisit {
-    /// Begins at the present.
+    /// Puts a copy at the present in the place of a simulation.
     ///
     /// # Errors
     /// When the scene cannot be built, which it could before.
@@ -28,7 +28,7 @@ impl Revisit {
         Ok(Self::with(handle, copy))
     }
 
-    /// Begins at the start of the run, to make it again.
+    /// Puts a copy at the start of the run in the place of a simulation, to make the run again.
     ///
     /// # Errors
     /// When the scene cannot be built, which it could before.
@@ -48,27 +48,27 @@ impl Revisit {
         }
     }
 
-    /// The simulation whose place is taken.
+    /// The simulation whose place the copy takes.
     pub fn original(&self) -> Ref<'_, Simulation> {
         self.original.borrow()
     }
 
-    /// How many steps led to where the copy stands, and its time.
+    /// The number of steps that led to where the copy stands, and its time.
     pub fn place(&self) -> (usize, f64) {
         (self.handle.simulation().counts().steps, self.handle.time())
     }
 
-    /// Goes back to a state that is kept; gives whether it is.
+    /// Takes the copy back to a state that is kept; gives whether it is.
     pub fn go_back_to(&self, steps: usize) -> bool {
         self.handle.0.simulation.borrow_mut().revisit(&self.original(), steps)
     }
 
-    /// Goes on to a row of the history; gives whether all is there as it was.
+    /// Takes the copy on to a row of the original's history; gives whether all is there as it was.
     ///
     /// # Errors
     /// When a step fails that did not, or the run is stopped.
     pub fn run_again(&self, row: usize, context: &Context) -> Result<bool, ScriptError> {
-        let mut watch = Watch { context, end: f64::INFINITY };
+        let mut watch = Watch::new(context, f64::INFINITY);
         let ran =
             self.handle.0.simulation.borrow_mut().run_again(&self.original(), row, &mut watch);
         ran.map_err(|error| explain(error, context))

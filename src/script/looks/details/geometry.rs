@@ -1,19 +1,19 @@
 //! Details of curves, knots, meshes and vectors.
 
-use super::{line, number, numbers, pair};
+use super::entries::{line, number, numbers, pair};
 use crate::beams::{Mesh, PointCounts};
 use crate::elementary::atan2;
 use crate::geometry::{Basis, Curve, KnotVector, Vec2};
 use crate::script::rows::kind::Details;
 
-/// Length and angle.
+/// The details of a vector: length and angle.
 pub fn of_vector(vector: &Vec2) -> Details {
     let angle = atan2(vector.y, vector.x);
     let angle = format!("{} rad = {}°", number(angle), number(angle.to_degrees()));
     vec![line("norm", number(vector.norm())), line("angle", angle)]
 }
 
-/// Where a curve begins and ends, and how it bends there.
+/// The details of a curve: where it begins and ends, and how it bends there.
 pub fn of_curve(curve: &Curve) -> Details {
     let (start, end) = curve.domain();
     let ends = |of: &dyn Fn(f64) -> Option<String>| Some(format!("{} … {}", of(start)?, of(end)?));
@@ -33,7 +33,7 @@ pub fn of_curve(curve: &Curve) -> Details {
     lines.into_iter().chain([points]).flatten().collect()
 }
 
-/// The functions that a knot vector has, and where they meet.
+/// The details of a knot vector: the functions that it has, and where they meet.
 pub fn of_knots(knots: &KnotVector) -> Details {
     let (start, end) = knots.domain();
     let inner = Basis::BSpline(knots.clone()).continuity();
@@ -48,7 +48,7 @@ pub fn of_knots(knots: &KnotVector) -> Details {
     ]
 }
 
-/// The functions of a mesh and its quadrature points.
+/// The details of a mesh: its functions and its quadrature points.
 pub fn of_mesh(mesh: &Mesh) -> Details {
     let PointCounts { force, moment, inertia } = mesh.point_counts();
     vec![

@@ -1,6 +1,6 @@
 //! Details of integrators, sliding rules, schedules and errors.
 
-use super::{line, number, numbers};
+use super::entries::{line, number, numbers};
 use crate::integrators::{EnergyClaim, Method};
 use crate::joints::SlidingRule;
 use crate::loads::{Schedule, Side};
@@ -8,7 +8,7 @@ use crate::script::rows::kind::Details;
 use crate::script::words::error::{Failure, Place};
 use crate::simulation::StepControl;
 
-/// Order, what is kept, the parameter, and the source.
+/// The details of an integrator: order, what it keeps, its parameter, and its source.
 pub fn of_integrator(method: &Method) -> Details {
     let entry = method.entry();
     let claims = entry.claims;
@@ -28,7 +28,7 @@ pub fn of_integrator(method: &Method) -> Details {
         .collect()
 }
 
-/// The tolerance and the bounds, given or not.
+/// The details of steps of varying size: tolerance and bounds, given or not.
 pub fn of_step_control(control: &StepControl) -> Details {
     let bound = |value: Option<f64>, otherwise: &str| value.map_or(otherwise.to_owned(), number);
     vec![
@@ -41,7 +41,7 @@ pub fn of_step_control(control: &StepControl) -> Details {
     ]
 }
 
-/// What is kept, and the source.
+/// The details of a law of sliding: what it keeps, and its source.
 pub fn of_rule(rule: &SlidingRule) -> Details {
     let entry = rule.entry();
     let kept = [
@@ -59,7 +59,7 @@ fn kept_of<const N: usize>(claims: [(bool, &str); N]) -> String {
     kept.join(", ")
 }
 
-/// Values and jumps; functions of scripts are not called for this.
+/// The details of a schedule: values and jumps; functions of scripts are not called for this.
 pub fn of_schedule(schedule: &Schedule) -> Details {
     let mut breaks = schedule.breaks();
     breaks.sort_by(f64::total_cmp);
@@ -76,7 +76,7 @@ pub fn of_schedule(schedule: &Schedule) -> Details {
     lines.into_iter().flatten().collect()
 }
 
-/// What to do about an error, and what it is about.
+/// The details of an error that a script has caught: what to do about it, and what it is about.
 pub fn of_failure(failure: &Failure) -> Details {
     let place = match &failure.place {
         Place::Call => None,

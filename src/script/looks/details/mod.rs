@@ -1,5 +1,6 @@
 //! What a person wants to know about a value at a glance, as labels and values.
 
+mod entries;
 mod geometry;
 mod methods;
 mod scenes;
@@ -9,51 +10,3 @@ pub use geometry::{of_curve, of_knots, of_mesh, of_vector};
 pub use methods::{of_failure, of_integrator, of_rule, of_schedule, of_step_control};
 pub use scenes::{of_beam, of_scene, of_section, of_slider, of_station};
 pub use simulations::{of_history, of_simulation};
-
-use crate::geometry::Vec2;
-use crate::output::significant;
-
-/// Digits of a number among the details.
-const DIGITS: usize = 6;
-
-/// A component that is less than this part of a vector is rounding.
-const ROUNDING: f64 = 1e-12;
-
-/// Most things of a kind that are listed by name.
-const LISTED: usize = 4;
-
-fn line(label: &str, value: impl Into<String>) -> (String, String) {
-    (label.to_owned(), value.into())
-}
-
-/// A number with a few digits.
-fn number(x: f64) -> String {
-    significant(x, DIGITS)
-}
-
-/// A point or vector with a few digits; a component that is rounding beside the other one is 0.
-fn pair(of: Vec2) -> String {
-    let [x, y] = [of.x, of.y].map(|x| if x.abs() < ROUNDING * of.norm() { 0.0 } else { x });
-    format!("({}, {})", number(x), number(y))
-}
-
-/// Things in a line, the last of many left out and counted.
-fn listed(things: impl ExactSizeIterator<Item = String>) -> String {
-    let count = things.len();
-    let shown: Vec<String> = things.take(LISTED).collect();
-    match count > LISTED {
-        true => format!("{}, … ({count})", shown.join(", ")),
-        false => shown.join(", "),
-    }
-}
-
-/// Numbers in a line, the middle of many left out and all counted.
-fn numbers(all: &[f64]) -> String {
-    let texts = |part: &[f64]| part.iter().copied().map(number).collect::<Vec<_>>().join(", ");
-    match all {
-        [first @ .., last] if all.len() > 2 * LISTED => {
-            format!("{}, …, {} ({})", texts(&first[..LISTED]), number(*last), all.len())
-        }
-        all => texts(all),
-    }
-}

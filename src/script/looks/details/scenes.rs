@@ -1,13 +1,13 @@
 //! Details of scenes and what stands in them.
 
-use super::{line, listed, number, pair};
+use super::entries::{line, listed, number, pair};
 use crate::beams::{BodyIndex, Section, Station};
 use crate::geometry::Vec2;
 use crate::joints::{EndAction, StartVelocities};
 use crate::model::{BeamDefinition, Scene};
 use crate::script::rows::kind::Details;
 
-/// What stands in a scene; nothing is said of what is not there.
+/// The details of a scene: what stands in it; nothing is said of what is not there.
 pub fn of_scene(scene: &Scene) -> Details {
     let beam = |beam: &BeamDefinition| format!("{} ({})", beam.name, number(beam.axis.length()));
     let loads: Vec<String> = scene.loads().map(|load| load.name.clone()).collect();
@@ -36,7 +36,7 @@ pub fn of_scene(scene: &Scene) -> Details {
     details
 }
 
-/// Where a beam lies, what it is made of, and how it is held.
+/// The details of a beam: where it lies, what it is made of, and how it is held.
 pub fn of_beam(scene: &Scene, index: usize) -> Details {
     let beam = &scene.beams[index];
     let BeamDefinition { axis, mesh, section, motion, .. } = beam;
@@ -59,7 +59,7 @@ pub fn of_beam(scene: &Scene, index: usize) -> Details {
     lines.into_iter().flatten().collect()
 }
 
-/// Where a station is as drawn.
+/// The details of a station: where it is as drawn.
 pub fn of_station(scene: &Scene, station: &Station) -> Details {
     let along = match station.body {
         BodyIndex::Beam(beam) => {
@@ -74,7 +74,7 @@ pub fn of_station(scene: &Scene, station: &Station) -> Details {
     along.into_iter().chain(at).collect()
 }
 
-/// Stiffness and inertia with their dimensions, and the speeds that follow: the longest time that a step may skip.
+/// The details of a section: stiffness and inertia with their dimensions, and the speeds that follow, with the longest time that a step may skip.
 pub fn of_section(section: &Section) -> Details {
     let properties = [
         ("EA [force]", section.axial_stiffness),
@@ -90,7 +90,7 @@ pub fn of_section(section: &Section) -> Details {
     properties.into_iter().map(|(label, value)| line(label, number(value))).chain(speeds).collect()
 }
 
-/// What slides on what, and how.
+/// The details of a slider: what slides on what, and how.
 pub fn of_slider(scene: &Scene, index: usize) -> Details {
     let slider = &scene.sliders[index];
     let master = &scene.beams[slider.master];

@@ -1,6 +1,6 @@
 //! Details of simulations and histories.
 
-use super::{line, listed, number, pair};
+use super::entries::{line, listed, number, pair};
 use crate::output::{scientific, significant};
 use crate::script::rows::kind::Details;
 use crate::simulation::{History, Invariant, Simulation, StepSize};
@@ -8,7 +8,7 @@ use crate::simulation::{History, Invariant, Simulation, StepSize};
 /// Most sliders that are told of one by one.
 const SLIDERS: usize = 2;
 
-/// Where a simulation is, the work so far, what is kept.
+/// The details of a simulation: where it is, the work so far, what is kept.
 pub fn of_simulation(simulation: &Simulation) -> Details {
     let (counts, settings) = (simulation.counts(), simulation.settings());
     let row = simulation.history().samples().last().map(|row| row.measures).unwrap_or_default();
@@ -72,7 +72,7 @@ fn sliders(simulation: &Simulation) -> Details {
     lines
 }
 
-/// The rows and the columns of a history, by their dimension.
+/// The details of a history: its rows and its columns, by their dimension.
 pub fn of_history(history: &History) -> Details {
     let samples = history.samples();
     let ends = samples.first().zip(samples.last()).map(|(a, b)| (a.measures, b.measures));

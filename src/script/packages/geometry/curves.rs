@@ -17,7 +17,7 @@ use crate::script::rows::table::{Table, function, method, operator, property};
 use crate::script::words::error::ScriptError;
 use crate::script::words::nouns::with_article;
 
-/// Curves of the plane.
+/// The domain of curves of the plane.
 pub const TABLE: Table = Table {
     name: "curves",
     doc: "Curves of the plane with a parameter ξ: from 0 to 1, or over the domain of the knots. A beam is drawn along a \

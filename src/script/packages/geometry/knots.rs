@@ -15,7 +15,7 @@ use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function, method, operator, property};
 use crate::script::words::error::{Place, ScriptError};
 
-/// Knots and basis functions.
+/// The domain of knots and basis functions.
 pub const TABLE: Table = Table {
     name: "knots",
     doc: "Knots say where the polynomial pieces of a spline meet, and how smoothly. They are open: the first and the \
@@ -171,7 +171,7 @@ fn b(call: &Call) -> Result<Rc<KnotVector>, ScriptError> {
     call.get("b")
 }
 
-/// Knots for the script.
+/// A knot vector as a value of a script.
 pub(super) fn shared(knots: KnotVector) -> Dynamic {
     Dynamic::from(Rc::new(knots))
 }

@@ -10,7 +10,7 @@ use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function};
 use crate::script::words::error::ScriptError;
 
-/// Numerical integration.
+/// The domain of numerical integration.
 pub const TABLE: Table = Table {
     name: "quadrature",
     doc: "Points and weights for numerical integration.",

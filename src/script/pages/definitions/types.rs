@@ -21,7 +21,7 @@ const COMMON: &[(&str, &str, &str)] = &[
     ("point", "vector | Array", "A vector or an array [x, y]."),
 ];
 
-/// The file that declares all types.
+/// The definition file that declares all types of a language.
 pub fn file(catalog: &Catalog) -> String {
     let mut text = String::from("module static;\n");
     for (words, meaning, doc) in COMMON {
@@ -33,12 +33,12 @@ pub fn file(catalog: &Catalog) -> String {
     text
 }
 
-/// A name of ours as one word.
+/// The name of a type of ours as one word.
 pub fn identifier(words: &str) -> String {
     words.replace(' ', "_")
 }
 
-/// The type for what a parameter may be.
+/// The type, in definition files, for what a parameter may be.
 pub fn for_kind(kind: &Kind) -> String {
     match kind {
         Kind::Number(_) | Kind::Numeric => "number".into(),
@@ -59,7 +59,7 @@ pub fn for_kind(kind: &Kind) -> String {
     }
 }
 
-/// The type for the word before the dot of a function of Rhai.
+/// The type, in definition files, for the word before the dot of a function of Rhai.
 pub fn for_receiver(word: &str) -> String {
     if word == "value" { "?".into() } else { identifier(word) }
 }

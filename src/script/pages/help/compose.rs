@@ -14,7 +14,7 @@ use crate::script::rows::table::{Constant, Row, Table};
 use crate::script::rows::topics::{TOPICS, Topic};
 use crate::script::words::numbers::format_number;
 
-/// The page on `name`; without a name, an overview.
+/// The page of help on `name`; without a name, an overview.
 ///
 /// # Errors
 /// Nothing has this name; the error says what may have been meant.

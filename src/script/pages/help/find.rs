@@ -10,28 +10,28 @@ use crate::script::rows::parameter::Parameter;
 use crate::script::rows::table::{Constant, Form, Row, Table};
 use crate::script::rows::topics::{TOPICS, Topic};
 
-/// One thing that a name stands for.
+/// A subject of help: one thing that a name stands for.
 #[derive(Clone, Copy)]
 pub enum Subject {
-    /// A part of the language.
+    /// The name stands for a part of the language.
     Topic(&'static Topic),
-    /// A function, method, property or operator, and the domain it belongs to.
+    /// The name stands for a function, method, property or operator, of this domain.
     Row(&'static Table, &'static Row),
-    /// A function of Rhai.
+    /// The name stands for a function of Rhai.
     BuiltIn(&'static BuiltIn),
-    /// A type of ours.
+    /// The name stands for a type of ours.
     Type(Type),
-    /// A name with a fixed value.
+    /// The name stands for a fixed value.
     Constant(&'static Constant),
-    /// A key of the options of this row.
+    /// The name stands for a key of the options of this row.
     Option(&'static Row, &'static Parameter),
-    /// A domain.
+    /// The name stands for a domain.
     Table(&'static Table),
-    /// Functions of Rhai about one kind of value.
+    /// The name stands for functions of Rhai about one kind of value.
     BuiltIns(&'static BuiltInTable),
-    /// A module of the standard library.
+    /// The name stands for a module of the standard library.
     Module(&'static ModulePage),
-    /// A function of such a module.
+    /// The name stands for a function of a module of the standard library.
     ModuleFunction(&'static ModuleFunction),
 }
 
@@ -54,7 +54,7 @@ pub fn find(catalog: &Catalog, name: &str) -> Vec<Subject> {
     if of_owner.is_empty() { members } else { of_owner }
 }
 
-/// All names that have help, for completion and suggestions.
+/// All names that have help, for completion and suggestions, in order.
 pub fn names(catalog: &Catalog) -> BTreeSet<&'static str> {
     let mut names = BTreeSet::new();
     for table in catalog.tables() {

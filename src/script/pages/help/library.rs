@@ -3,7 +3,7 @@
 use super::page::{Page, Span};
 use crate::script::library::{Block, ModuleFunction, ModulePage};
 
-/// Describes a module.
+/// Adds the description of a module of the standard library to a page.
 pub fn module(page: &mut Page, of: &ModulePage) {
     page.heading(format!("The library: {}", of.module.name));
     blocks(page, &of.about);
@@ -15,7 +15,7 @@ pub fn module(page: &mut Page, of: &ModulePage) {
     }
 }
 
-/// Describes a function of a module.
+/// Adds the description of a function of a module to a page.
 pub fn function(page: &mut Page, of: &ModuleFunction) {
     page.words(0, vec![Span::name(of.signature())]);
     blocks(page, &of.text);

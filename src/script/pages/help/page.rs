@@ -2,98 +2,98 @@
 
 use crate::output::{columns, columns_of};
 
-/// Columns of a terminal when nothing is known of it.
+/// The number of columns of a page when nothing is known of the terminal.
 pub const WIDTH: usize = 80;
 
 /// No page is drawn narrower, so that there is always room for a word.
 const NARROWEST: usize = 24;
 
-/// A page.
+/// A page of help.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Page {
-    /// From top to bottom.
+    /// The parts of the page, from top to bottom.
     pub parts: Vec<Part>,
 }
 
-/// A part of a page.
+/// A part of a page of help.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Part {
-    /// An empty line.
+    /// The part is an empty line.
     Gap,
-    /// Words that are wrapped: the first line begins at `indent`, the others at `hang`.
+    /// The part is words that are wrapped: the first line begins at `indent`, the others at `hang`.
     Words {
-        /// Blanks before the first line.
+        /// The number of blanks before the first line.
         indent: usize,
-        /// Blanks before further lines.
+        /// The number of blanks before further lines.
         hang: usize,
-        /// What it says.
+        /// The words of the part, in their styles.
         spans: Vec<Span>,
     },
-    /// A script; lines that are too long are broken where it does no harm.
+    /// The part is a script; lines that are too long are broken where it does no harm.
     Code(String),
 }
 
-/// Words of one style.
+/// Words of one style on a page of help.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Span {
-    /// How they are drawn.
+    /// The style of the words.
     pub style: Style,
-    /// What they say.
+    /// The text of the words.
     pub text: String,
 }
 
-/// How words are drawn.
+/// How words on a page of help are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
-    /// As any other words.
+    /// Words are drawn as any other.
     Plain,
-    /// A heading, or a name: bold.
+    /// Words are drawn as a heading, or a name: bold.
     Name,
-    /// A dimension or a remark: dim.
+    /// Words are drawn as a dimension or a remark: dim.
     Aside,
 }
 
 impl Span {
-    /// Words as any other.
+    /// Words that are drawn as any other.
     pub fn plain(text: impl Into<String>) -> Self {
         Self { style: Style::Plain, text: text.into() }
     }
 
-    /// A heading or a name.
+    /// Words that are drawn as a heading or a name.
     pub fn name(text: impl Into<String>) -> Self {
         Self { style: Style::Name, text: text.into() }
     }
 
-    /// A dimension or a remark.
+    /// Words that are drawn as a dimension or a remark.
     pub fn aside(text: impl Into<String>) -> Self {
         Self { style: Style::Aside, text: text.into() }
     }
 }
 
 impl Page {
-    /// Adds an empty line.
+    /// Adds an empty line to the page.
     pub fn gap(&mut self) {
         self.parts.push(Part::Gap);
     }
 
-    /// Adds a line that stands out.
+    /// Adds a line that stands out to the page.
     pub fn heading(&mut self, text: impl Into<String>) {
         self.words(0, vec![Span::name(text)]);
     }
 
-    /// Adds words that begin at a column; further lines begin a little to the right.
+    /// Adds words that begin at a column to the page; further lines begin a little to the right.
     pub fn words(&mut self, indent: usize, spans: Vec<Span>) {
         self.parts.push(Part::Words { indent, hang: indent + 4, spans });
     }
 
-    /// Adds a paragraph.
+    /// Adds a paragraph to the page.
     pub fn paragraph(&mut self, text: &str) {
         // Backquotes mark code in Markdown; on a terminal the words stand for themselves.
         let spans = vec![Span::plain(text.replace('`', ""))];
         self.parts.push(Part::Words { indent: 0, hang: 0, spans });
     }
 
-    /// Adds a script.
+    /// Adds a script to the page.
     pub fn code(&mut self, script: impl Into<String>) {
         self.parts.push(Part::Code(script.into()));
     }
@@ -103,7 +103,7 @@ impl Page {
         self.draw(width, |_, word| word.to_owned())
     }
 
-    /// The same with bold names and dim dimensions, for a terminal that understands ANSI codes.
+    /// The page as text with bold names and dim dimensions, for a terminal that understands ANSI codes, no line of which is wider than `width`.
     pub fn ansi(&self, width: usize) -> String {
         self.draw(width, |style, word| match style {
             Style::Plain => word.to_owned(),

@@ -7,7 +7,7 @@ use crate::script::rows::parameter::{Parameter, Presence};
 use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Row, Table};
 
-/// Describes a row of ours.
+/// Adds the description of a row of ours to a page.
 pub fn row(page: &mut Page, table: &Table, row: &Row) {
     page.words(0, signature(&row.signature(), &row.returns));
     page.paragraph(row.summary);
@@ -27,7 +27,7 @@ pub fn row(page: &mut Page, table: &Table, row: &Row) {
     see(page, row.see);
 }
 
-/// Describes a function of Rhai.
+/// Adds the description of a function of Rhai to a page.
 pub fn built_in(page: &mut Page, built_in: &BuiltIn) {
     for form in built_in.forms {
         page.words(0, signature(form, &built_in.returns));
@@ -41,7 +41,7 @@ pub fn built_in(page: &mut Page, built_in: &BuiltIn) {
     see(page, built_in.see);
 }
 
-/// A script to copy, after the lines that it needs before it.
+/// Adds a script to copy to a page, after the lines that it needs before it.
 pub fn example(page: &mut Page, setup: &str, script: &str) {
     page.gap();
     page.heading("Example");
@@ -51,7 +51,7 @@ pub fn example(page: &mut Page, setup: &str, script: &str) {
     page.code(script);
 }
 
-/// Where to read on.
+/// Adds the names under which to read on to a page.
 pub fn see(page: &mut Page, names: &[&str]) {
     if !names.is_empty() {
         page.gap();
@@ -59,7 +59,7 @@ pub fn see(page: &mut Page, names: &[&str]) {
     }
 }
 
-/// Describes a parameter or a key, and below it the keys of its map of options.
+/// Adds the description of a parameter or a key to a page, and below it the keys of its map of options.
 pub fn parameter(page: &mut Page, parameter: &Parameter, indent: usize) {
     let mut spans = vec![Span::name(parameter.name), Span::plain(": ")];
     spans.extend(expectation(parameter));

@@ -14,15 +14,15 @@ const MOST_MENTIONS: usize = 8;
 /// A name without help.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unknown {
-    /// The name.
+    /// The name that has no help.
     pub name: String,
-    /// The nearest name that has help.
+    /// The nearest name that has help, if one is near.
     pub meant: Option<&'static str>,
-    /// What is written here for a word of other programs.
+    /// What is written here for a word of other programs, if it is one.
     pub elsewhere: Option<&'static Elsewhere>,
-    /// Names of which the word is a part.
+    /// The names with help of which the word is a part.
     pub related: Vec<&'static str>,
-    /// Names whose help mentions the word.
+    /// The names whose help mentions the word.
     pub mentions: Vec<&'static str>,
 }
 
@@ -38,7 +38,7 @@ impl Unknown {
         Self { name: name.to_owned(), meant, elsewhere, related, mentions: mentions(catalog, name) }
     }
 
-    /// What to do about it.
+    /// What to do about a name without help, in words.
     pub fn hint(&self) -> String {
         let elsewhere = self.elsewhere.map(Elsewhere::told);
         let related = (elsewhere.is_none() && !self.related.is_empty())
@@ -55,7 +55,7 @@ impl Unknown {
         }
     }
 
-    /// Whether nothing is known that could have been meant.
+    /// Whether nothing is known that could have been meant by the name.
     pub fn is_strange(&self) -> bool {
         self.elsewhere.is_none()
             && self.related.is_empty()

@@ -3,7 +3,7 @@
 use crate::script::rows::built_in::{BuiltInTable, built_in};
 use crate::script::rows::returns::Returns;
 
-/// Methods of arrays that look at single elements or change the array.
+/// The table of Rhai's methods of arrays that look at single elements or change the array.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "arrays",
     doc: "An array [a, b, c] holds values of any kind. Indices count from 0, and -1 is the last. Methods that change an \

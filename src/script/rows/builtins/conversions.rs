@@ -3,7 +3,7 @@
 use crate::script::rows::built_in::{BuiltInTable, built_in};
 use crate::script::rows::returns::Returns;
 
-/// Conversions.
+/// The table of Rhai's conversions between kinds of value.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "conversions",
     doc: "Whole numbers become other numbers by themselves where they must; these functions are for the rest.",

@@ -3,7 +3,7 @@
 use crate::script::rows::built_in::{BuiltInTable, built_in};
 use crate::script::rows::returns::Returns;
 
-/// Functions and closures as values.
+/// The table of what Rhai has for functions and closures as values.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "functions",
     doc: "|x| 2 * x is a function without a name, and may be kept in a variable. Written where it stands, it sees the \

@@ -3,7 +3,7 @@
 use crate::script::rows::built_in::{BuiltInTable, built_in};
 use crate::script::rows::returns::{Returns, ValueKind};
 
-/// Methods of maps.
+/// The table of Rhai's methods of maps.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "maps",
     doc: "A map #{ key: value } holds values by name: map.key, or map[\"key\"]. To read a key that is not there is an error; \

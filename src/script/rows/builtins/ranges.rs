@@ -3,7 +3,7 @@
 use crate::script::rows::built_in::{BuiltInTable, built_in};
 use crate::script::rows::returns::Returns;
 
-/// Ranges of numbers.
+/// The table of what Rhai has for ranges of numbers.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "ranges",
     doc: "0..3 is 0, 1, 2; 0..=3 includes 3. Ranges have whole numbers; linspace(from, to, count) makes others.",

@@ -3,7 +3,7 @@
 use crate::script::rows::built_in::{BuiltInTable, built_in};
 use crate::script::rows::returns::Returns;
 
-/// Methods of arrays that leave the array as it is.
+/// The table of Rhai's methods of arrays that leave the array as it is.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "searches",
     doc: "Methods of arrays that take a function and leave the array as it is. The function may take the index as its second \

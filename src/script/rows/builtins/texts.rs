@@ -3,7 +3,7 @@
 use crate::script::rows::built_in::{BuiltInTable, built_in};
 use crate::script::rows::returns::{Returns, ValueKind};
 
-/// Methods of texts and characters.
+/// The table of Rhai's methods of texts and characters.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "texts",
     doc: "A text stands in double quotes, or between backquotes, where ${ } holds values. Characters, such as 'a', count from \

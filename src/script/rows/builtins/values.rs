@@ -3,7 +3,7 @@
 use crate::script::rows::built_in::{BuiltInTable, built_in};
 use crate::script::rows::returns::Returns;
 
-/// Functions for values of any kind, and the clock.
+/// The table of Rhai's functions for values of any kind, and the clock.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "values",
     doc: "Printing, questions about values and variables, and the clock.",

@@ -1,0 +1,76 @@
+//! What a viewer costs: time and size of the page for rods that turn, by beams and frames.
+//!
+//! `cargo bench --bench viewer`
+
+use std::time::Instant;
+
+use withy::beams::{Mesh, Section};
+use withy::geometry::{Curve, Vec2};
+use withy::integrators::Method;
+use withy::model::{BeamDefinition, Scene, StartMotion};
+use withy::newton::Tolerance;
+use withy::output::viewer::Viewer;
+use withy::script::looks::film::{Wishes, film};
+use withy::simulation::{Settings, Simulation, Unwatched};
+
+/// Beams and frames.
+const SIZES: [(usize, usize); 4] = [(1, 200), (1, 1000), (10, 1000), (50, 1000)];
+
+/// Flexible rods, each of eight cubic spans, that turn each at its own rate, after so many steps.
+fn turning(beams: usize, steps: usize) -> Simulation {
+    let mut scene = Scene::new("rods");
+    let section = Section {
+        axial_stiffness: 1e4,
+        shear_stiffness: 1e4,
+        bending_stiffness: 100.0,
+        mass_per_length: 1.0,
+        rotary_inertia: 10.0,
+    };
+    for row in 0..beams {
+        let from = Vec2::new(0.0, row as f64);
+        let beam = BeamDefinition {
+            name: format!("rod {row}"),
+            axis: Curve::line(from, from + Vec2::new(10.0, 0.0)).expect("a line"),
+            mesh: Mesh::bspline(8, 3, 2).expect("a mesh"),
+            section,
+            motion: StartMotion { spin: 0.1 * (row + 1) as f64, ..StartMotion::default() },
+        };
+        scene.add_beam(beam).expect("a beam");
+    }
+    let settings = Settings {
+        method: Method::EnergyMomentum,
+        dt: 0.01.into(),
+        tolerance: Tolerance::default(),
+    };
+    let mut simulation = Simulation::start(scene, settings).expect("a scene");
+    let end = 0.01 * (steps - 1) as f64;
+    simulation.run_to(end, &mut Unwatched).expect("steps");
+    simulation
+}
+
+fn main() {
+    println!("| beams | frames | page | film | page made |\n| --- | --- | --- | --- | --- |");
+    let columns = ["kinetic", "strain", "potential", "energy", "work"].map(str::to_owned);
+    for (beams, frames) in SIZES {
+        let simulation = turning(beams, frames);
+        let wishes = Wishes {
+            span: (0.0, f64::INFINITY),
+            frames,
+            label: "rods".into(),
+            trails: None,
+            columns: &columns,
+            fields: &["speed", "stretch", "curvature"],
+        };
+        let begun = Instant::now();
+        let films = vec![film(&simulation, &wishes).expect("a film")];
+        let filmed = begun.elapsed();
+        let page = Viewer { title: "rods".into(), films }.to_html().expect("a page");
+        let made = begun.elapsed() - filmed;
+        println!(
+            "| {beams} | {frames} | {} kB | {:.3} s | {:.3} s |",
+            page.len() / 1000,
+            filmed.as_secs_f64(),
+            made.as_secs_f64()
+        );
+    }
+}

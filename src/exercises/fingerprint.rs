@@ -1,0 +1,111 @@
+//! Whether the mark of an attempt still holds: a fingerprint of all that the mark depends on.
+
+use super::attempt;
+use super::exercise::Exercise;
+use super::submissions::Submission;
+use crate::analysis::Journal;
+use crate::folders::Folder;
+use crate::script::source::text::Source;
+
+/// The fingerprint of a student's attempt at an exercise, as a word, made of all that its mark depends on: its text, the files that it may
+/// read, the exercise, the limits, and this program.
+pub fn fingerprint(submission: &Submission, exercise: &Exercise, limits: &[String]) -> String {
+    let file = submission.attempt(exercise);
+    let attempt = match file.as_deref().map(|path| attempt::load(path, &submission.folder)) {
+        None => "missing".to_owned(),
+        Some(Err(why)) => format!("unreadable: {}", why.message),
+        Some(Ok(attempt)) => format!("text: {}", &*attempt.text),
+    };
+    let mut beside = Vec::new();
+    if reads_files(&attempt.as_str().into())
+        && let Ok(folder) = Folder::open(&submission.folder)
+    {
+        note_files(&folder, &mut beside, &mut 0);
+    }
+    let limits = limits.join(" ");
+    let parts = [&attempt, exercise.start, exercise.judge, &limits].map(str::as_bytes);
+    format!("{:016x}", Journal::fingerprint(&[&parts[..], &[&beside]].concat()))
+}
+
+/// Whether an attempt may read other files.
+fn reads_files(attempt: &Source) -> bool {
+    let reads = |name: &str| matches!(name, "load_simulation" | "Fn") || name.starts_with("study_");
+    attempt.imports().next().is_some() || attempt.names().any(reads)
+}
+
+/// Most files that are looked at, and the most that is read of each [bytes]: of others the length and the time count.
+const MOST_FILES: usize = 1000;
+const MOST_READ: u64 = 1 << 20;
+
+/// Notes what lies in a folder and in those below it, by name and content. No link is followed: a script does not get there either.
+fn note_files(folder: &Folder, noted: &mut Vec<u8>, count: &mut usize) {
+    for entry in folder.entries().unwrap_or_default() {
+        *count += 1;
+        if *count > MOST_FILES {
+            return;
+        }
+        let name = entry.name.as_encoded_bytes();
+        noted.extend_from_slice(format!("\n{} {}: ", name.len(), entry.length).as_bytes());
+        noted.extend_from_slice(name);
+        if entry.is_folder {
+            if let Ok(below) = folder.below(&entry.name) {
+                note_files(&below, noted, count);
+            }
+        } else if let Ok(content) = folder.read(entry.name.as_ref(), MOST_READ) {
+            noted.extend_from_slice(&content);
+        } else {
+            noted.extend_from_slice(format!("{:?}", entry.changed).as_bytes());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::super::catalogue::find;
+    use super::*;
+
+    #[test]
+    fn a_mark_holds_as_long_as_all_that_it_depends_on() {
+        let home = tempfile::tempdir().unwrap();
+        let put = |name: &str, text: &str| fs::write(home.path().join(name), text).unwrap();
+        let submission = Submission { student: "ada".into(), folder: home.path().into() };
+        let (kink, knots) = (find("kink").unwrap(), find("knot_vector").unwrap());
+        let of = |exercise| fingerprint(&submission, exercise, &["--max-time".into(), "1".into()]);
+        let missing = of(kink);
+        assert_ne!(missing, of(knots));
+        put("kink.rhai", "let a = 1;");
+        let first = of(kink);
+        put("helper.rhai", "fn f() { 1 }");
+        assert!(first == of(kink) && first != missing, "it reads no other file");
+        assert_ne!(first, fingerprint(&submission, kink, &[]));
+        put("kink.rhai", "import \"helper\" as h;");
+        let second = of(kink);
+        put("helper.rhai", "fn f() { 2 }");
+        assert!(second != of(kink) && second != first);
+    }
+
+    #[test]
+    fn files_below_count_and_a_link_does_not_lead_elsewhere() {
+        let (home, other) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        let submission = Submission { student: "ada".into(), folder: home.path().into() };
+        let kink = find("kink").unwrap();
+        let of = || fingerprint(&submission, kink, &[]);
+        fs::write(home.path().join("kink.rhai"), "import \"parts/helper\" as h;").unwrap();
+        fs::create_dir(home.path().join("parts")).unwrap();
+        let first = of();
+        fs::write(home.path().join("parts/helper.rhai"), "fn f() { 1 }").unwrap();
+        let second = of();
+        assert_ne!(first, second, "a file below");
+        fs::write(other.path().join("far.rhai"), "fn f() { 1 }").unwrap();
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(other.path(), home.path().join("link")).unwrap();
+            let third = of();
+            assert_ne!(second, third, "the link itself");
+            fs::write(other.path().join("far.rhai"), "fn f() { 22 }").unwrap();
+            assert_eq!(third, of(), "what the link leads to");
+        }
+    }
+}

@@ -1,0 +1,301 @@
+//! What springs measure: the length of a way over several places, or the angle between two sections.
+//!
+//! ```text
+//! way:    Δℓ = e·Δd, e = (d₀ + d₁)/(ℓ₀ + ℓ₁), part by part        angle:  Δθ = r (Δω_b - Δω_a)
+//! ```
+//!
+//! `e` and `r` are secants: a force along them does exactly the work `F Δℓ`, `M Δθ`, and is opposite at both ends. Differences of
+//! places are advanced by increments, so that they do not depend on how far from the origin everything has moved.
+
+use super::{Iterate, collocation};
+use crate::beams::{Place, RotationIncrement};
+use crate::elementary::atan;
+use crate::geometry::Vec2;
+use crate::model::bodies::Body;
+
+/// Rotation increments of two sections that differ by less are taken as one, to second order [rad].
+const SAME_TURN: f64 = 1e-5;
+
+/// Where an elongation is taken: a place of a body, or the ground.
+#[derive(Debug, Clone)]
+pub enum Terminal {
+    /// A place that moves.
+    Moving(Place),
+    /// A place that does not.
+    Ground,
+}
+
+/// Which movements of a place count.
+#[derive(Debug, Clone)]
+enum Measure {
+    /// Those of the place: the differences `d₀` from each terminal to the next [length].
+    Way(Vec<Vec2>),
+    /// The rotation of its section: the angle `q₀` [rad].
+    Angle(f64),
+}
+
+/// A length or an angle between terminals at the start of a step, and how it changes in an iterate.
+///
+/// Its coordinates are the movements of the terminals that count, one terminal after another: x and y of each for a way, the
+/// rotation of each for an angle.
+#[derive(Debug, Clone)]
+pub struct Elongation {
+    measure: Measure,
+    terminals: Vec<Terminal>,
+    /// The movements in the iterate, a number for each coordinate.
+    moved: Vec<f64>,
+    /// `Δq` [length, rad].
+    pub change: f64,
+    /// The secant `g` with `Σ g u = Δq`; at the end of a step the derivative there [-].
+    pub secant: Vec<f64>,
+    /// `∂Δq/∂u` [-].
+    pub slope: Vec<f64>,
+    /// `∂g/∂u`, row by row [1/length, 1/rad].
+    pub bend: Vec<f64>,
+}
+
+impl Elongation {
+    /// The length of a way over terminals, which are at these places at the start.
+    pub fn way(terminals: Vec<Terminal>, at: &[Vec2]) -> Self {
+        let parts = at.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        Self::new(Measure::Way(parts), terminals, 2)
+    }
+
+    /// The angle from the first terminal to the second one, which is this one at the start [rad].
+    pub fn angle(terminals: [Terminal; 2], angle: f64) -> Self {
+        Self::new(Measure::Angle(angle), terminals.into(), 1)
+    }
+
+    fn new(measure: Measure, terminals: Vec<Terminal>, components: usize) -> Self {
+        let coordinates = components * terminals.len();
+        Self {
+            measure,
+            terminals,
+            moved: vec![0.0; coordinates],
+            change: 0.0,
+            secant: vec![0.0; coordinates],
+            slope: vec![0.0; coordinates],
+            bend: vec![0.0; coordinates * coordinates],
+        }
+    }
+
+    /// Whether it is the angle between two sections.
+    pub fn is_angle(&self) -> bool {
+        matches!(self.measure, Measure::Angle(_))
+    }
+
+    /// `q` at the start of the step [length, rad].
+    pub fn value(&self) -> f64 {
+        match &self.measure {
+            Measure::Way(parts) => parts.iter().map(Vec2::norm).sum(),
+            Measure::Angle(angle) => *angle,
+        }
+    }
+
+    /// Where each coordinate stands: the place, and the component of its movement.
+    pub fn coordinates(&self) -> impl Iterator<Item = Option<(&Place, usize)>> {
+        let components = match self.measure {
+            Measure::Way(_) => 0..2,
+            Measure::Angle(_) => 2..3,
+        };
+        self.terminals.iter().flat_map(move |terminal| {
+            components.clone().map(move |component| match terminal {
+                Terminal::Moving(place) => Some((place, component)),
+                Terminal::Ground => None,
+            })
+        })
+    }
+
+    /// Takes the movements of an iterate, and finds change, secant and slope.
+    pub fn take(&mut self, at: Iterate<'_>) {
+        self.gather(|place| at.bodies[place.body].at(place, at.increments));
+        let collocation = collocation(at.stage);
+        self.compare(collocation.rotations);
+    }
+
+    /// The product of a slope and a correction of the increments: a change of `q`, to first order [length, rad].
+    pub fn along(&self, slope: &[f64], bodies: &[Body], correction: &[f64]) -> f64 {
+        let coordinates = self.coordinates().zip(slope);
+        coordinates
+            .filter_map(|(coordinate, slope)| {
+                let (place, component) = coordinate?;
+                Some(slope * bodies[place.body].at(place, correction)[component])
+            })
+            .sum()
+    }
+
+    fn gather(&mut self, of_place: impl Fn(&Place) -> [f64; 3]) {
+        let (first, count) = match self.measure {
+            Measure::Way(_) => (0, 2),
+            Measure::Angle(_) => (2, 1),
+        };
+        for (moved, terminal) in self.moved.chunks_exact_mut(count).zip(&self.terminals) {
+            match terminal {
+                Terminal::Moving(place) => {
+                    moved.copy_from_slice(&of_place(place)[first..first + count]);
+                }
+                Terminal::Ground => moved.fill(0.0),
+            }
+        }
+    }
+
+    fn compare(&mut self, rotations: RotationIncrement) {
+        let Self { measure, moved, change, secant, slope, bend, .. } = self;
+        match measure {
+            Measure::Way(parts) => {
+                let width = moved.len();
+                *change = 0.0;
+                [&mut *secant, slope, bend].into_iter().for_each(|all| all.fill(0.0));
+                for (part, start) in parts.iter().enumerate() {
+                    let ends = [2 * part, 2 * part + 2];
+                    let [from, to] = ends.map(|at| Vec2::new(moved[at], moved[at + 1]));
+                    let part = Part::new(*start, to - from, rotations);
+                    *change += part.change;
+                    for (row, sign) in ends.into_iter().zip([-1.0, 1.0]) {
+                        for component in 0..2 {
+                            secant[row + component] += sign * part.secant[component];
+                            slope[row + component] += sign * part.slope[component];
+                            for (column, other) in ends.into_iter().zip([-1.0, 1.0]) {
+                                let at = (row + component) * width + column;
+                                for by in 0..2 {
+                                    bend[at + by] += sign * other * part.bend(component, by);
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+            Measure::Angle(_) => {
+                let [a, b] = [moved[0], moved[1]];
+                let turn = RelativeTurn::new(a, b, rotations);
+                *change = turn.ratio * (b - a);
+                secant.copy_from_slice(&[-turn.ratio, turn.ratio]);
+                slope.copy_from_slice(&[-rotations.rate(a), rotations.rate(b)]);
+                let [by_a, by_b] = turn.derivatives;
+                bend.copy_from_slice(&[-by_a, -by_b, by_a, by_b]);
+            }
+        }
+    }
+
+    /// Accepts the movements that the bodies gathered last.
+    pub fn advance(&mut self, bodies: &[Body], rotations: RotationIncrement) {
+        self.gather(|place| {
+            let mut sum = [0.0; 3];
+            for (point, share) in place.weights() {
+                let moved = bodies[place.body].moved()[point];
+                sum.iter_mut().zip(moved).for_each(|(sum, moved)| *sum += share * moved);
+            }
+            sum
+        });
+        match &mut self.measure {
+            Measure::Way(parts) => {
+                for (part, ends) in parts.iter_mut().zip(self.moved.windows(4).step_by(2)) {
+                    *part += Vec2::new(ends[2] - ends[0], ends[3] - ends[1]);
+                }
+            }
+            Measure::Angle(angle) => {
+                let [a, b] = [self.moved[0], self.moved[1]];
+                *angle += RelativeTurn::new(a, b, rotations).ratio * (b - a);
+            }
+        }
+    }
+
+    /// For each part of a way its derivative at rest and the length of the part: the rows of what its force turns.
+    pub fn turned(&self) -> Vec<(f64, Vec<f64>)> {
+        let Measure::Way(parts) = &self.measure else { return Vec::new() };
+        let of_part = |(index, part): (usize, &Vec2)| {
+            let length = part.norm();
+            let normal = Vec2::new(-part.y, part.x) / length;
+            let mut row = vec![0.0; self.moved.len()];
+            row[2 * index..2 * index + 4]
+                .copy_from_slice(&[-normal.x, -normal.y, normal.x, normal.y]);
+            (length, row)
+        };
+        parts.iter().enumerate().filter(|(_, part)| part.norm() > 0.0).map(of_part).collect()
+    }
+
+    /// Takes everything as it is at the start of the step.
+    pub fn rest(&mut self) {
+        self.moved.fill(0.0);
+        self.compare(RotationIncrement::Angle);
+    }
+
+    pub fn save(&self, state: &mut Vec<f64>) {
+        match &self.measure {
+            Measure::Way(parts) => state.extend(parts.iter().flat_map(|part| [part.x, part.y])),
+            Measure::Angle(angle) => state.push(*angle),
+        }
+    }
+
+    pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        match &mut self.measure {
+            Measure::Way(parts) => {
+                parts.iter_mut().for_each(|part| *part = Vec2::new(next(), next()));
+            }
+            Measure::Angle(angle) => *angle = next(),
+        }
+    }
+}
+
+/// A part of a way in an iterate.
+struct Part {
+    change: f64,
+    secant: Vec2,
+    slope: Vec2,
+    /// `∂e/∂d₁ = (I - e⊗s) by this` [1/length].
+    inverse: f64,
+}
+
+impl Part {
+    fn new(start: Vec2, moved: Vec2, rotations: RotationIncrement) -> Self {
+        let end = start + moved;
+        let (before, after) = (start.norm(), end.norm());
+        let direction =
+            |d: Vec2, length: f64| if length > 0.0 { d / length } else { Vec2::zeros() };
+        let both = before + after;
+        let mean = direction(start + end, both);
+        let slope = direction(end, after);
+        // Increments of angles are taken where forces are taken at the end.
+        let (secant, inverse) = match rotations {
+            RotationIncrement::TangentScaled => (mean, both),
+            RotationIncrement::Angle => (slope, after),
+        };
+        let inverse = if inverse > 0.0 { 1.0 / inverse } else { 0.0 };
+        Self { change: mean.dot(&moved), secant, slope, inverse }
+    }
+
+    fn bend(&self, component: usize, by: usize) -> f64 {
+        let one = if component == by { 1.0 } else { 0.0 };
+        (one - self.secant[component] * self.slope[by]) * self.inverse
+    }
+}
+
+/// `r = (Δθ_b - Δθ_a)/(Δω_b - Δω_a)` with its derivatives by `Δω_a` and `Δω_b`.
+struct RelativeTurn {
+    ratio: f64,
+    derivatives: [f64; 2],
+}
+
+impl RelativeTurn {
+    fn new(a: f64, b: f64, rotations: RotationIncrement) -> Self {
+        if rotations == RotationIncrement::Angle {
+            return Self { ratio: 1.0, derivatives: [0.0; 2] };
+        }
+        let (difference, mean) = (b - a, 0.5 * (a + b));
+        if difference.abs() < SAME_TURN {
+            // The mean of dθ/dω between both, by its value in their middle.
+            let (rate, slope) = rotations.rates(mean);
+            return Self { ratio: rate, derivatives: [0.5 * slope; 2] };
+        }
+        // 2 atan x - 2 atan y = 2 atan((x - y)/(1 + x y)), but for the other side of the circle.
+        let product = 1.0 + 0.25 * a * b;
+        let turned = match product > 0.0 {
+            true => 2.0 * atan(0.5 * difference / product),
+            false => rotations.angle(b) - rotations.angle(a),
+        };
+        let ratio = turned / difference;
+        let by_a = (ratio - rotations.rate(a)) / difference;
+        let by_b = (rotations.rate(b) - ratio) / difference;
+        Self { ratio, derivatives: [by_a, by_b] }
+    }
+}

@@ -1,0 +1,77 @@
+//! What an element that resists movements offers to the steps of a model: a spring, a damper.
+
+use super::{Exchange, Iterate};
+use crate::beams::{ForceSummary, SpanAtRest};
+use crate::integrators::Interval;
+use crate::linalg::BandedMatrix;
+use crate::model::bodies::Body;
+
+/// An element that resists movements of bodies, with an energy that it stores or with what it dissipates.
+///
+/// Its force is an unknown of its own, as the section forces of beams are: where forces are taken it is used as it is, a linearisation
+/// is condensed by what it would be, and it is corrected with the movements. However stiff the element is, its force then does not
+/// carry the rounding of the configuration, and as many iterations do. It is called by dynamic dispatch, once an element and iterate.
+pub trait Resistance {
+    /// What it is called in messages and columns.
+    fn name(&self) -> &str;
+
+    /// Prepares a step: forces start from those of the last one.
+    fn begin_step(&mut self, interval: Interval);
+
+    /// Prepares a movement that takes no time, in which nothing is damped.
+    fn begin_movement(&mut self);
+
+    /// Adds `at.weight` times its forces on bodies, as they are; the largest of them, and how far they are from those of the configuration.
+    fn add_forces(&mut self, at: Iterate<'_>, out: &mut [f64]) -> ForceSummary;
+
+    /// Adds `at.weight` times its condensed forces, and their derivative by the increments; there are so many unknowns.
+    fn add_linearised_forces(
+        &mut self,
+        at: Iterate<'_>,
+        out: &mut [f64],
+        unknowns: usize,
+        tangent: &mut BandedMatrix,
+    );
+
+    /// Adds `weight` times the forces that would close the mismatch met by the last forces, in the directions of the last linearisation.
+    fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]);
+
+    /// Carries a correction of the increments over to its force.
+    fn correct(&mut self, bodies: &[Body], correction: &[f64]);
+
+    /// What the ground gave to it in the step of the movements that the bodies gathered last.
+    fn exchange(&self, bodies: &[Body], duration: f64) -> Exchange;
+
+    /// Accepts the movements that the bodies gathered last.
+    fn advance(&mut self, bodies: &[Body]);
+
+    /// The energy that is stored in it at the start of the step [energy].
+    fn stored(&self) -> f64;
+
+    /// What it has dissipated since the start of the simulation [energy].
+    fn dissipated(&self) -> f64;
+
+    /// The force in it, or the moment, mean of the last step [force, force·length].
+    fn force(&self) -> f64;
+
+    /// What it measures at the start of the step: a length [length] or an angle [rad].
+    fn elongation(&self) -> f64;
+
+    /// The force in it, or the moment, at the start of the step with such rates of the unknowns [force, force·length].
+    fn force_now(&self, bodies: &[Body], rates: &[f64]) -> f64;
+
+    /// Adds a force in it to those on bodies, at the start of the step.
+    fn add_force(&self, bodies: &[Body], force: f64, out: &mut [f64]);
+
+    /// Gives how it resists small movements at rest: degrees of freedom, and its rows.
+    fn at_rest(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanAtRest));
+
+    /// Appends the state at the start of a step.
+    fn save(&self, state: &mut Vec<f64>);
+
+    /// Takes the state back, in the order in which it was appended.
+    fn restore(&mut self, next: &mut dyn FnMut() -> f64);
+
+    /// How a step uses it, in words.
+    fn explain(&self) -> String;
+}

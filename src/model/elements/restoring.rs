@@ -1,0 +1,163 @@
+//! Laws of restoring forces: a force over an elongation, with the energy that it stores.
+
+use serde::{Deserialize, Serialize};
+
+/// A restoring force over an elongation `q`, a length or an angle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum RestoringLaw {
+    /// `k (q - q₀)`
+    Linear {
+        /// `k` [force/length, or force·length/rad].
+        stiffness: f64,
+        /// `q₀`, where it is at ease [length, rad].
+        natural: f64,
+    },
+    /// A polygon through points, and beyond the first and the last one as in the segment beside them.
+    Table {
+        /// Elongations `q` [length, rad], rising, each with the force there [force, force·length]; at least two.
+        points: Vec<(f64, f64)>,
+    },
+}
+
+/// The mean force of a step: the discrete gradient of the stored energy (Gonzalez 1996), with its derivative.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeanForce {
+    /// `G = ΔU/Δq`, or `U'` where nothing changes [force, force·length].
+    pub force: f64,
+    /// `∂G/∂q₁` [force/length, force·length/rad].
+    pub slope: f64,
+}
+
+impl RestoringLaw {
+    /// The force `U'(q)` [force, force·length].
+    pub fn force(&self, q: f64) -> f64 {
+        match self {
+            Self::Linear { stiffness, natural } => stiffness * (q - natural),
+            Self::Table { points } => {
+                let [(q0, f0), _] = segment(points, q);
+                f0 + self.slope(q) * (q - q0)
+            }
+        }
+    }
+
+    /// The stiffness `U''(q)`; at a corner of a table that of the segment beyond it [force/length, force·length/rad].
+    pub fn slope(&self, q: f64) -> f64 {
+        match self {
+            Self::Linear { stiffness, .. } => *stiffness,
+            Self::Table { points } => {
+                let [(q0, f0), (q1, f1)] = segment(points, q);
+                (f1 - f0) / (q1 - q0)
+            }
+        }
+    }
+
+    /// The stored energy `U(q)`: of a linear law zero at ease, of a table zero at its first point [energy].
+    pub fn energy(&self, q: f64) -> f64 {
+        match self {
+            Self::Linear { stiffness, natural } => 0.5 * stiffness * (q - natural) * (q - natural),
+            Self::Table { points } => self.work(points, points[0].0, q),
+        }
+    }
+
+    /// The work `∫ F dq` from one elongation of a table to another, corner by corner: no difference of large numbers.
+    fn work(&self, points: &[(f64, f64)], from: f64, to: f64) -> f64 {
+        let (low, high) = (from.min(to), from.max(to));
+        let corners = points.iter().map(|(q, _)| *q).filter(|q| low < *q && *q < high);
+        let (mut at, mut force, mut sum) = (low, self.force(low), 0.0);
+        for next in corners.chain([high]) {
+            let next_force = self.force(next);
+            sum += 0.5 * (force + next_force) * (next - at);
+            (at, force) = (next, next_force);
+        }
+        if from <= to { sum } else { -sum }
+    }
+
+    /// The mean force between two elongations, the second of which is the first and a change.
+    pub fn mean(&self, q: f64, change: f64) -> MeanForce {
+        let end = q + change;
+        match self {
+            Self::Linear { stiffness, natural } => MeanForce {
+                force: stiffness * ((q - natural) + 0.5 * change),
+                slope: 0.5 * stiffness,
+            },
+            Self::Table { points } if segment(points, q) != segment(points, end) && q != end => {
+                let force = self.work(points, q, end) / (end - q);
+                MeanForce { force, slope: (self.force(end) - force) / (end - q) }
+            }
+            Self::Table { .. } => {
+                let slope = self.slope(end);
+                MeanForce { force: self.force(q) + 0.5 * slope * change, slope: 0.5 * slope }
+            }
+        }
+    }
+
+    /// The same law with its elongations counted from another origin, which is this far below.
+    pub fn shifted(&self, by: f64) -> Self {
+        match self {
+            Self::Linear { stiffness, natural } => {
+                Self::Linear { stiffness: *stiffness, natural: natural + by }
+            }
+            Self::Table { points } => {
+                Self::Table { points: points.iter().map(|(q, force)| (q + by, *force)).collect() }
+            }
+        }
+    }
+
+    /// The law in words.
+    pub fn describe(&self) -> String {
+        match self {
+            Self::Linear { stiffness, natural } => {
+                format!("stiffness {stiffness}, at ease at {natural}")
+            }
+            Self::Table { points } => format!("a table of {} points", points.len()),
+        }
+    }
+}
+
+/// The ends of the segment of a table that an elongation lies on, or is nearest to; at a corner the one beyond it.
+fn segment(points: &[(f64, f64)], q: f64) -> [(f64, f64); 2] {
+    let beyond = points.partition_point(|(at, _)| *at <= q).clamp(1, points.len() - 1);
+    [points[beyond - 1], points[beyond]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn laws() -> [RestoringLaw; 2] {
+        let points = vec![(-1.0, -3.0), (0.0, 0.0), (0.5, 0.0), (2.0, 6.0)];
+        [RestoringLaw::Linear { stiffness: 40.0, natural: 0.3 }, RestoringLaw::Table { points }]
+    }
+
+    #[test]
+    fn the_mean_force_does_the_work_by_which_the_energy_changes() {
+        for law in laws() {
+            for (q, change) in [(-2.0, 5.0), (0.1, 0.2), (0.4, 0.3), (1.9, -2.5), (0.5, 1e-9)] {
+                let mean = law.mean(q, change);
+                let (work, gained) = (mean.force * change, law.energy(q + change) - law.energy(q));
+                assert!((work - gained).abs() < 1e-13 * (1.0 + law.energy(q)), "{law:?} {q}");
+            }
+        }
+    }
+
+    #[test]
+    fn forces_are_slopes_of_the_energy_and_slopes_those_of_the_mean_force() {
+        for law in laws() {
+            for (q, change) in [(-1.7, 0.4), (0.2, 0.5), (1.0, -0.8), (0.1, 1e-3)] {
+                let h = 1e-6;
+                let by_energy = (law.energy(q + h) - law.energy(q - h)) / (2.0 * h);
+                assert!((by_energy - law.force(q)).abs() < 1e-7);
+                let [more, less] = [change + h, change - h].map(|change| law.mean(q, change).force);
+                let slope = law.mean(q, change).slope;
+                assert!(((more - less) / (2.0 * h) - slope).abs() < 1e-6, "{law:?} {q} {change}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_table_goes_on_beyond_its_ends() {
+        let [_, table] = laws();
+        assert_eq!([table.force(-2.0), table.force(3.0), table.force(0.25)], [-6.0, 10.0, 0.0]);
+        assert_eq!([table.slope(-2.0), table.slope(3.0), table.slope(0.25)], [3.0, 4.0, 0.0]);
+    }
+}

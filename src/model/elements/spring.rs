@@ -1,0 +1,185 @@
+//! Springs, dampers and tendons as a scene describes them.
+
+use serde::{Deserialize, Serialize};
+
+use super::element::{Assembled, Description, Setting, Site};
+use super::elongation::{Elongation, Terminal};
+use super::restoring::RestoringLaw;
+use super::spring_damper::SpringDamper;
+use crate::beams::Station;
+use crate::geometry::Vec2;
+use crate::model::{ModelError, Turning};
+
+/// Where a spring is attached.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Anchor {
+    /// A station of a beam, or a particle.
+    Station(Station),
+    /// A point of the ground [length].
+    Ground(Vec2),
+}
+
+/// What a spring measures.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum SpringKind {
+    /// The length of the way over these places: two of a spring or a damper, more of a tendon, which slides over those between without friction.
+    Way(Vec<Anchor>),
+    /// The angle of the section of the second place less that of the first one; the ground does not turn.
+    Torsion([Anchor; 2]),
+}
+
+/// What the elongations of a law are counted from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Origin {
+    /// Nothing: they are lengths and angles.
+    Zero,
+    /// The length or the angle in the scene as it is built on its meshes: at zero it is as at the start.
+    AsBuilt,
+}
+
+/// A spring, a damper, or both: a force along what it measures.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Spring {
+    /// What it is called in messages and columns.
+    pub name: String,
+    /// What it measures.
+    pub kind: SpringKind,
+    /// The force over what it measures; none of a damper alone.
+    pub law: Option<RestoringLaw>,
+    /// What the elongations of the law are counted from.
+    pub origin: Origin,
+    /// The damping constant `c` of `c q̇` [force·time/length; of torsion force·length·time/rad].
+    pub damping: f64,
+}
+
+impl Spring {
+    /// The places where it is attached, in their order.
+    pub fn anchors(&self) -> &[Anchor] {
+        match &self.kind {
+            SpringKind::Way(anchors) => anchors,
+            SpringKind::Torsion(anchors) => anchors,
+        }
+    }
+
+    fn stations(&self) -> impl Iterator<Item = &Station> {
+        self.anchors().iter().filter_map(|anchor| match anchor {
+            Anchor::Station(station) => Some(station),
+            Anchor::Ground(_) => None,
+        })
+    }
+}
+
+impl Description for Spring {
+    fn check(&self, setting: &dyn Setting) -> Result<(), ModelError> {
+        let refused = |name, value, allowed| {
+            Err(ModelError::Value { object: self.object(), name, value, allowed })
+        };
+        for station in self.stations() {
+            setting.check_station("a spring", station)?;
+            if matches!(self.kind, SpringKind::Torsion(_)) && station.beam().is_none() {
+                let by = Turning::TorsionSpring;
+                return Err(ModelError::ParticleTurned { object: self.object(), by });
+            }
+        }
+        for anchor in self.anchors() {
+            if let Anchor::Ground(at) = anchor
+                && let Some(wrong) = at.iter().find(|value| !value.is_finite())
+            {
+                return refused("place on the ground", *wrong, "a finite number [length]");
+            }
+        }
+        if !(self.damping.is_finite() && self.damping >= 0.0) {
+            return refused("damping", self.damping, "zero or a positive finite number");
+        }
+        match &self.law {
+            Some(RestoringLaw::Linear { stiffness, natural }) => {
+                if !(stiffness.is_finite() && *stiffness > 0.0) {
+                    return refused("stiffness", *stiffness, "a positive finite number");
+                }
+                let is_angle = matches!(self.kind, SpringKind::Torsion(_));
+                let is_length = !is_angle && self.origin == Origin::Zero;
+                if !(natural.is_finite() && (*natural >= 0.0 || !is_length)) {
+                    let allowed = "zero or a positive finite number [length]";
+                    return refused("length", *natural, allowed);
+                }
+            }
+            Some(RestoringLaw::Table { points }) => {
+                if let Some(wrong) =
+                    points.iter().flat_map(|(q, f)| [q, f]).find(|x| !x.is_finite())
+                {
+                    return refused("table", *wrong, "finite numbers");
+                }
+                if points.len() < 2 {
+                    return refused("table", points.len() as f64, "at least two points");
+                }
+                if let Some(pair) = points.windows(2).find(|pair| pair[1].0 <= pair[0].0) {
+                    return refused(
+                        "table",
+                        pair[1].0,
+                        "elongations that rise from point to point",
+                    );
+                }
+            }
+            None if self.damping == 0.0 => {
+                return refused("damping", 0.0, "a positive number where there is no stiffness");
+            }
+            None => (),
+        }
+        Ok(())
+    }
+
+    fn coupled(&self) -> Vec<Station> {
+        self.stations().copied().collect()
+    }
+
+    fn build(&self, site: &dyn Site) -> Result<Assembled, ModelError> {
+        let (mut terminals, mut at, mut grounds) = (Vec::new(), Vec::new(), Vec::new());
+        let mut angles = Vec::new();
+        for anchor in self.anchors() {
+            match anchor {
+                Anchor::Station(station) => {
+                    let place = site.place(station)?;
+                    at.push(place.interpolate(site.body(place.body).control_points()));
+                    angles.push(place.tangent_angle);
+                    terminals.push(Terminal::Moving(place));
+                    grounds.push(None);
+                }
+                Anchor::Ground(point) => {
+                    at.push(*point);
+                    angles.push(0.0);
+                    terminals.push(Terminal::Ground);
+                    grounds.push(Some(*point));
+                }
+            }
+        }
+        let elongation = match (&self.kind, terminals.as_slice()) {
+            (SpringKind::Torsion(_), [from, to]) => {
+                Elongation::angle([from.clone(), to.clone()], angles[1] - angles[0])
+            }
+            _ => Elongation::way(terminals, &at),
+        };
+        let origin = match self.origin {
+            Origin::Zero => 0.0,
+            Origin::AsBuilt => elongation.value(),
+        };
+        Ok(Assembled::Resistance(Box::new(SpringDamper::new(
+            self.name.clone(),
+            elongation,
+            grounds,
+            self.law.as_ref().map(|law| law.shifted(origin)),
+            self.damping,
+        ))))
+    }
+}
+
+impl Spring {
+    /// What it is, and its name.
+    pub fn object(&self) -> String {
+        match (&self.kind, &self.law) {
+            (_, None) => format!("damper '{}'", self.name),
+            (SpringKind::Torsion(_), _) => format!("torsion spring '{}'", self.name),
+            (SpringKind::Way(anchors), _) if anchors.len() > 2 => format!("tendon '{}'", self.name),
+            _ => format!("spring '{}'", self.name),
+        }
+    }
+}

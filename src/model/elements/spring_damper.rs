@@ -1,0 +1,406 @@
+//! Springs and dampers in a step: forces along an elongation, as unknowns of their own.
+//!
+//! ```text
+//! energy–momentum      F = ΔU/Δq + c Δq/Δt  along the secant: F Δq = ΔU + D, opposite at both ends
+//! forces at the ends   U'(q₀) and U'(q₁), and the damper c q̇ once a step where the method balances it
+//! ```
+
+use super::elongation::Elongation;
+use super::resistance::Resistance;
+use super::restoring::RestoringLaw;
+use super::{Exchange, Iterate, collocation};
+use crate::beams::{ForceSummary, RotationIncrement, SpanAtRest};
+use crate::geometry::{Vec2, cross, larger};
+use crate::integrators::{Interval, Stage};
+use crate::linalg::BandedMatrix;
+use crate::model::bodies::Body;
+
+/// A force that is an unknown of its own.
+#[derive(Debug, Clone, Copy, Default)]
+struct HiddenForce {
+    /// Of the iterate.
+    force: f64,
+    /// Of the last step.
+    last: f64,
+    /// What the configuration asks for, less the force.
+    mismatch: f64,
+    /// The derivative by `Δq` of what the configuration asks for.
+    stiffness: f64,
+}
+
+/// What a configuration asks of a force: the force, and its derivative by `Δq`.
+#[derive(Debug, Clone, Copy, Default)]
+struct Target {
+    force: f64,
+    stiffness: f64,
+}
+
+impl HiddenForce {
+    /// Compares it with a configuration; how far it is off, as a part of such a length or angle.
+    fn compare(&mut self, target: Target, extent: f64) -> f64 {
+        self.mismatch = target.force - self.force;
+        let size =
+            larger(target.stiffness.abs() * extent, larger(target.force.abs(), self.force.abs()));
+        if self.mismatch == 0.0 { 0.0 } else { self.mismatch.abs() / size }
+    }
+
+    fn linearise(&mut self, target: Target) {
+        self.mismatch = target.force - self.force;
+        self.stiffness = target.stiffness;
+    }
+
+    fn correct(&mut self, change: f64) {
+        self.force += self.mismatch + self.stiffness * change;
+    }
+}
+
+/// A spring, a damper, or both beside each other.
+#[derive(Debug, Clone)]
+pub struct SpringDamper {
+    name: String,
+    elongation: Elongation,
+    /// Secant and slope of the last linearisation, whose directions corrections take.
+    linearised: (Vec<f64>, Vec<f64>),
+    /// Where each terminal that is the ground is [length].
+    grounds: Vec<Option<Vec2>>,
+    law: Option<RestoringLaw>,
+    /// `c` [force·time/length, force·length·time/rad].
+    damping: f64,
+    spring: HiddenForce,
+    damper: HiddenForce,
+    /// `Δt`; infinite in movements that take no time [time].
+    duration: f64,
+    /// `Δt` and `Δq/Δt` of the last step.
+    last: (f64, f64),
+    rotations: RotationIncrement,
+    /// The coordinates of its forces on bodies that the method took from the start of the step, and from the iterate.
+    carried: Vec<f64>,
+    current: Vec<f64>,
+    dissipated: f64,
+}
+
+impl SpringDamper {
+    /// A spring with a law, a damper with a constant, or both, along an elongation.
+    pub fn new(
+        name: String,
+        elongation: Elongation,
+        grounds: Vec<Option<Vec2>>,
+        law: Option<RestoringLaw>,
+        damping: f64,
+    ) -> Self {
+        let coordinates = elongation.secant.len();
+        let mut new = Self {
+            name,
+            elongation,
+            linearised: (vec![0.0; coordinates], vec![0.0; coordinates]),
+            grounds,
+            law,
+            damping,
+            spring: HiddenForce::default(),
+            damper: HiddenForce::default(),
+            duration: f64::INFINITY,
+            last: (0.0, 0.0),
+            rotations: RotationIncrement::TangentScaled,
+            carried: vec![0.0; coordinates],
+            current: vec![0.0; coordinates],
+            dissipated: 0.0,
+        };
+        new.spring.last = new.restoring_at_start();
+        new
+    }
+
+    fn restoring_at_start(&self) -> f64 {
+        self.law.as_ref().map_or(0.0, |law| law.force(self.elongation.value()))
+    }
+
+    /// What the configuration of an iterate asks of the spring.
+    fn restoring(&self, stage: Stage) -> Target {
+        let Some(law) = &self.law else { return Target::default() };
+        let (q, change) = (self.elongation.value(), self.elongation.change);
+        match stage {
+            Stage::Start => Target { force: law.force(q), stiffness: 0.0 },
+            Stage::End => Target { force: law.force(q + change), stiffness: law.slope(q + change) },
+            Stage::Midpoint => {
+                let mean = law.mean(q, change);
+                Target { force: mean.force, stiffness: mean.slope }
+            }
+            Stage::DampedMidpoint(chi) => {
+                let mean = law.mean(q, change);
+                // A law that falls would gain what one that rises loses.
+                let late = match law {
+                    RestoringLaw::Linear { stiffness, .. } => 0.5 * chi * stiffness.max(0.0),
+                    RestoringLaw::Table { .. } => 0.0,
+                };
+                Target { force: mean.force + late * change, stiffness: mean.slope + late }
+            }
+        }
+    }
+
+    /// What the configuration asks of the damper, for the whole step.
+    ///
+    /// A method that takes forces at both ends balances those of one time of the step, `at.weight` of it after the start: the rate there
+    /// follows from those in the middles of this step and of the last one.
+    fn damping(&self, at: Iterate<'_>) -> Target {
+        let by_change = self.damping / self.duration;
+        let force = by_change * self.elongation.change;
+        match at.stage {
+            Stage::Start => Target::default(),
+            Stage::Midpoint | Stage::DampedMidpoint(_) => Target { force, stiffness: by_change },
+            Stage::End if self.duration.is_infinite() => Target::default(),
+            Stage::End => {
+                let (before, rate) = self.last;
+                let late = 2.0 * (at.weight - 0.5) * self.duration / (self.duration + before);
+                Target {
+                    force: force + late * (force - self.damping * rate),
+                    stiffness: (1.0 + late) * by_change,
+                }
+            }
+        }
+    }
+
+    /// The largest length or angle that rounding of the elongation is relative to.
+    fn extent(&self) -> f64 {
+        let after = (self.elongation.value() + self.elongation.change).abs();
+        if self.elongation.is_angle() { larger(1.0, after) } else { after }
+    }
+
+    /// The damper counts once a step, the spring as the method weighs it.
+    fn weighted(&self, at: Iterate<'_>, spring: f64, damper: f64) -> f64 {
+        match at.stage {
+            Stage::Start => at.weight * spring,
+            _ => at.weight * spring + damper,
+        }
+    }
+
+    /// Adds a force along a secant.
+    fn scatter(&self, bodies: &[Body], secant: &[f64], force: f64, out: &mut [f64]) {
+        for (coordinate, direction) in self.elongation.coordinates().zip(secant) {
+            let Some((place, component)) = coordinate else { continue };
+            for (point, share) in place.weights() {
+                out[bodies[place.body].degrees_of_freedom[point][component]] +=
+                    share * direction * force;
+            }
+        }
+    }
+
+    fn note(&mut self, stage: Stage, force: f64) {
+        let Self { elongation, carried, current, .. } = self;
+        let noted = if stage == Stage::Start { carried } else { current };
+        noted.iter_mut().zip(&elongation.secant).for_each(|(noted, g)| *noted = g * force);
+    }
+
+    fn summary(&self, mismatch: f64) -> ForceSummary {
+        let force = self.spring.force.abs() + self.damper.force.abs();
+        let (force, moment) = if self.elongation.is_angle() { (0.0, force) } else { (force, 0.0) };
+        ForceSummary { strain_mismatch: mismatch, force, moment, rotation: 0.0 }
+    }
+}
+
+impl Resistance for SpringDamper {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn begin_step(&mut self, interval: Interval) {
+        self.duration = interval.duration();
+        self.spring.force = self.spring.last;
+        self.damper.force = self.damper.last;
+        self.carried.fill(0.0);
+        self.current.fill(0.0);
+    }
+
+    fn begin_movement(&mut self) {
+        self.duration = f64::INFINITY;
+        self.spring.force = self.spring.last;
+        self.damper.force = 0.0;
+    }
+
+    fn add_forces(&mut self, at: Iterate<'_>, out: &mut [f64]) -> ForceSummary {
+        self.elongation.take(at);
+        self.rotations = collocation(at.stage).rotations;
+        if at.stage == Stage::Start {
+            let force = at.weight * self.restoring(at.stage).force;
+            self.note(at.stage, force);
+            self.scatter(at.bodies, &self.elongation.secant, force, out);
+            return self.summary(0.0);
+        }
+        let extent = self.extent();
+        let (restoring, damping) = (self.restoring(at.stage), self.damping(at));
+        let mismatch =
+            larger(self.spring.compare(restoring, extent), self.damper.compare(damping, extent));
+        let force = self.weighted(at, self.spring.force, self.damper.force);
+        self.note(at.stage, force);
+        self.scatter(at.bodies, &self.elongation.secant, force, out);
+        self.summary(mismatch)
+    }
+
+    fn add_linearised_forces(
+        &mut self,
+        at: Iterate<'_>,
+        out: &mut [f64],
+        unknowns: usize,
+        tangent: &mut BandedMatrix,
+    ) {
+        self.elongation.take(at);
+        let (restoring, damping) = (self.restoring(at.stage), self.damping(at));
+        self.spring.linearise(restoring);
+        self.damper.linearise(damping);
+        let Self { elongation, linearised: (secant, slope), .. } = self;
+        secant.copy_from_slice(&elongation.secant);
+        slope.copy_from_slice(&elongation.slope);
+        let force = self.weighted(at, restoring.force, damping.force);
+        self.scatter(at.bodies, &self.elongation.secant, force, out);
+        // The geometric terms with the force of the iterate.
+        let stiffness = self.weighted(at, restoring.stiffness, damping.stiffness);
+        let force = self.weighted(at, self.spring.force, self.damper.force);
+        let Elongation { secant, slope, bend, .. } = &self.elongation;
+        let width = secant.len();
+        for (row, to) in self.elongation.coordinates().enumerate() {
+            let Some((to, component)) = to else { continue };
+            for (column, from) in self.elongation.coordinates().enumerate() {
+                let Some((from, by)) = from else { continue };
+                let value =
+                    stiffness * secant[row] * slope[column] + force * bend[row * width + column];
+                for (a, share_a) in to.weights() {
+                    let row = at.bodies[to.body].degrees_of_freedom[a][component];
+                    for (b, share_b) in from.weights() {
+                        let column = at.bodies[from.body].degrees_of_freedom[b][by];
+                        if row < unknowns && column < unknowns {
+                            tangent.add(row, column, share_a * share_b * value);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]) {
+        let force = weight * self.spring.mismatch + self.damper.mismatch;
+        self.scatter(bodies, &self.linearised.0, force, out);
+    }
+
+    fn correct(&mut self, bodies: &[Body], correction: &[f64]) {
+        let change = self.elongation.along(&self.linearised.1, bodies, correction);
+        self.spring.correct(change);
+        self.damper.correct(change);
+    }
+
+    /// The ground does not move, so that it does no work.
+    fn exchange(&self, _bodies: &[Body], duration: f64) -> Exchange {
+        let given = |at: usize| (self.carried[at] + self.current[at]) * duration;
+        let mut sum = Exchange::default();
+        for (terminal, ground) in self.grounds.iter().enumerate() {
+            let Some(ground) = ground else { continue };
+            sum += match self.elongation.is_angle() {
+                true => Exchange::of(0.0, Vec2::zeros(), given(terminal)),
+                false => {
+                    let impulse = Vec2::new(given(2 * terminal), given(2 * terminal + 1));
+                    Exchange::of(0.0, impulse, cross(*ground, impulse))
+                }
+            };
+        }
+        sum
+    }
+
+    fn advance(&mut self, bodies: &[Body]) {
+        self.dissipated += self.damper.force * self.elongation.change;
+        self.last = match self.duration.is_finite() {
+            true => (self.duration, self.elongation.change / self.duration),
+            false => (0.0, 0.0),
+        };
+        self.elongation.advance(bodies, self.rotations);
+        self.spring.last = self.spring.force;
+        self.damper.last = self.damper.force;
+    }
+
+    fn stored(&self) -> f64 {
+        self.law.as_ref().map_or(0.0, |law| law.energy(self.elongation.value()))
+    }
+
+    fn dissipated(&self) -> f64 {
+        self.dissipated
+    }
+
+    fn force(&self) -> f64 {
+        self.spring.last + self.damper.last
+    }
+
+    fn elongation(&self) -> f64 {
+        self.elongation.value()
+    }
+
+    fn force_now(&self, bodies: &[Body], rates: &[f64]) -> f64 {
+        let mut elongation = self.elongation.clone();
+        elongation.rest();
+        let rate = elongation.along(&elongation.slope, bodies, rates);
+        self.restoring_at_start() + self.damping * rate
+    }
+
+    fn add_force(&self, bodies: &[Body], force: f64, out: &mut [f64]) {
+        let mut elongation = self.elongation.clone();
+        elongation.rest();
+        self.scatter(bodies, &elongation.slope, force, out);
+    }
+
+    fn at_rest(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanAtRest)) {
+        let Some(law) = &self.law else { return };
+        let mut elongation = self.elongation.clone();
+        elongation.rest();
+        let (value, mut degrees) = (elongation.value(), Vec::new());
+        let by_degree = |row: &[f64]| {
+            let mut found = Vec::new();
+            for (coordinate, by) in elongation.coordinates().zip(row) {
+                let Some((place, component)) = coordinate else { continue };
+                let body = &bodies[place.body].degrees_of_freedom;
+                found.extend(place.weights().map(|(at, share)| (body[at][component], share * by)));
+            }
+            found
+        };
+        degrees.extend(by_degree(&elongation.slope).into_iter().map(|(degree, _)| degree));
+        degrees.sort_unstable();
+        degrees.dedup();
+        let dense = |row: &[f64]| {
+            let mut dense = vec![0.0; degrees.len()];
+            for (degree, value) in by_degree(row) {
+                if let Ok(at) = degrees.binary_search(&degree) {
+                    dense[at] += value;
+                }
+            }
+            dense
+        };
+        let mut rows = SpanAtRest::default();
+        let stiffness = law.slope(value);
+        if stiffness != 0.0 {
+            rows.strains.extend(dense(&elongation.slope));
+            rows.stiffness.push(stiffness);
+        }
+        let force = law.force(value);
+        for (length, row) in elongation.turned() {
+            let normal = dense(&row);
+            rows.twists.extend(normal.iter().map(|n| 0.5 * force / length * n));
+            rows.twists.extend(normal);
+            rows.doubts.push(0.0);
+        }
+        take(&degrees, &rows);
+    }
+
+    fn save(&self, state: &mut Vec<f64>) {
+        self.elongation.save(state);
+        state.extend([self.spring.last, self.damper.last, self.last.0, self.last.1]);
+        state.push(self.dissipated);
+    }
+
+    fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.elongation.restore(next);
+        (self.spring.last, self.damper.last) = (next(), next());
+        self.last = (next(), next());
+        self.dissipated = next();
+    }
+
+    fn explain(&self) -> String {
+        let law = self.law.as_ref().map(RestoringLaw::describe);
+        let damper = (self.damping > 0.0).then(|| format!("damping {}", self.damping));
+        let parts: Vec<String> = law.into_iter().chain(damper).collect();
+        format!("{}; its force is an unknown of its own, outside the matrix", parts.join(", "))
+    }
+}

@@ -1,0 +1,29 @@
+//! Looking at springs and dampers: what they measure, their forces, and their part of the ledger.
+
+use crate::model::Model;
+use crate::model::elements::Resistance;
+
+/// What a spring or a damper is in, in the present state.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpringState {
+    /// What it measures: the length of its way [length], or of a torsion spring the angle [rad].
+    pub elongation: f64,
+    /// Its force, positive where it pulls, or its moment; the mean of the last step [force, force·length].
+    pub force: f64,
+    /// The energy that it stores [energy].
+    pub stored: f64,
+    /// What it has dissipated since the start [energy].
+    pub dissipated: f64,
+}
+
+impl Model {
+    /// The states of all springs and dampers, in the order of the scene.
+    pub fn springs(&self) -> impl Iterator<Item = SpringState> {
+        self.elements().resistances().map(|spring: &dyn Resistance| SpringState {
+            elongation: spring.elongation(),
+            force: spring.force(),
+            stored: spring.stored(),
+            dissipated: spring.dissipated(),
+        })
+    }
+}

@@ -1,0 +1,42 @@
+//! The energy of a single body.
+
+use super::Model;
+
+/// The energy of a body with what stands on it, by kind [energy].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BodyEnergy {
+    /// That of its motion, and of point masses on it.
+    pub kinetic: f64,
+    /// `½ ∫ EA Γ1² dX`
+    pub axial: f64,
+    /// `½ ∫ GA Γ2² dX`
+    pub shear: f64,
+    /// `½ ∫ EI κ² dX`
+    pub bending: f64,
+    /// Of gravity, zero at the origin.
+    pub potential: f64,
+}
+
+impl BodyEnergy {
+    /// Of stretching, shear and bending together.
+    pub fn strain(&self) -> f64 {
+        self.axial + self.shear + self.bending
+    }
+
+    /// All together.
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.strain() + self.potential
+    }
+}
+
+impl Model {
+    /// The energy of a body: beams come first, then particles.
+    pub fn energy_of(&mut self, body: usize) -> BodyEnergy {
+        let rates = &self.motion.rates;
+        let own = self.bodies[body].momenta(rates).twice_kinetic;
+        let carried = self.elements.twice_kinetic_on(&self.bodies, body, rates);
+        let [axial, shear, bending] = self.bodies[body].dynamics.strain_energies();
+        let potential = self.elements.potential_of(&self.bodies, body);
+        BodyEnergy { kinetic: 0.5 * (own + carried), axial, shear, bending, potential }
+    }
+}

@@ -1,0 +1,295 @@
+//! Quantities that a scene records besides those that every history has.
+//!
+//! A ready one is called by the object, the place on it and the quantity: `rod.end.x`, `rod[0.5].M`, `rod.energy`, `hinge1.force`.
+
+use serde::{Serialize, Serializer};
+
+use super::Scene;
+use crate::beams::{BodyIndex, Station};
+use crate::joints::{Joint, JointKind, Partner};
+use crate::model::ModelError;
+
+/// A quantity that is recorded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensor {
+    /// The name of its column.
+    pub name: String,
+    /// What is read.
+    pub probe: Probe,
+}
+
+/// What a sensor reads.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Probe {
+    /// Something of the place of a station, or of what holds it.
+    Station(Station, Quantity),
+    /// Something of a beam or a particle as a whole.
+    Body(BodyIndex, Quantity),
+    /// Something of a joint, by its index.
+    Joint(usize, Quantity),
+    /// What somebody outside reads after every row.
+    Outside,
+}
+
+/// A quantity: what it is called, its dimension, and which value of its subject it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Quantity {
+    /// In names of sensors.
+    pub name: &'static str,
+    /// Its dimension.
+    pub dimension: &'static str,
+    /// What is read.
+    pub value: Value,
+}
+
+/// What is read of a subject.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs, reason = "the names of the quantities say it")]
+pub enum Value {
+    X,
+    Y,
+    VelocityX,
+    VelocityY,
+    Speed,
+    AccelerationX,
+    AccelerationY,
+    Angle,
+    Spin,
+    Axial,
+    Shear,
+    Moment,
+    AxialStrain,
+    ShearStrain,
+    Curvature,
+    Force,
+    ForceX,
+    ForceY,
+    Couple,
+    Energy,
+    Kinetic,
+    Strain,
+    StrainAxial,
+    StrainShear,
+    StrainBending,
+    Potential,
+}
+
+const fn quantity(name: &'static str, dimension: &'static str, value: Value) -> Quantity {
+    Quantity { name, dimension, value }
+}
+
+/// What can be read of any station; the first seven of a particle too.
+pub const OF_STATIONS: &[Quantity] = &[
+    quantity("x", "length", Value::X),
+    quantity("y", "length", Value::Y),
+    quantity("vx", "length/time", Value::VelocityX),
+    quantity("vy", "length/time", Value::VelocityY),
+    quantity("speed", "length/time", Value::Speed),
+    quantity("ax", "length/time²", Value::AccelerationX),
+    quantity("ay", "length/time²", Value::AccelerationY),
+    quantity("angle", "rad", Value::Angle),
+    quantity("spin", "1/time", Value::Spin),
+    quantity("N", "force", Value::Axial),
+    quantity("Q", "force", Value::Shear),
+    quantity("M", "force·length", Value::Moment),
+    quantity("axial_strain", "-", Value::AxialStrain),
+    quantity("shear_strain", "-", Value::ShearStrain),
+    quantity("curvature", "1/length", Value::Curvature),
+];
+
+/// How many of them a particle has.
+const OF_PARTICLES: usize = 7;
+
+/// What can be read of a joint: what it gives to its first station.
+pub const OF_JOINTS: &[Quantity] = &[
+    quantity("force", "force", Value::Force),
+    quantity("fx", "force", Value::ForceX),
+    quantity("fy", "force", Value::ForceY),
+    quantity("moment", "force·length", Value::Couple),
+];
+
+/// What can be read of a body as a whole.
+pub const OF_BODIES: &[Quantity] = &[
+    quantity("energy", "energy", Value::Energy),
+    quantity("kinetic", "energy", Value::Kinetic),
+    quantity("strain", "energy", Value::Strain),
+    quantity("axial", "energy", Value::StrainAxial),
+    quantity("shear", "energy", Value::StrainShear),
+    quantity("bending", "energy", Value::StrainBending),
+    quantity("potential", "energy", Value::Potential),
+];
+
+impl Sensor {
+    /// The dimension of what it reads.
+    pub fn dimension(&self) -> &'static str {
+        match &self.probe {
+            Probe::Station(_, quantity) | Probe::Body(_, quantity) | Probe::Joint(_, quantity) => {
+                quantity.dimension
+            }
+            Probe::Outside => "-",
+        }
+    }
+
+    /// Whether it can be stored: its name says all.
+    pub fn can_be_stored(&self) -> bool {
+        self.probe != Probe::Outside
+    }
+}
+
+/// A sensor is stored by its name.
+impl Serialize for Sensor {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.can_be_stored() {
+            true => self.name.serialize(serializer),
+            false => Err(serde::ser::Error::custom("a function cannot be stored")),
+        }
+    }
+}
+
+impl Scene {
+    /// Records a ready quantity, by its name.
+    ///
+    /// # Errors
+    /// When there is no such object, place or quantity, or it is recorded already.
+    pub fn record(&mut self, name: &str) -> Result<(), ModelError> {
+        self.check_column(name)?;
+        let probe = self.probe(name)?;
+        if let Probe::Station(station, Quantity { value: Value::Angle, .. }) = probe
+            && let Some(beam) = station.beam()
+        {
+            self.station(beam, station.arc_length)?;
+        }
+        self.sensors.push(Sensor { name: name.to_owned(), probe });
+        Ok(())
+    }
+
+    /// Makes a column that somebody outside fills after every row.
+    ///
+    /// # Errors
+    /// When there is a column of that name.
+    pub fn record_outside(&mut self, name: &str) -> Result<(), ModelError> {
+        self.check_column(name)?;
+        self.sensors.push(Sensor { name: name.to_owned(), probe: Probe::Outside });
+        Ok(())
+    }
+
+    fn check_column(&self, name: &str) -> Result<(), ModelError> {
+        match self.sensors.iter().any(|sensor| sensor.name == name) {
+            true => Err(ModelError::DuplicateSensor { name: name.to_owned() }),
+            false => Ok(()),
+        }
+    }
+
+    /// The names of all ready sensors; of the places inside beams none.
+    pub fn sensor_names(&self) -> Vec<String> {
+        let listed = |object: String, quantities: &'static [Quantity]| {
+            quantities.iter().map(move |quantity| format!("{object}.{}", quantity.name))
+        };
+        let beams = self.beams.iter().flat_map(|beam| {
+            let ends = ["start", "end"].map(|end| format!("{}.{end}", beam.name));
+            let of_ends = ends.into_iter().flat_map(move |end| listed(end, OF_STATIONS));
+            of_ends.chain(listed(beam.name.clone(), OF_BODIES))
+        });
+        let particles = self.particles.iter().flat_map(|particle| {
+            listed(particle.name.clone(), &OF_STATIONS[..OF_PARTICLES])
+                .chain(listed(particle.name.clone(), OF_BODIES))
+        });
+        let joints = self.joint_names().into_iter().flat_map(|joint| listed(joint, OF_JOINTS));
+        beams.chain(particles).chain(joints).collect()
+    }
+
+    /// What joints are called in names of sensors, in their order: `hinge1`, `clamp1`, `hinge2`, `rigid1`.
+    pub fn joint_names(&self) -> Vec<String> {
+        let mut counts = [0; 3];
+        let name = |joint: &Joint| {
+            let (kind, at) = match (joint.kind, &joint.partner) {
+                (JointKind::Hinge, _) => ("hinge", 0),
+                (JointKind::Rigid, Partner::Ground) => ("clamp", 1),
+                (JointKind::Rigid, Partner::Station(_)) => ("rigid", 2),
+            };
+            counts[at] += 1;
+            format!("{kind}{}", counts[at])
+        };
+        self.joints.iter().map(name).collect()
+    }
+
+    fn probe(&self, name: &str) -> Result<Probe, ModelError> {
+        let refused = |why: String| ModelError::NoSensor { name: name.to_owned(), why };
+        let of = |known: &str| {
+            let rest = name.strip_prefix(known)?;
+            (rest.starts_with('.') || rest.starts_with('[')).then_some((known.len(), rest))
+        };
+        let beams = self.beams.iter().enumerate();
+        let beams = beams.filter_map(|(at, beam)| Some((of(&beam.name)?, Object::Beam(at))));
+        let particles = self.particles.iter().enumerate();
+        let particles =
+            particles.filter_map(|(at, of_one)| Some((of(&of_one.name)?, Object::Particle(at))));
+        let names = self.joint_names();
+        let joints = names.iter().enumerate();
+        let joints = joints.filter_map(|(at, joint)| Some((of(joint)?, Object::Joint(at))));
+        // Names may begin alike; the first of equal ones counts.
+        let all = beams.chain(particles).chain(joints);
+        let longest = all.reduce(|best, other| if other.0.0 > best.0.0 { other } else { best });
+        let Some(((_, rest), object)) = longest else {
+            return Err(refused(
+                "it must begin with the name of a beam, a particle or a joint (hinge1, clamp1, rigid1) of the scene".to_owned(),
+            ));
+        };
+        let find = |known: &'static [Quantity], rest: &str| {
+            let wanted = rest.strip_prefix('.').unwrap_or_default();
+            known.iter().find(|quantity| quantity.name == wanted).copied().ok_or_else(|| {
+                let names: Vec<&str> = known.iter().map(|quantity| quantity.name).collect();
+                refused(format!("its last part is one of {}", names.join(", ")))
+            })
+        };
+        match object {
+            Object::Joint(at) => Ok(Probe::Joint(at, find(OF_JOINTS, rest)?)),
+            Object::Particle(at) => match find(OF_BODIES, rest) {
+                Ok(quantity) => Ok(Probe::Body(BodyIndex::Particle(at), quantity)),
+                Err(_) => Ok(Probe::Station(
+                    Station::on_particle(at),
+                    find(&OF_STATIONS[..OF_PARTICLES], rest)?,
+                )),
+            },
+            Object::Beam(at) => {
+                let length = self.beams[at].axis.length();
+                let (arc_length, rest) = if let Some(rest) = rest.strip_prefix(".start.") {
+                    (0.0, rest)
+                } else if let Some(rest) = rest.strip_prefix(".end.") {
+                    (length, rest)
+                } else if let Some(inside) = rest.strip_prefix('[') {
+                    let place = inside.split_once("].").and_then(|(number, rest)| {
+                        let number: f64 = number.trim().parse().ok()?;
+                        (0.0..=length).contains(&number).then_some((number, rest))
+                    });
+                    place.ok_or_else(|| {
+                        refused(format!(
+                            "write {}[s].x with s from 0 to {length}",
+                            self.beams[at].name
+                        ))
+                    })?
+                } else {
+                    let wanted = rest.strip_prefix('.').unwrap_or_default();
+                    let known = OF_BODIES.iter().find(|quantity| quantity.name == wanted);
+                    let beam = &self.beams[at].name;
+                    return known.map(|known| Probe::Body(BodyIndex::Beam(at), *known)).ok_or_else(|| {
+                        let names: Vec<&str> = OF_BODIES.iter().map(|quantity| quantity.name).collect();
+                        refused(format!(
+                            "of a beam as a whole there are {}; of a place {beam}.start.x, {beam}.end.x, {beam}[s].x and their like",
+                            names.join(", ")
+                        ))
+                    });
+                };
+                let dotted = format!(".{rest}");
+                Ok(Probe::Station(Station::on_beam(at, arc_length), find(OF_STATIONS, &dotted)?))
+            }
+        }
+    }
+}
+
+/// What the name of a sensor begins with.
+enum Object {
+    Beam(usize),
+    Particle(usize),
+    Joint(usize),
+}

@@ -1,0 +1,219 @@
+//! The page: a template, its style, its programs, and the films as data.
+
+use serde_json::{Value, json};
+
+use super::film::{Arrow, ArrowKind, Beam, Column, Field, Film, Place, SymbolKind};
+use super::packing::{FINEST, Scale, pack};
+use super::thinning::rows_to_keep;
+use crate::output::OutputError;
+use crate::output::canvas::Point;
+use crate::output::colour::{Colour, HUE_COUNT, hue};
+
+const TEMPLATE: &str = include_str!("page/template.html");
+const STYLE: &str = include_str!("page/style.css");
+/// In the order in which they need each other.
+const PROGRAMS: [&str; 9] = [
+    include_str!("page/reading.js"),
+    include_str!("page/film.js"),
+    include_str!("page/colours.js"),
+    include_str!("page/view.js"),
+    include_str!("page/stage.js"),
+    include_str!("page/chart.js"),
+    include_str!("page/clock.js"),
+    include_str!("page/viewer.js"),
+    include_str!("page/controls.js"),
+];
+
+/// Steps between the least and the greatest value of a field: more shades than a screen has.
+const SHADES: u16 = 1023;
+/// The same for the loads of a film.
+const LOAD_STEPS: u16 = 4095;
+/// Weights are rounded to so many parts of one: far below a step of the points that they are of.
+const WEIGHT_PARTS: f64 = 1e7;
+
+/// A page that shows films, side by side where there are several.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Viewer {
+    /// What stands above them.
+    pub title: String,
+    /// The motions.
+    pub films: Vec<Film>,
+}
+
+impl Viewer {
+    /// The page. Equal films give equal bytes.
+    ///
+    /// # Errors
+    /// When the films cannot be packed.
+    pub fn to_html(&self) -> Result<String, OutputError> {
+        let films = self.films.iter().map(packed_film).collect::<Result<Vec<_>, _>>()?;
+        let hues: Vec<[u8; 3]> = (0..HUE_COUNT)
+            .map(|index| {
+                let Colour(red, green, blue) = hue(index);
+                [red, green, blue]
+            })
+            .collect();
+        let data = json!({ "title": self.title, "hues": hues, "films": films });
+        // Within a script element nothing but a `<` could end the data.
+        let data = data.to_string().replace('<', "\\u003c");
+        let title = escaped(&self.title);
+        Ok(filled(
+            TEMPLATE,
+            &[
+                ("{{title}}", &title),
+                ("{{style}}", STYLE.trim_end()),
+                ("{{title}}", &title),
+                ("{{data}}", &data),
+                ("{{program}}", PROGRAMS.join("\n").trim_end()),
+            ],
+        ))
+    }
+}
+
+/// The template with marks replaced in their order, each once, whatever the texts put in contain.
+fn filled(template: &str, texts: &[(&str, &str)]) -> String {
+    let mut page = String::new();
+    let mut rest = template;
+    for (mark, text) in texts {
+        if let Some((before, after)) = rest.split_once(mark) {
+            page += before;
+            page += text;
+            rest = after;
+        }
+    }
+    page + rest
+}
+
+/// A text within an element or an attribute of HTML.
+fn escaped(text: &str) -> String {
+    let escape = |letter| match letter {
+        '&' => "&amp;".to_owned(),
+        '<' => "&lt;".to_owned(),
+        '>' => "&gt;".to_owned(),
+        '"' => "&quot;".to_owned(),
+        '\'' => "&#39;".to_owned(),
+        other => other.to_string(),
+    };
+    text.chars().map(escape).collect()
+}
+
+fn packed_film(film: &Film) -> Result<Value, OutputError> {
+    let mut shapes: Vec<Value> = Vec::new();
+    let beams: Vec<Value> = film.beams.iter().map(|beam| packed_beam(beam, &mut shapes)).collect();
+    let particle =
+        |particle: &super::Particle| json!({ "name": particle.name, "at": place(&particle.at, 0) });
+    let symbol = |symbol: &super::Symbol| {
+        let kind = match symbol.kind {
+            SymbolKind::Support => "support",
+            SymbolKind::Clamp => "clamp",
+            SymbolKind::Hinge => "hinge",
+            SymbolKind::Rigid => "rigid",
+            SymbolKind::Slider => "slider",
+        };
+        json!({ "kind": kind, "name": symbol.name, "at": place(&symbol.at, 0), "angle": symbol.angle })
+    };
+    let trail = |trail: &super::Trail| json!({ "name": trail.name, "at": place(&trail.at, 0) });
+    let (x, y) = packed_points(film)?;
+    Ok(json!({
+        "label": film.label,
+        "times": film.times,
+        "x": x,
+        "y": y,
+        "shapes": shapes,
+        "beams": beams,
+        "particles": film.particles.iter().map(particle).collect::<Vec<_>>(),
+        "symbols": film.symbols.iter().map(symbol).collect::<Vec<_>>(),
+        "trails": film.trails.iter().map(trail).collect::<Vec<_>>(),
+        "arrows": packed_arrows(&film.arrows, film.times.len())?,
+        "fields": film.fields.iter().map(packed_field).collect::<Result<Vec<_>, _>>()?,
+        "history": packed_history(film)?,
+    }))
+}
+
+/// A beam by its first point and its shape, which beams of the same mesh share.
+fn packed_beam(beam: &Beam, shapes: &mut Vec<Value>) -> Value {
+    let first = beam.line.iter().map(|place| place.first).min().unwrap_or(0);
+    let shape = json!({
+        "line": beam.line.iter().map(|at| place(at, first)).collect::<Vec<_>>(),
+        "marks": beam.marks,
+        "stations": beam.stations,
+    });
+    let known = shapes.iter().position(|other| *other == shape);
+    let shape = known.unwrap_or_else(|| {
+        shapes.push(shape);
+        shapes.len() - 1
+    });
+    json!({ "name": beam.name, "first": first, "shape": shape })
+}
+
+/// A place as its first point, counted from another one, and the weights.
+fn place(place: &Place, from: usize) -> Value {
+    let rounded = |weight: &f64| (weight * WEIGHT_PARTS).round() / WEIGHT_PARTS;
+    let weights: Vec<f64> = place.weights.iter().map(rounded).collect();
+    json!([place.first - from, weights])
+}
+
+/// The coordinates of all points, with the same step along both axes.
+fn packed_points(film: &Film) -> Result<(Value, Value), OutputError> {
+    let along =
+        |pick: fn(&Point) -> f64| Scale::over(film.points.iter().flatten().map(pick), FINEST);
+    let (x, y) = (along(|point| point.0), along(|point| point.1));
+    let step = x.step.max(y.step);
+    let shape = (film.points.first().map_or(0, Vec::len), film.points.len());
+    let packed = |scale: Scale, pick: fn(&Point) -> f64| {
+        pack(Scale { step, ..scale }, shape, |point, frame| pick(&film.points[frame][point]))
+    };
+    Ok((packed(x, |point| point.0)?, packed(y, |point| point.1)?))
+}
+
+/// The loads, those of a kind relative to the largest of them.
+fn packed_arrows(arrows: &[Arrow], frames: usize) -> Result<Value, OutputError> {
+    let largest = |kind: ArrowKind| {
+        let of_kind = arrows.iter().filter(|arrow| arrow.kind == kind);
+        let sizes = of_kind.flat_map(|arrow| &arrow.values).map(|(x, y)| x.abs().max(y.abs()));
+        sizes.filter(|size| size.is_finite()).fold(f64::MIN_POSITIVE, f64::max)
+    };
+    let sizes = arrows.iter().map(|arrow| largest(arrow.kind)).collect::<Vec<_>>();
+    let value = |number: usize, frame: usize| {
+        let (x, y) = arrows[number / 2].values[frame];
+        [x, y][number % 2] / sizes[number / 2]
+    };
+    let scale = Scale { origin: -1.0, step: 2.0 / f64::from(LOAD_STEPS - 1) };
+    let arrow = |arrow: &Arrow| {
+        let kind = match arrow.kind {
+            ArrowKind::Force => "force",
+            ArrowKind::Line => "line",
+            ArrowKind::Moment => "moment",
+        };
+        json!({ "kind": kind, "name": arrow.name, "at": place(&arrow.at, 0) })
+    };
+    Ok(json!({
+        "all": arrows.iter().map(arrow).collect::<Vec<_>>(),
+        "values": pack(scale, (2 * arrows.len(), frames), value)?,
+    }))
+}
+
+fn packed_field(field: &Field) -> Result<Value, OutputError> {
+    let scale = Scale::over(field.values.iter().flatten().copied(), SHADES);
+    let shape = (field.values.first().map_or(0, Vec::len), field.values.len());
+    let values = pack(scale, shape, |station, frame| field.values[frame][station])?;
+    Ok(json!({ "name": field.name, "unit": field.unit, "values": values }))
+}
+
+fn packed_history(film: &Film) -> Result<Value, OutputError> {
+    let columns: Vec<&[f64]> = film.columns.iter().map(|column| column.values.as_slice()).collect();
+    let kept = rows_to_keep(film.rows.len(), &columns);
+    let column = |column: &Column| {
+        let values = || kept.iter().map(|row| column.values[*row]);
+        let packed = pack(Scale::over(values(), FINEST), (1, kept.len()), |_, row| {
+            column.values[kept[row]]
+        })?;
+        Ok(json!({ "name": column.name, "unit": column.unit, "values": packed }))
+    };
+    let times: Vec<f64> = kept.iter().map(|row| film.rows[*row]).collect();
+    let columns = film.columns.iter().map(column).collect::<Result<Vec<_>, OutputError>>()?;
+    Ok(json!({ "times": times, "columns": columns }))
+}
+
+#[cfg(test)]
+mod tests;

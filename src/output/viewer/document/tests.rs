@@ -1,0 +1,57 @@
+use super::*;
+
+fn film() -> Film {
+    let place = |first: usize, weights: &[f64]| Place { first, weights: weights.to_vec() };
+    Film {
+        label: "swing".into(),
+        times: vec![0.0, 0.5],
+        points: vec![vec![(0.0, 0.0), (2.0, 0.0)], vec![(0.0, 0.0), (0.0, 2.0)]],
+        beams: vec![Beam {
+            name: "rod".into(),
+            line: vec![place(0, &[1.0, 0.0]), place(0, &[0.0, 1.0])],
+            marks: vec![0, 1],
+            stations: vec![0, 1],
+        }],
+        ..Film::default()
+    }
+}
+
+#[test]
+fn texts_cannot_leave_their_place() {
+    let title = "</script><script>alert('{{data}}')</script> & \"so on\"";
+    let film = Film { label: title.into(), ..film() };
+    let page = Viewer { title: title.into(), films: vec![film] }.to_html().unwrap();
+    assert!(!page.contains("alert('{{data}}')<"), "the title is escaped");
+    assert_eq!(page.matches("</script>").count(), 2, "of the data and of the program");
+    assert!(page.contains("&lt;/script&gt;&lt;script&gt;alert(&#39;{{data}}&#39;)&lt;/script&gt; &amp; &quot;so on&quot;"));
+    assert!(page.contains(r"\u003c/script>\u003cscript>alert('{{data}}')"));
+}
+
+#[test]
+fn a_page_is_whole_and_asks_for_nothing() {
+    let page = Viewer { title: "t".into(), films: vec![film()] }.to_html().unwrap();
+    for mark in ["{{", "http:", "https:", " src=", "fetch(", "import(", "@import", "url("] {
+        assert!(!page.contains(mark), "{mark}");
+    }
+    assert!(page.contains("default-src 'none'") && page.trim_end().ends_with("</html>"));
+    let again = Viewer { title: "t".into(), films: vec![film()] }.to_html().unwrap();
+    assert_eq!(page, again);
+}
+
+#[test]
+fn beams_of_the_same_mesh_share_their_shape() {
+    let mut two = film();
+    two.points.iter_mut().for_each(|points| points.extend([(5.0, 5.0), (6.0, 6.0)]));
+    let mut other = two.beams[0].clone();
+    other.line.iter_mut().for_each(|place| place.first += 2);
+    two.beams.push(other);
+    let packed = packed_film(&two).unwrap();
+    assert_eq!(packed["shapes"].as_array().unwrap().len(), 1);
+    assert_eq!(packed["beams"][1]["first"], 2);
+}
+
+#[test]
+fn a_film_of_nothing_is_a_page_too() {
+    let nothing = Film { times: vec![0.0], points: vec![vec![]], ..Film::default() };
+    assert!(Viewer { title: String::new(), films: vec![nothing] }.to_html().is_ok());
+}

@@ -1,0 +1,154 @@
+//! What a viewer shows, as plain data.
+
+use crate::output::canvas::Point;
+
+/// A place of a body: a combination of points of the film, such as control points.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Place {
+    /// The first of its points, by its index in a frame.
+    pub first: usize,
+    /// How much of this one and those that follow.
+    pub weights: Vec<f64>,
+}
+
+impl Place {
+    /// Where it is among the points of a frame.
+    pub fn among(&self, points: &[Point]) -> Point {
+        let sum = |pick: fn(&Point) -> f64| {
+            self.weights.iter().zip(&points[self.first..]).map(|(w, point)| w * pick(point)).sum()
+        };
+        (sum(|point| point.0), sum(|point| point.1))
+    }
+}
+
+/// A beam.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Beam {
+    /// Its name.
+    pub name: String,
+    /// Its centre line, from its start to its end.
+    pub line: Vec<Place>,
+    /// Knots or nodes: indices of the line.
+    pub marks: Vec<usize>,
+    /// Where the values of fields belong: indices of the line, increasing.
+    pub stations: Vec<usize>,
+}
+
+/// A body without extent.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Particle {
+    /// Its name.
+    pub name: String,
+    /// Where it is.
+    pub at: Place,
+}
+
+/// What is held or joined, and how.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SymbolKind {
+    /// A support that holds a position.
+    Support,
+    /// A support that holds position and angle.
+    Clamp,
+    /// Two bodies share a place.
+    Hinge,
+    /// Two bodies share place and angle.
+    Rigid,
+    /// A place that slides along a beam.
+    Slider,
+}
+
+/// A sign at a place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Symbol {
+    /// What it means.
+    pub kind: SymbolKind,
+    /// What it is called.
+    pub name: String,
+    /// Where it is.
+    pub at: Place,
+    /// The direction of the beam there as drawn [rad].
+    pub angle: f64,
+}
+
+/// What an arrow stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ArrowKind {
+    /// A force.
+    Force,
+    /// A force per length.
+    Line,
+    /// A moment, counter-clockwise: the first component counts.
+    Moment,
+}
+
+/// A load over time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arrow {
+    /// What it stands for.
+    pub kind: ArrowKind,
+    /// What it is called.
+    pub name: String,
+    /// Where it acts.
+    pub at: Place,
+    /// Its value in each frame.
+    pub values: Vec<Point>,
+}
+
+/// A place whose path is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trail {
+    /// What it is called.
+    pub name: String,
+    /// Where it is.
+    pub at: Place,
+}
+
+/// A quantity along all beams, by which they are coloured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// Its name.
+    pub name: String,
+    /// Its unit or dimension; empty for a pure number.
+    pub unit: String,
+    /// Its values in each frame: at the stations of the first beam, then of the next one. What is not finite is not coloured.
+    pub values: Vec<Vec<f64>>,
+}
+
+/// A quantity over time, drawn below the motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// Its unit or dimension; those that have the same are drawn together.
+    pub unit: String,
+    /// Its values in each row.
+    pub values: Vec<f64>,
+}
+
+/// A motion.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Film {
+    /// What it is called among others.
+    pub label: String,
+    /// The time of each frame.
+    pub times: Vec<f64>,
+    /// The points of all bodies in each frame, always in the same order.
+    pub points: Vec<Vec<Point>>,
+    /// Beams.
+    pub beams: Vec<Beam>,
+    /// Bodies without extent.
+    pub particles: Vec<Particle>,
+    /// Supports, joints, sliders.
+    pub symbols: Vec<Symbol>,
+    /// Loads.
+    pub arrows: Vec<Arrow>,
+    /// Paths.
+    pub trails: Vec<Trail>,
+    /// What beams can be coloured by.
+    pub fields: Vec<Field>,
+    /// The times of the rows.
+    pub rows: Vec<f64>,
+    /// What is drawn over them.
+    pub columns: Vec<Column>,
+}

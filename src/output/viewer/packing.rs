@@ -1,0 +1,153 @@
+//! Numbers over time as short text: in so many steps between the least and the greatest, as differences, deflated, as letters.
+
+use std::io::Write;
+
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
+use serde_json::{Value, json};
+
+use crate::output::OutputError;
+
+/// The code of what is not finite. Codes of numbers are less.
+const MISSING: u16 = u16::MAX;
+/// The finest steps there are: half of one is the largest error.
+pub const FINEST: u16 = MISSING - 1;
+
+/// How numbers become codes: `origin + step · code`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    /// What the code 0 stands for.
+    pub origin: f64,
+    /// From one code to the next; zero where all numbers are the same.
+    pub step: f64,
+}
+
+impl Scale {
+    /// The scale from the least to the greatest finite number in so many steps.
+    pub fn over(numbers: impl Iterator<Item = f64>, steps: u16) -> Self {
+        let finite = numbers.filter(|number| number.is_finite());
+        let (least, greatest) = finite
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), number| {
+                (a.min(number), b.max(number))
+            });
+        match least <= greatest {
+            // Of halves, so that the difference of any two numbers is finite.
+            true => Self {
+                origin: least,
+                step: (greatest / 2.0 - least / 2.0) / f64::from(steps) * 2.0,
+            },
+            false => Self { origin: 0.0, step: 0.0 },
+        }
+    }
+
+    /// The code of a number.
+    fn code(&self, number: f64) -> u16 {
+        match number.is_finite() {
+            false => MISSING,
+            true if self.step == 0.0 => 0,
+            true => (number / self.step - self.origin / self.step)
+                .round()
+                .clamp(0.0, f64::from(FINEST)) as u16,
+        }
+    }
+}
+
+/// So many numbers over so many frames, given by number and frame, as the page reads them.
+///
+/// # Errors
+/// When they cannot be deflated, which would be a mistake of ours.
+pub fn pack(
+    scale: Scale,
+    (numbers, frames): (usize, usize),
+    value: impl Fn(usize, usize) -> f64,
+) -> Result<Value, OutputError> {
+    let codes: Vec<Vec<u16>> = (0..numbers)
+        .map(|number| (0..frames).map(|frame| scale.code(value(number, frame))).collect())
+        .collect();
+    // Of a smooth motion the second differences are small, of a rough one the first.
+    let cost = |order: u32| -> u64 {
+        let all = codes.iter().flat_map(|series| differences(series, order));
+        all.map(|difference| u64::from(u16::BITS - difference.leading_zeros())).sum()
+    };
+    let order = if cost(2) < cost(1) { 2 } else { 1 };
+    let words: Vec<u16> = codes.iter().flat_map(|series| differences(series, order)).collect();
+    let high = words.iter().map(|word| (word >> 8) as u8);
+    let bytes: Vec<u8> = high.chain(words.iter().map(|word| *word as u8)).collect();
+    let mut deflated = ZlibEncoder::new(Vec::new(), Compression::default());
+    let failed = |error: std::io::Error| OutputError::Paint { reason: error.to_string() };
+    deflated.write_all(&bytes).map_err(failed)?;
+    let deflated = deflated.finish().map_err(failed)?;
+    Ok(json!({
+        "origin": scale.origin,
+        "step": scale.step,
+        "numbers": numbers,
+        "frames": frames,
+        "order": order,
+        "data": letters(&deflated),
+    }))
+}
+
+/// The differences of first or second order, modulo 2¹⁶, small ones of either sign as small numbers.
+fn differences(codes: &[u16], order: u32) -> impl Iterator<Item = u16> + '_ {
+    let (mut last, mut last_change) = (0u16, 0u16);
+    codes.iter().map(move |&code| {
+        let change = code.wrapping_sub(last);
+        let difference = if order == 2 { change.wrapping_sub(last_change) } else { change };
+        (last, last_change) = (code, change);
+        let signed = difference as i16;
+        ((signed << 1) ^ (signed >> 15)) as u16
+    })
+}
+
+/// Base64 (RFC 4648, section 4).
+fn letters(bytes: &[u8]) -> String {
+    const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for group in bytes.chunks(3) {
+        let byte = |index: usize| u32::from(group.get(index).copied().unwrap_or(0));
+        let word = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for place in 0..4 {
+            let letter = ALPHABET[(word >> (18 - 6 * place) & 63) as usize] as char;
+            text.push(if place <= group.len() { letter } else { '=' });
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn letters_are_those_of_the_standard() {
+        // RFC 4648, section 10.
+        let vectors = ["", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"];
+        for (length, expected) in vectors.into_iter().enumerate() {
+            assert_eq!(letters(&b"foobar"[..length]), expected);
+        }
+    }
+
+    #[test]
+    fn a_number_is_off_by_half_a_step_at_most() {
+        let numbers = [-3.0, 0.1, 2.7, 9.0, f64::NAN];
+        let scale = Scale::over(numbers.into_iter(), FINEST);
+        for number in &numbers[..4] {
+            let back = scale.origin + scale.step * f64::from(scale.code(*number));
+            assert!((back - number).abs() <= 0.500001 * scale.step);
+        }
+        assert_eq!((scale.code(-3.0), scale.code(9.0), scale.code(f64::NAN)), (0, FINEST, MISSING));
+        assert_eq!(Scale::over([7.0; 3].into_iter(), FINEST).code(7.0), 0);
+        let huge = Scale::over([-f64::MAX, f64::MAX].into_iter(), FINEST);
+        assert_eq!((huge.code(-f64::MAX), huge.code(f64::MAX)), (0, FINEST));
+        assert_eq!(Scale::over([f64::NAN].into_iter(), FINEST), Scale { origin: 0.0, step: 0.0 });
+    }
+
+    #[test]
+    fn even_motion_has_no_second_differences() {
+        let codes: Vec<u16> = (0..5).map(|frame| 64_000 + 300 * frame).collect();
+        let second: Vec<u16> = differences(&codes, 2).collect();
+        assert_eq!(second[2..], [0, 0, 0]);
+        let first: Vec<u16> = differences(&[3, 2, 2, 4], 1).collect();
+        assert_eq!(first, [6, 1, 0, 4]);
+    }
+}

@@ -1,0 +1,179 @@
+// A stage: the canvas on which one film moves.
+
+/** A canvas as sharp as the screen, drawn on in the pixels of the style sheet. */
+class Sheet {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.context = canvas.getContext("2d");
+  }
+
+  /** Makes it as large as it is shown, and blank. */
+  begin(paper) {
+    const { width, height } = this.canvas.getBoundingClientRect();
+    const ratio = window.devicePixelRatio || 1;
+    const [wide, high] = [Math.round(width * ratio), Math.round(height * ratio)];
+    if (this.canvas.width !== wide || this.canvas.height !== high) Object.assign(this.canvas, { width: wide, height: high });
+    Object.assign(this, { width, height });
+    this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    Object.assign(this.context, { fillStyle: paper, lineJoin: "round", lineCap: "round", font: "12px system-ui, sans-serif" });
+    this.context.fillRect(0, 0, width, height);
+  }
+
+  line(points, colour, width, dash = []) {
+    const { context } = this;
+    Object.assign(context, { strokeStyle: colour, lineWidth: width });
+    context.setLineDash(dash);
+    context.beginPath();
+    points.forEach(([x, y], index) => (index === 0 ? context.moveTo(x, y) : context.lineTo(x, y)));
+    context.stroke();
+    context.setLineDash([]);
+  }
+
+  shape(points, fill, colour, width = 1.5) {
+    this.context.fillStyle = fill;
+    this.context.beginPath();
+    points.forEach(([x, y], index) => (index === 0 ? this.context.moveTo(x, y) : this.context.lineTo(x, y)));
+    this.context.closePath();
+    this.context.fill();
+    this.line([...points, points[0]], colour, width);
+  }
+
+  disc([x, y], radius, fill, colour) {
+    const { context } = this;
+    context.beginPath();
+    context.arc(x, y, radius, 0, 2 * Math.PI);
+    context.fillStyle = fill;
+    context.fill();
+    if (!colour) return;
+    Object.assign(context, { strokeStyle: colour, lineWidth: 1.5 });
+    context.stroke();
+  }
+
+  text(text, x, y, colour, align = "left") {
+    Object.assign(this.context, { fillStyle: colour, textAlign: align, textBaseline: "alphabetic" });
+    this.context.fillText(text, x, y);
+  }
+}
+
+class Stage {
+  constructor(canvas, film) {
+    this.sheet = new Sheet(canvas);
+    this.film = film;
+  }
+
+  get size() { return this.sheet; }
+
+  draw(frame, { view, theme, hues, switches, shading }) {
+    const { sheet, film } = this;
+    sheet.begin(theme.paper);
+    const place = (point) => view.toScreen(point, sheet);
+    this.drawGrid(view, theme);
+    if (switches.trails) {
+      film.trails.forEach(({ at }, index) => {
+        const colour = theme.hue(hues, (film.beams.length > 1 ? film.beams.length : 1) + index);
+        sheet.line(film.path(at).slice(0, frame + 1).map(place), colour, 1.4);
+      });
+    }
+    film.beams.forEach((beam, index) => {
+      const line = film.line(beam, frame).map(place);
+      if (shading) this.drawShaded(line, film.along(film.fields[shading.field], beam, frame), shading, theme);
+      else sheet.line(line, theme.hue(hues, index), 3);
+      if (switches.knots) beam.shape.marks.forEach((mark) => sheet.disc(line[mark], 2.6, theme.ink));
+    });
+    for (const { at } of film.particles) sheet.disc(place(film.at(at, frame)), 6, theme.ink, theme.paper);
+    if (switches.symbols) for (const symbol of film.symbols) drawSymbol(sheet, symbol, place(film.at(symbol.at, frame)), theme);
+    if (switches.loads) {
+      film.arrows.forEach(({ kind, at }, index) => {
+        const value = [film.loads.at(2 * index, frame), film.loads.at(2 * index + 1, frame)];
+        drawLoad(sheet, kind, place(film.at(at, frame)), value, theme);
+      });
+    }
+  }
+
+  /** The plane behind the motion, with equal units along both axes. */
+  drawGrid(view, theme) {
+    const { sheet } = this;
+    const { width, height } = sheet;
+    const [[left, top], [right, bottom]] = [view.toPlane([0, 0], sheet), view.toPlane([width, height], sheet)];
+    const marks = [ticks(left, right, width / 90), ticks(bottom, top, height / 90)];
+    for (const { at } of marks[0]) {
+      const [x] = view.toScreen([at, 0], sheet);
+      sheet.line([[x, 0], [x, height]], theme.grid, 1);
+    }
+    for (const { at } of marks[1]) {
+      const [, y] = view.toScreen([0, at], sheet);
+      sheet.line([[0, y], [width, y]], theme.grid, 1);
+    }
+    for (const { at, text } of marks[0]) {
+      const [x] = view.toScreen([at, 0], sheet);
+      if (x > 46 && x < width - 24) sheet.text(text, x, height - 6, theme.grey, "center");
+    }
+    for (const { at, text } of marks[1]) {
+      const [, y] = view.toScreen([0, at], sheet);
+      if (y > 16 && y < height - 24) sheet.text(text, 4, y - 3, theme.grey);
+    }
+    sheet.text("x", width - 12, height - 6, theme.grey);
+    sheet.text("y", 4, 12, theme.grey);
+  }
+
+  /** A line in the colours of a field, in pieces of the same shade. */
+  drawShaded(line, values, { low, high, isSigned }, theme) {
+    const shade = (value) => (Number.isFinite(value) ? theme.shade((value - low) / (high - low || 1), isSigned) : theme.axis);
+    let piece = [line[0]];
+    let colour = shade(values[0]);
+    for (let at = 1; at < line.length; at++) {
+      const next = shade((values[at - 1] + values[at]) / 2);
+      if (next !== colour && piece.length > 1) {
+        this.sheet.line(piece, colour, 4);
+        piece = [line[at - 1]];
+      }
+      colour = next;
+      piece.push(line[at]);
+    }
+    this.sheet.line(piece, colour, 4);
+  }
+}
+
+/** Points given along a direction and to the left of it, as the paper has them: y goes down. */
+function around([x, y], angle, points) {
+  const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
+  return points.map(([along, left]) => [x + along * cos - left * sin, y - along * sin - left * cos]);
+}
+
+function drawSymbol(sheet, { kind, angle }, at, theme) {
+  const draw = {
+    support() {
+      sheet.shape(around(at, 0, [[0, 0], [-8, -13], [8, -13]]), theme.paper, theme.ink);
+      sheet.line(around(at, 0, [[-12, -13], [12, -13]]), theme.ink, 1.5);
+      for (const x of [-9, -3, 3, 9]) sheet.line(around(at, 0, [[x, -13], [x - 4, -18]]), theme.ink, 1);
+    },
+    clamp() {
+      sheet.line(around(at, angle, [[0, -12], [0, 12]]), theme.ink, 2.5);
+      for (const y of [-9, -3, 3, 9]) sheet.line(around(at, angle, [[0, y], [-6, y - 4]]), theme.ink, 1);
+    },
+    hinge() { sheet.disc(at, 4, theme.paper, theme.ink); },
+    rigid() { sheet.shape(around(at, angle, [[-3, -3], [3, -3], [3, 3], [-3, 3]]), theme.ink, theme.ink); },
+    slider() { sheet.shape(around(at, 0, [[-7, 0], [0, -7], [7, 0], [0, 7]]), theme.paper, theme.ink); },
+  };
+  draw[kind]();
+}
+
+/** A load relative to the largest of its kind: an arrow that leaves its place, or one around it. */
+function drawLoad(sheet, kind, at, [fx, fy], theme) {
+  const colour = theme.isDark ? "rgb(255, 120, 120)" : "rgb(190, 30, 45)";
+  const head = (tip, angle, size) => sheet.shape(around(tip, angle, [[0, 0], [-size, 0.45 * size], [-size, -0.45 * size]]), colour, colour, 1);
+  if (kind === "moment") {
+    const size = Math.abs(fx);
+    if (size < 1e-3) return;
+    const [radius, sweep] = [9 + 9 * size, 1.5 * Math.PI * Math.sign(fx)];
+    const arc = Array.from({ length: 25 }, (_, index) => (sweep * index) / 24);
+    sheet.line(arc.flatMap((angle) => around(at, angle, [[radius, 0]])), colour, 1.8);
+    head(around(at, sweep, [[radius, 0]])[0], sweep + (Math.PI / 2) * Math.sign(fx), 8);
+    return;
+  }
+  const size = Math.hypot(fx, fy);
+  if (size < 1e-3) return;
+  const [length, angle] = [(kind === "line" ? 26 : 52) * size, Math.atan2(fy, fx)];
+  sheet.line(around(at, angle, [[0, 0], [length, 0]]), colour, kind === "line" ? 1.2 : 1.8);
+  head(around(at, angle, [[length, 0]])[0], angle, kind === "line" ? 6 : 9);
+}

@@ -1,0 +1,238 @@
+//! The table of commands, from which come dispatch, `:help` and completion.
+
+use super::{help, looking, plotting, session, stepping, timing};
+use crate::repl::editor::surroundings::Operand;
+use crate::repl::shell::{Outcome, Shell};
+use crate::script::diagnose::Diagnostic;
+use crate::script::words::suggest::nearest;
+
+/// A command of the prompt.
+pub struct Command {
+    /// The name of the command, with the colon.
+    pub name: &'static str,
+    /// What follows the name of the command.
+    pub operand: Operand,
+    /// How the operand of the command is written in the help; empty for nothing.
+    pub placeholder: &'static str,
+    /// One line on what the command does.
+    pub summary: &'static str,
+    /// More, where a line is not enough.
+    pub doc: &'static str,
+    /// The function that does the command, given what follows its name.
+    pub body: fn(&mut Shell, &str) -> Outcome,
+}
+
+/// The command that `?` stands for: help.
+pub const HELP: Command = Command {
+    name: ":help",
+    operand: Operand::Name,
+    placeholder: "[NAME]",
+    summary: "explains a function, a type, a topic or a command; ?name does the same",
+    doc: "Without a name it lists the commands; :help topics lists all that has a page.",
+    body: help::help,
+};
+
+/// The command that leaves the prompt.
+pub const QUIT: Command = Command {
+    name: ":quit",
+    operand: Operand::Nothing,
+    placeholder: "",
+    summary: "leaves; so does Ctrl-D",
+    doc: "The words quit and exit do the same.",
+    body: session::quit,
+};
+
+/// All commands of the prompt, in the order of the help.
+pub const COMMANDS: &[Command] = &[
+    HELP,
+    Command {
+        name: ":vars",
+        operand: Operand::Nothing,
+        placeholder: "",
+        summary: "lists variables, functions and imports",
+        doc: "",
+        body: looking::variables,
+    },
+    Command {
+        name: ":step",
+        operand: Operand::Number,
+        placeholder: "[COUNT]",
+        summary: "takes a step of the last simulation, or so many",
+        doc: "The last simulation is the one that was started, loaded, forked or stepped last.",
+        body: stepping::step,
+    },
+    Command {
+        name: ":run",
+        operand: Operand::Number,
+        placeholder: "TIME",
+        summary: "runs the last simulation to a time; Ctrl-C stops it after the step that it is in",
+        doc: "",
+        body: stepping::run,
+    },
+    Command {
+        name: ":back",
+        operand: Operand::Number,
+        placeholder: "[COUNT]",
+        summary: "goes back a step of the last simulation, or so many, to the very state that was",
+        doc: "Snapshots reach back as far as their memory allows: `withy repl --snapshots MB`.",
+        body: stepping::back,
+    },
+    Command {
+        name: ":invariants",
+        operand: Operand::Nothing,
+        placeholder: "",
+        summary: "shows how well energy, momenta and gaps were kept",
+        doc: "",
+        body: looking::invariants,
+    },
+    Command {
+        name: ":plot",
+        operand: Operand::Curves,
+        placeholder: "[CURVE, …]",
+        summary: "draws columns of the history, or any expression, over time; the energies unless given",
+        doc: "Curves are separated by commas. Each is a column, such as `energy`, or an expression. One that is a number or a vector, such as \
+              `sim.position(rod.end).x`, is evaluated in every state in which the simulation was: the one that it names, or else the last. \
+              The states are those that are kept to go back to; where some are forgotten the run is made again in a copy, \
+              without functions set by sim.at, and it is said whether it is the same run. The simulation itself stays where it is. \
+              An array of numbers is drawn over its index, a pair of arrays [x, y] and an array of points as they are. \
+              `:plot drift` shows how well the invariants are kept. Pictures for files are drawn by plot and plot_history.",
+        body: plotting::plot,
+    },
+    Command {
+        name: ":show",
+        operand: Operand::Expression,
+        placeholder: "[TIME] [OPTIONS]",
+        summary: "draws the beams as they are now, or as they were at a time",
+        doc: "The start is dotted behind them. With options, those of plot_motion, as in `:show #{ trace: [rod.end], magnify: 10 }`, what is dotted is \
+              what they ask for: earlier snapshots with `every` or `from`, and paths. Pictures for files are drawn by plot_motion.",
+        body: looking::show,
+    },
+    Command {
+        name: ":along",
+        operand: Operand::Expression,
+        placeholder: "[QUANTITY]",
+        summary: "draws a quantity along the beams as they are now; the bending moment M unless given",
+        doc: "Quantities are N, Q, M, axial_strain, shear_strain, curvature, strain_energy and speed. Pictures for files are drawn by plot_along.",
+        body: looking::along,
+    },
+    Command {
+        name: ":view",
+        operand: Operand::File,
+        placeholder: "[FILE]",
+        summary: "writes a page on which the last simulation moves, to be opened in a browser",
+        doc: "The page is view.html in the output folder unless another name is given. More can be chosen with write_viewer.",
+        body: looking::view,
+    },
+    Command {
+        name: ":watch",
+        operand: Operand::Expression,
+        placeholder: "[EXPRESSION]",
+        summary: "shows an expression after every step from now on; without one, watches no more",
+        doc: "Several expressions can be watched. After inputs that are no commands they are shown once, if a simulation has moved.",
+        body: stepping::watch,
+    },
+    Command {
+        name: ":time",
+        operand: Operand::Expression,
+        placeholder: "INPUT",
+        summary: "evaluates an input and says how long it takes, the first time and again",
+        doc: "It is done again, each time from the same variables, which are then as the first time left them, until the median is known to a hundredth, or for two seconds. What it \
+              prints is printed once. An input that moves a simulation, changes a scene, writes files or takes more than a second is timed \
+              once. The least time is that of the work itself; reading the text counts the first time only.",
+        body: timing::time,
+    },
+    Command {
+        name: ":explain",
+        operand: Operand::Nothing,
+        placeholder: "",
+        summary: "says what the last simulation uses, and what it therefore leaves out",
+        doc: "",
+        body: looking::explain,
+    },
+    Command {
+        name: ":save",
+        operand: Operand::File,
+        placeholder: "FILE",
+        summary: "writes the inputs that worked to a script that can be run",
+        doc: "Of a function that was defined again, only the last definition is written. A file that this session has not \
+              written, or that was changed since, is not overwritten.",
+        body: session::save,
+    },
+    Command {
+        name: ":load",
+        operand: Operand::File,
+        placeholder: "FILE",
+        summary: "evaluates a script as if it had been typed",
+        doc: "",
+        body: session::load,
+    },
+    Command {
+        name: ":reset",
+        operand: Operand::Nothing,
+        placeholder: "",
+        summary: "forgets all variables, functions, imports and simulations",
+        doc: "",
+        body: session::reset,
+    },
+    QUIT,
+];
+
+impl Command {
+    /// How the command is written: `:run TIME`.
+    pub fn usage(&self) -> String {
+        format!("{} {}", self.name, self.placeholder).trim_end().to_owned()
+    }
+}
+
+/// The command that is meant by a name or by the beginning of one, with its colon.
+///
+/// # Errors
+/// When no command begins like this, or several do.
+pub fn find(name: &str) -> Result<&'static Command, Diagnostic> {
+    if let Some(exact) = COMMANDS.iter().find(|command| command.name == name) {
+        return Ok(exact);
+    }
+    let begins = |command: &&Command| name.len() > 1 && command.name.starts_with(name);
+    let candidates: Vec<&Command> = COMMANDS.iter().filter(begins).collect();
+    match candidates.as_slice() {
+        [one] => Ok(one),
+        [] => {
+            let near = nearest(name, COMMANDS.iter().map(|command| command.name));
+            let hint = near.map_or_else(
+                || ":help lists the commands".to_owned(),
+                |near| format!("did you mean {near}?"),
+            );
+            Err(Diagnostic::general(format!("there is no command '{name}'")).with_hint(hint))
+        }
+        several => {
+            let names: Vec<&str> = several.iter().map(|one| one.name).collect();
+            Err(Diagnostic::general(format!("'{name}' can be {}", names.join(" or ")))
+                .with_hint("write more of it"))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn beginnings_of_names_will_do_where_they_are_clear() {
+        let name = |text| find(text).map(|command| command.name).ok();
+        assert_eq!(name(":inv"), Some(":invariants"));
+        assert_eq!(name(":step"), Some(":step"));
+        assert_eq!(name(":s"), None);
+        let told = find(":setp").err().map(|error| error.to_string()).unwrap_or_default();
+        assert!(told.contains("did you mean :step?"), "{told}");
+        let told = find(":sa").map(|command| command.name);
+        assert_eq!(told.ok(), Some(":save"));
+    }
+
+    #[test]
+    fn summaries_fit_a_line_of_the_help() {
+        for command in COMMANDS {
+            assert!(command.usage().len() + command.summary.len() < 110, "{}", command.name);
+            assert!(!command.summary.ends_with('.'), "{}", command.name);
+        }
+    }
+}

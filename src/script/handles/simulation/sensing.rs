@@ -1,0 +1,96 @@
+//! Columns that functions of a script fill.
+
+use std::cell::Cell;
+use std::rc::Rc;
+
+use rhai::Dynamic;
+
+use super::{SimulationHandle, Watch, explain};
+use crate::script::rows::call::Call;
+use crate::script::rows::stored::StoredFunction;
+use crate::script::words::error::ScriptError;
+use crate::script::words::numbers::{as_number, describe};
+use crate::simulation::Simulation;
+
+/// The functions that fill columns, in the order of the columns.
+pub(super) struct Sensing {
+    functions: Vec<Rc<StoredFunction>>,
+    /// After how many steps they looked last.
+    looked: Cell<Option<usize>>,
+    is_looking: Cell<bool>,
+}
+
+impl Sensing {
+    pub(super) fn new(functions: Vec<Rc<StoredFunction>>) -> Self {
+        Self { functions, looked: Cell::new(None), is_looking: Cell::new(false) }
+    }
+
+    /// Refuses to move what functions look at.
+    pub(super) fn expect_idle(&self) -> Result<(), ScriptError> {
+        match self.is_looking.get() {
+            false => Ok(()),
+            true => Err(ScriptError::new(
+                "a function that is recorded may not move the simulation that it looks at",
+            )
+            .hint("step it outside the function, or at a time: sim.at(t, |sim| …)")),
+        }
+    }
+}
+
+impl SimulationHandle {
+    /// Looks at the simulation by way of what may change it for the moment.
+    pub fn look<T>(&self, look: impl FnOnce(&mut Simulation) -> T) -> T {
+        look(&mut self.0.simulation.borrow_mut())
+    }
+
+    /// Lets the functions fill their columns in the last row, unless they have.
+    ///
+    /// # Errors
+    /// Those of the functions; also when one gives no number.
+    pub fn sense(&self) -> Result<(), ScriptError> {
+        let Sensing { functions, looked, is_looking } = &self.0.sensing;
+        let steps = self.simulation().counts().steps;
+        if functions.is_empty() || looked.replace(Some(steps)) == Some(steps) {
+            return Ok(());
+        }
+        let mut values = Vec::with_capacity(functions.len());
+        for function in functions {
+            is_looking.set(true);
+            let called = function.call([Dynamic::from(self.clone())]);
+            is_looking.set(false);
+            let value = called.map_err(ScriptError::Engine)?;
+            values.push(as_number(&value).ok_or_else(|| {
+                let engine = function.context().engine();
+                let got = engine.map(|engine| describe(&engine, &value)).unwrap_or_default();
+                ScriptError::new(format!("{} must give a number, got {got}", function.role()))
+                    .hint("for a vector record two columns: |q| q.position(rod.end).x, |q| q.position(rod.end).y")
+            })?);
+        }
+        self.0.simulation.borrow_mut().fill_in(&values);
+        Ok(())
+    }
+
+    /// Runs to a time; where functions fill columns, with a pause after every step that is recorded.
+    pub(super) fn run_and_sense(
+        &self,
+        call: &Call,
+        stop: f64,
+        slack: f64,
+    ) -> Result<(), ScriptError> {
+        loop {
+            let mut watch = Watch::new(call.context(), stop - slack);
+            watch.pauses = !self.0.sensing.functions.is_empty();
+            let ran = self.0.simulation.borrow_mut().run_to(stop, &mut watch);
+            if !watch.is_paused || ran.is_ok() {
+                ran.map_err(|error| explain(error, call.context()))?;
+                return self.sense();
+            }
+            let simulation = self.simulation();
+            let is_due = simulation.recording().is_due(simulation.counts().steps);
+            drop(simulation);
+            if is_due {
+                self.sense()?;
+            }
+        }
+    }
+}

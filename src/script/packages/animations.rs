@@ -1,0 +1,192 @@
+//! Motions as animated pictures.
+
+use rhai::Dynamic;
+
+use super::pictures::{FILE, MOVING, plain, simulations, stations};
+use super::simulations::SPINNING;
+use super::viewers::span;
+use crate::elementary::whole_power;
+use crate::output::{Animation, Figure, MotionPicture, OutputError, Page, Panel, Snapshot};
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::handles::station::StationHandle;
+use crate::script::looks::motion::snapshot;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::Scripted;
+use crate::script::rows::options::Options;
+use crate::script::rows::parameter::{Parameter, Presence, array, number, options, text, whole};
+use crate::script::rows::table::{Table, function};
+use crate::script::words::error::{Place, ScriptError};
+
+/// Animations.
+pub const TABLE: Table = Table {
+    name: "animations",
+    doc: "An animation is a PNG file with many frames, which browsers play and Markdown shows, as in a README; other programs show its first frame.",
+    types: &[],
+    setup: SPINNING,
+    constants: &[],
+    rows: &[
+        function("write_animation", &[MOVING, FILE, options("options", ANIMATION).optional()], write_animation)
+            .summary("Writes the motion as an animated picture, a PNG file that repeats without end.")
+            .doc(
+                "Frames are the recorded configurations nearest to times that are evenly spread. Given an array, simulations stand side by side \
+                 with the same view. All frames together have at most 256 colours. For a long motion, or to look closely, write_viewer is the \
+                 smaller file.",
+            )
+            .example("sim.run_to(2);\nwrite_animation(sim, \"spin.png\", #{ frames: 20, fps: 10, width: 320, trace: [rod.end] });")
+            .see(&["write_viewer", "plot_motion"]),
+    ],
+};
+
+const ANIMATION: &[Parameter] = &[
+    text("title").doc("the name of the first simulation unless given").optional(),
+    number("from").unit("time").doc("first frame; the start unless given").optional(),
+    number("to").unit("time").doc("last frame; the present unless given").optional(),
+    whole("frames").between(2.0, 1000.0).doc("how many").or(Presence::Whole(100)),
+    whole("fps").between(1.0, 60.0).doc("frames in a second").or(Presence::Whole(20)),
+    whole("width")
+        .between(200.0, 2000.0)
+        .doc("pixels; 640, or 960 for several simulations, unless given")
+        .optional(),
+    array("trace").doc("stations whose paths are drawn as they come about").optional(),
+];
+
+/// Pixels of a picture, alone and of several.
+const WIDTHS: (f64, f64) = (640.0, 960.0);
+/// Least height of a picture in pixels.
+const LEAST_HEIGHT: f64 = 160.0;
+
+/// A point in the plane as it is drawn.
+type Drawn = (f64, f64);
+/// A path: points with their times.
+type Path = Vec<(f64, Drawn)>;
+
+/// A simulation in frames.
+struct Reel {
+    /// The picture without what moves, with a view of everything.
+    base: MotionPicture,
+    snapshots: Vec<Snapshot>,
+    /// Paths by name.
+    traces: Vec<(String, Path)>,
+}
+
+impl Reel {
+    /// The picture of a frame.
+    fn picture(&self, frame: usize, time: f64) -> MotionPicture {
+        let until = |path: &Path| {
+            path.iter().filter(|(at, _)| *at <= time).map(|(_, point)| *point).collect()
+        };
+        let picture = self.base.clone().snapshot(self.snapshots[frame].clone());
+        let traces = self.traces.iter();
+        traces.fold(picture, |picture, (name, path)| picture.trace(name.clone(), until(path)))
+    }
+
+    /// All that is ever seen of it.
+    fn points(&self) -> impl Iterator<Item = &Drawn> {
+        let snapshots = self.snapshots.iter();
+        let moving = snapshots.flat_map(|at| at.lines.iter().flatten().chain(&at.particles));
+        moving.chain(self.traces.iter().flat_map(|(_, path)| path.iter().map(|(_, point)| point)))
+    }
+}
+
+fn write_animation(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let file = call.text("file")?;
+    if ![".png", ".apng"].iter().any(|ending| file.ends_with(ending)) {
+        let told = format!("\"{file}\" does not end in .png");
+        return Err(call
+            .error(told)
+            .hint("an animation is a PNG file: \"motion.png\"")
+            .at(Place::Argument(1)));
+    }
+    let simulations = simulations(call)?;
+    let options = call.options_or_defaults("options")?;
+    let times = times(call, &simulations, &options)?;
+    let traced =
+        stations(call, &options.array("trace").unwrap_or_default(), Place::Key("trace".into()))?;
+    let title = options.text("title").map(|title| title.to_string());
+    let title = title.unwrap_or_else(|_| simulations[0].name().to_owned());
+    let reels = simulations.iter().map(|of| {
+        call.proceed()?;
+        reel(of, &times, &traced)
+    });
+    let reels = framed(reels.collect::<Result<Vec<_>, ScriptError>>()?);
+    let usual = if reels.len() == 1 { WIDTHS.0 } else { WIDTHS.1 };
+    let width = options.count("width").map_or(usual, |width| width as f64);
+    let decimals = decimals(&times);
+    let draw = |frame: usize| -> Result<Figure, OutputError> {
+        call.proceed().map_err(|_| OutputError::Paint { reason: "it was stopped".into() })?;
+        let time = times[frame];
+        let when = format!("{title}, t = {time:.decimals$}");
+        let pictures = reels.iter().map(|reel| reel.picture(frame, time));
+        match reels.as_slice() {
+            [reel] => scaled(&reel.picture(frame, time).title(when), width),
+            _ => scaled(&pictures.fold(Page::row(), Page::panel).title(when), width),
+        }
+    };
+    let frames_per_second = options.count("fps")? as u16;
+    let bytes = Animation { frames: times.len(), frames_per_second, draw: &draw }.to_png();
+    call.proceed()?;
+    call.context().write_file(&file, &bytes?)?;
+    Ok(Dynamic::UNIT)
+}
+
+/// The times of the frames.
+fn times(
+    call: &Call,
+    simulations: &[SimulationHandle],
+    options: &Options,
+) -> Result<Vec<f64>, ScriptError> {
+    let spans = simulations.iter().map(|of| span(call, of, options));
+    let spans = spans.collect::<Result<Vec<_>, ScriptError>>()?;
+    let from = spans.iter().map(|span| span.0).fold(f64::INFINITY, f64::min);
+    let to = spans.iter().map(|span| span.1).fold(f64::NEG_INFINITY, f64::max);
+    let pieces = options.count("frames")? - 1;
+    Ok((0..=pieces).map(|frame| from + (to - from) * frame as f64 / pieces as f64).collect())
+}
+
+/// How many decimals tell one frame from the next.
+fn decimals(times: &[f64]) -> usize {
+    let apart = times.get(1).map_or(1.0, |second| second - times[0]);
+    (0..12).find(|decimals| apart * whole_power(10.0, *decimals as i32) >= 0.999).unwrap_or(12)
+}
+
+fn reel(
+    of: &SimulationHandle,
+    times: &[f64],
+    traced: &[StationHandle],
+) -> Result<Reel, ScriptError> {
+    let simulation = of.simulation();
+    let mut snapshots = Vec::new();
+    for time in times {
+        snapshots.extend(simulation.configuration_near(*time)?.map(|at| snapshot(&at)));
+    }
+    let (first, last) = (times[0], times[times.len() - 1]);
+    let trace = |station: &StationHandle| {
+        let path = simulation.path(&station.on(of)?).into_iter();
+        let inside = path.filter(|(time, _)| (first..=last).contains(time));
+        let points = inside.map(|(time, point)| (time, plain(&point))).collect();
+        Ok((format!("path of {}", station.show()), points))
+    };
+    let names = simulation.scene().beams.iter().map(|beam| beam.name.clone());
+    Ok(Reel {
+        base: MotionPicture::new(of.name()).beams(names),
+        snapshots,
+        traces: traced.iter().map(trace).collect::<Result<_, ScriptError>>()?,
+    })
+}
+
+/// The reels with the same view of all that is ever seen.
+fn framed(reels: Vec<Reel>) -> Vec<Reel> {
+    let ends = |pick: fn(&Drawn) -> f64| {
+        let all = reels.iter().flat_map(Reel::points).map(pick).filter(|x| x.is_finite());
+        all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+    };
+    let (x, y) = (ends(|point| point.0), ends(|point| point.1));
+    let view = |reel: Reel| Reel { base: reel.base.window((x.0, y.0), (x.1, y.1)), ..reel };
+    reels.into_iter().map(view).collect()
+}
+
+/// A picture so wide, as high as suits it.
+fn scaled(panel: &dyn Panel, width: f64) -> Result<Figure, OutputError> {
+    let (own, height) = panel.size();
+    panel.figure_of((width, (height * width / own).max(LEAST_HEIGHT)))
+}

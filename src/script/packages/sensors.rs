@@ -1,0 +1,291 @@
+//! Sensors: more columns of the history; and what they read, asked for once.
+
+use rhai::{Array, Dynamic, FnPtr, Map};
+
+use super::equilibria::{EQUILIBRIUM, EquilibriumHandle};
+use super::scenes::{BEAM, SCENE, STATION};
+use super::simulations::SIMULATION;
+use super::sliding::{SLIDER, SliderHandle};
+use super::statistics::map;
+use super::vectors::VECTOR;
+use crate::beams::{SectionForces, Station};
+use crate::geometry::Vec2;
+use crate::model::{Instant, ModelError, Scene, SectionSample};
+use crate::script::handles::beam::BeamHandle;
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::handles::station::StationHandle;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::Scripted;
+use crate::script::rows::parameter::{Parameter, callback, number, object, text};
+use crate::script::rows::returns::{Returns, ValueKind};
+use crate::script::rows::table::{Table, method};
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::suggest::nearest;
+
+/// Sensors.
+pub const TABLE: Table = Table {
+    name: "sensors",
+    doc: "A scene records what it is asked to: scene.record(\"rod.end.x\") makes a column of the history, which is told, drawn, saved and counted like every other. \
+          A ready sensor is an object, a place and a quantity. Places of a beam: rod.start, rod.end, rod[0.5] (arc length as drawn); with x, y, vx, vy, speed, ax, ay, angle, spin, \
+          N, Q, M, axial_strain, shear_strain, curvature. A particle has x to ay. A beam or a particle as a whole: energy, kinetic, strain, axial, shear, bending, potential. \
+          Joints, counted by kind as they were made (hinge1, hinge2, clamp1, rigid1): force, fx, fy, moment, on the station that was named first. Section forces, accelerations and forces are \
+          those of the present moment, by the equations of motion, of second order like the motion; where a stiff beam rings from step to step they ring with it, and \
+          sim.history.averaged(column) does not. A scene without sensors pays nothing.",
+    types: &[],
+    setup: HANGING,
+    constants: &[],
+    rows: &[
+        method(SCENE, "record", &[text("column").doc("a ready sensor, or the name of a column for a function"), callback("function").doc("|q| …, gives a number; q is the simulation").optional()], record)
+            .summary("Records one more column in the histories of simulations that are started from here on.")
+            .doc(
+                "A function is asked at the start, and after every recorded step as soon as that is done; it looks, and does not move the simulation. Of the parts of a step of \
+                 scene.step that had to be halved, the last is asked alone. A simulation with a function cannot be saved, and studies leave functions out; with ready sensors it can, and they do not.",
+            )
+            .example(
+                "scene.record(\"rod.end.x\");\nscene.record(\"height\", |q| q.position(rod.end).y + 3);\nlet sim = scene.start(#{ dt: 0.05 });\nsim.run_to(1);\n\
+                 check(sim.history.column(\"rod.end.x\").len() == 21);\ncheck_close(sim.history.last(\"height\"), sim.position(rod.end).y + 3, 1e-15);",
+            )
+            .see(&["statistics", "spectrum", "column", "every", "plot_history"]),
+        method(SIMULATION, "section_forces", &[object("beam", BEAM), S], |call| {
+            let (beam, handle) = (call.get::<BeamHandle>("beam")?, call.receiver::<SimulationHandle>()?);
+            let index = beam.own(handle.scene())?;
+            let simulation = handle.simulation();
+            known(call, simulation.scene(), index, &beam)?;
+            match wanted(call, simulation.scene(), index)? {
+                Some(at) => Ok(told(&simulation.section_forces(&at)?).into()),
+                None => Ok(along(&simulation.section_forces_along(index)?)),
+            }
+        })
+        .returns(Returns::one_of(&[ValueKind::Map, ValueKind::Array(&ValueKind::Map)]))
+        .summary("Axial force, shear force and moment of a beam: at an arc length, or along all of it.")
+        .doc(
+            "The map holds N (positive in tension), Q (positive to the left of the axis) and M (positive counter-clockwise) [force, force, force·length], which the part of the beam that follows puts on \
+             the part before, in the frame of the section; and axial_strain, shear_strain and curvature, by the law of the material. Along a beam there is one for each knot and three between, with \
+             its arc length s; where a joint cuts the beam there are two of one s. They balance loads and inertia up to the ends of a beam, with errors that fall with the length of a \
+             span to the power of the degree (N, Q), and to that of two or more (M). Of linear elements each has one value.",
+        )
+        .example(
+            "let sim = scene.start(#{ dt: 0.01 });\nsim.step();\nlet along = sim.section_forces(rod);\ncheck(along[0].s == 0 && along.len() == 17);\n\
+             check_close(sim.section_forces(rod, 2).M, 0, 1e-2);",
+        )
+        .see(&["reaction", "record"]),
+        method(EQUILIBRIUM, "section_forces", &[object("beam", BEAM), S], |call| {
+            let (beam, handle) = (call.get::<BeamHandle>("beam")?, call.receiver::<EquilibriumHandle>()?);
+            let index = beam.own(handle.scene())?;
+            let rest = handle.rest();
+            known(call, rest.scene(), index, &beam)?;
+            match wanted(call, rest.scene(), index)? {
+                Some(at) => Ok(told(&rest.section_forces(&at)?).into()),
+                None => Ok(along(&rest.section_forces_along(index)?)),
+            }
+        })
+        .returns(Returns::one_of(&[ValueKind::Map, ValueKind::Array(&ValueKind::Map)]))
+        .summary("Axial force, shear force and moment of a beam at rest: at an arc length, or along all of it.")
+        .doc("As those of a simulation.")
+        .example(
+            "scene.hinge(rod.end);\nlet rest = scene.equilibrium();\nlet middle = rest.section_forces(rod, 1);\n\
+             check_close(middle.Q, 0, 1e-6);\ncheck_close(middle.M, 9.81 * 2^2 / 8, 0.06);",
+        )
+        .see(&["reaction"]),
+        method(SIMULATION, "reaction", &[AT], |call| {
+            let (handle, station) = (call.receiver::<SimulationHandle>()?, call.get::<StationHandle>("station")?);
+            let place = station.on(&handle)?;
+            let reaction = handle.look(|simulation| {
+                let now = simulation.instant()?;
+                Ok::<_, ModelError>(simulation.model().reaction(&now, &place))
+            })?;
+            let nothing = || {
+                call.error(format!("nothing holds the scene at {}", station.show()))
+                    .hint("ask where scene.clamp(…) or scene.hinge(…) ties it to the ground")
+            };
+            reaction.map(force_and_moment).ok_or_else(nothing)
+        })
+        .returns(Returns::MAP)
+        .summary("What the support at a station gives at the present moment: force, a vector, and moment.")
+        .doc("By the equations of motion, with loads as they are just after the present.")
+        .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\nlet given = sim.reaction(rod.start);\ncheck(norm(given.force) > 1 && given.moment == 0);")
+        .see(&["joint_force", "section_forces", "record"]),
+        method(SIMULATION, "joint_force", &[text("joint").doc("hinge1, clamp1 or rigid1: its kind, and the how-manieth of that")], joint_force)
+            .returns(Returns::MAP)
+            .summary("What a joint gives to the station that was named first: force, a vector, and moment.")
+            .doc("At the present moment, by the equations of motion. A joint with the ground is a support.")
+            .example("let sim = scene.start(#{ dt: 0.01 });\ncheck(sim.joint_force(\"hinge1\").force == sim.reaction(rod.start).force);")
+            .see(&["reaction"]),
+        method(SIMULATION, "present_contact_force", &[object("slider", SLIDER)], |call| {
+            let handle = call.receiver::<SimulationHandle>()?;
+            let slider = call.get::<SliderHandle>("slider")?.on(&handle)?;
+            let now = handle.look(|simulation| simulation.instant())?;
+            Ok(Dynamic::from(now.contact(slider)))
+        })
+        .returns(Returns::object(VECTOR).unit("force"))
+        .summary("The force of a slider on its master at the present moment.")
+        .doc(
+            "By the equations of motion, of second order like the motion. contact_force and the columns NAME.force are those of the steps: \
+             the mean of a step, which belongs to its middle, and may alternate from step to step.",
+        )
+        .example(
+            "let bead = scene.slider(scene.particle([1, 0], 0.5), rod, #{ at: 0.5 });\nlet sim = scene.start(#{ dt: 0.001 });\nsim.step();\n\
+             check(sim.present_contact_force(bead).y < 0);",
+        )
+        .see(&["contact_force", "joint_force"]),
+        method(SIMULATION, "acceleration", &[AT], |call| {
+            let (handle, station) = (call.receiver::<SimulationHandle>()?, call.get::<StationHandle>("station")?);
+            let place = station.on(&handle)?;
+            let acceleration = handle.look(|simulation| {
+                let now = simulation.instant()?;
+                Ok::<_, ModelError>(simulation.model().acceleration(&now, &place))
+            })?;
+            Ok(Dynamic::from(acceleration))
+        })
+        .returns(Returns::object(VECTOR).unit("length/time²"))
+        .summary("How a station accelerates at the present moment, by the equations of motion.")
+        .example("let sim = scene.start(#{ dt: 0.01 });\ncheck(norm(sim.acceleration(rod.start)) == 0);\ncheck(sim.acceleration(rod.end).y < -9.81);")
+        .see(&["velocity", "spin"]),
+        method(SIMULATION, "spin", &[AT], |call| {
+            let (handle, station) = (call.receiver::<SimulationHandle>()?, call.get::<StationHandle>("station")?);
+            let place = station.on(&handle)?;
+            if station.station.beam().is_none() {
+                let told = format!("{} does not turn: it has no spin", station.show());
+                return Err(call.error(told).hint("ask for the spin at a station of a beam"));
+            }
+            Ok(handle.simulation().model().spin(&place).into())
+        })
+        .returns(Returns::NUMBER.unit("1/time"))
+        .summary("The angular velocity of the section at a station, counter-clockwise.")
+        .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.1);\ncheck(sim.spin(rod.end) < 0);")
+        .see(&["angle", "acceleration"]),
+        method(SIMULATION, "energies", &[object("beam", BEAM)], |call| {
+            let (beam, handle) = (call.get::<BeamHandle>("beam")?, call.receiver::<SimulationHandle>()?);
+            let index = beam.own(handle.scene())?;
+            known(call, handle.simulation().scene(), index, &beam)?;
+            let energy = handle.look(|simulation| simulation.energy_of(index));
+            Ok(map(&[
+                ("energy", energy.total()),
+                ("kinetic", energy.kinetic),
+                ("strain", energy.strain()),
+                ("axial", energy.axial),
+                ("shear", energy.shear),
+                ("bending", energy.bending),
+                ("potential", energy.potential),
+            ]))
+        })
+        .returns(Returns::MAP.unit("energy"))
+        .summary("The energy of a beam and of what stands on it, by kind: those of all bodies add up to that of the scene.")
+        .doc("The map holds energy, kinetic, strain, axial, shear, bending and potential.")
+        .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.1);\ncheck_close(sim.energies(rod).energy, sim.energy, 1e-12);")
+        .see(&["record"]),
+    ],
+};
+
+/// How examples get something that hangs.
+const HANGING: &str = "let scene = new_scene(\"example\");\n\
+    let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 0.01 });\n\
+    let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });\n\
+    scene.hinge(rod.start);\n\
+    scene.gravity([0, -9.81]);";
+
+const AT: Parameter = object("station", STATION);
+const S: Parameter = number("s")
+    .unit("length")
+    .doc("arc length from the start, as drawn; along the beam if not given")
+    .optional();
+
+fn record(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (scene, column) = (call.receiver::<SceneHandle>()?, call.text("column")?);
+    if let Some(function) = call.get_if::<FnPtr>("function") {
+        call.expect_arguments(&function, 1, "|q| …, a function of the simulation")?;
+        let function = call.store(function, &format!("the function of the column '{column}'"));
+        scene.scene().borrow_mut().record_outside(&column)?;
+        scene.keep_function(function);
+        return Ok(Dynamic::UNIT);
+    }
+    let recorded = scene.scene().borrow_mut().record(&column);
+    recorded.map_err(|error| {
+        let names = scene.scene().borrow().sensor_names();
+        let meant = nearest(&column, names.iter().map(String::as_str));
+        let told = ScriptError::from(error).at(Place::Argument(0));
+        match meant {
+            Some(meant) => told.hint(format!("did you mean \"{meant}\"?")),
+            None => told.hint(format!(
+                "or give a function: scene.record(\"{column}\", |q| q.position(rod.end).x)"
+            )),
+        }
+    })?;
+    Ok(Dynamic::UNIT)
+}
+
+fn joint_force(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (handle, name) = (call.receiver::<SimulationHandle>()?, call.text("joint")?);
+    let names = handle.simulation().scene().joint_names();
+    let found = names.iter().position(|other| *other == name.as_str());
+    let joint =
+        found.ok_or_else(|| unknown(call, &name, "joint", names.iter().map(String::as_str)))?;
+    let (now, joint): (Instant, _) = handle.look(|simulation| {
+        let joint = simulation.model().transmission(simulation.scene(), joint)?;
+        Ok::<_, ModelError>((simulation.instant()?, joint))
+    })?;
+    Ok(force_and_moment(joint.read(&now)))
+}
+
+fn unknown<'a>(
+    call: &Call,
+    name: &str,
+    what: &str,
+    known: impl Iterator<Item = &'a str> + Clone,
+) -> ScriptError {
+    let all: Vec<&str> = known.clone().collect();
+    let hint = match (nearest(name, known), all.as_slice()) {
+        (Some(meant), _) => format!("did you mean \"{meant}\"?"),
+        (None, []) => format!("the scene has no {what}s"),
+        (None, all) => format!("there are: {}", all.join(", ")),
+    };
+    call.error(format!("there is no {what} '{name}'")).hint(hint).at(Place::Argument(0))
+}
+
+/// Refuses a beam that was added later.
+fn known(call: &Call, built: &Scene, index: usize, beam: &BeamHandle) -> Result<(), ScriptError> {
+    if index < built.beams.len() {
+        return Ok(());
+    }
+    let told = format!("{} was added after the scene was started", beam.show());
+    Err(call.error(told).hint("add everything before scene.start(…), or start again"))
+}
+
+/// The station that is asked for, if it is one and not the whole beam.
+fn wanted(call: &Call, scene: &Scene, beam: usize) -> Result<Option<Station>, ScriptError> {
+    let Some(station) = call.number_if_given("s") else { return Ok(None) };
+    let length = scene.beams[beam].axis.length();
+    if !(0.0..=length).contains(&station) {
+        let beam = scene.beams[beam].name.clone();
+        let refused = ScriptError::from(ModelError::StationOutside { beam, station, length });
+        return Err(refused.at(Place::Argument(1)));
+    }
+    Ok(Some(Station::on_beam(beam, station)))
+}
+
+fn force_and_moment((force, moment): (Vec2, f64)) -> Dynamic {
+    let map = [("force", Dynamic::from(force)), ("moment", moment.into())];
+    map.into_iter().map(|(name, value)| (name.into(), value)).collect::<Map>().into()
+}
+
+fn told(forces: &SectionForces) -> Map {
+    let entries = [
+        ("N", forces.axial),
+        ("Q", forces.shear),
+        ("M", forces.moment),
+        ("axial_strain", forces.axial_strain),
+        ("shear_strain", forces.shear_strain),
+        ("curvature", forces.curvature),
+    ];
+    entries.into_iter().map(|(name, value)| (name.into(), value.into())).collect()
+}
+
+fn along(samples: &[SectionSample]) -> Dynamic {
+    let row = |sample: &SectionSample| {
+        let mut row = told(&sample.forces);
+        row.insert("s".into(), sample.arc_length.into());
+        Dynamic::from(row)
+    };
+    samples.iter().map(row).collect::<Array>().into()
+}

@@ -1,0 +1,203 @@
+//! Pages on which simulations move.
+
+use rhai::{Array, Dynamic};
+
+use super::pictures::{FILE, MOVING, simulations, stations};
+use super::simulations::SPINNING;
+use crate::beams::Station;
+use crate::output::viewer::Viewer;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::handles::station::StationHandle;
+use crate::script::looks::film::{FIELDS, Wishes, film};
+use crate::script::looks::sight::column_hint;
+use crate::script::rows::call::Call;
+use crate::script::rows::options::Options;
+use crate::script::rows::parameter::{Parameter, Presence, array, number, options, text, whole};
+use crate::script::rows::table::{Table, function};
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::format_number;
+use crate::script::words::suggest::nearest;
+
+/// Viewers.
+pub const TABLE: Table = Table {
+    name: "viewers",
+    doc: "A viewer is one HTML file that plays simulations in any browser, without network and without withy: to look at, to send, to keep.",
+    types: &[],
+    setup: SPINNING,
+    constants: &[],
+    rows: &[
+        function("write_viewer", &[MOVING, FILE, options("options", VIEWER).optional()], write_viewer)
+            .summary("Writes a page on which the motion can be played, zoomed, coloured and read; energies below it, with the time as a cursor.")
+            .doc(
+                "Given an array, simulations stand side by side with one time and one view; of more than four, two are shown until others are \
+                 chosen. Frames are configurations that the simulation has recorded, none is made up between them; places are kept in 16 bits, \
+                 which is far below a pixel until one zooms in some hundred times. Colours: speed, from the configurations before and after; \
+                 stretch, how much longer the axis is than as drawn; curvature, how much more it bends than as drawn. Keys are listed by `?` on \
+                 the page.",
+            )
+            .example(
+                "sim.run_to(2);\nwrite_viewer(sim, \"spin.html\", #{ trails: [rod.end], columns: [\"kinetic\", \"angular_momentum\"] });\n\
+                 let fine = scene.start(#{ dt: 0.05, name: \"half the step\" });\nfine.run_to(2);\n\
+                 write_viewer([sim, fine], \"steps.html\", #{ labels: [\"dt = 0.1\", \"dt = 0.05\"] });",
+            )
+            .see(&["write_animation", "plot_motion", "plot_history"]),
+    ],
+};
+
+const VIEWER: &[Parameter] = &[
+    text("title").doc("the name of the first simulation unless given").optional(),
+    array("labels").doc("what the simulations are called; their names unless given").optional(),
+    number("from").unit("time").doc("first frame; the start unless given").optional(),
+    number("to").unit("time").doc("last frame; the present unless given").optional(),
+    whole("frames")
+        .between(2.0, 20_000.0)
+        .doc("most frames, evenly spread over the time")
+        .or(Presence::Whole(1000)),
+    array("trails")
+        .doc("stations whose paths are drawn; free ends, where there are eight at most, unless given")
+        .optional(),
+    array("columns")
+        .doc("columns of the history; kinetic, strain, potential, energy and work unless given")
+        .optional(),
+    array("fields").doc("what beams can be coloured by: \"speed\", \"stretch\", \"curvature\"; all unless given").optional(),
+];
+
+/// What is drawn below the motion unless columns are named.
+const LEDGER: [&str; 5] = ["kinetic", "strain", "potential", "energy", "work"];
+
+fn write_viewer(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let file = call.text("file")?;
+    if !file.ends_with(".html") {
+        let told = format!("\"{file}\" does not end in .html");
+        return Err(call
+            .error(told)
+            .hint("a viewer is a page: \"run.html\"")
+            .at(Place::Argument(1)));
+    }
+    let simulations = simulations(call)?;
+    let options = call.options_or_defaults("options")?;
+    let labels = labels(call, &simulations, &options)?;
+    let trails = match options.has("trails") {
+        true => Some(stations(call, &options.array("trails")?, Place::Key("trails".into()))?),
+        false => None,
+    };
+    let trails = trails.map(|trails| assigned(&trails, &simulations)).transpose()?;
+    let fields = fields(call, &options)?;
+    let fields: Vec<&str> = fields.iter().map(String::as_str).collect();
+    let mut films = Vec::new();
+    for (index, (of, label)) in simulations.iter().zip(labels).enumerate() {
+        call.proceed()?;
+        let simulation = of.simulation();
+        let wishes = Wishes {
+            span: span(call, of, &options)?,
+            frames: options.count("frames")?,
+            label,
+            trails: trails.as_ref().map(|trails| trails[index].as_slice()),
+            columns: &columns(call, of, &options)?,
+            fields: &fields,
+        };
+        films.push(film(&simulation, &wishes)?);
+    }
+    let title = options.text("title").map(|title| title.to_string());
+    let title = title.unwrap_or_else(|_| simulations[0].name().to_owned());
+    let page = Viewer { title, films }.to_html()?;
+    call.context().write_file(&file, page.as_bytes())?;
+    Ok(Dynamic::UNIT)
+}
+
+/// What the simulations are called.
+fn labels(
+    call: &Call,
+    simulations: &[SimulationHandle],
+    options: &Options,
+) -> Result<Vec<String>, ScriptError> {
+    let Ok(given) = options.array("labels") else {
+        return Ok(simulations.iter().map(|of| of.name().to_owned()).collect());
+    };
+    if given.len() != simulations.len() {
+        let (labels, of) = (given.len(), simulations.len());
+        let told = format!("{labels} labels are given for {of} simulations");
+        return Err(call
+            .error(told)
+            .hint("give one label for each simulation")
+            .at(Place::Key("labels".into())));
+    }
+    Ok(given.iter().map(Dynamic::to_string).collect())
+}
+
+/// The span of time that is shown of a simulation, in which something is recorded.
+pub(super) fn span(
+    call: &Call,
+    of: &SimulationHandle,
+    options: &Options,
+) -> Result<(f64, f64), ScriptError> {
+    let simulation = of.simulation();
+    let from = options.number_if_given("from").unwrap_or(0.0);
+    let to = options.number_if_given("to").unwrap_or(f64::INFINITY).min(simulation.time());
+    if simulation.frames_between(from, to, 2).is_empty() {
+        let [from, to, now] = [from, to, simulation.time()].map(format_number);
+        let told = format!("nothing of '{}' is recorded from t = {from} to {to}", of.name());
+        return Err(call.error(told).hint(format!("it has run from t = 0 to {now}")));
+    }
+    Ok((from, to))
+}
+
+/// The stations of each simulation among those given: each must be one of them at least.
+fn assigned(
+    given: &[StationHandle],
+    simulations: &[SimulationHandle],
+) -> Result<Vec<Vec<Station>>, ScriptError> {
+    for station in given {
+        let mut on = simulations.iter().map(|of| station.on(of));
+        if let (false, Some(first)) = (on.clone().any(|at| at.is_ok()), on.next()) {
+            first?;
+        }
+    }
+    let of = |simulation| {
+        given.iter().filter(|at| at.on(simulation).is_ok()).map(|at| at.station).collect()
+    };
+    Ok(simulations.iter().map(of).collect())
+}
+
+/// The columns that are asked for, which the simulation must have.
+fn columns(
+    call: &Call,
+    of: &SimulationHandle,
+    options: &Options,
+) -> Result<Vec<String>, ScriptError> {
+    let Ok(given) = options.array("columns") else {
+        return Ok(LEDGER.map(str::to_owned).to_vec());
+    };
+    let simulation = of.simulation();
+    let column = |value: &Dynamic| {
+        let name = value.clone().into_string().unwrap_or_default();
+        if simulation.history().dimension(&name).is_some() {
+            return Ok(name);
+        }
+        let told = format!("the history of '{}' has no column {}", of.name(), call.show(value));
+        let hint = column_hint(simulation.history(), &name);
+        Err(call.error(told).hint(hint).at(Place::Key("columns".into())))
+    };
+    given.iter().map(column).collect()
+}
+
+/// The names of the fields that are asked for.
+fn fields(call: &Call, options: &Options) -> Result<Vec<String>, ScriptError> {
+    let all = || FIELDS.map(|(name, _)| name.to_owned()).to_vec();
+    let given: Array = match options.array("fields") {
+        Ok(given) => given,
+        Err(_) => return Ok(all()),
+    };
+    let field = |value: &Dynamic| {
+        let name = value.clone().into_string().unwrap_or_default();
+        if FIELDS.iter().any(|(known, _)| *known == name) {
+            return Ok(name);
+        }
+        let meant = nearest(&name, FIELDS.iter().map(|(known, _)| *known));
+        let suggestion = meant.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
+        let told = format!("there is no field {}", call.show(value));
+        let hint = format!("{suggestion}fields: {}", all().join(", "));
+        Err(call.error(told).hint(hint).at(Place::Key("fields".into())))
+    };
+    given.iter().map(field).collect()
+}

@@ -1,0 +1,168 @@
+//! What to do about errors of the layers below, in words of the language: these layers tell what is wrong, and know no script.
+
+use std::error::Error;
+
+use crate::beams::BeamError;
+use crate::loads::LoadError;
+use crate::model::{Approach, ModelError, SliderError, Turning};
+use crate::simulation::{ArchiveError, SimulationError};
+use crate::statics::StaticsError;
+
+/// What to do about an error, or about the first of its causes that there is advice on.
+pub fn on(error: &(dyn Error + 'static)) -> Option<String> {
+    let own = None
+        .or_else(|| error.downcast_ref().and_then(on_simulation))
+        .or_else(|| error.downcast_ref().and_then(on_statics))
+        .or_else(|| error.downcast_ref().and_then(on_model))
+        .or_else(|| error.downcast_ref().and_then(on_archive))
+        .or_else(|| error.downcast_ref().and_then(on_load))
+        .or_else(|| error.downcast_ref().and_then(on_beam));
+    own.or_else(|| on(error.source()?))
+}
+
+fn on_simulation(error: &SimulationError) -> Option<String> {
+    Some(match error {
+        SimulationError::Model(error) => return on_model(error),
+        SimulationError::End { end, .. } if !end.is_finite() => "give a finite time".into(),
+        SimulationError::End { .. } => "give a later time, or go back with sim.rewind(t)".into(),
+        SimulationError::Step { .. } | SimulationError::Smallest { .. } => {
+            "the history up to there is kept; try a smaller dt or a finer mesh, and check loads, stiffness, units and what is held".into()
+        }
+        SimulationError::Load { .. } => "a load needs a finite value at all times".into(),
+        SimulationError::Tolerance { .. } => {
+            "the history up to there is kept; give a larger tolerance or a smaller step: adaptive(#{ tolerance: …, smallest: … }); adaptive steps \
+             land on jumps of schedules by themselves, but a function that jumps needs its breaks: schedule(|t| …, [t1, t2])"
+                .into()
+        }
+        SimulationError::Ended { .. } => {
+            "give the slider the option ends: \"bounce\" or \"release\" to go on, or ask sim.ended before a step".into()
+        }
+        SimulationError::Rattles { .. } => "try ends: \"release\" or \"stop\"".into(),
+        SimulationError::FewerSteps { .. } => "sim.rewind(0) leads to the start".into(),
+        SimulationError::NotBehind { .. } => {
+            "give a time between, or use sim.run_to(t) to go on".into()
+        }
+        SimulationError::NoSnapshots { .. } => {
+            "start with scene.start(#{ …, snapshots: 64 }), in megabytes, or call sim.keep_snapshots(64) before the steps".into()
+        }
+        SimulationError::BeforeFirst { .. } => {
+            "earlier ones are not in a file of sim.save(…), and are not kept before sim.keep_snapshots(…)".into()
+        }
+        SimulationError::Forgotten { first, limit, .. } => format!(
+            "sim.rewind({first}) leads there, and for more start with scene.start(#{{ …, snapshots: {} }})",
+            (4.0 * limit).ceil().max(64.0)
+        ),
+        SimulationError::Method(_)
+        | SimulationError::StepSize(_)
+        | SimulationError::Landing { .. }
+        | SimulationError::Interrupted { .. } => return None,
+    })
+}
+
+fn on_statics(error: &StaticsError) -> Option<String> {
+    const AT_REST: &str = "let a damped motion come to rest instead, scene.start(#{ integrator: energy_decaying(#{ chi: 1 }), dt: … })";
+    Some(match error {
+        StaticsError::Model(error) => return on_model(error),
+        StaticsError::NoLoad { .. } => {
+            "loads are taken as they are at one time: choose it with the option time".into()
+        }
+        StaticsError::Slider { .. } => AT_REST.into(),
+        StaticsError::Loose { .. } => {
+            format!("hold it with scene.clamp(…) or scene.hinge(…), or {AT_REST}")
+        }
+        StaticsError::Lost { .. } => {
+            "take more load_steps; where the structure snaps through, follow it with control: arc_length(), or stop before with load_factor".into()
+        }
+        StaticsError::Load { .. }
+        | StaticsError::Value { .. }
+        | StaticsError::Interrupted { .. } => return None,
+    })
+}
+
+fn on_model(error: &ModelError) -> Option<String> {
+    let advice = match error {
+        ModelError::Slider(error) => return on_slider(error),
+        ModelError::Empty { .. } => {
+            "add one with scene.beam(#{ axis: …, section: … }) or scene.particle([x, y], mass)"
+        }
+        ModelError::NoSection { .. } => "give a station of a beam",
+        ModelError::StationOutside { .. } => "use beam.end for its end",
+        ModelError::ParticleTurned { by, .. } => match by {
+            Turning::RigidJoint => "use scene.hinge(…), or scene.mass(…) on the beam",
+            Turning::RotaryInertia => "leave out the rotary inertia",
+            Turning::Load => "only a force of fixed direction can act on it",
+            Turning::Spin => "leave out the spin",
+            Turning::TorsionSpring => "put a torsion spring between sections of beams",
+        },
+        _ => return None,
+    };
+    Some(advice.into())
+}
+
+fn on_slider(error: &SliderError) -> Option<String> {
+    let advice = match error {
+        SliderError::Open { nearest: Approach::On { .. }, .. } => {
+            "give that as `at`, or leave `at` out"
+        }
+        SliderError::Open { nearest: Approach::Apart { .. }, .. } => "move one of them",
+        SliderError::LeavesMaster { .. } => {
+            "start it with the velocity of the beam there and whatever it has along the beam, or give the slider the option \
+             velocities: \"project\", which takes the nearest velocities that fit"
+        }
+        _ => return None,
+    };
+    Some(advice.into())
+}
+
+fn on_archive(error: &ArchiveError) -> Option<String> {
+    let advice = match error {
+        ArchiveError::Function { .. } => {
+            "use hold_for, ramp, pulse, smooth_pulse, sine or table, or sums and products of them"
+        }
+        ArchiveError::Sensor { .. } => "record ready quantities such as \"rod.end.x\"",
+        ArchiveError::Foreign => "files of simulations are those that sim.save(…) has written",
+        ArchiveError::Content { .. } => {
+            "it was not written by sim.save(…), or by a withy with a mistake"
+        }
+        _ => return None,
+    };
+    Some(advice.into())
+}
+
+fn on_load(error: &LoadError) -> Option<String> {
+    let advice = match error {
+        LoadError::ManyParts { .. } => "write it as schedule(|t| …)",
+        LoadError::ShortTable { .. } => "write [[t, factor], …]",
+        _ => return None,
+    };
+    Some(advice.into())
+}
+
+fn on_beam(error: &BeamError) -> Option<String> {
+    match error {
+        BeamError::Quadrature { .. } => {
+            Some("quadrature: \"patch\", the default, finds points and weights by itself".into())
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::LinearError;
+
+    #[test]
+    fn advice_is_found_behind_other_errors() {
+        let empty = || ModelError::Empty { scene: "a".into() };
+        for error in [
+            &empty() as &(dyn Error + 'static),
+            &SimulationError::Model(empty()),
+            &StaticsError::Model(empty()),
+            &ArchiveError::Scene(SimulationError::Model(empty())),
+        ] {
+            assert!(on(error).is_some_and(|told| told.contains("scene.beam(")), "{error}");
+        }
+        assert_eq!(on(&LinearError::Singular { unknown: 1, size: 2 }), None);
+    }
+}

@@ -1,0 +1,152 @@
+//! How the axes of beams are deformed, as far as their control points tell.
+
+use super::Outline;
+use crate::beams::Station;
+use crate::geometry::{BasisValues, GeometryError, Vec2, cross};
+use crate::model::{Model, ModelError, Scene};
+
+/// The axes of the beams of a scene, as drawn.
+pub struct Axes<'a> {
+    scene: &'a Scene,
+    drawn: Model,
+}
+
+/// A station of a beam with what its axis is like as drawn.
+#[derive(Debug, Clone)]
+pub struct AxisStation {
+    values: BasisValues,
+    degree: usize,
+    /// `r0'`, with respect to the parameter of the mesh [length].
+    drawn_slope: Vec2,
+    /// The curvature as drawn, along the axis as drawn [1/length].
+    drawn_curvature: f64,
+}
+
+impl<'a> Axes<'a> {
+    /// Those of a scene.
+    ///
+    /// # Errors
+    /// When the scene cannot be built.
+    pub fn of(scene: &'a Scene) -> Result<Self, ModelError> {
+        Ok(Self { scene, drawn: Model::assemble(scene)? })
+    }
+
+    /// Stations along each beam. Station `k` of a beam is at the place `k · Outline::places_a_station(degree)` of its outline.
+    ///
+    /// # Errors
+    /// When one lies outside its mesh, which would be a mistake of ours.
+    pub fn stations(&self) -> Result<Vec<Vec<AxisStation>>, ModelError> {
+        let of_beam = |(beam, mesh): (usize, &crate::beams::Mesh)| {
+            let every = Outline::places_a_station(mesh.basis().degree());
+            let parameters = Outline::parameters(mesh).into_iter().step_by(every);
+            parameters.map(|xi| self.at_parameter(beam, xi)).collect()
+        };
+        self.drawn.meshes().iter().enumerate().map(of_beam).collect()
+    }
+
+    /// A station of a beam; none on a particle.
+    ///
+    /// # Errors
+    /// When it lies outside its beam.
+    pub fn at(&self, station: &Station) -> Result<Option<AxisStation>, ModelError> {
+        let Some(beam) = station.beam() else { return Ok(None) };
+        let xi = station.parameter(&self.scene.beams[beam].axis, &self.drawn.meshes()[beam]);
+        let xi = xi.map_err(|source| self.wrong(beam, source))?;
+        self.at_parameter(beam, xi).map(Some)
+    }
+
+    fn at_parameter(&self, beam: usize, xi: f64) -> Result<AxisStation, ModelError> {
+        let basis = self.drawn.meshes()[beam].basis();
+        let values = basis.evaluate(xi).map_err(|source| self.wrong(beam, source))?;
+        let points = self.drawn.control_points().nth(beam).unwrap_or_default();
+        Ok(AxisStation::new(values, basis.degree(), points))
+    }
+
+    fn wrong(&self, beam: usize, source: GeometryError) -> ModelError {
+        ModelError::Beam { beam: self.scene.beams[beam].name.clone(), source: source.into() }
+    }
+}
+
+impl AxisStation {
+    /// The station where a mesh has these values, given the control points of its beam as drawn [length].
+    fn new(values: BasisValues, degree: usize, drawn: &[Vec2]) -> Self {
+        let drawn_slope = values.combine(1, drawn);
+        let mut station = Self { values, degree, drawn_slope, drawn_curvature: 0.0 };
+        station.drawn_curvature = station.turning(drawn);
+        station
+    }
+
+    /// Where it is, given the control points of its beam [length].
+    pub fn position(&self, points: &[Vec2]) -> Vec2 {
+        self.values.combine(0, points)
+    }
+
+    /// By how much the axis is longer here than as drawn: `|r'| / |r0'| - 1` [-]. What remains of the strain Γ where shear is small.
+    pub fn stretch(&self, points: &[Vec2]) -> f64 {
+        self.values.combine(1, points).norm() / self.drawn_slope.norm() - 1.0
+    }
+
+    /// By how much more the axis turns along a length as drawn than it did as drawn, positive counter-clockwise [1/length]. It is the
+    /// bending strain κ but for the change of shear along the axis. Straight elements have none: not a number.
+    pub fn curvature(&self, points: &[Vec2]) -> f64 {
+        match self.degree {
+            ..=1 => f64::NAN,
+            _ => self.turning(points) - self.drawn_curvature,
+        }
+    }
+
+    /// The direction of the axis, a unit vector from the start of the beam to its end.
+    pub fn direction(&self, points: &[Vec2]) -> Vec2 {
+        self.values.combine(1, points).normalize()
+    }
+
+    /// `θ' / |r0'|` with the angle θ of the axis [1/length].
+    fn turning(&self, points: &[Vec2]) -> f64 {
+        let (slope, second) = (self.values.combine(1, points), self.values.combine(2, points));
+        cross(slope, second) / slope.norm_squared() / self.drawn_slope.norm()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::elementary::{cos, sin};
+    use crate::geometry::{Basis, KnotVector, LagrangeBasis};
+
+    /// Control points of a basis, each at the place that belongs to its abscissa on an axis of length 2.
+    fn along(basis: &Basis, place: impl Fn(f64) -> Vec2) -> Vec<Vec2> {
+        basis.abscissae().into_iter().map(|xi| place(2.0 * xi)).collect()
+    }
+
+    #[test]
+    fn a_stretched_and_turned_axis_is_stretched_and_turned() {
+        let basis = Basis::BSpline(KnotVector::uniform(3, 3, 2).unwrap());
+        let drawn = along(&basis, |s| Vec2::new(s, 0.0));
+        let now = along(&basis, |s| Vec2::new(1.0 - 1.1 * s * sin(0.3), 1.1 * s * cos(0.3)));
+        for xi in [0.0, 0.4, 1.0] {
+            let station = AxisStation::new(basis.evaluate(xi).unwrap(), 3, &drawn);
+            assert!((station.stretch(&now) - 0.1).abs() < 1e-12);
+            assert!(station.curvature(&now).abs() < 1e-12);
+            assert!((station.direction(&now) - Vec2::new(-sin(0.3), cos(0.3))).norm() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_parabola_has_the_curvature_of_its_top() {
+        let basis = Basis::BSpline(KnotVector::uniform(1, 2, 1).unwrap());
+        let drawn = along(&basis, |s| Vec2::new(s, 0.0));
+        // y = (x - 1)²/4 from x = 0 to 2: its second derivative is 1/2.
+        let now = [Vec2::new(0.0, 0.25), Vec2::new(1.0, -0.25), Vec2::new(2.0, 0.25)];
+        let station = AxisStation::new(basis.evaluate(0.5).unwrap(), 2, &drawn);
+        assert!((station.curvature(&now) - 0.5).abs() < 1e-12);
+        assert!((station.position(&now) - Vec2::new(1.0, 0.0)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn straight_elements_have_no_curvature() {
+        let basis = Basis::Lagrange(LagrangeBasis::uniform(2, 1).unwrap());
+        let drawn = along(&basis, |s| Vec2::new(s, 0.0));
+        let station = AxisStation::new(basis.evaluate(0.3).unwrap(), 1, &drawn);
+        assert!(station.curvature(&drawn).is_nan());
+    }
+}

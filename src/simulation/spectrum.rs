@@ -1,0 +1,221 @@
+//! The frequencies in a column over time.
+//!
+//! The mean is taken off, the rows are weighted with a window of Blackman and Harris (F. J. Harris, Proc. IEEE 66 (1978) 51-83: side lobes of -92 dB), zeros are
+//! appended, and a parabola through the logarithms of the three values about each maximum gives its place and height. The Fourier transform is that of Cooley
+//! and Tukey (1965) with sines of our own, so that its bits are the same on every machine.
+
+use std::f64::consts::TAU;
+
+use super::Series;
+use crate::elementary::{cos, exp, ln, sin_cos};
+
+/// Durations of rows that differ by less, as a part of them, are equal.
+const EVEN: f64 = 1e-6;
+
+/// The fewest rows: the window needs some.
+const FEWEST: usize = 16;
+
+/// Zeros are appended to this many times the rows at least.
+const PADDING: usize = 4;
+
+/// Maxima below this part of the highest may be of the window.
+const SIDE_LOBES: f64 = 5e-5;
+
+/// Of the window of Blackman and Harris.
+const WINDOW: [f64; 4] = [0.35875, -0.48829, 0.14128, -0.01168];
+
+/// Half the width of the main lobe of the window, in frequencies of one period over all rows: what is nearer to nothing is the mean.
+const LOBE: f64 = 4.0;
+
+/// A vibration in a column.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Peak {
+    /// Of the sine [1/time].
+    pub frequency: f64,
+    /// Half of the way from its least to its largest value, in the dimension of the column.
+    pub amplitude: f64,
+}
+
+/// Why a column has no spectrum.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum SpectrumError {
+    /// Rows at other distances than the first two.
+    #[error(
+        "a spectrum needs evenly spaced rows, but that at t = {time} comes {found} after the one before, the others {expected}"
+    )]
+    Uneven {
+        /// When.
+        time: f64,
+        /// The duration there.
+        found: f64,
+        /// That of the first two rows.
+        expected: f64,
+    },
+    /// Too few rows.
+    #[error("a spectrum needs at least {FEWEST} rows, there are {rows}")]
+    Few {
+        /// How many there are.
+        rows: usize,
+    },
+    /// A value that is not a number.
+    #[error("the value at t = {time} is no number")]
+    NoNumber {
+        /// When.
+        time: f64,
+    },
+}
+
+impl Series {
+    /// Its strongest vibrations, at most so many, the strongest first.
+    ///
+    /// Two that are nearer to each other than about four periods over all rows are not told apart, and slower ones than that are not seen.
+    ///
+    /// # Errors
+    /// When rows are few or not evenly spaced, or a value is not a number.
+    pub fn spectrum(&self, most: usize) -> Result<Vec<Peak>, SpectrumError> {
+        let count = self.values.len();
+        if count < FEWEST {
+            return Err(SpectrumError::Few { rows: count });
+        }
+        if let Some(at) = self.values.iter().position(|value| !value.is_finite()) {
+            return Err(SpectrumError::NoNumber { time: self.times[at] });
+        }
+        let dt = (self.times[count - 1] - self.times[0]) / (count - 1) as f64;
+        let expected = self.times[1] - self.times[0];
+        for pair in self.times.windows(2) {
+            let found = pair[1] - pair[0];
+            if (found - dt).abs() > EVEN * dt {
+                return Err(SpectrumError::Uneven { time: pair[1], found, expected });
+            }
+        }
+        let magnitudes = self.windowed_magnitudes();
+        let highest = magnitudes.iter().copied().fold(0.0, f64::max);
+        // In units of the transform with zeros.
+        let size = 2 * (magnitudes.len() - 1);
+        let lobe = (LOBE * size as f64 / count as f64) as usize;
+        let is_peak = |at: &usize| {
+            let (before, here, behind) = (magnitudes[at - 1], magnitudes[*at], magnitudes[at + 1]);
+            here > before && here >= behind && here > SIDE_LOBES * highest
+        };
+        let mut peaks: Vec<Peak> = (lobe.max(1)..magnitudes.len() - 1)
+            .filter(is_peak)
+            .map(|at| {
+                let [a, b, c] = [at - 1, at, at + 1].map(|at| ln(magnitudes[at]));
+                let shift = 0.5 * (a - c) / (a - 2.0 * b + c);
+                let frequency = (at as f64 + shift) / (size as f64 * dt);
+                Peak { frequency, amplitude: exp(b - 0.25 * (a - c) * shift) }
+            })
+            .collect();
+        peaks.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+        peaks.truncate(most);
+        Ok(peaks)
+    }
+
+    /// The amplitudes at multiples of one frequency, from zero to half of that of the rows.
+    fn windowed_magnitudes(&self) -> Vec<f64> {
+        let count = self.values.len();
+        let weights: Vec<f64> = (0..count)
+            .map(|row| {
+                let angle = TAU * (row as f64 + 0.5) / count as f64;
+                WINDOW.iter().enumerate().map(|(k, factor)| factor * cos(k as f64 * angle)).sum()
+            })
+            .collect();
+        let whole: f64 = weights.iter().sum();
+        // With the weights of the window nothing is left at frequency zero.
+        let sum: f64 = weights.iter().zip(&self.values).map(|(weight, value)| weight * value).sum();
+        let mean = sum / whole;
+        let size = (PADDING * count).next_power_of_two();
+        let mut numbers = vec![(0.0, 0.0); size];
+        for ((number, value), weight) in numbers.iter_mut().zip(&self.values).zip(&weights) {
+            number.0 = 2.0 * (value - mean) * weight / whole;
+        }
+        transform(&mut numbers);
+        numbers[..=size / 2].iter().map(|(re, im)| (re * re + im * im).sqrt()).collect()
+    }
+}
+
+/// The Fourier transform of as many complex numbers as a power of two, in place.
+fn transform(numbers: &mut [(f64, f64)]) {
+    let size = numbers.len();
+    let bits = size.trailing_zeros();
+    for at in 0..size {
+        let mirrored = at.reverse_bits() >> (usize::BITS - bits);
+        if mirrored > at {
+            numbers.swap(at, mirrored);
+        }
+    }
+    let turns: Vec<(f64, f64)> = (0..size / 2)
+        .map(|k| {
+            let (sin, cos) = sin_cos(-TAU * k as f64 / size as f64);
+            (cos, sin)
+        })
+        .collect();
+    let mut half = 1;
+    while half < size {
+        let stride = size / (2 * half);
+        for block in numbers.chunks_exact_mut(2 * half) {
+            let (low, high) = block.split_at_mut(half);
+            for (k, (a, b)) in low.iter_mut().zip(high).enumerate() {
+                let (cos, sin) = turns[k * stride];
+                let turned = (b.0 * cos - b.1 * sin, b.0 * sin + b.1 * cos);
+                *b = (a.0 - turned.0, a.1 - turned.1);
+                *a = (a.0 + turned.0, a.1 + turned.1);
+            }
+        }
+        half *= 2;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::elementary::sin;
+
+    fn sampled(count: usize, dt: f64, f: impl Fn(f64) -> f64) -> Series {
+        let times: Vec<f64> = (0..count).map(|row| row as f64 * dt).collect();
+        let values = times.iter().map(|t| f(*t)).collect();
+        Series { times, values }
+    }
+
+    #[test]
+    fn sines_are_found_with_frequency_and_amplitude_beside_a_mean() {
+        let of = sampled(777, 0.02, |t| {
+            5.0 + 2.0 * sin(TAU * 1.37 * t + 0.4) + 0.003 * sin(TAU * 7.21 * t)
+        });
+        let peaks = of.spectrum(5).unwrap();
+        assert_eq!(peaks.len(), 2, "{peaks:?}");
+        for (peak, (frequency, amplitude)) in peaks.iter().zip([(1.37, 2.0), (7.21, 0.003)]) {
+            assert!((peak.frequency / frequency - 1.0).abs() < 1e-4, "{peak:?}");
+            assert!((peak.amplitude / amplitude - 1.0).abs() < 2e-3, "{peak:?}");
+        }
+        assert_eq!(of.spectrum(1).unwrap(), peaks[..1]);
+    }
+
+    #[test]
+    fn the_transform_is_that_of_the_definition() {
+        let values = [3.0, -1.0, 0.5, 2.0, 0.0, 1.0, -2.0, 4.0];
+        let mut numbers = values.map(|value| (value, 0.0));
+        transform(&mut numbers);
+        for (k, (re, im)) in numbers.into_iter().enumerate() {
+            let sum = |part: fn((f64, f64)) -> f64| -> f64 {
+                let terms = values.iter().enumerate();
+                terms.map(|(j, v)| v * part(sin_cos(-TAU * (j * k) as f64 / 8.0))).sum()
+            };
+            assert!((re - sum(|(_, cos)| cos)).abs() < 1e-13);
+            assert!((im - sum(|(sin, _)| sin)).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn uneven_few_and_lost_rows_are_refused() {
+        let mut of = sampled(40, 0.1, |t| t);
+        assert_eq!(sampled(9, 0.1, |t| t).spectrum(1), Err(SpectrumError::Few { rows: 9 }));
+        of.values[3] = f64::NAN;
+        assert!(matches!(of.spectrum(1), Err(SpectrumError::NoNumber { .. })));
+        of.values[3] = 0.0;
+        of.times[39] += 0.05;
+        assert!(matches!(of.spectrum(1), Err(SpectrumError::Uneven { .. })));
+        // Nothing vibrates in a constant.
+        assert_eq!(sampled(64, 0.1, |_| 2.0).spectrum(3).unwrap().len(), 0);
+    }
+}

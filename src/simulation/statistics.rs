@@ -1,0 +1,164 @@
+//! What a column over time tells: extremes, means, derivatives, crossings.
+//!
+//! Between rows a column is taken as straight: integrals are those of the polygon, and exact for it.
+
+/// A quantity over time: as many values as times, which do not decrease.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// When [time].
+    pub times: Vec<f64>,
+    /// The values.
+    pub values: Vec<f64>,
+}
+
+/// The numbers that sum up a quantity over time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Summary {
+    /// The smallest value.
+    pub min: f64,
+    /// When it is taken first [time].
+    pub min_at: f64,
+    /// The largest value.
+    pub max: f64,
+    /// When it is taken first [time].
+    pub max_at: f64,
+    /// Over time: `∫ f dt / T`.
+    pub mean: f64,
+    /// `√(∫ f² dt / T)`
+    pub rms: f64,
+    /// `∫ f dt`
+    pub integral: f64,
+}
+
+impl Series {
+    /// Its extremes, means and integral; none of nothing. What is not a number makes all of them none.
+    pub fn summary(&self) -> Option<Summary> {
+        let first = (*self.values.first()?, *self.times.first()?);
+        let rows = || self.values.iter().copied().zip(self.times.iter().copied());
+        let extreme =
+            |is_better: fn(f64, f64) -> bool| {
+                rows().fold(first, |best, row| {
+                    if is_better(row.0, best.0) || row.0.is_nan() { row } else { best }
+                })
+            };
+        let ((min, min_at), (max, max_at)) = (extreme(|a, b| a < b), extreme(|a, b| a > b));
+        let (mut integral, mut square, mut duration) = (0.0, 0.0, 0.0);
+        for (dt, a, b) in self.pieces() {
+            integral += 0.5 * dt * (a + b);
+            square += dt * (a * a + a * b + b * b) / 3.0;
+            duration += dt;
+        }
+        let (mean, rms) = match duration {
+            0.0 => (first.0, first.0.abs()),
+            duration => (integral / duration, (square / duration).sqrt()),
+        };
+        Some(Summary { min, min_at, max, max_at, mean, rms, integral })
+    }
+
+    /// Durations with the values at their ends.
+    fn pieces(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
+        let pairs = self.times.windows(2).zip(self.values.windows(2));
+        pairs.map(|(times, values)| (times[1] - times[0], values[0], values[1]))
+    }
+
+    /// The derivative by time at every row: that of the parabola through it and its neighbours, of second order also where rows are not
+    /// evenly spaced; at the ends that of the parabola through the next two. Where two rows have one time, at a jump, the quotient on its own
+    /// side.
+    pub fn derivative(&self) -> Vec<f64> {
+        let count = self.values.len();
+        let slope = |a: usize, b: usize| {
+            (self.values[b] - self.values[a]) / (self.times[b] - self.times[a])
+        };
+        let step = |a: usize, b: usize| self.times[b] - self.times[a];
+        let joined = |a: usize, b: usize| step(a, b) > 0.0;
+        let parabola = |a: usize, b: usize, c: usize, at: usize| {
+            let (before, behind) = (slope(a, b), slope(b, c));
+            let bend = (behind - before) / step(a, c);
+            before + bend * (2.0 * self.times[at] - self.times[a] - self.times[b])
+        };
+        let at = |row: usize| {
+            let has_before = row > 0 && joined(row - 1, row);
+            let has_behind = row + 1 < count && joined(row, row + 1);
+            match (has_before, has_behind) {
+                (true, true) => parabola(row - 1, row, row + 1, row),
+                (false, true) if row + 2 < count && joined(row + 1, row + 2) => {
+                    parabola(row, row + 1, row + 2, row)
+                }
+                (true, false) if row > 1 && joined(row - 2, row - 1) => {
+                    parabola(row - 2, row - 1, row, row)
+                }
+                (false, true) => slope(row, row + 1),
+                (true, false) => slope(row - 1, row),
+                (false, false) => f64::NAN,
+            }
+        };
+        (0..count).map(at).collect()
+    }
+
+    /// The times at which it passes a level, up or down; where it only touches the level, it does not pass.
+    pub fn crossings(&self, level: f64) -> Vec<f64> {
+        let mut found = Vec::new();
+        // The side on which it was last, and since when it is on the level itself.
+        let (mut side, mut on_level) = (0.0, None);
+        let mut before: Option<(f64, f64)> = None;
+        for (&time, &value) in self.times.iter().zip(&self.values) {
+            let above = value - level;
+            if above == 0.0 {
+                on_level = on_level.or(Some(time));
+            } else {
+                if above * side < 0.0 {
+                    let between = |(t, v): (f64, f64)| t + (time - t) * v / (v - above);
+                    found.push(on_level.unwrap_or_else(|| before.map_or(time, between)));
+                }
+                (side, on_level) = (above.signum(), None);
+            }
+            before = Some((time, above));
+        }
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn series(rows: &[(f64, f64)]) -> Series {
+        let (times, values) = rows.iter().copied().unzip();
+        Series { times, values }
+    }
+
+    #[test]
+    fn a_polygon_is_summed_up_exactly() {
+        let of = series(&[(0.0, 0.0), (1.0, 2.0), (3.0, -2.0), (3.0, 1.0), (4.0, 1.0)]);
+        let Summary { min, min_at, max, max_at, mean, rms, integral } = of.summary().unwrap();
+        assert_eq!((min, min_at, max, max_at), (-2.0, 3.0, 2.0, 1.0));
+        assert_eq!((integral, mean), (2.0, 0.5));
+        let square = 4.0 / 3.0 + 2.0 * 4.0 / 3.0 + 1.0;
+        assert!((rms - (square / 4.0_f64).sqrt()).abs() < 1e-15);
+        assert_eq!(series(&[]).summary(), None);
+        assert_eq!(series(&[(1.0, -3.0)]).summary().map(|of| (of.mean, of.rms)), Some((-3.0, 3.0)));
+        let lost = series(&[(0.0, 1.0), (1.0, f64::NAN), (2.0, 1.0)]).summary().unwrap();
+        assert!(lost.min.is_nan() && lost.max.is_nan() && lost.mean.is_nan());
+    }
+
+    #[test]
+    fn a_parabola_has_its_derivative_at_uneven_rows_and_at_the_ends() {
+        let times = [0.0, 0.3, 0.4, 1.0, 1.5];
+        let of = series(&times.map(|t| (t, 2.0 * t * t - t)));
+        for (found, t) in of.derivative().iter().zip(times) {
+            assert!((found - (4.0 * t - 1.0)).abs() < 1e-13, "{found} at {t}");
+        }
+        let jump = series(&[(0.0, 0.0), (1.0, 1.0), (1.0, 5.0), (2.0, 3.0)]);
+        assert_eq!(jump.derivative(), [1.0, 1.0, -2.0, -2.0]);
+        assert!(series(&[(0.0, 1.0)]).derivative()[0].is_nan());
+    }
+
+    #[test]
+    fn what_touches_a_level_does_not_cross_it() {
+        let of =
+            series(&[(0.0, -1.0), (1.0, 1.0), (2.0, 0.0), (3.0, 1.0), (4.0, 0.0), (5.0, -2.0)]);
+        assert_eq!(of.crossings(0.0), [0.5, 4.0]);
+        assert_eq!(of.crossings(-1.5), [4.75]);
+        assert_eq!(of.crossings(9.0), [0.0; 0]);
+    }
+}

@@ -1,0 +1,280 @@
+//! What sensors read: against balance, differences and closed forms; and that reading changes nothing.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::{at, orders, run, scenes, sci, settings, simulate, sliding_scenes};
+use withy::beams::{Mesh, Section, Station};
+use withy::geometry::Vec2;
+use withy::integrators::{INTEGRATORS, Method};
+use withy::joints::{JointKind, Partner, SlidingRule};
+use withy::model::{ModelError, Scene};
+use withy::simulation::{Simulation, Unwatched};
+
+fn smooth(spans: usize) -> Mesh {
+    Mesh::bspline(spans, 3, 2).unwrap()
+}
+
+/// Records everything that is ready.
+fn with_all_sensors(mut scene: Scene) -> Scene {
+    let names = scene.sensor_names();
+    names.iter().for_each(|name| scene.record(name).unwrap());
+    if let Some(beam) = scene.beams.first() {
+        let (name, length) = (beam.name.clone(), beam.axis.length());
+        scene.record(&format!("{name}[{}].M", 0.37 * length)).unwrap();
+    }
+    scene
+}
+
+#[test]
+fn reading_changes_no_bit_of_the_motion() {
+    let mesh = smooth(5);
+    let sliding = sliding_scenes::all(&mesh, SlidingRule::Conserving);
+    for scene in scenes::all(&mesh).into_iter().chain(sliding) {
+        for entry in INTEGRATORS {
+            let plain = simulate(scene.clone(), entry.method, 0.02, 0.2);
+            let watched = with_all_sensors(scene.clone());
+            let watched = simulate(watched, entry.method, 0.02, 0.2);
+            let label = format!("{}, {}", scene.name, entry.name);
+            assert!(watched.history().columns().count() > plain.history().columns().count() + 10);
+            let mut extra = watched.model().state();
+            // Sections that are followed for a sensor are a part of the state: here all were followed before.
+            if watched.scene().stations.len() != plain.scene().stations.len() {
+                extra = plain.model().state();
+            }
+            assert_eq!(format!("{:?}", plain.model().state()), format!("{extra:?}"), "{label}");
+            let rows = |of: &Simulation| format!("{:?}", of.history().samples());
+            assert_eq!(rows(&plain), rows(&watched), "{label}");
+            for (name, _) in watched.history().columns() {
+                let column = watched.history().column(name).unwrap();
+                assert!(column.iter().all(|value| value.is_finite()), "{label}: {name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn energies_of_all_bodies_are_that_of_the_scene() {
+    for scene in scenes::all(&smooth(5)) {
+        let (name, beams) = (scene.name.clone(), scene.beams.len());
+        let mut simulation = simulate(scene, Method::default(), 0.02, 0.4);
+        let total = simulation.history().samples().last().unwrap().measures.energy;
+        let mut sums = [0.0; 3];
+        for body in 0..beams {
+            let energy = simulation.energy_of(body);
+            sums[0] += energy.kinetic;
+            sums[1] += energy.axial + energy.shear + energy.bending;
+            sums[2] += energy.potential;
+        }
+        for (sum, whole) in sums.into_iter().zip([total.kinetic, total.strain, total.potential]) {
+            assert!((sum - whole).abs() <= 1e-12 * total.total().abs(), "{name}: {sum} {whole}");
+        }
+    }
+}
+
+/// A short step from a state tells, by its own balance, what the equations of motion say there.
+#[test]
+fn forces_and_accelerations_are_those_of_a_very_short_step() {
+    let short = 1e-6;
+    for scene in scenes::all(&smooth(5)) {
+        let station = Station::on_beam(0, scene.beams[0].axis.length());
+        let name = scene.name.clone();
+        let held: Vec<Station> = scene
+            .joints
+            .iter()
+            .filter(|joint| joint.partner == Partner::Ground)
+            .map(|joint| joint.station)
+            .collect();
+        let gravity = scene.gravity;
+        let has_loads = scene.loads().count() > 0;
+        let mut simulation = simulate(scene, Method::default(), 0.02, 0.4);
+        let read = |simulation: &mut Simulation| {
+            let now = simulation.instant().unwrap();
+            let place = simulation.place(&station).unwrap();
+            let model = simulation.model();
+            let reaction = held.iter().map(|station| {
+                model.reaction(&now, &simulation.place(station).unwrap()).unwrap().0
+            });
+            let measures = simulation.history().samples().last().unwrap().measures;
+            let acceleration = model.acceleration(&now, &place);
+            (acceleration, model.velocity(&place), reaction.sum::<Vec2>(), measures.impulse)
+        };
+        let before = read(&mut simulation);
+        run(&mut simulation, 0.4 + short).unwrap();
+        let after = read(&mut simulation);
+        let accelerated = (after.1 - before.1) / short;
+        let told = (before.0 + after.0) * 0.5;
+        let scale = 1.0 + told.norm();
+        println!("{name:20} acceleration {:.1e}", (accelerated - told).norm() / scale);
+        assert!((accelerated - told).norm() < 1e-6 * scale, "{name}: {accelerated} {told}");
+        if !has_loads {
+            let given = (after.3 - before.3) / short - gravity * simulation.model().total_mass();
+            let told = (before.2 + after.2) * 0.5;
+            assert!((given - told).norm() < 1e-6 * (1.0 + told.norm()), "{name}: {given} {told}");
+        }
+    }
+}
+
+/// What sections transmit at the ends of beams is what joints give there; the one comes from strains, the other from inertia and loads.
+#[test]
+fn joints_give_what_sections_transmit() {
+    let errors = [8, 16, 32].map(|spans| {
+        let mut worst = [0.0_f64; 2];
+        let mut linkage = scenes::four_bar_linkage(&smooth(spans));
+        linkage.elements.clear();
+        for scene in [linkage, scenes::curved_pendulum(&smooth(spans))] {
+            let joints = scene.joints.clone();
+            let mut simulation = simulate(scene, Method::EnergyDecaying { chi: 1.0 }, 0.02, 4.0);
+            let now = simulation.instant().unwrap();
+            for (index, joint) in joints.iter().enumerate() {
+                let model = simulation.model();
+                let transmission = model.transmission(simulation.scene(), index).unwrap();
+                let (force, moment) = transmission.read(&now);
+                let section = simulation.section_forces(&joint.station).unwrap();
+                let size = section.axial.hypot(section.shear);
+                worst[0] = worst[0].max((force.norm() - size).abs() / (1.0 + size));
+                worst[1] = worst[1].max(moment.abs()).max(section.moment.abs());
+            }
+        }
+        worst
+    });
+    let forces = errors.map(|error| error[0]);
+    let moments = errors.map(|error| error[1]);
+    println!("joints and sections: forces {}, moments at hinges {}", sci(&forces), sci(&moments));
+    assert!(forces[2] < 2e-5 && orders(&forces).iter().all(|order| *order > 0.8), "{forces:?}");
+    assert!(moments[2] < 4e-3 && orders(&moments).iter().all(|order| *order > 1.5), "{moments:?}");
+}
+
+#[test]
+fn a_clamp_gives_the_moment_that_the_section_transmits() {
+    let mesh = smooth(16);
+    let mut scene = scenes::cantilever(&mesh, scenes::spaghetti_section(1e4, 100.0));
+    scene.gravity = at(0.0, -0.1);
+    scene.record("clamp1.moment").unwrap();
+    scene.record("beam1.start.M").unwrap();
+    let simulation = simulate(scene, Method::EnergyDecaying { chi: 1.0 }, 0.05, 10.0);
+    let [given, section] =
+        ["clamp1.moment", "beam1.start.M"].map(|name| simulation.history().column(name).unwrap());
+    let largest = given.iter().fold(0.0_f64, |largest, moment| largest.max(moment.abs()));
+    for (row, (given, section)) in given.iter().zip(&section).enumerate().skip(100) {
+        // What follows pushes on what is before; the clamp is before the beam.
+        assert!((given + section).abs() < 5e-3 * largest, "{row}: {given} {section}");
+    }
+}
+
+/// A rod that swings about its end under gravity: the reaction along it and across it in closed form.
+#[test]
+fn a_pendulum_pulls_at_its_hinge_as_a_rigid_rod_does() {
+    let (length, g) = (1.0, 9.81);
+    let section = Section {
+        axial_stiffness: 1e7,
+        shear_stiffness: 1e7,
+        bending_stiffness: 1e5,
+        mass_per_length: 1.0,
+        rotary_inertia: 1e-4,
+    };
+    let mut scene = Scene::new("pendulum");
+    let axis = scenes::line(Vec2::zeros(), at(length, 0.0));
+    let beam = scenes::add_beam(&mut scene, axis, &smooth(4), section);
+    let start = scene.station(beam, 0.0).unwrap();
+    scene.join(JointKind::Hinge, start, Partner::Ground).unwrap();
+    scene.gravity = at(0.0, -g);
+    ["hinge1.fx", "hinge1.fy", "beam1.end.angle", "beam1.end.spin"]
+        .iter()
+        .for_each(|name| scene.record(name).unwrap());
+    // What a sudden start lets ring is damped; the swing itself is not.
+    let simulation = simulate(scene, Method::EnergyDecaying { chi: 1.0 }, 0.001, 0.8);
+    let history = simulation.history();
+    let [fx, fy, angle, spin] = ["hinge1.fx", "hinge1.fy", "beam1.end.angle", "beam1.end.spin"]
+        .map(|name| history.column(name).unwrap());
+    let inertia = length / 3.0 + 1e-4;
+    let mut worst = 0.0_f64;
+    for row in 200..angle.len() {
+        let (along, across) =
+            (at(angle[row].cos(), angle[row].sin()), at(-angle[row].sin(), angle[row].cos()));
+        let turning = -g * 0.5 * length * angle[row].cos() / inertia;
+        let centre =
+            across * (0.5 * length * turning) - along * (0.5 * length * spin[row] * spin[row]);
+        let exact = centre + at(0.0, g);
+        worst = worst.max((at(fx[row], fy[row]) - exact).norm());
+    }
+    println!("pendulum: reaction off by {worst:.1e} of {:.1}", 2.5 * g);
+    assert!(worst < 0.02 * g, "{worst}");
+}
+
+/// Second differences of the way of a bead against its acceleration, which is all contact force.
+#[test]
+fn a_bead_accelerates_as_its_contact_force_says() {
+    let errors = [0.01, 0.005, 0.0025].map(|dt| {
+        let scene = sliding_scenes::bead_on_an_arc(&smooth(8), SlidingRule::Conserving);
+        let bead = scene.sliders[0].slave;
+        let gravity = scene.gravity;
+        let mass: f64 =
+            scene.masses().filter(|mass| mass.station == bead).map(|mass| mass.mass).sum();
+        let mut simulation = Simulation::start(scene, settings(Method::default(), dt)).unwrap();
+        let place = simulation.place(&bead).unwrap();
+        let mut positions = Vec::new();
+        let mut forces = Vec::new();
+        while simulation.time() < 0.3 - 0.1 * dt {
+            simulation.step(&mut Unwatched).unwrap();
+            positions.push(simulation.model().position(&place));
+            let now = simulation.instant().unwrap();
+            let acceleration = simulation.model().acceleration(&now, &place);
+            let by_contact = gravity - now.contact(0) / mass;
+            assert!((by_contact - acceleration).norm() < 1e-9 * (1.0 + acceleration.norm()));
+            forces.push(acceleration);
+        }
+        let skipped = forces.len() / 3;
+        let of_three = positions.windows(3).zip(&forces[1..]).skip(skipped);
+        let mean: f64 = of_three
+            .clone()
+            .map(|(x, told)| ((x[2] - x[1] * 2.0 + x[0]) / (dt * dt) - told).norm())
+            .sum();
+        mean / of_three.count() as f64
+    });
+    println!("bead: acceleration against differences {} {:.2?}", sci(&errors), orders(&errors));
+    assert!(orders(&errors).iter().all(|order| *order > 1.2), "{errors:?}");
+}
+
+#[test]
+fn sensors_are_stored_by_their_names_and_go_back_with_the_run() {
+    let mut scene = scenes::curved_pendulum(&smooth(4));
+    for name in ["beam1.end.x", "beam1[1].M", "beam1.energy", "hinge1.force"] {
+        scene.record(name).unwrap();
+    }
+    let mut simulation = Simulation::start(scene, settings(Method::default(), 0.02)).unwrap();
+    simulation.keep_snapshots(1 << 24);
+    run(&mut simulation, 0.4).unwrap();
+    let bytes = simulation.to_bytes("swing").unwrap();
+    let (_, mut again) = Simulation::from_bytes(&bytes).unwrap();
+    let columns = |of: &Simulation| {
+        let columns = of.history().columns().map(|(name, _)| of.history().column(name).unwrap());
+        format!("{:?}", columns.collect::<Vec<_>>())
+    };
+    assert_eq!(columns(&simulation), columns(&again));
+    simulation.back(5).unwrap();
+    run(&mut simulation, 0.6).unwrap();
+    run(&mut again, 0.6).unwrap();
+    assert_eq!(columns(&simulation), columns(&again));
+    let fork = simulation.fork().unwrap();
+    assert_eq!(columns(&simulation), columns(&fork));
+}
+
+#[test]
+fn a_quantity_that_there_is_not_is_refused_with_what_there_is() {
+    let mut scene = scenes::curved_pendulum(&smooth(4));
+    let length = scene.beams[0].axis.length();
+    for (name, told) in [
+        ("beam2.end.x", "begin with the name of a beam"),
+        ("beam1.end.z", "one of x, y, vx"),
+        ("beam1.x", "beam1.end.x"),
+        ("beam1[99].x", &format!("s from 0 to {length}")[..]),
+        ("hinge1.x", "one of force, fx, fy, moment"),
+        ("hinge2.fx", "begin with the name of a beam"),
+        ("", "begin with the name of a beam"),
+    ] {
+        let error = scene.record(name).unwrap_err();
+        assert!(matches!(error, ModelError::NoSensor { .. }), "{error}");
+        assert!(error.to_string().contains(told), "{error}");
+    }
+    scene.record("beam1.end.x").unwrap();
+    assert!(matches!(scene.record("beam1.end.x"), Err(ModelError::DuplicateSensor { .. })));
+}

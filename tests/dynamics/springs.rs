@@ -1,0 +1,225 @@
+//! Springs, dampers and tendons against closed forms, at any stiffness, with every integrator.
+#![allow(clippy::unwrap_used)]
+
+use std::f64::consts::TAU;
+
+use crate::common::{at, orders, scenes, simulate};
+use withy::beams::{Mesh, Section};
+use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
+use withy::joints::{JointKind, Partner};
+use withy::model::{
+    Anchor, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind, StartMotion,
+};
+use withy::simulation::{Invariant, Simulation};
+
+const NATURAL: f64 = 1.0;
+
+fn linear(stiffness: f64, natural: f64) -> Option<RestoringLaw> {
+    Some(RestoringLaw::Linear { stiffness, natural })
+}
+
+fn add(scene: &mut Scene, anchors: Vec<Anchor>, law: Option<RestoringLaw>, damping: f64) {
+    let (name, kind) = (scene.free_name("spring"), SpringKind::Way(anchors));
+    scene.add_spring(Spring { name, kind, law, origin: Origin::Zero, damping }).unwrap();
+}
+
+/// A mass of 2 on a spring along x, `stretch` beyond its ease, with a damper beside it.
+fn oscillator(stiffness: f64, damping: f64, stretch: f64) -> Scene {
+    let mut scene = Scene::new("oscillator");
+    let position = at(5.0 + NATURAL + stretch, 3.0);
+    let bead = ParticleDefinition { name: "bead".to_owned(), position };
+    let bead = Anchor::Station(scene.add_particle(bead, 2.0).unwrap());
+    let ground = Anchor::Ground(at(5.0, 3.0));
+    add(&mut scene, vec![ground, bead], linear(stiffness, NATURAL), damping);
+    scene
+}
+
+fn place(simulation: &Simulation) -> f64 {
+    simulation.model().control_points().next().unwrap()[0].x - 5.0 - NATURAL
+}
+
+/// `x(t)` of `m ẍ + c ẋ + k x = 0` from rest at `x(0) = a`, below critical damping.
+fn damped(a: f64, (m, c, k): (f64, f64, f64), t: f64) -> f64 {
+    let decay = c / (2.0 * m);
+    let omega = (k / m - decay * decay).sqrt();
+    a * (-decay * t).exp() * ((omega * t).cos() + decay / omega * (omega * t).sin())
+}
+
+#[test]
+fn a_damped_oscillator_is_met_with_the_order_of_the_method() {
+    let (k, c, end) = (18.0, 0.9, 5.0);
+    for entry in INTEGRATORS {
+        let errors: Vec<f64> = [0.05, 0.025, 0.0125]
+            .into_iter()
+            .map(|dt| {
+                let simulation = simulate(oscillator(k, c, 0.3), entry.method, dt, end);
+                (place(&simulation) - damped(0.3, (2.0, c, k), end)).abs()
+            })
+            .collect();
+        let expected = f64::from(entry.claims.order);
+        let found = orders(&errors);
+        println!("{}: {errors:?} {found:?}", entry.name);
+        assert!((found[1] - expected).abs() < 0.2, "{}: {errors:?} {found:?}", entry.name);
+    }
+}
+
+#[test]
+fn what_dampers_take_is_in_the_ledger_and_grows() {
+    for entry in INTEGRATORS {
+        let simulation = simulate(oscillator(18.0, 0.9, 0.3), entry.method, 0.11, 20.0);
+        let history = simulation.history();
+        let column = history.column("dissipated").unwrap();
+        let stored = history.column("stored").unwrap();
+        assert!(stored[0] > 0.8 && column[0] == 0.0);
+        let last = *column.last().unwrap();
+        // All of it is lost in the end, and the damper says so, where energy is kept.
+        let error = (last / (0.5 * 18.0 * 0.09) - 1.0).abs();
+        if entry.claims.energy == EnergyClaim::Kept {
+            assert!(history.drift(Invariant::Energy) < 1e-14, "{}", entry.name);
+            assert!(error < 2e-4, "{}: {error:.1e}", entry.name);
+            assert!(column.windows(2).all(|pair| pair[1] >= pair[0]), "{}", entry.name);
+        }
+        // In one dimension all is linear, and what decays does so in the spring, besides.
+        if entry.claims.energy == EnergyClaim::Decays {
+            assert!(history.drift(Invariant::Energy) > 1e-6, "{}", entry.name);
+        }
+    }
+}
+
+/// A beam that flies, with a spring between its ends and one between places inside.
+fn braced(stiffness: f64, damping: f64) -> Scene {
+    let mut scene = Scene::new("braced");
+    let mesh = Mesh::bspline(8, 3, 2).unwrap();
+    let section = scenes::spaghetti_section(1e4, 100.0);
+    let beam =
+        scenes::add_beam(&mut scene, scenes::line(at(1.0, 2.0), at(4.0, 6.0)), &mesh, section);
+    scene.beams[beam].motion =
+        StartMotion { velocity: at(3.0, -1.0), spin: 1.5, about: Some(at(1.0, 1.0)) };
+    let places = [0.0, 1.2, 3.9, 5.0].map(|s| Anchor::Station(scene.station(beam, s).unwrap()));
+    add(&mut scene, vec![places[0], places[3]], linear(stiffness, 5.0), damping);
+    add(&mut scene, vec![places[1], places[2]], linear(0.3 * stiffness, 2.7), damping);
+    scene
+}
+
+#[test]
+fn springs_and_dampers_of_any_stiffness_keep_the_ledger_in_as_many_iterations() {
+    // EA = 1e4: from 1e-6 to 1e12 of the beam's.
+    for stiffness in [1e-2, 1e4, 1e10, 1e16] {
+        for damping in [0.0, 1.0, 1e6] {
+            let label = format!("stiffness {stiffness:e}, damping {damping:e}");
+            let simulation =
+                simulate(braced(stiffness, damping), Method::EnergyMomentum, 0.05, 5.0);
+            let history = simulation.history();
+            let drifts: Vec<f64> =
+                Invariant::ALL.iter().map(|(_, invariant)| history.drift(*invariant)).collect();
+            let work = simulation.counts();
+            let iterations = work.newton_iterations as f64 / work.steps as f64;
+            println!("{label}: {} {iterations:.2} {}", crate::common::sci(&drifts), work.retries);
+            assert!(drifts.iter().all(|drift| *drift < 1e-12), "{label}: {drifts:?}");
+            assert!(iterations < 5.0 && work.retries == 0, "{label}: {iterations}");
+        }
+    }
+}
+
+/// A pendulum of length 1 whose rod is a spring 1e12 times stiffer than the weight at its end.
+fn on_a_stiff_spring() -> Scene {
+    let mut scene = Scene::new("pendulum");
+    let bead = ParticleDefinition { name: "bead".to_owned(), position: at(1.0, 0.0) };
+    let bead = Anchor::Station(scene.add_particle(bead, 1.0).unwrap());
+    add(&mut scene, vec![Anchor::Ground(at(0.0, 0.0)), bead], linear(1e13, 1.0), 0.0);
+    scene.gravity = at(0.0, -9.81);
+    scene
+}
+
+#[test]
+fn a_stiff_spring_is_a_rigid_rod() {
+    // From the height of its hinge it is back after 4 K(1/√2) √(L/g).
+    let period = 4.0 * 1.854_074_677_301_372 / 9.81_f64.sqrt();
+    let simulation = simulate(on_a_stiff_spring(), Method::EnergyMomentum, 1e-3, period);
+    let back = simulation.model().control_points().next().unwrap()[0];
+    assert!((back - at(1.0, 0.0)).norm() < 1e-5 && (back.norm() - 1.0).abs() < 1e-10, "{back}");
+    assert!(simulation.history().drift(Invariant::Energy) < 1e-12);
+}
+
+#[test]
+fn a_tendon_pulls_alike_along_its_way() {
+    // Atwood's machine without inertia of its pulleys: masses 3 and 1 on one rope over two places of the ground.
+    let mut scene = Scene::new("Atwood");
+    let mut hang = |name: &str, x: f64, mass: f64| {
+        let bead = ParticleDefinition { name: name.to_owned(), position: at(x, -2.0) };
+        Anchor::Station(scene.add_particle(bead, mass).unwrap())
+    };
+    let (heavy, light) = (hang("heavy", 0.0, 3.0), hang("light", 1.0, 1.0));
+    let over = [at(0.0, 0.0), at(1.0, 0.0)].map(Anchor::Ground);
+    let stiffness = 1e8;
+    let natural = 5.0 - 2.0 * 3.0 * 1.0 / 4.0 * 9.81 / stiffness;
+    add(&mut scene, vec![heavy, over[0], over[1], light], linear(stiffness, natural), 0.0);
+    scene.gravity = at(0.0, -9.81);
+    let simulation = simulate(scene, Method::EnergyMomentum, 0.01, 0.4);
+    let fallen = -2.0 - simulation.model().control_points().next().unwrap()[0].y;
+    let expected = 0.5 * 9.81 * (3.0 - 1.0) / 4.0 * 0.16;
+    assert!((fallen - expected).abs() < 1e-6, "{fallen} {expected}");
+    let tension = *simulation.history().column("spring1.force").unwrap().last().unwrap();
+    assert!((tension - 14.715).abs() < 1e-3, "{tension}");
+    for (name, invariant) in Invariant::ALL {
+        let drift = simulation.history().drift(invariant);
+        assert!(drift < 1e-12, "{name}: {drift:.1e}");
+    }
+}
+
+/// A nearly rigid bar on a torsion spring and damper at its hinge.
+fn door(stiffness: f64, damping: f64, angle: f64) -> Scene {
+    let mut scene = Scene::new("door");
+    let mesh = Mesh::bspline(4, 3, 2).unwrap();
+    let section = Section {
+        axial_stiffness: 1e9,
+        shear_stiffness: 1e9,
+        bending_stiffness: 1e8,
+        mass_per_length: 1.0,
+        rotary_inertia: 1e-6,
+    };
+    let bar =
+        scenes::add_beam(&mut scene, scenes::line(at(0.0, 0.0), at(1.0, 0.0)), &mesh, section);
+    let foot = scene.station(bar, 0.0).unwrap();
+    scene.join(JointKind::Hinge, foot, Partner::Ground).unwrap();
+    let kind = SpringKind::Torsion([Anchor::Ground(at(0.0, 0.0)), Anchor::Station(foot)]);
+    let spring = Spring {
+        name: "torsion".to_owned(),
+        kind,
+        law: linear(stiffness, angle),
+        origin: Origin::Zero,
+        damping,
+    };
+    scene.add_spring(spring).unwrap();
+    scene
+}
+
+#[test]
+fn a_bar_on_a_torsion_spring_swings_with_its_frequency_far_beyond_a_turn() {
+    // At ease a turn and a half away: the angle is that of a linear oscillator all the same. The bar's own inertia is m L²/3 + rho_I.
+    let (k, goal) = (4.0, 1.5 * TAU);
+    let inertia = 1.0 / 3.0 + 1e-6;
+    let end = 1.3;
+    let simulation = simulate(door(k, 0.2, goal), Method::FourthOrder, 0.0025, end);
+    let angle = *simulation.history().column("torsion.angle").unwrap().last().unwrap();
+    let expected = goal + damped(-goal, (inertia, 0.2, k), end);
+    assert!((angle - expected).abs() < 1e-5, "{angle} {expected}");
+    for (name, invariant) in Invariant::ALL {
+        let drift = simulation.history().drift(invariant);
+        assert!(drift < 1e-11, "{name}: {drift:.1e}");
+    }
+}
+
+#[test]
+fn energy_decaying_steps_take_energy_from_stiff_springs_and_no_other_does() {
+    for entry in INTEGRATORS {
+        let simulation = simulate(oscillator(1e6, 0.0, 0.01), entry.method, 0.01, 1.0);
+        let energies: Vec<f64> = crate::common::energies(simulation.history());
+        let left = energies.last().unwrap() / energies[0];
+        match entry.claims.energy {
+            EnergyClaim::Kept => assert!((left - 1.0).abs() < 1e-11, "{}", entry.name),
+            EnergyClaim::Decays => assert!(left < 0.5, "{}: {left}", entry.name),
+            EnergyClaim::Nothing => (),
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! Figures of the README and of docs/studies.md can be made again: the command stands beside them, and what it runs is there.
+
+#![allow(clippy::unwrap_used)]
+
+use std::path::PathBuf;
+
+const DOCUMENTS: [&str; 2] = ["docs/studies.md", "README.md"];
+
+fn path(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(name)
+}
+
+fn text(name: &str) -> String {
+    std::fs::read_to_string(path(name)).unwrap()
+}
+
+/// What stands in a document: a heading, the commands of a block for the shell, or a table that begins at a line.
+enum Piece {
+    Heading,
+    Commands(Vec<String>),
+    Table(usize),
+}
+
+/// The pieces of a document in their order, tables with their lines. A table is one of Markdown with figures in it, or a block of text.
+fn pieces(document: &str) -> Vec<Piece> {
+    let mut pieces = Vec::new();
+    let mut fence: Option<(String, usize, Vec<String>)> = None;
+    let mut last = "";
+    for (number, line) in document.lines().enumerate() {
+        if let Some(language) = line.strip_prefix("```") {
+            match fence.take() {
+                None => fence = Some((language.to_owned(), number + 1, Vec::new())),
+                Some((language, _, lines)) if language == "sh" => {
+                    pieces.push(Piece::Commands(lines));
+                }
+                Some((language, begun, _)) if language == "text" => {
+                    pieces.push(Piece::Table(begun))
+                }
+                Some(_) => {}
+            }
+        } else if let Some((_, _, lines)) = &mut fence {
+            lines.push(line.split(" #").next().unwrap().trim().to_owned());
+        } else if line.starts_with("## ") || line.starts_with("### ") {
+            pieces.push(Piece::Heading);
+        } else if line.starts_with('|') && !last.starts_with('|') {
+            pieces.push(Piece::Table(number + 1));
+        }
+        last = line;
+    }
+    pieces
+}
+
+/// What is wrong with a command, if anything: what it runs is not there.
+fn fault(command: &str) -> Option<String> {
+    let words: Vec<&str> = command.split_whitespace().collect();
+    let missing = |name: &str| (!path(name).is_file()).then(|| format!("{command}: no {name}"));
+    match words[..] {
+        ["withy", "run" | "study", script, ..] => missing(script),
+        ["python3", script, ..] => missing(script),
+        ["cargo", "bench", "--bench", bench, ..] => {
+            let declared = text("Cargo.toml").contains(&format!("name = \"{bench}\""));
+            let undeclared = || (!declared).then(|| format!("{command}: no such bench"));
+            missing(&format!("benches/{bench}.rs")).or_else(undeclared)
+        }
+        ["cargo", "build" | "test", ..] | ["pip", "install", ..] => None,
+        _ => Some(format!("{command}: not known to this test")),
+    }
+}
+
+#[test]
+fn each_table_of_the_studies_has_its_command_above_it() {
+    let mut has_command = false;
+    let (mut tables, mut wrong) = (0, Vec::new());
+    for piece in pieces(&text("docs/studies.md")) {
+        match piece {
+            Piece::Heading => has_command = false,
+            Piece::Commands(commands) => {
+                has_command = commands.iter().any(|command| {
+                    !command.starts_with("pip ") && !command.starts_with("cargo build")
+                });
+                wrong.extend(commands.iter().filter_map(|command| fault(command)));
+            }
+            Piece::Table(line) => {
+                tables += 1;
+                if !has_command {
+                    wrong.push(format!("docs/studies.md:{line}: no command in this section"));
+                }
+            }
+        }
+    }
+    assert!(tables > 8, "only {tables} tables were found");
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn what_the_documents_run_is_there() {
+    let mut wrong = Vec::new();
+    let mut count = 0;
+    for document in DOCUMENTS {
+        for line in text(document).lines() {
+            for code in line.split('`').skip(1).step_by(2) {
+                let is_file =
+                    ["benches/", "scripts/", "tests/"].iter().any(|f| code.starts_with(f));
+                let is_plain = !code.contains(['*', ' ', '…']) && code.contains('.');
+                if is_file && is_plain && !path(code).is_file() {
+                    wrong.push(format!("{document}: no {code}"));
+                }
+                let runs = ["withy run scripts", "withy study scripts", "cargo bench --bench"];
+                if runs.iter().any(|start| code.starts_with(start)) {
+                    wrong.extend(fault(code));
+                    count += 1;
+                }
+            }
+        }
+    }
+    assert!(count > 1, "only {count} commands were found");
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Figures of the README, each with the command that is told beside it.
+const MEASURED: &[(&str, &str)] = &[
+    ("times faster than the best EXUDYN runs", "`python3 benches/compare_exudyn.py`"),
+    ("no cell of the stability map", "`withy study scripts/studies/stability.rhai`"),
+    ("ns per unknown", "`cargo bench --bench step`"),
+];
+
+#[test]
+fn figures_of_the_readme_name_their_command() {
+    let readme = text("README.md");
+    for (figure, command) in MEASURED {
+        let paragraphs = readme.split("\n\n").flat_map(|part| part.split("\n- "));
+        let words = |part: &str| part.split_whitespace().collect::<Vec<_>>().join(" ");
+        let told = paragraphs.map(words).find(|part| part.contains(figure));
+        assert!(told.is_some_and(|part| part.contains(command)), "README.md: {figure}: {command}");
+        let inside = command.trim_matches('`');
+        assert_eq!(fault(inside), None);
+    }
+}

@@ -1,0 +1,337 @@
+//! Viewers and animations show what the solver has computed.
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::io::Read;
+
+use flate2::read::ZlibDecoder;
+use serde_json::Value;
+
+use crate::common::notepad::Notepad;
+use withy::script::engine::runner::{Ending, run};
+use withy::script::packages::language;
+use withy::script::source::program::Program;
+use withy::script::state::settings::{Mode, Settings};
+
+/// Two beams and a particle under their weight, a load that follows, one that does not, and something that slides.
+const SCENE: &str = "
+let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });
+let scene = new_scene(\"two\");
+let one = scene.beam(#{ name: \"one\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });
+let two = scene.beam(#{ name: \"two\", axis: line([2, 0], [4, 0]), basis: lagrange(#{ elements: 3, degree: 2 }), section: s });
+scene.hinge(one.start);
+scene.hinge(one.end, two.start);
+scene.gravity([0, -9.81]);
+scene.force(two.end, [0, 20], pulse(0.5, 1));
+let ring = scene.particle([3, 0], 0.1, #{ name: \"ring\" });
+scene.slider(ring, two, #{ name: \"slide\", at: 0.5, ends: \"bounce\" });
+let sim = scene.start(#{ dt: 0.02 });
+";
+
+/// What a script prints, and a file that it writes.
+fn written(script: &str, file: &str) -> (String, Vec<u8>) {
+    let out = tempfile::tempdir().unwrap();
+    let printed = Notepad::default();
+    let settings = Settings {
+        out: out.path().to_owned(),
+        printed: Box::new(printed.clone()),
+        ..Settings::silent(Mode::Run)
+    };
+    let program = Program::named("viewer", &format!("{SCENE}{script}"));
+    let outcome = run(&program, &language(), settings);
+    assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
+    (printed.take(), fs::read(out.path().join(file)).unwrap_or_default())
+}
+
+/// The message of a script that fails.
+fn refused(script: &str) -> String {
+    let program = Program::named("viewer", &format!("{SCENE}sim.run_to(0.1);\n{script}"));
+    match run(&program, &language(), Settings::silent(Mode::Run)).ending {
+        Ending::Failed(diagnostic) => diagnostic.render(withy::script::diagnose::Colours::None),
+        other => panic!("{other:?}"),
+    }
+}
+
+/// The data of a page.
+fn data(page: &[u8]) -> Value {
+    let page = String::from_utf8(page.to_vec()).unwrap();
+    let (_, rest) = page.split_once("id=\"data\">").unwrap();
+    serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()
+}
+
+/// Numbers over frames, read as the page reads them: number by number.
+fn series(packed: &Value) -> Vec<Vec<f64>> {
+    let whole = |name: &str| packed[name].as_u64().unwrap() as usize;
+    let (numbers, frames) = (whole("numbers"), whole("frames"));
+    let (origin, step) = (packed["origin"].as_f64().unwrap(), packed["step"].as_f64().unwrap());
+    let mut bytes = Vec::new();
+    let deflated = from_letters(packed["data"].as_str().unwrap());
+    ZlibDecoder::new(deflated.as_slice()).read_to_end(&mut bytes).unwrap();
+    assert_eq!(bytes.len(), 2 * numbers * frames);
+    let series = |number: usize| {
+        let (mut code, mut change) = (0u16, 0u16);
+        let at = |frame: usize| {
+            let index = number * frames + frame;
+            let word = u16::from(bytes[index]) << 8 | u16::from(bytes[numbers * frames + index]);
+            let difference = (word >> 1) ^ (0u16.wrapping_sub(word & 1));
+            let second = whole("order") == 2;
+            change = if second { change.wrapping_add(difference) } else { difference };
+            code = code.wrapping_add(change);
+            if code == u16::MAX { f64::NAN } else { origin + step * f64::from(code) }
+        };
+        (0..frames).map(at).collect()
+    };
+    (0..numbers).map(series).collect()
+}
+
+fn from_letters(text: &str) -> Vec<u8> {
+    let value = |letter: u8| match letter {
+        b'A'..=b'Z' => letter - b'A',
+        b'a'..=b'z' => letter - b'a' + 26,
+        b'0'..=b'9' => letter - b'0' + 52,
+        b'+' => 62,
+        b'/' => 63,
+        other => panic!("{other}"),
+    };
+    let letters: Vec<u8> = text.bytes().filter(|letter| *letter != b'=').map(value).collect();
+    let group = |group: &[u8]| {
+        let word = group.iter().fold(0u32, |word, six| word << 6 | u32::from(*six));
+        let word = word << (6 * (4 - group.len()));
+        [(word >> 16) as u8, (word >> 8) as u8, word as u8][..group.len() - 1].to_vec()
+    };
+    letters.chunks(4).flat_map(group).collect()
+}
+
+/// Where a place of a film is in all frames.
+fn path(film: &Value, place: &Value) -> Vec<(f64, f64)> {
+    let first = place[0].as_u64().unwrap() as usize;
+    let weights: Vec<f64> =
+        place[1].as_array().unwrap().iter().map(|w| w.as_f64().unwrap()).collect();
+    let (x, y) = (series(&film["x"]), series(&film["y"]));
+    let sum = |all: &[Vec<f64>], frame: usize| {
+        weights.iter().enumerate().map(|(index, w)| w * all[first + index][frame]).sum::<f64>()
+    };
+    (0..x[0].len()).map(|frame| (sum(&x, frame), sum(&y, frame))).collect()
+}
+
+#[test]
+fn places_are_where_the_solver_says() {
+    let script = "
+        let told = [];
+        let where_is = |sim| print(`${sim.t} ${sim.position(two.at(1.3)).x} ${sim.position(two.at(1.3)).y} ${sim.position(ring).x} ${sim.position(ring).y}`);
+        for k in 1..=50 { sim.at(k * 0.04, where_is); }
+        sim.run_to(2);
+        write_viewer(sim, \"page.html\", #{ trails: [two.at(1.3), ring] });";
+    let (printed, page) = written(script, "page.html");
+    let data = data(&page);
+    let film = &data["films"][0];
+    let times: Vec<_> =
+        film["times"].as_array().unwrap().iter().map(|t| t.as_f64().unwrap()).collect();
+    assert!(times.len() >= 101, "every step is a frame, and every bounce of the ring");
+    let step = film["x"]["step"].as_f64().unwrap();
+    let extent = step * 65534.0;
+    assert!(extent > 3.0 && extent < 10.0, "{extent}");
+    let paths: Vec<_> = (0..2).map(|trail| path(film, &film["trails"][trail]["at"])).collect();
+    let mut compared = 0;
+    for line in printed.lines() {
+        let numbers: Vec<f64> = line.split(' ').map(|number| number.parse().unwrap()).collect();
+        let frame = times.iter().position(|time| (time - numbers[0]).abs() < 1e-12).unwrap();
+        for (path, at) in paths.iter().zip([&numbers[1..3], &numbers[3..5]]) {
+            let off = (path[frame].0 - at[0]).abs().max((path[frame].1 - at[1]).abs());
+            // Half a step, and the roundings of at most three weights.
+            assert!(off <= 0.51 * step * 1.3, "off by {off} at t = {}", numbers[0]);
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 100);
+}
+
+#[test]
+fn columns_and_colours_are_those_of_the_run() {
+    let script = "
+        sim.run_to(1);
+        for energy in sim.history.column(\"kinetic\") { print(energy); }
+        write_viewer(sim, \"page.html\", #{ columns: [\"kinetic\", \"slide.force\"], fields: [\"speed\"] });";
+    let (printed, page) = written(script, "page.html");
+    let data = data(&page);
+    let film = &data["films"][0];
+    let column = &film["history"]["columns"][0];
+    assert_eq!(
+        (column["name"].as_str(), column["unit"].as_str()),
+        (Some("kinetic"), Some("energy"))
+    );
+    let values = series(&column["values"]).remove(0);
+    let step = column["values"]["step"].as_f64().unwrap();
+    let known: Vec<f64> = printed.lines().map(|line| line.parse().unwrap()).collect();
+    assert_eq!(known.len(), values.len());
+    assert!(known.iter().zip(&values).all(|(a, b)| (a - b).abs() <= 0.51 * step));
+    // The speed at the far end, the last station of the last beam, against the path of its point.
+    let fields = film["fields"].as_array().unwrap();
+    assert_eq!((fields.len(), fields[0]["name"].as_str()), (1, Some("speed")));
+    let speeds = series(&fields[0]["values"]);
+    let line = film["shapes"][film["beams"][1]["shape"].as_u64().unwrap() as usize]["line"].clone();
+    let mut end = line.as_array().unwrap().last().unwrap().clone();
+    end[0] = (end[0].as_u64().unwrap() + film["beams"][1]["first"].as_u64().unwrap()).into();
+    let way = path(film, &end);
+    for frame in [10, 25, 40] {
+        let (a, b) = (way[frame - 1], way[frame + 1]);
+        let speed = (b.0 - a.0).hypot(b.1 - a.1) / 0.04;
+        let shown = speeds.last().unwrap()[frame];
+        assert!((speed - shown).abs() < 0.01 * speed + 0.02, "{speed} is shown as {shown}");
+    }
+}
+
+#[test]
+fn signs_and_loads_are_there() {
+    let (_, page) = written("sim.run_to(1);\nwrite_viewer(sim, \"page.html\");", "page.html");
+    let data = data(&page);
+    let film = &data["films"][0];
+    let kinds = |name: &str| -> Vec<String> {
+        let all = film[name].as_array().unwrap().iter();
+        all.map(|one| one["kind"].as_str().unwrap().to_owned()).collect()
+    };
+    assert_eq!(kinds("symbols"), ["support", "hinge", "slider"]);
+    let loads = series(&film["arrows"]["values"]);
+    let at = |time: f64| loads[1][(time / 0.02) as usize];
+    assert_eq!((loads.len(), at(0.2)), (2, 0.0));
+    assert!((at(0.7) - 1.0).abs() < 1e-3, "relative to the largest");
+    let trails = film["trails"].as_array().unwrap();
+    assert_eq!(trails.len(), 3, "the end of both beams and the ring: {trails:?}");
+}
+
+#[test]
+fn equal_runs_give_equal_pages_and_frames_are_bounded() {
+    let script = "sim.run_to(2);\nwrite_viewer([sim, sim.fork()], \"page.html\", #{ frames: 21, labels: [\"a\", \"b\"] });";
+    let (one, two) = (written(script, "page.html").1, written(script, "page.html").1);
+    assert_eq!(one, two);
+    let data = data(&one);
+    assert_eq!(data["films"].as_array().unwrap().len(), 2);
+    assert_eq!(data["films"][1]["label"], "b");
+    let times = data["films"][0]["times"].as_array().unwrap();
+    assert_eq!((times.len(), times[20].as_f64()), (21, Some(2.0)));
+    assert!((times[7].as_f64().unwrap() - 0.7).abs() < 0.011);
+}
+
+#[test]
+fn fifty_beams_in_a_thousand_frames_stay_below_five_megabytes() {
+    let script = "
+        let many = new_scene(\"many\");
+        for row in 0..50 {
+            let beam = many.beam(#{ name: `b${row}`, axis: line([0, row], [10, row]), basis: bspline(8), section: s, spin: 0.1 * row });
+        }
+        let all = many.start(#{ dt: 0.01 });
+        all.run_to(10);
+        write_viewer(all, \"page.html\");";
+    let (_, page) = written(script, "page.html");
+    let frames = data(&page)["films"][0]["times"].as_array().unwrap().len();
+    assert_eq!(frames, 1000);
+    assert!(page.len() < 5_000_000, "{} bytes", page.len());
+}
+
+#[test]
+fn what_is_wrong_is_told() {
+    let said = refused("write_viewer(sim, \"page.htm\");");
+    assert!(said.contains("\"page.htm\" does not end in .html"), "{said}");
+    let said = refused("write_viewer(sim, \"a.html\", #{ columns: [\"kinetc\"] });");
+    assert!(
+        said.contains("no column \"kinetc\"") && said.contains("did you mean \"kinetic\"?"),
+        "{said}"
+    );
+    let said = refused("write_viewer(sim, \"a.html\", #{ fields: [\"spede\"] });");
+    assert!(
+        said.contains("no field \"spede\"") && said.contains("did you mean \"speed\"?"),
+        "{said}"
+    );
+    let said = refused("write_viewer([sim, sim], \"a.html\", #{ labels: [\"a\"] });");
+    assert!(said.contains("1 labels are given for 2 simulations"), "{said}");
+    let said = refused("write_viewer(sim, \"a.html\", #{ from: 3 });");
+    assert!(said.contains("nothing of 'two' is recorded from t = 3"), "{said}");
+    let said = refused("write_viewer([], \"a.html\");");
+    assert!(said.contains("at least one"), "{said}");
+    let said = refused("write_animation(sim, \"a.gif\");");
+    assert!(said.contains("does not end in .png"), "{said}");
+}
+
+/// A frame of an animation as it is seen: red, green and blue of each pixel, and how wide it is.
+struct Frame {
+    pixels: Vec<u8>,
+    width: usize,
+}
+
+impl Frame {
+    /// The frames of an animated picture, each the one before with a part of it replaced, and how long they stay.
+    fn all(bytes: &[u8]) -> Vec<(Self, (u16, u16))> {
+        let mut decoder = png::Decoder::new(bytes);
+        decoder.set_transformations(png::Transformations::EXPAND);
+        let mut reader = decoder.read_info().unwrap();
+        let (width, height) = (reader.info().width as usize, reader.info().height as usize);
+        let control = *reader.info().animation_control().unwrap();
+        assert_eq!(control.num_plays, 0, "without end");
+        let mut shown = vec![0; width * height * 3];
+        let frame = |_| {
+            let mut part = vec![0; reader.output_buffer_size()];
+            reader.next_frame(&mut part).unwrap();
+            let about = *reader.info().frame_control().unwrap();
+            let wide = about.width as usize;
+            for (row, line) in part.chunks_exact(3 * wide).take(about.height as usize).enumerate() {
+                let at = (about.y_offset as usize + row) * width + about.x_offset as usize;
+                shown[3 * at..3 * (at + wide)].copy_from_slice(line);
+            }
+            (Self { pixels: shown.clone(), width }, (about.delay_num, about.delay_den))
+        };
+        (0..control.num_frames).map(frame).collect()
+    }
+
+    /// The places of all pixels of a colour, but for a little.
+    fn places(&self, colour: [u8; 3]) -> Vec<(f64, f64)> {
+        let is_it = |pixel: &[u8]| pixel.iter().zip(colour).all(|(a, b)| a.abs_diff(b) < 24);
+        let all = self.pixels.chunks_exact(3).enumerate().filter(|(_, pixel)| is_it(pixel));
+        all.map(|(at, _)| ((at % self.width) as f64 + 0.5, (at / self.width) as f64 + 0.5))
+            .collect()
+    }
+
+    /// How bright the darkest pixel around a place is.
+    fn darkest(&self, (x, y): (f64, f64)) -> u8 {
+        let near = |x: f64| (x - 1.0).floor() as usize..=(x + 1.0).floor() as usize;
+        let green =
+            |(column, row): (usize, usize)| self.pixels[3 * (row * self.width + column) + 1];
+        near(y).flat_map(|row| near(x).map(move |column| (column, row))).map(green).min().unwrap()
+    }
+}
+
+#[test]
+fn an_animation_shows_the_tip_where_the_solver_says() {
+    let script = "
+        for k in 0..=10 { sim.run_to(0.1 * k); let p = sim.position(two.end); print(`${p.x} ${p.y}`); }
+        write_animation(sim, \"a.png\", #{ frames: 11, fps: 10, width: 400 });";
+    let (printed, bytes) = written(script, "a.png");
+    assert!(bytes.len() < 200_000, "{} bytes", bytes.len());
+    let frames = Frame::all(&bytes);
+    assert_eq!((frames.len(), frames[0].0.width), (11, 400));
+    assert!(frames.iter().all(|(_, delay)| *delay == (1, 10)));
+    // At the start the second beam, of the second hue, lies from x = 2 to x = 4; its ends are below dots of radius 2.4.
+    let start: Vec<_> =
+        frames[0].0.places([213, 94, 0]).into_iter().filter(|at| at.1 > 60.0).collect();
+    let end = |pick: fn(f64, f64) -> f64| start.iter().map(|at| at.0).reduce(pick).unwrap();
+    let (left, right) = (end(f64::min) - 2.9, end(f64::max) + 2.9);
+    let scale = (right - left) / 2.0;
+    let level = start.iter().map(|at| at.1).sum::<f64>() / start.len() as f64;
+    assert!(scale > 20.0 && start.len() > 30, "{scale}, {}", start.len());
+    let mut found = 0;
+    for (line, (frame, _)) in printed.lines().zip(&frames) {
+        let (x, y) = line.split_once(' ').unwrap();
+        let (x, y): (f64, f64) = (x.parse().unwrap(), y.parse().unwrap());
+        let tip = (left + (x - 2.0) * scale, level - y * scale);
+        assert!(frame.darkest(tip) < 80, "at ({x}, {y}) is nothing");
+        found += 1;
+    }
+    assert_eq!(found, 11);
+}
+
+#[test]
+fn animations_stand_side_by_side() {
+    let script = "sim.run_to(1);\nwrite_animation([sim, sim.fork()], \"b.png\", #{ frames: 3, trace: [two.end] });";
+    let frames = Frame::all(&written(script, "b.png").1);
+    assert_eq!((frames.len(), frames[0].0.width, frames[0].1), (3, 960, (1, 20)));
+    assert!(frames.windows(2).all(|pair| pair[0].0.pixels != pair[1].0.pixels));
+}
