@@ -322,9 +322,10 @@ impl Panel for LineChart {
                     [dot] if !stroke.has_marks() => canvas.disc(*dot, mark, colour),
                     _ => stroke.draw(canvas, &run, line, colour),
                 }
-                if stroke.has_marks() {
-                    run.iter().for_each(|&point| series.marker.draw(canvas, point, mark, colour));
-                }
+            }
+            if stroke.has_marks() {
+                let marks = frame.marks(plot, &series.points);
+                marks.into_iter().for_each(|at| series.marker.draw(canvas, at, mark, colour));
             }
         }
         for (at, text) in &self.notes {

@@ -17,7 +17,9 @@ const EDGE: f64 = 14.0;
 /// A text is set in several lines before it is set smaller than this part of its size.
 const SMALLEST: f64 = 0.8;
 /// A text with more lines than this would leave no paper for the data.
-const MOST_LINES: usize = 12;
+const MOST_LINES: usize = 4;
+/// Of more points those that make a long curve are marked.
+const MOST_MARKS: usize = 2000;
 /// Pixels per labelled place along a horizontal and along a vertical axis.
 const TICK_EVERY: (f64, f64) = (85.0, 50.0);
 
@@ -133,6 +135,14 @@ impl Frame {
         curve::pieces(points.iter().map(|&point| self.place(plot, point)), &window)
     }
 
+    /// The places of the marks of a curve: of its own points, not of those where the sides of the plot cut it.
+    pub fn marks(&self, plot: &Area, points: &[Point]) -> Vec<Point> {
+        if points.len() > MOST_MARKS {
+            return self.curve(plot, points).concat();
+        }
+        points.iter().flat_map(|&point| self.curve(plot, &[point])).flatten().collect()
+    }
+
     fn draw_x_axis(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
         let (ticks, factor) = self.x.ticks(count(plot.width(), TICK_EVERY.0));
         let baseline = plot.bottom + 8.0 + NUMBER * 0.8;
@@ -195,9 +205,17 @@ struct Words {
 impl Words {
     fn of(text: &str, size: f64, room: f64) -> Self {
         let full = size;
-        let size = fonts::shrunk(text, full, room).max(SMALLEST * full);
-        let mut lines = fonts::lines(text, size, room);
-        lines.truncate(MOST_LINES);
+        let smallest = fonts::shrunk(text, full, room);
+        let size = smallest.max(SMALLEST * full);
+        let lines = fonts::lines(text, size, room);
+        let (mut lines, size) = match lines.len() > MOST_LINES {
+            true => (fonts::lines(text, smallest, room), smallest),
+            false => (lines, size),
+        };
+        if lines.len() > MOST_LINES {
+            let rest = lines.split_off(MOST_LINES - 1).join(" ");
+            lines.push(fonts::fit(&rest, size, room));
+        }
         Self { lines, size, full }
     }
 

@@ -128,13 +128,18 @@ impl StripPicture {
         runs.map(run).collect()
     }
 
-    /// The size of all beams.
+    /// The size of all beams, or that of the longest one where they are many small ones: strips of neighbours must not cover each other.
     fn beam_size(&self) -> f64 {
         let points = || self.strips.iter().flat_map(|strip| strip.line.iter().copied());
         let side = |pick: fn(Point) -> f64| {
             super::axis::extent(points().map(pick)).map_or(0.0, |(low, high)| high - low)
         };
-        side(|point| point.0).max(side(|point| point.1))
+        let length = |strip: &Strip| {
+            let pairs = strip.line.windows(2);
+            pairs.map(|pair| hypot(pair[1].0 - pair[0].0, pair[1].1 - pair[0].1)).sum::<f64>()
+        };
+        let longest = self.strips.iter().map(length).fold(0.0, f64::max);
+        side(|point| point.0).max(side(|point| point.1)).min(longest)
     }
 
     fn view(&self) -> View {

@@ -11,6 +11,7 @@ mod motion_pictures;
 mod newcomer;
 mod present;
 mod prompt;
+mod science_pictures;
 mod session;
 mod standard_library;
 mod suite;

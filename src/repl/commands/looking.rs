@@ -80,7 +80,7 @@ pub fn explain(shell: &mut Shell, _: &str) -> Outcome {
     shell.show_of_latest("explain()")
 }
 
-/// `:show [time] [options]`
+/// The command `:show [time]`: draws the configuration of the last simulation.
 pub fn show(shell: &mut Shell, operand: &str) -> Outcome {
     let (time, options) = operand.find("#{").map_or((operand, ""), |at| operand.split_at(at));
     let time = match (time.trim().trim_end_matches(',').trim_end(), options) {

@@ -7,7 +7,6 @@ use super::chart_options::{
     labels, marked,
 };
 use super::pictures::write_picture;
-use super::simulations::SPINNING;
 use crate::output::{LineChart, Series};
 use crate::script::rows::call::Call;
 use crate::script::rows::parameter::{Parameter, array, options, text};
@@ -19,27 +18,32 @@ pub const TABLE: Table = Table {
     name: "pictures of arrays",
     doc: "A chart of any numbers: SVG or PNG by the ending of the file name, into the output folder.",
     types: &[],
-    setup: SPINNING,
+    setup: RESTING,
     constants: &[],
     rows: &[
         function("plot", &[X, Y, FILE, options("options", OPTIONS).optional()], plot)
             .summary("Draws numbers over numbers: one curve, or several in the same axes.")
             .doc(
                 "x and y are arrays of numbers, or arrays of such arrays, one for each curve; one x serves for all y. A number that is not finite \
-                 leaves a gap; on a logarithmic axis what is not positive stands at its foot. Over time: collect what you want to see while the simulation runs, as in the \
-                 example, which draws the height of a tip, and then the bending moment along the beam with `plot_along`; \
-                 columns that the history has already are drawn by `plot_history`. At the prompt `:plot` draws in the terminal.",
+                 leaves a gap; on a logarithmic axis what is not positive stands at its foot. The height of a tip over time, and the bending moment at a clamp: record \
+                 both before the start, as in the example, and draw their columns with `plot_history`; `plot_along` draws the moment along the beam. At the prompt \
+                 `:plot` draws in the terminal what was or was not recorded: `:plot sim.position(rod.end).y`.",
             )
             .example(
-                "let t = [];\nlet height = [];\nlet speed = [];\nwhile sim.t < 2 {\n    sim.step();\n    t.push(sim.t);\n    \
-                 height.push(sim.position(rod.end).y);\n    speed.push(norm(sim.velocity(rod.end)));\n}\n\
-                 plot(t, height, \"tip.svg\", #{ x_label: \"t\", y_label: \"height of the tip [length]\" });\n\
-                 plot(t, [height, speed], \"both.svg\", #{ labels: [\"height\", \"speed\"], x_limits: [0, 1] });\n\
-                 plot_along(sim, \"M\", \"moment.svg\");",
+                "scene.clamp(rod.start);\nscene.force(rod.end, [0, 1]);\nscene.record(\"rod.end.y\");\nscene.record(\"rod.start.M\");\n\
+                 let sim = scene.start(#{ dt: 0.1 });\nsim.run_to(2);\n\
+                 plot_history(sim, [\"rod.end.y\"], \"tip.svg\");\nplot_history(sim, [\"rod.start.M\"], \"clamp.svg\");\nplot_along(sim, \"M\", \"moment.svg\");\n\
+                 let h = sim.history;\nplot(h.column(\"rod.end.y\"), h.column(\"rod.start.M\"), \"both.svg\", #{ x_label: \"height\", y_label: \"moment\" });\n\
+                 let x = linspace(0, 1, 11);\nplot(x, [x, x.map(|x| x^2)], \"powers.svg\", #{ labels: [\"x\", \"x²\"], markers: \"on_lines\" });",
             )
-            .see(&["plot_history", "plot_along", "plot_motion", "plot_field"]),
+            .see(&["plot_history", "record", "plot_along", "plot_motion", "plot_field"]),
     ],
 };
+
+/// How examples get a beam at rest.
+const RESTING: &str = "let scene = new_scene(\"example\");\n\
+    let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 0.1 });\n\
+    let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });";
 
 const X: Parameter = array("x").doc("numbers, or an array of numbers for each curve");
 const Y: Parameter = array("y").doc("as many numbers, or an array of numbers for each curve");

@@ -3,7 +3,7 @@
 use rhai::{Dynamic, Map};
 
 use super::chart_options::{X_LIMITS, Y_LIMITS};
-use super::pictures::{as_simulation, stations, things, write_picture};
+use super::pictures::{simulations, stations, write_picture};
 use super::recording::expect_near;
 use crate::output::{Limits, MotionPicture, Style};
 use crate::script::handles::simulation::SimulationHandle;
@@ -41,7 +41,7 @@ pub const MOTION: &[Parameter] = &[
 ];
 
 pub(super) fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let simulations = things(call, as_simulation)?;
+    let simulations = simulations(call)?;
     let options = call.options_or_defaults("options")?;
     let limits = super::chart_options::limits(call, &options)?;
     let picture = |of: &SimulationHandle| {

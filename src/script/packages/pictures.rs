@@ -97,7 +97,7 @@ const HISTORY_OPTIONS: &[Parameter] = &[
 /// Most simulations in one picture.
 const MOST_SIDE_BY_SIDE: usize = 100;
 
-pub(super) fn things<T: Scripted>(
+fn things<T: Scripted>(
     call: &Call,
     convert: fn(&Dynamic) -> Option<T>,
 ) -> Result<Vec<T>, ScriptError> {
@@ -139,7 +139,7 @@ fn histories_over_time(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     Ok(histories)
 }
 
-pub(super) fn as_simulation(value: &Dynamic) -> Option<SimulationHandle> {
+fn as_simulation(value: &Dynamic) -> Option<SimulationHandle> {
     value.clone().try_cast()
 }
 
