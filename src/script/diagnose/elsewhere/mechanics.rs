@@ -30,14 +30,14 @@ pub const WORDS: &[Elsewhere] = &[
         &["slider", "clamp"],
     ),
     entry(
-        &["damping", "damper", "damp", "dashpot", "viscous", "rayleigh", "dissipation"],
-        "scene.start(#{ integrator: energy_decaying(#{ chi: 0.1 }), dt: 0.1 }) damps vibration and keeps both momenta; generalized_alpha damps only what is fast",
-        &["energy_decaying", "generalized_alpha"],
+        &["damping", "damp", "dashpot", "viscous", "rayleigh", "dissipation"],
+        "scene.damper(from, to, #{ damping: c }) is a dashpot; scene.start(#{ integrator: energy_decaying(#{ chi: 0.1 }), dt: 0.1 }) damps vibration and keeps both momenta",
+        &["damper", "energy_decaying", "generalized_alpha"],
     ),
     entry(
-        &["spring", "springs", "elastic", "bushing"],
-        "a thin beam acts as a spring, with EA times its strain as force; a force that depends on the motion is a schedule that reads a variable, set between the steps",
-        &["beam", "section", "schedule"],
+        &["springs", "elastic", "bushing"],
+        "scene.spring(from, to, #{ stiffness: k }) between stations and points of the ground, scene.torsion_spring between sections",
+        &["spring", "torsion_spring", "tendon"],
     ),
     entry(
         &[
