@@ -86,7 +86,7 @@ fn words_of_mechanics_find_what_there_is() {
         ("support", "scene.clamp(station)"),
         ("roller", "scene.slider(station, rail)"),
         ("plot", "plot_motion(sim, \"name\")"),
-        ("spring", "a thin beam acts as a spring"),
+        ("spring", "scene.spring(from, to"),
     ] {
         let (_, replies, complaints) = piped(&format!("?{word}\n"));
         assert!(format!("{replies}{complaints}").contains(found), "{word}: {replies}{complaints}");

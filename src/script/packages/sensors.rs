@@ -140,7 +140,7 @@ pub const TABLE: Table = Table {
         })
         .returns(Returns::object(VECTOR).unit("length/time²"))
         .summary("How a station accelerates at the present moment, by the equations of motion.")
-        .example("let sim = scene.start(#{ dt: 0.01 });\ncheck(norm(sim.acceleration(rod.start)) == 0);\ncheck(sim.acceleration(rod.end).y < -9.8);")
+        .example("let sim = scene.start(#{ dt: 0.01 });\ncheck(norm(sim.acceleration(rod.start)) == 0);\ncheck_close(sim.acceleration(rod.end).y, -9.81, 0.5);")
         .see(&["velocity", "spin"]),
         method(SIMULATION, "spin", &[AT], |call| {
             let (handle, station) = (call.receiver::<SimulationHandle>()?, call.get::<StationHandle>("station")?);
