@@ -1,4 +1,5 @@
 //! Frames, arrays and tables for other programs, read by parsers of our own and compared with the solver.
+#![allow(clippy::unwrap_used)]
 
 use std::collections::HashMap;
 use std::fs;
