@@ -55,7 +55,7 @@ pub const TABLE: Table = Table {
                  are not told apart, and slower ones are not seen. Window of Blackman and Harris; F. J. Harris, Proc. IEEE 66 (1978) 51-83.",
             )
             .example(
-                "let swing = new_scene(\"swing\");\nlet bob = swing.beam(#{ name: \"bob\", axis: line([0, 0], [1, 0]), basis: bspline(2), section: s, spin: 8 });\n\
+                "let swing = new_scene(\"swing\");\nlet bob = swing.beam(#{ name: \"bob\", axis: line([0, 0], [1, 0]), basis: bspline(2), section: s, spin: 8, about: [0, 0] });\n\
                  swing.hinge(bob.start);\nswing.record(\"bob.end.x\");\nlet run = swing.start(#{ dt: 0.02 });\nrun.run_to(10);\n\
                  let turning = run.history.spectrum(\"bob.end.x\")[0];\ncheck_close(turning.frequency, 8 / 6.283185307, 0.01);\ncheck_close(turning.amplitude, 1, 0.05);",
             )
