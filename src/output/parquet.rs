@@ -106,7 +106,7 @@ mod tests {
         let reader = SerializedFileReader::new(bytes::Bytes::from(bytes)).unwrap();
         let metadata = reader.metadata().file_metadata().key_value_metadata().unwrap().clone();
         assert!(metadata.contains(&KeyValue::new("dimension.t".into(), "time".to_owned())));
-        let rows: Vec<_> = reader.into_iter().map(Result::unwrap).collect();
+        let rows: Vec<_> = reader.get_row_iter(None).unwrap().map(Result::unwrap).collect();
         assert_eq!(rows[0].get_double(0).unwrap(), 0.1);
         assert!(rows[1].get_double(0).is_err(), "it is missing");
         assert_eq!((rows[0].get_long(1).unwrap(), rows[1].get_long(1).unwrap()), (3, -1));
