@@ -38,6 +38,12 @@ impl Table {
         row[self.columns.iter().position(|name| name == column).unwrap()]
     }
 
+    /// The times of the rows but the first, up to one.
+    pub fn times(&self, end: f64) -> Vec<f64> {
+        let times = self.rows[1..].iter().map(|row| row[0]);
+        times.take_while(|time| *time < end + 1e-9).collect()
+    }
+
     /// Where the ends of the beam are.
     pub fn ends(&self, time: f64) -> [Vec2; 2] {
         let point = |x: &str, y: &str| at(self.at(time, x), self.at(time, y));

@@ -6,6 +6,7 @@ mod common;
 mod consistency;
 mod ends;
 mod invariants;
+mod kinks;
 mod long_ways;
 mod orders;
 mod relaxed;

@@ -49,23 +49,28 @@ impl Assembly<'_> {
         Ok(sliders)
     }
 
-    /// The axis of a slider's master as the contact force kinks it, if the rule knows of that and the mesh of the master has kink lengths, which are found once.
+    /// The axis of a slider's master as the contact force kinks it, if the rule knows of that and the mesh of the master is smooth; kink
+    /// lengths are found once.
     fn kinked_axis(
         &self,
         slider: &Slider,
         found: &mut [Option<Option<Arc<PiecewisePolynomial>>>],
     ) -> Result<Option<KinkedAxis>, ModelError> {
-        if slider.rule != SlidingRule::Conserving {
+        let (master, beam) = (slider.master, &self.scene.beams[slider.master]);
+        let basis = self.mesh(master).basis();
+        // At a node where the mesh itself may kink there is no kink length, and a slider would have to pass a wall.
+        let has_nodes = basis.breaks().len() > 2 && basis.continuity() == 0;
+        if slider.rule != SlidingRule::Conserving || has_nodes {
             return Ok(None);
         }
-        let (master, beam) = (slider.master, &self.scene.beams[slider.master]);
         if found[master].is_none() {
             let points = self.bodies[master].control_points();
             let wrap = |source| ModelError::Beam { beam: beam.name.clone(), source };
             let length = kink_length(self.mesh(master), points).map_err(wrap)?;
             found[master] = Some(length.map(Arc::new));
         }
-        let axis = |length| KinkedAxis::new(length, beam.axis.length(), beam.section.shear_stiffness);
+        let axis =
+            |length| KinkedAxis::new(length, beam.axis.length(), beam.section.shear_stiffness);
         Ok(found[master].clone().flatten().map(axis))
     }
 

@@ -6,7 +6,7 @@ use crate::geometry::{Passage, PiecewisePolynomial, Vec2};
 use crate::joints::Kink;
 
 /// Where the kink length is less than this part of the master, a contact force moves nothing.
-const RIGID: f64 = 1e-12;
+const RIGID: f64 = 1e-14;
 
 /// What a contact force does to the axis of its master: it moves the axis by `g p/GA` where it acts.
 #[derive(Debug, Clone)]
@@ -37,11 +37,7 @@ impl KinkedAxis {
 
     /// The kink along the way of a step.
     pub fn along(&self, passage: &Passage) -> Kink {
-        Kink {
-            along: passage.along(&self.length),
-            compliance: self.compliance,
-            before: self.force,
-        }
+        Kink { along: passage.along(&self.length), compliance: self.compliance, before: self.force }
     }
 
     /// Looks at the place where the passage ends.
@@ -53,6 +49,20 @@ impl KinkedAxis {
     /// give way, nothing tells it from the mean `λ` of the step [force].
     pub fn advance(&mut self, mean: Vec2) {
         self.force = if self.gives() { mean * 2.0 - self.force } else { mean };
+    }
+
+    /// Takes from the contact force what was that of a stop, along the tangent `x'` of the axis [length]: `p·x' + ½ g' |p|²/GA = 0` of a slider is left, but for
+    /// the third power of `p`.
+    ///
+    /// Beside the end by rounding, where the axis gives way, the force is not touched: it is a matter of places there.
+    pub fn leave_stop(&mut self, tangent: Vec2) {
+        if self.gives() {
+            return;
+        }
+        let along = |force: Vec2| tangent * (force.dot(&tangent) / tangent.norm_squared());
+        let across = self.force - along(self.force);
+        let pull = 0.5 * self.here[1] * self.compliance * across.norm_squared();
+        self.force = across - tangent * (pull / tangent.norm_squared());
     }
 
     /// Whether a contact force moves the axis where the slider is.

@@ -259,7 +259,8 @@ impl Sliding {
         let (body, point) = self.connection.slave;
         let slave = bodies[body].dynamics.control_points()[point];
         let master = bodies[self.connection.master].dynamics.control_points();
-        let to_axis: Vec2 = self.weights().map(|(index, weight)| (master[index] - slave) * weight).sum();
+        let to_axis: Vec2 =
+            self.weights().map(|(index, weight)| (master[index] - slave) * weight).sum();
         to_axis + self.kinked_axis.as_ref().map_or(Vec2::zeros(), KinkedAxis::offset)
     }
 
@@ -305,9 +306,8 @@ impl Sliding {
         let (offset, (slope, bend)) = (axis.offset(), axis.slopes());
         let (points, master) = (self.window(bodies), &bodies[self.connection.master]);
         let values = self.here.basis().evaluate(self.parameter);
-        let bent = values.map_or(Vec2::zeros(), |values| {
-            values.combine(2, master.dynamics.control_points())
-        });
+        let bent = values
+            .map_or(Vec2::zeros(), |values| values.combine(2, master.dynamics.control_points()));
         let turning = self.here.slope().iter().zip(self.here.first()..);
         let turning: Vec2 = turning.map(|(by, at)| master.vector_at(at, rates) * *by).sum();
         let tangent = slope_of(self.here.slope(), points);
@@ -370,7 +370,11 @@ impl Sliding {
         let contact = self.take(bodies, increments, unknowns);
         let equations = law.equations(&contact);
         connection.add_values(bodies, &contact, &equations, increments.len(), out);
-        let force = contact.unknowns.force.norm();
+        let ends = larger(
+            contact.force_at_end().norm(),
+            contact.kink.map_or(0.0, |kink| kink.before.norm()),
+        );
+        let force = larger(contact.unknowns.force.norm(), ends);
         let chord = contact.tangent().value.norm() / contact.length;
         (self.size, self.chord) = (contact.length + contact.slave_moved.norm(), chord);
         self.units = equations.map(|equation| equation.unit);
@@ -424,9 +428,10 @@ impl Sliding {
         let mean = self.unknowns.force;
         self.kinked_axis.iter_mut().for_each(|axis| axis.advance(mean));
         if let (SliderState::Held(end), Ending::OfStep) = (self.state, ending) {
-            let outward = self.unknowns.force.dot(&self.tangent(bodies)) * end.outward();
-            if outward < 0.0 {
+            let tangent = self.tangent(bodies);
+            if self.unknowns.force.dot(&tangent) * end.outward() < 0.0 {
                 self.state = SliderState::Sliding;
+                self.kinked_axis.iter_mut().for_each(|axis| axis.leave_stop(tangent));
             }
         }
     }

@@ -1,0 +1,122 @@
+//! Sliders on kinked axes: what comes nearer to the references with a moving mesh, contact forces and all.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::reference::Table;
+use crate::common::sliding::{
+    Support, kicked_sliding_particle, sliding_particle, smoothly_pushed_mass,
+};
+use crate::common::{at, orders, run, sci, settings, simulate, sliding_scenes};
+use withy::beams::{Mesh, Station};
+use withy::integrators::Method;
+use withy::joints::SlidingRule;
+use withy::model::Scene;
+use withy::simulation::Simulation;
+
+fn smooth(spans: usize) -> Mesh {
+    Mesh::bspline(spans, 3, 2).unwrap()
+}
+
+fn scene(reference: &str, spans: usize, rule: SlidingRule) -> Scene {
+    let mesh = smooth(spans);
+    match reference {
+        "P7b" => sliding_particle(&mesh, 0.3, rule),
+        "P7c" => sliding_particle(&mesh, 1.0, rule),
+        "P7d" => kicked_sliding_particle(&mesh, rule),
+        "P8s_free" => smoothly_pushed_mass([&mesh, &mesh], Support::Free, rule),
+        "P8s_hinged" => smoothly_pushed_mass([&mesh, &mesh], Support::Hinged, rule),
+        other => panic!("there is no reference {other}"),
+    }
+}
+
+/// Root mean squares, over the times of a reference, of the errors of place, contact point, end of the beam and contact force.
+fn errors(reference: &str, spans: usize, rule: SlidingRule, end: f64) -> [f64; 4] {
+    let table = Table::read(&format!("{reference}.csv"));
+    let settings = settings(Method::FourthOrder, 0.0025);
+    let mut flight = Simulation::start(scene(reference, spans, rule), settings).unwrap();
+    let (times, mut sums) = (table.times(end), [0.0; 4]);
+    for &t in &times {
+        run(&mut flight, t).unwrap();
+        let model = flight.model();
+        let given = |x: &str, y: &str| at(table.at(t, x), table.at(t, y));
+        let position = |station: &Station| model.position(&flight.place(station).unwrap());
+        let errors = [
+            10_f64.sqrt() * model.slider_position(0) - table.at(t, "S"),
+            (position(&flight.scene().sliders[0].slave) - given("xC", "yC")).norm(),
+            (position(&Station::on_beam(0, 10_f64.sqrt())) - given("xB", "yB")).norm(),
+            (model.contact_force(0) - given("lamx", "lamy")).norm(),
+        ];
+        sums.iter_mut().zip(errors).for_each(|(sum, error)| *sum += error * error);
+    }
+    sums.map(|sum| (sum / times.len() as f64).sqrt())
+}
+
+#[test]
+fn on_kinked_axes_contacts_come_nearer_to_the_references() {
+    let is_long = std::env::var_os("WITHY_LONG").is_some();
+    let spans: &[usize] = if is_long { &[4, 8, 16, 32] } else { &[4, 16] };
+    let references =
+        [("P7b", 0.4), ("P7c", 1.0), ("P7d", 0.3), ("P8s_free", 0.35), ("P8s_hinged", 0.4)];
+    for (reference, end) in references {
+        let [kinked, smeared] = [SlidingRule::Conserving, SlidingRule::Smeared].map(|rule| {
+            let rows: Vec<[f64; 4]> =
+                spans.iter().map(|spans| errors(reference, *spans, rule, end)).collect();
+            let columns: [Vec<f64>; 4] =
+                std::array::from_fn(|what| rows.iter().map(|row| row[what]).collect());
+            for (what, errors) in ["place", "point", "end", "force"].iter().zip(&columns) {
+                let orders = orders(errors);
+                println!("{reference:10} {rule:10?} {what:6} {} orders {orders:.2?}", sci(errors));
+            }
+            columns
+        });
+        let doublings = (spans[spans.len() - 1] / spans[0]).ilog2();
+        let slope =
+            |errors: &[f64]| (errors[0] / errors[errors.len() - 1]).log2() / f64::from(doublings);
+        let times_nearer =
+            |what: usize| smeared[what].last().unwrap() / kinked[what].last().unwrap();
+        let is_slow = !reference.starts_with("P8s");
+        let [place, point, _, force] = [0, 1, 2, 3].map(|what| slope(&kinked[what]));
+        assert!(place > 0.9 && point > 1.2 && force > 0.45, "{reference}: {place} {point} {force}");
+        assert!(times_nearer(1) > if is_slow { 8.0 } else { 1.5 }, "{reference}");
+        assert!(times_nearer(2) > 3.0 && times_nearer(3) > 1.2, "{reference}");
+    }
+}
+
+#[test]
+fn contact_forces_are_told_at_their_own_time_with_the_order_of_the_method() {
+    for (reference, end) in [("P7b", 0.4), ("P7c", 0.4), ("P8s_hinged", 0.3)] {
+        for (method, first, order) in
+            [(Method::EnergyMomentum, 0.001, 2.0), (Method::FourthOrder, 0.005, 4.0)]
+        {
+            let dts = [1.0, 2.0, 4.0].map(|parts: f64| first / parts);
+            let forces = dts.map(|dt| {
+                let scene = scene(reference, 4, SlidingRule::Conserving);
+                simulate(scene, method, dt, end).model().contact_force(0)
+            });
+            let changes: Vec<f64> =
+                forces.windows(2).map(|pair| (pair[0] - pair[1]).norm()).collect();
+            let found = orders(&changes)[0];
+            println!(
+                "{reference:10} {method:?}: force changes by {} order {found:.2}",
+                sci(&changes)
+            );
+            assert!((found - order).abs() < 0.2, "{reference}, {method:?}: {found}");
+        }
+    }
+}
+
+#[test]
+fn several_sliders_on_a_beam_converge_at_third_order_also_in_one_span() {
+    // Four spans are few for three beads; the finest mesh stands for the truth.
+    let places = |spans: usize| {
+        let scene = sliding_scenes::abacus(&smooth(spans), SlidingRule::Conserving);
+        let flight = simulate(scene, Method::EnergyMomentum, 0.001, 0.3);
+        [0, 1, 2].map(|slider| flight.model().slider_position(slider))
+    };
+    let truth = places(64);
+    let error = |found: [f64; 3]| {
+        found.iter().zip(truth).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
+    };
+    let errors = [4, 8, 16].map(|spans| error(places(spans)));
+    println!("three beads: {} orders {:.2?}", sci(&errors), orders(&errors));
+    assert!(orders(&errors).iter().all(|order| *order > 2.0), "{errors:?}");
+}
