@@ -4,6 +4,7 @@
 //! M a + F(x) - f(t) - Gᵀ λ = r        G a = 2 ξ̇ u·Σ B_i' v_i + ξ̇² u·Σ B_i'' x_i        r = 0 but where something is held
 //! ```
 //!
+//! Where the axis gives way under a slider, `λ` is known, as is the kink.
 //! Configuration and rates at the end of a step are of second order with every method, and so is what follows from them. It is a matter of the
 //! present state alone: the same after going back, in a copy and from a file. Where steps do not resolve a vibration, it rings with it, while the
 //! mean of two neighbouring steps does not.
@@ -71,8 +72,16 @@ impl Model {
             .collect();
         let mut residual = vec![0.0; self.degrees_of_freedom()];
         degrees.iter().zip(&apart).for_each(|(&at, force)| residual[at] += force);
-        let (accelerations, contacts) =
+        for slider in self.sliders.iter().filter(|slider| slider.gives_way()) {
+            slider.transmit(&self.bodies, slider.contact_force(), &mut residual);
+        }
+        let (accelerations, mut contacts) =
             self.answer(&residual).map_err(|error| refused(error.to_string()))?;
+        for (contact, slider) in contacts.iter_mut().zip(self.sliders.iter()) {
+            if slider.gives_way() {
+                *contact += slider.contact_force();
+            }
+        }
 
         let joined = self.bodies.number_as(own);
         let of_all: Vec<f64> =
