@@ -31,6 +31,11 @@ pub struct Instant {
 }
 
 impl Instant {
+    /// The accelerations of the unknown movements [length/time², 1/time²].
+    pub fn accelerations(&self) -> &[f64] {
+        &self.accelerations
+    }
+
     /// What joints and supports give to a control point of a body.
     pub fn given(&self, (body, point): (usize, usize)) -> Movement {
         self.given[body][point]
@@ -53,7 +58,7 @@ impl Model {
         self.elements
             .hold_at(time)
             .map_err(|(load, source)| refused(format!("{load}: {source}")))?;
-        let resisting = self.elements.resisting(&self.bodies, &self.motion.rates);
+        let rates = self.bodies.by_control_point(&self.motion.rates);
         let joined = self.bodies.number_apart();
         let mut apart = vec![0.0; joined.iter().map(|body| 3 * body.len()).sum()];
         for body in self.bodies.iter_mut() {
@@ -61,7 +66,7 @@ impl Model {
         }
         let at = Iterate { bodies: &self.bodies, stage: Stage::End, increments: &[], weight: 1.0 };
         self.elements.subtract_from(at, &mut apart);
-        self.elements.add_resisting(&self.bodies, &resisting, &mut apart);
+        self.elements.add_resisting(&self.bodies, &rates, &mut apart);
         let own = self.bodies.number_as(joined);
 
         let degrees: Vec<usize> = self
