@@ -59,6 +59,17 @@ impl RotationIncrement {
         }
     }
 
+    /// The number `2 tan(Δθ/2)` with which `Λ1 - Λ0 = 2 tan(Δθ/2) J (Λ0 + Λ1)/2`: the increment itself where it is tangent-scaled [-].
+    pub fn chord(self, increment: f64) -> f64 {
+        match self {
+            Self::TangentScaled => increment,
+            Self::Angle => {
+                let (sin, cos) = sin_cos(increment);
+                2.0 * sin / (1.0 + cos)
+            }
+        }
+    }
+
     /// The derivative `dΔθ/dΔω` of the angle by the increment [-].
     pub fn rate(self, increment: f64) -> f64 {
         self.rates(increment).0
