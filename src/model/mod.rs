@@ -3,6 +3,7 @@
 mod assembly;
 mod bodies;
 mod elements;
+mod levers;
 mod looking;
 mod mechanism;
 mod motion;
@@ -21,10 +22,10 @@ pub use looking::{
 pub use mechanism::{
     BodyEnergy, Energy, Instant, Measures, Model, ModelState, StaticForces, add_resistance,
 };
-pub use motion::Resolution;
+pub use motion::{Resolution, UnknownKind};
 pub use scene::{
-    BeamDefinition, ParticleDefinition, Probe, Quantity, Scene, Sensor, StartMotion,
-    StationVelocity, Value,
+    BeamDefinition, ParticleDefinition, Probe, Quantity, RigidBodyDefinition, Scene, Sensor,
+    StartMotion, StationVelocity, Value,
 };
 pub use sliders::{Blow, SliderState, TrackEnd, TrackLimit};
 pub use words::{

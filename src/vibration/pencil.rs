@@ -31,10 +31,18 @@ impl Pencil {
             elastic.add(size, degrees, span);
         });
         let inertia = model.sparse_inertia();
+        let scale = model.slowest_bending().unwrap_or(1.0);
+        let own: Vec<f64> = (0..size)
+            .map(|at| stiffness.diagonal(at).abs() + scale * inertia.diagonal(at))
+            .collect();
+        model.each_lever_at_rest(|at| own[at], &mut |degrees, span| {
+            add_resistance(&mut stiffness, degrees, span);
+            elastic.add(size, degrees, span);
+        });
         let is_finite = (0..size)
             .all(|at| stiffness.diagonal(at).is_finite() && inertia.diagonal(at).is_finite());
         let finite = (0..size).filter(|at| inertia.diagonal(*at) > 0.0).count();
-        let scale = model.slowest_bending().unwrap_or(1.0);
+        let finite = finite.saturating_sub(model.held_by_levers(&inertia));
         if !is_finite || !scale.is_normal() {
             return Err(VibrationError::NotFinite);
         }

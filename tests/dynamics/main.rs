@@ -5,6 +5,7 @@ mod common;
 
 mod adaptive;
 mod archive;
+mod bodies;
 mod composition;
 mod consistency;
 mod cores;
@@ -12,6 +13,7 @@ mod damping;
 mod drag;
 mod going_back;
 mod invariants;
+mod levers;
 mod literature;
 mod meshes;
 mod notes;

@@ -76,7 +76,7 @@ impl Description for Spring {
         };
         for station in self.stations() {
             setting.check_station("a spring", station)?;
-            if matches!(self.kind, SpringKind::Torsion(_)) && station.beam().is_none() {
+            if matches!(self.kind, SpringKind::Torsion(_)) && !station.turns() {
                 let by = Turning::TorsionSpring;
                 return Err(ModelError::ParticleTurned { object: self.object(), by });
             }

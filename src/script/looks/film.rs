@@ -131,7 +131,17 @@ fn particles(simulation: &Simulation, shown: &Shown) -> Result<Vec<Particle>, Sc
         let at = shown.station(simulation, &Station::on_particle(index))?;
         Ok(Particle { name: particle.name.clone(), at })
     };
-    particles.map(particle).collect()
+    // The centres of rigid bodies, and their points.
+    let rigid = simulation.scene().rigid_bodies.iter().enumerate().flat_map(|(index, body)| {
+        let centre = std::iter::once((body.name.clone(), 0));
+        let points =
+            body.levers().map(|at| (format!("{}.{}", body.name, body.points[at - 1].0), at));
+        centre.chain(points).map(move |(name, point)| (name, Station::on_rigid_body(index, point)))
+    });
+    let point = |(name, station): (String, Station)| {
+        Ok(Particle { name, at: shown.station(simulation, &station)? })
+    };
+    particles.map(particle).chain(rigid.map(point)).collect()
 }
 
 fn symbols(simulation: &Simulation, shown: &Shown) -> Result<Vec<Symbol>, ScriptError> {

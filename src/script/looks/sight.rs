@@ -131,7 +131,9 @@ pub fn configuration_summary(
     let particles = scene.particles.iter().zip(&shown.particles);
     let particles =
         particles.map(|(particle, at)| format!("{}: at {}", particle.name, place(Some(at))));
-    let lines: Vec<String> = beams.chain(particles).collect();
+    let bodies = scene.rigid_bodies.iter().zip(&shown.particles[scene.particles.len()..]);
+    let bodies = bodies.map(|(body, at)| format!("{}: at {}", body.name, place(Some(at))));
+    let lines: Vec<String> = beams.chain(particles).chain(bodies).collect();
     Ok(format!("t = {}\n{}", significant(shown.time, DIGITS), lines.join("\n")))
 }
 

@@ -3,6 +3,7 @@
 mod along_pictures;
 mod animations;
 mod arrays;
+mod bodies;
 mod chart_options;
 mod checking;
 mod convergence_studies;
@@ -63,6 +64,7 @@ pub const TABLES: &[&Table] = &[
     &step_sizes::TABLE,
     &scenes::TABLE,
     &loads::TABLE,
+    &bodies::TABLE,
     &springs::TABLE,
     &drag::TABLE,
     &equilibria::TABLE,

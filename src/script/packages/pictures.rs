@@ -274,8 +274,16 @@ fn write_states(call: &mut Call) -> Result<Dynamic, ScriptError> {
         .particles
         .iter()
         .flat_map(|particle| ["x", "y"].map(|axis| format!("{} {axis} [length]", particle.name)));
-    let names = of_beams.chain(of_particles);
-    let comment = "control points (nodes) of all beams, and particles";
+    let of_bodies = scene.rigid_bodies.iter().flat_map(|body| {
+        let points = body.points.iter().map(|(point, _)| format!("{}.{point}", body.name));
+        let places = std::iter::once(body.name.clone()).chain(points);
+        places.flat_map(|place| ["x", "y"].map(|axis| format!("{place} {axis} [length]")))
+    });
+    let names = of_beams.chain(of_particles).chain(of_bodies);
+    let comment = match scene.rigid_bodies.is_empty() {
+        true => "control points (nodes) of all beams, and particles",
+        false => "control points (nodes) of all beams, particles, and bodies with their points",
+    };
     let table = CsvTable::new()
         .comment(format!("simulation: {}; {comment}", of.name()))
         .column("t [time]", trajectory.times().to_vec());

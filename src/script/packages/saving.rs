@@ -2,6 +2,7 @@
 
 use rhai::Dynamic;
 
+use super::bodies::BODY;
 use super::scenes::BEAM;
 use super::scenes::SCENE;
 use super::scenes::STATION;
@@ -11,6 +12,7 @@ use super::sliding::SliderHandle;
 use crate::beams::Station;
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::notes::Notes;
+use crate::script::handles::rigid_body::RigidBodyHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
@@ -57,7 +59,7 @@ pub const TABLE: Table = Table {
             .returns(Returns::object(SCENE))
             .summary("The scene that was started; for a loaded simulation, the scene that was saved with it.")
             .example("check(sim.scene.name == \"example\");")
-            .see(&["beam_named", "particle_named", "slider_named"]),
+            .see(&["beam_named", "particle_named", "body_named", "slider_named"]),
         method(SCENE, "beam_named", &[NAME], |call| {
             let scene = call.receiver::<SceneHandle>()?;
             let index = find(call, "beam", |held| held.beams.iter().map(|beam| &beam.name).collect())?;
@@ -76,6 +78,15 @@ pub const TABLE: Table = Table {
         .summary("The particle of that name.")
         .example("scene.particle([0, 3], 0.5, #{ name: \"stone\" });\nprint(scene.particle_named(\"stone\"));")
         .see(&["particle", "scene"]),
+        method(SCENE, "body_named", &[NAME], |call| {
+            let scene = call.receiver::<SceneHandle>()?;
+            let index = find(call, "body", |held| held.rigid_bodies.iter().map(|body| &body.name).collect())?;
+            Ok(Dynamic::from(RigidBodyHandle { scene, index }))
+        })
+        .returns(Returns::object(BODY))
+        .summary("The rigid body of that name.")
+        .example("scene.body(#{ name: \"hub\", at: [0, 1], mass: 1, inertia: 1 });\nprint(scene.body_named(\"hub\"));")
+        .see(&["body", "scene"]),
         method(SCENE, "slider_named", &[NAME], |call| {
             let scene = call.receiver::<SceneHandle>()?;
             let index = find(call, "slider", |held| held.sliders.iter().map(|slider| &slider.name).collect())?;
