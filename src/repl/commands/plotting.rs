@@ -12,11 +12,15 @@ use crate::script::diagnose::Diagnostic;
 use crate::script::handles::simulation::{Revisit, SimulationHandle};
 use crate::script::looks::sight;
 use crate::script::source::scanner::{Kind, scan};
+use crate::script::words::error::ScriptError;
 use crate::script::words::nouns::with_article;
 use crate::simulation::History;
 
 /// What is drawn when nothing is named.
 const ENERGIES: [&str; 3] = ["kinetic", "strain", "energy"];
+
+/// What is said instead of a chart with one point.
+const ONE_STATE: &str = "note: there is one state so far; :run T or :step 10 makes a curve";
 
 /// What was found about a part of what is to be drawn.
 enum Part {
@@ -46,17 +50,28 @@ fn plot_columns(shell: &mut Shell, columns: &[String]) -> Outcome {
             "note: '{name}' is a column of the history here; write ({name}) for the variable"
         ));
     }
-    draw(shell, |simulation, screen| match screen {
+    let has_one_row =
+        shell.latest().is_some_and(|of| of.simulation().history().samples().len() == 1);
+    let outcome = draw(shell, |simulation, screen| match screen {
+        Screen::Terminal(_) if has_one_row && columns != ["drift"] => {
+            column_summaries(simulation.history(), columns)
+        }
         Screen::Terminal(style) if columns == ["drift"] => {
             Ok(sight::drift_chart(simulation.history(), &style))
         }
         Screen::Terminal(style) => sight::history_chart(simulation.history(), columns, &style),
         Screen::Pipe if columns == ["drift"] => Ok(sight::drift_summary(simulation.history())),
-        Screen::Pipe => {
-            let line = |column: &String| sight::column_summary(simulation.history(), column);
-            Ok(columns.iter().map(line).collect::<Result<Vec<_>, _>>()?.join("\n"))
-        }
-    })
+        Screen::Pipe => column_summaries(simulation.history(), columns),
+    });
+    if has_one_row && outcome == Outcome::Good {
+        shell.note(ONE_STATE);
+    }
+    outcome
+}
+
+fn column_summaries(history: &History, columns: &[String]) -> Result<String, ScriptError> {
+    let line = |column: &String| sight::column_summary(history, column);
+    Ok(columns.iter().map(line).collect::<Result<Vec<_>, _>>()?.join("\n"))
 }
 
 /// Columns are names, as they stand or in quotes; so are words that can be nothing else.
@@ -101,6 +116,16 @@ fn plot_expressions(shell: &mut Shell, found: Vec<Part>) -> Outcome {
         }
     }
     let Some(first) = curves.first().map(|curve: &Curve| curve.over) else { return Outcome::Good };
+    if let Some(empty) = curves.iter().find(|curve| !curve.has_points()) {
+        let told = format!("'{}' is nowhere a finite number", empty.name);
+        return shell.refuse(&Diagnostic::general(told).with_hint("there is nothing to draw"));
+    }
+    let is_one_state = |curve: &Curve| curve.over == Over::Time && curve.points.len() == 1;
+    if curves.iter().any(is_one_state) {
+        curves.iter().for_each(|curve| shell.print(&summary(curve)));
+        shell.note(ONE_STATE);
+        return Outcome::Good;
+    }
     if let Some(other) = curves.iter().find(|curve| curve.over != first) {
         let (one, two) = (first.in_words(), other.over.in_words());
         let told = format!("'{}' goes over {one} and '{}' over {two}", curves[0].name, other.name);
