@@ -83,6 +83,12 @@ impl View {
         Self { centre: (x, y), needs: (width, height) }
     }
 
+    /// Whether a point is in the box.
+    pub fn shows(&self, (x, y): Point) -> bool {
+        let is_within = |at: f64, centre: f64, size: f64| (at - centre).abs() <= size / 2.0;
+        is_within(x, self.centre.0, self.needs.0) && is_within(y, self.centre.1, self.needs.1)
+    }
+
     /// The ends of axes between which it is all that is seen.
     pub fn limits(&self) -> Limits {
         let ends = |centre: f64, size: f64| Some((centre - size / 2.0, centre + size / 2.0));

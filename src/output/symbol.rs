@@ -94,20 +94,22 @@ impl PlacedSymbol {
             .then_some((self.at.0 + self.direction.0, self.at.1 + self.direction.1))
     }
 
-    /// The part of the plane that points and symbols need.
+    /// The part of the plane that points need, and the symbols that are among them.
     pub(super) fn view(
         symbols: &[Self],
         points: impl Iterator<Item = Point> + Clone,
         limits: &Limits,
     ) -> View {
         use Symbol::{Clamp, Hinge, Moment, Slider, TorsionSpring};
-        let ends = symbols.iter().filter_map(Self::link);
+        let bare = View::of(points.clone(), limits);
+        let links = symbols.iter().filter_map(Self::link);
+        let ends = links.filter(|[at, end]| bare.shows(*at) || bare.shows(*end)).flatten();
         let is_about = |placed: &&Self| {
             matches!(placed.symbol, Hinge | Clamp | Slider | Moment | TorsionSpring)
         };
         let about = symbols.iter().filter(is_about).map(|placed| placed.at);
-        let about = about.filter(|(x, y)| x.is_finite() && y.is_finite());
-        View::of(points.chain(ends.flatten()), limits).with_room(about, ROOM, limits)
+        let about = about.filter(|at| bare.shows(*at));
+        View::of(points.chain(ends), limits).with_room(about, ROOM, limits)
     }
 
     /// Draws it on a plot; not at all where the plot does not show its place.

@@ -375,7 +375,7 @@ impl Frame {
 fn an_animation_shows_the_tip_where_the_solver_says() {
     let script = "
         for k in 0..=10 { sim.run_to(0.1 * k); let p = sim.position(two.end); print(`${p.x} ${p.y}`); }
-        write_animation(sim, \"a.png\", #{ frames: 11, fps: 10, width: 400 });";
+        write_animation(sim, \"a.png\", #{ frames: 11, fps: 10, width: 400, symbols: false });";
     let (printed, bytes) = written(script, "a.png");
     assert!(bytes.len() < 200_000, "{} bytes", bytes.len());
     let frames = Frame::all(&bytes);

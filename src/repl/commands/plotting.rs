@@ -19,9 +19,6 @@ use crate::simulation::History;
 /// What is drawn when nothing is named.
 const ENERGIES: [&str; 3] = ["kinetic", "strain", "energy"];
 
-/// What is said instead of a chart with one point.
-const ONE_STATE: &str = "note: there is one state so far; :run T or :step 10 makes a curve";
-
 /// What was found about a part of what is to be drawn.
 enum Part {
     Columns(Vec<String>),
@@ -50,8 +47,7 @@ fn plot_columns(shell: &mut Shell, columns: &[String]) -> Outcome {
             "note: '{name}' is a column of the history here; write ({name}) for the variable"
         ));
     }
-    let has_one_row =
-        shell.latest().is_some_and(|of| of.simulation().history().samples().len() == 1);
+    let has_one_row = has_one_row(shell);
     let outcome = draw(shell, |simulation, screen| match screen {
         Screen::Terminal(_) if has_one_row && columns != ["drift"] => {
             column_summaries(simulation.history(), columns)
@@ -63,10 +59,21 @@ fn plot_columns(shell: &mut Shell, columns: &[String]) -> Outcome {
         Screen::Pipe if columns == ["drift"] => Ok(sight::drift_summary(simulation.history())),
         Screen::Pipe => column_summaries(simulation.history(), columns),
     });
-    if has_one_row && outcome == Outcome::Good {
-        shell.note(ONE_STATE);
+    if outcome == Outcome::Good {
+        note_one_state(shell);
     }
     outcome
+}
+
+fn has_one_row(shell: &Shell) -> bool {
+    shell.latest().is_some_and(|of| of.simulation().history().samples().len() == 1)
+}
+
+/// Says at a terminal why there are numbers in the place of a chart.
+fn note_one_state(shell: &mut Shell) {
+    if has_one_row(shell) && matches!(shell.screen(), Screen::Terminal(_)) {
+        shell.note("note: there is one state so far; :run T or :step 10 makes a curve");
+    }
 }
 
 fn column_summaries(history: &History, columns: &[String]) -> Result<String, ScriptError> {
@@ -121,17 +128,10 @@ fn plot_expressions(shell: &mut Shell, found: Vec<Part>) -> Outcome {
         return shell.refuse(&Diagnostic::general(told).with_hint("there is nothing to draw"));
     }
     let is_one_state = |curve: &Curve| curve.over == Over::Time && curve.points.len() == 1;
-    if curves.iter().any(is_one_state) {
-        curves.iter().for_each(|curve| shell.print(&summary(curve)));
-        shell.note(ONE_STATE);
-        return Outcome::Good;
-    }
-    if let Some(other) = curves.iter().find(|curve| curve.over != first) {
-        let (one, two) = (first.in_words(), other.over.in_words());
-        let told = format!("'{}' goes over {one} and '{}' over {two}", curves[0].name, other.name);
-        return shell.refuse(&Diagnostic::general(told).with_hint("plot them one after the other"));
-    }
     match shell.screen() {
+        Screen::Terminal(_) if curves.iter().any(is_one_state) => {
+            curves.iter().for_each(|curve| shell.print(&summary(curve)));
+        }
         Screen::Pipe => {
             curves.iter().for_each(|curve| shell.print(&summary(curve)));
         }
@@ -145,6 +145,7 @@ fn plot_expressions(shell: &mut Shell, found: Vec<Part>) -> Outcome {
         }
     }
     said.iter().for_each(|words| shell.note(words));
+    note_one_state(shell);
     Outcome::Good
 }
 

@@ -209,9 +209,11 @@ pub fn column_names(history: &History) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::beams::Station;
     use crate::beams::{Mesh, Section};
     use crate::geometry::Curve;
     use crate::integrators::Method;
+    use crate::joints::{JointKind, Partner};
     use crate::model::{BeamDefinition, Scene, StartMotion};
     use crate::newton::Tolerance;
     use crate::output::{Colours, Glyphs};
