@@ -41,7 +41,8 @@ pub struct Peak {
 pub enum SpectrumError {
     /// Rows at other distances than most.
     #[error(
-        "a spectrum needs evenly spaced rows, but that at t = {time} comes {found} after the one before, most others {expected}"
+        "a spectrum needs evenly spaced rows, but that at t = {} comes {} after the one before, most others {}",
+        six_digits(*.time), six_digits(*.found), six_digits(*.expected)
     )]
     Uneven {
         /// When.
@@ -63,6 +64,11 @@ pub enum SpectrumError {
         /// When.
         time: f64,
     },
+}
+
+/// A number as it is told.
+fn six_digits(number: f64) -> f64 {
+    format!("{number:.5e}").parse().unwrap_or(number)
 }
 
 impl Series {
