@@ -5,6 +5,7 @@ mod arrays;
 mod checking;
 mod convergence_studies;
 mod cost_studies;
+mod drag;
 mod equilibria;
 mod explaining;
 mod exports;
@@ -58,6 +59,7 @@ pub const TABLES: &[&Table] = &[
     &scenes::TABLE,
     &loads::TABLE,
     &springs::TABLE,
+    &drag::TABLE,
     &equilibria::TABLE,
     &modes::TABLE,
     &simulations::TABLE,
