@@ -16,8 +16,8 @@ pub use elements::{
     Spring, SpringKind,
 };
 pub use looking::{
-    AlongSample, BeamPlaces, BeamSample, CrossSection, Distance, Part, Placement, SectionSample,
-    Sensing, SpringState, Transmission, Usage,
+    BeamPlaces, BeamSample, CrossSection, Distance, Part, Placement, SectionSample, Sensing,
+    SpringState, Transmission, Usage,
 };
 pub use mechanism::{
     BodyEnergy, Energy, Instant, Measures, Model, ModelState, StaticForces, add_resistance,

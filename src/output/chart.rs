@@ -303,8 +303,7 @@ impl Panel for LineChart {
         let frame = self.frame();
         frame.draw(canvas, area, plot);
         if self.points().next().is_none() {
-            let middle = ((plot.left + plot.right) / 2.0, (plot.top + plot.bottom) / 2.0);
-            canvas.text("no data", middle, 14.0, Align::Middle, GREY);
+            frame.say_no_data(canvas, plot);
         }
         let faint_first =
             [Weight::Faint, Weight::Thin, Weight::Full].into_iter().flat_map(|weight| {

@@ -241,7 +241,14 @@ impl Scene {
         // Names may begin alike; the first of equal ones counts.
         let all = beams.chain(particles).chain(rigid).chain(joints);
         let longest = all.reduce(|best, other| if other.0.0 > best.0.0 { other } else { best });
+        let others = self.sliders.iter().map(|slider| &slider.name);
+        let mut others = others.chain(self.springs().map(|spring| &spring.name));
         let Some(((_, rest), object)) = longest else {
+            if let Some(other) = others.find(|known| of(known).is_some()) {
+                return Err(refused(format!(
+                    "sliders and springs, such as '{other}', have their columns in every history without being recorded"
+                )));
+            }
             return Err(refused(
                 "it must begin with the name of a beam, a particle, a body or a joint (hinge1, clamp1, rigid1) of the scene".to_owned(),
             ));
