@@ -1,6 +1,6 @@
 //! Section rotations as cosine and sine, advanced by tangent-scaled increments without trigonometric functions.
 
-use crate::elementary::{atan, sin_cos};
+use crate::elementary::{atan, sin_cos, tan};
 use crate::geometry::Vec2;
 
 /// What an interpolated rotation increment `Δω` stands for: which angle `Δθ` a section turns by.
@@ -59,14 +59,11 @@ impl RotationIncrement {
         }
     }
 
-    /// The number `2 tan(Δθ/2)` with which `Λ1 - Λ0 = 2 tan(Δθ/2) J (Λ0 + Λ1)/2`: the increment itself where it is tangent-scaled [-].
-    pub fn chord(self, increment: f64) -> f64 {
+    /// The tangent-scaled increment `2 tan(Δθ/2)` of the angle that an increment stands for.
+    pub fn tangent_scaled(self, increment: f64) -> f64 {
         match self {
             Self::TangentScaled => increment,
-            Self::Angle => {
-                let (sin, cos) = sin_cos(increment);
-                2.0 * sin / (1.0 + cos)
-            }
+            Self::Angle => 2.0 * tan(0.5 * increment),
         }
     }
 

@@ -9,6 +9,8 @@ mod bodies;
 mod composition;
 mod consistency;
 mod cores;
+mod damping;
+mod drag;
 mod going_back;
 mod invariants;
 mod levers;

@@ -123,7 +123,7 @@ impl Lever {
         let ([x, y, _], [point_x, point_y, _]) = self.degrees(bodies);
         let value = |at: usize| values.get(at).copied().unwrap_or(0.0);
         let (centre, point) = (Vec2::new(value(x), value(y)), Vec2::new(value(point_x), value(point_y)));
-        let turned = perpendicular((now.start + now.end) * 0.5) * leverage.rotations.chord(now.increment);
+        let turned = perpendicular((now.start + now.end) * 0.5) * leverage.rotations.tangent_scaled(now.increment);
         let off = (point - centre) - turned;
         self.unknowns.iter().zip([off.x, off.y]).for_each(|(at, off)| out[*at] += off);
         self.size = self.arm.norm() + larger(centre.amax(), point.amax());

@@ -3,6 +3,7 @@
 mod definitions;
 mod description;
 mod likeness;
+mod resisting;
 mod rigid_bodies;
 mod sensors;
 mod sliders;

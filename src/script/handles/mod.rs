@@ -7,6 +7,7 @@ pub mod notes;
 pub mod report;
 pub mod rigid_body;
 pub mod scene;
+pub mod section;
 pub mod simulation;
 pub mod station;
 pub mod step_size;

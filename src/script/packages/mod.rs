@@ -9,6 +9,7 @@ mod checking;
 mod convergence_studies;
 mod cost_studies;
 mod curve_pictures;
+mod drag;
 mod equilibria;
 mod explaining;
 mod exports;
@@ -65,6 +66,7 @@ pub const TABLES: &[&Table] = &[
     &loads::TABLE,
     &bodies::TABLE,
     &springs::TABLE,
+    &drag::TABLE,
     &equilibria::TABLE,
     &modes::TABLE,
     &simulations::TABLE,
