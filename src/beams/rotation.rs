@@ -59,7 +59,7 @@ impl RotationIncrement {
         }
     }
 
-    /// The tangent-scaled increment `2 tan(Δθ/2)` of the angle that an increment stands for.
+    /// The tangent-scaled increment `2 tan(Δθ/2)` of the angle that an increment stands for, with which `Λ1 - Λ0 = 2 tan(Δθ/2) J (Λ0 + Λ1)/2` [-].
     pub fn tangent_scaled(self, increment: f64) -> f64 {
         match self {
             Self::TangentScaled => increment,

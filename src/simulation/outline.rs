@@ -114,7 +114,11 @@ impl Outline {
             time,
             lines: outlines.iter().map(|outline| outline.line.iter().map(at).collect()).collect(),
             marks: outlines.iter().flat_map(|outline| outline.marks.iter().map(at)).collect(),
-            particles: control_points[beams..].iter().filter_map(|of| of.first()).copied().collect(),
+            particles: control_points[beams..]
+                .iter()
+                .filter_map(|of| of.first())
+                .copied()
+                .collect(),
         }
     }
 }

@@ -116,6 +116,9 @@ impl Equations for AlongPath<'_> {
         self.add_forces_to(residual);
         let beyond = self.beyond_plane(movements);
         residual[movements.len()] = beyond;
-        Imbalance { constraint: larger(imbalance.constraint, beyond.abs() / self.distance), ..imbalance }
+        Imbalance {
+            constraint: larger(imbalance.constraint, beyond.abs() / self.distance),
+            ..imbalance
+        }
     }
 }

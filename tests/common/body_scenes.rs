@@ -6,9 +6,7 @@ use super::at;
 use super::scenes::{add_beam, end_of, line, spaghetti_section, spring, start_of};
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::Vec2;
-use withy::joints::{
-    EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities,
-};
+use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
 use withy::loads::{Frame, LoadKind, Schedule};
 use withy::model::{
     Anchor, PointMass, RestoringLaw, RigidBodyDefinition, Scene, SpringKind, StartMotion,
@@ -80,8 +78,10 @@ pub fn double_pendulum() -> Scene {
 pub fn dumbbell(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("flying dumbbell");
     let beam = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 0.0)), mesh, soft());
-    let hung = add_body(&mut scene, at(-0.4, -0.3), 0.0, (0.8, 0.1), &[at(0.4, 0.3), at(-0.2, 0.5)]);
-    let fixed = add_body(&mut scene, at(3.5, 0.2), 0.0, (1.2, 0.2), &[at(-0.5, -0.2), at(0.2, 0.6)]);
+    let hung =
+        add_body(&mut scene, at(-0.4, -0.3), 0.0, (0.8, 0.1), &[at(0.4, 0.3), at(-0.2, 0.5)]);
+    let fixed =
+        add_body(&mut scene, at(3.5, 0.2), 0.0, (1.2, 0.2), &[at(-0.5, -0.2), at(0.2, 0.6)]);
     let (start, end) = (start_of(&mut scene, beam), end_of(&mut scene, beam));
     hinge(&mut scene, start, Some(point(hung, 1)));
     scene.join(JointKind::Rigid, point(fixed, 1), Partner::Station(end)).unwrap();
@@ -104,7 +104,8 @@ pub fn crank_rocker(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("crank and rocker");
     let crank = add_body(&mut scene, at(0.0, 0.0), 0.0, (0.0, 0.3), &[at(0.0, 0.5)]);
     let coupler = add_beam(&mut scene, line(at(0.0, 0.5), at(2.0, 1.5)), mesh, soft());
-    let rocker = add_body(&mut scene, at(2.0, 0.9), 0.0, (0.9, 0.0), &[at(0.0, 0.6), at(0.0, -0.9)]);
+    let rocker =
+        add_body(&mut scene, at(2.0, 0.9), 0.0, (0.9, 0.0), &[at(0.0, 0.6), at(0.0, -0.9)]);
     let (start, end) = (start_of(&mut scene, coupler), end_of(&mut scene, coupler));
     hinge(&mut scene, point(crank, 0), None);
     hinge(&mut scene, point(crank, 1), Some(start));
@@ -163,11 +164,5 @@ pub fn chain(bodies: usize) -> Scene {
 
 /// Every scene without sliders on a mesh.
 pub fn all(mesh: &Mesh) -> Vec<Scene> {
-    vec![
-        pendulum(0.2, 0.8, 2.0),
-        double_pendulum(),
-        dumbbell(mesh),
-        crank_rocker(mesh),
-        chain(5),
-    ]
+    vec![pendulum(0.2, 0.8, 2.0), double_pendulum(), dumbbell(mesh), crank_rocker(mesh), chain(5)]
 }

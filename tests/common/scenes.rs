@@ -273,26 +273,6 @@ pub fn mounted(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A flying beam with a flywheel on a hinge at one end, which a torsion spring turns, and a rigid body fixed to the other: both by their centres.
-pub fn flywheels(mesh: &Mesh) -> Scene {
-    let mut scene = Scene::new("flywheels");
-    let beam = add_beam(&mut scene, line(at(0.0, 1.0), at(3.0, 2.0)), mesh, rod());
-    let ends = [start_of(&mut scene, beam), end_of(&mut scene, beam)];
-    let joints = [JointKind::Hinge, JointKind::Rigid];
-    let motion = StartMotion { velocity: at(0.4, 0.7), spin: 0.8, about: Some(Vec2::zeros()) };
-    scene.beams[beam].motion = motion;
-    for (end, kind) in ends.into_iter().zip(joints) {
-        let (name, position) = (scene.free_name("body"), scene.drawn_at(&end).unwrap());
-        let body = RigidBodyDefinition { name, position, angle: 0.2, points: Vec::new(), motion };
-        let body = scene.add_rigid_body(body, 0.6, 0.15).unwrap();
-        scene.join(kind, Station::on_rigid_body(body, 0), Partner::Station(end)).unwrap();
-    }
-    let wheel = [Anchor::Station(ends[0]), Anchor::Station(Station::on_rigid_body(0, 0))];
-    let drawn = 0.2 - 1.0_f64.atan2(3.0);
-    spring(&mut scene, SpringKind::Torsion(wheel), linear(3.0, drawn), 0.0);
-    scene
-}
-
 /// A bent beam of a Kelvin–Voigt material that flies, and a straight one joined to its end.
 pub fn damped(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("damped");
@@ -334,6 +314,26 @@ pub fn dragged(mesh: &Mesh) -> Scene {
     scene
 }
 
+/// A flying beam with a flywheel on a hinge at one end, which a torsion spring turns, and a rigid body fixed to the other: both by their centres.
+pub fn flywheels(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("flywheels");
+    let beam = add_beam(&mut scene, line(at(0.0, 1.0), at(3.0, 2.0)), mesh, rod());
+    let ends = [start_of(&mut scene, beam), end_of(&mut scene, beam)];
+    let joints = [JointKind::Hinge, JointKind::Rigid];
+    let motion = StartMotion { velocity: at(0.4, 0.7), spin: 0.8, about: Some(Vec2::zeros()) };
+    scene.beams[beam].motion = motion;
+    for (end, kind) in ends.into_iter().zip(joints) {
+        let (name, position) = (scene.free_name("body"), scene.drawn_at(&end).unwrap());
+        let body = RigidBodyDefinition { name, position, angle: 0.2, points: Vec::new(), motion };
+        let body = scene.add_rigid_body(body, 0.6, 0.15).unwrap();
+        scene.join(kind, Station::on_rigid_body(body, 0), Partner::Station(end)).unwrap();
+    }
+    let wheel = [Anchor::Station(ends[0]), Anchor::Station(Station::on_rigid_body(0, 0))];
+    let drawn = 0.2 - 1.0_f64.atan2(3.0);
+    spring(&mut scene, SpringKind::Torsion(wheel), linear(3.0, drawn), 0.0);
+    scene
+}
+
 /// Every scene on a mesh.
 pub fn all(mesh: &Mesh) -> Vec<Scene> {
     vec![
@@ -347,8 +347,8 @@ pub fn all(mesh: &Mesh) -> Vec<Scene> {
         towed(mesh),
         sprung(mesh),
         mounted(mesh),
-        flywheels(mesh),
         damped(mesh),
         dragged(mesh),
+        flywheels(mesh),
     ]
 }

@@ -2,8 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::reference::distance;
-use crate::common::{body_scenes, 
-    assert_energy_never_grows, ends, run, scenes, sci, settings, simulate, sliding_scenes,
+use crate::common::{
+    assert_energy_never_grows, body_scenes, ends, run, scenes, sci, settings, simulate,
+    sliding_scenes,
 };
 use withy::beams::Mesh;
 use withy::geometry::Vec2;

@@ -3,7 +3,7 @@
 
 use std::rc::Rc;
 
-use crate::common::{body_scenes, Random, meshes, run, scenes, settings, sliding_scenes};
+use crate::common::{Random, body_scenes, meshes, run, scenes, settings, sliding_scenes};
 use withy::beams::Mesh;
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::SlidingRule;

@@ -66,7 +66,8 @@ fn of_double_pendulum(state: [f64; 4]) -> [f64; 4] {
     let coupling = two.0 * joint.dot(&hanging);
     let own = one.1 + one.0 * centre.norm_squared() + two.0 * joint.norm_squared();
     let others = two.1 + two.0 * hanging.norm_squared();
-    let right = -one.0 * perpendicular(centre).dot(&(-fall)) - two.0 * perpendicular(joint).dot(&carried);
+    let right =
+        -one.0 * perpendicular(centre).dot(&(-fall)) - two.0 * perpendicular(joint).dot(&carried);
     let other_right = -two.0 * perpendicular(hanging).dot(&carried);
     let determinant = own * others - coupling * coupling;
     let turning = (others * right - coupling * other_right) / determinant;
@@ -83,9 +84,8 @@ fn runge_kutta(mut state: [f64; 4], h: f64, steps: usize) -> [f64; 4] {
         let b = of_double_pendulum(moved(state, 0.5 * h, a));
         let c = of_double_pendulum(moved(state, 0.5 * h, b));
         let d = of_double_pendulum(moved(state, h, c));
-        state = std::array::from_fn(|at| {
-            state[at] + h / 6.0 * (a[at] + 2.0 * (b[at] + c[at]) + d[at])
-        });
+        state =
+            std::array::from_fn(|at| state[at] + h / 6.0 * (a[at] + 2.0 * (b[at] + c[at]) + d[at]));
     }
     state
 }
@@ -171,11 +171,8 @@ fn a_rod_let_go_gives_its_hinge_a_quarter_of_its_weight() {
     let body = add_body(&mut scene, at(0.5 * length, 0.0), 0.0, (mass, inertia), &ends);
     hinge(&mut scene, point(body, 1), None);
     scene.gravity = at(0.0, -GRAVITY);
-    let mut simulation = Simulation::start(
-        scene,
-        crate::common::settings(Method::EnergyMomentum, 0.01),
-    )
-    .unwrap();
+    let mut simulation =
+        Simulation::start(scene, crate::common::settings(Method::EnergyMomentum, 0.01)).unwrap();
     let [pivot, tip] = [1, 2].map(|end| simulation.place(&point(body, end)).unwrap());
     let now = simulation.instant().unwrap();
     let (force, moment) = simulation.model().reaction(&now, &pivot).unwrap();
@@ -216,7 +213,8 @@ fn windows() -> Scene {
 
 #[test]
 fn two_four_bars_in_a_row_are_where_the_benchmark_has_them() {
-    let known = [(1.0, -0.195_020_30), (2.0, 0.057_815_80), (5.0, -0.811_310_46), (10.0, 0.328_458_11)];
+    let known =
+        [(1.0, -0.195_020_30), (2.0, 0.057_815_80), (5.0, -0.811_310_46), (10.0, 0.328_458_11)];
     // They pass through positions in which all rods lie in one line.
     for (method, dt, tolerance) in
         [(Method::FourthOrder, 0.01, 1e-7), (Method::EnergyMomentum, 0.005, 5e-4)]
@@ -241,11 +239,12 @@ fn the_band_of_a_chain_does_not_grow_with_its_length_nor_the_work_of_a_body() {
         let simulation = simulate(body_scenes::chain(bodies), Method::EnergyMomentum, 0.01, 0.2);
         let counts = simulation.counts();
         assert_eq!(simulation.model().unknowns(), 9 * bodies, "{bodies}");
-        (simulation.half_bandwidth(), counts.steps, counts.newton_iterations, counts.retries)
+        assert!(counts.newton_iterations <= 2 * counts.steps, "{bodies}: {counts:?}");
+        (simulation.half_bandwidth(), counts.steps, counts.newton_max, counts.retries)
     };
     let ten = work(10);
-    println!("10 bodies: band, steps, iterations, retries {ten:?}");
-    assert!(ten.0 <= 5 && ten.3 == 0, "{ten:?}");
+    println!("10 bodies: band, steps, most iterations, retries {ten:?}");
+    assert!(ten.0 == 4 && ten.3 == 0, "{ten:?}");
     assert_eq!(work(100), ten);
     assert_eq!(work(200), ten);
 }

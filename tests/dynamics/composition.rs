@@ -3,7 +3,7 @@
 
 use std::rc::Rc;
 
-use crate::common::{body_scenes, at, scenes, simulate};
+use crate::common::{at, body_scenes, scenes, simulate};
 use withy::beams::{Mesh, Section};
 use withy::integrators::{Integrator, Interval, Method, StepError};
 use withy::loads::{Frame, LoadKind, Schedule};

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::num::NonZeroUsize;
 use std::rc::Rc;
 
-use crate::common::{body_scenes, Random, meshes, run, scenes, settings, sliding_scenes};
+use crate::common::{Random, body_scenes, meshes, run, scenes, settings, sliding_scenes};
 use withy::beams::Mesh;
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::{EndAction, SlidingRule};

@@ -70,7 +70,8 @@ fn a_carriage_keeps_all_while_its_wheels_slide_and_bounce() {
         assert!(bounced, "no wheel came to an end");
         for (name, invariant) in Invariant::ALL {
             let drift = simulation.history().drift(invariant);
-            let is_kept = rule == SlidingRule::Conserving || invariant != Invariant::AngularMomentum;
+            let is_kept =
+                rule == SlidingRule::Conserving || invariant != Invariant::AngularMomentum;
             assert!(!is_kept || drift < 1e-11, "{rule:?}, {name}: {drift:.1e}");
         }
     }
@@ -127,8 +128,7 @@ fn a_clamp_at_a_point_gives_the_moment_of_the_body() {
     let now = simulation.instant().unwrap();
     let arm = at(1.0, 0.5) - simulation.model().position(&at_point);
     let expected = (at(0.0, 20.0), 20.0 * arm.x);
-    for (force, moment) in
-        [simulation.model().reaction(&now, &at_point).unwrap(), joint.read(&now)]
+    for (force, moment) in [simulation.model().reaction(&now, &at_point).unwrap(), joint.read(&now)]
     {
         assert!((force - expected.0).norm() < 1e-12 && (moment - expected.1).abs() < 1e-12);
     }
@@ -177,7 +177,8 @@ fn numbers_and_names_that_make_no_body_are_refused() {
         motion: withy::model::StartMotion::default(),
     };
     let mut scene = Scene::new("wrong");
-    for (mass, inertia) in [(0.0, 0.0), (-1.0, 1.0), (1.0, -1.0), (f64::NAN, 1.0), (1.0, f64::INFINITY)]
+    for (mass, inertia) in
+        [(0.0, 0.0), (-1.0, 1.0), (1.0, -1.0), (f64::NAN, 1.0), (1.0, f64::INFINITY)]
     {
         let error = scene.add_rigid_body(definition("hub", &[]), mass, inertia).unwrap_err();
         assert!(matches!(error, ModelError::Value { .. }), "{error}");
@@ -220,6 +221,8 @@ fn a_slider_on_a_point_may_leave_its_beam() {
     scene.sliders.iter_mut().for_each(|slider| slider.ends = EndAction::Release);
     let simulation = simulate(scene, Method::EnergyMomentum, 0.02, 6.0);
     let [one, other] = [0, 1].map(|slider| simulation.model().slider_state(slider));
-    assert!(one != withy::model::SliderState::Sliding || other != withy::model::SliderState::Sliding);
+    assert!(
+        one != withy::model::SliderState::Sliding || other != withy::model::SliderState::Sliding
+    );
     assert!(simulation.history().drift(Invariant::Energy) < 1e-11);
 }

@@ -1,7 +1,9 @@
 //! What sensors read: against balance, differences and closed forms; and that reading changes nothing.
 #![allow(clippy::unwrap_used)]
 
-use crate::common::{body_scenes, at, orders, run, scenes, sci, settings, simulate, sliding_scenes};
+use crate::common::{
+    at, body_scenes, orders, run, scenes, sci, settings, simulate, sliding_scenes,
+};
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::Vec2;
 use withy::integrators::{INTEGRATORS, Method};

@@ -100,7 +100,8 @@ impl<'a> Assembly<'a> {
         });
         let particles = self.scene.particles.iter().map(|particle| Ok(vec![particle.position]));
         let rigid = self.scene.rigid_bodies.iter().map(|body| Ok(body.control_points()));
-        let mut points = beams.chain(particles).chain(rigid).collect::<Result<Vec<_>, ModelError>>()?;
+        let mut points =
+            beams.chain(particles).chain(rigid).collect::<Result<Vec<_>, ModelError>>()?;
         // A slave may be on a master that slides itself: its own place is right once that of its master is.
         for _ in &self.scene.sliders {
             for slider in &self.scene.sliders {

@@ -34,7 +34,8 @@ impl Model {
             forces[unknown] = 1.0 + (0.618_034 * at as f64).fract();
         }
         let answer = matrix.factorise().map(|factors| factors.solve(&mut forces));
-        let of = |unknowns: [usize; 2]| larger(forces[unknowns[0]].abs(), forces[unknowns[1]].abs());
+        let of =
+            |unknowns: [usize; 2]| larger(forces[unknowns[0]].abs(), forces[unknowns[1]].abs());
         let worst = self.levers().iter().max_by(|a, b| of(a.unknowns).total_cmp(&of(b.unknowns)));
         match worst {
             Some(worst) if answer.is_err() || !(of(worst.unknowns) < UNDETERMINED) => {

@@ -142,8 +142,10 @@ impl Numbering {
             }
         }
         let ordering = reverse_cuthill_mckee(unknowns, &groups);
-        let levers = forces.iter().zip(levers).map(|(force, (body, point))| {
-            LeverPlace { body, point, force: force.map(|at| ordering.position[at]) }
+        let levers = forces.iter().zip(levers).map(|(force, (body, point))| LeverPlace {
+            body,
+            point,
+            force: force.map(|at| ordering.position[at]),
         });
         let levers = levers.collect();
 

@@ -122,8 +122,10 @@ impl Lever {
         self.transmit(bodies, now.force, now.acting, out);
         let ([x, y, _], [point_x, point_y, _]) = self.degrees(bodies);
         let value = |at: usize| values.get(at).copied().unwrap_or(0.0);
-        let (centre, point) = (Vec2::new(value(x), value(y)), Vec2::new(value(point_x), value(point_y)));
-        let turned = perpendicular((now.start + now.end) * 0.5) * leverage.rotations.tangent_scaled(now.increment);
+        let (centre, point) =
+            (Vec2::new(value(x), value(y)), Vec2::new(value(point_x), value(point_y)));
+        let turned = perpendicular((now.start + now.end) * 0.5)
+            * leverage.rotations.tangent_scaled(now.increment);
         let off = (point - centre) - turned;
         self.unknowns.iter().zip([off.x, off.y]).for_each(|(at, off)| out[*at] += off);
         self.size = self.arm.norm() + larger(centre.amax(), point.amax());
@@ -225,13 +227,7 @@ impl Lever {
     }
 
     /// Accepts the unknowns of a step or a movement, in which the body turned by an increment.
-    pub fn advance(
-        &mut self,
-        bodies: &Bodies,
-        acting: Acting,
-        leverage: Leverage,
-        values: &[f64],
-    ) {
+    pub fn advance(&mut self, bodies: &Bodies, acting: Acting, leverage: Leverage, values: &[f64]) {
         let now = self.iterated(bodies, acting, leverage, values);
         self.force = now.force;
         self.rotation = self.rotation.turned(leverage.rotations, now.increment).normalised();
@@ -259,7 +255,8 @@ impl Lever {
         span.doubts.push(0.0);
         take(&[point_x, point_y, x, y, rotation], span);
         // Nothing asks for the force itself.
-        let own = SpanAtRest { strains: vec![1.0], stiffness: vec![stiffness], ..SpanAtRest::default() };
+        let own =
+            SpanAtRest { strains: vec![1.0], stiffness: vec![stiffness], ..SpanAtRest::default() };
         self.unknowns.iter().for_each(|at| take(&[*at], &own));
     }
 

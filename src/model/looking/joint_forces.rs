@@ -58,9 +58,10 @@ impl Model {
         let all = scene.joints.iter().map(|joint| Ok((joint.kind, ends(joint)?)));
         let all = all.collect::<Result<Vec<_>, ModelError>>()?;
         // A rigid body turns as a whole.
-        let turning = self.levers().iter().map(|lever| {
-            (Some((lever.body, 0)), Some((lever.body, lever.point)))
-        });
+        let turning = self
+            .levers()
+            .iter()
+            .map(|lever| (Some((lever.body, 0)), Some((lever.body, lever.point))));
         let turning: Vec<(Node, Node)> = turning.collect();
         let side = |others: &dyn Fn(JointKind) -> bool, besides: &[(Node, Node)]| {
             let pairs =

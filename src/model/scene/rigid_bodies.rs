@@ -2,9 +2,9 @@
 
 use super::{RigidBodyDefinition, Scene};
 use crate::beams::Station;
+use crate::model::ModelError;
 use crate::model::elements::PointMass;
 use crate::model::words::{finite, refusal};
-use crate::model::ModelError;
 
 impl Scene {
     /// Adds a rigid body with a mass [mass] and an inertia about its centre of mass [mass·length²] to the scene and returns its index.

@@ -12,7 +12,8 @@ pub fn archive(simulation: &Simulation) -> NpzArchive {
     let particles = scene.particles.iter().map(|particle| (&particle.name, false));
     let mut from = 0;
     let bodies = scene.rigid_bodies.iter().map(|body| (&body.name, true));
-    for ((name, is_beam), points) in beams.chain(particles).chain(bodies).zip(simulation.model().control_points())
+    for ((name, is_beam), points) in
+        beams.chain(particles).chain(bodies).zip(simulation.model().control_points())
     {
         let to = from + 2 * points.len();
         let of_body = |index: usize| trajectory.configuration(index)[from..to].to_vec();

@@ -77,7 +77,10 @@ const BODY_KEYS: &[Parameter] = &[
         .unit("mass·length²")
         .or(Presence::Number(0.0))
         .doc("about its centre of mass; zero, if it has a mass"),
-    number("angle").unit("rad").or(Presence::Number(0.0)).doc("by which its frame is turned at the start"),
+    number("angle")
+        .unit("rad")
+        .or(Presence::Number(0.0))
+        .doc("by which its frame is turned at the start"),
     anything("points").doc("a map of points from its centre, in its own frame [length]").optional(),
     text("name").optional(),
     point("velocity").unit("length/time").doc("of the point `about`, at the start").optional(),
@@ -135,7 +138,8 @@ fn points_of(options: &Options) -> Result<Vec<(String, Vec2)>, ScriptError> {
     };
     let point = |(name, at): (&rhai::Identifier, &Dynamic)| {
         let place = as_point(at).filter(|place| place.iter().all(|value| value.is_finite()));
-        let place = place.ok_or_else(|| wrong(format!("point '{name}' is no pair of finite numbers")))?;
+        let place =
+            place.ok_or_else(|| wrong(format!("point '{name}' is no pair of finite numbers")))?;
         Ok((name.to_string(), place))
     };
     map.iter().map(point).collect()

@@ -71,7 +71,8 @@ pub fn of_rigid_body(scene: &Scene, index: usize) -> Details {
     let own = scene.masses().find(|mass| mass.station == centre);
     let (mass, inertia) = own.map_or((0.0, 0.0), |own| (own.mass, own.rotary_inertia));
     let points = body.points.iter().map(|(name, at)| format!("{name} {}", pair(*at)));
-    let moving = format!("velocity {}, spin {}", pair(body.motion.velocity), number(body.motion.spin));
+    let moving =
+        format!("velocity {}, spin {}", pair(body.motion.velocity), number(body.motion.spin));
     let lines = [
         Some(line("centre", pair(body.position))),
         Some(line("angle", number(body.angle))),
