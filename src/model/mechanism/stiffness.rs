@@ -29,15 +29,12 @@ impl Model {
         self.elements.each_at_rest(&self.bodies, take);
     }
 
-<<<<<<< HEAD
-=======
     /// The power that dampers, damped materials and drag dissipate at such rates of the unknowns in the present configuration, as at rest there
     /// [energy/time].
     pub fn dissipation(&self, rates: &[f64]) -> f64 {
         self.elements.dissipation(&self.bodies, rates)
     }
 
->>>>>>> main
     /// How far from the diagonal the stiffness of a configuration has entries, where levers couple points and bodies without forces between them.
     pub fn half_bandwidth_at_rest(&self) -> usize {
         let of_lever = |lever: &Lever| {
@@ -84,15 +81,6 @@ impl Model {
             **kind != UnknownKind::Force && inertia.diagonal(*at) == 0.0
         };
         (2 * self.levers.count()).saturating_sub(kinds.filter(is_light).count())
-<<<<<<< HEAD
-    }
-
-    /// The power that dampers, damped materials and drag dissipate at such rates of the unknowns in the present configuration, as at rest there
-    /// [energy/time].
-    pub fn dissipation(&self, rates: &[f64]) -> f64 {
-        self.elements.dissipation(&self.bodies, rates)
-=======
->>>>>>> main
     }
 
     /// About the square of the slowest bending, as if all beams were one: the least `EI` over the largest `ρA` and the fourth power of
