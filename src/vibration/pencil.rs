@@ -24,7 +24,7 @@ impl Pencil {
     /// The eigenvalue problem of the present configuration of a model.
     pub(super) fn of(model: &Model) -> Result<Self, VibrationError> {
         let size = model.unknowns();
-        let mut stiffness = PreciseBand::zeros(size, model.half_bandwidth());
+        let mut stiffness = PreciseBand::zeros(size, model.half_bandwidth_at_rest());
         let mut elastic = Elastic::default();
         model.each_span_at_rest(&mut |degrees, span| {
             add_resistance(&mut stiffness, degrees, span);
@@ -51,7 +51,7 @@ impl Pencil {
 
     /// About the memory that the eigenvalue problem of a model takes [bytes].
     pub(super) fn memory(model: &Model) -> usize {
-        let (size, reach) = (model.unknowns(), model.half_bandwidth() + 1);
+        let (size, reach) = (model.unknowns(), model.half_bandwidth_at_rest() + 1);
         // The stiffness in two parts, its factors, inertia while it is sorted, and about two strains for each movement.
         size * reach * 8 * size_of::<f64>() + Elastic::memory(2 * size, reach)
     }

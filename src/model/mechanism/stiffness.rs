@@ -8,10 +8,12 @@ use crate::beams::SpanAtRest;
 use crate::elementary::square;
 use crate::geometry::larger;
 use crate::linalg::{PreciseBand, SymmetricSparse};
+use crate::model::levers::Lever;
 use crate::model::motion::UnknownKind;
 
-/// A lever is so many times as stiff as anything else of a model where small movements are looked for: with 32 digits that hides nothing.
-const RIGID: f64 = 1e12;
+/// A lever is so many times as stiff as anything else of a model where small movements are looked for: frequencies are lower by less than a part of that,
+/// and with 32 digits nothing else is hidden.
+const RIGID: f64 = 1e8;
 
 impl Model {
     /// Gives every span of every body, and every spring, as at rest: the unknowns of its components, and its rows. Those of supported components stand
@@ -33,8 +35,20 @@ impl Model {
         self.elements.dissipation(&self.bodies, rates)
     }
 
-    /// Gives every lever as at rest, so stiff that what gives way is below rounding: a [`RIGID`] times the largest `stiffness` of a movement of the
-    /// model [force/length, force·length].
+    /// How far from the diagonal the stiffness of a configuration has entries, where levers couple points and bodies without forces between them.
+    pub fn half_bandwidth_at_rest(&self) -> usize {
+        let of_lever = |lever: &Lever| {
+            let degrees = &self.bodies[lever.body].degrees_of_freedom;
+            let ([x, y, rotation], [point_x, point_y, _]) = (degrees[0], degrees[lever.point]);
+            let free = [x, y, rotation, point_x, point_y];
+            let free = free.into_iter().filter(|at| *at < self.unknowns.count());
+            free.clone().max().unwrap_or(0) - free.min().unwrap_or(0)
+        };
+        self.levers.iter().map(of_lever).fold(self.unknowns.half_bandwidth(), usize::max)
+    }
+
+    /// Gives every lever as at rest, so stiff that nothing is seen of what gives way: `RIGID` times the largest `stiffness` of a
+    /// movement of the model [force/length, force·length].
     pub fn each_lever_at_rest(
         &self,
         stiffness: impl Fn(usize) -> f64,
@@ -46,10 +60,11 @@ impl Model {
             UnknownKind::Rotation | UnknownKind::Force => 0.0,
         });
         let of_levers = self.levers.iter().map(|lever| {
+            let own = self.levers.iter().filter(|other| other.body == lever.body);
+            let size = own.map(|other| other.arm().norm()).fold(0.0, larger);
             let [.., rotation] = self.bodies[lever.body].degrees_of_freedom[0];
-            let (arm, turns) = (lever.arm().norm(), rotation < self.unknowns.count());
-            let moment = if turns { stiffness(rotation) } else { 0.0 };
-            larger(moment / square(arm), lever.force().norm() / arm)
+            let moment = if rotation < self.unknowns.count() { stiffness(rotation) } else { 0.0 };
+            larger(moment / square(size), lever.force().norm() / size)
         });
         let largest = of_movements.chain(of_levers).fold(0.0, larger);
         let rigid = if largest > 0.0 { RIGID * largest } else { 1.0 };
@@ -84,7 +99,7 @@ impl Model {
     pub fn falls(&self) -> usize {
         let nothing = SymmetricSparse::new(self.unknowns.count(), |_| {});
         let mut stiffness =
-            PreciseBand::zeros(self.unknowns.count(), self.unknowns.half_bandwidth());
+            PreciseBand::zeros(self.unknowns.count(), self.half_bandwidth_at_rest());
         self.each_span_at_rest(&mut |degrees, span| add_resistance(&mut stiffness, degrees, span));
         let own: Vec<f64> = (0..stiffness.size()).map(|at| stiffness.diagonal(at).abs()).collect();
         self.each_lever_at_rest(|at| own[at], &mut |degrees, span| {

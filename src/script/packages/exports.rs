@@ -31,9 +31,9 @@ pub const TABLE: Table = Table {
         function("write_vtk", &[OF, VTK_FILE, options("options", FRAMES).optional()], write_vtk)
             .summary("Writes frames of the motion for ParaView: RUN.pvd, which has the times, and a grid RUN/RUN_0001.vtu … for each frame.")
             .doc(
-                "A beam is a line through its knots and three places between each two of them, twice where a joint cuts it; a particle is a dot. \
-                 The cell field `body` numbers them: beams first, then particles. Fields of points are arc_length, velocity, angle [rad], N, Q \
-                 and M, zero on particles. A configuration that is recorded has no velocities and no section forces, so the states themselves \
+                "A beam is a line through its knots and three places between each two of them, twice where a joint cuts it; a particle is a dot, and so is the centre of a rigid body. \
+                 The cell field `body` numbers them: beams first, then particles, then rigid bodies. Fields of points are arc_length, velocity, angle [rad], N, Q \
+                 and M, zero on particles and rigid bodies. A configuration that is recorded has no velocities and no section forces, so the states themselves \
                  are needed: those that are kept to go back to (option `snapshots`), or, where one is forgotten, those of the run made again in a copy, which takes \
                  the time of the run and is compared with it bit for bit. Where that is another run, because a function had changed it on its way or it began at \
                  an equilibrium, the shape alone is written, and that is told. Frames are recorded \

@@ -147,7 +147,7 @@ pub const TABLE: Table = Table {
             let place = station.on(&handle)?;
             if !station.station.turns() {
                 let told = format!("{} does not turn: it has no spin", station.show());
-                return Err(call.error(told).hint("ask for the spin at a station of a beam"));
+                return Err(call.error(told).hint("ask for the spin at a station of a beam or a body"));
             }
             Ok(handle.simulation().model().spin(&place).into())
         })
