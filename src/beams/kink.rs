@@ -98,7 +98,11 @@ impl SplineString {
         let (size, reach) = (self.stretched.len(), self.degree - 1);
         let first = cut.saturating_sub(reach);
         let entry = |row: usize| -> f64 {
-            let columns = if row < cut { cut..(row + reach + 1).min(size) } else { row.saturating_sub(reach)..cut };
+            let columns = if row < cut {
+                cut..(row + reach + 1).min(size)
+            } else {
+                row.saturating_sub(reach)..cut
+            };
             let sum: f64 = columns.map(|at| self.products.get(row, at) * self.stretched[at]).sum();
             if row < cut { sum } else { -sum }
         };
@@ -118,7 +122,8 @@ impl SplineString {
         let (before, behind) = (self.left_over(own.start), self.left_over(own.end));
         let mut sum = vec![0.0; 2 * self.degree + 1];
         // Earlier and later splines.
-        sum[0] -= (before.0..).zip(&before.1).map(|(at, r)| r * self.response(at, &behind)).sum::<f64>();
+        sum[0] -=
+            (before.0..).zip(&before.1).map(|(at, r)| r * self.response(at, &behind)).sum::<f64>();
         for (i, part) in own.clone().zip(fractions) {
             // Earlier splines and the rest of this one; this one and later splines.
             let (earlier, later) = (self.response(i, &before), -self.response(i, &behind));

@@ -53,9 +53,10 @@ impl PiecewisePolynomial {
         let (middle, half) = self.spans[span];
         let t = (xi - middle) / half;
         let own = &self.coefficients[span * self.count..][..self.count];
-        let [value, slope, half_bend] = own.iter().rev().fold([0.0; 3], |[f, df, ddf], c| {
-            [f * t + c, df * t + f, ddf * t + df]
-        });
+        let [value, slope, half_bend] = own
+            .iter()
+            .rev()
+            .fold([0.0; 3], |[f, df, ddf], c| [f * t + c, df * t + f, ddf * t + df]);
         [value, slope / half, 2.0 * half_bend / (half * half)]
     }
 }

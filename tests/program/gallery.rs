@@ -161,7 +161,10 @@ fn the_gallery_shows_every_machine() {
         for ending in ["svg", "png"] {
             let picture = format!("pictures/gallery/{name}.{ending}");
             assert!(root().join("docs").join(&picture).is_file(), "no docs/{picture}");
-            assert!(page.contains(&format!("]({picture})")), "docs/gallery.md does not show {picture}");
+            assert!(
+                page.contains(&format!("]({picture})")),
+                "docs/gallery.md does not show {picture}"
+            );
         }
         let text = std::fs::read_to_string(&script).unwrap();
         assert!(text.starts_with("//! "), "{name} does not say what it is");
@@ -179,7 +182,8 @@ fn cells_are_compared_to_the_digits_shown() {
     ] {
         assert_eq!(in_the_way_of(cell, number), same, "{cell}");
     }
-    let page = "| a | b |\n| --- | --- |\n| [Four-bar](#four-bar) | bend | 1.9 | 2 | 1e-2 | 3 s |\n";
+    let page =
+        "| a | b |\n| --- | --- |\n| [Four-bar](#four-bar) | bend | 1.9 | 2 | 1e-2 | 3 s |\n";
     let rows = told(page);
     assert_eq!((rows[0].machine.as_str(), rows[0].benchmark.as_str()), ("four_bar", "bend"));
     assert_eq!(rows[0].numbers, ["1.9", "2", "1e-2"]);

@@ -216,7 +216,8 @@ fn what_a_contact_does_is_what_its_equations_leave() {
 
             // With the kink: what the slave is off the smooth axis at both ends of the step, and the energy there.
             let (offsets, energies) = contact.kink.map_or(([Vec2::zeros(); 2], [0.0; 2]), |kink| {
-                let ends = [(kink.along.start, kink.before), (kink.along.end, contact.force_at_end())];
+                let ends =
+                    [(kink.along.start, kink.before), (kink.along.end, contact.force_at_end())];
                 (
                     ends.map(|(g, p)| p * (g * kink.compliance)),
                     ends.map(|(g, p)| 0.5 * g * p.norm_squared() * kink.compliance),

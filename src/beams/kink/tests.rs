@@ -81,7 +81,11 @@ fn the_kink_length_is_that_of_dense_algebra_on_every_mesh_straight_or_curved() {
             let kink = kink_length(&mesh, &points).unwrap().expect("it is positive");
             for (xi, expected) in places().iter().zip(dense(&mesh, &points, &places())) {
                 let found = value(&mesh, &kink, *xi);
-                assert!((found - expected).abs() < 3e-12, "{}: {found} {expected}", mesh.describe());
+                assert!(
+                    (found - expected).abs() < 3e-12,
+                    "{}: {found} {expected}",
+                    mesh.describe()
+                );
             }
         }
     }
@@ -100,7 +104,9 @@ fn a_straight_beam_has_what_its_mesh_lacks_with_both_ends_held() {
             for (xi, weight) in quadrature.force_rule {
                 let values = basis.evaluate_in(&quadrature.span, xi);
                 let mut slopes = DVector::zeros(count);
-                slopes.rows_mut(values.first, values.slopes().len()).copy_from_slice(values.slopes());
+                slopes
+                    .rows_mut(values.first, values.slopes().len())
+                    .copy_from_slice(values.slopes());
                 stiffness += &slopes * slopes.transpose() * (weight / length);
             }
         }
@@ -150,7 +156,10 @@ fn inside_long_uniform_cubic_meshes_it_is_a_known_part_of_a_span() {
         let (n, span) = (spans as f64, spans / 2);
         let part = |xi: f64| kink.in_span(span, xi / n)[0] * n / line().length();
         let (knot, middle) = (part(span as f64), part(span as f64 + 0.5));
-        assert!((knot - 0.10803).abs() < 1e-5 && (middle - 0.14563).abs() < 1e-5, "{knot} {middle}");
+        assert!(
+            (knot - 0.10803).abs() < 1e-5 && (middle - 0.14563).abs() < 1e-5,
+            "{knot} {middle}"
+        );
     }
 }
 

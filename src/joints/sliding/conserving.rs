@@ -41,8 +41,10 @@ fn add_moment(contact: &Contact<'_>, kink: &Kink, equations: [&mut Equation; 2])
         let by_tangent = perpendicular(axis) * (scale * difference * turn);
         equation.value -= scale * difference * turn * normal;
         equation.by_difference += by_tangent * 0.5;
-        equation.by_unknowns.force -= perpendicular(kink.before) * (0.5 * scale * difference * normal);
-        equation.by_unknowns.way += by_tangent.dot(&tangent.by_way) - scale * change * turn * normal;
+        equation.by_unknowns.force -=
+            perpendicular(kink.before) * (0.5 * scale * difference * normal);
+        equation.by_unknowns.way +=
+            by_tangent.dot(&tangent.by_way) - scale * change * turn * normal;
     }
 }
 

@@ -65,7 +65,8 @@ impl Assembly<'_> {
             let length = kink_length(self.mesh(master), points).map_err(wrap)?;
             found[master] = Some(length.map(Arc::new));
         }
-        let axis = |length| KinkedAxis::new(length, beam.axis.length(), beam.section.shear_stiffness);
+        let axis =
+            |length| KinkedAxis::new(length, beam.axis.length(), beam.section.shear_stiffness);
         Ok(found[master].clone().flatten().map(axis))
     }
 

@@ -136,7 +136,8 @@ impl Sliders {
 
     /// The energy of the kinks under all contact forces on a body, or on all bodies [energy].
     pub fn strain_energy(&self, of: Option<usize>) -> f64 {
-        let asked = self.iter().filter(|slider| of.is_none_or(|body| slider.connection.master == body));
+        let asked =
+            self.iter().filter(|slider| of.is_none_or(|body| slider.connection.master == body));
         asked.map(Sliding::strain_energy).sum()
     }
 

@@ -37,11 +37,7 @@ impl KinkedAxis {
 
     /// The kink along the way of a step.
     pub fn along(&self, passage: &Passage) -> Kink {
-        Kink {
-            along: passage.along(&self.length),
-            compliance: self.compliance,
-            before: self.force,
-        }
+        Kink { along: passage.along(&self.length), compliance: self.compliance, before: self.force }
     }
 
     /// Looks at the place where the passage ends.

@@ -259,7 +259,8 @@ impl Sliding {
         let (body, point) = self.connection.slave;
         let slave = bodies[body].dynamics.control_points()[point];
         let master = bodies[self.connection.master].dynamics.control_points();
-        let to_axis: Vec2 = self.weights().map(|(index, weight)| (master[index] - slave) * weight).sum();
+        let to_axis: Vec2 =
+            self.weights().map(|(index, weight)| (master[index] - slave) * weight).sum();
         to_axis + self.kinked_axis.as_ref().map_or(Vec2::zeros(), KinkedAxis::offset)
     }
 
@@ -305,9 +306,8 @@ impl Sliding {
         let (offset, (slope, bend)) = (axis.offset(), axis.slopes());
         let (points, master) = (self.window(bodies), &bodies[self.connection.master]);
         let values = self.here.basis().evaluate(self.parameter);
-        let bent = values.map_or(Vec2::zeros(), |values| {
-            values.combine(2, master.dynamics.control_points())
-        });
+        let bent = values
+            .map_or(Vec2::zeros(), |values| values.combine(2, master.dynamics.control_points()));
         let turning = self.here.slope().iter().zip(self.here.first()..);
         let turning: Vec2 = turning.map(|(by, at)| master.vector_at(at, rates) * *by).sum();
         let tangent = slope_of(self.here.slope(), points);
