@@ -127,6 +127,11 @@ fn plot_expressions(shell: &mut Shell, found: Vec<Part>) -> Outcome {
         let told = format!("'{}' is nowhere a finite number", empty.name);
         return shell.refuse(&Diagnostic::general(told).with_hint("there is nothing to draw"));
     }
+    if let Some(other) = curves.iter().find(|curve| curve.over != first) {
+        let (one, two) = (first.in_words(), other.over.in_words());
+        let told = format!("'{}' goes over {one} and '{}' over {two}", curves[0].name, other.name);
+        return shell.refuse(&Diagnostic::general(told).with_hint("plot them one after the other"));
+    }
     let is_one_state = |curve: &Curve| curve.over == Over::Time && curve.points.len() == 1;
     match shell.screen() {
         Screen::Terminal(_) if curves.iter().any(is_one_state) => {
