@@ -10,7 +10,7 @@ use crate::geometry::Vec2;
 use crate::joints::{Joint, JointKind, Partner, Slider};
 use crate::loads::{Load, LoadKind, Schedule};
 use crate::model::ModelError;
-use crate::model::elements::{Element, PointMass, Setting, Spring};
+use crate::model::elements::{Element, MaterialDamping, PointMass, Setting, Spring};
 use crate::model::words::{refusal, rounded};
 
 /// What is simulated: beams, particles, joints, masses and loads.
@@ -170,7 +170,8 @@ impl Scene {
         let particles = self.particles.iter().map(|particle| ("particle", &particle.name));
         let sliders = self.sliders.iter().map(|slider| ("slider", &slider.name));
         let springs = self.springs().map(|spring| ("spring", &spring.name));
-        beams.chain(particles).chain(sliders).chain(springs)
+        let drags = self.drags().map(|drag| ("drag", &drag.name));
+        beams.chain(particles).chain(sliders).chain(springs).chain(drags)
     }
 
     pub(in crate::model) fn check_name(
@@ -246,6 +247,12 @@ impl Scene {
     /// When a number of it is out of its range, or a station is none of the scene.
     pub fn add_element(&mut self, element: Element) -> Result<(), ModelError> {
         element.description().check(self)?;
+        if let Element::Damping(MaterialDamping { name, .. }) = &element
+            && self.dissipating().any(|other| other == name)
+        {
+            let (kind, new) = ("damping of beam", "damping");
+            return Err(ModelError::DuplicateName { kind, new, name: name.clone() });
+        }
         self.elements.push(element);
         Ok(())
     }

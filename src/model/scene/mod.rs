@@ -3,6 +3,7 @@
 mod definitions;
 mod description;
 mod likeness;
+mod resisting;
 mod sensors;
 mod sliders;
 mod stored;

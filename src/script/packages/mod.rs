@@ -8,6 +8,7 @@ mod checking;
 mod convergence_studies;
 mod cost_studies;
 mod curve_pictures;
+mod drag;
 mod equilibria;
 mod explaining;
 mod exports;
@@ -63,6 +64,7 @@ pub const TABLES: &[&Table] = &[
     &scenes::TABLE,
     &loads::TABLE,
     &springs::TABLE,
+    &drag::TABLE,
     &equilibria::TABLE,
     &modes::TABLE,
     &simulations::TABLE,
