@@ -57,8 +57,11 @@ const OF_SLIDER: [(&str, &str); 5] = [
     ("force_y", "force"),
 ];
 
-/// The columns that a scene with springs adds.
-const OF_SPRINGS: [(&str, &str); 2] = [("stored", "energy"), ("dissipated", "energy")];
+/// What a scene with springs stores.
+const STORED: &str = "stored";
+
+/// What a scene dissipates in springs with dampers, in damped materials and by drag.
+const DISSIPATED: &str = "dissipated";
 
 /// The columns that a scene adds to those that every history has.
 pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
@@ -76,19 +79,23 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
             SpringKind::Way(_) => ("length", "length", "force"),
             SpringKind::Torsion(_) => ("angle", "rad", "force·length"),
         };
-        let of_ledger = OF_SPRINGS.map(|(entry, energy)| column(format!("{entry}.{name}"), energy));
+        let of_ledger =
+            [STORED, DISSIPATED].map(|entry| column(format!("{entry}.{name}"), "energy"));
         let own =
             [column(format!("{name}.{measure}"), length), column(format!("{name}.force"), force)];
         own.into_iter().chain(of_ledger).collect::<Vec<_>>()
     };
-    let sums = OF_SPRINGS.map(|(entry, energy)| column(entry.to_owned(), energy));
-    let sums = sums.into_iter().filter(|_| scene.springs().next().is_some());
+    let stores = scene.springs().next().is_some();
+    let dissipates = stores || scene.dissipating().next().is_some();
+    let sums = [(STORED, stores), (DISSIPATED, dissipates)].into_iter().filter(|(_, has)| *has);
+    let sums = sums.map(|(entry, _)| column(entry.to_owned(), "energy"));
+    let others = scene.dissipating().map(|name| column(format!("{DISSIPATED}.{name}"), "energy"));
     let sensors = scene.sensors.iter();
     let sensors = sensors
         .map(|sensor| ExtraColumn { name: sensor.name.clone(), dimension: sensor.dimension() });
     let of_sliders = scene.sliders.iter().flat_map(of_slider);
     let of_springs = scene.springs().flat_map(of_spring);
-    of_sliders.chain(sums).chain(of_springs).chain(sensors).collect()
+    of_sliders.chain(sums).chain(of_springs).chain(others).chain(sensors).collect()
 }
 
 /// The values of those of the sliders at the present state of the model, in the same order.
@@ -99,10 +106,15 @@ pub(super) fn extra_values(model: &Model) -> impl Iterator<Item = f64> {
         [position, speed, force.norm(), force.x, force.y]
     });
     let sum = |of: fn(&SpringState) -> f64| model.springs().map(|spring| of(&spring)).sum::<f64>();
-    let sums = [sum(|spring| spring.stored), sum(|spring| spring.dissipated)];
-    let sums = sums.into_iter().filter(|_| model.springs().next().is_some());
+    let stores = model.springs().next().is_some();
+    let dissipates = stores || model.dissipations().next().is_some();
+    let dissipated = model
+        .dissipations()
+        .fold(sum(|spring| spring.dissipated), |sum, dissipated| sum + dissipated);
+    let sums = [(sum(|spring| spring.stored), stores), (dissipated, dissipates)];
+    let sums = sums.into_iter().filter(|(_, has)| *has).map(|(sum, _)| sum);
     let of_springs = model
         .springs()
         .flat_map(|spring| [spring.elongation, spring.force, spring.stored, spring.dissipated]);
-    of_sliders.chain(sums).chain(of_springs)
+    of_sliders.chain(sums).chain(of_springs).chain(model.dissipations())
 }

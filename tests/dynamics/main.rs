@@ -5,11 +5,15 @@ mod common;
 
 mod adaptive;
 mod archive;
+mod bodies;
 mod composition;
 mod consistency;
 mod cores;
+mod damping;
+mod drag;
 mod going_back;
 mod invariants;
+mod levers;
 mod literature;
 mod meshes;
 mod notes;

@@ -57,10 +57,17 @@ impl Model {
         };
         let all = scene.joints.iter().map(|joint| Ok((joint.kind, ends(joint)?)));
         let all = all.collect::<Result<Vec<_>, ModelError>>()?;
-        let side = |others: &dyn Fn(JointKind) -> bool| {
+        // A rigid body turns as a whole.
+        let turning = self
+            .levers()
+            .iter()
+            .map(|lever| (Some((lever.body, 0)), Some((lever.body, lever.point))));
+        let turning: Vec<(Node, Node)> = turning.collect();
+        let side = |others: &dyn Fn(JointKind) -> bool, besides: &[(Node, Node)]| {
             let pairs =
                 all.iter().enumerate().filter(|(at, (kind, _))| *at != joint && others(*kind));
-            let pairs: Vec<(Node, Node)> = pairs.map(|(_, (_, ends))| *ends).collect();
+            let pairs = pairs.map(|(_, (_, ends))| *ends);
+            let pairs: Vec<(Node, Node)> = pairs.chain(besides.iter().copied()).collect();
             let (here, there) = all[joint].1;
             let near = reached(here, &pairs);
             let (side, sign) = match near.contains(&None) {
@@ -71,9 +78,9 @@ impl Model {
         };
         let moment = match scene.joints[joint].kind {
             JointKind::Hinge => None,
-            JointKind::Rigid => Some(side(&|kind| kind == JointKind::Rigid)),
+            JointKind::Rigid => Some(side(&|kind| kind == JointKind::Rigid, &turning)),
         };
-        Ok(Transmission { force: side(&|_| true), moment })
+        Ok(Transmission { force: side(&|_| true, &[]), moment })
     }
 }
 

@@ -20,7 +20,7 @@ use crate::model::{ModelError, SliderState};
 /// What acts at the present moment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Instant {
-    /// Of the unknowns [length/time², 1/time²].
+    /// Of the unknown movements [length/time², 1/time²]; forces of levers where their unknowns stand.
     accelerations: Vec<f64>,
     /// What is left at each degree of freedom: what supports give [force, force·length].
     residual: Vec<f64>,
@@ -31,6 +31,11 @@ pub struct Instant {
 }
 
 impl Instant {
+    /// The accelerations of the unknown movements [length/time², 1/time²].
+    pub fn accelerations(&self) -> &[f64] {
+        &self.accelerations
+    }
+
     /// What joints and supports give to a control point of a body.
     pub fn given(&self, (body, point): (usize, usize)) -> Movement {
         self.given[body][point]
@@ -53,7 +58,7 @@ impl Model {
         self.elements
             .hold_at(time)
             .map_err(|(load, source)| refused(format!("{load}: {source}")))?;
-        let resisting = self.elements.resisting(&self.bodies, &self.motion.rates);
+        let rates = self.bodies.by_control_point(&self.motion.rates);
         let joined = self.bodies.number_apart();
         let mut apart = vec![0.0; joined.iter().map(|body| 3 * body.len()).sum()];
         for body in self.bodies.iter_mut() {
@@ -61,7 +66,7 @@ impl Model {
         }
         let at = Iterate { bodies: &self.bodies, stage: Stage::End, increments: &[], weight: 1.0 };
         self.elements.subtract_from(at, &mut apart);
-        self.elements.add_resisting(&self.bodies, &resisting, &mut apart);
+        self.elements.add_resisting(&self.bodies, &rates, &mut apart);
         let own = self.bodies.number_as(joined);
 
         let degrees: Vec<usize> = self
@@ -87,6 +92,7 @@ impl Model {
         let of_all: Vec<f64> =
             degrees.iter().map(|&at| accelerations.get(at).copied().unwrap_or(0.0)).collect();
         self.add_inertia(1.0, &of_all, &mut apart);
+        self.levers.transmit(&self.bodies, &accelerations, &mut apart);
         for (slider, force) in self.sliders.iter().zip(&contacts) {
             slider.transmit(&self.bodies, *force, &mut apart);
         }
@@ -104,6 +110,7 @@ impl Model {
     fn answer(&self, residual: &[f64]) -> Result<(Vec<f64>, Vec<Vec2>), LinearError> {
         let mut accelerations: Vec<f64> =
             residual[..self.unknowns()].iter().map(|force| -force).collect();
+        self.levers.set_centripetal(&self.bodies, &self.motion.rates, &mut accelerations);
         let mut inertia = self.banded_inertia();
         let inertia = inertia.factorise()?;
         inertia.solve(&mut accelerations);
@@ -145,8 +152,15 @@ impl Model {
         Vec2::new(x, y)
     }
 
+    /// The rigid bodies among those of some nodes: what holds one in its rotation turns all its points.
+    pub(super) fn rigid_bodies_of(&self, nodes: &[(usize, usize)]) -> Vec<usize> {
+        let is_rigid = |body: &usize| self.levers.iter().any(|lever| lever.body == *body);
+        nodes.iter().map(|(body, _)| *body).filter(is_rigid).collect()
+    }
+
     /// What supports give at a place: force [force] and moment [force·length]; none where nothing is held.
     pub fn reaction(&self, now: &Instant, place: &Place) -> Option<(Vec2, f64)> {
-        self.supports.force_on(&self.bodies.tied_nodes(place)?, &now.residual)
+        let nodes = self.bodies.tied_nodes(place)?;
+        self.supports.force_on(&nodes, &self.rigid_bodies_of(&nodes), &now.residual)
     }
 }

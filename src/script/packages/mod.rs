@@ -1,13 +1,12 @@
 //! The domains of the language, one file each. A new domain is a new file and a line in [`TABLES`].
 
-mod along_pictures;
 mod animations;
 mod arrays;
-mod chart_options;
+mod bodies;
 mod checking;
 mod convergence_studies;
 mod cost_studies;
-mod curve_pictures;
+mod drag;
 mod equilibria;
 mod explaining;
 mod exports;
@@ -19,13 +18,11 @@ mod language;
 mod loads;
 mod math;
 mod modes;
-pub mod motion_pictures;
 mod notes;
-mod pictures;
+pub mod pictures;
 mod precision_studies;
 mod reading_options;
 mod recording;
-mod rest_pictures;
 mod saving;
 mod scenes;
 mod schedules;
@@ -62,7 +59,9 @@ pub const TABLES: &[&Table] = &[
     &step_sizes::TABLE,
     &scenes::TABLE,
     &loads::TABLE,
+    &bodies::TABLE,
     &springs::TABLE,
+    &drag::TABLE,
     &equilibria::TABLE,
     &modes::TABLE,
     &simulations::TABLE,
@@ -75,10 +74,10 @@ pub const TABLES: &[&Table] = &[
     &histories::TABLE,
     &statistics::TABLE,
     &explaining::TABLE,
-    &curve_pictures::TABLE,
+    &pictures::curves::TABLE,
     &pictures::TABLE,
-    &along_pictures::TABLE,
-    &rest_pictures::TABLE,
+    &pictures::along::TABLE,
+    &pictures::rest::TABLE,
     &exports::TABLE,
     &viewers::TABLE,
     &animations::TABLE,

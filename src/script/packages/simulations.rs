@@ -129,7 +129,7 @@ pub const TABLE: Table = Table {
         .example("check_close(sim.velocity(rod.end).y, 1, 1e-12);"),
         method(SIMULATION, "angle", &[AT], angle)
             .returns(Returns::NUMBER.unit("rad"))
-            .summary("The angle of the section at a station, counter-clockwise and not wrapped.")
+            .summary("The angle of the section at a station, that of the axis as drawn at first, counter-clockwise and not wrapped.")
             .doc("Stations inside a beam are followed if they were made before the scene was started.")
             .example("sim.run_to(1);\ncheck_close(sim.angle(rod.end), 1, 0.01);"),
         count("steps", |call| counted(call, |simulation| simulation.counts().steps)).summary("Steps taken."),
@@ -314,9 +314,9 @@ pub(super) fn followed(
     station: &StationHandle,
     angle: Option<f64>,
 ) -> Result<Dynamic, ScriptError> {
-    if station.station.beam().is_none() {
+    if !station.station.turns() {
         let told = format!("{} does not turn: it has no angle", station.show());
-        return Err(call.error(told).hint("ask for the angle at a station of a beam"));
+        return Err(call.error(told).hint("ask for the angle at a station of a beam or a body"));
     }
     angle.map(Dynamic::from).ok_or_else(|| {
         call.error(format!("the angle at {} was not followed", station.show()))

@@ -57,7 +57,7 @@ pub const TABLE: Table = Table {
             .see(&["conserving", "exact"]),
         method(SCENE, "slider", &[object("station", STATION), object("beam", BEAM), options("options", SLIDER_KEYS).optional()], slider)
             .returns(Returns::object(SLIDER))
-            .summary("Lets a station, the end of another beam or a particle, slide along a beam.")
+            .summary("Lets a station, a place on another beam or a particle, slide along a beam.")
             .doc(
                 "The joint must close at the start: the station lies on the beam as drawn, at `at`, to six digits, and is moved \
                  onto it exactly. Where the beam ends, the run \
