@@ -10,7 +10,10 @@ mod scene;
 mod sliders;
 mod words;
 
-pub use elements::{Anchor, Element, Origin, PointMass, RestoringLaw, Spring, SpringKind};
+pub use elements::{
+    Anchor, Drive, DriveKind, DriveState, Element, LoadAccount, Origin, PointMass, RestoringLaw,
+    Spring, SpringKind,
+};
 pub use looking::{
     AlongSample, BeamPlaces, BeamSample, CrossSection, Distance, Part, Placement, SectionSample,
     Sensing, SpringState, Transmission, Usage,

@@ -2,11 +2,13 @@
 //! [`Element`].
 
 mod all;
+mod drive;
 mod element;
 mod elongation;
 mod exchange;
 mod follower;
 mod force_element;
+mod guides;
 mod hidden_force;
 mod load;
 mod pattern;
@@ -19,9 +21,11 @@ mod supports;
 mod weight;
 
 pub use all::Elements;
+pub use drive::{Drive, DriveKind};
 pub use element::{Element, Setting, Site};
 pub use exchange::Exchange;
-pub use force_element::{ForceElement, Iterate, collocation};
+pub use force_element::{ForceElement, Iterate, LoadAccount, collocation};
+pub use guides::{DriveState, Guided, Guides};
 pub use point_mass::PointMass;
 pub use resistance::Resistance;
 pub use restoring::RestoringLaw;

@@ -2,6 +2,7 @@
 
 mod along;
 mod beam_places;
+mod drives;
 mod explain;
 mod joint_forces;
 mod placement;

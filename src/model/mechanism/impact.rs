@@ -125,6 +125,8 @@ impl Model {
         self.add_inertia(1.0, &change, &mut residual);
         self.motion.jump(&change);
         self.exchanged += self.supports.exchange(&self.bodies, &residual, 1.0);
+        let guides = self.supports.guides_mut();
+        self.exchanged += guides.exchange_in_blow(&self.bodies, &residual, &self.motion.rates);
         Ok(impulses)
     }
 

@@ -53,6 +53,7 @@ impl Model {
         self.motion.save(numbers);
         self.bodies.save(numbers);
         self.elements.save(numbers);
+        self.supports.guides().save(numbers);
         self.motion.accelerations.save(numbers);
         self.sliders.save(numbers);
         *trend = self.motion.trend();
@@ -72,6 +73,7 @@ impl Model {
         self.motion.restore(state.trend, next);
         self.bodies.restore(next);
         self.elements.restore(next);
+        self.supports.guides_mut().restore(next);
         self.motion.accelerations.restore(state.knows_accelerations, next);
         self.sliders.restore(&state.sliders, next);
         assert!(numbers.next().is_none(), "the state is one of this model");

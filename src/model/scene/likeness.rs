@@ -26,6 +26,7 @@ impl Scene {
         let names = (plain.beams.iter_mut().map(|beam| &mut beam.name))
             .chain(plain.particles.iter_mut().map(|particle| &mut particle.name))
             .chain(plain.sliders.iter_mut().map(|slider| &mut slider.name))
+            .chain(plain.drives.iter_mut().map(|drive| &mut drive.name))
             .chain(plain.elements.iter_mut().filter_map(Element::name_mut));
         names.for_each(String::clear);
         // What stands in one list is of several kinds, between which the order is nobody's choice.

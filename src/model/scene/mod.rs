@@ -2,6 +2,7 @@
 
 mod definitions;
 mod description;
+mod drives;
 mod likeness;
 mod sensors;
 mod sliders;

@@ -151,7 +151,7 @@ fn marked(simulation: &Simulation) -> (Vec<Mark>, Vec<Station>) {
     let scene = simulation.scene();
     let supports = scene.joints.iter().filter(|joint| joint.partner == Partner::Ground);
     let supports = supports.map(|joint| match joint.kind {
-        JointKind::Hinge => (Mark::Hinge, joint.station),
+        JointKind::Hinge | JointKind::Support(_) => (Mark::Hinge, joint.station),
         JointKind::Rigid => (Mark::Clamp, joint.station),
     });
     supports.chain(scene.sliders.iter().map(|slider| (Mark::Slider, slider.slave))).unzip()

@@ -1,16 +1,20 @@
 //! Loads on the beams of a scene.
 
+use std::cell::RefCell;
+
 use rhai::Dynamic;
 
+use super::drives::blame;
 use super::scenes::{BEAM, SCENE, STATION};
 use super::schedules::{SCHEDULE_KINDS, schedule_of};
-use crate::loads::{Frame, LoadKind};
+use crate::loads::{Frame, LoadKind, Schedule};
+use crate::model::Scene;
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::station::here;
 use crate::script::rows::call::Call;
 use crate::script::rows::parameter::{
-    Parameter, Presence, choice, either, number, object, options, point,
+    Parameter, Presence, choice, either, number, object, options, point, text,
 };
 use crate::script::rows::table::{Table, method};
 use crate::script::words::error::ScriptError;
@@ -27,8 +31,7 @@ pub const TABLE: Table = Table {
             let (station, scene) = here(call, "station")?;
             let kind = LoadKind::Force { station, force: call.point("force")?, frame: frame(call)? };
             let schedule = schedule_of(call, call, "schedule")?;
-            scene.borrow_mut().add_load(kind, schedule);
-            Ok(Dynamic::UNIT)
+            add(&scene, call, kind, schedule)
         })
         .summary("A force at a station; it keeps its direction, or follows the section.")
         .doc("With #{ frame: \"follower\" } its components are along the beam as drawn and across it, and turn with the section. \
@@ -38,12 +41,11 @@ pub const TABLE: Table = Table {
                  let u = 0.0;\nscene.force(rod.end, [0, 1], |t| u);\nlet sim = scene.start(#{ dt: 0.05 });\n\
                  for step in 0..4 {\n    u = -2 * sim.velocity(rod.end).y;\n    sim.step();\n}")
         .see(&["moment", "line_load", "hold_for"]),
-        method(SCENE, "moment", &[AT, number("moment").unit("force·length"), WHEN], |call| {
+        method(SCENE, "moment", &[AT, number("moment").unit("force·length"), WHEN, NAMED], |call| {
             let (station, scene) = here(call, "station")?;
             let kind = LoadKind::Moment { station, moment: call.number("moment")? };
             let schedule = schedule_of(call, call, "schedule")?;
-            scene.borrow_mut().add_load(kind, schedule);
-            Ok(Dynamic::UNIT)
+            add(&scene, call, kind, schedule)
         })
         .summary("A moment at a station, counter-clockwise.")
         .example("scene.moment(rod.end, -80, hold_for(2.5));")
@@ -53,8 +55,7 @@ pub const TABLE: Table = Table {
             let beam = call.get::<BeamHandle>("beam")?.own(&scene)?;
             let kind = LoadKind::Line { beam, force: call.point("force")?, frame: frame(call)? };
             let schedule = schedule_of(call, call, "schedule")?;
-            scene.scene().borrow_mut().add_load(kind, schedule);
-            Ok(Dynamic::UNIT)
+            add(&scene.shared(), call, kind, schedule)
         })
         .summary("A force per length on a whole beam; it keeps its direction, or follows the sections like a pressure.")
         .example("scene.line_load(rod, [0, -2], ramp(0, 1));\nscene.line_load(rod, [0, 1], 1, #{ frame: \"follower\" });")
@@ -66,10 +67,27 @@ const AT: Parameter = object("station", STATION);
 const WHEN: Parameter = either("schedule", SCHEDULE_KINDS)
     .doc("when it acts: a schedule, a factor, or a function of time")
     .optional();
-const FRAME: Parameter = options("options", &[FRAME_KEY]).optional();
+const FRAME: Parameter = options("options", &[FRAME_KEY, NAME]).optional();
+const NAMED: Parameter = options("options", &[NAME]).optional();
+const NAME: Parameter =
+    text("name").doc("by which the history has work.NAME and what the load is").optional();
 const FRAME_KEY: Parameter = choice("frame", &["dead", "follower"])
     .doc("dead keeps its direction, follower turns with the section")
     .or(Presence::Text("dead"));
+
+/// Adds a load to a scene, under the name among the options of a call, if there is one.
+fn add(
+    scene: &RefCell<Scene>,
+    call: &Call,
+    kind: LoadKind,
+    schedule: Schedule,
+) -> Result<Dynamic, ScriptError> {
+    match call.options_or_defaults("options")?.text_if_given("name")? {
+        Some(name) => scene.borrow_mut().add_named_load(name, kind, schedule).map_err(blame)?,
+        None => scene.borrow_mut().add_load(kind, schedule),
+    }
+    Ok(Dynamic::UNIT)
+}
 
 fn frame(call: &Call) -> Result<Frame, ScriptError> {
     if !call.has("options") {

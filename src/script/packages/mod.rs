@@ -8,6 +8,7 @@ mod checking;
 mod convergence_studies;
 mod cost_studies;
 mod curve_pictures;
+mod drives;
 mod equilibria;
 mod explaining;
 mod exports;
@@ -62,6 +63,7 @@ pub const TABLES: &[&Table] = &[
     &step_sizes::TABLE,
     &scenes::TABLE,
     &loads::TABLE,
+    &drives::TABLE,
     &springs::TABLE,
     &equilibria::TABLE,
     &modes::TABLE,

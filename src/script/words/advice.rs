@@ -92,6 +92,7 @@ fn on_model(error: &ModelError) -> Option<String> {
             Turning::RotaryInertia => "leave out the rotary inertia",
             Turning::Load => "only a force of fixed direction can act on it",
             Turning::Spin => "leave out the spin",
+            Turning::Drive => "give x and y alone",
             Turning::TorsionSpring => "put a torsion spring between sections of beams",
         },
         _ => return None,
