@@ -8,6 +8,7 @@ mod archive;
 mod composition;
 mod consistency;
 mod cores;
+mod drives;
 mod going_back;
 mod invariants;
 mod literature;

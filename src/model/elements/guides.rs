@@ -9,6 +9,8 @@
 //!
 //! over the given movements, exactly. These are work, impulse and angular impulse of a drive.
 
+use std::borrow::Cow;
+
 use super::Exchange;
 use super::supports::Support;
 use crate::beams::RotationIncrement;
@@ -16,7 +18,7 @@ use crate::elementary::tan;
 use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Given, Interval};
 use crate::joints::Component;
-use crate::loads::{Beginning, Course, LoadError};
+use crate::loads::{Beginning, Course, LoadError, Side};
 use crate::model::bodies::Body;
 
 /// A supported movement that is given.
@@ -45,6 +47,10 @@ struct Present {
     reaction: f64,
     /// `M Δv` of the step that is being accepted [force·time, force·length·time].
     struck: f64,
+    /// The place or turn that it has at rest under the whole load [length, rad].
+    goal: f64,
+    /// How far it has been moved there [length, rad].
+    placed: f64,
     /// `M v̄` at its control point in that step [mass·length/time].
     momentum: Vec2,
 }
@@ -265,14 +271,55 @@ impl Guides {
         sum
     }
 
+    /// Takes the places that are given at a time, which equilibria put on with their loads.
+    ///
+    /// # Errors
+    /// When a function has no finite value: the name of its drive, and why.
+    pub fn hold_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
+        for (guide, present) in self.guided.iter().zip(&mut self.present) {
+            if let Course::Place(schedule) = &guide.course {
+                present.goal = schedule
+                    .value(time, Side::After)
+                    .map_err(|error| (self.drives[guide.drive].name.clone(), error))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether something is given that an equilibrium has to put on.
+    pub fn moves_at_rest(&self) -> bool {
+        self.present.iter().any(|present| present.goal != 0.0)
+    }
+
+    /// Movements at rest, those that are given behind the unknown ones: from where they are to their places under a part of the load.
+    pub fn at_rest<'m>(&self, movements: &'m [f64], load_factor: f64) -> Cow<'m, [f64]> {
+        if self.guided.is_empty() {
+            return Cow::Borrowed(movements);
+        }
+        let mut all = movements.to_vec();
+        all.resize(self.first, 0.0);
+        all.extend(self.present.iter().map(|now| load_factor * now.goal - now.placed));
+        Cow::Owned(all)
+    }
+
+    /// Leaves what is given where it is under a part of the load.
+    pub fn place(&mut self, load_factor: f64) {
+        for present in &mut self.present {
+            present.placed = load_factor * present.goal;
+        }
+    }
+
     pub fn save(&self, state: &mut Vec<f64>) {
-        state.extend(self.present.iter().flat_map(|now| [now.acceleration, now.reaction]));
+        state.extend(
+            self.present.iter().flat_map(|now| [now.acceleration, now.reaction, now.placed]),
+        );
         state.extend(self.drives.iter().map(|drive| drive.work));
     }
 
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         for present in &mut self.present {
             (present.acceleration, present.reaction) = (next(), next());
+            present.placed = next();
         }
         self.drives.iter_mut().for_each(|drive| drive.work = next());
     }

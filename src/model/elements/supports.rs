@@ -47,6 +47,11 @@ impl Supports {
         self.guides.supports().chain(&self.held)
     }
 
+    /// Those that do not move.
+    pub fn held(&self) -> impl Iterator<Item = &Support> {
+        self.held.iter()
+    }
+
     /// Those that move as is given.
     pub fn guides(&self) -> &Guides {
         &self.guides

@@ -3,11 +3,12 @@
 use rhai::{Dynamic, ImmutableString};
 
 use super::scenes::{SCENE, STATION};
-use super::schedules::{SCHEDULE_KINDS, schedule_of};
+use super::schedules::{SCHEDULE_KINDS, controlled_schedule_of, schedule_of};
 use crate::geometry::Vec2;
 use crate::joints::{Component, Components, JointKind, Partner};
 use crate::loads::{Course, LoadKind};
 use crate::model::{Drive, DriveKind, ModelError};
+use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::station::here;
 use crate::script::rows::call::Call;
 use crate::script::rows::options::Options;
@@ -30,7 +31,7 @@ pub const TABLE: Table = Table {
             .summary("Holds some of the movements of a station on the ground: x, y, angle, or all across a direction.")
             .doc("A roller on a floor is #{ y: true }; along: [1, 0] says the same by the direction in which it stays free. \
                   What holds everything is scene.clamp, what holds the position scene.hinge.")
-            .example("scene.hinge(rod.start);\nscene.support(rod.end, #{ y: true });\nlet rest = scene.start(#{ dt: 0.01 });")
+            .example("scene.hinge(rod.start);\nscene.support(rod.end, #{ y: true });\nlet sim = scene.start(#{ dt: 0.01 });")
             .see(&["clamp", "hinge", "move"]),
         method(SCENE, "move", &[AT, options("options", MOVE_KEYS)], drive)
             .summary("Gives the motion of a station: x, y and angle, each a function of time, or some of them.")
@@ -45,7 +46,7 @@ pub const TABLE: Table = Table {
         method(SCENE, "motor", &[AT, options("options", MOTOR_KEYS)], motor)
             .summary("Turns a section from the ground: by an angle or at a speed that is given, or with a torque.")
             .doc("angle is the turn since the start, a function of time, and exact at the end of every step. speed is a rate: its integral over a step is taken by \
-                  three Gauss points, exact for polynomials of degree five. torque is a moment, counter-clockwise. The section keeps free to move along x and y \
+                  three Gauss points, exact for polynomials of degree five. torque is a moment, counter-clockwise. speed and torque may be functions |t, q| … of the simulation too: sampled controllers, as in scene.force. The section keeps free to move along x and y \
                   unless something holds it there, so hinge it.")
             .example("scene.hinge(rod.start);\nscene.motor(rod.start, #{ angle: |t| 0.5 * t * t });\n\
                       let sim = scene.start(#{ dt: 0.1 });\nsim.run_to(2);\n\
@@ -147,7 +148,10 @@ fn motor(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let told = format!("its {key} says how it turns, and {odd} is given besides");
         return Err(call.error(told).hint(format!("leave out {odd}")).at(Place::Key(odd.into())));
     }
-    let schedule = schedule_of(call, &options, key)?;
+    let schedule = match key {
+        "angle" => schedule_of(call, &options, key)?,
+        _ => controlled_schedule_of(call, &options, key, &call.receiver::<SceneHandle>()?)?,
+    };
     match key {
         "angle" => {
             add(call, DriveKind::Motor, [None, None, Some(Course::Place(schedule))], &options)

@@ -6,7 +6,7 @@ use rhai::Dynamic;
 
 use super::drives::blame;
 use super::scenes::{BEAM, SCENE, STATION};
-use super::schedules::{SCHEDULE_KINDS, schedule_of};
+use super::schedules::{SCHEDULE_KINDS, controlled_schedule_of};
 use crate::loads::{Frame, LoadKind, Schedule};
 use crate::model::Scene;
 use crate::script::handles::beam::BeamHandle;
@@ -30,21 +30,23 @@ pub const TABLE: Table = Table {
         method(SCENE, "force", &[AT, point("force").unit("force"), WHEN, FRAME], |call| {
             let (station, scene) = here(call, "station")?;
             let kind = LoadKind::Force { station, force: call.point("force")?, frame: frame(call)? };
-            let schedule = schedule_of(call, call, "schedule")?;
+            let schedule = when(call)?;
             add(&scene, call, kind, schedule)
         })
         .summary("A force at a station; it keeps its direction, or follows the section.")
         .doc("With #{ frame: \"follower\" } its components are along the beam as drawn and across it, and turn with the section. \
-              A load is a function of the time. One that depends on the motion, as a controller does, reads a variable that the script \
-              sets between steps: it holds for a step, so that the feedback is of first order in dt.")
+A function of two arguments, |t, q| …, is a sampled controller: it is asked at the start of every step with the simulation, as \
+              scene.record asks, and its value holds for the step, so that the feedback is late by a step, of first order in dt; its work is counted like that \
+              of any load. With a name the history has work.NAME and NAME.force.")
         .example("scene.force(rod.end, [8, 0], hold_for(2.5));\nscene.force(rod.end, [0, 1], 1, #{ frame: \"follower\" });\n\
-                 let u = 0.0;\nscene.force(rod.end, [0, 1], |t| u);\nlet sim = scene.start(#{ dt: 0.05 });\n\
-                 for step in 0..4 {\n    u = -2 * sim.velocity(rod.end).y;\n    sim.step();\n}")
+                 scene.force(rod.end, [0, 1], |t, q| -2 * q.velocity(rod.end).y, #{ name: \"brake\" });\n\
+                 let sim = scene.start(#{ dt: 0.05 });\nsim.run_to(1);\n\
+                 check(sim.history.last(\"work.brake\") < 0);")
         .see(&["moment", "line_load", "hold_for"]),
         method(SCENE, "moment", &[AT, number("moment").unit("force·length"), WHEN, NAMED], |call| {
             let (station, scene) = here(call, "station")?;
             let kind = LoadKind::Moment { station, moment: call.number("moment")? };
-            let schedule = schedule_of(call, call, "schedule")?;
+            let schedule = when(call)?;
             add(&scene, call, kind, schedule)
         })
         .summary("A moment at a station, counter-clockwise.")
@@ -54,7 +56,7 @@ pub const TABLE: Table = Table {
             let scene = call.receiver::<SceneHandle>()?;
             let beam = call.get::<BeamHandle>("beam")?.own(&scene)?;
             let kind = LoadKind::Line { beam, force: call.point("force")?, frame: frame(call)? };
-            let schedule = schedule_of(call, call, "schedule")?;
+            let schedule = when(call)?;
             add(&scene.shared(), call, kind, schedule)
         })
         .summary("A force per length on a whole beam; it keeps its direction, or follows the sections like a pressure.")
@@ -74,6 +76,11 @@ const NAME: Parameter =
 const FRAME_KEY: Parameter = choice("frame", &["dead", "follower"])
     .doc("dead keeps its direction, follower turns with the section")
     .or(Presence::Text("dead"));
+
+/// The schedule of a load, from the arguments of a call.
+fn when(call: &Call) -> Result<Schedule, ScriptError> {
+    controlled_schedule_of(call, call, "schedule", &call.receiver::<SceneHandle>()?)
+}
 
 /// Adds a load to a scene, under the name among the options of a call, if there is one.
 fn add(

@@ -67,6 +67,7 @@ fn on_statics(error: &StaticsError) -> Option<String> {
             "loads are taken as they are at one time: choose it with the option time".into()
         }
         StaticsError::Slider { .. } => AT_REST.into(),
+        StaticsError::Driven { .. } => "leave out control: arc_length()".into(),
         StaticsError::Loose { .. } => {
             format!("hold it with scene.clamp(…) or scene.hinge(…), or {AT_REST}")
         }
