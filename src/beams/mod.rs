@@ -5,11 +5,15 @@
 mod at_rest;
 mod axis_point;
 mod block;
+mod dashpots;
 mod discrete;
 mod dynamics;
 mod error;
+mod force_dashpot;
 mod force_point;
+mod kink;
 mod mesh;
+mod moment_dashpot;
 mod moment_point;
 mod particle;
 mod parts;
@@ -20,9 +24,11 @@ mod span_points;
 mod station;
 
 pub use at_rest::SpanAtRest;
+pub use dashpots::{Dashpots, RateCollocation, Relaxation};
 pub use discrete::discretise;
 pub use dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Movement};
 pub use error::BeamError;
+pub use kink::kink_length;
 pub use mesh::{Mesh, PointCounts, Quadrature};
 pub use particle::Particle;
 pub use parts::at_once;

@@ -1,6 +1,6 @@
 //! Section rotations as cosine and sine, advanced by tangent-scaled increments without trigonometric functions.
 
-use crate::elementary::{atan, sin_cos};
+use crate::elementary::{atan, sin_cos, tan};
 use crate::geometry::Vec2;
 
 /// What an interpolated rotation increment `Δω` stands for: which angle `Δθ` a section turns by.
@@ -56,6 +56,14 @@ impl RotationIncrement {
         match self {
             Self::TangentScaled => 2.0 * atan(0.5 * increment),
             Self::Angle => increment,
+        }
+    }
+
+    /// The tangent-scaled increment `2 tan(Δθ/2)` of the angle that an increment stands for.
+    pub(super) fn tangent_scaled(self, increment: f64) -> f64 {
+        match self {
+            Self::TangentScaled => increment,
+            Self::Angle => 2.0 * tan(0.5 * increment),
         }
     }
 

@@ -79,12 +79,16 @@ impl Place {
     /// When the parameter lies outside the mesh, or the axis has no tangent there.
     pub fn at(body: usize, axis: &Curve, mesh: &Mesh, xi: f64) -> Result<Self, GeometryError> {
         let values = mesh.basis().evaluate(xi)?;
+        // At a break some functions of the span are zero: who stands there neither reads nor moves their control points.
+        let is_here = |value: &f64| *value != 0.0;
+        let skipped = values.values().iter().position(is_here).unwrap_or(0);
+        let last = values.values().iter().rposition(is_here).unwrap_or(0);
+        let here = &values.values()[skipped..=last];
         let mut shape = [0.0; MAX_DEGREE + 1];
-        let order = values.values().len();
-        shape[..order].copy_from_slice(values.values());
+        shape[..here.len()].copy_from_slice(here);
         let tangent_angle =
             axis.tangent_angle(corresponding(xi, mesh.basis().domain(), axis.domain()))?;
-        Ok(Self { body, first: values.first, shape, order, tangent_angle })
+        Ok(Self { body, first: values.first + skipped, shape, order: here.len(), tangent_angle })
     }
 
     /// The values of the basis functions that are not zero at this place [-].

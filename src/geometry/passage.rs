@@ -1,6 +1,7 @@
 //! Basis functions along a way between two parameters, for a point that slides along a beam.
 
-use super::{Basis, GaussRule, Span};
+use super::piecewise::AlongWay;
+use super::{Basis, GaussRule, PiecewisePolynomial, Span};
 
 /// The basis functions `B_i` along a way from the parameter ξ₀ to ξ₁, as a point needs them that
 /// slides along `Σ B_i(ξ) x_i` during a time step: above all the quotients
@@ -22,6 +23,7 @@ pub struct Passage {
     kinks: Vec<usize>,
     /// Points and weights on `[0, 1]`, exact for polynomials of one degree less than the basis.
     rule: Vec<(f64, f64)>,
+    way: Way,
     first: usize,
     length: usize,
     start: Vec<f64>,
@@ -33,7 +35,7 @@ pub struct Passage {
 }
 
 /// Where a way starts and ends, and the indices of the spans in which it does.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 struct Way {
     from: f64,
     to: f64,
@@ -63,6 +65,7 @@ impl Passage {
             spans,
             kinks,
             rule: GaussRule::legendre(basis.degree().div_ceil(2)).iter_on(0.0, 1.0).collect(),
+            way: Way { from: start, to: start, departure: 0, arrival: 0 },
             first: 0,
             length: 0,
             start: room.clone(),
@@ -84,6 +87,7 @@ impl Passage {
     pub fn go(&mut self, from: f64, to: f64) {
         let finite = from.is_finite() && to.is_finite();
         let way = self.way(from, if finite { to } else { from });
+        self.way = Way { from, to, ..way };
         let (low, high) = way.lowest_and_highest();
         self.first = self.spans[low].first;
         self.length = self.spans[high].first + self.basis.degree() + 1 - self.first;
@@ -139,6 +143,35 @@ impl Passage {
     /// `D_i` is divided by the length of the way.
     pub fn change(&self) -> &[f64] {
         &self.change[..self.length]
+    }
+
+    /// A function that is a polynomial on each span of the basis, along the way; NaN where an end of the way is not finite.
+    ///
+    /// Its slope may jump where those of the basis do, and only there.
+    pub fn along(&self, function: &PiecewisePolynomial) -> AlongWay {
+        let way = self.way;
+        let [start, ..] = function.in_span(way.departure, way.from);
+        let [end, slope, _] = function.in_span(way.arrival, way.to);
+        let (mut difference, mut change) = (0.0, 0.0);
+        let (low, high) = way.lowest_and_highest();
+        for (index, span) in (low..).zip(&self.spans[low..=high]) {
+            let piece = way.piece(index, span);
+            for &(t, weight) in function.rule() {
+                let xi = piece.enter + t * (piece.leave - piece.enter);
+                let [_, by_xi, bend] = function.in_span(index, xi);
+                difference += weight * piece.share * by_xi;
+                change += weight * piece.share * (piece.before + t * piece.share) * bend;
+            }
+        }
+        if self.kinks[way.departure] != self.kinks[way.arrival] {
+            change = (slope - difference) / (way.to - way.from);
+        }
+        AlongWay { start, end, slope, difference, change }
+    }
+
+    /// A function that is a polynomial on each span of the basis, at the end of the way: its value, its first and its second derivative by ξ.
+    pub fn at_end(&self, function: &PiecewisePolynomial) -> [f64; 3] {
+        function.in_span(self.way.arrival, self.way.to)
     }
 
     /// How many spans of the basis lie between two parameters, parts of spans as parts: for a small way, its length over the width of

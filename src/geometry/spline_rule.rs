@@ -64,9 +64,9 @@ fn middles(run: &[Span]) -> Option<Vec<Vec<f64>>> {
     run.iter().enumerate().map(of).collect()
 }
 
-/// The splines of one degree less, as sums of derivatives: `T_t = -Σ_(a ≤ t) N'_a` is a positive multiple of a B-spline. Those that are not zero
+/// The splines of one degree less, as sums of derivatives: `T_t = -Σ_(a ≤ t) N'_a` is a positive multiple of a B-spline, of integral one. Those that are not zero
 /// on a span have the numbers of its functions but the last.
-pub(super) fn lower_splines(values: &BasisValues) -> impl Iterator<Item = f64> + '_ {
+pub fn lower_splines(values: &BasisValues) -> impl Iterator<Item = f64> + '_ {
     let partial = values.slopes().iter().scan(0.0, |sum, slope| {
         *sum -= slope;
         Some(*sum)

@@ -11,8 +11,8 @@ mod sliders;
 mod words;
 
 pub use elements::{
-    Anchor, Drive, DriveKind, DriveState, Element, LoadAccount, Origin, PointMass, RestoringLaw,
-    Spring, SpringKind,
+    Along, Anchor, Drag, Dragged, Drive, DriveKind, DriveState, Element, LoadAccount,
+    MaterialDamping, Origin, PointMass, RestoringLaw, Spring, SpringKind,
 };
 pub use looking::{
     AlongSample, BeamPlaces, BeamSample, CrossSection, Distance, Part, Placement, SectionSample,

@@ -70,6 +70,8 @@ impl Animation<'_> {
                 Some(before) => changed(before, &now, width),
             };
             if before.is_some() {
+                // A box is compared with the place of the one before: from the corner any size fits.
+                writer.set_frame_position(0, 0).map_err(refused)?;
                 writer.set_frame_dimension(region.width, region.height).map_err(refused)?;
                 writer.set_frame_position(region.left, region.top).map_err(refused)?;
             }
@@ -197,6 +199,23 @@ mod tests {
             assert!(off == 0, "frame {frame} is off by {off}");
             assert!(frame == 0 || part.width < 30, "only what changes is kept: {part:?}");
         }
+    }
+
+    #[test]
+    fn a_small_box_far_away_may_be_followed_by_a_large_one() {
+        let jumps = |frame: usize| {
+            let mut canvas = Canvas::default();
+            for (index, column) in [20.0, 110.0].into_iter().enumerate() {
+                let radius = if frame > index { 6.0 } else { 3.0 };
+                canvas.disc((column, 60.0), radius, hue(0));
+            }
+            if frame > 2 {
+                canvas.line([(0.0, 20.0), (120.0, 20.0)], 1.0, INK);
+            }
+            Figure::new(canvas, (120.0, 100.0))
+        };
+        let animation = Animation { frames: 4, frames_per_second: 20, draw: &jumps };
+        assert!(animation.to_png().is_ok(), "{:?}", animation.to_png().err());
     }
 
     #[test]

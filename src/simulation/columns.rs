@@ -1,8 +1,7 @@
 //! The columns of a history: those that every history has, and those that a scene adds.
 
 use super::Sample;
-use crate::joints::Component;
-use crate::joints::Slider;
+use crate::joints::{Component, Slider};
 use crate::loads::Load;
 use crate::model::{Drive, DriveKind, DriveState, Model, Scene, Spring, SpringKind, SpringState};
 
@@ -59,8 +58,11 @@ const OF_SLIDER: [(&str, &str); 5] = [
     ("force_y", "force"),
 ];
 
-/// The columns that a scene with springs adds.
-const OF_SPRINGS: [(&str, &str); 2] = [("stored", "energy"), ("dissipated", "energy")];
+/// What a scene with springs stores.
+const STORED: &str = "stored";
+
+/// What a scene dissipates in springs with dampers, in damped materials and by drag.
+const DISSIPATED: &str = "dissipated";
 
 /// The columns that a scene adds to those that every history has.
 pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
@@ -78,13 +80,17 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
             SpringKind::Way(_) => ("length", "length", "force"),
             SpringKind::Torsion(_) => ("angle", "rad", "force·length"),
         };
-        let of_ledger = OF_SPRINGS.map(|(entry, energy)| column(format!("{entry}.{name}"), energy));
+        let of_ledger =
+            [STORED, DISSIPATED].map(|entry| column(format!("{entry}.{name}"), "energy"));
         let own =
             [column(format!("{name}.{measure}"), length), column(format!("{name}.force"), force)];
         own.into_iter().chain(of_ledger).collect::<Vec<_>>()
     };
-    let sums = OF_SPRINGS.map(|(entry, energy)| column(entry.to_owned(), energy));
-    let sums = sums.into_iter().filter(|_| scene.springs().next().is_some());
+    let stores = scene.springs().next().is_some();
+    let dissipates = stores || scene.dissipating().next().is_some();
+    let sums = [(STORED, stores), (DISSIPATED, dissipates)].into_iter().filter(|(_, has)| *has);
+    let sums = sums.map(|(entry, _)| column(entry.to_owned(), "energy"));
+    let others = scene.dissipating().map(|name| column(format!("{DISSIPATED}.{name}"), "energy"));
     let of_drive = |drive: &Drive| {
         let name = &drive.name;
         let own = drive.courses().map(|(component, _)| {
@@ -114,6 +120,7 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
     of_sliders
         .chain(sums)
         .chain(of_springs)
+        .chain(others)
         .chain(of_drives)
         .chain(of_loads)
         .chain(sensors)
@@ -136,8 +143,13 @@ pub(super) fn extra_values(model: &Model) -> impl Iterator<Item = f64> {
         [position, speed, force.norm(), force.x, force.y]
     });
     let sum = |of: fn(&SpringState) -> f64| model.springs().map(|spring| of(&spring)).sum::<f64>();
-    let sums = [sum(|spring| spring.stored), sum(|spring| spring.dissipated)];
-    let sums = sums.into_iter().filter(|_| model.springs().next().is_some());
+    let stores = model.springs().next().is_some();
+    let dissipates = stores || model.dissipations().next().is_some();
+    let dissipated = model
+        .dissipations()
+        .fold(sum(|spring| spring.dissipated), |sum, dissipated| sum + dissipated);
+    let sums = [(sum(|spring| spring.stored), stores), (dissipated, dissipates)];
+    let sums = sums.into_iter().filter(|(_, has)| *has).map(|(sum, _)| sum);
     let of_springs = model
         .springs()
         .flat_map(|spring| [spring.elongation, spring.force, spring.stored, spring.dissipated]);
@@ -149,5 +161,10 @@ pub(super) fn extra_values(model: &Model) -> impl Iterator<Item = f64> {
     };
     let of_drives = model.drives().flat_map(of_drive);
     let of_loads = model.named_loads().flat_map(|load| [load.value, load.work]);
-    of_sliders.chain(sums).chain(of_springs).chain(of_drives).chain(of_loads)
+    of_sliders
+        .chain(sums)
+        .chain(of_springs)
+        .chain(model.dissipations())
+        .chain(of_drives)
+        .chain(of_loads)
 }

@@ -64,6 +64,8 @@ pub struct Modes {
     /// The configuration: control points of all bodies, and shapes as displacements of these.
     points: Vec<Vec<Vec2>>,
     displacements: Vec<Vec<Vec<Vec2>>>,
+    /// `½ φᵀ D φ` of each mode [1/time].
+    decay_rates: Vec<f64>,
 }
 
 impl Modes {
@@ -89,11 +91,13 @@ impl Modes {
         }
         let modes = lowest(&pencil, count, goes_on)?;
         let displacements = modes.iter().map(|mode| model.displacements(&mode.shape)).collect();
+        let decay_rates = modes.iter().map(|mode| 0.5 * model.dissipation(&mode.shape)).collect();
         Ok(Self {
             modes,
             meshes: model.meshes().to_vec(),
             points: model.control_points().map(<[Vec2]>::to_vec).collect(),
             displacements,
+            decay_rates,
         })
     }
 
@@ -108,6 +112,20 @@ impl Modes {
     /// The modes, from the lowest on.
     pub fn all(&self) -> &[Mode] {
         &self.modes
+    }
+
+    /// How fast each mode decays by damping, `½ φᵀ D φ`: exact where damping does not couple modes, as that of a material with one relaxation time for all strains,
+    /// else to first order in the damping [1/time].
+    pub fn decay_rates(&self) -> &[f64] {
+        &self.decay_rates
+    }
+
+    /// The damping ratio of each mode, its decay rate over its angular frequency; zero where nothing vibrates [-].
+    pub fn damping_ratios(&self) -> impl Iterator<Item = f64> {
+        self.modes.iter().zip(&self.decay_rates).map(|(mode, decay)| match mode.square > 0.0 {
+            true => decay / mode.angular_frequency(),
+            false => 0.0,
+        })
     }
 
     /// Whether every small disturbance stays small, or at least grows by its start velocity only.

@@ -3,13 +3,13 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::at;
-use withy::beams::{Mesh, Section, Station};
+use withy::beams::{Mesh, Relaxation, Section, Station};
 use withy::geometry::{Curve, Vec2};
 use withy::joints::{Component, Components, JointKind, Partner};
 use withy::loads::{Course, Frame, LoadKind, Schedule};
 use withy::model::{
-    Anchor, BeamDefinition, Drive, DriveKind, Origin, ParticleDefinition, PointMass, RestoringLaw,
-    Scene, Spring, SpringKind, StartMotion,
+    Along, Anchor, BeamDefinition, Drag, Dragged, Drive, DriveKind, Origin, ParticleDefinition,
+    PointMass, RestoringLaw, Scene, Spring, SpringKind, StartMotion,
 };
 
 /// The section of the flying spaghetti with `EA = GA` and `EI` as given.
@@ -23,7 +23,7 @@ pub fn spaghetti_section(stiffness: f64, bending: f64) -> Section {
     }
 }
 
-fn rod() -> Section {
+pub fn rod() -> Section {
     Section {
         axial_stiffness: 2e3,
         shear_stiffness: 8e2,
@@ -308,6 +308,47 @@ pub fn driven(mesh: &Mesh) -> Scene {
     scene
 }
 
+/// A bent beam of a Kelvin–Voigt material that flies, and a straight one joined to its end.
+pub fn damped(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("damped");
+    let axis = Curve::through(&[at(0.0, 0.0), at(1.0, 0.4), at(2.0, 0.2), at(3.0, 1.0)]).unwrap();
+    let bent = add_beam(&mut scene, axis, mesh, rod());
+    let tail = add_beam(&mut scene, line(at(3.0, 1.0), at(3.5, 2.5)), mesh, rod());
+    let (end, start) = (end_of(&mut scene, bent), start_of(&mut scene, tail));
+    scene.join(JointKind::Hinge, end, Partner::Station(start)).unwrap();
+    scene.beams[bent].motion = StartMotion { velocity: at(0.5, 0.2), spin: 0.0, about: None };
+    scene.beams[tail].motion = StartMotion { velocity: at(0.5, 0.2), spin: 0.0, about: None };
+    scene.add_damping(bent, Relaxation { axial: 0.01, shear: 0.02, bending: 0.1 }).unwrap();
+    scene.add_damping(tail, Relaxation { axial: 0.0, shear: 0.0, bending: 0.05 }).unwrap();
+    let inner = scene.station(bent, 1.0).unwrap();
+    force(&mut scene, inner, at(0.0, 3.0), Frame::Dead, hold(0.9));
+    scene
+}
+
+/// A bent beam in a wind, dragged across and along, and a bead on a spring at its end that is dragged as well.
+pub fn dragged(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("dragged");
+    let axis = Curve::through(&[at(0.0, 0.0), at(1.0, 0.4), at(2.0, 0.2), at(3.0, 1.0)]).unwrap();
+    let beam = add_beam(&mut scene, axis, mesh, rod());
+    scene.beams[beam].motion = StartMotion { velocity: at(0.5, 0.2), spin: 1.3, about: None };
+    let bead = ParticleDefinition { name: "bead".to_owned(), position: at(4.0, 1.5) };
+    let bead = scene.add_particle(bead, 0.8).unwrap();
+    let end = end_of(&mut scene, beam);
+    let way = SpringKind::Way(vec![Anchor::Station(end), Anchor::Station(bead)]);
+    spring(&mut scene, way, linear(30.0, 1.25_f64.sqrt()), 0.0);
+    let along = |linear: f64, quadratic: f64| Along { linear, quadratic };
+    let drags = [
+        (Dragged::Beam { beam, normal: along(0.3, 0.0), tangent: along(0.05, 0.0) }, at(1.0, 0.5)),
+        (Dragged::Point { station: bead, law: along(0.1, 0.2) }, at(-9.0, 4.0)),
+    ];
+    for (on, wind) in drags {
+        let name = scene.free_name("drag");
+        scene.add_drag(Drag { name, on, wind }).unwrap();
+    }
+    scene.gravity = at(0.0, -2.0);
+    scene
+}
+
 /// Every scene on a mesh.
 pub fn all(mesh: &Mesh) -> Vec<Scene> {
     vec![
@@ -321,6 +362,8 @@ pub fn all(mesh: &Mesh) -> Vec<Scene> {
         towed(mesh),
         sprung(mesh),
         mounted(mesh),
+        damped(mesh),
+        dragged(mesh),
         driven(mesh),
     ]
 }

@@ -8,6 +8,8 @@ mod archive;
 mod composition;
 mod consistency;
 mod cores;
+mod damping;
+mod drag;
 mod drives;
 mod going_back;
 mod invariants;

@@ -115,7 +115,7 @@ fn files_that_are_not_whole_or_not_ours_are_refused_with_a_reason() {
         (&file[..file.len() / 2], "ends too early"),
         (b"time,energy\n", "no simulation"),
         (b"", "no simulation"),
-        (&newer, "in format 9"),
+        (&newer, "in format 10"),
         (&damaged, "damaged: its checksum"),
     ];
     for (content, reason) in cases {

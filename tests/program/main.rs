@@ -4,6 +4,7 @@ mod cli;
 mod convert;
 mod docs_command;
 mod editors;
+mod gallery;
 mod learn_command;
 mod learn_watch;
 mod limits;

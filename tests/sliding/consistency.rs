@@ -4,18 +4,19 @@
 use crate::common::probe::{self, STEP, differences};
 use crate::common::{Random, meshes, sliding_scenes};
 use nalgebra::DMatrix;
-use withy::beams::Mesh;
-use withy::geometry::{Passage, Vec2, cross};
+use withy::beams::{Mesh, kink_length};
+use withy::geometry::{Curve, Passage, PiecewisePolynomial, Vec2, cross, interpolate};
 use withy::integrators::{Constraints, Mechanism, Stage};
 use withy::joints::{
-    Conserving, Contact, ContactUnknowns, Exact, Held, Relaxed, Released, SLIDING_RULES,
-    SlidingLaw, Unit,
+    Conserving, Contact, ContactUnknowns, Exact, Held, Kink, Relaxed, Released, SLIDING_RULES,
+    SlidingLaw, Smeared, Unit,
 };
 use withy::linalg::BorderedMatrix;
 use withy::model::{Model, TrackEnd, TrackLimit};
 
-const LAWS: [(&str, &dyn SlidingLaw); 5] = [
+const LAWS: [(&str, &dyn SlidingLaw); 6] = [
     ("conserving", &Conserving),
+    ("smeared", &Smeared),
     ("exact", &Exact),
     ("relaxed", &Relaxed),
     ("held", &Held),
@@ -32,6 +33,14 @@ struct State {
     from: f64,
     length: f64,
     mesh: Mesh,
+    /// Kink length [length], compliance [1/force] and contact force at the start of the step, where the mesh has kink lengths.
+    kink: Option<(PiecewisePolynomial, f64, Vec2)>,
+}
+
+/// The kink lengths of a mesh of an axis of that length.
+fn kink_of(mesh: &Mesh, length: f64) -> Option<PiecewisePolynomial> {
+    let axis = Curve::line(Vec2::zeros(), Vec2::new(length, 0.0)).unwrap();
+    kink_length(mesh, &interpolate(&axis, mesh.basis()).unwrap()).unwrap()
 }
 
 impl State {
@@ -45,11 +54,17 @@ impl State {
         passage.go(self.from, self.from + unknowns.way);
         let window = passage.first()..passage.first() + passage.end().len();
         let (before, moved) = (&self.before[window.clone()], &moved[window]);
+        let kink = self.kink.as_ref().map(|(length, compliance, before)| Kink {
+            along: passage.along(length),
+            compliance: *compliance,
+            before: *before,
+        });
         let contact = Contact {
             passage: &passage,
             master: (before, moved),
             slave_moved: vector(0),
             unknowns,
+            kink,
             length: self.length,
         };
         f(&contact, &passage)
@@ -78,6 +93,7 @@ fn states() -> Vec<State> {
                 unknowns: ContactUnknowns { force: vector(5.0), couple: vector(2.0), way },
                 from,
                 length: 2.5,
+                kink: kink_of(&mesh, 2.5).map(|length| (length, 0.3, vector(5.0))),
                 mesh: mesh.clone(),
             });
         }
@@ -182,7 +198,7 @@ fn what_a_contact_does_is_what_its_equations_leave() {
             close("work", work, -lost);
 
             let length = contact.length;
-            let [x, y, cx, cy, sliding] = Conserving.equations(contact).map(|e| e.value);
+            let [x, y, cx, cy, sliding] = Smeared.equations(contact).map(|e| e.value);
             close("the gap along x", x, gap.x);
             close("the gap along y", y, gap.y);
             close("sliding", sliding * length, lambda.dot(&tau) + 4.0 * eta.dot(&d));
@@ -192,6 +208,32 @@ fn what_a_contact_does_is_what_its_equations_leave() {
                 cross(tau, couple) / tau.norm_squared(),
                 cross(tau, eta) + cross(d, lambda),
             );
+            close(
+                "no more couple than needed",
+                couple.dot(&tau),
+                eta.dot(&tau) * tau.norm_squared(),
+            );
+
+            // With the kink: what the slave is off the smooth axis at both ends of the step, and the energy there.
+            let (offsets, energies) = contact.kink.map_or(([Vec2::zeros(); 2], [0.0; 2]), |kink| {
+                let ends =
+                    [(kink.along.start, kink.before), (kink.along.end, contact.force_at_end())];
+                (
+                    ends.map(|(g, p)| p * (g * kink.compliance)),
+                    ends.map(|(g, p)| 0.5 * g * p.norm_squared() * kink.compliance),
+                )
+            });
+            let [x, y, cx, cy, sliding] = Conserving.equations(contact).map(|e| e.value);
+            close("the gap to the kinked axis along x", x, gap.x - offsets[1].x);
+            close("the gap to the kinked axis along y", y, gap.y - offsets[1].y);
+            let kept = way * sliding * length;
+            let stored = energies[1] - energies[0];
+            let on_kink = lambda.dot(&(offsets[1] - offsets[0]));
+            close("energy", kept, way * (4.0 * eta.dot(&d) + lambda.dot(&tau)) + on_kink - stored);
+            let couple = Vec2::new(cx, cy) * length.powi(2);
+            let turned = way * (cross(tau, eta) + cross(d, lambda))
+                + cross(offsets[0] + offsets[1], lambda) * 0.5;
+            close("couple", way * cross(tau, couple) / tau.norm_squared(), turned);
             close(
                 "no more couple than needed",
                 couple.dot(&tau),
@@ -307,6 +349,10 @@ fn the_equations_of_a_law_have_the_units_that_they_say() {
                     from: state.from,
                     length: state.length * lengths,
                     mesh: state.mesh.clone(),
+                    kink: state.kink.as_ref().and_then(|(_, compliance, before)| {
+                        let length = kink_of(&state.mesh, state.length * lengths)?;
+                        Some((length, compliance / forces, before * forces))
+                    }),
                 };
                 scaled.with(&scaled.numbers(), |contact, _| {
                     law.equations(contact).map(|equation| (equation.value, equation.unit))

@@ -1,7 +1,7 @@
 //! The contact of a slider in one step: where the master passes, and the forces on both.
 
 use super::{Equation, Unit};
-use crate::geometry::{Passage, Vec2};
+use crate::geometry::{AlongWay, Passage, Vec2};
 
 /// The number of unknowns of a contact: `λ` and `η` with two components each, and `Δξ`.
 pub const CONTACT_UNKNOWNS: usize = 5;
@@ -50,6 +50,17 @@ pub struct Along {
     pub by_way: Vec2,
 }
 
+/// How the contact force kinks the axis of the master where the slave is, beyond what its mesh knows: by `g p/GA` across it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Kink {
+    /// The kink length `g` of the master along the way of the slave [length].
+    pub along: AlongWay,
+    /// The compliance `1/GA` of the master [1/force].
+    pub compliance: f64,
+    /// The contact force `p0` on the master at the start of the step [force].
+    pub before: Vec2,
+}
+
 /// The kinematics of a sliding contact in a step, of which the laws of sliding are made, with places counted from where the slave starts.
 ///
 /// The forces are the same in all laws: the slave gets `-λ`, control point `i` of the master `B̄_i λ - Δξ D_i η`.
@@ -64,6 +75,8 @@ pub struct Contact<'a> {
     pub slave_moved: Vec2,
     /// The unknowns of the contact: `λ` [force], `η` [force] and `Δξ` [-].
     pub unknowns: ContactUnknowns,
+    /// The kink of the master under the contact force, where the contact has one.
+    pub kink: Option<Kink>,
     /// The length of the master for a parameter of one, by which equations become lengths and forces [length].
     pub length: f64,
 }
@@ -155,6 +168,26 @@ impl Contact<'_> {
             by_unknowns: ContactUnknowns { way: -point.by_way.dot(&axis), ..NONE },
             ..Equation::new(gap.dot(&axis), Unit::Length)
         })
+    }
+
+    /// The contact force `p1 = 2 λ - p0` on the master at the end of the step [force]; `λ` where nothing is known of forces at ends of steps.
+    pub fn force_at_end(&self) -> Vec2 {
+        let force = self.unknowns.force;
+        self.kink.map_or(force, |kink| force * 2.0 - kink.before)
+    }
+
+    /// The equations of a gap to the kinked axis that is closed at the end of the step: `x_s1 = Σ B_i(ξ1) x_i1 + g1 p1/GA`.
+    pub(super) fn closed_on_kinked_axis(&self) -> [Equation; 2] {
+        let mut equations = self.closed();
+        if let Some(Kink { along, compliance, .. }) = self.kink {
+            let force = self.force_at_end() * compliance;
+            for (equation, axis) in equations.iter_mut().zip(AXES) {
+                equation.value -= along.end * force.dot(&axis);
+                equation.by_unknowns.force -= axis * (2.0 * compliance * along.end);
+                equation.by_unknowns.way -= along.slope * force.dot(&axis);
+            }
+        }
+        equations
     }
 
     /// The equations `η = 0` of a contact without a couple.

@@ -12,9 +12,10 @@ mod law;
 mod relaxed;
 mod released;
 mod rule;
+mod smeared;
 
 pub use conserving::Conserving;
-pub use contact::{Along, CONTACT_UNKNOWNS, Contact, ContactUnknowns};
+pub use contact::{Along, CONTACT_UNKNOWNS, Contact, ContactUnknowns, Kink};
 pub use equation::{Equation, Unit};
 pub use exact::Exact;
 pub use held::Held;
@@ -22,3 +23,4 @@ pub use law::SlidingLaw;
 pub use relaxed::Relaxed;
 pub use released::Released;
 pub use rule::{RuleClaims, RuleEntry, SLIDING_RULES, SlidingRule};
+pub use smeared::Smeared;

@@ -1,7 +1,7 @@
 //! The parts of a scene put together.
 
 use super::Numbering;
-use crate::beams::{BodyDynamics, Mesh, Particle, Place, Station, discretise};
+use crate::beams::{BodyDynamics, Mesh, Particle, Place, Section, Station, discretise};
 use crate::geometry::{GeometryError, Vec2, interpolate};
 use crate::joints::{CONTACT_UNKNOWNS, Partner};
 use crate::model::bodies::{Bodies, Body, Tracker};
@@ -178,6 +178,10 @@ impl Site for Assembly<'_> {
 
     fn mesh(&self, beam: usize) -> &Mesh {
         &self.meshes[beam]
+    }
+
+    fn section(&self, beam: usize) -> &Section {
+        &self.scene.beams[beam].section
     }
 
     fn body(&self, index: usize) -> &dyn BodyDynamics {

@@ -1,11 +1,13 @@
 //! Sliders from description to model.
 
 use super::{Assembly, Numbering};
-use crate::beams::Station;
-use crate::geometry::Passage;
-use crate::joints::{Slider, StartVelocities};
+use std::sync::Arc;
+
+use crate::beams::{Station, kink_length};
+use crate::geometry::{Passage, PiecewisePolynomial};
+use crate::joints::{Slider, SlidingRule, StartVelocities};
 use crate::model::elements::Site;
-use crate::model::sliders::{Bar, Connection, Sliding, Track};
+use crate::model::sliders::{Bar, Connection, KinkedAxis, Sliding, Track};
 use crate::model::words::SliderError;
 use crate::model::{BeamDefinition, Model, ModelError, Scene};
 
@@ -17,6 +19,7 @@ impl Assembly<'_> {
     /// The sliders of the scene with their contacts, in its order.
     pub fn sliders(&self, numbering: &Numbering) -> Result<Vec<Sliding>, ModelError> {
         let mut sliders: Vec<Sliding> = Vec::new();
+        let mut kink_lengths = vec![None; self.scene.beams.len()];
         for (index, slider) in self.scene.sliders.iter().enumerate() {
             let place = self.place(&slider.slave)?;
             let slave = (place.body, place.nearest_control_point());
@@ -40,9 +43,31 @@ impl Assembly<'_> {
             let bars = (bar(beam), self.scene.beams.get(slave.0).map(bar));
             let (passage, parameter) =
                 (Passage::new(basis.clone()), self.slider_parameter(slider)?);
-            sliders.push(Sliding::new(slider, connection, passage, parameter, track, bars));
+            let axis = self.kinked_axis(slider, &mut kink_lengths)?;
+            sliders.push(Sliding::new(slider, connection, passage, parameter, track, bars, axis));
         }
         Ok(sliders)
+    }
+
+    /// The axis of a slider's master as the contact force kinks it, if the rule knows of that and the mesh of the master has kink lengths, which are found once.
+    fn kinked_axis(
+        &self,
+        slider: &Slider,
+        found: &mut [Option<Option<Arc<PiecewisePolynomial>>>],
+    ) -> Result<Option<KinkedAxis>, ModelError> {
+        if slider.rule != SlidingRule::Conserving {
+            return Ok(None);
+        }
+        let (master, beam) = (slider.master, &self.scene.beams[slider.master]);
+        if found[master].is_none() {
+            let points = self.bodies[master].control_points();
+            let wrap = |source| ModelError::Beam { beam: beam.name.clone(), source };
+            let length = kink_length(self.mesh(master), points).map_err(wrap)?;
+            found[master] = Some(length.map(Arc::new));
+        }
+        let axis =
+            |length| KinkedAxis::new(length, beam.axis.length(), beam.section.shear_stiffness);
+        Ok(found[master].clone().flatten().map(axis))
     }
 
     /// The parameter of the mesh of its master at which a slider starts.

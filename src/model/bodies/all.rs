@@ -3,7 +3,7 @@
 use std::ops::{Deref, DerefMut};
 
 use super::{Body, Momenta, Tracker};
-use crate::beams::{Mesh, Place, RotationIncrement};
+use crate::beams::{Mesh, Movement, Place, RotationIncrement};
 use crate::geometry::{Vec2, larger};
 
 /// A function that is smaller than this at a place is zero there.
@@ -118,6 +118,11 @@ impl Bodies {
             tracker.advance(self.all[tracker.place.body].moved(), rotations);
         }
         self.all.iter_mut().for_each(|body| body.advance(rotations));
+    }
+
+    /// The values of unknowns at the control points of every body; supported movements are zero.
+    pub fn by_control_point(&self, values: &[f64]) -> Vec<Vec<Movement>> {
+        self.iter().map(|body| body.by_control_point(values).collect()).collect()
     }
 
     /// Gives every movement of every control point a number of its own, as if nothing were joined; the numbers that they had.

@@ -79,6 +79,12 @@ impl Body {
         &self.moved
     }
 
+    /// The values of the unknowns at the control points of this body; supported movements are zero.
+    pub fn by_control_point(&self, values: &[f64]) -> impl Iterator<Item = Movement> {
+        let value = |at: usize| values.get(at).copied().unwrap_or(0.0);
+        self.degrees_of_freedom.iter().map(move |degrees| degrees.map(value))
+    }
+
     /// The movement of a place of this body [length, length, rad], from values of the unknowns.
     pub fn at(&self, place: &Place, values: &[f64]) -> Movement {
         let mut sum = [0.0; 3];

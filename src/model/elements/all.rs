@@ -3,7 +3,7 @@
 use super::element::Assembled;
 use super::point_mass::Lump;
 use super::{Exchange, ForceElement, Iterate, Resistance, Weight};
-use crate::beams::{ForceSummary, RotationIncrement, SpanAtRest};
+use crate::beams::{ForceSummary, Movement, RotationIncrement, SpanAtRest};
 use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
 use crate::loads::LoadError;
@@ -51,7 +51,7 @@ impl Elements {
         self.forces.iter().map(|force| &**force)
     }
 
-    /// What resists movements of bodies: springs and dampers, in the order of the scene.
+    /// What resists movements of bodies: springs, dampers, damping of beams, drag, in the order of the scene.
     pub fn resistances(&self) -> impl Iterator<Item = &dyn Resistance> + Clone {
         self.resistances.iter().map(|resistance| &**resistance)
     }
@@ -186,16 +186,14 @@ impl Elements {
         self.resistances().map(Resistance::dissipated).fold(0.0, |sum, dissipated| sum + dissipated)
     }
 
-    /// The forces in springs and dampers at the start of the step with such rates of the unknowns [force, force·length].
-    pub fn resisting(&self, bodies: &[Body], rates: &[f64]) -> Vec<f64> {
-        self.resistances().map(|resistance| resistance.force_now(bodies, rates)).collect()
+    /// Adds what resists such rates of the control points of all bodies, with what springs store, to the forces on bodies.
+    pub fn add_resisting(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
+        self.resistances().for_each(|resistance| resistance.add_forces_now(bodies, rates, out));
     }
 
-    /// Adds such forces in springs and dampers to those on bodies, at the start of the step.
-    pub fn add_resisting(&self, bodies: &[Body], forces: &[f64], out: &mut [f64]) {
-        for (resistance, force) in self.resistances().zip(forces) {
-            resistance.add_force(bodies, *force, out);
-        }
+    /// The power that is dissipated at such rates of the unknowns, at the start of the step [energy/time].
+    pub fn dissipation(&self, bodies: &[Body], rates: &[f64]) -> f64 {
+        self.resistances().map(|resistance| resistance.dissipation(bodies, rates)).sum()
     }
 
     /// Gives how springs resist small movements at rest: degrees of freedom, and their rows.

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::point_mass::Lump;
-use super::{ForceElement, PointMass, Resistance, Spring};
-use crate::beams::{BodyDynamics, Mesh, Place, Station};
+use super::{Drag, ForceElement, MaterialDamping, PointMass, Resistance, Spring};
+use crate::beams::{BodyDynamics, Mesh, Place, Section, Station};
 use crate::geometry::GeometryError;
 use crate::loads::{Load, Schedule};
 use crate::model::ModelError;
@@ -20,6 +20,10 @@ pub enum Element {
     Load(Load),
     /// A spring, a damper or a tendon.
     Spring(Spring),
+    /// The damping of the material of a beam.
+    Damping(MaterialDamping),
+    /// Drag of air or water.
+    Drag(Drag),
 }
 
 impl Element {
@@ -29,6 +33,8 @@ impl Element {
             Self::PointMass(_) => "mass",
             Self::Load(_) => "load",
             Self::Spring(_) => "spring",
+            Self::Damping(_) => "damping",
+            Self::Drag(_) => "drag",
         }
     }
 
@@ -38,6 +44,8 @@ impl Element {
             Self::PointMass(_) => None,
             Self::Load(load) => Some(&mut load.name),
             Self::Spring(spring) => Some(&mut spring.name),
+            Self::Damping(damping) => Some(&mut damping.name),
+            Self::Drag(drag) => Some(&mut drag.name),
         }
     }
 
@@ -47,6 +55,8 @@ impl Element {
             Self::PointMass(mass) => mass,
             Self::Load(load) => load,
             Self::Spring(spring) => spring,
+            Self::Damping(damping) => damping,
+            Self::Drag(drag) => drag,
         }
     }
 }
@@ -119,6 +129,9 @@ pub trait Site {
 
     /// The mesh of a beam, by its index.
     fn mesh(&self, beam: usize) -> &Mesh;
+
+    /// The section of a beam, by its index.
+    fn section(&self, beam: usize) -> &Section;
 
     /// A body at its start, by its index: beams come first, then particles.
     fn body(&self, index: usize) -> &dyn BodyDynamics;

@@ -8,7 +8,7 @@
 //! places are advanced by increments, so that they do not depend on how far from the origin everything has moved.
 
 use super::{Iterate, collocation};
-use crate::beams::{Place, RotationIncrement};
+use crate::beams::{Movement, Place, RotationIncrement};
 use crate::elementary::atan;
 use crate::geometry::Vec2;
 use crate::model::bodies::Body;
@@ -120,6 +120,19 @@ impl Elongation {
             .filter_map(|(coordinate, slope)| {
                 let (place, component) = coordinate?;
                 Some(slope * bodies[place.body].at(place, correction)[component])
+            })
+            .sum()
+    }
+
+    /// The rate of `q` at the start of the step, where everything was taken last, with such rates of the control points of all bodies.
+    pub fn rate(&self, rates: &[Vec<Movement>]) -> f64 {
+        let coordinates = self.coordinates().zip(&self.slope);
+        coordinates
+            .filter_map(|(coordinate, slope)| {
+                let (place, component) = coordinate?;
+                let rates = &rates[place.body];
+                let shares = place.weights().map(|(point, share)| share * rates[point][component]);
+                Some(slope * shares.fold(0.0, |sum, rate| sum + rate))
             })
             .sum()
     }

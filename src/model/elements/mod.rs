@@ -2,6 +2,9 @@
 //! [`Element`].
 
 mod all;
+mod drag;
+mod drag_forces;
+mod drag_law;
 mod drive;
 mod element;
 mod elongation;
@@ -11,6 +14,8 @@ mod force_element;
 mod guides;
 mod hidden_force;
 mod load;
+mod material_damping;
+mod pace;
 mod pattern;
 mod point_mass;
 mod resistance;
@@ -21,13 +26,16 @@ mod supports;
 mod weight;
 
 pub use all::Elements;
+pub use drag::{Drag, Dragged};
+pub use drag_law::Along;
 pub use drive::{Drive, DriveKind};
 pub use element::{Element, Setting, Site};
 pub use exchange::Exchange;
 pub use force_element::{ForceElement, Iterate, LoadAccount, collocation};
 pub use guides::{DriveState, Guided, Guides};
+pub use material_damping::MaterialDamping;
 pub use point_mass::PointMass;
-pub use resistance::Resistance;
+pub use resistance::{Resistance, Stretched};
 pub use restoring::RestoringLaw;
 pub use spring::{Anchor, Origin, Spring, SpringKind};
 pub use supports::{Support, Supports};

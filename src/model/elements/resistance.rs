@@ -1,10 +1,19 @@
 //! What an element that resists movements offers to the steps of a model: a spring, a damper.
 
 use super::{Exchange, Iterate};
-use crate::beams::{ForceSummary, SpanAtRest};
+use crate::beams::{ForceSummary, Movement, SpanAtRest};
 use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
 use crate::model::bodies::Body;
+
+/// What a spring measures, and its force.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stretched {
+    /// What it measures at the start of the step: a length [length] or an angle [rad].
+    pub elongation: f64,
+    /// The force in it, or the moment, mean of the last step [force, force·length].
+    pub force: f64,
+}
 
 /// An element that resists movements of bodies, with an energy that it stores or with what it dissipates.
 ///
@@ -51,20 +60,19 @@ pub trait Resistance {
     /// What it has dissipated since the start of the simulation [energy].
     fn dissipated(&self) -> f64;
 
-    /// The force in it, or the moment, mean of the last step [force, force·length].
-    fn force(&self) -> f64;
+    /// What it measures and its force, where it has one of each: a spring.
+    fn stretched(&self) -> Option<Stretched> {
+        None
+    }
 
-    /// What it measures at the start of the step: a length [length] or an angle [rad].
-    fn elongation(&self) -> f64;
+    /// Adds the forces of such rates of the bodies to those on them, at the start of the step.
+    fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]);
 
-    /// The force in it, or the moment, at the start of the step with such rates of the unknowns [force, force·length].
-    fn force_now(&self, bodies: &[Body], rates: &[f64]) -> f64;
-
-    /// Adds a force in it to those on bodies, at the start of the step.
-    fn add_force(&self, bodies: &[Body], force: f64, out: &mut [f64]);
+    /// The power that it dissipates at such rates of the unknowns, at the start of the step [energy/time].
+    fn dissipation(&self, bodies: &[Body], rates: &[f64]) -> f64;
 
     /// Gives how it resists small movements at rest: degrees of freedom, and its rows.
-    fn at_rest(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanAtRest));
+    fn at_rest(&self, _bodies: &[Body], _take: &mut dyn FnMut(&[usize], &SpanAtRest)) {}
 
     /// Appends the state at the start of a step.
     fn save(&self, state: &mut Vec<f64>);

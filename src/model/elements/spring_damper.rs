@@ -7,10 +7,11 @@
 
 use super::elongation::Elongation;
 use super::hidden_force::{HiddenForce, Target};
-use super::resistance::Resistance;
+use super::resistance::{Resistance, Stretched};
 use super::restoring::RestoringLaw;
 use super::{Exchange, Iterate, collocation};
-use crate::beams::{ForceSummary, RotationIncrement, SpanAtRest};
+use crate::beams::{ForceSummary, Movement, RotationIncrement, SpanAtRest};
+use crate::elementary::square;
 use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
@@ -283,25 +284,23 @@ impl Resistance for SpringDamper {
         self.dissipated
     }
 
-    fn force(&self) -> f64 {
-        self.spring.last + self.damper.last
+    fn stretched(&self) -> Option<Stretched> {
+        let force = self.spring.last + self.damper.last;
+        Some(Stretched { elongation: self.elongation.value(), force })
     }
 
-    fn elongation(&self) -> f64 {
-        self.elongation.value()
-    }
-
-    fn force_now(&self, bodies: &[Body], rates: &[f64]) -> f64 {
+    fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
         let mut elongation = self.elongation.clone();
         elongation.rest();
-        let rate = elongation.along(&elongation.slope, bodies, rates);
-        self.restoring_at_start() + self.damping * rate
-    }
-
-    fn add_force(&self, bodies: &[Body], force: f64, out: &mut [f64]) {
-        let mut elongation = self.elongation.clone();
-        elongation.rest();
+        let rate = elongation.rate(rates);
+        let force = self.restoring_at_start() + self.damping * rate;
         self.scatter(bodies, &elongation.slope, force, out);
+    }
+
+    fn dissipation(&self, bodies: &[Body], rates: &[f64]) -> f64 {
+        let mut elongation = self.elongation.clone();
+        elongation.rest();
+        self.damping * square(elongation.along(&elongation.slope, bodies, rates))
     }
 
     fn at_rest(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanAtRest)) {

@@ -27,11 +27,12 @@ impl Model {
         self.slider(slider).blows_in_a_step
     }
 
-    /// The force that a slider put on its master in the last step, the mean of the step [force]; the slave got the opposite.
+    /// The force of a slider on its master [force]; the slave gets the opposite. With the conserving rule it is the one at present, with all others the
+    /// mean of the last step.
     ///
     /// Zero before the first step and after a release.
     pub fn contact_force(&self, slider: usize) -> Vec2 {
-        self.slider(slider).unknowns.force
+        self.slider(slider).contact_force()
     }
 
     /// The place of a slider along its master as drawn: 0 at its start, 1 at its end [-].

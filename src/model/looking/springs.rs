@@ -1,7 +1,7 @@
 //! Looking at springs and dampers: what they measure, their forces, and their part of the ledger.
 
 use crate::model::Model;
-use crate::model::elements::Resistance;
+use crate::model::elements::{Resistance, Stretched};
 
 /// What a spring or a damper is in, in the present state.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,11 +19,16 @@ pub struct SpringState {
 impl Model {
     /// The states of all springs and dampers, in the order of the scene.
     pub fn springs(&self) -> impl Iterator<Item = SpringState> {
-        self.elements().resistances().map(|spring: &dyn Resistance| SpringState {
-            elongation: spring.elongation(),
-            force: spring.force(),
-            stored: spring.stored(),
-            dissipated: spring.dissipated(),
+        self.elements().resistances().filter_map(|spring: &dyn Resistance| {
+            let Stretched { elongation, force } = spring.stretched()?;
+            let (stored, dissipated) = (spring.stored(), spring.dissipated());
+            Some(SpringState { elongation, force, stored, dissipated })
         })
+    }
+
+    /// What else has dissipated since the start, in the order of the scene: damping of materials, drag [energy].
+    pub fn dissipations(&self) -> impl Iterator<Item = f64> {
+        let others = self.elements().resistances().filter(|other| other.stretched().is_none());
+        others.map(Resistance::dissipated)
     }
 }

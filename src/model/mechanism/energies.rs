@@ -9,7 +9,7 @@ pub struct BodyEnergy {
     pub kinetic: f64,
     /// `½ ∫ EA Γ1² dX`
     pub axial: f64,
-    /// `½ ∫ GA Γ2² dX`
+    /// `½ ∫ GA Γ2² dX`, with that of kinks under sliders.
     pub shear: f64,
     /// `½ ∫ EI κ² dX`
     pub bending: f64,
@@ -36,6 +36,7 @@ impl Model {
         let own = self.bodies[body].momenta(rates).twice_kinetic;
         let carried = self.elements.twice_kinetic_on(&self.bodies, body, rates);
         let [axial, shear, bending] = self.bodies[body].dynamics.strain_energies();
+        let shear = shear + self.sliders.strain_energy(Some(body));
         let potential = self.elements.potential_of(&self.bodies, body);
         BodyEnergy { kinetic: 0.5 * (own + carried), axial, shear, bending, potential }
     }

@@ -4,6 +4,7 @@
 //! M a + F(x) - f(t) - Gᵀ λ = r        G a = 2 ξ̇ u·Σ B_i' v_i + ξ̇² u·Σ B_i'' x_i        r = 0 but where something is held
 //! ```
 //!
+//! Where the axis gives way under a slider, `λ` is known, as is the kink.
 //! Configuration and rates at the end of a step are of second order with every method, and so is what follows from them. It is a matter of the
 //! present state alone: the same after going back, in a copy and from a file. Where steps do not resolve a vibration, it rings with it, while the
 //! mean of two neighbouring steps does not.
@@ -30,6 +31,11 @@ pub struct Instant {
 }
 
 impl Instant {
+    /// The accelerations of the unknown movements [length/time², 1/time²].
+    pub fn accelerations(&self) -> &[f64] {
+        &self.accelerations
+    }
+
     /// What joints and supports give to a control point of a body.
     pub fn given(&self, (body, point): (usize, usize)) -> Movement {
         self.given[body][point]
@@ -52,7 +58,7 @@ impl Model {
         self.elements
             .hold_at(time)
             .map_err(|(load, source)| refused(format!("{load}: {source}")))?;
-        let resisting = self.elements.resisting(&self.bodies, &self.motion.rates);
+        let rates = self.bodies.by_control_point(&self.motion.rates);
         let joined = self.bodies.number_apart();
         let mut apart = vec![0.0; joined.iter().map(|body| 3 * body.len()).sum()];
         for body in self.bodies.iter_mut() {
@@ -60,7 +66,7 @@ impl Model {
         }
         let at = Iterate { bodies: &self.bodies, stage: Stage::End, increments: &[], weight: 1.0 };
         self.elements.subtract_from(at, &mut apart);
-        self.elements.add_resisting(&self.bodies, &resisting, &mut apart);
+        self.elements.add_resisting(&self.bodies, &rates, &mut apart);
         let own = self.bodies.number_as(joined);
 
         let degrees: Vec<usize> = self
@@ -75,8 +81,16 @@ impl Model {
             let given = self.supports.guides().accelerations();
             self.add_inertia(1.0, &given, &mut residual);
         }
-        let (accelerations, contacts) =
+        for slider in self.sliders.iter().filter(|slider| slider.gives_way()) {
+            slider.transmit(&self.bodies, slider.contact_force(), &mut residual);
+        }
+        let (accelerations, mut contacts) =
             self.answer(&residual).map_err(|error| refused(error.to_string()))?;
+        for (contact, slider) in contacts.iter_mut().zip(self.sliders.iter()) {
+            if slider.gives_way() {
+                *contact += slider.contact_force();
+            }
+        }
 
         let joined = self.bodies.number_as(own);
         let of_all: Vec<f64> =

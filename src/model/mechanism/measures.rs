@@ -10,7 +10,7 @@ use crate::geometry::{Vec2, larger};
 pub struct Energy {
     /// The kinetic energy `½ ∫ ρA |ẋ|² + ρI θ̇² dX`, with that of point masses [energy].
     pub kinetic: f64,
-    /// The strain energy `½ ∫ Γ·CΓ + EI κ² dX` [energy].
+    /// The strain energy `½ ∫ Γ·CΓ + EI κ² dX`, with that of kinks under sliders [energy].
     pub strain: f64,
     /// The potential energy of gravity, zero at the origin [energy].
     pub potential: f64,
@@ -60,7 +60,7 @@ impl Model {
         self.elements.add_momenta(&self.bodies, rates, &mut momenta);
         let energy = Energy {
             kinetic: 0.5 * momenta.twice_kinetic,
-            strain: self.bodies.strain_energy(),
+            strain: self.bodies.strain_energy() + self.sliders.strain_energy(None),
             potential: self.elements.energy(&self.bodies),
             stored: self.elements.stored(),
         };

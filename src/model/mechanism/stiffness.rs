@@ -22,6 +22,12 @@ impl Model {
         self.elements.each_at_rest(&self.bodies, take);
     }
 
+    /// The power that dampers, damped materials and drag dissipate at such rates of the unknowns in the present configuration, as at rest there
+    /// [energy/time].
+    pub fn dissipation(&self, rates: &[f64]) -> f64 {
+        self.elements.dissipation(&self.bodies, rates)
+    }
+
     /// About the square of the slowest bending, as if all beams were one: the least `EI` over the largest `ρA` and the fourth power of
     /// their length together; none without a beam [1/time²].
     pub fn slowest_bending(&self) -> Option<f64> {

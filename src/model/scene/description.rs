@@ -10,7 +10,7 @@ use crate::geometry::Vec2;
 use crate::joints::{Joint, JointKind, Partner, Slider};
 use crate::loads::{Load, LoadKind, Schedule};
 use crate::model::ModelError;
-use crate::model::elements::{Drive, Element, PointMass, Setting, Spring};
+use crate::model::elements::{Drive, Element, MaterialDamping, PointMass, Setting, Spring};
 use crate::model::words::{refusal, rounded};
 
 /// What is simulated: beams, particles, joints, masses and loads.
@@ -180,7 +180,8 @@ impl Scene {
         let springs = self.springs().map(|spring| ("spring", &spring.name));
         let drives = self.drives.iter().map(|drive| (drive.kind.name(), &drive.name));
         let loads = self.loads().filter_map(|load| Some(("load", load.title.as_ref()?)));
-        beams.chain(particles).chain(sliders).chain(springs).chain(drives).chain(loads)
+        let drags = self.drags().map(|drag| ("drag", &drag.name));
+        beams.chain(particles).chain(sliders).chain(springs).chain(drags).chain(drives).chain(loads)
     }
 
     pub(in crate::model) fn check_name(
@@ -256,6 +257,12 @@ impl Scene {
     /// When a number of it is out of its range, or a station is none of the scene.
     pub fn add_element(&mut self, element: Element) -> Result<(), ModelError> {
         element.description().check(self)?;
+        if let Element::Damping(MaterialDamping { name, .. }) = &element
+            && self.dissipating().any(|other| other == name)
+        {
+            let (kind, new) = ("damping of beam", "damping");
+            return Err(ModelError::DuplicateName { kind, new, name: name.clone() });
+        }
         self.elements.push(element);
         Ok(())
     }

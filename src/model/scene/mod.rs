@@ -4,6 +4,7 @@ mod definitions;
 mod description;
 mod drives;
 mod likeness;
+mod resisting;
 mod sensors;
 mod sliders;
 mod stored;

@@ -134,6 +134,13 @@ impl Sliders {
         self.iter().map(|slider| slider.gap(bodies).norm()).fold(0.0, larger)
     }
 
+    /// The energy of the kinks under all contact forces on a body, or on all bodies [energy].
+    pub fn strain_energy(&self, of: Option<usize>) -> f64 {
+        let asked =
+            self.iter().filter(|slider| of.is_none_or(|body| slider.connection.master == body));
+        asked.map(Sliding::strain_energy).sum()
+    }
+
     /// What each slider does at present, in order.
     pub fn states(&self) -> impl Iterator<Item = SliderState> {
         self.iter().map(|slider| slider.state)
@@ -161,13 +168,14 @@ impl Sliders {
         SliderError::Overdetermined { sliders: names.join("', '") }.into()
     }
 
-    /// The directions [-] in which all contacts transmit forces, with the number of the slider: across the masters, and along them where
-    /// sliders are held or `strikes`.
+    /// The directions [-] in which all contacts transmit impulses, with the number of the slider: across masters that do not give way, and along
+    /// them where sliders are held or `strikes`.
     pub fn directions(&self, bodies: &[Body], strikes: usize) -> Vec<(usize, Vec2)> {
         let of_slider = |(at, slider): (usize, &Sliding)| {
             let (across, along) = (slider.across(bodies), slider.along(bodies));
             match slider.state {
                 SliderState::Released => vec![],
+                SliderState::Sliding if at != strikes && slider.gives_way() => vec![],
                 SliderState::Sliding if at != strikes => vec![(at, across)],
                 SliderState::Sliding | SliderState::Held(_) => vec![(at, across), (at, along)],
             }

@@ -4,11 +4,13 @@
 mod all;
 mod blow;
 mod connection;
+mod kinked_axis;
 mod sliding;
 mod track;
 
 pub use all::Sliders;
 pub use blow::{Bar, Blow};
 pub use connection::Connection;
+pub use kinked_axis::KinkedAxis;
 pub use sliding::Sliding;
 pub use track::{SliderState, Track, TrackEnd, TrackLimit};

@@ -1,7 +1,7 @@
 //! Sliders of the model: where they are, and what they add to the equations of a step.
 
 use super::track::LANDED;
-use super::{Bar, Blow, Connection, SliderState, Track, TrackEnd};
+use super::{Bar, Blow, Connection, KinkedAxis, SliderState, Track, TrackEnd};
 use crate::geometry::{Passage, Vec2, larger, perpendicular};
 use crate::integrators::{Ending, Interval};
 use crate::joints::{
@@ -31,6 +31,8 @@ pub struct Sliding {
     track: Track,
     /// Master and slave as blows run through them; the slave may be no beam.
     bars: (Bar, Option<Bar>),
+    /// The axis of the master as the contact force kinks it, where the rule knows of that.
+    kinked_axis: Option<KinkedAxis>,
     /// The length of the master for a parameter of one [length].
     length: f64,
     /// Where it is at the start of the step.
@@ -56,6 +58,7 @@ impl Sliding {
         parameter: f64,
         track: Track,
         bars: (Bar, Option<Bar>),
+        kinked_axis: Option<KinkedAxis>,
     ) -> Self {
         let (first, last) = track.domain();
         let functions = passage.basis().functions();
@@ -73,6 +76,7 @@ impl Sliding {
             size: track.length(),
             track,
             bars,
+            kinked_axis,
             here: passage.clone(),
             passage,
             before: Vec::with_capacity(functions),
@@ -80,13 +84,20 @@ impl Sliding {
             units: [Unit::Force; CONTACT_UNKNOWNS],
             chord: 1.0,
         };
-        new.here.go(parameter, parameter);
+        new.stand_at(parameter);
         new
     }
 
     /// The most entries that the equations of the contact have.
     pub fn row_entries(&self) -> usize {
         CONTACT_UNKNOWNS * 2 * (1 + self.passage.basis().functions())
+    }
+
+    /// Puts the slider at a parameter of its master.
+    fn stand_at(&mut self, parameter: f64) {
+        self.parameter = parameter;
+        self.here.go(parameter, parameter);
+        self.kinked_axis.iter_mut().for_each(|axis| axis.arrive(&self.here));
     }
 
     fn law(&self) -> &'static dyn SlidingLaw {
@@ -110,23 +121,45 @@ impl Sliding {
     pub fn release(&mut self) {
         self.state = SliderState::Released;
         self.unknowns = ContactUnknowns::zeros();
+        // At an end of the master there is no kink, and no energy in it.
+        self.kinked_axis.iter_mut().for_each(|axis| axis.force = Vec2::zeros());
+    }
+
+    /// The contact force on the master: where the axis is kinked by it, at present, else the mean of the last step [force].
+    pub fn contact_force(&self) -> Vec2 {
+        self.kinked_axis.as_ref().map_or(self.unknowns.force, |axis| axis.force)
+    }
+
+    /// Whether the contact force follows from how far the axis of the master is kinked, so that the contact transmits no impulse.
+    pub fn gives_way(&self) -> bool {
+        self.kinked_axis.as_ref().is_some_and(KinkedAxis::gives)
+    }
+
+    /// The energy of the kink under the contact force [energy].
+    pub fn strain_energy(&self) -> f64 {
+        self.kinked_axis.as_ref().map_or(0.0, KinkedAxis::energy)
     }
 
     /// How many numbers a slider saves, the parameter first.
-    pub const SAVED: usize = 3 + CONTACT_UNKNOWNS;
+    pub const SAVED: usize = 5 + CONTACT_UNKNOWNS;
 
     /// Appends the numbers of the slider; its state is no number.
     pub fn save(&self, numbers: &mut Vec<f64>) {
         numbers.extend([self.parameter, self.most_spans, self.blows_in_a_step]);
         numbers.extend(self.unknowns.to_array());
+        let force = self.contact_force();
+        numbers.extend([force.x, force.y]);
     }
 
     /// Takes state and numbers of the slider back, in the order in which these were appended.
     pub fn restore(&mut self, state: SliderState, next: &mut dyn FnMut() -> f64) {
         self.state = state;
-        (self.parameter, self.most_spans, self.blows_in_a_step) = (next(), next(), next());
+        let parameter = next();
+        (self.most_spans, self.blows_in_a_step) = (next(), next());
         self.unknowns = ContactUnknowns::of(std::array::from_fn(|_| next()));
-        self.here.go(self.parameter, self.parameter);
+        let force = Vec2::new(next(), next());
+        self.kinked_axis.iter_mut().for_each(|axis| axis.force = force);
+        self.stand_at(parameter);
     }
 
     /// Whether a parameter is one of the slider's master.
@@ -194,14 +227,12 @@ impl Sliding {
 
     /// The derivative of the place on the master by the parameter, `Σ B_i'(ξ) x_i` [length].
     fn tangent(&self, bodies: &[Body]) -> Vec2 {
-        let points = &bodies[self.connection.master].dynamics.control_points()[self.here.first()..];
-        // Slopes sum to zero: an origin amid the points changes nothing but the rounding.
-        self.here
-            .slope()
-            .iter()
-            .zip(points)
-            .map(|(slope, point)| (point - points[0]) * *slope)
-            .sum()
+        slope_of(self.here.slope(), self.window(bodies))
+    }
+
+    /// The control points of the master from the first one on that has a function where the slider is.
+    fn window<'a>(&self, bodies: &'a [Body]) -> &'a [Vec2] {
+        &bodies[self.connection.master].dynamics.control_points()[self.here.first()..]
     }
 
     /// The direction of the master where the slider is [-].
@@ -228,7 +259,9 @@ impl Sliding {
         let (body, point) = self.connection.slave;
         let slave = bodies[body].dynamics.control_points()[point];
         let master = bodies[self.connection.master].dynamics.control_points();
-        self.weights().map(|(index, weight)| (master[index] - slave) * weight).sum()
+        let to_axis: Vec2 =
+            self.weights().map(|(index, weight)| (master[index] - slave) * weight).sum();
+        to_axis + self.kinked_axis.as_ref().map_or(Vec2::zeros(), KinkedAxis::offset)
     }
 
     /// The velocity of the slave relative to its place on the master [length/time].
@@ -257,13 +290,30 @@ impl Sliding {
 
     /// The rate `dξ/dt` of the slider's parameter with the present velocities [1/time].
     pub fn rate(&self, bodies: &[Body], rates: &[f64]) -> f64 {
-        match self.state {
-            SliderState::Sliding => {
+        match (self.state, &self.kinked_axis) {
+            (SliderState::Sliding, Some(axis)) => self.rate_on(axis, bodies, rates),
+            (SliderState::Sliding, None) => {
                 let tangent = self.tangent(bodies);
                 self.relative_velocity(bodies, rates).dot(&tangent) / tangent.norm_squared()
             }
-            SliderState::Held(_) | SliderState::Released => 0.0,
+            (SliderState::Held(_) | SliderState::Released, _) => 0.0,
         }
+    }
+
+    /// The rate `dξ/dt` on a kinked axis, which gives way while the slider moves on: the derivative by time of `r·x' + ½ |r|² g'/g = 0`, with the offset
+    /// `r = g p/GA` of the slave from the smooth axis, solved for it.
+    fn rate_on(&self, axis: &KinkedAxis, bodies: &[Body], rates: &[f64]) -> f64 {
+        let (offset, (slope, bend)) = (axis.offset(), axis.slopes());
+        let (points, master) = (self.window(bodies), &bodies[self.connection.master]);
+        let values = self.here.basis().evaluate(self.parameter);
+        let bent = values
+            .map_or(Vec2::zeros(), |values| values.combine(2, master.dynamics.control_points()));
+        let turning = self.here.slope().iter().zip(self.here.first()..);
+        let turning: Vec2 = turning.map(|(by, at)| master.vector_at(at, rates) * *by).sum();
+        let tangent = slope_of(self.here.slope(), points);
+        let moved = self.relative_velocity(bodies, rates);
+        let stretch = tangent.norm_squared() - offset.dot(&bent) - bend;
+        (moved.dot(&(tangent + slope)) + offset.dot(&turning)) / stretch
     }
 
     fn read(&self, unknowns: &[f64]) -> ContactUnknowns {
@@ -303,8 +353,9 @@ impl Sliding {
         self.moved.clear();
         self.moved.extend(window.map(|at| master.vector_at(at, increments)));
         let slave_moved = slave.vector_at(point, increments);
-        let Self { passage, before, moved, length, .. } = self;
-        Contact { passage, master: (before, moved), slave_moved, unknowns, length: *length }
+        let Self { passage, before, moved, length, kinked_axis, .. } = self;
+        let kink = kinked_axis.as_ref().map(|axis| axis.along(passage));
+        Contact { passage, master: (before, moved), slave_moved, unknowns, kink, length: *length }
     }
 
     /// Adds the forces on slave and master to a residual, and behind the movements the equations of the contact; gives the contact force [force].
@@ -367,10 +418,11 @@ impl Sliding {
     pub fn advance(&mut self, bodies: &[Body], unknowns: &[f64], ending: Ending) {
         self.unknowns = self.read(unknowns);
         let before = self.parameter;
-        self.parameter += self.unknowns.way;
-        let passed = self.passage.spans_between(before, self.parameter);
+        let passed = self.passage.spans_between(before, before + self.unknowns.way);
         self.most_spans = self.most_spans.max(passed);
-        self.here.go(self.parameter, self.parameter);
+        self.stand_at(before + self.unknowns.way);
+        let mean = self.unknowns.force;
+        self.kinked_axis.iter_mut().for_each(|axis| axis.advance(mean));
         if let (SliderState::Held(end), Ending::OfStep) = (self.state, ending) {
             let outward = self.unknowns.force.dot(&self.tangent(bodies)) * end.outward();
             if outward < 0.0 {
@@ -378,4 +430,10 @@ impl Sliding {
             }
         }
     }
+}
+
+/// `Σ B_i' x_i`
+fn slope_of(slopes: &[f64], points: &[Vec2]) -> Vec2 {
+    // Slopes sum to zero: an origin amid the points changes nothing but the rounding.
+    slopes.iter().zip(points).map(|(slope, point)| (point - points[0]) * *slope).sum()
 }

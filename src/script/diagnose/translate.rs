@@ -243,7 +243,8 @@ impl Explainer<'_> {
             Error::ErrorDataRace(..) => (
                 "a closure uses the very object whose method it is given to".into(),
                 Some(format!(
-                    "in sim.at, take it from the argument: sim.at(t, |sim| print(sim.t)); {STEERED}"
+                    "in sim.at, take it from the argument: sim.at(t, |sim| print(sim.t)); where a map holds it, take it out first: \
+                     let scene = parts.scene; scene.record(\"height\", |q| q.position(parts.tip).y); {STEERED}"
                 )),
             ),
             Error::ErrorTerminated(stop, _) => stopped_by(stop).words(),

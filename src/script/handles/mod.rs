@@ -6,6 +6,7 @@ pub mod history;
 pub mod notes;
 pub mod report;
 pub mod scene;
+pub mod section;
 pub mod simulation;
 pub mod station;
 pub mod step_size;

@@ -8,6 +8,7 @@ mod checking;
 mod convergence_studies;
 mod cost_studies;
 mod curve_pictures;
+mod drag;
 mod drives;
 mod equilibria;
 mod explaining;
@@ -65,6 +66,7 @@ pub const TABLES: &[&Table] = &[
     &loads::TABLE,
     &drives::TABLE,
     &springs::TABLE,
+    &drag::TABLE,
     &equilibria::TABLE,
     &modes::TABLE,
     &simulations::TABLE,

@@ -70,6 +70,22 @@ pub const TABLE: Table = Table {
             .summary("How fast each mode grows if the configuration is unstable; 0 for what vibrates.")
             .example("check(scene.modes(1).growth_rates == [0]);")
             .see(&["is_stable"]),
+        told("damping_ratios", Returns::NUMBERS.unit("-"), |call| {
+            Ok(modes(call)?.0.modes.damping_ratios().map(Dynamic::from).collect::<Array>().into())
+        })
+        .summary("How strongly dampers, damped materials and drag damp each mode, as a part of critical damping; 0 where nothing does.")
+        .doc(
+            "φᵀ D φ/(2ω) with φᵀ M φ = 1: exact where damping does not couple modes, as that of a material whose relaxation times are equal, else to \
+             first order in the damping. The frequencies are those without damping.",
+        )
+        .example(
+            "let s = section(#{ EA: 1e6, GA: 1e6, EI: 100, rho_A: 1, rho_I: 1e-4, damping: #{ axial: 1e-3, shear: 1e-3, bending: 1e-3 } });\n\
+             let arm = scene.beam(#{ axis: line([0, 1], [4, 1]), basis: bspline(8), section: s });\n\
+             scene.clamp(arm.start);\nlet modes = scene.modes(2);\n\
+             check_close(modes.damping_ratios[0], 1e-3 * modes.angular_frequencies[0] / 2, 1e-9);\n\
+             check(modes.damping_ratios[1] == 0); // the rod",
+        )
+        .see(&["section", "damper"]),
         told("residuals", Returns::NUMBERS.unit("-"), |call| list(call, |mode| mode.residual))
             .summary("How far each mode is from balance: its ω² + σ is not wrong by more than this part of itself.")
             .doc(
@@ -141,7 +157,8 @@ impl Scripted for ModesHandle {
 
     fn show(&self) -> String {
         let mut table = TextTable::new(&["mode", "ω [rad/time]", "period [time]", ""]);
-        for (number, mode) in self.0.modes.all().iter().enumerate() {
+        let damped = self.0.modes.damping_ratios();
+        for (number, (mode, ratio)) in self.0.modes.all().iter().zip(damped).enumerate() {
             let shown = |value: f64| Cell::Number(significant(value, 7));
             let (period, remark) = match mode.square {
                 0.0 => {
@@ -154,6 +171,9 @@ impl Scripted for ModesHandle {
                 square if square < 0.0 => {
                     let rate = significant(mode.growth_rate(), 4);
                     (Cell::Text("-".into()), format!("unstable: grows like exp({rate} t)"))
+                }
+                _ if ratio > 0.0 => {
+                    (shown(mode.period()), format!("damping ratio {}", significant(ratio, 4)))
                 }
                 _ => (shown(mode.period()), String::new()),
             };

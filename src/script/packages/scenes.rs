@@ -14,6 +14,7 @@ use crate::model::{
 };
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::section::SectionHandle;
 use crate::script::handles::station::{StationHandle, here};
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Type;
@@ -186,15 +187,19 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
         spin: options.number_if_given("spin").unwrap_or(0.0),
         about: if options.has("about") { Some(options.point("about")?) } else { None },
     };
+    let SectionHandle { section, relaxation } = options.get("section")?;
     let definition = BeamDefinition {
         name: named.unwrap_or_else(|| scene.scene().borrow().free_name("beam")),
         axis: Curve::clone(&*options.get::<Rc<Curve>>("axis")?),
         mesh,
-        section: options.get("section")?,
+        section,
         motion,
     };
     let added = scene.scene().borrow_mut().add_beam(definition);
     let index = added.map_err(|error| ScriptError::from(error).at(Place::Key("name".into())))?;
+    if let Some(relaxation) = relaxation {
+        scene.scene().borrow_mut().add_damping(index, relaxation)?;
+    }
     Ok(Dynamic::from(BeamHandle { scene, index }))
 }
 

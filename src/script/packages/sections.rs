@@ -6,9 +6,9 @@ use rhai::{Dynamic, INT};
 
 use super::geometry::KNOTS;
 
-use crate::beams::{BeamError, Mesh, Quadrature, Section, Shape, Solid};
+use crate::beams::{BeamError, Mesh, Quadrature, Relaxation, Section, Shape, Solid};
 use crate::geometry::{Basis, KnotVector};
-use crate::output::significant;
+use crate::script::handles::section::SectionHandle;
 use crate::script::looks::details;
 use crate::script::rows::arguments::Arguments;
 use crate::script::rows::call::Call;
@@ -19,9 +19,6 @@ use crate::script::rows::parameter::{Parameter, Presence, choice, either, number
 use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function, property};
 use crate::script::words::error::{Place, ScriptError};
-
-/// Digits of a stiffness or an inertia where it is shown.
-const DIGITS: usize = 7;
 
 /// The domain of sections and meshes.
 pub const TABLE: Table = Table {
@@ -37,31 +34,35 @@ pub const TABLE: Table = Table {
             .doc(
                 "Either EA, GA, EI, rho_A and rho_I; or E, nu, density and a shape: \"rectangle\" with width and height \
                  (height lies in the plane of motion), \"circle\" with radius, \"tube\" with outer and inner radius. GA \
-                 contains the shear correction factor; that of shapes is Cowper's (1966).",
+                 contains the shear correction factor; that of shapes is Cowper's (1966). damping gives the material relaxation times \
+                 (Kelvin–Voigt): a section then resists with EI (κ + bending · κ̇), and so in tension and shear, and what it dissipates is \
+                 in the columns dissipated and dissipated.NAME of its beam. A vibration of frequency ω loses energy as with the damping \
+                 ratio bending · ω/2.",
             )
             .example(
-                "let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
+                "let rubber = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10, damping: #{ bending: 1e-3, axial: 1e-4 } });\n\
+                 let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
                  let steel = section(#{ E: 210e9, nu: 0.3, density: 7850, shape: \"rectangle\", width: 0.02, height: 0.01 });\n\
                  check_close(steel.EA, 210e9 * 0.02 * 0.01, 1);",
             )
             .see(&["beam"]),
-        property(SECTION, "EA", |call| Ok(call.receiver::<Section>()?.axial_stiffness.into()))
+        property(SECTION, "EA", |call| Ok(call.receiver::<SectionHandle>()?.section.axial_stiffness.into()))
             .returns(Returns::NUMBER)
             .summary("The axial stiffness [force].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.EA == 1e4);"),
-        property(SECTION, "GA", |call| Ok(call.receiver::<Section>()?.shear_stiffness.into()))
+        property(SECTION, "GA", |call| Ok(call.receiver::<SectionHandle>()?.section.shear_stiffness.into()))
             .returns(Returns::NUMBER)
             .summary("The shear stiffness, correction factor included [force].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.GA == 1e4);"),
-        property(SECTION, "EI", |call| Ok(call.receiver::<Section>()?.bending_stiffness.into()))
+        property(SECTION, "EI", |call| Ok(call.receiver::<SectionHandle>()?.section.bending_stiffness.into()))
             .returns(Returns::NUMBER)
             .summary("The bending stiffness [force·length²].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.EI == 100);"),
-        property(SECTION, "rho_A", |call| Ok(call.receiver::<Section>()?.mass_per_length.into()))
+        property(SECTION, "rho_A", |call| Ok(call.receiver::<SectionHandle>()?.section.mass_per_length.into()))
             .returns(Returns::NUMBER)
             .summary("The mass per length [mass/length].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.rho_A == 1);"),
-        property(SECTION, "rho_I", |call| Ok(call.receiver::<Section>()?.rotary_inertia.into()))
+        property(SECTION, "rho_I", |call| Ok(call.receiver::<SectionHandle>()?.section.rotary_inertia.into()))
             .returns(Returns::NUMBER)
             .summary("The rotary inertia per length [mass·length].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.rho_I == 10);"),
@@ -100,7 +101,7 @@ pub const TABLE: Table = Table {
 };
 
 /// The section type of the language, for rows of other domains.
-pub const SECTION: Type = Type::of::<Section>();
+pub const SECTION: Type = Type::of::<SectionHandle>();
 /// The mesh type of the language, for rows of other domains.
 pub const MESH: Type = Type::of::<Mesh>();
 
@@ -121,6 +122,14 @@ const SECTION_KEYS: &[Parameter] = &[
     number("radius").unit("length").doc("of a circle").optional(),
     number("outer").unit("length").doc("outer radius of a tube").optional(),
     number("inner").unit("length").doc("inner radius of a tube").optional(),
+    options("damping", DAMPING_KEYS)
+        .doc("relaxation times of the material; none unless given")
+        .optional(),
+];
+const DAMPING_KEYS: &[Parameter] = &[
+    number("axial").non_negative().unit("time").or(Presence::Number(0.0)),
+    number("shear").non_negative().unit("time").or(Presence::Number(0.0)),
+    number("bending").non_negative().unit("time").or(Presence::Number(0.0)),
 ];
 
 /// What a section is given by.
@@ -134,6 +143,7 @@ enum GivenBy {
 
 const GIVEN_BY: KeySets<GivenBy> = KeySets {
     told: "a section is given by EA, GA, EI, rho_A, rho_I, or by E, nu, density and a shape",
+    besides: &["damping"],
     sets: &[
         KeySet {
             meaning: GivenBy::Stiffness,
@@ -179,27 +189,6 @@ const LAGRANGE: &[Parameter] = &[
     QUADRATURE,
 ];
 
-impl Scripted for Section {
-    const NAME: &'static str = "section";
-    const DOC: &'static str = "A cross section: stiffness and inertia.";
-
-    fn show(&self) -> String {
-        let [ea, ga, ei, mass, rotary] = [
-            self.axial_stiffness,
-            self.shear_stiffness,
-            self.bending_stiffness,
-            self.mass_per_length,
-            self.rotary_inertia,
-        ]
-        .map(|number| significant(number, DIGITS));
-        format!("section with EA {ea}, GA {ga}, EI {ei}, rho_A {mass}, rho_I {rotary}")
-    }
-
-    fn details(&self) -> Details {
-        details::of_section(self)
-    }
-}
-
 impl Scripted for Mesh {
     const NAME: &'static str = "mesh";
     const DOC: &'static str = "A basis for a beam, and where its strains are sampled.";
@@ -219,9 +208,26 @@ fn whole_number(count: usize) -> Result<Dynamic, ScriptError> {
 
 fn section(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options("options")?;
+    let section = section_of(&options)?;
+    let relaxation = relaxation(&options)?;
+    Ok(Dynamic::from(SectionHandle { section, relaxation }))
+}
+
+/// The relaxation times that options give; none where all of them are zero.
+fn relaxation(options: &Options) -> Result<Option<Relaxation>, ScriptError> {
+    let times = options.options_or_defaults("damping")?;
+    let relaxation = Relaxation {
+        axial: times.number("axial")?,
+        shear: times.number("shear")?,
+        bending: times.number("bending")?,
+    };
+    Ok((relaxation != Relaxation::default()).then_some(relaxation))
+}
+
+fn section_of(options: &Options) -> Result<Section, ScriptError> {
     let number = |name: &str| options.number(name);
-    let shape = match GIVEN_BY.choose("section", &options)? {
-        GivenBy::Stiffness => return Ok(Dynamic::from(from_stiffness(&options)?)),
+    let shape = match GIVEN_BY.choose("section", options)? {
+        GivenBy::Stiffness => return from_stiffness(options),
         GivenBy::Rectangle => {
             Shape::Rectangle { width: number("width")?, height: number("height")? }
         }
@@ -229,8 +235,7 @@ fn section(call: &mut Call) -> Result<Dynamic, ScriptError> {
         GivenBy::Tube => Shape::Tube { outer: number("outer")?, inner: number("inner")? },
     };
     let (young, poisson, density) = (number("E")?, number("nu")?, number("density")?);
-    let solid = Solid { young, poisson, density, shape };
-    Ok(Dynamic::from(Section::from_solid(solid).map_err(blamed)?))
+    Section::from_solid(Solid { young, poisson, density, shape }).map_err(blamed)
 }
 
 fn from_stiffness(options: &Options) -> Result<Section, ScriptError> {

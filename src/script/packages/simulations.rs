@@ -129,7 +129,7 @@ pub const TABLE: Table = Table {
         .example("check_close(sim.velocity(rod.end).y, 1, 1e-12);"),
         method(SIMULATION, "angle", &[AT], angle)
             .returns(Returns::NUMBER.unit("rad"))
-            .summary("The angle of the section at a station, counter-clockwise and not wrapped.")
+            .summary("The angle of the section at a station, that of the axis as drawn at first, counter-clockwise and not wrapped.")
             .doc("Stations inside a beam are followed if they were made before the scene was started.")
             .example("sim.run_to(1);\ncheck_close(sim.angle(rod.end), 1, 0.01);"),
         count("steps", |call| counted(call, |simulation| simulation.counts().steps)).summary("Steps taken."),

@@ -41,8 +41,12 @@ pub const TABLE: Table = Table {
     rows: &[
         rule("conserving", |_| Ok(Dynamic::from(SlidingRule::Conserving)))
             .summary("The rule that keeps everything at any step size; the default.")
+            .doc("With energy_momentum(): keeps energy, linear momentum, angular momentum and the gap to rounding. withy, docs/theory.md, sections 10 and 10.1.")
+            .see(&["smeared", "exact", "relaxed", "slider"]),
+        rule("smeared", |_| Ok(Dynamic::from(SlidingRule::Smeared)))
+            .summary("For comparison: the conserving rule without the kink that the contact force makes in the beam; first order in space.")
             .doc("With energy_momentum(): keeps energy, linear momentum, angular momentum and the gap to rounding. withy, docs/theory.md, section 10.")
-            .see(&["exact", "relaxed", "slider"]),
+            .see(&["conserving", "exact", "relaxed"]),
         rule("exact", |_| Ok(Dynamic::from(SlidingRule::Exact)))
             .summary("For comparison: the slave is exactly on the beam at the end of a step; angular momentum is lost at second order.")
             .doc("With energy_momentum(): keeps energy, linear momentum and the gap to rounding. Sibileau & Muñoz, equations 15 and 17.")
@@ -53,7 +57,7 @@ pub const TABLE: Table = Table {
             .see(&["conserving", "exact"]),
         method(SCENE, "slider", &[object("station", STATION), object("beam", BEAM), options("options", SLIDER_KEYS).optional()], slider)
             .returns(Returns::object(SLIDER))
-            .summary("Lets a station, the end of another beam or a particle, slide along a beam.")
+            .summary("Lets a station, a place on another beam or a particle, slide along a beam.")
             .doc(
                 "The joint must close at the start: the station lies on the beam as drawn, at `at`, to six digits, and is moved \
                  onto it exactly. Where the beam ends, the run \

@@ -123,7 +123,10 @@ const DAMPER_KEYS: &[Parameter] =
     &[number("damping").positive().unit("force·time/length"), text("name").optional()];
 const TORSION_KEYS: &[Parameter] = &[
     number("stiffness").positive().unit("force·length/rad").optional(),
-    number("angle").unit("rad").doc("where it is at ease; as drawn unless given").optional(),
+    number("angle")
+        .unit("rad")
+        .doc("where it is at ease, with the ground from the x axis like sim.angle; as drawn unless given")
+        .optional(),
     points("table").doc("points [angle, moment] in place of a stiffness").optional(),
     number("damping").unit("force·length·time/rad").or(Presence::Number(0.0)),
     text("name").optional(),

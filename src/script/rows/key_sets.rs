@@ -9,6 +9,8 @@ use crate::script::words::nouns::with_article;
 pub struct KeySets<T: 'static> {
     /// The sets of keys in a sentence for messages.
     pub told: &'static str,
+    /// The keys that may be given besides, whichever set is.
+    pub besides: &'static [&'static str],
     /// The sets of keys; where it is not clear which one is meant, the first counts.
     pub sets: &'static [KeySet<T>],
 }
@@ -34,7 +36,10 @@ impl<T: Copy> KeySets<T> {
         let Some(meant) = self.meant(options) else {
             return Err(ScriptError::bug(format!("{owner} has no sets of keys")));
         };
-        let odd: Vec<&str> = options.given().filter(|key| !meant.keys.contains(key)).collect();
+        let odd: Vec<&str> = options
+            .given()
+            .filter(|key| !meant.keys.contains(key) && !self.besides.contains(key))
+            .collect();
         match odd.first() {
             Some(first) => Err(self.mixture(owner, meant, &odd).at(Place::Key((*first).into()))),
             None => match meant.keys.iter().find(|key| !options.has(key)) {

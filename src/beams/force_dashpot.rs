@@ -1,0 +1,242 @@
+//! A dashpot beside a quadrature point for `Γ`.
+//!
+//! ```text
+//! N = C τ (by_change · ΔΓ - by_last · Γ̇)      n = Λs N      Λs = (1-s) Λ0 + s Λ1      gs = g0 + s Δg
+//! R_a = w N_a' n      S_a = -w N_a gs × n      δΔΓ = Λ1ᵀ δg - J (Γ1 + e1) δω/q
+//! ```
+
+use super::dashpots::{Functions, RateCollocation, larger_missing};
+use super::dynamics::{ForceSummary, Movement};
+use super::{Rotation, RotationIncrement};
+use crate::geometry::{Vec2, cross, larger, perpendicular};
+
+/// A dashpot for the rates of axial and shear strain.
+#[derive(Debug, Clone)]
+pub(super) struct ForceDashpot {
+    functions: Functions,
+    /// `C τ` [force·time]
+    damping: Vec2,
+    /// `g0`
+    gradient: Vec2,
+    /// `Λ0`
+    rotation: Rotation,
+    /// `Γ̇` of the step before.
+    last_rate: Vec2,
+    /// `N` of the iterate.
+    force: Vec2,
+    /// That of the last step.
+    last_force: Vec2,
+    /// The force that is asked for, less the force.
+    mismatch: Vec2,
+    linearised_at: Configuration,
+}
+
+/// What movements lead to.
+#[derive(Debug, Clone, Copy)]
+struct Configuration {
+    end_rotation: Rotation,
+    /// `Γ1 + e1`
+    end_stretch: Vec2,
+    /// `ΔΓ`
+    change: Vec2,
+    /// `Λs`
+    rotation: Rotation,
+    /// `gs`
+    gradient: Vec2,
+    /// `1/q`
+    inverse_q: f64,
+    /// The derivative of the force by `ΔΓ`.
+    resistance: Vec2,
+}
+
+impl ForceDashpot {
+    /// A dashpot with `C τ` [force·time] at a point of the axis as drawn, with its unit tangent there.
+    pub(super) fn new(functions: Functions, tangent: Vec2, damping: Vec2) -> Self {
+        let rotation = Rotation { cos: tangent.x, sin: tangent.y };
+        Self {
+            functions,
+            damping,
+            gradient: tangent,
+            rotation,
+            last_rate: Vec2::zeros(),
+            force: Vec2::zeros(),
+            last_force: Vec2::zeros(),
+            mismatch: Vec2::zeros(),
+            linearised_at: Configuration {
+                end_rotation: rotation,
+                end_stretch: Vec2::x(),
+                change: Vec2::zeros(),
+                rotation,
+                gradient: tangent,
+                inverse_q: 1.0,
+                resistance: Vec2::zeros(),
+            },
+        }
+    }
+
+    pub(super) fn begin_step(&mut self) {
+        self.force = self.last_force;
+    }
+
+    pub(super) fn rest(&mut self) {
+        self.force = Vec2::zeros();
+    }
+
+    fn configuration(&self, at: RateCollocation, moved: &[Movement]) -> Configuration {
+        let (by, increment, _) = self.functions.interpolate(moved);
+        let end_rotation = self.rotation.turned(at.rotations, increment);
+        Configuration {
+            end_rotation,
+            end_stretch: end_rotation.to_section(self.gradient + by),
+            change: self.change(by, at.rotations, increment),
+            rotation: self.rotation.mixed(end_rotation, at.share),
+            gradient: self.gradient + by * at.share,
+            inverse_q: at.rotations.rate(increment),
+            resistance: self.damping * at.by_change,
+        }
+    }
+
+    /// `ΔΓ = Λ̄ᵀ (Δg - t J ḡ)`, `t` the tangent-scaled increment: not a difference of strains, which would round like a number of size one.
+    fn change(&self, by: Vec2, rotations: RotationIncrement, increment: f64) -> Vec2 {
+        let mean = self.rotation.mixed(self.rotation.turned(rotations, increment), 0.5);
+        let turned = perpendicular(self.gradient + by * 0.5) * rotations.tangent_scaled(increment);
+        mean.to_section(by - turned)
+    }
+
+    /// The force that the rates of a configuration ask for.
+    fn wanted(&self, at: RateCollocation, now: &Configuration) -> Vec2 {
+        let carried = self.last_rate * at.by_last;
+        now.resistance.component_mul(&now.change) - self.damping.component_mul(&carried)
+    }
+
+    fn distribute(
+        &self,
+        (rotation, gradient): (Rotation, Vec2),
+        force: Vec2,
+        first: usize,
+        give: &mut dyn FnMut(usize, Movement),
+    ) {
+        let force = rotation.to_space(force) * self.functions.weight;
+        let torque = cross(gradient, force);
+        let functions = self.functions.shape.iter().zip(&self.functions.slope);
+        for (point, (shape, slope)) in functions.enumerate() {
+            give(first + point, [slope * force.x, slope * force.y, -shape * torque]);
+        }
+    }
+
+    pub(super) fn add_forces(
+        &mut self,
+        at: RateCollocation,
+        moved: &[Movement],
+        first: usize,
+        give: &mut dyn FnMut(usize, Movement),
+        summary: &mut ForceSummary,
+    ) {
+        let now = self.configuration(at, moved);
+        self.mismatch = self.wanted(at, &now) - self.force;
+        self.distribute((now.rotation, now.gradient), self.force, first, give);
+        let force = larger(self.force.x.abs(), self.force.y.abs());
+        summary.join(&ForceSummary {
+            strain_mismatch: larger_missing(self.mismatch, now.resistance),
+            force,
+            moment: self.functions.weight * force,
+            rotation: 0.0,
+        });
+    }
+
+    pub(super) fn add_linearised_forces(
+        &mut self,
+        at: RateCollocation,
+        moved: &[Movement],
+        first: usize,
+        give: &mut dyn FnMut(usize, Movement),
+        block: &mut [f64],
+    ) {
+        let now = self.configuration(at, moved);
+        let wanted = self.wanted(at, &now);
+        self.mismatch = wanted - self.force;
+        self.distribute((now.rotation, now.gradient), wanted, first, give);
+
+        // δn = A δg + b δω  and  δ(gs × n) = e·δg + f δω, the geometric terms with the force of the iterate.
+        let (end, share) = (now.end_rotation, at.share);
+        let resist = |strain: Vec2| now.rotation.to_space(now.resistance.component_mul(&strain));
+        let (a1, a2) = (resist(end.to_section(Vec2::x())), resist(end.to_section(Vec2::y())));
+        let b = (end.to_space(perpendicular(self.force)) * share
+            - resist(perpendicular(now.end_stretch)))
+            * now.inverse_q;
+        let lever = perpendicular(now.gradient);
+        let geometric = perpendicular(now.rotation.to_space(self.force)) * share;
+        let e = Vec2::new(a1.dot(&lever), a2.dot(&lever)) - geometric;
+        let by = [[a1.x, a2.x, b.x], [a1.y, a2.y, b.y], [e.x, e.y, lever.dot(&b)]];
+
+        let Functions { shape, slope, weight } = &self.functions;
+        let width = 3 * shape.len();
+        for (row, (shape_a, slope_a)) in shape.iter().zip(slope).enumerate() {
+            let factors = [weight * slope_a, weight * slope_a, -weight * shape_a];
+            for (component, (factor, by)) in factors.into_iter().zip(by).enumerate() {
+                let entries = &mut block[(3 * row + component) * width..][..width];
+                for (entry, (shape_b, slope_b)) in
+                    entries.chunks_exact_mut(3).zip(shape.iter().zip(slope))
+                {
+                    entry[0] += factor * by[0] * slope_b;
+                    entry[1] += factor * by[1] * slope_b;
+                    entry[2] += factor * by[2] * shape_b;
+                }
+            }
+        }
+        self.linearised_at = now;
+    }
+
+    pub(super) fn add_mismatch_forces(&self, first: usize, give: &mut dyn FnMut(usize, Movement)) {
+        let Configuration { rotation, gradient, .. } = self.linearised_at;
+        self.distribute((rotation, gradient), self.mismatch, first, give);
+    }
+
+    pub(super) fn correct(&mut self, correction: &[Movement]) {
+        let (gradient, rotation, _) = self.functions.interpolate(correction);
+        let Configuration { end_rotation, end_stretch, inverse_q, resistance, .. } =
+            self.linearised_at;
+        let turned = perpendicular(end_stretch) * (rotation * inverse_q);
+        let change = end_rotation.to_section(gradient) - turned;
+        self.force += self.mismatch + resistance.component_mul(&change);
+    }
+
+    pub(super) fn advance(
+        &mut self,
+        moved: &[Movement],
+        rotations: RotationIncrement,
+        duration: f64,
+    ) -> f64 {
+        let (by, increment, _) = self.functions.interpolate(moved);
+        let change = self.change(by, rotations, increment);
+        self.gradient += by;
+        self.rotation = self.rotation.turned(rotations, increment).normalised();
+        (self.last_rate, self.last_force) = (change / duration, self.force);
+        self.functions.weight * self.force.dot(&change)
+    }
+
+    pub(super) fn resist(
+        &self,
+        rates: &[Movement],
+        first: usize,
+        give: &mut dyn FnMut(usize, Movement),
+    ) -> f64 {
+        let (gradient, spin, _) = self.functions.interpolate(rates);
+        let rate = self.rotation.to_section(gradient - perpendicular(self.gradient) * spin);
+        let force = self.damping.component_mul(&rate);
+        self.distribute((self.rotation, self.gradient), force, first, give);
+        self.functions.weight * force.dot(&rate)
+    }
+
+    pub(super) fn save(&self, state: &mut Vec<f64>) {
+        state.extend([self.gradient.x, self.gradient.y, self.rotation.cos, self.rotation.sin]);
+        state.extend([self.last_rate.x, self.last_rate.y, self.last_force.x, self.last_force.y]);
+    }
+
+    pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.gradient = Vec2::new(next(), next());
+        self.rotation = Rotation { cos: next(), sin: next() };
+        self.last_rate = Vec2::new(next(), next());
+        self.last_force = Vec2::new(next(), next());
+    }
+}

@@ -1,0 +1,177 @@
+//! A dashpot beside a quadrature point for `κ`.
+//!
+//! ```text
+//! M = EI τ (by_change · Δκ - by_last · κ̇)      Δκ = Δω'/q      S_a = w N_a' M/q
+//! ```
+
+use super::RotationIncrement;
+use super::dashpots::{Functions, RateCollocation, strain_missing};
+use super::dynamics::{ForceSummary, Movement};
+
+/// A dashpot for the rate of curvature.
+#[derive(Debug, Clone)]
+pub(super) struct MomentDashpot {
+    functions: Functions,
+    /// `EI τ` [force·length²·time]
+    damping: f64,
+    /// `κ̇` of the step before.
+    last_rate: f64,
+    /// `M` of the iterate.
+    moment: f64,
+    /// That of the last step.
+    last_moment: f64,
+    /// The moment that is asked for, less the moment.
+    mismatch: f64,
+    linearised_at: Bend,
+}
+
+/// What movements lead to.
+#[derive(Debug, Clone, Copy, Default)]
+struct Bend {
+    /// `Δω'`
+    slope: f64,
+    /// `1/q`, and its derivative by `Δω`.
+    inverse_q: f64,
+    inverse_q_slope: f64,
+    /// The derivative of the moment by `Δκ`.
+    resistance: f64,
+}
+
+impl Bend {
+    fn change(&self) -> f64 {
+        self.slope * self.inverse_q
+    }
+}
+
+impl MomentDashpot {
+    /// A dashpot with `EI τ` [force·length²·time] at a point of the axis.
+    pub(super) fn new(functions: Functions, damping: f64) -> Self {
+        Self {
+            functions,
+            damping,
+            last_rate: 0.0,
+            moment: 0.0,
+            last_moment: 0.0,
+            mismatch: 0.0,
+            linearised_at: Bend::default(),
+        }
+    }
+
+    pub(super) fn begin_step(&mut self) {
+        self.moment = self.last_moment;
+    }
+
+    pub(super) fn rest(&mut self) {
+        self.moment = 0.0;
+    }
+
+    fn bend(&self, at: RateCollocation, moved: &[Movement]) -> Bend {
+        let (_, rotation, slope) = self.functions.interpolate(moved);
+        let (inverse_q, inverse_q_slope) = at.rotations.rates(rotation);
+        Bend { slope, inverse_q, inverse_q_slope, resistance: self.damping * at.by_change }
+    }
+
+    /// The moment that the rate of a configuration asks for.
+    fn wanted(&self, at: RateCollocation, now: &Bend) -> f64 {
+        now.resistance * now.change() - self.damping * at.by_last * self.last_rate
+    }
+
+    fn distribute(&self, moment: f64, first: usize, give: &mut dyn FnMut(usize, Movement)) {
+        let moment = self.functions.weight * moment;
+        for (point, slope) in self.functions.slope.iter().enumerate() {
+            give(first + point, [0.0, 0.0, slope * moment]);
+        }
+    }
+
+    pub(super) fn add_forces(
+        &mut self,
+        at: RateCollocation,
+        moved: &[Movement],
+        first: usize,
+        give: &mut dyn FnMut(usize, Movement),
+        summary: &mut ForceSummary,
+    ) {
+        let now = self.bend(at, moved);
+        self.mismatch = self.wanted(at, &now) - self.moment;
+        self.distribute(self.moment * now.inverse_q, first, give);
+        summary.join(&ForceSummary {
+            strain_mismatch: self.functions.weight * strain_missing(self.mismatch, now.resistance),
+            moment: self.moment.abs(),
+            ..ForceSummary::default()
+        });
+    }
+
+    pub(super) fn add_linearised_forces(
+        &mut self,
+        at: RateCollocation,
+        moved: &[Movement],
+        first: usize,
+        give: &mut dyn FnMut(usize, Movement),
+        block: &mut [f64],
+    ) {
+        let now = self.bend(at, moved);
+        let wanted = self.wanted(at, &now);
+        self.mismatch = wanted - self.moment;
+        self.distribute(wanted * now.inverse_q, first, give);
+
+        // δ(M/q) with the moment of the iterate in the geometric term.
+        let resistance = now.resistance * now.inverse_q;
+        let by_slope = resistance * now.inverse_q;
+        let by_rotation =
+            resistance * now.slope * now.inverse_q_slope + self.moment * now.inverse_q_slope;
+        let Functions { shape, slope, weight } = &self.functions;
+        let width = 3 * shape.len();
+        for (row, slope_a) in slope.iter().enumerate() {
+            let entries = &mut block[(3 * row + 2) * width..][..width];
+            for (entry, (shape_b, slope_b)) in
+                entries.chunks_exact_mut(3).zip(shape.iter().zip(slope))
+            {
+                entry[2] += weight * slope_a * (by_slope * slope_b + by_rotation * shape_b);
+            }
+        }
+        self.linearised_at = now;
+    }
+
+    pub(super) fn add_mismatch_forces(&self, first: usize, give: &mut dyn FnMut(usize, Movement)) {
+        self.distribute(self.mismatch * self.linearised_at.inverse_q, first, give);
+    }
+
+    pub(super) fn correct(&mut self, correction: &[Movement]) {
+        let (_, rotation, slope) = self.functions.interpolate(correction);
+        let Bend { slope: turned, inverse_q, inverse_q_slope, resistance } = self.linearised_at;
+        let change = inverse_q * slope + turned * inverse_q_slope * rotation;
+        self.moment += self.mismatch + resistance * change;
+    }
+
+    pub(super) fn advance(
+        &mut self,
+        moved: &[Movement],
+        rotations: RotationIncrement,
+        duration: f64,
+    ) -> f64 {
+        let (_, rotation, slope) = self.functions.interpolate(moved);
+        let change = slope * rotations.rate(rotation);
+        (self.last_rate, self.last_moment) = (change / duration, self.moment);
+        self.functions.weight * self.moment * change
+    }
+
+    pub(super) fn resist(
+        &self,
+        rates: &[Movement],
+        first: usize,
+        give: &mut dyn FnMut(usize, Movement),
+    ) -> f64 {
+        let (_, _, rate) = self.functions.interpolate(rates);
+        let moment = self.damping * rate;
+        self.distribute(moment, first, give);
+        self.functions.weight * moment * rate
+    }
+
+    pub(super) fn save(&self, state: &mut Vec<f64>) {
+        state.extend([self.last_rate, self.last_moment]);
+    }
+
+    pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        (self.last_rate, self.last_moment) = (next(), next());
+    }
+}

@@ -1,0 +1,77 @@
+//! Functions that are a polynomial on each span of a basis.
+
+use super::{GaussRule, Span};
+
+/// A function of the parameter ξ of a basis that is a polynomial of one degree on each of its spans.
+#[derive(Debug, Clone)]
+pub struct PiecewisePolynomial {
+    /// The middle and half the width of each span.
+    spans: Vec<(f64, f64)>,
+    /// Of all spans one after another: `Σ c_k t^k` with `t` from -1 to 1 on the span.
+    coefficients: Vec<f64>,
+    /// How many coefficients each span has.
+    count: usize,
+    /// Points and weights on `[0, 1]`, exact for polynomials of one degree less.
+    rule: Vec<(f64, f64)>,
+}
+
+/// A function along a way between two parameters, with the mean of its slope.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct AlongWay {
+    /// The value of the function at the start `ξ0` of the way.
+    pub start: f64,
+    /// The value of the function at the end `ξ1` of the way.
+    pub end: f64,
+    /// The derivative of the function at the end of the way, on its side.
+    pub slope: f64,
+    /// The divided difference `D = (f(ξ1) - f(ξ0))/(ξ1 - ξ0)` of the function, to rounding for ways of any length.
+    pub difference: f64,
+    /// The derivative of the divided difference by the end of the way, `∂D/∂ξ1` for a fixed start.
+    pub change: f64,
+}
+
+impl PiecewisePolynomial {
+    /// A function by the coefficients of its polynomials, a row of as many for each span: `Σ c_k t^k` with `t` from -1 to 1 on the span.
+    pub fn new(spans: &[Span], rows: &[Vec<f64>]) -> Self {
+        let count = rows.first().map_or(1, Vec::len);
+        let place = |span: &Span| (0.5 * (span.start + span.end), 0.5 * (span.end - span.start));
+        Self {
+            spans: spans.iter().map(place).collect(),
+            coefficients: rows.concat(),
+            count,
+            rule: GaussRule::legendre((count / 2).max(1)).iter_on(0.0, 1.0).collect(),
+        }
+    }
+
+    /// Points and weights on `[0, 1]` that integrate the derivative of the function on a part of a span exactly.
+    pub(super) fn rule(&self) -> &[(f64, f64)] {
+        &self.rule
+    }
+
+    /// The value of the function, its first and its second derivative by ξ, by the polynomial of a span, also beside the span.
+    pub fn in_span(&self, span: usize, xi: f64) -> [f64; 3] {
+        let (middle, half) = self.spans[span];
+        let t = (xi - middle) / half;
+        let own = &self.coefficients[span * self.count..][..self.count];
+        let [value, slope, half_bend] = own
+            .iter()
+            .rev()
+            .fold([0.0; 3], |[f, df, ddf], c| [f * t + c, df * t + f, ddf * t + df]);
+        [value, slope / half, 2.0 * half_bend / (half * half)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn polynomials_are_those_of_their_spans() {
+        let span = |start, end| Span { first: 0, start, end };
+        let rows = [vec![1.0, 2.0, 3.0], vec![0.5, 0.0, -1.0]];
+        let function = PiecewisePolynomial::new(&[span(0.0, 2.0), span(2.0, 2.5)], &rows);
+        // 1 + 2t + 3t² at ξ = 1.5, t = ½, dt/dξ = 1; ½ - t² at ξ = 2.5, t = 1, dt/dξ = 4.
+        assert_eq!(function.in_span(0, 1.5), [2.75, 5.0, 6.0]);
+        assert_eq!(function.in_span(1, 2.5), [-0.5, -8.0, -32.0]);
+    }
+}

@@ -1,0 +1,150 @@
+//! Symmetric positive definite matrices with a narrow band, and the band of their inverse.
+
+/// A pivot below this part of its entry on the diagonal is rounding.
+const ROUNDING: f64 = 1e-11;
+
+/// A symmetric positive definite matrix with entries near its diagonal only, such as the products of neighbouring splines.
+///
+/// Entries further from the diagonal than the half-bandwidth are zero.
+#[derive(Debug, Clone)]
+pub struct PositiveBand {
+    /// Row `i` holds the entries `(i, i), (i, i + 1), …`.
+    rows: Vec<Vec<f64>>,
+}
+
+/// The factors `L D Lᵀ` of a [`PositiveBand`], `L` with ones on its diagonal.
+#[derive(Debug, Clone)]
+pub struct PositiveFactors {
+    /// Row `i` holds `D_i` and the entries `(i + 1, i), (i + 2, i), …` of `L`.
+    columns: Vec<Vec<f64>>,
+}
+
+impl PositiveBand {
+    /// A matrix of zeros with as many rows as `size`, and entries up to `half_bandwidth` from the diagonal.
+    pub fn zeros(size: usize, half_bandwidth: usize) -> Self {
+        Self { rows: vec![vec![0.0; half_bandwidth + 1]; size] }
+    }
+
+    /// The number of rows of the matrix.
+    pub fn size(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Adds `factor · vᵢ vⱼ` to all entries of the functions from the row `first` on, one for each number of `v`.
+    pub fn add_square(&mut self, first: usize, factor: f64, v: &[f64]) {
+        for (row, (left, a)) in self.rows[first..].iter_mut().zip(v.iter().enumerate()) {
+            row.iter_mut().zip(&v[left..]).for_each(|(entry, b)| *entry += factor * a * b);
+        }
+    }
+
+    /// The entry of a row and a column.
+    pub fn get(&self, row: usize, column: usize) -> f64 {
+        let (low, high) = (row.min(column), row.max(column));
+        self.rows[low].get(high - low).copied().unwrap_or(0.0)
+    }
+
+    /// The factors `L D Lᵀ` of the matrix; none where a pivot is not positive, or rounding.
+    pub fn factorise(&self) -> Option<PositiveFactors> {
+        let mut columns = self.rows.clone();
+        for at in 0..columns.len() {
+            let (done, rest) = columns.split_at_mut(at + 1);
+            let column = &mut done[at];
+            let pivot = column[0];
+            // What is left of a row that depends on earlier ones is rounding.
+            if !(pivot > ROUNDING * self.rows[at][0] && pivot.is_finite()) {
+                return None;
+            }
+            for (by, row) in rest.iter_mut().enumerate().take(column.len() - 1) {
+                let factor = column[by + 1] / pivot;
+                row.iter_mut().zip(&column[by + 1..]).for_each(|(to, from)| *to -= factor * from);
+            }
+            column[1..].iter_mut().for_each(|entry| *entry /= pivot);
+        }
+        Some(PositiveFactors { columns })
+    }
+}
+
+impl PositiveFactors {
+    /// Replaces the right side `x` by the solution.
+    pub fn solve(&self, x: &mut [f64]) {
+        for (at, column) in self.columns.iter().enumerate() {
+            let (done, rest) = x.split_at_mut(at + 1);
+            rest.iter_mut().zip(&column[1..]).for_each(|(to, factor)| *to -= factor * done[at]);
+        }
+        for (at, column) in self.columns.iter().enumerate().rev() {
+            let (to, known) = x.split_at_mut(at + 1);
+            let products = known.iter().zip(&column[1..]).map(|(x, factor)| x * factor);
+            to[at] = to[at] / column[0] - products.sum::<f64>();
+        }
+    }
+
+    /// The entries of the inverse up to `width` from its diagonal, `width` being no less than the half-bandwidth.
+    ///
+    /// From `Lᵀ Z = D⁻¹ L⁻¹`, the last row first (Takahashi, Fagan & Chin 1973; Erisman & Tinney 1975).
+    pub fn inverse(&self, width: usize) -> PositiveBand {
+        let size = self.columns.len();
+        let mut inverse = PositiveBand::zeros(size, width);
+        for (row, column) in self.columns.iter().enumerate().rev() {
+            // The diagonal last: it needs the others of its row.
+            for away in (0..=width.min(size - 1 - row)).rev() {
+                let known = (row + 1..size).zip(&column[1..]);
+                let products = known.map(|(at, factor)| factor * inverse.get(at, row + away));
+                let pivot = if away == 0 { 1.0 / column[0] } else { 0.0 };
+                inverse.rows[row][away] = pivot - products.sum::<f64>();
+            }
+        }
+        inverse
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A matrix with a half-bandwidth of two.
+    fn band() -> PositiveBand {
+        let mut band = PositiveBand::zeros(7, 2);
+        for first in 0..5 {
+            let at = first as f64;
+            band.add_square(first, 1.0 + at, &[1.0, 0.3 - 0.1 * at, 0.2]);
+        }
+        (0..7).for_each(|at| band.add_square(at, 0.5, &[1.0]));
+        band
+    }
+
+    #[test]
+    fn what_is_solved_for_solves() {
+        let band = band();
+        let right: Vec<f64> = (0..7).map(|at| f64::from(at).powi(2) - 3.0).collect();
+        let mut x = right.clone();
+        band.factorise().unwrap().solve(&mut x);
+        for (row, wanted) in right.iter().enumerate() {
+            let found: f64 = (0..7).map(|column| band.get(row, column) * x[column]).sum();
+            assert!((found - wanted).abs() < 1e-13, "{found} is not {wanted}");
+        }
+    }
+
+    #[test]
+    fn the_band_of_the_inverse_is_that_of_the_inverse() {
+        let factors = band().factorise().unwrap();
+        for width in 2..6 {
+            let inverse = factors.inverse(width);
+            for column in 0..7_usize {
+                let mut unit = vec![0.0; 7];
+                unit[column] = 1.0;
+                factors.solve(&mut unit);
+                for (row, wanted) in unit.iter().enumerate() {
+                    let expected = if row.abs_diff(column) <= width { *wanted } else { 0.0 };
+                    assert!((inverse.get(row, column) - expected).abs() < 1e-14);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_matrix_that_is_not_positive_has_no_factors() {
+        let mut band = PositiveBand::zeros(2, 1);
+        band.add_square(0, 1.0, &[1.0, 1.0]);
+        assert!(band.factorise().is_none());
+    }
+}

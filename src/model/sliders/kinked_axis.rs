@@ -1,0 +1,75 @@
+//! The axis of a master as the contact force of a slider kinks it, beyond what the mesh of the master knows.
+
+use std::sync::Arc;
+
+use crate::geometry::{Passage, PiecewisePolynomial, Vec2};
+use crate::joints::Kink;
+
+/// Where the kink length is less than this part of the master, a contact force moves nothing.
+const RIGID: f64 = 1e-12;
+
+/// What a contact force does to the axis of its master: it moves the axis by `g p/GA` where it acts.
+#[derive(Debug, Clone)]
+pub struct KinkedAxis {
+    /// The kink length `g(ξ)` of the mesh of the master [length].
+    length: Arc<PiecewisePolynomial>,
+    /// `1/GA` of the master [1/force].
+    compliance: f64,
+    /// A kink length that is none [length].
+    none: f64,
+    /// `g`, its first and its second derivative by `ξ` where the slider is [length].
+    here: [f64; 3],
+    /// The contact force `p` on the master at present [force].
+    pub force: Vec2,
+}
+
+impl KinkedAxis {
+    /// The axis of a master of such a length as drawn and shear stiffness, without a contact force.
+    pub fn new(kink_length: Arc<PiecewisePolynomial>, length: f64, shear_stiffness: f64) -> Self {
+        Self {
+            length: kink_length,
+            compliance: 1.0 / shear_stiffness,
+            none: RIGID * length,
+            here: [0.0; 3],
+            force: Vec2::zeros(),
+        }
+    }
+
+    /// The kink along the way of a step.
+    pub fn along(&self, passage: &Passage) -> Kink {
+        Kink { along: passage.along(&self.length), compliance: self.compliance, before: self.force }
+    }
+
+    /// Looks at the place where the passage ends.
+    pub fn arrive(&mut self, passage: &Passage) {
+        self.here = passage.at_end(&self.length);
+    }
+
+    /// Takes the contact force `p1 = 2 λ - p0` at the end of a step, at which the axis has [arrived](Self::arrive); where the axis does not
+    /// give way, nothing tells it from the mean `λ` of the step [force].
+    pub fn advance(&mut self, mean: Vec2) {
+        self.force = if self.gives() { mean * 2.0 - self.force } else { mean };
+    }
+
+    /// Whether a contact force moves the axis where the slider is.
+    pub fn gives(&self) -> bool {
+        self.here[0] > self.none
+    }
+
+    /// How far the axis is moved, `g p/GA` [length].
+    pub fn offset(&self) -> Vec2 {
+        self.force * (self.here[0] * self.compliance)
+    }
+
+    /// The derivative of [`offset`](Self::offset) by `ξ`, and half its second one along itself, `½ g g'' |p|²/GA²`.
+    pub fn slopes(&self) -> (Vec2, f64) {
+        let [length, slope, bend] = self.here;
+        let force = self.force * self.compliance;
+        (force * slope, 0.5 * length * bend * force.norm_squared())
+    }
+
+    /// The energy of the kink, `½ g |p|²/GA` [energy].
+    pub fn energy(&self) -> f64 {
+        0.5 * self.force.dot(&self.offset())
+    }
+}

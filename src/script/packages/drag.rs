@@ -1,0 +1,134 @@
+//! Drag of air or water on beams, particles and stations.
+
+use rhai::Dynamic;
+
+use super::scenes::{BEAM, SCENE, STATION};
+use crate::geometry::Vec2;
+use crate::model::{Along, Drag, Dragged, ModelError};
+use crate::script::handles::beam::BeamHandle;
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::station::StationHandle;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Kind, Range};
+use crate::script::rows::options::Options;
+use crate::script::rows::parameter::{Parameter, either, number, options, point, text};
+use crate::script::rows::table::{Table, method};
+use crate::script::words::error::{Place, ScriptError};
+
+/// Drag.
+pub const TABLE: Table = Table {
+    name: "drag",
+    doc: "What air or water takes from all that moves through it. It is kept in the ledger: E - W + D stays constant to rounding with \
+          energy_momentum() and fourth_order(), at any step, and its impulse counts as that of a load.",
+    types: &[],
+    setup: super::scenes::ROD,
+    constants: &[],
+    rows: &[
+        method(SCENE, "drag", &[either("on", DRAGGED), options("options", DRAG_KEYS)], drag)
+            .summary("A force against the velocity: of a beam per length, across and along its axis; of a particle or a station alike in every direction.")
+            .doc(
+                "On a beam -normal v_n - tangent v_t per length, with quadratic: #{ normal: …, tangent: … } also -k |v| v of either component. On a particle or \
+                 a station -linear v - quadratic |v| v. With a wind v is relative to it: what the medium takes is D, and what the wind gives, force times \
+                 wind, is work W. It is called drag1, drag2, … unless it gets a name, and its part of the ledger is the column dissipated.NAME. Equilibria leave \
+                 it out, and modes take its linear part.",
+            )
+            .example(
+                "scene.drag(rod, #{ normal: 0.2, tangent: 0.01 });\nlet stone = scene.particle([0, 3], 0.5);\n\
+                 scene.drag(stone, #{ quadratic: 0.1, wind: [2, 0], name: \"air\" });\nscene.gravity([0, -9.81]);\n\
+                 let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\ncheck(sim.history.last(\"dissipated.drag1\") > 0);\n\
+                 check(sim.history.drift(\"energy\") < 1e-12);",
+            )
+            .see(&["damper", "line_load", "particle"]),
+    ],
+};
+
+const DRAGGED: &[Kind] = &[Kind::Object(BEAM), Kind::Object(STATION)];
+const DRAG_KEYS: &[Parameter] = &[
+    number("normal").non_negative().unit("force·time/length²").doc("of a beam, across its axis").optional(),
+    number("tangent").non_negative().unit("force·time/length²").doc("of a beam, along its axis").optional(),
+    number("linear").non_negative().unit("force·time/length").doc("of a particle or a station").optional(),
+    either("quadratic", &[Kind::Number(Range::NonNegative), Kind::Options(QUADRATIC_KEYS)])
+        .doc("of a particle or a station a number [force·time²/length²], of a beam #{ normal: …, tangent: … } [force·time²/length³]")
+        .optional(),
+    point("wind").unit("length/time").doc("the velocity of the medium; still unless given").optional(),
+    text("name").optional(),
+];
+const QUADRATIC_KEYS: &[Parameter] = &[
+    number("normal").non_negative().unit("force·time²/length³").optional(),
+    number("tangent").non_negative().unit("force·time²/length³").optional(),
+];
+
+fn drag(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let scene = call.receiver::<SceneHandle>()?;
+    let options = call.options("options")?;
+    let on = match call.get_if::<BeamHandle>("on") {
+        Some(beam) => of_beam(call, beam.own(&scene)?, &options)?,
+        None => of_point(call, &scene, &options)?,
+    };
+    let name = options.text_if_given("name")?;
+    let name = name.unwrap_or_else(|| scene.scene().borrow().free_name("drag"));
+    let wind = if options.has("wind") { options.point("wind")? } else { Vec2::zeros() };
+    let added = scene.scene().borrow_mut().add_drag(Drag { name, on, wind });
+    added.map_err(|error| {
+        let place = match &error {
+            ModelError::Unnamed { .. } | ModelError::DuplicateName { .. } => {
+                Place::Key("name".into())
+            }
+            _ => Place::Argument(1),
+        };
+        ScriptError::from(error).at(place)
+    })?;
+    Ok(Dynamic::UNIT)
+}
+
+fn of_beam(call: &Call, beam: usize, options: &Options) -> Result<Dragged, ScriptError> {
+    refuse(
+        call,
+        options,
+        &["linear"],
+        "a beam is dragged across and along its axis: give normal and tangent",
+    )?;
+    if call_number(options, "quadratic").is_some() {
+        let told = "quadratic is a number, and a beam is dragged across and along its axis";
+        let hint = "give quadratic: #{ normal: …, tangent: … }";
+        return Err(call.error(told).hint(hint).at(Place::Key("quadratic".into())));
+    }
+    let quadratic = options.get_if::<Options>("quadratic");
+    let along = |name: &str| Along {
+        linear: options.number_if_given(name).unwrap_or(0.0),
+        quadratic: quadratic.as_ref().and_then(|of| of.number_if_given(name)).unwrap_or(0.0),
+    };
+    Ok(Dragged::Beam { beam, normal: along("normal"), tangent: along("tangent") })
+}
+
+fn of_point(call: &Call, scene: &SceneHandle, options: &Options) -> Result<Dragged, ScriptError> {
+    let advice = "a point has no axis: give linear, quadratic or both";
+    refuse(call, options, &["normal", "tangent"], advice)?;
+    if options.get_if::<Options>("quadratic").is_some() {
+        let told = "quadratic is given by directions, and a point has none";
+        let hint = "give quadratic: a number";
+        return Err(call.error(told).hint(hint).at(Place::Key("quadratic".into())));
+    }
+    let station = scene.own(&call.get::<StationHandle>("on")?)?;
+    let law = Along {
+        linear: options.number_if_given("linear").unwrap_or(0.0),
+        quadratic: call_number(options, "quadratic").unwrap_or(0.0),
+    };
+    Ok(Dragged::Point { station, law })
+}
+
+/// The number that is given for an option that may be something else.
+fn call_number(options: &Options, name: &str) -> Option<f64> {
+    options.get_if::<f64>(name)
+}
+
+/// Refuses options that mean nothing for what is dragged.
+fn refuse(call: &Call, options: &Options, odd: &[&str], advice: &str) -> Result<(), ScriptError> {
+    match odd.iter().find(|key| options.has(key)) {
+        Some(key) => {
+            let told = format!("'{key}' says nothing here");
+            Err(call.error(told).hint(advice).at(Place::Key((*key).into())))
+        }
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,177 @@
+//! Drag against closed forms, with every integrator.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::{at, orders, scenes, simulate};
+use withy::beams::{Mesh, Section};
+use withy::geometry::{Curve, Vec2};
+use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
+use withy::model::{Along, Drag, Dragged, ParticleDefinition, Scene, StartMotion};
+use withy::simulation::{Invariant, Simulation};
+
+const GRAVITY: f64 = 9.81;
+
+/// A stone of mass 0.5 that begins to fall.
+fn stone(law: Along, wind: Vec2) -> Scene {
+    let mut scene = Scene::new("stone");
+    let stone = ParticleDefinition { name: "stone".to_owned(), position: at(2.0, 5.0) };
+    let station = scene.add_particle(stone, 0.5).unwrap();
+    let on = Dragged::Point { station, law };
+    scene.add_drag(Drag { name: "air".to_owned(), on, wind }).unwrap();
+    scene.gravity = at(0.0, -GRAVITY);
+    scene
+}
+
+fn place(simulation: &Simulation) -> Vec2 {
+    simulation.model().control_points().next().unwrap()[0]
+}
+
+fn assert_orders(
+    scene: &dyn Fn() -> Scene,
+    end: f64,
+    found_at: &dyn Fn(&Simulation) -> f64,
+    exact: f64,
+) {
+    for entry in INTEGRATORS {
+        let of = |dt: f64| (found_at(&simulate(scene(), entry.method, dt, end)) - exact).abs();
+        let errors = [0.1, 0.05, 0.025].map(of);
+        let found = orders(&errors);
+        println!("{}: {} {found:?}", entry.name, crate::common::sci(&errors));
+        // Nothing is strained, so that there is nothing for late strains to damp.
+        let expected = match entry.claims.energy {
+            EnergyClaim::Decays => 2.0,
+            _ => f64::from(entry.claims.order),
+        };
+        assert!((found[1] - expected).abs() < 0.25, "{}: {errors:?} {found:?}", entry.name);
+    }
+}
+
+#[test]
+fn a_stone_sinks_in_a_thick_medium() {
+    // m v̇ = m g - c v: y = v∞ (t - T (1 - e^(-t/T))), T = m/c.
+    let (c, end) = (0.8, 1.0);
+    let (time, limit) = (0.5 / c, 0.5 * GRAVITY / c);
+    let exact = 5.0 - limit * (end - time * (1.0 - (-end / time).exp()));
+    let law = Along { linear: c, quadratic: 0.0 };
+    assert_orders(&|| stone(law, Vec2::zeros()), end, &|s| place(s).y, exact);
+}
+
+#[test]
+fn a_stone_falls_through_air() {
+    // m v̇ = m g - k v²: y = v∞²/g ln cosh(g t/v∞), v∞² = m g/k.
+    let (k, end) = (0.3, 1.0);
+    let limit = (0.5 * GRAVITY / k).sqrt();
+    let exact = 5.0 - limit * limit / GRAVITY * (GRAVITY * end / limit).cosh().ln();
+    let law = Along { linear: 0.0, quadratic: k };
+    assert_orders(&|| stone(law, Vec2::zeros()), end, &|s| place(s).y, exact);
+}
+
+#[test]
+fn a_stone_goes_with_the_wind_which_gives_what_the_air_takes_and_more() {
+    let law = Along { linear: 0.4, quadratic: 0.2 };
+    let wind = at(4.0, 0.0);
+    let mut scene = stone(law, wind);
+    scene.gravity = Vec2::zeros();
+    let simulation = simulate(scene, Method::EnergyMomentum, 0.05, 40.0);
+    let last = simulation.history().samples().last().unwrap().measures;
+    // At last it moves with the wind: p = m w, W = ∫ F·w dt = m w², and half of it is lost.
+    assert!((last.momentum - wind * 0.5).norm() < 1e-6, "{}", last.momentum);
+    assert!((last.work - 0.5 * 16.0).abs() < 1e-5, "{}", last.work);
+    assert!((last.dissipated - 0.25 * 16.0).abs() < 1e-5, "{}", last.dissipated);
+    for (name, invariant) in Invariant::ALL {
+        let drift = simulation.history().drift(invariant);
+        assert!(drift < 1e-13, "{name}: {drift:.1e}");
+    }
+}
+
+/// A stiff rod along x that is let go with its ends in a direction.
+fn falling(direction: Vec2) -> Scene {
+    let mut scene = Scene::new("falling rod");
+    let section = Section {
+        axial_stiffness: 1e6,
+        shear_stiffness: 1e6,
+        bending_stiffness: 1e4,
+        mass_per_length: 0.5,
+        rotary_inertia: 1e-3,
+    };
+    let mesh = Mesh::bspline(4, 3, 2).unwrap();
+    let axis = scenes::line(at(0.0, 0.0), direction * 2.0);
+    let beam = scenes::add_beam(&mut scene, axis, &mesh, section);
+    let normal = Along { linear: 1.2, quadratic: 0.0 };
+    let tangent = Along { linear: 0.3, quadratic: 0.0 };
+    let on = Dragged::Beam { beam, normal, tangent };
+    scene.add_drag(Drag { name: "water".to_owned(), on, wind: Vec2::zeros() }).unwrap();
+    scene.gravity = at(0.0, -GRAVITY);
+    scene
+}
+
+#[test]
+fn a_rod_falls_faster_lengthwise_than_sideways() {
+    let end = 1.0;
+    for (direction, c) in [(at(1.0, 0.0), 1.2), (at(0.0, 1.0), 0.3)] {
+        let (time, limit) = (0.5 / c, 0.5 * GRAVITY / c);
+        let exact = -limit * (end - time * (1.0 - (-end / time).exp()));
+        assert_orders(&|| falling(direction), end, &|s| place(s).y, exact);
+    }
+    // One that lies aslant glides to the side on which it is low.
+    let aslant = simulate(falling(at(0.8, 0.6)), Method::EnergyMomentum, 0.02, 2.0);
+    assert!(place(&aslant).x < -0.5, "{}", place(&aslant));
+    assert!(aslant.history().drift(Invariant::Energy) < 1e-13);
+}
+
+/// A bent beam that tumbles through air, in a wind.
+fn tumbling() -> Scene {
+    let mut scene = Scene::new("tumbling");
+    let axis = Curve::arc(at(0.0, 0.0), 1.5, 0.2, 1.9).unwrap();
+    let mesh = Mesh::bspline(4, 3, 2).unwrap();
+    let beam = scenes::add_beam(&mut scene, axis, &mesh, scenes::rod());
+    scene.beams[beam].motion = StartMotion { velocity: at(1.0, 0.5), spin: 3.0, about: None };
+    let normal = Along { linear: 0.2, quadratic: 0.5 };
+    let tangent = Along { linear: 0.05, quadratic: 0.01 };
+    let on = Dragged::Beam { beam, normal, tangent };
+    scene.add_drag(Drag { name: "air".to_owned(), on, wind: at(-2.0, 6.0) }).unwrap();
+    scene
+}
+
+#[test]
+fn a_beam_that_tumbles_through_air_keeps_the_ledger() {
+    for entry in INTEGRATORS {
+        let simulation = simulate(tumbling(), entry.method, 0.05, 10.0);
+        let history = simulation.history();
+        let all = history.column("dissipated").unwrap();
+        assert_eq!(all, history.column("dissipated.air").unwrap());
+        assert!(all[all.len() - 1] > 1.0, "{}", entry.name);
+        let claims = [
+            (Invariant::Energy, entry.claims.energy == EnergyClaim::Kept),
+            (Invariant::Momentum, entry.claims.momentum),
+            (Invariant::AngularMomentum, entry.claims.angular_momentum),
+        ];
+        for (invariant, _) in claims.into_iter().filter(|(_, claimed)| *claimed) {
+            let drift = history.drift(invariant);
+            assert!(drift < 1e-13, "{}, {invariant:?}: {drift:.1e}", entry.name);
+        }
+        if entry.method == Method::EnergyMomentum {
+            assert!(all.windows(2).all(|pair| pair[1] >= pair[0]));
+        }
+        let work = simulation.counts();
+        let iterations = work.newton_iterations as f64 / work.steps as f64;
+        println!("{}: {iterations:.2} iterations", entry.name);
+        let parts = if entry.method == Method::FourthOrder { 7.0 } else { 1.0 };
+        assert!(work.retries == 0 && iterations < 5.0 * parts, "{}: {iterations}", entry.name);
+    }
+}
+
+#[test]
+fn a_beam_that_tumbles_through_air_is_met_with_the_order_of_the_method() {
+    let end = 0.5;
+    let tip = |s: &Simulation| crate::common::ends(s)[1];
+    let exact = tip(&simulate(tumbling(), Method::FourthOrder, 2.5e-4, end));
+    for entry in INTEGRATORS {
+        let errors = [0.01, 0.005, 0.0025]
+            .map(|dt| (tip(&simulate(tumbling(), entry.method, dt, end)) - exact).norm());
+        let found = orders(&errors);
+        println!("{}: {} {found:?}", entry.name, crate::common::sci(&errors));
+        // Where a component of the velocity passes zero, k |v| v has a corner in its slope.
+        let expected = f64::from(entry.claims.order).min(2.5);
+        assert!(found[1] > expected - 0.35, "{}: {errors:?} {found:?}", entry.name);
+    }
+}

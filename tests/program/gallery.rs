@@ -1,0 +1,190 @@
+//! Every machine of `scripts/gallery/` runs, holds its checks, draws its picture and its animation, and `docs/gallery.md` tells what it found.
+
+#![allow(clippy::unwrap_used)]
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// The largest animation, in bytes.
+const LARGEST: usize = 300_000;
+/// How many scripts run at once.
+const HANDS: usize = 2;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn scripts() -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(root().join("scripts/gallery")).unwrap();
+    let mut scripts: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
+    scripts.retain(|path| path.extension().is_some_and(|ending| ending == "rhai"));
+    scripts.sort();
+    scripts
+}
+
+fn name(script: &Path) -> &str {
+    script.file_stem().unwrap().to_str().unwrap()
+}
+
+/// What one line of the table of the page or of a machine says: its benchmark, then value, ours and error.
+#[derive(Clone, Debug)]
+struct Row<T> {
+    machine: String,
+    benchmark: String,
+    numbers: [T; 3],
+}
+
+/// The lines of the table that the page begins with, as they are written there.
+fn told(page: &str) -> Vec<Row<String>> {
+    let lines = page.lines().skip_while(|line| !line.starts_with("| ---")).skip(1);
+    let lines = lines.take_while(|line| line.starts_with('|'));
+    let row = |line: &str| {
+        let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
+        assert_eq!(cells.len(), 6, "machine, benchmark, value, ours, error, time: {line}");
+        let machine = cells[0].split_once("](#").unwrap().1.trim_end_matches(')');
+        Row {
+            machine: machine.replace('-', "_"),
+            benchmark: cells[1].to_owned(),
+            numbers: [cells[2], cells[3], cells[4]].map(str::to_owned),
+        }
+    };
+    lines.map(row).collect()
+}
+
+/// What a machine wrote, as numbers.
+fn found(machine: &str, csv: &str) -> Vec<Row<f64>> {
+    let mut lines = csv.lines();
+    assert_eq!(lines.next(), Some("benchmark,error,ours,value"), "{machine}");
+    let row = |line: &str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        let number = |at: usize| cells[at].parse().unwrap();
+        assert_eq!(cells.len(), 4, "{machine}: {line}");
+        Row {
+            machine: machine.to_owned(),
+            benchmark: cells[0].to_owned(),
+            numbers: [number(3), number(2), number(1)],
+        }
+    };
+    lines.map(row).collect()
+}
+
+/// A number with as many digits as a cell has, in the same way.
+fn in_the_way_of(cell: &str, number: f64) -> String {
+    let decimals = |text: &str| text.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    match cell.split_once('e') {
+        Some((mantissa, _)) => format!("{number:.*e}", decimals(mantissa)),
+        None => format!("{number:.*}", decimals(cell)),
+    }
+}
+
+/// Runs a machine into a folder of its own; what it found, or what is wrong.
+fn run(script: &Path) -> Result<Vec<Row<f64>>, String> {
+    let out = tempfile::tempdir().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_withy"))
+        .args(["run", "--quiet", "--out"])
+        .args([out.path(), script])
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    if output.status.code() != Some(0) || said.contains("note: simulation") {
+        return Err(said.into_owned());
+    }
+    let read = |ending: &str| {
+        let file = format!("{}{ending}", name(script));
+        std::fs::read(out.path().join(&file)).map_err(|_| format!("{file} is missing"))
+    };
+    let picture = String::from_utf8(read(".svg")?).unwrap();
+    if !picture.contains("<polyline") {
+        return Err("the picture has no line".to_owned());
+    }
+    let animation = read(".png")?;
+    if !animation.windows(4).any(|chunk| chunk == b"acTL") || animation.len() > LARGEST {
+        return Err(format!("no animation, or a large one: {} bytes", animation.len()));
+    }
+    Ok(found(name(script), &String::from_utf8(read("-row.csv")?).unwrap()))
+}
+
+#[test]
+fn the_gallery_tells_what_its_machines_find() {
+    let page = std::fs::read_to_string(root().join("docs/gallery.md")).unwrap();
+    let scripts = scripts();
+    assert!(scripts.len() >= 4);
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut results = Vec::new();
+        while let Some(script) = scripts.get(next.fetch_add(1, Ordering::Relaxed)) {
+            results.push((name(script), run(script)));
+        }
+        results
+    };
+    let results = std::thread::scope(|scope| {
+        let hands: Vec<_> = (0..HANDS).map(|_| scope.spawn(work)).collect();
+        hands.into_iter().flat_map(|hand| hand.join().unwrap()).collect::<Vec<_>>()
+    });
+    let told = told(&page);
+    let mut wrong = Vec::new();
+    for (machine, result) in results {
+        let found = match result {
+            Ok(found) => found,
+            Err(problem) => {
+                wrong.push(format!("{machine}: {problem}"));
+                continue;
+            }
+        };
+        let lines: Vec<_> = told.iter().filter(|row| row.machine == machine).collect();
+        if lines.len() != found.len() {
+            wrong.push(format!("{machine}: {} lines in the table of {}", lines.len(), found.len()));
+        }
+        for (line, row) in lines.iter().zip(&found) {
+            let cells = [0, 1, 2].map(|at| in_the_way_of(&line.numbers[at], row.numbers[at]));
+            if line.benchmark != row.benchmark || line.numbers != cells {
+                wrong.push(format!(
+                    "{machine}: docs/gallery.md says {line:?}, it wrote {row:?}, that is {cells:?}"
+                ));
+            }
+        }
+    }
+    for row in &told {
+        if !scripts.iter().any(|script| name(script) == row.machine) {
+            wrong.push(format!("docs/gallery.md: no scripts/gallery/{}.rhai", row.machine));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_gallery_shows_every_machine() {
+    let page = std::fs::read_to_string(root().join("docs/gallery.md")).unwrap();
+    for script in scripts() {
+        let name = name(&script);
+        for ending in ["svg", "png"] {
+            let picture = format!("pictures/gallery/{name}.{ending}");
+            assert!(root().join("docs").join(&picture).is_file(), "no docs/{picture}");
+            assert!(
+                page.contains(&format!("]({picture})")),
+                "docs/gallery.md does not show {picture}"
+            );
+        }
+        let text = std::fs::read_to_string(&script).unwrap();
+        assert!(text.starts_with("//! "), "{name} does not say what it is");
+        assert!(page.contains(&format!("](../scripts/gallery/{name}.rhai)")), "no way to {name}");
+    }
+}
+
+#[test]
+fn cells_are_compared_to_the_digits_shown() {
+    for (cell, number, same) in [
+        ("1.94", 1.9425, "1.94"),
+        ("5.2e-6", 5.2142e-6, "5.2e-6"),
+        ("12", 11.6, "12"),
+        ("-0.30", -0.2951, "-0.30"),
+    ] {
+        assert_eq!(in_the_way_of(cell, number), same, "{cell}");
+    }
+    let page =
+        "| a | b |\n| --- | --- |\n| [Four-bar](#four-bar) | bend | 1.9 | 2 | 1e-2 | 3 s |\n";
+    let rows = told(page);
+    assert_eq!((rows[0].machine.as_str(), rows[0].benchmark.as_str()), ("four_bar", "bend"));
+    assert_eq!(rows[0].numbers, ["1.9", "2", "1e-2"]);
+}
