@@ -12,12 +12,12 @@ mod sliders;
 mod words;
 
 pub use elements::{
-    Along, Anchor, Drag, Dragged, Element, MaterialDamping, Origin, PointMass, RestoringLaw,
-    Spring, SpringKind,
+    Along, Anchor, Drag, Dragged, Drive, DriveKind, DriveState, Element, LoadAccount,
+    MaterialDamping, Origin, PointMass, RestoringLaw, Spring, SpringKind,
 };
 pub use looking::{
-    AlongSample, BeamPlaces, BeamSample, CrossSection, Distance, Part, Placement, SectionSample,
-    Sensing, SpringState, Transmission, Usage,
+    BeamPlaces, BeamSample, CrossSection, Distance, Part, Placement, SectionSample, Sensing,
+    SpringState, Transmission, Usage,
 };
 pub use mechanism::{
     BodyEnergy, Energy, Instant, Measures, Model, ModelState, StaticForces, add_resistance,

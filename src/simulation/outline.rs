@@ -96,6 +96,11 @@ impl Outline {
         pieces(degree).div_ceil(2)
     }
 
+    /// Stations of the axis between two knots.
+    pub fn stations_within_a_span(degree: usize) -> usize {
+        pieces(degree) / Self::places_a_station(degree) - 1
+    }
+
     /// The places of the centre line, from its start to its end.
     pub fn line(&self) -> &[Place] {
         &self.line

@@ -2,6 +2,7 @@
 
 use super::numbering::{LeverPlace, Numbering};
 use crate::beams::{BodyDynamics, Mesh, Place, Points, Section, Station, discretise};
+use crate::elementary::square;
 use crate::geometry::{GeometryError, Vec2, interpolate};
 use crate::joints::{CONTACT_UNKNOWNS, Partner};
 use crate::model::bodies::{Bodies, Body, Tracker};
@@ -11,6 +12,9 @@ use crate::model::motion::Motion;
 use crate::model::scene::same_place;
 use crate::model::sliders::Sliders;
 use crate::model::{BeamDefinition, Model, ModelError, Scene};
+
+/// Strains are known to so many roundings: they are differences of coordinates, which are larger than spans.
+const STRAIN_ROUNDINGS: f64 = 100.0;
 
 /// The bodies of a scene on their meshes, from which its model is made.
 pub struct Assembly<'a> {
@@ -38,16 +42,18 @@ impl Model {
         let elements = assembly.elements()?;
         let levers = assembly.levers(&numbering);
         let (trackers, joined) = (assembly.trackers()?, assembly.joined()?);
-        let rates = assembly.start_rates(&numbering)?;
+        let (supports, given, unknowns) = numbering.supports_and_unknowns(scene, border)?;
+        let mut rates = assembly.start_rates(&numbering, border, &given)?;
+        rates.extend(given);
         let mass = assembly.mass();
-        let (supports, unknowns) = numbering.supports_and_unknowns(border);
         let Assembly { meshes, bodies, .. } = assembly;
         let bodies = bodies.into_iter().zip(numbering.degrees_of_freedom);
         let bodies = bodies
             .map(|(dynamics, degrees)| Body::new(dynamics, degrees, unknowns.count()))
             .collect();
         let bodies = Bodies::new(bodies, meshes, trackers, joined, mass);
-        let motion = Motion::new(rates, f64::EPSILON * scene.rounding_energy());
+        let motion =
+            Motion::new(rates, square(STRAIN_ROUNDINGS) * f64::EPSILON * scene.rounding_energy());
         let mut model = Self::new(bodies, elements, levers, sliders, supports, unknowns, motion);
         model.check_levers(scene)?;
         if !scene.sliders.is_empty() {
@@ -68,6 +74,7 @@ impl<'a> Assembly<'a> {
         let nodes: Vec<Station> = joined
             .chain(scene.velocities.iter().map(|velocity| velocity.station))
             .chain(scene.sliders.iter().map(|slider| slider.slave))
+            .chain(scene.drives.iter().map(|drive| drive.station))
             .chain(scene.elements.iter().flat_map(|element| element.description().nodes()))
             .collect();
         let mut meshes = Vec::with_capacity(scene.beams.len());

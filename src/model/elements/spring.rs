@@ -61,7 +61,8 @@ impl Spring {
         }
     }
 
-    fn stations(&self) -> impl Iterator<Item = &Station> {
+    /// Those of them that are on bodies.
+    pub fn stations(&self) -> impl Iterator<Item = &Station> {
         self.anchors().iter().filter_map(|anchor| match anchor {
             Anchor::Station(station) => Some(station),
             Anchor::Ground(_) => None,

@@ -207,14 +207,15 @@ impl Scene {
         beams.chain(particles).chain(rigid).chain(joints).collect()
     }
 
-    /// What joints are called in names of sensors, in their order: `hinge1`, `clamp1`, `hinge2`, `rigid1`.
+    /// What joints are called in names of sensors, in their order: `hinge1`, `clamp1`, `hinge2`, `rigid1`, `support1`.
     pub fn joint_names(&self) -> Vec<String> {
-        let mut counts = [0; 3];
+        let mut counts = [0; 4];
         let name = |joint: &Joint| {
             let (kind, at) = match (joint.kind, &joint.partner) {
                 (JointKind::Hinge, _) => ("hinge", 0),
                 (JointKind::Rigid, Partner::Ground) => ("clamp", 1),
                 (JointKind::Rigid, Partner::Station(_)) => ("rigid", 2),
+                (JointKind::Support(_), _) => ("support", 3),
             };
             counts[at] += 1;
             format!("{kind}{}", counts[at])
@@ -241,7 +242,14 @@ impl Scene {
         // Names may begin alike; the first of equal ones counts.
         let all = beams.chain(particles).chain(rigid).chain(joints);
         let longest = all.reduce(|best, other| if other.0.0 > best.0.0 { other } else { best });
+        let others = self.sliders.iter().map(|slider| &slider.name);
+        let mut others = others.chain(self.springs().map(|spring| &spring.name));
         let Some(((_, rest), object)) = longest else {
+            if let Some(other) = others.find(|known| of(known).is_some()) {
+                return Err(refused(format!(
+                    "sliders and springs, such as '{other}', have their columns in every history without being recorded"
+                )));
+            }
             return Err(refused(
                 "it must begin with the name of a beam, a particle, a body or a joint (hinge1, clamp1, rigid1) of the scene".to_owned(),
             ));

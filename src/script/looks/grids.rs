@@ -23,7 +23,8 @@ impl Grids {
     /// When an axis has a point without a tangent.
     pub fn of(simulation: &Simulation) -> Result<Self, ModelError> {
         let scene = simulation.scene();
-        let beams = (0..scene.beams.len()).map(|beam| simulation.places_along(beam));
+        let beams = (0..scene.beams.len())
+            .map(|beam| simulation.places_along(beam, BeamPlaces::WITHIN_A_SPAN));
         let names = scene.beams.iter().map(|beam| beam.name.clone());
         let particles = scene.particles.iter().map(|particle| particle.name.clone());
         let bodies = scene.rigid_bodies.iter().map(|body| body.name.clone());

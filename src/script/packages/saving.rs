@@ -1,6 +1,6 @@
 //! Simulations in files, the latest one, and things of a scene by their names.
 
-use rhai::Dynamic;
+use rhai::{Array, Dynamic};
 
 use super::bodies::BODY;
 use super::scenes::BEAM;
@@ -17,8 +17,8 @@ use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::rows::call::Call;
-use crate::script::rows::parameter::{Parameter, text};
-use crate::script::rows::returns::Returns;
+use crate::script::rows::parameter::{Parameter, array, text};
+use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Table, function, method, property};
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::suggest::nearest;
@@ -46,6 +46,12 @@ pub const TABLE: Table = Table {
             .doc("A file that is cut off, damaged, of a later withy or something else is refused with the reason.")
             .example("sim.run_to(1);\nsim.save(\"half.withy\");\nlet on = load_simulation(\"half.withy\");\non.run_to(2);\nprint(on.position(on.scene.beam_named(\"rod\").end));")
             .see(&["save", "scene", "beam_named"]),
+        function("simulations_among", &[array("values")], |call| Ok(simulations_among(&call.array("values")?).into()))
+            .returns(Returns::array_of(&ValueKind::Object(SIMULATION)))
+            .summary("The simulations in an array of any values, also in arrays within it, each once.")
+            .doc("`withy view` shows those among the variables of a script.")
+            .example("let other = sim.fork();\ncheck(simulations_among([1, sim, [other, sim]]).len() == 2);")
+            .see(&["latest_simulation", "write_viewer"]),
         function("latest_simulation", &[], |call| {
             call.context().latest_simulation().ok_or_else(|| {
                 call.error("there is no simulation yet").hint("start one: let sim = scene.start(#{ dt: 0.01 });")
@@ -100,6 +106,22 @@ pub const TABLE: Table = Table {
 };
 
 const NAME: Parameter = text("name");
+
+/// The simulations in an array, also in arrays within it, each once.
+fn simulations_among(values: &Array) -> Array {
+    let mut found: Vec<SimulationHandle> = Vec::new();
+    let mut left: Vec<Dynamic> = values.iter().rev().cloned().collect();
+    while let Some(value) = left.pop() {
+        if let Some(array) = value.read_lock::<Array>() {
+            left.extend(array.iter().rev().cloned());
+        } else if let Some(simulation) = value.clone().try_cast::<SimulationHandle>()
+            && !found.iter().any(|other| other.is_same(&simulation))
+        {
+            found.push(simulation);
+        }
+    }
+    found.into_iter().map(Dynamic::from).collect()
+}
 
 fn save(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
