@@ -12,7 +12,7 @@ use crate::output::{
 };
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
-use crate::script::looks::motion::{Shown, placed, snapshot};
+use crate::script::looks::motion::{Shown, has_room_for_dots, placed, snapshot};
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Scripted;
 use crate::script::rows::options::Options;
@@ -174,6 +174,7 @@ fn reel(
     shown: Shown,
 ) -> Result<Reel, ScriptError> {
     let simulation = of.simulation();
+    let has_dots = has_room_for_dots(&simulation);
     let (mut snapshots, mut symbols) = (Vec::new(), Vec::new());
     for time in times {
         let Some(configuration) = simulation.configuration_near(*time)? else { continue };
@@ -181,7 +182,11 @@ fn reel(
             Shown::Yes => placed(&simulation, configuration.time, None)?,
             Shown::No => Vec::new(),
         });
-        snapshots.push(snapshot(&configuration));
+        let mut snapshot = snapshot(&configuration);
+        if !has_dots {
+            snapshot.marks.clear();
+        }
+        snapshots.push(snapshot);
     }
     let (first, last) = (times[0], times[times.len() - 1]);
     let trace = |station: &StationHandle| {
