@@ -1,6 +1,7 @@
 //! The generalized-α method.
 
 use super::balance::{Rule, StepSolver};
+use super::given::BalancedAt;
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::elementary::square;
 use crate::newton::{NewtonReport, Tolerance};
@@ -103,6 +104,8 @@ impl GeneralizedAlpha {
             inertia: (1.0 - inertia_before) / beta,
             stage: Stage::End,
             weight: 1.0 - forces_before,
+            // Where the forces are: those of unknown movements are as late.
+            given: BalancedAt::Share(1.0 - forces_before),
         };
         let report = solver.solve(mechanism, interval, rule)?;
         let duration = interval.duration();

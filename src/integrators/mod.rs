@@ -6,6 +6,7 @@ mod energy_momentum;
 mod error;
 mod fourth_order;
 mod generalized_alpha;
+mod given;
 mod integrator;
 mod interval;
 mod mechanism;
@@ -17,6 +18,7 @@ pub use energy_momentum::EnergyMomentum;
 pub use error::{Cause, StepError};
 pub use fourth_order::FourthOrder;
 pub use generalized_alpha::GeneralizedAlpha;
+pub use given::Given;
 pub use integrator::Integrator;
 pub use interval::{Ending, Interval};
 pub use mechanism::{

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::beams::Station;
 
 /// A component of the movement of a section.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Component {
     /// The movement of a section along the first axis [length].
     X,
@@ -21,6 +21,63 @@ pub enum Component {
 impl Component {
     /// All components of the movement of a section, in the order of a movement.
     pub const ALL: [Self; 3] = [Self::X, Self::Y, Self::Rotation];
+
+    /// The component in messages, such as `x`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::X => "x",
+            Self::Y => "y",
+            Self::Rotation => "angle",
+        }
+    }
+}
+
+/// Some of the components of the movement of a section: at least one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Components {
+    /// The first axis alone.
+    X,
+    /// The second axis alone.
+    Y,
+    /// The rotation alone.
+    Rotation,
+    /// Both axes.
+    Position,
+    /// The first axis and the rotation.
+    XRotation,
+    /// The second axis and the rotation.
+    YRotation,
+    /// Everything.
+    All,
+}
+
+impl Components {
+    /// The set in which a component is that is named; none if there is none.
+    pub fn among(is_in: impl Fn(Component) -> bool) -> Option<Self> {
+        match Component::ALL.map(is_in) {
+            [false, false, false] => None,
+            [true, false, false] => Some(Self::X),
+            [false, true, false] => Some(Self::Y),
+            [false, false, true] => Some(Self::Rotation),
+            [true, true, false] => Some(Self::Position),
+            [true, false, true] => Some(Self::XRotation),
+            [false, true, true] => Some(Self::YRotation),
+            [true, true, true] => Some(Self::All),
+        }
+    }
+
+    /// The components of the set, in the order of a movement.
+    pub fn list(self) -> &'static [Component] {
+        match self {
+            Self::X => &Component::ALL[..1],
+            Self::Y => &Component::ALL[1..2],
+            Self::Rotation => &Component::ALL[2..],
+            Self::Position => &Component::ALL[..2],
+            Self::XRotation => &[Component::X, Component::Rotation],
+            Self::YRotation => &Component::ALL[1..],
+            Self::All => &Component::ALL,
+        }
+    }
 }
 
 /// Which components of movement a joint ties.
@@ -30,6 +87,8 @@ pub enum JointKind {
     Hinge,
     /// A rigid joint ties positions and rotations; the angle between the sections stays as drawn. With the ground: a clamp.
     Rigid,
+    /// A support holds some components of a station on the ground, and leaves the others free.
+    Support(Components),
 }
 
 /// What a joint ties a station to.
@@ -60,7 +119,13 @@ impl JointKind {
         match self {
             Self::Hinge => &Component::ALL[..2],
             Self::Rigid => &Component::ALL,
+            Self::Support(held) => held.list(),
         }
+    }
+
+    /// Whether a joint of this kind ties rotations, so that it transmits moments.
+    pub fn ties_rotation(self) -> bool {
+        self.components().contains(&Component::Rotation)
     }
 
     /// The kind of joint in words, with what it ties to, such as `clamp`.
@@ -69,6 +134,7 @@ impl JointKind {
             (Self::Hinge, _) => "hinge",
             (Self::Rigid, Partner::Ground) => "clamp",
             (Self::Rigid, Partner::Station(_)) => "rigid joint",
+            (Self::Support(_), _) => "support",
         }
     }
 }

@@ -4,7 +4,7 @@ mod joint;
 mod slider;
 mod sliding;
 
-pub use joint::{Component, Joint, JointKind, Partner};
+pub use joint::{Component, Components, Joint, JointKind, Partner};
 pub use slider::{EndAction, Slider, StartVelocities};
 pub use sliding::{
     Along, CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Held, Kink,

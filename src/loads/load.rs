@@ -46,6 +46,17 @@ pub enum LoadKind {
     },
 }
 
+impl LoadKind {
+    /// What is told of the load in columns: what it is, its dimension, and its size while the schedule is 1.
+    pub fn measure(&self) -> (&'static str, &'static str, f64) {
+        match self {
+            Self::Force { force, .. } => ("force", "force", force.norm()),
+            Self::Moment { moment, .. } => ("torque", "force·length", *moment),
+            Self::Line { force, .. } => ("force", "force/length", force.norm()),
+        }
+    }
+}
+
 /// A load of a scene.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Load {
@@ -55,4 +66,6 @@ pub struct Load {
     pub kind: LoadKind,
     /// The schedule of the load: a factor over time.
     pub schedule: Schedule,
+    /// What the load is called in columns of histories, which have its work then.
+    pub title: Option<String>,
 }

@@ -128,11 +128,12 @@ impl Model {
         self.motion.time = time;
     }
 
-    /// Gives all loads the values that they have just after a time.
+    /// Gives all loads the values that they have just after a time, and given motions their places at rest.
     ///
     /// # Errors
     /// When one has no finite value then: its name, and why.
     pub fn hold_loads_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
+        self.supports.guides_mut().hold_at(time)?;
         self.elements.hold_at(time)
     }
 

@@ -12,8 +12,8 @@ mod sliders;
 mod words;
 
 pub use elements::{
-    Along, Anchor, Drag, Dragged, Element, MaterialDamping, Origin, PointMass, RestoringLaw,
-    Spring, SpringKind,
+    Along, Anchor, Drag, Dragged, Drive, DriveKind, DriveState, Element, LoadAccount,
+    MaterialDamping, Origin, PointMass, RestoringLaw, Spring, SpringKind,
 };
 pub use looking::{
     BeamPlaces, BeamSample, CrossSection, Distance, Part, Placement, SectionSample, Sensing,

@@ -1,8 +1,9 @@
 //! The columns of a history: those that every history has, and those that a scene adds.
 
 use super::Sample;
-use crate::joints::Slider;
-use crate::model::{Model, Scene, Spring, SpringKind, SpringState};
+use crate::joints::{Component, Slider};
+use crate::loads::Load;
+use crate::model::{Drive, DriveKind, DriveState, Model, Scene, Spring, SpringKind, SpringState};
 
 /// A column that the history of every run has.
 #[derive(Debug, Clone, Copy)]
@@ -90,12 +91,48 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
     let sums = [(STORED, stores), (DISSIPATED, dissipates)].into_iter().filter(|(_, has)| *has);
     let sums = sums.map(|(entry, _)| column(entry.to_owned(), "energy"));
     let others = scene.dissipating().map(|name| column(format!("{DISSIPATED}.{name}"), "energy"));
+    let of_drive = |drive: &Drive| {
+        let name = &drive.name;
+        let own = drive.courses().map(|(component, _)| {
+            let dimension = match component {
+                Component::X | Component::Y => "force",
+                Component::Rotation => "force·length",
+            };
+            column(format!("{name}.{}", told_of(drive.kind, component)), dimension)
+        });
+        own.chain([column(format!("work.{name}"), "energy")]).collect::<Vec<_>>()
+    };
+    let of_load = |load: &Load| {
+        let (measure, dimension, _) = load.kind.measure();
+        let of_title = |title: &String| {
+            let own = column(format!("{title}.{measure}"), dimension);
+            [own, column(format!("work.{title}"), "energy")]
+        };
+        load.title.as_ref().map(of_title).into_iter().flatten().collect::<Vec<_>>()
+    };
     let sensors = scene.sensors.iter();
     let sensors = sensors
         .map(|sensor| ExtraColumn { name: sensor.name.clone(), dimension: sensor.dimension() });
     let of_sliders = scene.sliders.iter().flat_map(of_slider);
     let of_springs = scene.springs().flat_map(of_spring);
-    of_sliders.chain(sums).chain(of_springs).chain(others).chain(sensors).collect()
+    let of_drives = scene.drives.iter().flat_map(of_drive);
+    let of_loads = scene.loads().flat_map(of_load);
+    of_sliders
+        .chain(sums)
+        .chain(of_springs)
+        .chain(others)
+        .chain(of_drives)
+        .chain(of_loads)
+        .chain(sensors)
+        .collect()
+}
+
+/// What the column of a component of a drive is called.
+fn told_of(kind: DriveKind, component: Component) -> &'static str {
+    match kind {
+        DriveKind::Move => component.name(),
+        DriveKind::Motor => "torque",
+    }
 }
 
 /// The values of those of the sliders at the present state of the model, in the same order.
@@ -116,5 +153,18 @@ pub(super) fn extra_values(model: &Model) -> impl Iterator<Item = f64> {
     let of_springs = model
         .springs()
         .flat_map(|spring| [spring.elongation, spring.force, spring.stored, spring.dissipated]);
-    of_sliders.chain(sums).chain(of_springs).chain(model.dissipations())
+    let of_drive = |drive: DriveState<'_>| {
+        let [x, y, turned] = drive.given;
+        let own = [(x, drive.force.x), (y, drive.force.y), (turned, drive.moment)];
+        let own = own.into_iter().filter(|(given, _)| *given).map(|(_, reaction)| reaction);
+        own.chain([drive.work])
+    };
+    let of_drives = model.drives().flat_map(of_drive);
+    let of_loads = model.named_loads().flat_map(|load| [load.value, load.work]);
+    of_sliders
+        .chain(sums)
+        .chain(of_springs)
+        .chain(model.dissipations())
+        .chain(of_drives)
+        .chain(of_loads)
 }

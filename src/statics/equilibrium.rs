@@ -190,6 +190,12 @@ fn prepare(scene: &Scene, loading: &Loading) -> Result<Model, StaticsError> {
     model
         .hold_loads_at(loading.time)
         .map_err(|(load, source)| StaticsError::Load { load, source })?;
+    if let (Some(drive), Control::ArcLength(_)) = (scene.drives.first(), loading.control) {
+        return Err(StaticsError::Driven { drive: drive.name.clone() });
+    }
+    if model.is_moved_at_rest() {
+        return Ok(model);
+    }
     let mut loads = vec![0.0; model.degrees_of_freedom()];
     model.subtract_static_loads(&vec![0.0; model.unknowns()], 1.0, &mut loads);
     if loads.iter().all(|load| *load == 0.0) {

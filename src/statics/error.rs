@@ -30,6 +30,14 @@ pub enum StaticsError {
         /// The name of the slider.
         slider: String,
     },
+    /// A given motion where the load factor is found by the way along a path.
+    #[error(
+        "{drive}: a motion that is given is put on by load steps alone, not along a path of given length"
+    )]
+    Driven {
+        /// The name of the drive.
+        drive: String,
+    },
     /// A setting of the equilibrium is out of its range.
     #[error("{name} is {value}, but must be {allowed}")]
     Value {

@@ -223,7 +223,7 @@ impl<'s> Tracer<'s> {
     }
 
     fn accept(&mut self, factor: f64, iterations: usize) {
-        self.model.move_by(&self.movements);
+        self.model.move_by(&self.movements, factor);
         let distance = norm(&self.metric, &self.movements);
         self.path.push(point(&mut self.model, factor, distance, iterations));
     }

@@ -5,11 +5,11 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use super::at;
 use withy::beams::{Mesh, Relaxation, Section, Station};
 use withy::geometry::{Curve, Vec2};
-use withy::joints::{JointKind, Partner};
-use withy::loads::{Frame, LoadKind, Schedule};
+use withy::joints::{Component, Components, JointKind, Partner};
+use withy::loads::{Course, Frame, LoadKind, Schedule};
 use withy::model::{
-    Along, Anchor, BeamDefinition, Drag, Dragged, Origin, ParticleDefinition, PointMass,
-    RestoringLaw, RigidBodyDefinition, Scene, Spring, SpringKind, StartMotion,
+    Along, Anchor, BeamDefinition, Drag, Dragged, Drive, DriveKind, Origin, ParticleDefinition,
+    PointMass, RestoringLaw, RigidBodyDefinition, Scene, Spring, SpringKind, StartMotion,
 };
 
 /// The section of the flying spaghetti with `EA = GA` and `EI` as given.
@@ -273,6 +273,41 @@ pub fn mounted(mesh: &Mesh) -> Scene {
     scene
 }
 
+/// Gives components of a station motions.
+pub fn drive(scene: &mut Scene, station: Station, given: &[(Component, Course)]) {
+    let mut courses = [None, None, None];
+    for (component, course) in given {
+        courses[*component as usize] = Some(course.clone());
+    }
+    let (name, kind) = (scene.free_name("move"), DriveKind::Move);
+    scene.add_drive(Drive { name, kind, station, courses }).unwrap();
+}
+
+fn sine(amplitude: f64, rate: f64) -> Schedule {
+    Schedule::Sine { amplitude, rate, phase: 0.0 }
+}
+
+/// Two beams joined by a hinge: the foot of the first is shaken and turned, the second stands on a roller; a load with a name acts besides.
+pub fn driven(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("driven");
+    let first = add_beam(&mut scene, line(at(0.3, 0.1), at(1.5, 1.0)), mesh, rod());
+    let second = add_beam(&mut scene, line(at(1.5, 1.0), at(3.0, 0.2)), mesh, rod());
+    let (foot, top) = (start_of(&mut scene, first), end_of(&mut scene, first));
+    let (next, tip) = (start_of(&mut scene, second), end_of(&mut scene, second));
+    scene.join(JointKind::Hinge, top, Partner::Station(next)).unwrap();
+    scene.join(JointKind::Support(Components::Y), tip, Partner::Ground).unwrap();
+    let motions = [
+        (Component::X, Course::Place(sine(0.2, 2.3))),
+        (Component::Y, Course::Rate(sine(0.3, 1.7))),
+        (Component::Rotation, Course::Rate(sine(0.4, 0.9))),
+    ];
+    drive(&mut scene, foot, &motions);
+    let push = LoadKind::Force { station: tip, force: at(2.0, 0.0), frame: Frame::Dead };
+    scene.add_named_load("push".to_owned(), push, hold(2.0)).unwrap();
+    scene.gravity = at(0.0, -2.0);
+    scene
+}
+
 /// A bent beam of a Kelvin–Voigt material that flies, and a straight one joined to its end.
 pub fn damped(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("damped");
@@ -350,5 +385,6 @@ pub fn all(mesh: &Mesh) -> Vec<Scene> {
         damped(mesh),
         dragged(mesh),
         flywheels(mesh),
+        driven(mesh),
     ]
 }

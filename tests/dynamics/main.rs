@@ -11,6 +11,7 @@ mod consistency;
 mod cores;
 mod damping;
 mod drag;
+mod drives;
 mod going_back;
 mod invariants;
 mod levers;

@@ -42,9 +42,10 @@ impl Model {
         let elements = assembly.elements()?;
         let levers = assembly.levers(&numbering);
         let (trackers, joined) = (assembly.trackers()?, assembly.joined()?);
-        let rates = assembly.start_rates(&numbering)?;
+        let (supports, given, unknowns) = numbering.supports_and_unknowns(scene, border)?;
+        let mut rates = assembly.start_rates(&numbering, border, &given)?;
+        rates.extend(given);
         let mass = assembly.mass();
-        let (supports, unknowns) = numbering.supports_and_unknowns(border);
         let Assembly { meshes, bodies, .. } = assembly;
         let bodies = bodies.into_iter().zip(numbering.degrees_of_freedom);
         let bodies = bodies
@@ -73,6 +74,7 @@ impl<'a> Assembly<'a> {
         let nodes: Vec<Station> = joined
             .chain(scene.velocities.iter().map(|velocity| velocity.station))
             .chain(scene.sliders.iter().map(|slider| slider.slave))
+            .chain(scene.drives.iter().map(|drive| drive.station))
             .chain(scene.elements.iter().flat_map(|element| element.description().nodes()))
             .collect();
         let mut meshes = Vec::with_capacity(scene.beams.len());

@@ -4,7 +4,7 @@ use crate::beams::{BodyDynamics, Place, Station};
 use crate::joints::{Component, Partner};
 use crate::linalg::reverse_cuthill_mckee;
 use crate::model::ModelError;
-use crate::model::elements::{Support, Supports};
+use crate::model::elements::{Guided, Guides, Support, Supports};
 use crate::model::motion::{UnknownKind, Unknowns};
 use crate::model::scene::{Scene, Ties};
 
@@ -24,6 +24,8 @@ pub struct Numbering {
     /// The two unknowns of the force of each lever, among those of the movements that it couples.
     pub levers: Vec<LeverPlace>,
     pub unknowns: usize,
+    /// Of the supported ones, those that are given stand first.
+    given: usize,
     supported: usize,
     half_bandwidth: usize,
 }
@@ -82,6 +84,14 @@ impl Numbering {
             }
         }
 
+        // Classes that are given get theirs in the order of the drives.
+        let mut given = Vec::new();
+        for drive in &scene.drives {
+            let place = place(&drive.station)?;
+            let node = offsets[place.body] + 3 * place.nearest_control_point();
+            given.extend(drive.courses().map(|(at, _)| ties.root(node + at as usize)));
+        }
+
         // Free classes get numbers in the order of the beams; ground is class 0.
         let mut number = vec![usize::MAX; all];
         let mut unknowns = 0;
@@ -95,7 +105,7 @@ impl Numbering {
                 }
             }
             let root = ties.root(at);
-            if root != 0 && number[root] == usize::MAX {
+            if root != 0 && number[root] == usize::MAX && !given.contains(&root) {
                 number[root] = unknowns;
                 unknowns += 1;
             }
@@ -149,7 +159,7 @@ impl Numbering {
         });
         let levers = levers.collect();
 
-        let mut supported = 0;
+        let mut supported = given.len();
         let degrees_of_freedom = bodies
             .iter()
             .zip(&offsets)
@@ -159,7 +169,10 @@ impl Numbering {
                         supported += 1;
                         unknowns + border + supported - 1
                     }
-                    root => ordering.position[number[root]],
+                    root => match given.iter().position(|other| *other == root) {
+                        Some(guide) => unknowns + border + guide,
+                        None => ordering.position[number[root]],
+                    },
                 };
                 (0..body.control_points().len())
                     .map(|point| {
@@ -173,13 +186,19 @@ impl Numbering {
             degrees_of_freedom,
             levers,
             unknowns,
+            given: given.len(),
             supported,
             half_bandwidth: ordering.half_bandwidth,
         })
     }
 
-    /// The supports in the order of their degrees of freedom, and the unknowns; constraints with `border` unknowns stand between.
-    pub fn supports_and_unknowns(&self, border: usize) -> (Supports, Unknowns) {
+    /// The supports in the order of their degrees of freedom, the rates at which those begin that are given, and the unknowns; constraints with `border`
+    /// unknowns stand between.
+    pub fn supports_and_unknowns(
+        &self,
+        scene: &Scene,
+        border: usize,
+    ) -> Result<(Supports, Vec<f64>, Unknowns), ModelError> {
         let mut kinds = vec![UnknownKind::Position; self.unknowns];
         let mut supports =
             vec![Support { body: 0, point: 0, component: Component::X }; self.supported];
@@ -199,6 +218,18 @@ impl Numbering {
         for at in self.levers.iter().flat_map(|lever| lever.force) {
             kinds[at] = UnknownKind::Force;
         }
-        (Supports::new(supports), Unknowns::new(kinds, self.half_bandwidth))
+        let held = supports.split_off(self.given);
+        let courses = scene.drives.iter().enumerate();
+        let courses = courses.flat_map(|(drive, of)| of.courses().map(move |(_, at)| (drive, at)));
+        let guided = supports.into_iter().zip(courses).map(|(support, (drive, course))| Guided {
+            support,
+            drive,
+            course: course.clone(),
+        });
+        let drives = scene.drives.iter().map(|drive| drive.name.clone());
+        let (guides, rates) = Guides::new(guided.collect(), drives, self.unknowns, border)
+            .map_err(|(drive, source)| ModelError::DriveValue { drive, source })?;
+        let unknowns = Unknowns::new(kinds, self.half_bandwidth);
+        Ok((Supports::new(guides, held), rates, unknowns))
     }
 }

@@ -9,15 +9,40 @@ use crate::model::{ModelError, StartMotion, StationVelocity, Turning};
 /// Largest difference of tied start velocities, relative to the velocities of the beam.
 const SAME_VELOCITY: f64 = 1e-9;
 
+/// Largest difference of a start velocity from that with which a given motion begins, which is found by differences.
+const SAME_START: f64 = 1e-6;
+
 /// The components of a start velocity in messages.
 const COMPONENTS: [&str; 3] = ["velocity along x", "velocity along y", "spin"];
 
 /// Why a supported movement has no velocity.
 const GROUND: &str = "the ground there does not move";
 
+/// Why a given movement has the velocity that it has.
+fn given_there(rate: f64) -> String {
+    format!("its motion is given there, and begins with {rate}")
+}
+
 /// The rate of each unknown, with the beam or the rigid body that has given it.
 struct Shared {
     rates: Vec<Option<(usize, f64)>>,
+}
+
+/// The rates with which given movements begin, behind the unknown ones.
+#[derive(Clone, Copy)]
+struct Beginnings<'a> {
+    unknowns: usize,
+    /// With the entries of constraints ahead, which nobody asks for.
+    rates: &'a [f64],
+    constraints: usize,
+}
+
+impl Beginnings<'_> {
+    /// That of a degree of freedom, if it is given.
+    fn at(&self, degree: usize) -> Option<f64> {
+        let entry = degree.checked_sub(self.unknowns)?;
+        if entry < self.constraints { None } else { self.rates.get(entry).copied() }
+    }
 }
 
 impl Shared {
@@ -45,23 +70,38 @@ impl Shared {
 
 impl Assembly<'_> {
     /// The rates of the unknown movements at the start, which fit joints and start velocities [length/time, 1/time].
-    pub fn start_rates(&self, numbering: &Numbering) -> Result<Vec<f64>, ModelError> {
+    ///
+    /// Behind them stand constraints with so many unknowns, and movements that are given with rates of their own.
+    pub fn start_rates(
+        &self,
+        numbering: &Numbering,
+        constraints: usize,
+        given: &[f64],
+    ) -> Result<Vec<f64>, ModelError> {
+        let begun = Beginnings { unknowns: numbering.unknowns, rates: given, constraints };
         let mut shared = Shared { rates: vec![None; numbering.unknowns] };
         for (index, beam) in self.scene.beams.iter().enumerate() {
             let degrees = &numbering.degrees_of_freedom[index];
-            self.share_rigid_motion(index, beam.axis.length(), &beam.motion, degrees, &mut shared)?;
+            self.share_rigid_motion(
+                index,
+                beam.axis.length(),
+                &beam.motion,
+                degrees,
+                &mut shared,
+                begun,
+            )?;
         }
         let first = self.scene.beams.len() + self.scene.particles.len();
         for (index, body) in (first..).zip(&self.scene.rigid_bodies) {
             let degrees = &numbering.degrees_of_freedom[index];
             // One without points is as large as anything: what it shares is its centre.
             let size = if body.size() > 0.0 { body.size() } else { 1.0 };
-            self.share_rigid_motion(index, size, &body.motion, degrees, &mut shared)?;
+            self.share_rigid_motion(index, size, &body.motion, degrees, &mut shared, begun)?;
         }
         let rates = shared.rates.into_iter();
         let mut rates: Vec<f64> = rates.map(|rate| rate.map_or(0.0, |(_, value)| value)).collect();
         for velocity in &self.scene.velocities {
-            self.set_velocity(velocity, numbering, &mut rates)?;
+            self.set_velocity(velocity, numbering, &mut rates, begun)?;
         }
         Ok(rates)
     }
@@ -74,12 +114,14 @@ impl Assembly<'_> {
         motion: &StartMotion,
         degrees_of_freedom: &[[usize; 3]],
         shared: &mut Shared,
+        begun: Beginnings<'_>,
     ) -> Result<(), ModelError> {
         let body = self.body(index);
         let about = motion.about.unwrap_or_else(|| match index < self.scene.beams.len() {
             true => centre(body),
             false => body.control_points()[0],
         });
+        let rests = *motion == StartMotion::default();
         let speed = motion.velocity.norm() + motion.spin.abs() * length;
         let sizes = [speed, speed, speed / length];
         for (point, degrees) in body.control_points().iter().zip(degrees_of_freedom) {
@@ -87,6 +129,18 @@ impl Assembly<'_> {
             let rates = [velocity.x, velocity.y, motion.spin];
             let sized = degrees.iter().zip(rates).zip(sizes).zip(COMPONENTS);
             for (((&at, rate), size), component) in sized {
+                if let Some(begins) = begun.at(at) {
+                    // What rests is set in motion by a blow.
+                    if !rests && (rate - begins).abs() > SAME_START * size.max(begins.abs()) {
+                        return Err(ModelError::StartVelocity {
+                            body: self.name_of(index),
+                            place: format!("drive ({component})"),
+                            velocity: rate,
+                            other: given_there(begins),
+                        });
+                    }
+                    continue;
+                }
                 if let Some(other) = shared.take(at, index, rate, size) {
                     let other = other.map_or(GROUND.to_owned(), |(other, rate)| {
                         format!("{}, joined there, has {rate}", self.name_of(other))
@@ -118,6 +172,7 @@ impl Assembly<'_> {
         velocity: &StationVelocity,
         numbering: &Numbering,
         rates: &mut [f64],
+        begun: Beginnings<'_>,
     ) -> Result<(), ModelError> {
         let StationVelocity { station, velocity, spin } = velocity;
         let object = format!("start velocity of {}", self.scene.describe(station));
@@ -133,6 +188,15 @@ impl Assembly<'_> {
         for ((at, value), component) in degrees.into_iter().zip(values).zip(COMPONENTS) {
             match (value, rates.get_mut(at)) {
                 (Some(value), Some(rate)) => *rate = value,
+                (Some(value), None) if begun.at(at).is_some_and(|begins| begins != value) => {
+                    return Err(ModelError::StartVelocity {
+                        body: self.scene.name_of_body(station),
+                        place: format!("drive ({component})"),
+                        velocity: value,
+                        other: given_there(begun.at(at).unwrap_or_default()),
+                    });
+                }
+                (Some(_), None) if begun.at(at).is_some() => {}
                 (Some(value), None) if value != 0.0 => {
                     return Err(ModelError::StartVelocity {
                         body: self.scene.name_of_body(station),

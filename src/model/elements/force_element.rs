@@ -31,6 +31,15 @@ pub struct Iterate<'a> {
     pub weight: f64,
 }
 
+/// What a load with a name has given.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LoadAccount {
+    /// Its work since the start [energy].
+    pub work: f64,
+    /// Its size in the last step: force, moment, or force per length, mean over the step.
+    pub value: f64,
+}
+
 /// An element that puts forces on bodies: a load, a weight, a spring.
 ///
 /// In a step it is asked for its forces in every iterate, and at the end for what it exchanged: an element with a potential gives
@@ -72,6 +81,11 @@ pub trait ForceElement {
 
     /// The energy that is stored in the element at the start of the step, if it has one [energy].
     fn energy(&self, _bodies: &[Body]) -> Option<f64> {
+        None
+    }
+
+    /// What the element gave, if it has a name by which that is kept.
+    fn account(&self) -> Option<LoadAccount> {
         None
     }
 

@@ -3,7 +3,7 @@
 use super::element::{Assembled, Description, Setting, Site};
 use super::follower::Follower;
 use super::pattern::Pattern;
-use super::{Exchange, ForceElement, Iterate};
+use super::{Exchange, ForceElement, Iterate, LoadAccount};
 use crate::beams::{BodyIndex, RotationIncrement, Station};
 use crate::geometry::{GaussRule, Vec2};
 use crate::integrators::{Interval, Method, Stage};
@@ -83,6 +83,8 @@ impl Description for Load {
             factors: StageFactors::default(),
             carried: 0.0,
             current: 0.0,
+            account: self.title.as_ref().map(|_| LoadAccount::default()),
+            size: self.kind.measure().2,
         })))
     }
 }
@@ -121,6 +123,10 @@ struct AppliedLoad {
     /// Weighted factors that the method takes from the start of the step, and from the iterate.
     carried: f64,
     current: f64,
+    /// What it gives, where it has a name.
+    account: Option<LoadAccount>,
+    /// How large it is while the schedule is 1.
+    size: f64,
 }
 
 /// Factors of the schedule; not a number at stages that the step did not announce.
@@ -249,6 +255,10 @@ impl ForceElement for AppliedLoad {
         }
     }
 
+    fn account(&self) -> Option<LoadAccount> {
+        self.account
+    }
+
     fn turns(&self) -> bool {
         matches!(self.action, Action::Follower(_))
     }
@@ -258,14 +268,25 @@ impl ForceElement for AppliedLoad {
     }
 
     fn advance(&mut self, bodies: &[Body], rotations: RotationIncrement) {
+        if let Some(mut account) = self.account {
+            account.work += self.exchange(bodies, 1.0).work;
+            let StageFactors { start, mean, end } = self.factors;
+            let factor = if mean.is_nan() { 0.5 * (start + end) } else { mean };
+            account.value = self.size * factor;
+            self.account = Some(account);
+        }
         self.followers_mut().iter_mut().for_each(|each| each.advance(bodies, rotations));
     }
 
     fn save(&self, state: &mut Vec<f64>) {
+        state.extend(self.account.iter().flat_map(|account| [account.work, account.value]));
         self.followers().iter().for_each(|each| each.save(state));
     }
 
     fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        if let Some(account) = &mut self.account {
+            *account = LoadAccount { work: next(), value: next() };
+        }
         self.followers_mut().iter_mut().for_each(|each| each.restore(next));
     }
 

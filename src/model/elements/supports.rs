@@ -1,6 +1,6 @@
 //! What supports give.
 
-use super::Exchange;
+use super::{Exchange, Guides};
 use crate::geometry::{Vec2, cross};
 use crate::joints::Component;
 use crate::model::bodies::Body;
@@ -15,7 +15,7 @@ pub struct Support {
 
 impl Support {
     /// A reaction as a force and a moment.
-    fn reaction(&self, reaction: f64) -> (Vec2, f64) {
+    pub fn reaction(&self, reaction: f64) -> (Vec2, f64) {
         match self.component {
             Component::X => (Vec2::new(reaction, 0.0), 0.0),
             Component::Y => (Vec2::new(0.0, reaction), 0.0),
@@ -24,23 +24,42 @@ impl Support {
     }
 }
 
-/// The supports of a model, in the order of their degrees of freedom, which stand last of all.
-pub struct Supports(Vec<Support>);
+/// The supports of a model, in the order of their degrees of freedom, which stand last of all: those that move as is given, then those that do not
+/// move.
+pub struct Supports {
+    guides: Guides,
+    held: Vec<Support>,
+}
 
 impl Supports {
     /// The supports of a model, given in the order of their degrees of freedom.
-    pub fn new(all: Vec<Support>) -> Self {
-        Self(all)
+    pub fn new(guides: Guides, held: Vec<Support>) -> Self {
+        Self { guides, held }
     }
 
     /// The number of supported degrees of freedom.
     pub fn count(&self) -> usize {
-        self.0.len()
+        self.guides.count() + self.held.len()
     }
 
     /// The supports, in the order of their degrees of freedom.
     pub fn iter(&self) -> impl Iterator<Item = &Support> {
-        self.0.iter()
+        self.guides.supports().chain(&self.held)
+    }
+
+    /// Those that do not move.
+    pub fn held(&self) -> impl Iterator<Item = &Support> {
+        self.held.iter()
+    }
+
+    /// Those that move as is given.
+    pub fn guides(&self) -> &Guides {
+        &self.guides
+    }
+
+    /// Those that move as is given, to be moved.
+    pub fn guides_mut(&mut self) -> &mut Guides {
+        &mut self.guides
     }
 
     /// The supports with their reactions, which are the last entries of a residual.
@@ -48,14 +67,14 @@ impl Supports {
         &'a self,
         residual: &'a [f64],
     ) -> impl Iterator<Item = (&'a Support, f64)> {
-        let first = residual.len() - self.0.len();
-        self.0.iter().zip(residual[first..].iter().copied())
+        let first = residual.len() - self.count();
+        self.iter().zip(residual[first..].iter().copied())
     }
 
-    /// The work and impulse that the supports give in a time with the reactions of a residual.
+    /// The impulse that the supports which do not move give in a time with the reactions of a residual.
     pub fn exchange(&self, bodies: &[Body], residual: &[f64], duration: f64) -> Exchange {
         let mut sum = Exchange::default();
-        for (support, reaction) in self.with_reactions(residual) {
+        for (support, reaction) in self.with_reactions(residual).skip(self.guides.count()) {
             let at = bodies[support.body].dynamics.control_points()[support.point];
             let (force, moment) = support.reaction(reaction);
             let angular = (cross(at, force) + moment) * duration;

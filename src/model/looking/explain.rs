@@ -6,7 +6,7 @@ use crate::integrators::{Constraints, INTEGRATORS, Mechanism, Method};
 use crate::joints::{Component, Joint, Partner, SLIDING_RULES, StartVelocities};
 use crate::model::elements::{ForceElement, Resistance};
 use crate::model::words::{MOST, in_words, plural};
-use crate::model::{BeamDefinition, Model, ModelError, Scene};
+use crate::model::{BeamDefinition, Drive, Model, ModelError, Scene};
 
 /// A part of the mechanics, and whether a simulation uses it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -64,6 +64,7 @@ impl Model {
         parts.extend(self.explain_bodies(scene));
         parts.push(explain_masses(scene));
         parts.extend([self.explain_joints(scene), self.explain_supports(scene)]);
+        parts.extend(scene.drives.iter().map(|drive| explain_drive(scene, drive)));
         parts.extend([self.explain_sliders(scene), self.explain_gravity(methods)]);
         parts.extend(self.explain_loads(methods));
         parts.extend(self.explain_springs());
@@ -160,7 +161,7 @@ impl Model {
         let of_particles = |body: usize| (scene.beams.len()..first_rigid).contains(&body);
         let turns = |component| component == Component::Rotation;
         let held =
-            self.supports().iter().filter(|at| !(of_particles(at.body) && turns(at.component)));
+            self.supports().held().filter(|at| !(of_particles(at.body) && turns(at.component)));
         let held = plural(held.count(), "movement");
         Part::used(
             "supports",
@@ -233,6 +234,19 @@ impl Model {
             }
         }
     }
+}
+
+fn explain_drive(scene: &Scene, drive: &Drive) -> Part {
+    let names: Vec<&str> = drive.courses().map(|(component, _)| component.name()).collect();
+    let place = scene.describe(&drive.station);
+    let functions: usize = drive.schedules().map(|schedule| schedule.functions()).sum();
+    let calls = match functions {
+        0 => String::new(),
+        count => format!("; {} calls of functions in a step, or a part of one", 5 * count),
+    };
+    let how =
+        format!("{} of {place}: given and no unknown, exact in place{calls}", names.join(", "));
+    Part::used(format!("{} '{}'", drive.kind.name(), drive.name), how)
 }
 
 fn explain_start(scene: &Scene) -> Part {

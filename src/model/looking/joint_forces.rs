@@ -5,7 +5,7 @@
 //! joints that hold a place twice, so that no other joint leads from one side to the other.
 
 use crate::geometry::Vec2;
-use crate::joints::{Joint, JointKind, Partner};
+use crate::joints::{Component, Joint, JointKind, Partner};
 use crate::model::{Instant, Model, ModelError, Scene};
 
 /// A node of a body, or the ground.
@@ -21,20 +21,20 @@ struct Side {
 /// A joint, found among the nodes of a model once, to be asked often.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Transmission {
-    force: Side,
-    /// None for a hinge.
-    moment: Option<Side>,
+    /// For each component of movement, if the joint ties it.
+    sides: [Option<Side>; 3],
 }
 
 impl Transmission {
     /// Force [force] and moment [force·length] on the first of the two stations of the joint.
     pub fn read(&self, now: &Instant) -> (Vec2, f64) {
-        let sum = |side: &Side, component: usize| {
-            let of_nodes = side.nodes.iter().map(|node| now.given(*node)[component]);
-            side.sign * of_nodes.sum::<f64>()
+        let sum = |component: Component| {
+            let at = component as usize;
+            self.sides[at].as_ref().map_or(0.0, |side| {
+                side.sign * side.nodes.iter().map(|node| now.given(*node)[at]).sum::<f64>()
+            })
         };
-        let force = Vec2::new(sum(&self.force, 0), sum(&self.force, 1));
-        (force, self.moment.as_ref().map_or(0.0, |side| sum(side, 2)))
+        (Vec2::new(sum(Component::X), sum(Component::Y)), sum(Component::Rotation))
     }
 }
 
@@ -58,16 +58,26 @@ impl Model {
         let all = scene.joints.iter().map(|joint| Ok((joint.kind, ends(joint)?)));
         let all = all.collect::<Result<Vec<_>, ModelError>>()?;
         // A rigid body turns as a whole.
-        let turning = self
-            .levers()
-            .iter()
-            .map(|lever| (Some((lever.body, 0)), Some((lever.body, lever.point))));
+        let levers = self.levers().iter();
+        let turning = levers.map(|lever| (Some((lever.body, 0)), Some((lever.body, lever.point))));
         let turning: Vec<(Node, Node)> = turning.collect();
-        let side = |others: &dyn Fn(JointKind) -> bool, besides: &[(Node, Node)]| {
-            let pairs =
-                all.iter().enumerate().filter(|(at, (kind, _))| *at != joint && others(*kind));
-            let pairs = pairs.map(|(_, (_, ends))| *ends);
-            let pairs: Vec<(Node, Node)> = pairs.chain(besides.iter().copied()).collect();
+        let drives = scene.drives.iter().map(|drive| {
+            let place = scene.place(&drive.station, self.meshes())?;
+            Ok((drive, Some((place.body, place.nearest_control_point()))))
+        });
+        let drives = drives.collect::<Result<Vec<_>, ModelError>>()?;
+        let side = |component: Component| {
+            let tied = |(_, (kind, _)): &(usize, &(JointKind, (Node, Node)))| {
+                kind.components().contains(&component)
+            };
+            let joints = all.iter().enumerate().filter(|(at, _)| *at != joint).filter(tied);
+            let driven = drives.iter().filter(|(drive, _)| drive.drives(component));
+            let bodies = turning.iter().filter(|_| component == Component::Rotation);
+            let pairs: Vec<(Node, Node)> = joints
+                .map(|(_, (_, ends))| *ends)
+                .chain(driven.map(|(_, node)| (*node, None)))
+                .chain(bodies.copied())
+                .collect();
             let (here, there) = all[joint].1;
             let near = reached(here, &pairs);
             let (side, sign) = match near.contains(&None) {
@@ -76,11 +86,9 @@ impl Model {
             };
             Side { nodes: side.into_iter().flatten().collect(), sign }
         };
-        let moment = match scene.joints[joint].kind {
-            JointKind::Hinge => None,
-            JointKind::Rigid => Some(side(&|kind| kind == JointKind::Rigid, &turning)),
-        };
-        Ok(Transmission { force: side(&|_| true, &[]), moment })
+        let ties = |component| all[joint].0.components().contains(&component);
+        let sides = Component::ALL.map(|component| ties(component).then(|| side(component)));
+        Ok(Transmission { sides })
     }
 }
 

@@ -1,6 +1,7 @@
 //! Looking at a model: where it is, how it moves, and what it uses.
 
 mod beam_places;
+mod drives;
 mod explain;
 mod joint_forces;
 mod placement;

@@ -136,6 +136,8 @@ impl Model {
         self.levers.clear(&mut change);
         self.motion.jump(&change);
         self.exchanged += self.supports.exchange(&self.bodies, &residual, 1.0);
+        let guides = self.supports.guides_mut();
+        self.exchanged += guides.exchange_in_blow(&self.bodies, &residual, &self.motion.rates);
         Ok(impulses)
     }
 

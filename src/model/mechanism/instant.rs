@@ -77,6 +77,10 @@ impl Model {
             .collect();
         let mut residual = vec![0.0; self.degrees_of_freedom()];
         degrees.iter().zip(&apart).for_each(|(&at, force)| residual[at] += force);
+        if self.supports.guides().count() > 0 {
+            let given = self.supports.guides().accelerations();
+            self.add_inertia(1.0, &given, &mut residual);
+        }
         for slider in self.sliders.iter().filter(|slider| slider.gives_way()) {
             slider.transmit(&self.bodies, slider.contact_force(), &mut residual);
         }
@@ -114,6 +118,8 @@ impl Model {
         let mut inertia = self.banded_inertia();
         let inertia = inertia.factorise()?;
         inertia.solve(&mut accelerations);
+        let given = self.supports.guides().accelerations();
+        accelerations.extend(given.into_iter().skip(self.unknowns()));
         let mut contacts = vec![Vec2::zeros(); self.sliders.len()];
         let directions = self.sliders.directions(&self.bodies, usize::MAX);
         let answers = self.answers(&inertia, &directions);

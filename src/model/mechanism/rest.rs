@@ -36,6 +36,7 @@ impl Model {
         load_factor: f64,
         out: &mut [f64],
     ) -> StaticForces {
+        let movements = &*self.supports.guides().at_rest(movements, load_factor);
         let summary = self.add_internal_forces(Stage::End, movements, 1.0, out);
         let (force, moment) = self.subtract_static_loads(movements, load_factor, out);
         StaticForces {
@@ -53,6 +54,7 @@ impl Model {
         out: &mut [f64],
         tangent: &mut BandedMatrix,
     ) {
+        let movements = &*self.supports.guides().at_rest(movements, load_factor);
         self.add_linearised(Stage::End, movements, (1.0, load_factor), out, tangent);
     }
 
@@ -72,14 +74,20 @@ impl Model {
         self.subtract_loads(Stage::End, movements, load_factor, out)
     }
 
-    /// Moves the model by some movements of its unknowns [length, rad], and leaves it at rest there.
-    pub fn move_by(&mut self, movements: &[f64]) {
-        self.bodies.gather(movements);
+    /// Moves the model by some movements of its unknowns [length, rad] to where given motions are under a part of the load, and leaves it at rest there.
+    pub fn move_by(&mut self, movements: &[f64], load_factor: f64) {
+        self.bodies.gather(&self.supports.guides().at_rest(movements, load_factor));
+        self.supports.guides_mut().place(load_factor);
         self.elements.advance(&self.bodies, RotationIncrement::Angle);
         let leverage = Leverage { rotations: RotationIncrement::Angle, share: 1.0 };
         self.levers.advance(&self.bodies, leverage, movements);
         self.bodies.advance(RotationIncrement::Angle);
         self.motion.rates.fill(0.0);
+    }
+
+    /// Whether given motions have to be put on with the loads.
+    pub fn is_moved_at_rest(&self) -> bool {
+        self.supports.guides().moves_at_rest()
     }
 
     /// The forces of the supports on the scene at a place, from forces at rest: force [force] and moment [force·length]; none where

@@ -4,8 +4,8 @@ use super::Model;
 use crate::beams::{Collocation, ForceSummary};
 use crate::geometry::larger;
 use crate::integrators::{
-    Accelerated, Cause, Checkpoint, Constraints, Forces, Interval, Mechanism, Overshoot, Solution,
-    Stage, StepError,
+    Accelerated, Cause, Checkpoint, Constraints, Forces, Given, Interval, Mechanism, Overshoot,
+    Solution, Stage, StepError,
 };
 use crate::linalg::{BandedMatrix, Border, BorderShape};
 use crate::model::elements::{Exchange, Iterate, collocation};
@@ -82,6 +82,32 @@ impl Model {
         sum += self.supports.exchange(&self.bodies, residual, duration);
         if duration < 0.0 { sum.taken_back() } else { sum }
     }
+
+    /// Finds what inertia the given movements met in a step: `M Δv` and `M v̄` there.
+    fn meet_given(&mut self, rates: &[f64]) {
+        let Self { bodies, elements, supports, motion, step, .. } = self;
+        let guides = supports.guides_mut();
+        let before = &motion.rates;
+        let (change, struck) = (guides.fill(|at| rates[at] - before[at]), step.no_forces());
+        bodies.add_inertia(1.0, change, struck);
+        elements.add_inertia(bodies, 1.0, change, struck);
+        guides.take_struck(struck);
+        let mean = guides.fill(|at| 0.5 * (before[at] + rates[at]));
+        let momentum = step.no_forces();
+        bodies.add_inertia(1.0, mean, momentum);
+        elements.add_inertia(bodies, 1.0, mean, momentum);
+        guides.take_momentum(bodies, momentum);
+    }
+
+    /// What the drives gave in a step that ends with such rates.
+    fn exchange_of_drives(&mut self, rates: &[f64], residual: &[f64]) -> Exchange {
+        let duration = self.step.interval.duration();
+        let before = &self.motion.rates;
+        let mean = |at: usize| 0.5 * (before[at] + rates[at]);
+        let guides = self.supports.guides_mut();
+        let sum = guides.exchange(&self.bodies, residual, duration, mean);
+        if duration < 0.0 { sum.taken_back() } else { sum }
+    }
 }
 
 impl Forces for Model {
@@ -126,7 +152,7 @@ impl Forces for Model {
     }
 
     fn largest_rotation(&self) -> f64 {
-        self.step.summary.rotation
+        larger(self.step.summary.rotation, self.supports.guides().turn())
     }
 }
 
@@ -189,14 +215,18 @@ impl Mechanism for Model {
         self.motion.expected_rates()
     }
 
+    fn given(&self) -> &Given {
+        self.supports.guides().given()
+    }
+
     fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), StepError> {
-        let Self { bodies, elements, levers, motion, step, unknowns, .. } = self;
+        let Self { bodies, elements, levers, supports, motion, step, unknowns, .. } = self;
+        let refused = |(load, error)| StepError::Load { interval, load, source: Cause::new(error) };
+        let rotations = collocation(stages.first().copied().unwrap_or(Stage::Midpoint)).rotations;
+        let guides = supports.guides_mut();
+        guides.begin_step(interval, rotations, &motion.rates).map_err(refused)?;
         levers.begin_step(interval.duration());
-        elements.begin_step(interval, stages).map_err(|(load, error)| StepError::Load {
-            interval,
-            load,
-            source: Cause::new(error),
-        })?;
+        elements.begin_step(interval, stages).map_err(refused)?;
         bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
         let knows_accelerations = motion.accelerations.known().is_some();
         step.begin(interval, knows_accelerations && elements.may_jump_at(interval.start));
@@ -209,8 +239,16 @@ impl Mechanism for Model {
 
     fn advance(&mut self, solution: &Solution<'_>) {
         let Solution { increments, constraints, rates, residual } = *solution;
+        let is_driven = self.supports.guides().count() > 0;
+        if is_driven {
+            self.meet_given(rates);
+        }
         self.bodies.gather(increments);
         self.exchanged += self.exchange_in_step(residual);
+        if is_driven {
+            let given = self.exchange_of_drives(rates, residual);
+            self.exchanged += given;
+        }
         self.elements.advance(&self.bodies, self.step.rotations);
         self.bodies.advance(self.step.rotations);
         let leverage = Leverage { rotations: self.step.rotations, share: 0.5 };

@@ -10,7 +10,7 @@ use crate::geometry::Vec2;
 use crate::joints::{Joint, JointKind, Partner, Slider};
 use crate::loads::{Load, LoadKind, Schedule};
 use crate::model::ModelError;
-use crate::model::elements::{Element, MaterialDamping, PointMass, Setting, Spring};
+use crate::model::elements::{Drive, Element, MaterialDamping, PointMass, Setting, Spring};
 use crate::model::words::{refusal, rounded};
 
 /// What is simulated: beams, particles, rigid bodies, joints, masses and loads.
@@ -31,6 +31,8 @@ pub struct Scene {
     pub joints: Vec<Joint>,
     /// The sliding joints of the scene.
     pub sliders: Vec<Slider>,
+    /// The motions that are given to stations, in the order in which they were added.
+    pub drives: Vec<Drive>,
     /// The start velocities of single nodes.
     pub velocities: Vec<StationVelocity>,
     /// Masses, loads and springs, in the order in which they were added.
@@ -106,9 +108,14 @@ impl Scene {
         })
     }
 
-    /// The schedules of the scene's elements, each with the name of its element.
+    /// The schedules of the scene's elements and drives, each with the name of its owner.
     pub fn schedules(&self) -> impl Iterator<Item = (&str, &Schedule)> {
-        self.elements.iter().filter_map(|element| element.description().schedule())
+        let of_elements = self.elements.iter();
+        let of_elements = of_elements.filter_map(|element| element.description().schedule());
+        let of_drives = self.drives.iter();
+        let of_drives = of_drives
+            .flat_map(|drive| drive.schedules().map(|schedule| (drive.name.as_str(), schedule)));
+        of_elements.chain(of_drives)
     }
 
     /// An empty scene of a name.
@@ -121,6 +128,7 @@ impl Scene {
             stations: Vec::new(),
             joints: Vec::new(),
             sliders: Vec::new(),
+            drives: Vec::new(),
             velocities: Vec::new(),
             elements: Vec::new(),
             gravity: Vec2::zeros(),
@@ -173,9 +181,12 @@ impl Scene {
         let particles = self.particles.iter().map(|particle| ("particle", &particle.name));
         let sliders = self.sliders.iter().map(|slider| ("slider", &slider.name));
         let springs = self.springs().map(|spring| ("spring", &spring.name));
+        let drives = self.drives.iter().map(|drive| (drive.kind.name(), &drive.name));
+        let loads = self.loads().filter_map(|load| Some(("load", load.title.as_ref()?)));
         let drags = self.drags().map(|drag| ("drag", &drag.name));
         let bodies = self.rigid_bodies.iter().map(|body| ("body", &body.name));
-        beams.chain(particles).chain(bodies).chain(sliders).chain(springs).chain(drags)
+        let bodies = beams.chain(particles).chain(bodies).chain(sliders);
+        bodies.chain(springs).chain(drags).chain(drives).chain(loads)
     }
 
     pub(in crate::model) fn check_name(
@@ -272,14 +283,33 @@ impl Scene {
 
     /// Adds a load to the scene; its name is made of its kind.
     pub fn add_load(&mut self, kind: LoadKind, schedule: Schedule) {
-        let name = match &kind {
+        let name = self.name_of_load(&kind);
+        self.elements.push(Element::Load(Load { name, kind, schedule, title: None }));
+    }
+
+    /// Adds a load with a name, by which columns of the history have its work.
+    ///
+    /// # Errors
+    /// When something of that name exists, or a number of it is out of its range.
+    pub fn add_named_load(
+        &mut self,
+        title: String,
+        kind: LoadKind,
+        schedule: Schedule,
+    ) -> Result<(), ModelError> {
+        self.check_name("load", &title)?;
+        let name = self.name_of_load(&kind);
+        self.add_element(Element::Load(Load { name, kind, schedule, title: Some(title) }))
+    }
+
+    fn name_of_load(&self, kind: &LoadKind) -> String {
+        match kind {
             LoadKind::Force { station, .. } => format!("force at {}", self.describe(station)),
             LoadKind::Moment { station, .. } => format!("moment at {}", self.describe(station)),
             LoadKind::Line { beam, .. } => {
                 format!("line load on beam '{}'", self.beams[*beam].name)
             }
-        };
-        self.elements.push(Element::Load(Load { name, kind, schedule }));
+        }
     }
 
     /// The length of the beam that a station is on, as drawn; the size of a rigid body, zero for a particle [length].

@@ -27,6 +27,7 @@ impl Scene {
             .chain(plain.particles.iter_mut().map(|particle| &mut particle.name))
             .chain(plain.rigid_bodies.iter_mut().map(|body| &mut body.name))
             .chain(plain.sliders.iter_mut().map(|slider| &mut slider.name))
+            .chain(plain.drives.iter_mut().map(|drive| &mut drive.name))
             .chain(plain.elements.iter_mut().filter_map(Element::name_mut));
         names.for_each(String::clear);
         // What stands in one list is of several kinds, between which the order is nobody's choice.

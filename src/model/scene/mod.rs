@@ -2,6 +2,7 @@
 
 mod definitions;
 mod description;
+mod drives;
 mod likeness;
 mod resisting;
 mod rigid_bodies;

@@ -207,14 +207,15 @@ impl Scene {
         beams.chain(particles).chain(rigid).chain(joints).collect()
     }
 
-    /// What joints are called in names of sensors, in their order: `hinge1`, `clamp1`, `hinge2`, `rigid1`.
+    /// What joints are called in names of sensors, in their order: `hinge1`, `clamp1`, `hinge2`, `rigid1`, `support1`.
     pub fn joint_names(&self) -> Vec<String> {
-        let mut counts = [0; 3];
+        let mut counts = [0; 4];
         let name = |joint: &Joint| {
             let (kind, at) = match (joint.kind, &joint.partner) {
                 (JointKind::Hinge, _) => ("hinge", 0),
                 (JointKind::Rigid, Partner::Ground) => ("clamp", 1),
                 (JointKind::Rigid, Partner::Station(_)) => ("rigid", 2),
+                (JointKind::Support(_), _) => ("support", 3),
             };
             counts[at] += 1;
             format!("{kind}{}", counts[at])

@@ -8,7 +8,7 @@ use crate::beams::Station;
 use crate::geometry::Vec2;
 use crate::joints::{Joint, Partner, Slider};
 use crate::model::ModelError;
-use crate::model::elements::{Element, Setting};
+use crate::model::elements::{Drive, Element, Setting};
 use crate::model::words::finite;
 
 /// Most sliders of a stored scene: the matrix of a step grows with their square, and a small file must not make it huge.
@@ -27,6 +27,7 @@ pub struct StoredScene {
     stations: Vec<Station>,
     joints: Vec<Joint>,
     sliders: Vec<Slider>,
+    drives: Vec<Drive>,
     velocities: Vec<StationVelocity>,
     elements: Vec<Element>,
     gravity: Vec2,
@@ -85,6 +86,9 @@ impl TryFrom<StoredScene> for Scene {
             scene.check_station("a slider", &slider.slave)?;
             scene.check_station("a slider", &Station::on_beam(slider.master, slider.arc_length))?;
             scene.add_slider(slider)?;
+        }
+        for drive in stored.drives {
+            scene.add_drive(drive)?;
         }
         for velocity in &stored.velocities {
             scene.check_station("a start velocity", &velocity.station)?;

@@ -53,6 +53,7 @@ pub fn check_ties(scene: &Scene) -> Result<(), ModelError> {
             Partner::Station(other) => (index(&joint.station), Some(index(other))),
         })
         .collect();
+    let driven: Vec<usize> = scene.drives.iter().map(|drive| index(&drive.station)).collect();
     let mut ties = Ties::new(1 + 3 * places.len());
     // The points of a rigid body turn with it.
     for (at, place) in places.iter().enumerate() {
@@ -70,7 +71,7 @@ pub fn check_ties(scene: &Scene) -> Result<(), ModelError> {
             Partner::Ground => vec![joint.station],
             Partner::Station(other) => vec![joint.station, *other],
         };
-        if joint.kind == JointKind::Rigid && stations.iter().any(|at| !at.turns()) {
+        if joint.kind.ties_rotation() && stations.iter().any(|at| !at.turns()) {
             let (object, by) = (joint.name.clone(), Turning::RigidJoint);
             return Err(ModelError::ParticleTurned { object, by });
         }
@@ -88,7 +89,7 @@ pub fn check_ties(scene: &Scene) -> Result<(), ModelError> {
                 let how = match (ground, joint.kind) {
                     (true, _) => "held by the ground",
                     (false, JointKind::Hinge) => "joined to the other station",
-                    (false, JointKind::Rigid) => "joined to the other station in this component",
+                    (false, _) => "joined to the other station in this component",
                 };
                 let place = scene.describe(&joint.station);
                 return Err(ModelError::AlreadyTied {
@@ -99,7 +100,52 @@ pub fn check_ties(scene: &Scene) -> Result<(), ModelError> {
             }
         }
     }
+    let mut given = Vec::new();
+    for (drive, place) in scene.drives.iter().zip(driven) {
+        for (component, _) in drive.courses() {
+            let root = ties.root(1 + 3 * place + component as usize);
+            let is_given = given.contains(&root);
+            if root == 0 || is_given {
+                return Err(ModelError::AlreadyDriven {
+                    drive: drive.name.clone(),
+                    component: component.name(),
+                    place: scene.describe(&drive.station),
+                    how: if is_given { "given" } else { "held" },
+                });
+            }
+            given.push(root);
+        }
+    }
     Ok(())
+}
+
+impl Scene {
+    /// Whether supports hold a component of a station, directly or by way of joints.
+    pub fn is_held(&self, station: &Station, component: Component) -> bool {
+        let mut places = vec![*station];
+        let mut next = 0;
+        while let Some(&at) = places.get(next) {
+            next += 1;
+            for joint in &self.joints {
+                if !joint.kind.components().contains(&component) {
+                    continue;
+                }
+                let is_here = |place: &Station| same_place(place, &at, self);
+                match &joint.partner {
+                    Partner::Ground if is_here(&joint.station) => return true,
+                    Partner::Ground => {}
+                    Partner::Station(other) => {
+                        for (here, there) in [(&joint.station, other), (other, &joint.station)] {
+                            if is_here(here) && !places.contains(there) {
+                                places.push(*there);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        false
+    }
 }
 
 /// Whether two stations are one place, but for rounding.

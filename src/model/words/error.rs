@@ -3,6 +3,7 @@
 use super::SliderError;
 use crate::beams::BeamError;
 use crate::geometry::GeometryError;
+use crate::loads::LoadError;
 
 /// A scene that cannot be described or built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -127,6 +128,54 @@ pub enum ModelError {
         /// What ties the place already, in words.
         how: String,
     },
+    /// A motion that is given to what is held, or moved by another drive, already.
+    #[error(
+        "{drive}: the {component} of {place} is {how} already; give or hold each movement once"
+    )]
+    AlreadyDriven {
+        /// The name of the drive that cannot have its place.
+        drive: String,
+        /// The component that is held or given already, in words.
+        component: &'static str,
+        /// The place whose motion should be given, in words.
+        place: String,
+        /// Held or given, in words.
+        how: &'static str,
+    },
+    /// A given motion that does not begin where its station is.
+    #[error(
+        "{drive}: its {component} is {value} at t = 0, but a given motion is counted from the place as drawn and begins with 0"
+    )]
+    DriveStart {
+        /// The name of the drive whose motion begins elsewhere.
+        drive: String,
+        /// The component in words.
+        component: &'static str,
+        /// The value at the start [length, rad].
+        value: f64,
+    },
+    /// A given motion that jumps.
+    #[error(
+        "{drive}: its {component} jumps by {jump} at t = {time}, but a given motion has to be continuous"
+    )]
+    DriveJump {
+        /// The name of the drive whose motion jumps.
+        drive: String,
+        /// The component in words.
+        component: &'static str,
+        /// The time of the jump [time].
+        time: f64,
+        /// How far it jumps [length, rad].
+        jump: f64,
+    },
+    /// A given motion without a value.
+    #[error("{drive}: {source}")]
+    DriveValue {
+        /// The name of the drive whose motion has no value.
+        drive: String,
+        /// Why it has none.
+        source: LoadError,
+    },
     /// A scene in which everything is held: nothing moves.
     #[error("the scene '{scene}' has nothing that can move: every unknown is held by a support")]
     NothingMoves {
@@ -211,6 +260,8 @@ pub enum Turning {
     Spin,
     /// A torsion spring.
     TorsionSpring,
+    /// A drive would give the particle an angle.
+    Drive,
 }
 
 impl ModelError {

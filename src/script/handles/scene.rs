@@ -1,6 +1,6 @@
 //! A scene that a script holds.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use super::station::StationHandle;
@@ -17,12 +17,23 @@ pub struct SceneHandle {
     scene: Rc<RefCell<Scene>>,
     /// Functions that fill columns, in the order of the columns.
     functions: Rc<RefCell<Vec<Rc<StoredFunction>>>>,
+    /// Functions that loads and drives are told by at the start of every step.
+    controllers: Rc<RefCell<Vec<Rc<Controller>>>>,
+}
+
+/// A function of time and simulation whose value holds for a step.
+pub struct Controller {
+    /// The function of a script, called with the time and the simulation.
+    pub function: StoredFunction,
+    /// Its value for the present step.
+    pub value: Rc<Cell<f64>>,
 }
 
 impl SceneHandle {
     /// A new handle on a scene.
     pub fn new(scene: Scene) -> Self {
-        Self { scene: Rc::new(RefCell::new(scene)), functions: Rc::default() }
+        let scene = Rc::new(RefCell::new(scene));
+        Self { scene, functions: Rc::default(), controllers: Rc::default() }
     }
 
     /// The scene of the handle, to look at or to change it.
@@ -38,6 +49,19 @@ impl SceneHandle {
     /// Keeps a function that fills the last column that was described.
     pub fn keep_function(&self, function: StoredFunction) {
         self.functions.borrow_mut().push(Rc::new(function));
+    }
+
+    /// Keeps a function that is asked at the start of every step; gives where its value will be.
+    pub fn keep_controller(&self, function: StoredFunction) -> Rc<Cell<f64>> {
+        let value = Rc::new(Cell::new(0.0));
+        let controller = Controller { function, value: Rc::clone(&value) };
+        self.controllers.borrow_mut().push(Rc::new(controller));
+        value
+    }
+
+    /// The functions that are asked at the start of every step.
+    pub fn controllers(&self) -> Vec<Rc<Controller>> {
+        self.controllers.borrow().clone()
     }
 
     /// The functions that fill the first columns of those that somebody outside fills.

@@ -100,7 +100,10 @@ impl SimulationHandle {
         context: &Context,
     ) -> Self {
         let live = Live {
-            sensing: Sensing::new(scene.functions(simulation.outside_columns())),
+            sensing: Sensing::new(
+                scene.functions(simulation.outside_columns()),
+                scene.controllers(),
+            ),
             name,
             scene,
             notes,
@@ -249,6 +252,7 @@ impl SimulationHandle {
                 context.proceed()?;
             }
             // How many parts the step needs is not known beforehand: it is always finished.
+            self.command()?;
             let mut watch = Watch::new(context, f64::NEG_INFINITY);
             let stepped = self.0.simulation.borrow_mut().step(&mut watch);
             stepped.map_err(|error| explain(error, call.context()))?;

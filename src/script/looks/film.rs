@@ -149,7 +149,7 @@ fn symbols(simulation: &Simulation, shown: &Shown) -> Result<Vec<Symbol>, Script
     let scene = simulation.scene();
     let of_joint = |joint: &Joint| {
         let kind = match (joint.kind, joint.partner) {
-            (JointKind::Hinge, Partner::Ground) => SymbolKind::Support,
+            (JointKind::Hinge, Partner::Ground) | (JointKind::Support(_), _) => SymbolKind::Support,
             (JointKind::Rigid, Partner::Ground) => SymbolKind::Clamp,
             (JointKind::Hinge, Partner::Station(_)) => SymbolKind::Hinge,
             (JointKind::Rigid, Partner::Station(_)) => SymbolKind::Rigid,

@@ -124,7 +124,7 @@ fn around(scene: &Scene, at: &Station) -> [Station; 3] {
 fn of_joints(scene: &Scene) -> impl Iterator<Item = Unplaced> + '_ {
     scene.joints.iter().map(|joint| {
         let symbol = match (joint.kind, joint.partner) {
-            (JointKind::Hinge, Partner::Ground) => Symbol::Hinge,
+            (JointKind::Hinge, Partner::Ground) | (JointKind::Support(_), _) => Symbol::Hinge,
             (JointKind::Rigid, Partner::Ground) => Symbol::Clamp,
             (JointKind::Hinge, Partner::Station(_)) => Symbol::Joint,
             (JointKind::Rigid, Partner::Station(_)) => Symbol::RigidJoint,

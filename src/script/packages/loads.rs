@@ -1,16 +1,20 @@
 //! Loads on the beams of a scene.
 
+use std::cell::RefCell;
+
 use rhai::Dynamic;
 
+use super::drives::blame;
 use super::scenes::{BEAM, SCENE, STATION};
-use super::schedules::{SCHEDULE_KINDS, schedule_of};
-use crate::loads::{Frame, LoadKind};
+use super::schedules::{SCHEDULE_KINDS, controlled_schedule_of};
+use crate::loads::{Frame, LoadKind, Schedule};
+use crate::model::Scene;
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::station::here;
 use crate::script::rows::call::Call;
 use crate::script::rows::parameter::{
-    Parameter, Presence, choice, either, number, object, options, point,
+    Parameter, Presence, choice, either, number, object, options, point, text,
 };
 use crate::script::rows::table::{Table, method};
 use crate::script::words::error::ScriptError;
@@ -26,24 +30,24 @@ pub const TABLE: Table = Table {
         method(SCENE, "force", &[AT, point("force").unit("force"), WHEN, FRAME], |call| {
             let (station, scene) = here(call, "station")?;
             let kind = LoadKind::Force { station, force: call.point("force")?, frame: frame(call)? };
-            let schedule = schedule_of(call, call, "schedule")?;
-            scene.borrow_mut().add_load(kind, schedule);
-            Ok(Dynamic::UNIT)
+            let schedule = when(call)?;
+            add(&scene, call, kind, schedule)
         })
         .summary("A force at a station; it keeps its direction, or follows the section.")
         .doc("With #{ frame: \"follower\" } its components are along the beam as drawn and across it, and turn with the section. \
-              A load is a function of the time. One that depends on the motion, as a controller does, reads a variable that the script \
-              sets between steps: it holds for a step, so that the feedback is of first order in dt.")
+A function of two arguments, |t, q| …, is a sampled controller: it is asked at the start of every step with the simulation, as \
+              scene.record asks, and its value holds for the step, so that the feedback is late by a step, of first order in dt; its work is counted like that \
+              of any load. With a name the history has work.NAME and NAME.force.")
         .example("scene.force(rod.end, [8, 0], hold_for(2.5));\nscene.force(rod.end, [0, 1], 1, #{ frame: \"follower\" });\n\
-                 let u = 0.0;\nscene.force(rod.end, [0, 1], |t| u);\nlet sim = scene.start(#{ dt: 0.05 });\n\
-                 for step in 0..4 {\n    u = -2 * sim.velocity(rod.end).y;\n    sim.step();\n}")
+                 scene.force(rod.end, [0, 1], |t, q| -2 * q.velocity(rod.end).y, #{ name: \"brake\" });\n\
+                 let sim = scene.start(#{ dt: 0.05 });\nsim.run_to(1);\n\
+                 check(sim.history.last(\"work.brake\") < 0);")
         .see(&["moment", "line_load", "hold_for"]),
-        method(SCENE, "moment", &[AT, number("moment").unit("force·length"), WHEN], |call| {
+        method(SCENE, "moment", &[AT, number("moment").unit("force·length"), WHEN, NAMED], |call| {
             let (station, scene) = here(call, "station")?;
             let kind = LoadKind::Moment { station, moment: call.number("moment")? };
-            let schedule = schedule_of(call, call, "schedule")?;
-            scene.borrow_mut().add_load(kind, schedule);
-            Ok(Dynamic::UNIT)
+            let schedule = when(call)?;
+            add(&scene, call, kind, schedule)
         })
         .summary("A moment at a station, counter-clockwise.")
         .example("scene.moment(rod.end, -80, hold_for(2.5));")
@@ -52,9 +56,8 @@ pub const TABLE: Table = Table {
             let scene = call.receiver::<SceneHandle>()?;
             let beam = call.get::<BeamHandle>("beam")?.own(&scene)?;
             let kind = LoadKind::Line { beam, force: call.point("force")?, frame: frame(call)? };
-            let schedule = schedule_of(call, call, "schedule")?;
-            scene.scene().borrow_mut().add_load(kind, schedule);
-            Ok(Dynamic::UNIT)
+            let schedule = when(call)?;
+            add(&scene.shared(), call, kind, schedule)
         })
         .summary("A force per length on a whole beam; it keeps its direction, or follows the sections like a pressure.")
         .example("scene.line_load(rod, [0, -2], ramp(0, 1));\nscene.line_load(rod, [0, 1], 1, #{ frame: \"follower\" });")
@@ -66,10 +69,32 @@ const AT: Parameter = object("station", STATION);
 const WHEN: Parameter = either("schedule", SCHEDULE_KINDS)
     .doc("when it acts: a schedule, a factor, or a function of time")
     .optional();
-const FRAME: Parameter = options("options", &[FRAME_KEY]).optional();
+const FRAME: Parameter = options("options", &[FRAME_KEY, NAME]).optional();
+const NAMED: Parameter = options("options", &[NAME]).optional();
+const NAME: Parameter =
+    text("name").doc("by which the history has work.NAME and what the load is").optional();
 const FRAME_KEY: Parameter = choice("frame", &["dead", "follower"])
     .doc("dead keeps its direction, follower turns with the section")
     .or(Presence::Text("dead"));
+
+/// The schedule of a load, from the arguments of a call.
+fn when(call: &Call) -> Result<Schedule, ScriptError> {
+    controlled_schedule_of(call, call, "schedule", &call.receiver::<SceneHandle>()?)
+}
+
+/// Adds a load to a scene, under the name among the options of a call, if there is one.
+fn add(
+    scene: &RefCell<Scene>,
+    call: &Call,
+    kind: LoadKind,
+    schedule: Schedule,
+) -> Result<Dynamic, ScriptError> {
+    match call.options_or_defaults("options")?.text_if_given("name")? {
+        Some(name) => scene.borrow_mut().add_named_load(name, kind, schedule).map_err(blame)?,
+        None => scene.borrow_mut().add_load(kind, schedule),
+    }
+    Ok(Dynamic::UNIT)
+}
 
 fn frame(call: &Call) -> Result<Frame, ScriptError> {
     if !call.has("options") {

@@ -7,6 +7,7 @@ mod checking;
 mod convergence_studies;
 mod cost_studies;
 mod drag;
+mod drives;
 mod equilibria;
 mod explaining;
 mod exports;
@@ -60,6 +61,7 @@ pub const TABLES: &[&Table] = &[
     &scenes::TABLE,
     &loads::TABLE,
     &bodies::TABLE,
+    &drives::TABLE,
     &springs::TABLE,
     &drag::TABLE,
     &equilibria::TABLE,

@@ -6,6 +6,7 @@ use rhai::{Dynamic, EvalAltResult, FnPtr};
 
 use crate::loads::{FunctionError, Operation, Schedule, Side};
 use crate::script::diagnose::Explainer;
+use crate::script::handles::scene::SceneHandle;
 use crate::script::looks::details;
 use crate::script::rows::arguments::Arguments;
 use crate::script::rows::call::Call;
@@ -219,5 +220,24 @@ pub(super) fn schedule_of(
     match (arguments.get_if::<FnPtr>(name), arguments.number_if_given(name)) {
         (Some(function), _) => stored(call, function, Vec::new()),
         (None, factor) => Ok(Schedule::constant(factor.unwrap_or(1.0))?),
+    }
+}
+
+/// The schedule of a load or a drive of a scene, as [`schedule_of`] gives it, or a function of time and simulation, which is asked at the start of every
+/// step.
+pub(super) fn controlled_schedule_of(
+    call: &Call,
+    arguments: &Arguments,
+    name: &str,
+    scene: &SceneHandle,
+) -> Result<Schedule, ScriptError> {
+    let function = arguments.get_if::<FnPtr>(name);
+    match function.filter(|function| call.arguments_of(function) == Some(2)) {
+        Some(function) => {
+            let value = scene.keep_controller(call.store(function, "the function of a controller"));
+            let function = Rc::new(move |_| Ok(value.get()));
+            Ok(Schedule::Function { function, breaks: Vec::new() })
+        }
+        None => schedule_of(call, arguments, name),
     }
 }

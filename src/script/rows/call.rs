@@ -89,6 +89,17 @@ impl<'c, 'r> Call<'c, 'r> {
         function.call_raw(self.native, None, arguments).map_err(ScriptError::Engine)
     }
 
+    /// How many arguments a script function takes, if that is known.
+    pub fn arguments_of(&self, function: &FnPtr) -> Option<usize> {
+        let libraries = &self.native.global_runtime_state().lib;
+        let known = libraries.iter().find_map(|library| {
+            let library = AST::new_from_module(library.clone());
+            let mut functions = library.iter_functions();
+            functions.find(|known| known.name == function.fn_name()).map(|known| known.params.len())
+        });
+        known.map(|parameters| parameters.saturating_sub(function.curry().len()))
+    }
+
     /// Refuses a script function that takes another number of arguments; `shape` shows the right one.
     pub fn expect_arguments(
         &self,
@@ -96,14 +107,7 @@ impl<'c, 'r> Call<'c, 'r> {
         count: usize,
         shape: &str,
     ) -> Result<(), ScriptError> {
-        let libraries = &self.native.global_runtime_state().lib;
-        let known = libraries.iter().find_map(|library| {
-            let library = AST::new_from_module(library.clone());
-            let mut functions = library.iter_functions();
-            functions.find(|known| known.name == function.fn_name()).map(|known| known.params.len())
-        });
-        let given = known.map(|parameters| parameters.saturating_sub(function.curry().len()));
-        match given {
+        match self.arguments_of(function) {
             Some(given) if given != count => {
                 let plural = if given == 1 { "" } else { "s" };
                 Err(self

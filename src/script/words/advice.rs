@@ -67,6 +67,7 @@ fn on_statics(error: &StaticsError) -> Option<String> {
             "loads are taken as they are at one time: choose it with the option time".into()
         }
         StaticsError::Slider { .. } => AT_REST.into(),
+        StaticsError::Driven { .. } => "leave out control: arc_length()".into(),
         StaticsError::Loose { .. } => {
             format!("hold it with scene.clamp(…) or scene.hinge(…), or {AT_REST}")
         }
@@ -96,6 +97,7 @@ fn on_model(error: &ModelError) -> Option<String> {
             Turning::RotaryInertia => "leave out the rotary inertia",
             Turning::Load => "only a force of fixed direction can act on it",
             Turning::Spin => "leave out the spin",
+            Turning::Drive => "give x and y alone",
             Turning::TorsionSpring => "put a torsion spring between sections of beams",
         },
         _ => return None,

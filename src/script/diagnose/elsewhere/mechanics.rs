@@ -6,7 +6,6 @@ use super::entry::{Elsewhere, entry};
 pub const WORDS: &[Elsewhere] = &[
     entry(
         &[
-            "support",
             "supports",
             "fix",
             "fixed support",
@@ -21,13 +20,14 @@ pub const WORDS: &[Elsewhere] = &[
             "ground",
             "anchor",
         ],
-        "a station is supported by scene.clamp(station), which holds position and angle, or scene.hinge(station), which holds the position",
-        &["clamp", "hinge", "reaction"],
+        "a station is supported by scene.clamp(station), which holds position and angle, or scene.hinge(station), which holds the position; scene.support(station, #{ y: true }) holds single movements",
+        &["clamp", "hinge", "support", "reaction"],
     ),
     entry(
         &["roller", "rollers", "rail", "guide", "track", "sleeve", "eyelet", "prismatic", "slide"],
-        "a station that moves along a line is a slider on a beam that stands still: clamp a stiff beam as its rail, then scene.slider(station, rail)",
-        &["slider", "clamp"],
+        "scene.support(station, #{ y: true }) is a roller on the ground; along any other line a station slides on a beam that stands still: clamp a stiff \
+         beam as its rail, then scene.slider(station, rail)",
+        &["support", "slider", "clamp"],
     ),
     entry(
         &["damping", "damp", "dashpot", "viscous", "rayleigh", "dissipation"],
@@ -185,8 +185,13 @@ pub const WORDS: &[Elsewhere] = &[
         &["beam", "line"],
     ),
     entry(
-        &["feedback", "control", "controller", "pid", "motor", "actuator", "drive"],
-        "a load whose schedule reads a variable is steered between steps: let u = 0.0; schedule(|t| u); then set u before each sim.step()",
-        &["schedule", "step"],
+        &["feedback", "control", "controller", "pid", "actuator", "drive"],
+        "a load or a motor takes a function of time and simulation, asked at the start of every step: scene.force(rod.end, [0, 1], |t, q| -2 * q.velocity(rod.end).y)",
+        &["motor", "force"],
+    ),
+    entry(
+        &["shaker", "prescribed", "imposed", "excitation", "displacement"],
+        "scene.move(station, #{ y: |t| 0.01 * sin(40 * t) }) gives a motion, scene.motor(section, #{ angle: |t| 3 * t }) a rotation",
+        &["move", "motor"],
     ),
 ];

@@ -68,10 +68,16 @@ impl Revisit {
     /// # Errors
     /// When a step fails that did not, or the run is stopped.
     pub fn run_again(&self, row: usize, context: &Context) -> Result<bool, ScriptError> {
-        let mut watch = Watch::new(context, f64::INFINITY);
-        let ran =
-            self.handle.0.simulation.borrow_mut().run_again(&self.original(), row, &mut watch);
-        ran.map_err(|error| explain(error, context))
+        loop {
+            self.handle.command()?;
+            let mut watch = Watch::new(context, f64::INFINITY);
+            watch.pauses = self.handle.is_controlled();
+            let ran =
+                self.handle.0.simulation.borrow_mut().run_again(&self.original(), row, &mut watch);
+            if !watch.is_paused || ran.is_ok() {
+                return ran.map_err(|error| explain(error, context));
+            }
+        }
     }
 }
 

@@ -6,6 +6,7 @@ use std::rc::Rc;
 use rhai::Dynamic;
 
 use super::{SimulationHandle, Watch, explain};
+use crate::script::handles::scene::Controller;
 use crate::script::rows::call::Call;
 use crate::script::rows::stored::StoredFunction;
 use crate::script::words::error::ScriptError;
@@ -17,12 +18,17 @@ pub(super) struct Sensing {
     functions: Vec<Rc<StoredFunction>>,
     /// After how many steps they looked last.
     looked: Cell<Option<usize>>,
+    /// What loads and drives ask at the start of every step.
+    controllers: Vec<Rc<Controller>>,
     is_looking: Cell<bool>,
 }
 
 impl Sensing {
-    pub(super) fn new(functions: Vec<Rc<StoredFunction>>) -> Self {
-        Self { functions, looked: Cell::new(None), is_looking: Cell::new(false) }
+    pub(super) fn new(
+        functions: Vec<Rc<StoredFunction>>,
+        controllers: Vec<Rc<Controller>>,
+    ) -> Self {
+        Self { functions, looked: Cell::new(None), controllers, is_looking: Cell::new(false) }
     }
 
     /// Refuses to move what functions look at.
@@ -30,7 +36,7 @@ impl Sensing {
         match self.is_looking.get() {
             false => Ok(()),
             true => Err(ScriptError::new(
-                "a function that is recorded may not move the simulation that it looks at",
+                "a function that is recorded or controls may not move the simulation that it looks at",
             )
             .hint("step it outside the function, or at a time: sim.at(t, |sim| …)")),
         }
@@ -48,7 +54,7 @@ impl SimulationHandle {
     /// # Errors
     /// Those of the functions; also when one gives no number.
     pub fn sense(&self) -> Result<(), ScriptError> {
-        let Sensing { functions, looked, is_looking } = &self.0.sensing;
+        let Sensing { functions, looked, is_looking, .. } = &self.0.sensing;
         let steps = self.simulation().counts().steps;
         if functions.is_empty() || looked.replace(Some(steps)) == Some(steps) {
             return Ok(());
@@ -70,7 +76,38 @@ impl SimulationHandle {
         Ok(())
     }
 
-    /// Runs to a time; where functions fill columns, with a pause after every step that is recorded.
+    /// Asks the functions that control loads and drives for their values in the step that begins.
+    ///
+    /// # Errors
+    /// Those of the functions; also when one gives no finite number.
+    pub(super) fn command(&self) -> Result<(), ScriptError> {
+        let Sensing { controllers, is_looking, .. } = &self.0.sensing;
+        for controller in controllers {
+            let function = &controller.function;
+            is_looking.set(true);
+            let called = function.call([Dynamic::from(self.time()), Dynamic::from(self.clone())]);
+            is_looking.set(false);
+            let value = called.map_err(ScriptError::Engine)?;
+            let number = as_number(&value).filter(|number| number.is_finite());
+            controller.value.set(number.ok_or_else(|| {
+                let engine = function.context().engine();
+                let got = engine.map(|engine| describe(&engine, &value)).unwrap_or_default();
+                ScriptError::new(format!(
+                    "{} must give a finite number, got {got}",
+                    function.role()
+                ))
+            })?);
+        }
+        Ok(())
+    }
+
+    /// Whether functions want to be asked before every step.
+    pub(super) fn is_controlled(&self) -> bool {
+        !self.0.sensing.controllers.is_empty()
+    }
+
+    /// Runs to a time; where functions fill columns, with a pause after every step that is recorded, and before every step where functions control
+    /// it.
     pub(super) fn run_and_sense(
         &self,
         call: &Call,
@@ -78,8 +115,9 @@ impl SimulationHandle {
         slack: f64,
     ) -> Result<(), ScriptError> {
         loop {
+            self.command()?;
             let mut watch = Watch::new(call.context(), stop - slack);
-            watch.pauses = !self.0.sensing.functions.is_empty();
+            watch.pauses = !self.0.sensing.functions.is_empty() || self.is_controlled();
             let ran = self.0.simulation.borrow_mut().run_to(stop, &mut watch);
             if !watch.is_paused || ran.is_ok() {
                 ran.map_err(|error| explain(error, call.context()))?;

@@ -1,0 +1,57 @@
+//! Motions that a scene gives to stations, as functions of time.
+
+use serde::{Deserialize, Serialize};
+
+use crate::beams::Station;
+use crate::joints::Component;
+use crate::loads::{Course, Schedule};
+
+/// What gives a motion: what it is called, and what is told of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum DriveKind {
+    /// Components of a station follow functions.
+    Move,
+    /// A section is turned from the ground.
+    Motor,
+}
+
+impl DriveKind {
+    /// What it is, in a word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Move => "move",
+            Self::Motor => "motor",
+        }
+    }
+}
+
+/// A motion of a station that is given, component by component.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Drive {
+    /// The name of the drive in messages and columns.
+    pub name: String,
+    /// What gives the motion.
+    pub kind: DriveKind,
+    /// The station whose motion is given.
+    pub station: Station,
+    /// What is given for x, y and the angle, as far as it is; displacements are counted from the place as drawn.
+    pub courses: [Option<Course>; 3],
+}
+
+impl Drive {
+    /// Whether a component of the station is given.
+    pub fn drives(&self, component: Component) -> bool {
+        self.courses[component as usize].is_some()
+    }
+
+    /// The components that are given, with what they do.
+    pub fn courses(&self) -> impl Iterator<Item = (Component, &Course)> {
+        let all = Component::ALL.into_iter().zip(&self.courses);
+        all.filter_map(|(component, course)| Some((component, course.as_ref()?)))
+    }
+
+    /// The functions of time that it follows.
+    pub fn schedules(&self) -> impl Iterator<Item = &Schedule> {
+        self.courses().map(|(_, course)| course.schedule())
+    }
+}

@@ -1,0 +1,207 @@
+//! Supports of single movements, and motions that are given: stations that follow functions of time, motors.
+
+use rhai::{Dynamic, ImmutableString};
+
+use super::scenes::{SCENE, STATION};
+use super::schedules::{SCHEDULE_KINDS, controlled_schedule_of, schedule_of};
+use crate::geometry::Vec2;
+use crate::joints::{Component, Components, JointKind, Partner};
+use crate::loads::{Course, LoadKind};
+use crate::model::{Drive, DriveKind, ModelError};
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::station::here;
+use crate::script::rows::call::Call;
+use crate::script::rows::options::Options;
+use crate::script::rows::parameter::{Parameter, boolean, either, object, options, point, text};
+use crate::script::rows::table::{Table, method};
+use crate::script::words::error::{Place, ScriptError};
+
+/// The domain of supports and drives.
+pub const TABLE: Table = Table {
+    name: "supports and drives",
+    doc: "A support holds movements of a station, a drive gives them as functions of time. What is given is no unknown: place and angle are \
+          exact at the end of every step, however long, and what it takes is the reaction. A drive does work: E - W + D, p - ∫F dt and L - ∫M dt stay at \
+          rounding with it. The history has work.NAME of every drive and of every load with a name, NAME.torque of a motor, and NAME.x, NAME.y and NAME.angle \
+          of what moves a station: its force along each, and its moment, mean of each step.",
+    types: &[],
+    setup: super::scenes::ROD,
+    constants: &[],
+    rows: &[
+        method(SCENE, "support", &[AT, options("options", SUPPORT_KEYS)], support)
+            .summary("Holds some of the movements of a station on the ground: x, y, angle, or all across a direction.")
+            .doc("A roller on a floor is #{ y: true }; along: [1, 0] says the same by the direction in which it stays free. \
+                  What holds everything is scene.clamp, what holds the position scene.hinge.")
+            .example("scene.hinge(rod.start);\nscene.support(rod.end, #{ y: true });\nlet sim = scene.start(#{ dt: 0.01 });")
+            .see(&["clamp", "hinge", "move"]),
+        method(SCENE, "move", &[AT, options("options", MOVE_KEYS)], drive)
+            .summary("Gives the motion of a station: x, y and angle, each a function of time, or some of them.")
+            .doc("They are displacements from the place as drawn, and the turn from the angle as drawn, so that each must be 0 at t = 0 and may not jump; steps end \
+                  where a schedule bends. The node there begins with the rate of the function: where its beam rests, that is a blow. At rest \
+                  (scene.equilibrium) they are taken at the option `time` and put on with the loads, by the load factor.")
+            .example("scene.move(rod.start, #{ x: 0, y: |t| 0.01 * (1 - cos(40 * t)), angle: 0, name: \"shaker\" });\n\
+                      let sim = scene.start(#{ dt: 0.005 });\nsim.run_to(0.5);\n\
+                      check_close(sim.position(rod.start).y, 0.01 * (1 - cos(20)), 1e-14);\n\
+                      check(sim.history.drift(\"energy\") < 1e-10);\nprint(sim.history.last(\"work.shaker\"));")
+            .see(&["motor", "support"]),
+        method(SCENE, "motor", &[AT, options("options", MOTOR_KEYS)], motor)
+            .summary("Turns a section from the ground: by an angle or at a speed that is given, or with a torque.")
+            .doc("angle is the turn since the start, a function of time, and exact at the end of every step. speed is a rate: its integral over a step is taken by \
+                  three Gauss points, exact for polynomials of degree five. torque is a moment, counter-clockwise. speed and torque may be functions |t, q| … of the simulation too: sampled controllers, as in scene.force. The section keeps free to move along x and y \
+                  unless something holds it there, so hinge it.")
+            .example("scene.hinge(rod.start);\nscene.motor(rod.start, #{ angle: |t| 0.5 * t * t });\n\
+                      let sim = scene.start(#{ dt: 0.1 });\nsim.run_to(2);\n\
+                      check_close(sim.angle(rod.start), 2, 1e-12);\n\
+                      print(sim.history.last(\"motor1.torque\"));")
+            .see(&["move", "moment"]),
+    ],
+};
+
+const AT: Parameter = object("station", STATION);
+const NAME: Parameter = text("name").optional();
+const SUPPORT_KEYS: &[Parameter] = &[
+    boolean("x").doc("whether x is held").optional(),
+    boolean("y").doc("whether y is held").optional(),
+    boolean("angle").doc("whether the angle is held").optional(),
+    point("along")
+        .doc("a direction along which the station stays free, in place of x and y")
+        .optional(),
+];
+const MOVE_KEYS: &[Parameter] = &[
+    either("x", SCHEDULE_KINDS).unit("length").optional(),
+    either("y", SCHEDULE_KINDS).unit("length").optional(),
+    either("angle", SCHEDULE_KINDS).unit("rad").optional(),
+    NAME,
+];
+const MOTOR_KEYS: &[Parameter] = &[
+    either("angle", SCHEDULE_KINDS).unit("rad").doc("the turn since the start").optional(),
+    either("speed", SCHEDULE_KINDS).unit("rad/time").optional(),
+    either("torque", SCHEDULE_KINDS).unit("force·length").optional(),
+    NAME,
+];
+
+fn support(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (station, scene) = here(call, "station")?;
+    let options = call.options("options")?;
+    let is_held = |key: &str| options.boolean(key).unwrap_or(false);
+    let held = match options.has("along") {
+        true => {
+            if let Some(odd) = ["x", "y"].into_iter().find(|key| options.has(key)) {
+                let told =
+                    format!("along says which of x and y is held, and {odd} is given besides");
+                return Err(call.error(told).at(Place::Key(odd.into())));
+            }
+            let across = across(call, options.point("along")?)?;
+            Components::among(|at| at == across || at == Component::Rotation && is_held("angle"))
+        }
+        false => Components::among(|at| is_held(at.name())),
+    };
+    let Some(held) = held else {
+        return Err(call
+            .error("it holds nothing")
+            .hint("write #{ y: true }, or some of x, y and angle")
+            .at(Place::Argument(1)));
+    };
+    scene.borrow_mut().join(JointKind::Support(held), station, Partner::Ground)?;
+    Ok(Dynamic::UNIT)
+}
+
+/// The component that is held where a station stays free along a direction.
+fn across(call: &Call, along: Vec2) -> Result<Component, ScriptError> {
+    match (along.x == 0.0, along.y == 0.0) {
+        (false, true) => Ok(Component::Y),
+        (true, false) => Ok(Component::X),
+        (true, true) => Err(call.error("along has no direction").at(Place::Key("along".into()))),
+        (false, false) => Err(call
+            .error("along has to be parallel to one of the axes")
+            .hint("for an inclined rail draw a stiff clamped beam and let the station slide on it: scene.slider(station, rail)")
+            .at(Place::Key("along".into()))),
+    }
+}
+
+fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let options = call.options("options")?;
+    let mut courses = [None, None, None];
+    for (course, component) in courses.iter_mut().zip(Component::ALL) {
+        let key = component.name();
+        if options.has(key) {
+            *course = Some(Course::Place(schedule_of(call, &options, key)?));
+        }
+    }
+    if courses.iter().all(Option::is_none) {
+        return Err(call
+            .error("it moves nothing")
+            .hint("write #{ y: |t| 0.1 * t }, or some of x, y and angle")
+            .at(Place::Argument(1)));
+    }
+    add(call, DriveKind::Move, courses, &options)
+}
+
+fn motor(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let options = call.options("options")?;
+    let mut given = ["angle", "speed", "torque"].into_iter().filter(|key| options.has(key));
+    let Some(key) = given.next() else {
+        let told = "how it turns is missing";
+        let hint = "give one of angle, speed and torque: #{ angle: |t| 3 * t * t }";
+        return Err(call.error(told).hint(hint).at(Place::Argument(1)));
+    };
+    if let Some(odd) = given.next() {
+        let told = format!("its {key} says how it turns, and {odd} is given besides");
+        return Err(call.error(told).hint(format!("leave out {odd}")).at(Place::Key(odd.into())));
+    }
+    let schedule = match key {
+        "angle" => schedule_of(call, &options, key)?,
+        _ => controlled_schedule_of(call, &options, key, &call.receiver::<SceneHandle>()?)?,
+    };
+    match key {
+        "angle" => {
+            add(call, DriveKind::Motor, [None, None, Some(Course::Place(schedule))], &options)
+        }
+        "speed" => {
+            add(call, DriveKind::Motor, [None, None, Some(Course::Rate(schedule))], &options)
+        }
+        _ => {
+            let (station, scene) = here(call, "station")?;
+            if scene.borrow().is_held(&station, Component::Rotation) {
+                let place = scene.borrow().describe(&station);
+                let told = format!("the angle of {place} is held, so that no torque turns it");
+                return Err(call
+                    .error(told)
+                    .hint("use scene.hinge in place of scene.clamp")
+                    .at(Place::Argument(0)));
+            }
+            let name = name_of(&options).unwrap_or_else(|| scene.borrow().free_name("motor"));
+            let kind = LoadKind::Moment { station, moment: 1.0 };
+            scene.borrow_mut().add_named_load(name, kind, schedule).map_err(blame)?;
+            Ok(Dynamic::UNIT)
+        }
+    }
+}
+
+fn name_of(options: &Options) -> Option<String> {
+    options.get_if::<ImmutableString>("name").map(String::from)
+}
+
+fn add(
+    call: &Call,
+    kind: DriveKind,
+    courses: [Option<Course>; 3],
+    options: &Options,
+) -> Result<Dynamic, ScriptError> {
+    let (station, scene) = here(call, "station")?;
+    let name = name_of(options).unwrap_or_else(|| scene.borrow().free_name(kind.name()));
+    let drive = Drive { name, kind, station, courses };
+    scene.borrow_mut().add_drive(drive).map_err(blame)?;
+    Ok(Dynamic::UNIT)
+}
+
+/// Points at what is wrong in the call.
+pub(super) fn blame(error: ModelError) -> ScriptError {
+    let place = match &error {
+        ModelError::Unnamed { .. } | ModelError::DuplicateName { .. } => Place::Key("name".into()),
+        ModelError::AlreadyDriven { component, .. }
+        | ModelError::DriveStart { component, .. }
+        | ModelError::DriveJump { component, .. } => Place::Key((*component).into()),
+        _ => Place::Argument(0),
+    };
+    ScriptError::from(error).at(place)
+}

@@ -1,0 +1,221 @@
+//! Motions that are given: closed forms with every integrator, places and angles that are exact, and what drives give.
+#![allow(clippy::unwrap_used)]
+
+use std::rc::Rc;
+
+use crate::common::scenes::{add_beam, drive, line};
+use crate::common::{at, orders, sci, simulate};
+use withy::beams::{Mesh, Section, Station};
+use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
+use withy::joints::{Component, Components, JointKind, Partner};
+use withy::loads::{Course, LoadKind, Schedule};
+use withy::model::{ModelError, ParticleDefinition, Scene, StartMotion};
+use withy::simulation::{Invariant, Simulation};
+
+fn function(of: impl Fn(f64) -> f64 + 'static) -> Schedule {
+    Schedule::Function { function: Rc::new(move |t| Ok(of(t))), breaks: Vec::new() }
+}
+
+fn section(axial: f64) -> Section {
+    Section {
+        axial_stiffness: axial,
+        shear_stiffness: 1e3,
+        bending_stiffness: 10.0,
+        mass_per_length: 1.5,
+        rotary_inertia: 0.1,
+    }
+}
+
+const AMPLITUDE: f64 = 0.02;
+const SHAKEN: f64 = 3.1;
+
+/// A bar of one linear element, shaken along its axis at its start: its free end has a mass matrix in common with the start.
+fn bar() -> Scene {
+    let mut scene = Scene::new("bar");
+    let mesh = Mesh::lagrange(1, 1).unwrap();
+    let beam = add_beam(&mut scene, line(at(1.0, 0.0), at(3.0, 0.0)), &mesh, section(30.0));
+    let start = Station::on_beam(beam, 0.0);
+    let shaken = Schedule::Sine { amplitude: AMPLITUDE, rate: SHAKEN, phase: 0.0 };
+    let held = Course::Place(Schedule::constant(0.0).unwrap());
+    let given = [
+        (Component::X, Course::Place(shaken)),
+        (Component::Y, held.clone()),
+        (Component::Rotation, held),
+    ];
+    drive(&mut scene, start, &given);
+    scene
+}
+
+/// `m/3 ẍ + m/6 ü + k (x - u) = 0` from rest, with `u = a sin Ωt`.
+fn of_bar(t: f64) -> f64 {
+    let (mass, stiffness) = (3.0, 15.0);
+    let omega = (3.0_f64 * stiffness / mass).sqrt();
+    let square = SHAKEN * SHAKEN;
+    let amplitude = AMPLITUDE * (omega * omega + 0.5 * square) / (omega * omega - square);
+    amplitude * ((SHAKEN * t).sin() - SHAKEN / omega * (omega * t).sin())
+}
+
+#[test]
+fn base_excitation_has_amplitude_and_phase_with_the_order_of_the_method() {
+    let times = [1.0, 2.5, 4.0];
+    for entry in INTEGRATORS {
+        let error = |dt: f64| {
+            let miss = |time: f64| {
+                let simulation = simulate(bar(), entry.method, dt, time);
+                let end = simulation.model().control_points().next().unwrap()[1].x - 3.0;
+                (end - of_bar(time)).abs()
+            };
+            times.into_iter().map(miss).fold(0.0, f64::max)
+        };
+        let errors: Vec<f64> = [0.05, 0.025, 0.0125].into_iter().map(error).collect();
+        let (found, expected) = (orders(&errors), f64::from(entry.claims.order));
+        println!("{:18} {} {found:.2?}", entry.name, sci(&errors));
+        let last = *found.last().unwrap();
+        assert!((last - expected).abs() < 0.25, "{}: {} {found:.2?}", entry.name, sci(&errors));
+    }
+}
+
+/// A particle that is moved draws another one on a spring.
+fn towing(course: Course) -> Scene {
+    let mut scene = Scene::new("towing");
+    let bead =
+        |name: &str, x: f64| ParticleDefinition { name: name.to_owned(), position: at(x, 0.0) };
+    let hand = scene.add_particle(bead("hand", 0.7), 1.0).unwrap();
+    scene.add_particle(bead("free", 2.0), 1.0).unwrap();
+    drive(&mut scene, hand, &[(Component::X, course)]);
+    scene
+}
+
+#[test]
+fn after_many_steps_a_place_is_its_function_to_rounding() {
+    let scene = towing(Course::Place(function(|t| (1.3 * t).sin() + 0.01 * t * t)));
+    let simulation = simulate(scene, Method::EnergyMomentum, 1e-3, 100.0);
+    assert_eq!(simulation.counts().steps, 100_000);
+    let found = simulation.model().control_points().next().unwrap()[0].x;
+    let expected = 0.7 + (130.0_f64.sin() + 100.0);
+    assert!((found - expected).abs() < 4.0 * f64::EPSILON * expected, "{}", found - expected);
+}
+
+/// A beam that is turned about its start by an angle or a rate, from the rate `spin` on.
+fn turned(mesh: &Mesh, section: Section, length: f64, course: Course, spin: f64) -> Scene {
+    let mut scene = Scene::new("turned");
+    let beam = add_beam(&mut scene, line(at(0.0, 0.0), at(length, 0.0)), mesh, section);
+    scene.beams[beam].motion =
+        StartMotion { velocity: at(0.0, 0.0), spin, about: Some(at(0.0, 0.0)) };
+    let start = scene.station(beam, 0.0).unwrap();
+    scene.station(beam, length).unwrap();
+    scene.join(JointKind::Hinge, start, Partner::Ground).unwrap();
+    drive(&mut scene, start, &[(Component::Rotation, course)]);
+    scene
+}
+
+/// The angle of the beam at an arc length.
+fn angle(simulation: &Simulation, arc_length: f64) -> f64 {
+    let station = Station::on_beam(0, arc_length);
+    simulation.model().angle(simulation.scene(), &station).unwrap()
+}
+
+#[test]
+fn a_given_rotation_is_not_late_with_any_method() {
+    let mesh = Mesh::bspline(4, 3, 2).unwrap();
+    for entry in INTEGRATORS {
+        let scene = turned(&mesh, section(1e4), 1.0, Course::Place(function(|t| 3.0 * t)), 3.0);
+        let simulation = simulate(scene, entry.method, 0.1, 50.0);
+        let (root, tip) = (angle(&simulation, 0.0), angle(&simulation, 1.0));
+        // A free body would be late by ω³Δt²t/12 = 1.1 rad.
+        assert!((root - 150.0).abs() < 1e-11, "{}: {root}", entry.name);
+        assert!((tip - 150.0).abs() < 0.05, "{}: {tip}", entry.name);
+        if entry.claims.energy == EnergyClaim::Kept {
+            assert!(simulation.history().drift(Invariant::Energy) < 1e-12, "{}", entry.name);
+        }
+    }
+}
+
+/// The angle of Simo and Vu-Quoc's spin-up (1986).
+fn spun_up(t: f64) -> f64 {
+    let slow = 7.5 / std::f64::consts::PI;
+    match t < 15.0 {
+        true => 0.4 * (0.5 * t * t + slow * slow * ((t / slow).cos() - 1.0)),
+        false => 6.0 * t - 45.0,
+    }
+}
+
+/// Benchmark B4: the steady stretch of the finite-strain bar, and the largest lag of the tip as converged runs have it.
+#[test]
+fn spin_up_has_its_published_stretch_and_the_lag_of_converged_runs() {
+    let section = Section {
+        axial_stiffness: 2.8e7,
+        shear_stiffness: 1e7,
+        bending_stiffness: 1.4e4,
+        mass_per_length: 1.2,
+        rotary_inertia: 6e-4,
+    };
+    let course = Course::Place(Schedule::Function {
+        function: Rc::new(|t| Ok(spun_up(t))),
+        breaks: vec![15.0],
+    });
+    let scene = turned(&Mesh::bspline(10, 3, 2).unwrap(), section, 10.0, course, 0.0);
+    let settings = crate::common::settings(Method::FourthOrder, 0.05);
+    let mut simulation = Simulation::start(scene, settings).unwrap();
+    let aside = |simulation: &Simulation| {
+        let tip = *simulation.model().control_points().next().unwrap().last().unwrap();
+        let angle = spun_up(simulation.time());
+        let along = at(angle.cos(), angle.sin());
+        (tip.dot(&along) - 10.0, tip.dot(&at(-along.y, along.x)))
+    };
+    crate::common::run(&mut simulation, 6.75).unwrap();
+    let lag = aside(&simulation).1;
+    assert!((lag + 0.57383).abs() < 1e-4, "{lag}");
+    crate::common::run(&mut simulation, 10.0).unwrap();
+    let lag = aside(&simulation).1;
+    assert!((lag + 0.363).abs() < 2e-3, "{lag}");
+    crate::common::run(&mut simulation, 20.0).unwrap();
+    assert!((angle(&simulation, 0.0) - 75.0).abs() < 1e-12);
+    // What is left rings a little.
+    let mut stretch = 0.0;
+    for step in 1..=200 {
+        crate::common::run(&mut simulation, 20.0 + 0.05 * f64::from(step)).unwrap();
+        stretch += aside(&simulation).0 / 200.0;
+    }
+    assert!((stretch - 5.1431745e-4).abs() < 5e-6, "{stretch:e}");
+    assert!(simulation.history().drift(Invariant::Energy) < 1e-11);
+}
+
+#[test]
+fn a_scene_is_refused_in_which_a_movement_is_given_or_held_twice() {
+    let mesh = Mesh::bspline(4, 3, 2).unwrap();
+    let given = || Course::Place(Schedule::Sine { amplitude: 1.0, rate: 1.0, phase: 0.0 });
+    let mut scene = turned(&mesh, section(1e4), 1.0, given(), 0.0);
+    let start = Station::on_beam(0, 0.0);
+    let refused = |scene: &mut Scene, component: Component| {
+        let mut courses = [None, None, None];
+        courses[component as usize] = Some(given());
+        let kind = withy::model::DriveKind::Motor;
+        let drive = withy::model::Drive { name: "other".to_owned(), kind, station: start, courses };
+        scene.add_drive(drive).unwrap_err()
+    };
+    let told = refused(&mut scene, Component::X);
+    assert!(matches!(&told, ModelError::AlreadyDriven { how: "held", .. }), "{told}");
+    let told = refused(&mut scene, Component::Rotation);
+    assert!(matches!(&told, ModelError::AlreadyDriven { how: "given", .. }), "{told}");
+    let hold = JointKind::Support(Components::Rotation);
+    let told = scene.join(hold, start, Partner::Ground).unwrap_err();
+    assert!(matches!(&told, ModelError::AlreadyDriven { .. }), "{told}");
+    assert_eq!((scene.drives.len(), scene.joints.len()), (1, 1));
+}
+
+#[test]
+fn work_is_kept_by_name_and_adds_up() {
+    let mesh = Mesh::bspline(4, 3, 2).unwrap();
+    let course = Course::Place(function(|t| 0.3 * t * t));
+    let mut scene = turned(&mesh, section(1e4), 1.0, course, 0.0);
+    let station = Station::on_beam(0, 1.0);
+    let wind = LoadKind::Force { station, force: at(0.0, 2.0), frame: withy::loads::Frame::Dead };
+    scene.add_named_load("wind".to_owned(), wind, Schedule::hold_for(1.0).unwrap()).unwrap();
+    let simulation = simulate(scene, Method::FourthOrder, 0.05, 3.0);
+    let history = simulation.history();
+    let last = |name: &str| *history.column(name).unwrap().last().unwrap();
+    let sum = last("work.move1") + last("work.wind");
+    assert!((sum - last("work")).abs() < 1e-12 * last("work").abs(), "{sum}");
+    assert!(last("wind.force") == 0.0 && last("move1.angle").abs() > 0.1);
+}
