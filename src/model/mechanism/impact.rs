@@ -124,9 +124,11 @@ impl Model {
         // What is left of `M (v⁺ - v⁻) - Gᵀ P` at supports is their impulse.
         self.add_inertia(1.0, &change, &mut residual);
         self.motion.jump(&change);
-        self.exchanged += self.supports.exchange(&self.bodies, &residual, 1.0);
-        let guides = self.supports.guides_mut();
-        self.exchanged += guides.exchange_in_blow(&self.bodies, &residual, &self.motion.rates);
+        self.exchanged += self.supports.exchange_in_blow(&self.bodies, &residual);
+        if self.supports.guides().count() > 0 {
+            let guides = self.supports.guides_mut();
+            self.exchanged += guides.exchange_in_blow(&self.bodies, &residual, &self.motion.rates);
+        }
         Ok(impulses)
     }
 
