@@ -10,7 +10,7 @@ use withy::integrators::Method;
 use withy::model::{BeamDefinition, Scene, StartMotion};
 use withy::newton::Tolerance;
 use withy::output::viewer::Viewer;
-use withy::script::looks::film::{Wishes, film};
+use withy::script::looks::film::{Inside, Wishes, film};
 use withy::simulation::{Settings, Simulation, Unwatched};
 
 /// Beams and frames.
@@ -53,16 +53,24 @@ fn main() {
     let columns = ["kinetic", "strain", "potential", "energy", "work"].map(str::to_owned);
     for (beams, frames) in SIZES {
         let simulation = turning(beams, frames);
+        let fields = ["speed", "M", "strain_energy", "stretch", "curvature"];
+        let begun = Instant::now();
+        let shown = simulation.frames_between(0.0, f64::INFINITY, frames);
+        // Where the states come from is not of the film: all frames have the last one here.
+        let mut inside = Inside::of(&simulation, shown.len(), &fields).expect("places");
+        if let Some(inside) = &mut inside {
+            (0..shown.len()).for_each(|frame| inside.take(frame, &simulation));
+        }
         let wishes = Wishes {
             span: (0.0, f64::INFINITY),
-            frames,
+            frames: shown,
             label: "rods".into(),
             trails: None,
             columns: &columns,
-            fields: &["speed", "stretch", "curvature"],
+            fields: &fields,
+            inside: inside.map(Inside::fields).unwrap_or_default(),
         };
-        let begun = Instant::now();
-        let films = vec![film(&simulation, &wishes).expect("a film")];
+        let films = vec![film(&simulation, wishes).expect("a film")];
         let filmed = begun.elapsed();
         let page = Viewer { title: "rods".into(), films }.to_html().expect("a page");
         let made = begun.elapsed() - filmed;

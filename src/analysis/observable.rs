@@ -47,7 +47,7 @@ const OF_THE_COMPUTATION: [&str; 5] = ["t", "gap", "dt", "newton_iterations", "r
 impl Observable {
     /// The observables of a station: its position and its angle; a particle has no angle.
     pub fn of_station(name: &str, station: Station) -> impl Iterator<Item = Self> {
-        let angle = station.beam().map(|_| ObservableKind::Angle(station));
+        let angle = station.turns().then_some(ObservableKind::Angle(station));
         let kinds = std::iter::once(ObservableKind::Position(station)).chain(angle);
         let name = name.to_owned();
         kinds.map(move |kind| Self { name: name.clone(), kind })

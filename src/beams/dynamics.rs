@@ -1,4 +1,4 @@
-//! What a body offers to the model: a beam, whatever its basis, or a particle.
+//! What a body offers to the model: a beam, whatever its basis, a particle or a rigid body.
 
 use std::ops::Range;
 
@@ -47,7 +47,7 @@ impl ForceSummary {
 /// Takes the derivative of the forces of a span: its first control point and the rows of the block, one after another.
 pub type BlockSink<'a> = &'a mut (dyn FnMut(usize, &[f64]) + Send);
 
-/// A beam on its basis, or a particle: reference quantities, state at the start of a step, and the iterate of the step.
+/// A beam on its basis, or a body of points: reference quantities, state at the start of a step, and the iterate of the step.
 ///
 /// Movements, rates and forces are indexed by control point.
 pub trait BodyDynamics: Sync {

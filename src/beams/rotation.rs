@@ -59,8 +59,8 @@ impl RotationIncrement {
         }
     }
 
-    /// The tangent-scaled increment `2 tan(Δθ/2)` of the angle that an increment stands for.
-    pub(super) fn tangent_scaled(self, increment: f64) -> f64 {
+    /// The tangent-scaled increment `2 tan(Δθ/2)` of the angle that an increment stands for, with which `Λ1 - Λ0 = 2 tan(Δθ/2) J (Λ0 + Λ1)/2` [-].
+    pub fn tangent_scaled(self, increment: f64) -> f64 {
         match self {
             Self::TangentScaled => increment,
             Self::Angle => 2.0 * tan(0.5 * increment),

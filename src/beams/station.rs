@@ -5,13 +5,15 @@ use serde::{Deserialize, Serialize};
 use super::Mesh;
 use crate::geometry::{Curve, GeometryError, MAX_DEGREE, Vec2, corresponding};
 
-/// One of the bodies of a scene: a beam or a particle.
+/// One of the bodies of a scene: a beam, a particle, or a rigid body with one of its points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum BodyIndex {
     /// The body is a beam, by its index among the beams of the scene.
     Beam(usize),
     /// The body is a particle, by its index among the particles of the scene.
     Particle(usize),
+    /// The body is a rigid one, by its index among the rigid bodies of the scene, seen at its centre of mass (0) or at one of its points (from 1 on).
+    Rigid(usize, usize),
 }
 
 /// A place on a body of a scene.
@@ -19,20 +21,20 @@ pub enum BodyIndex {
 pub struct Station {
     /// The body on which the station is.
     pub body: BodyIndex,
-    /// The arc length of the station from the start of the beam as drawn; zero on a particle [length].
+    /// The arc length of the station from the start of the beam as drawn; zero on a particle and on a rigid body [length].
     pub arc_length: f64,
 }
 
 /// A place on a body of a model, with the basis functions that are not zero there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
-    /// The index of the body in the model: beams come first, then particles.
+    /// The index of the body in the model: beams come first, then particles, then rigid bodies.
     pub body: usize,
     /// The index of the first control point whose function is not zero at this place.
     pub first: usize,
     shape: [f64; MAX_DEGREE + 1],
     order: usize,
-    /// The direction of the axis as drawn at this place [rad].
+    /// The direction of the axis as drawn at this place, or the angle of a rigid body [rad].
     pub tangent_angle: f64,
 }
 
@@ -47,12 +49,22 @@ impl Station {
         Self { body: BodyIndex::Particle(particle), arc_length: 0.0 }
     }
 
+    /// The centre of mass (0) of a rigid body, by its index, or one of its points (from 1 on).
+    pub fn on_rigid_body(body: usize, point: usize) -> Self {
+        Self { body: BodyIndex::Rigid(body, point), arc_length: 0.0 }
+    }
+
     /// The index of the beam that the station is on, if it is on one.
     pub fn beam(&self) -> Option<usize> {
         match self.body {
             BodyIndex::Beam(beam) => Some(beam),
-            BodyIndex::Particle(_) => None,
+            BodyIndex::Particle(_) | BodyIndex::Rigid(..) => None,
         }
+    }
+
+    /// Whether the body turns at the station: all but particles do.
+    pub fn turns(&self) -> bool {
+        !matches!(self.body, BodyIndex::Particle(_))
     }
 
     /// The parameter of the mesh [-] at this station of an axis.
@@ -68,9 +80,14 @@ impl Station {
 impl Place {
     /// The place of a particle: its one control point.
     pub fn of_particle(body: usize) -> Self {
+        Self::of_point(body, 0, 0.0)
+    }
+
+    /// The place of a point of a rigid body, by its control point: 0 is the centre of mass; the body as drawn is turned by an angle [rad].
+    pub fn of_point(body: usize, point: usize, angle: f64) -> Self {
         let mut shape = [0.0; MAX_DEGREE + 1];
         shape[0] = 1.0;
-        Self { body, first: 0, shape, order: 1, tangent_angle: 0.0 }
+        Self { body, first: point, shape, order: 1, tangent_angle: angle }
     }
 
     /// The place of a beam at a parameter of its mesh.

@@ -39,7 +39,7 @@ pub enum Command {
     /// Write a saved simulation for other programs: frames for ParaView, arrays for NumPy, a table, a page.
     #[command(after_help = EXIT_CODES)]
     Convert(ConvertOptions),
-    /// Write a page on which a saved simulation moves, or the last one of a script, and open it in a browser.
+    /// Write a page on which a saved simulation moves, or those in the variables of a script, and open it in a browser.
     #[command(after_help = EXIT_CODES)]
     View(ViewOptions),
     /// Show help on a name, the whole reference, or write definition files for editors.

@@ -1,4 +1,4 @@
-//! `withy view`: a page on which a saved simulation moves, or the last one of a script.
+//! `withy view`: a page on which a saved simulation moves, or those that a script has left in its variables.
 //!
 //! It is a run with one line more, which writes the page.
 
@@ -20,7 +20,9 @@ use crate::panics;
 use crate::script::diagnose::Diagnostic;
 use crate::script::engine::runner::{self, Ending};
 use crate::script::packages::language;
+use crate::script::source::outline::Outline;
 use crate::script::source::program::Program;
+use crate::script::source::text::Source;
 use crate::script::state::settings::{Mode, Settings};
 
 /// What is run, and where it may write.
@@ -47,11 +49,7 @@ fn prepare(options: &ViewOptions) -> Result<Run, Diagnostic> {
     let is_saved = file.extension().is_some_and(|ending| ending == "withy");
     if !is_saved {
         let program = Program::load(file)?;
-        let text = format!(
-            "{}\n;\nwrite_viewer(latest_simulation(), {});\n",
-            &*program.text,
-            literal(&page)
-        );
+        let text = format!("{}\n;\n{}", &*program.text, showing_all(&program, &page));
         let program = Program { text: text.as_str().into(), ..program };
         return Ok(Run { program, out: options.out.clone(), page, _scratch: None });
     }
@@ -63,6 +61,22 @@ fn prepare(options: &ViewOptions) -> Result<Run, Diagnostic> {
     })?;
     let out = scratch.as_ref().map_or_else(|| folder_of(file), |scratch| scratch.path().to_owned());
     Ok(Run { program, out, page, _scratch: scratch })
+}
+
+/// Lines that show all simulations which the variables of a script hold at its end, also in arrays, each once; where there is none, the last.
+fn showing_all(program: &Program, page: &str) -> String {
+    let mut names: Vec<String> = Vec::new();
+    for (name, _) in Outline::of(&Source::from(&*program.text)).top_level {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    format!(
+        "{{ let shown = simulations_among([{}]);\n\
+         write_viewer(if shown.is_empty() {{ [latest_simulation()] }} else {{ shown }}, {}); }}\n",
+        names.join(", "),
+        literal(page)
+    )
 }
 
 fn perform(run: Run, options: &ViewOptions) -> Exit {

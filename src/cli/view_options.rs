@@ -9,7 +9,7 @@ use super::limits::LimitOptions;
 /// Options of `withy view`.
 #[derive(Args)]
 pub struct ViewOptions {
-    /// A simulation that sim.save wrote, or a script, a .rhai file, whose last simulation is shown.
+    /// A simulation that sim.save wrote, or a script, a .rhai file: the simulations in its variables are shown.
     pub file: PathBuf,
     /// The page; without it, NAME.html beside a saved simulation, or in the folder for what a script writes.
     #[arg(long, short, value_name = "FILE.html")]

@@ -24,28 +24,29 @@ pub struct Watcher<'a> {
 /// What stood in a file.
 struct Seen {
     content: Option<Vec<u8>>,
-    /// Whether it was found empty since: some editors empty a file before they write it.
-    is_emptied: bool,
+    /// Whether it was found empty or away since: some editors empty or move a file before they write it.
+    is_away: bool,
 }
 
 impl<'a> Watcher<'a> {
     /// Looks at the attempts of a workbook for the first time.
     pub fn new(workbook: &'a Workbook) -> Self {
-        let look = |exercise| Seen { content: content(workbook, exercise), is_emptied: false };
+        let look = |exercise| Seen { content: content(workbook, exercise), is_away: false };
         Self { workbook, seen: EXERCISES.iter().map(look).collect() }
     }
 
-    /// The first exercise, in the order of the table, whose file has another content than before. A file that is not
-    /// there, or empty for the first time, as between the two halves of saving, has not changed.
+    /// The first exercise, in the order of the table, whose file has another content than before. A file that is
+    /// empty or not there for the first time, as between the two halves of saving, has not changed.
     pub fn changed(&mut self) -> Option<&'static Exercise> {
         EXERCISES.iter().zip(&mut self.seen).find_map(|(exercise, seen)| {
-            let now = content(self.workbook, exercise)?;
-            let was_emptied = std::mem::replace(&mut seen.is_emptied, now.is_empty());
-            let is_half_saved = now.is_empty() && !was_emptied;
-            if is_half_saved || seen.content.as_ref() == Some(&now) {
+            let now = content(self.workbook, exercise);
+            let is_away = now.as_ref().is_none_or(Vec::is_empty);
+            let was_away = std::mem::replace(&mut seen.is_away, is_away);
+            let is_half_saved = is_away && !was_away;
+            if is_half_saved || seen.content == now {
                 return None;
             }
-            seen.content = Some(now);
+            seen.content = now;
             Some(exercise)
         })
     }
@@ -74,6 +75,14 @@ mod tests {
         fs::write(&file, "new").unwrap();
         assert_eq!(watcher.changed(), Some(&EXERCISES[1]));
         fs::write(&file, "new").unwrap();
+        assert_eq!(watcher.changed(), None);
+        fs::remove_file(&file).unwrap();
+        assert_eq!(watcher.changed(), None);
+        assert_eq!(
+            watcher.changed(),
+            Some(&EXERCISES[1]),
+            "it stays away: what was said of it is old"
+        );
         assert_eq!(watcher.changed(), None);
     }
 

@@ -1,4 +1,4 @@
-//! The model: bodies, elements and sliders, their present motion, and what can be done with them.
+//! The model: bodies, elements, levers and sliders, their present motion, and what can be done with them.
 
 mod acceleration;
 mod energies;
@@ -20,6 +20,7 @@ pub use stiffness::add_resistance;
 
 use super::bodies::Bodies;
 use super::elements::{Elements, Exchange, Supports};
+use super::levers::Levers;
 use super::motion::{Motion, Resolution, Step, Unknowns};
 use super::sliders::{Sliders, Sliding, TrackLimit};
 use crate::loads::LoadError;
@@ -28,6 +29,7 @@ use crate::loads::LoadError;
 pub struct Model {
     bodies: Bodies,
     elements: Elements,
+    levers: Levers,
     sliders: Sliders,
     supports: Supports,
     unknowns: Unknowns,
@@ -44,6 +46,7 @@ impl Model {
     pub(super) fn new(
         bodies: Bodies,
         elements: Elements,
+        levers: Levers,
         sliders: Sliders,
         supports: Supports,
         unknowns: Unknowns,
@@ -53,6 +56,7 @@ impl Model {
         Self {
             bodies,
             elements,
+            levers,
             sliders,
             supports,
             unknowns,
@@ -84,6 +88,10 @@ impl Model {
 
     pub(super) fn elements(&self) -> &Elements {
         &self.elements
+    }
+
+    pub(super) fn levers(&self) -> &Levers {
+        &self.levers
     }
 
     pub(super) fn supports(&self) -> &Supports {

@@ -3,6 +3,7 @@
 mod assembly;
 mod bodies;
 mod elements;
+mod levers;
 mod looking;
 mod mechanism;
 mod motion;
@@ -15,16 +16,16 @@ pub use elements::{
     MaterialDamping, Origin, PointMass, RestoringLaw, Spring, SpringKind,
 };
 pub use looking::{
-    AlongSample, BeamPlaces, BeamSample, CrossSection, Distance, Part, Placement, SectionSample,
-    Sensing, SpringState, Transmission, Usage,
+    BeamPlaces, BeamSample, CrossSection, Distance, Part, Placement, SectionSample, Sensing,
+    SpringState, Transmission, Usage,
 };
 pub use mechanism::{
     BodyEnergy, Energy, Instant, Measures, Model, ModelState, StaticForces, add_resistance,
 };
-pub use motion::Resolution;
+pub use motion::{Resolution, UnknownKind};
 pub use scene::{
-    BeamDefinition, ParticleDefinition, Probe, Quantity, Scene, Sensor, StartMotion,
-    StationVelocity, Value,
+    BeamDefinition, ParticleDefinition, Probe, Quantity, RigidBodyDefinition, Scene, Sensor,
+    StartMotion, StationVelocity, Value,
 };
 pub use sliders::{Blow, SliderState, TrackEnd, TrackLimit};
 pub use words::{

@@ -187,7 +187,8 @@ impl LineChart {
         self
     }
 
-    /// All series of charts in the axes of the first; each has the name of its chart, and its own where a chart has several.
+    /// All series of charts in the axes of the first; each has the name of its chart, and its own where a chart has several. Lines of the second
+    /// chart are dashed, those of the third dotted.
     pub fn shared(
         title: impl Into<String>,
         charts: impl IntoIterator<Item = (String, Self)>,
@@ -195,12 +196,14 @@ impl LineChart {
         let mut charts = charts.into_iter().peekable();
         let empty = charts.peek().map_or_else(|| Self::new(""), |(_, first)| first.clone());
         let empty = Self { title: title.into(), series: Vec::new(), ..empty };
-        charts.fold(empty, |shared, (whose, chart)| {
+        charts.enumerate().fold(empty, |shared, (which, (whose, chart))| {
             let is_alone = chart.series.len() == 1;
             chart.series.into_iter().fold(shared, |shared, series| {
                 let name =
                     if is_alone { whose.clone() } else { format!("{whose}: {}", series.name) };
-                shared.series(Series { name, ..series })
+                // Dashes let a curve below be seen that is the same.
+                let stroke = series.stroke.or((which > 0).then(|| Stroke::of_round(which)));
+                shared.series(Series { name, stroke, ..series })
             })
         })
     }
@@ -303,8 +306,7 @@ impl Panel for LineChart {
         let frame = self.frame();
         frame.draw(canvas, area, plot);
         if self.points().next().is_none() {
-            let middle = ((plot.left + plot.right) / 2.0, (plot.top + plot.bottom) / 2.0);
-            canvas.text("no data", middle, 14.0, Align::Middle, GREY);
+            frame.say_no_data(canvas, plot);
         }
         let faint_first =
             [Weight::Faint, Weight::Thin, Weight::Full].into_iter().flat_map(|weight| {

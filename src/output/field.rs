@@ -2,7 +2,7 @@
 
 use super::{
     canvas::{Align, Area, Canvas, Point},
-    colour::{GREY, INK, WHITE, ramp},
+    colour::{INK, WHITE, ramp},
     colour_bar::ColourBar,
     fonts,
     frame::{Frame, Margins},
@@ -87,7 +87,8 @@ impl FieldPicture {
     }
 
     fn view(&self) -> View {
-        View::of(self.beams.iter().flatten().map(|(at, _)| *at), &self.limits)
+        let points = self.beams.iter().flatten().map(|(at, _)| *at);
+        PlacedSymbol::view(&self.symbols, points, &self.limits)
     }
 
     fn bar(&self) -> ColourBar {
@@ -141,18 +142,14 @@ impl Panel for FieldPicture {
 
     fn margins(&self, width: f64, height: f64) -> Margins {
         let frame = self.frame((width - 140.0).max(50.0), (height - 110.0).max(50.0));
-        let right = frame.margins(width, height).right.max(self.bar().width());
-        // The bar narrows the plot, and with it the legend.
-        let beside = right - frame.margins(width, height).right;
-        Margins { right, ..frame.margins(width - beside, height) }
+        frame.margins_beside(self.bar().width(), width, height)
     }
 
     fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
         let frame = self.frame(plot.width(), plot.height());
         frame.draw(canvas, area, plot);
         if self.places().next().is_none() {
-            let middle = ((plot.left + plot.right) / 2.0, (plot.top + plot.bottom) / 2.0);
-            canvas.text("no data", middle, 14.0, Align::Middle, GREY);
+            frame.say_no_data(canvas, plot);
         }
         let bar = self.bar();
         bar.draw(canvas, plot);

@@ -97,6 +97,19 @@ impl Frame {
         }
     }
 
+    /// The margins where a bar at the right needs so much room: it narrows the plot, and with it the legend.
+    pub fn margins_beside(&self, bar: f64, width: f64, height: f64) -> Margins {
+        let alone = self.margins(width, height).right;
+        let right = alone.max(bar);
+        Margins { right, ..self.margins(width - (right - alone), height) }
+    }
+
+    /// Says in the middle of a plot that there is nothing to show.
+    pub fn say_no_data(&self, canvas: &mut Canvas, plot: &Area) {
+        let middle = ((plot.left + plot.right) / 2.0, (plot.top + plot.bottom) / 2.0);
+        canvas.text("no data", middle, 14.0, Align::Middle, GREY);
+    }
+
     /// Draws the frame, all but the data; `plot` is what the margins leave of `area`.
     pub fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
         let room = area.right - plot.left - EDGE;

@@ -13,9 +13,15 @@ const ROW: f64 = 20.0;
 const SAMPLE: f64 = 24.0;
 const GAP: f64 = 7.0;
 const BETWEEN: f64 = 20.0;
+/// From line to line of a name that is longer than a row.
+const LINE: f64 = 16.0;
+/// What "and 12 more" takes.
+const REST: f64 = 110.0;
 
 /// More rows than this would leave no room for the plot; the last one then says how many names are missing.
 const MOST_ROWS: usize = 4;
+/// A name has not more lines than this.
+const MOST_LINES: usize = 3;
 
 /// An entry of a legend: a name with a sample of its line.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,43 +36,83 @@ pub struct Entry {
     pub marker: Marker,
 }
 
+/// A name in its lines, with the entry that it is of.
+struct Item<'a> {
+    entry: &'a Entry,
+    lines: Vec<String>,
+}
+
+impl<'a> Item<'a> {
+    /// A name is set in several lines where it is longer than a row.
+    fn of(entry: &'a Entry, width: f64) -> Self {
+        let room = (width - SAMPLE - GAP).max(ROW);
+        let mut lines = fonts::lines(&entry.name, TEXT, room);
+        if lines.len() > MOST_LINES {
+            let rest = lines.split_off(MOST_LINES - 1).join(" ");
+            lines.push(fonts::fit(&rest, TEXT, room));
+        }
+        Self { entry, lines }
+    }
+
+    fn length(&self) -> f64 {
+        let lines = self.lines.iter().map(|line| fonts::width(line, TEXT));
+        SAMPLE + GAP + lines.fold(0.0, f64::max)
+    }
+
+    fn draw(&self, canvas: &mut Canvas, (x, middle): (f64, f64)) {
+        let Entry { colour, stroke, marker, .. } = *self.entry;
+        stroke.draw(canvas, &[(x, middle), (x + SAMPLE, middle)], 2.0, colour);
+        if stroke.has_marks() {
+            marker.draw(canvas, (x + SAMPLE / 2.0, middle), 3.5, colour);
+        }
+        for (index, line) in self.lines.iter().enumerate() {
+            let baseline = middle + 0.36 * TEXT + index as f64 * LINE;
+            canvas.text(line, (x + SAMPLE + GAP, baseline), TEXT, Align::Start, INK);
+        }
+    }
+}
+
 /// The height that a legend takes when it is `width` wide [pixels].
 pub fn height(entries: &[Entry], width: f64) -> f64 {
-    rows(entries, width).len() as f64 * ROW
+    rows(entries, width).iter().map(|row| height_of(row)).sum()
+}
+
+fn height_of(row: &[Item]) -> f64 {
+    let lines = row.iter().map(|item| item.lines.len()).max().unwrap_or(1);
+    ROW + lines.saturating_sub(1) as f64 * LINE
 }
 
 /// Draws a legend from the top of `area` downwards.
 pub fn draw(canvas: &mut Canvas, entries: &[Entry], area: &Area) {
     let rows = rows(entries, area.width());
     let shown: usize = rows.iter().map(Vec::len).sum();
+    let mut top = area.top;
     for (index, row) in rows.iter().enumerate() {
-        let middle = area.top + (index as f64 + 0.5) * ROW;
+        let middle = top + 0.5 * ROW;
         let mut x = area.left;
-        for entry in row {
-            entry.stroke.draw(canvas, &[(x, middle), (x + SAMPLE, middle)], 2.0, entry.colour);
-            if entry.stroke.has_marks() {
-                entry.marker.draw(canvas, (x + SAMPLE / 2.0, middle), 3.5, entry.colour);
-            }
-            let name = fitted(entry, area.width());
-            canvas.text(&name, (x + SAMPLE + GAP, middle + 0.36 * TEXT), TEXT, Align::Start, INK);
-            x += length(entry, area.width()) + BETWEEN;
+        for item in row {
+            item.draw(canvas, (x, middle));
+            x += item.length() + BETWEEN;
         }
         if index + 1 == rows.len() && shown < entries.len() {
             let rest = format!("and {} more", entries.len() - shown);
             canvas.text(&rest, (x, middle + 0.36 * TEXT), TEXT, Align::Start, INK);
         }
+        top += height_of(row);
     }
 }
 
-fn rows(entries: &[Entry], width: f64) -> Vec<Vec<&Entry>> {
-    let mut rows: Vec<Vec<&Entry>> = Vec::new();
+fn rows(entries: &[Entry], width: f64) -> Vec<Vec<Item<'_>>> {
+    let mut rows: Vec<Vec<Item>> = Vec::new();
     let mut used = f64::INFINITY;
     for entry in entries {
-        let length = length(entry, width);
         // The last row keeps room to say how many names are missing.
-        let room = if rows.len() == MOST_ROWS { width - 110.0 } else { width };
+        let is_last = rows.len() == MOST_ROWS;
+        let room = if is_last { width - REST } else { width };
+        let item = Item::of(entry, width);
+        let length = item.length();
         if used + length > room {
-            if rows.len() == MOST_ROWS {
+            if is_last {
                 break;
             }
             rows.push(Vec::new());
@@ -74,18 +120,10 @@ fn rows(entries: &[Entry], width: f64) -> Vec<Vec<&Entry>> {
         }
         used += length + BETWEEN;
         if let Some(row) = rows.last_mut() {
-            row.push(entry);
+            row.push(item);
         }
     }
     rows
-}
-
-fn length(entry: &Entry, width: f64) -> f64 {
-    SAMPLE + GAP + fonts::width(&fitted(entry, width), TEXT)
-}
-
-fn fitted(entry: &Entry, width: f64) -> String {
-    fonts::fit(&entry.name, TEXT, width - SAMPLE - GAP - 110.0)
 }
 
 #[cfg(test)]
@@ -103,6 +141,8 @@ mod tests {
         assert_eq!(height(&entries(3, "energy"), 800.0), ROW);
         assert_eq!(height(&entries(12, "kinetic energy"), 800.0), 3.0 * ROW);
         assert_eq!(height(&entries(1000, "kinetic energy"), 800.0), 4.0 * ROW);
+        let long = entries(2, "the path of the end of a beam with a name");
+        assert_eq!(height(&long, 200.0), 2.0 * (ROW + LINE), "a long name has two lines");
         let mut canvas = Canvas::default();
         draw(
             &mut canvas,

@@ -31,6 +31,7 @@ mod frame;
 mod hatching;
 mod heat_map;
 mod legend;
+mod link;
 mod marker;
 mod motion;
 mod npz;

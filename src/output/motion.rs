@@ -1,9 +1,8 @@
 //! Pictures of motion: beams and particles at several times, one over the other, early ones pale and late ones dark.
 
 use super::{
-    axis::extent,
-    canvas::{Align, Area, Canvas, Point},
-    colour::{Colour, GREY, HUE_COUNT, INK, hue, ramp, tint},
+    canvas::{Area, Canvas, Point},
+    colour::{Colour, HUE_COUNT, INK, hue, ramp, tint},
     colour_bar::ColourBar,
     frame::{Frame, Margins},
     legend::Entry,
@@ -45,8 +44,6 @@ pub struct MotionPicture {
     symbols: Vec<PlacedSymbol>,
     captions: Vec<String>,
     limits: Limits,
-    /// What the picture shows at least, beside its own data: opposite corners of a box.
-    window: Vec<Point>,
 }
 
 impl MotionPicture {
@@ -116,22 +113,21 @@ impl MotionPicture {
         self
     }
 
-    /// Makes the motion picture show at least the box between two opposite corners.
-    pub fn window(mut self, corner: Point, opposite: Point) -> Self {
-        self.window = vec![corner, opposite];
-        self
-    }
-
     /// Motion pictures side by side, all with the same view, for comparing two integrators.
     pub fn side_by_side(pictures: impl IntoIterator<Item = MotionPicture>) -> Page {
         let pictures: Vec<MotionPicture> = pictures.into_iter().collect();
-        let all = || pictures.iter().flat_map(MotionPicture::points);
-        let (x, y) = (extent(all().map(|point| point.0)), extent(all().map(|point| point.1)));
-        let window: Vec<Point> =
-            x.zip(y).map(|(x, y)| [(x.0, y.0), (x.1, y.1)]).into_iter().flatten().collect();
-        let framed =
-            pictures.into_iter().map(|picture| MotionPicture { window: window.clone(), ..picture });
-        framed.fold(Page::row(), |page, picture| page.panel(picture))
+        let limits = Self::shared_limits(&pictures);
+        let framed = pictures.into_iter().map(|picture| picture.limits(limits));
+        framed.fold(Page::row(), Page::panel)
+    }
+
+    /// The ends of axes with which each of some pictures shows what all of them do; the limits of the first one hold.
+    pub fn shared_limits(pictures: &[Self]) -> Limits {
+        let given = pictures.first().map_or_else(Limits::default, |first| first.limits);
+        let points = pictures.iter().flat_map(Self::points);
+        let symbols: Vec<PlacedSymbol> =
+            pictures.iter().flat_map(|picture| &picture.symbols).copied().collect();
+        PlacedSymbol::view(&symbols, points, &given).limits()
     }
 
     fn points(&self) -> impl Iterator<Item = Point> + Clone {
@@ -139,12 +135,11 @@ impl MotionPicture {
             snapshot.lines.iter().flatten().chain(&snapshot.marks).chain(&snapshot.particles)
         });
         let traces = self.traces.iter().flat_map(|(_, points)| points);
-        let points = snapshots.chain(traces).chain(&self.window);
-        points.copied().filter(|(x, y)| x.is_finite() && y.is_finite())
+        snapshots.chain(traces).copied().filter(|(x, y)| x.is_finite() && y.is_finite())
     }
 
     fn view(&self) -> View {
-        View::of(self.points(), &self.limits)
+        PlacedSymbol::view(&self.symbols, self.points(), &self.limits)
     }
 
     /// The frame of a plot of the given size in pixels.
@@ -237,18 +232,14 @@ impl Panel for MotionPicture {
 
     fn margins(&self, width: f64, height: f64) -> Margins {
         let frame = self.frame((width - 140.0).max(50.0), (height - 110.0).max(50.0));
-        let right = frame.margins(width, height).right.max(self.time_bar().width());
-        // The bar narrows the plot, and with it the legend.
-        let beside = right - frame.margins(width, height).right;
-        Margins { right, ..frame.margins(width - beside, height) }
+        frame.margins_beside(self.time_bar().width(), width, height)
     }
 
     fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
         let frame = self.frame(plot.width(), plot.height());
         frame.draw(canvas, area, plot);
         if self.points().next().is_none() {
-            let middle = ((plot.left + plot.right) / 2.0, (plot.top + plot.bottom) / 2.0);
-            canvas.text("no data", middle, 14.0, Align::Middle, GREY);
+            frame.say_no_data(canvas, plot);
         }
         let bar = self.time_bar();
         bar.draw(canvas, plot);

@@ -55,6 +55,46 @@ impl View {
         Self { centre: (x, y), needs: (width.max(0.05 * size), height.max(0.05 * size)) }
     }
 
+    /// A box with so much paper around places that what is drawn about them in pixels is not cut; limits cut it all the same.
+    pub fn with_room(
+        self,
+        about: impl Iterator<Item = Point> + Clone,
+        pixels: f64,
+        limits: &Limits,
+    ) -> Self {
+        let (width, height) = self.size();
+        let room = pixels * (self.needs.0 / width).max(self.needs.1 / height);
+        let side = |(centre, size): (f64, f64), pick: fn(Point) -> f64, ends: Option<_>| {
+            let (low, high) = (centre - size / 2.0, centre + size / 2.0);
+            match extent(about.clone().map(pick)) {
+                Some((least, most)) if least - room < low || most + room > high => {
+                    let (low, high) = (low.min(least - room), high.max(most + room));
+                    if ends.is_some() {
+                        (centre, size)
+                    } else {
+                        (low / 2.0 + high / 2.0, high - low)
+                    }
+                }
+                _ => (centre, size),
+            }
+        };
+        let (x, width) = side((self.centre.0, self.needs.0), |point| point.0, limits.x);
+        let (y, height) = side((self.centre.1, self.needs.1), |point| point.1, limits.y);
+        Self { centre: (x, y), needs: (width, height) }
+    }
+
+    /// Whether a point is in the box.
+    pub fn shows(&self, (x, y): Point) -> bool {
+        let is_within = |at: f64, centre: f64, size: f64| (at - centre).abs() <= size / 2.0;
+        is_within(x, self.centre.0, self.needs.0) && is_within(y, self.centre.1, self.needs.1)
+    }
+
+    /// The ends of axes between which it is all that is seen.
+    pub fn limits(&self) -> Limits {
+        let ends = |centre: f64, size: f64| Some((centre - size / 2.0, centre + size / 2.0));
+        Limits { x: ends(self.centre.0, self.needs.0), y: ends(self.centre.1, self.needs.1) }
+    }
+
     /// The axes of a plot of the given size in pixels.
     pub fn axes(&self, width: f64, height: f64) -> (Axis, Axis) {
         let per_pixel = (self.needs.0 / width).max(self.needs.1 / height);
@@ -76,6 +116,21 @@ impl View {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn symbols_at_an_edge_get_paper_unless_limits_cut_them() {
+        let points = [(0.0, 0.0), (10.0, 10.0)];
+        for (limits, low) in
+            [(Limits::default(), -0.31), (Limits { y: Some((0.0, 10.0)), x: None }, 0.0)]
+        {
+            let view = View::of(points.into_iter(), &limits);
+            let seen = view.with_room([(5.0, 0.0)].into_iter(), 20.0, &limits);
+            let bottom = seen.centre.1 - seen.needs.1 / 2.0;
+            assert!((bottom - low).abs() < 0.25 && bottom <= 0.0, "{bottom}");
+        }
+        let view = View::of(points.into_iter(), &Limits::default());
+        assert_eq!(view.with_room([(5.0, 5.0)].into_iter(), 20.0, &Limits::default()), view);
+    }
 
     #[test]
     fn limits_are_kept_and_the_other_axis_fits_what_is_between_them() {

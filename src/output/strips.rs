@@ -2,7 +2,7 @@
 
 use super::{
     canvas::{Align, Area, Canvas, Point},
-    colour::{Colour, GREY, INK, hue, tint},
+    colour::{Colour, INK, hue, tint},
     fonts,
     frame::{Frame, Margins},
     number::significant,
@@ -147,7 +147,7 @@ impl StripPicture {
         let runs = self.strips.iter().flat_map(|strip| self.runs(strip));
         let tips: Vec<Point> = runs.flatten().map(|ordinate| ordinate.tip).collect();
         let points: Vec<Point> = lines.chain(tips).collect();
-        View::of(points.into_iter(), &self.limits)
+        PlacedSymbol::view(&self.symbols, points.into_iter(), &self.limits)
     }
 
     fn frame(&self, width: f64, height: f64) -> Frame {
@@ -288,8 +288,7 @@ impl Panel for StripPicture {
         let frame = self.frame(plot.width(), plot.height());
         frame.draw(canvas, area, plot);
         if self.strips.iter().all(|strip| strip.line.is_empty()) {
-            let middle = ((plot.left + plot.right) / 2.0, (plot.top + plot.bottom) / 2.0);
-            canvas.text("no data", middle, 14.0, Align::Middle, GREY);
+            frame.say_no_data(canvas, plot);
         }
         let runs: Vec<Vec<Vec<Ordinate>>> =
             self.strips.iter().map(|strip| self.runs(strip)).collect();

@@ -5,8 +5,12 @@ use super::{
     colour::{INK, WHITE},
     curve,
     frame::Frame,
+    link::{LINK, Link},
     marker::Marker,
+    plane::{Limits, View},
 };
+use std::f64::consts::PI;
+
 use crate::elementary::{cos, hypot, sin};
 
 /// Widths of lines.
@@ -24,6 +28,8 @@ const ARROW: f64 = 34.0;
 const SHORT: f64 = 18.0;
 const HEAD: f64 = 8.0;
 const APART: f64 = 4.0;
+/// Paper around a symbol, so that nothing of it is cut.
+const ROOM: f64 = 20.0;
 /// The radius of the arrow of a moment.
 const TURN: f64 = 15.0;
 
@@ -46,6 +52,14 @@ pub enum Symbol {
     LineForce,
     /// A moment: counter-clockwise when its direction is to the right, clockwise when to the left.
     Moment,
+    /// A spring, from its place as far as its direction goes.
+    Spring,
+    /// A damper, likewise.
+    Damper,
+    /// A part of a tendon, likewise.
+    Tendon,
+    /// A spring against the turning of a section.
+    TorsionSpring,
 }
 
 /// A symbol at a place, in the reader's units.
@@ -55,7 +69,7 @@ pub struct PlacedSymbol {
     pub symbol: Symbol,
     /// Where it is.
     pub at: Point,
-    /// Where it points; of any length, zero for what has no direction.
+    /// Where it points; of any length, zero for what has no direction. Springs, dampers and tendons end there.
     pub direction: Point,
 }
 
@@ -68,8 +82,50 @@ struct Spot<'a> {
 }
 
 impl PlacedSymbol {
+    /// The places between which it is drawn, of a spring, a damper or a part of a tendon.
+    pub fn link(&self) -> Option<[Point; 2]> {
+        self.end().map(|end| [self.at, end])
+    }
+
+    /// Where it ends, if it has another end than its place.
+    fn end(&self) -> Option<Point> {
+        use Symbol::{Damper, Spring, Tendon};
+        matches!(self.symbol, Spring | Damper | Tendon)
+            .then_some((self.at.0 + self.direction.0, self.at.1 + self.direction.1))
+    }
+
+    /// The part of the plane that points need, and the symbols that are among them.
+    pub(super) fn view(
+        symbols: &[Self],
+        points: impl Iterator<Item = Point> + Clone,
+        limits: &Limits,
+    ) -> View {
+        use Symbol::{Clamp, Hinge, Moment, Slider, TorsionSpring};
+        let bare = View::of(points.clone(), limits);
+        let links = symbols.iter().filter_map(Self::link);
+        let ends = links.filter(|[at, end]| bare.shows(*at) || bare.shows(*end)).flatten();
+        let is_about = |placed: &&Self| {
+            matches!(placed.symbol, Hinge | Clamp | Slider | Moment | TorsionSpring)
+        };
+        let about = symbols.iter().filter(is_about).map(|placed| placed.at);
+        let about = about.filter(|at| bare.shows(*at));
+        View::of(points.chain(ends), limits).with_room(about, ROOM, limits)
+    }
+
     /// Draws it on a plot; not at all where the plot does not show its place.
     pub(super) fn draw(&self, canvas: &mut Canvas, frame: &Frame, plot: &Area) {
+        if let Some(end) = self.end() {
+            let link = Link::between(frame.place(plot, self.at), frame.place(plot, end));
+            let lines = match self.symbol {
+                Symbol::Spring => link.spring(),
+                Symbol::Damper => link.damper(),
+                _ => vec![link.ends()],
+            };
+            for piece in lines.into_iter().flat_map(|line| curve::pieces(line.into_iter(), plot)) {
+                canvas.line(piece, LINK, INK);
+            }
+            return;
+        }
         let Some(at) = frame.curve(plot, &[self.at]).first().and_then(|run| run.first().copied())
         else {
             return;
@@ -87,6 +143,8 @@ impl PlacedSymbol {
             Symbol::Force => spot.arrow(ARROW, LINE),
             Symbol::LineForce => spot.arrow(SHORT, THIN),
             Symbol::Moment => spot.turn(),
+            Symbol::TorsionSpring => spot.spiral(),
+            Symbol::Spring | Symbol::Damper | Symbol::Tendon => {}
         }
     }
 }
@@ -156,6 +214,17 @@ impl Spot<'_> {
         self.head(tip, self.ahead, width);
     }
 
+    /// Two turns and a half about the place.
+    fn spiral(&mut self) {
+        let point = |index: u32| {
+            let (angle, radius) =
+                (5.0 * PI * f64::from(index) / 48.0, 3.0 + f64::from(index) / 4.8);
+            (self.at.0 + radius * cos(angle), self.at.1 - radius * sin(angle))
+        };
+        let spiral: Vec<Point> = (0..=48).map(point).collect();
+        self.line(&spiral, THIN);
+    }
+
     /// Most of a circle, with a head.
     fn turn(&mut self) {
         let side = if self.ahead.0 < 0.0 { -1.0 } else { 1.0 };
@@ -187,8 +256,11 @@ mod tests {
 
     #[test]
     fn symbols_are_drawn_where_their_place_is_seen() {
-        use Symbol::{Clamp, Force, Hinge, Joint, LineForce, Moment, RigidJoint, Slider};
-        for symbol in [Hinge, Clamp, Joint, RigidJoint, Slider, Force, LineForce, Moment] {
+        use Symbol::{
+            Clamp, Force, Hinge, Joint, LineForce, Moment, RigidJoint, Slider, TorsionSpring,
+        };
+        let bodies = [Hinge, Clamp, Joint, RigidJoint, Slider, TorsionSpring];
+        for symbol in bodies.into_iter().chain([Force, LineForce, Moment]) {
             assert!(!drawn(symbol, (0.5, 0.5), (1.0, 0.0)).shapes().is_empty(), "{symbol:?}");
             assert!(drawn(symbol, (1.5, 0.5), (1.0, 0.0)).shapes().is_empty(), "{symbol:?}");
         }
@@ -202,6 +274,23 @@ mod tests {
         };
         assert_eq!(shaft((0.5, 0.5)), [(162.0, 200.0), (196.0, 200.0)]);
         assert_eq!(shaft((0.0, 0.5)), [(104.0, 200.0), (138.0, 200.0)]);
+    }
+
+    #[test]
+    fn springs_go_from_end_to_end() {
+        for symbol in [Symbol::Spring, Symbol::Damper, Symbol::Tendon] {
+            let canvas = drawn(symbol, (0.1, 0.5), (0.8, 0.0));
+            let points = canvas.shapes().iter().flat_map(|shape| match shape {
+                super::super::canvas::Shape::Line { points, .. } => points.clone(),
+                other => panic!("{other:?}"),
+            });
+            let (low, high) = points
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (x, _)| {
+                    (low.min(x), high.max(x))
+                });
+            assert!((low - 120.0).abs() < 1e-9 && (high - 280.0).abs() < 1e-9, "{symbol:?}");
+            assert!(drawn(symbol, (1.5, 0.5), (0.5, 0.0)).shapes().is_empty(), "{symbol:?}");
+        }
     }
 
     #[test]

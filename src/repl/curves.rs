@@ -52,6 +52,13 @@ pub struct Curve {
     pub points: Vec<Point>,
 }
 
+impl Curve {
+    /// Whether there is something to draw.
+    pub fn has_points(&self) -> bool {
+        self.points.iter().any(|(x, y)| x.is_finite() && y.is_finite())
+    }
+}
+
 /// What a value of a script is for somebody who wants to draw it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {

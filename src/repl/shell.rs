@@ -15,7 +15,7 @@ use super::pager::{Pager, Shown};
 use super::session::{ANSWER, Reply, Session};
 use crate::folders::read_file;
 use crate::output::{Colours, Style, significant};
-use crate::script::diagnose::Diagnostic;
+use crate::script::diagnose::{Diagnostic, Location};
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::looks::present::present;
 use crate::script::rows::kind::Scripted;
@@ -277,6 +277,20 @@ impl Shell {
     }
 }
 
+/// An error in an input that a command has made is told without that input, which nobody has typed.
+fn without_place_in(input: &str, reply: Reply) -> Reply {
+    let is_made = |location: &Location| {
+        let line = location.program.text.lines().nth(location.line.saturating_sub(1));
+        line.is_some_and(|line| line.trim() == input.trim())
+    };
+    match reply {
+        Reply::Failed(diagnostic) if diagnostic.location.as_ref().is_some_and(is_made) => {
+            Reply::Failed(Diagnostic { location: None, ..diagnostic })
+        }
+        other => other,
+    }
+}
+
 /// What names the last simulation where no variable holds it.
 const LATEST: &str = "latest_simulation()";
 
@@ -328,7 +342,7 @@ impl Shell {
     pub fn call_latest(&mut self, call: &str) -> Outcome {
         match self.input_for_latest(call) {
             Ok(input) => {
-                let reply = self.session.eval(&input);
+                let reply = without_place_in(&input, self.session.eval(&input));
                 self.tell(reply)
             }
             Err(refusal) => self.refuse(&refusal),
@@ -345,7 +359,7 @@ impl Shell {
         let before = self.session.whereabouts();
         let outcome = match self.session.peek(&input) {
             Reply::Value(_) => Outcome::Good,
-            reply => self.tell(reply),
+            reply => self.tell(without_place_in(&input, reply)),
         };
         match outcome {
             Outcome::Good => {

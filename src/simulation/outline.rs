@@ -1,8 +1,9 @@
-//! How beams and particles look: lines to draw, and marks at knots or nodes.
+//! How beams, particles and rigid bodies look: lines to draw, and marks at knots or nodes.
 
 use crate::beams::{Mesh, Place};
+use crate::elementary::atan2;
 use crate::geometry::Vec2;
-use crate::model::{BeamDefinition, ModelError, Scene};
+use crate::model::{BeamDefinition, ModelError, RigidBodyDefinition, Scene};
 
 /// Points along each span of a beam of higher degree.
 const POINTS_A_SPAN: usize = 8;
@@ -12,7 +13,7 @@ fn pieces(degree: usize) -> usize {
     if degree == 1 { 1 } else { POINTS_A_SPAN }
 }
 
-/// The places of a beam that a picture needs: points of its axis, and its knots or nodes.
+/// The places of a beam that a picture needs: points of its axis, and its knots or nodes; or those of a rigid body: its points, around it.
 #[derive(Debug, Clone)]
 pub struct Outline {
     line: Vec<Place>,
@@ -24,16 +25,16 @@ pub struct Outline {
 pub struct Configuration {
     /// The time of the configuration [time].
     pub time: f64,
-    /// A line of points for each beam [length].
+    /// A line of points for each beam, and then for each rigid body with points [length].
     pub lines: Vec<Vec<Vec2>>,
     /// The knots or nodes of all beams [length].
     pub marks: Vec<Vec2>,
-    /// The places of the particles [length].
+    /// The places of the particles, then of the centres of rigid bodies [length].
     pub particles: Vec<Vec2>,
 }
 
 impl Outline {
-    /// The outlines of the beams of a scene on their meshes.
+    /// The outlines of the beams of a scene on their meshes, then those of its rigid bodies with points.
     ///
     /// # Errors
     /// When an axis has a point without a tangent.
@@ -50,7 +51,33 @@ impl Outline {
                 marks: mesh.basis().breaks().into_iter().map(place).collect::<Result<_, _>>()?,
             })
         };
-        scene.beams.iter().zip(meshes).enumerate().map(of_beam).collect()
+        let first = scene.beams.len() + scene.particles.len();
+        let bodies = (first..).zip(&scene.rigid_bodies);
+        let bodies = bodies.filter(|(_, body)| body.levers().next().is_some());
+        let bodies = bodies.map(|(index, body)| Ok(Self::of_rigid_body(index, body)));
+        scene.beams.iter().zip(meshes).enumerate().map(of_beam).chain(bodies).collect()
+    }
+
+    /// One point is a line from the centre, two are a line over it, and more go around it.
+    fn of_rigid_body(index: usize, body: &RigidBodyDefinition) -> Self {
+        let mut points: Vec<usize> = body.levers().collect();
+        let direction = |point: &usize| {
+            let place = body.points[point - 1].1;
+            atan2(place.y, place.x)
+        };
+        points.sort_by(|a, b| direction(a).total_cmp(&direction(b)));
+        match points.as_slice() {
+            [only] => points = vec![0, *only],
+            [one, other] => points = vec![*one, 0, *other],
+            _ => points.extend(points.first().copied()),
+        }
+        let place = |point| Place::of_point(index, point, body.angle);
+        Self { line: points.into_iter().map(place).collect(), marks: Vec::new() }
+    }
+
+    /// Whether it is that of a beam, which has knots.
+    fn is_of_beam(&self) -> bool {
+        !self.marks.is_empty()
     }
 
     /// The parameters of a mesh at the places of its line: the breaks, and evenly between them.
@@ -69,6 +96,11 @@ impl Outline {
         pieces(degree).div_ceil(2)
     }
 
+    /// Stations of the axis between two knots.
+    pub fn stations_within_a_span(degree: usize) -> usize {
+        pieces(degree) / Self::places_a_station(degree) - 1
+    }
+
     /// The places of the centre line, from its start to its end.
     pub fn line(&self) -> &[Place] {
         &self.line
@@ -79,14 +111,19 @@ impl Outline {
         &self.marks
     }
 
-    /// The configuration as drawn from the control points of all bodies [length]: one beam after another, then the particles.
+    /// The configuration as drawn from the control points of all bodies [length]: one beam after another, then rigid bodies and particles.
     pub fn draw(outlines: &[Self], time: f64, control_points: &[&[Vec2]]) -> Configuration {
         let at = |place: &Place| place.interpolate(control_points[place.body]);
+        let beams = outlines.iter().filter(|outline| outline.is_of_beam()).count();
         Configuration {
             time,
             lines: outlines.iter().map(|outline| outline.line.iter().map(at).collect()).collect(),
             marks: outlines.iter().flat_map(|outline| outline.marks.iter().map(at)).collect(),
-            particles: control_points[outlines.len()..].iter().flat_map(|of| of.to_vec()).collect(),
+            particles: control_points[beams..]
+                .iter()
+                .filter_map(|of| of.first())
+                .copied()
+                .collect(),
         }
     }
 }

@@ -39,16 +39,17 @@ pub struct Peak {
 /// Why a column has no spectrum.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum SpectrumError {
-    /// Rows at other distances than the first two.
+    /// Rows at other distances than most.
     #[error(
-        "a spectrum needs evenly spaced rows, but that at t = {time} comes {found} after the one before, the others {expected}"
+        "a spectrum needs evenly spaced rows, but that at t = {} comes {} after the one before, most others {}",
+        six_digits(*.time), six_digits(*.found), six_digits(*.expected)
     )]
     Uneven {
         /// When.
         time: f64,
         /// The duration there.
         found: f64,
-        /// That of the first two rows.
+        /// That between most rows: the median.
         expected: f64,
     },
     /// Too few rows.
@@ -63,6 +64,11 @@ pub enum SpectrumError {
         /// When.
         time: f64,
     },
+}
+
+/// A number as it is told.
+fn six_digits(number: f64) -> f64 {
+    format!("{number:.5e}").parse().unwrap_or(number)
 }
 
 impl Series {
@@ -80,14 +86,7 @@ impl Series {
         if let Some(at) = self.values.iter().position(|value| !value.is_finite()) {
             return Err(SpectrumError::NoNumber { time: self.times[at] });
         }
-        let dt = (self.times[count - 1] - self.times[0]) / (count - 1) as f64;
-        let expected = self.times[1] - self.times[0];
-        for pair in self.times.windows(2) {
-            let found = pair[1] - pair[0];
-            if (found - dt).abs() > EVEN * dt {
-                return Err(SpectrumError::Uneven { time: pair[1], found, expected });
-            }
-        }
+        let dt = self.spacing()?;
         let magnitudes = self.windowed_magnitudes();
         let highest = magnitudes.iter().copied().fold(0.0, f64::max);
         // In units of the transform with zeros.
@@ -109,6 +108,21 @@ impl Series {
         peaks.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
         peaks.truncate(most);
         Ok(peaks)
+    }
+
+    /// The time between two rows, which must be the same everywhere.
+    fn spacing(&self) -> Result<f64, SpectrumError> {
+        let mut durations: Vec<f64> = self.times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let middle = durations.len() / 2;
+        let expected = *durations.select_nth_unstable_by(middle, f64::total_cmp).1;
+        for pair in self.times.windows(2) {
+            let found = pair[1] - pair[0];
+            if (found - expected).abs() > EVEN * expected {
+                return Err(SpectrumError::Uneven { time: pair[1], found, expected });
+            }
+        }
+        let count = self.times.len();
+        Ok((self.times[count - 1] - self.times[0]) / (count - 1) as f64)
     }
 
     /// The amplitudes at multiples of one frequency, from zero to half of that of the rows.

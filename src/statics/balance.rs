@@ -3,7 +3,7 @@
 use crate::geometry::larger;
 use crate::integrators::Forces;
 use crate::linalg::BorderedMatrix;
-use crate::model::{Model, StaticForces};
+use crate::model::{Model, StaticForces, UnknownKind};
 use crate::newton::{Equations, Imbalance};
 
 /// The forces of a model at rest, and what its residual is compared with.
@@ -18,12 +18,16 @@ impl Balance<'_> {
         let StaticForces { force, moment, strain_mismatch } =
             self.model.add_static_forces(movements, factor, forces);
         let scale = force + moment / self.length;
-        let largest = forces.iter().zip(self.model.rotations()).fold(0.0, |most, (r, turns)| {
-            larger(most, if *turns { r.abs() / self.length } else { r.abs() })
+        let kinds = self.model.unknown_kinds();
+        let largest = forces.iter().zip(kinds).fold(0.0, |most, (r, kind)| match kind {
+            UnknownKind::Position => larger(most, r.abs()),
+            UnknownKind::Rotation => larger(most, r.abs() / self.length),
+            UnknownKind::Force => most,
         });
         // Nothing is balanced by nothing.
         let force = if largest == 0.0 { 0.0 } else { largest / scale };
-        Imbalance { force, strain: strain_mismatch, constraint: 0.0 }
+        let constraint = self.model.lever_violation(forces);
+        Imbalance { force, strain: strain_mismatch, constraint }
     }
 }
 
@@ -112,6 +116,9 @@ impl Equations for AlongPath<'_> {
         self.add_forces_to(residual);
         let beyond = self.beyond_plane(movements);
         residual[movements.len()] = beyond;
-        Imbalance { constraint: beyond.abs() / self.distance, ..imbalance }
+        Imbalance {
+            constraint: larger(imbalance.constraint, beyond.abs() / self.distance),
+            ..imbalance
+        }
     }
 }

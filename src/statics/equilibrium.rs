@@ -172,7 +172,9 @@ fn of_equal_stiffness(scene: &Scene) -> Scene {
     let length = scene.longest_beam().unwrap_or(1.0);
     for element in &mut equal.elements {
         if let Element::PointMass(mass) = element {
-            (mass.mass, mass.rotary_inertia) = (length, 0.0);
+            let turns = mass.station.turns() && mass.station.beam().is_none();
+            let rotary_inertia = if turns { length * square(length) } else { 0.0 };
+            (mass.mass, mass.rotary_inertia) = (length, rotary_inertia);
         }
     }
     equal

@@ -7,7 +7,7 @@ use super::{ArcLength, Control, Loading, Path, PathPoint, StaticsError};
 use crate::elementary::square;
 use crate::integrators::Mechanism;
 use crate::linalg::BorderShape;
-use crate::model::{Model, Scene};
+use crate::model::{Model, Scene, UnknownKind};
 use crate::newton::{Newton, NewtonError};
 
 /// A step that finds no equilibrium is halved so often.
@@ -248,9 +248,14 @@ impl<'s> Tracer<'s> {
 }
 
 fn metric(model: &Model, length: f64) -> Vec<f64> {
-    let share = 3.0 / model.rotations().len() as f64;
-    let weight = |turns: &bool| if *turns { share } else { share / square(length) };
-    model.rotations().iter().map(weight).collect()
+    let is_movement = |kind: &&UnknownKind| **kind != UnknownKind::Force;
+    let share = 3.0 / model.unknown_kinds().iter().filter(is_movement).count() as f64;
+    let weight = |kind: &UnknownKind| match kind {
+        UnknownKind::Position => share / square(length),
+        UnknownKind::Rotation => share,
+        UnknownKind::Force => 0.0,
+    };
+    model.unknown_kinds().iter().map(weight).collect()
 }
 
 /// A step along the path, with its work space.

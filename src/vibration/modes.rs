@@ -103,7 +103,7 @@ impl Modes {
 
     /// About the memory that looking for so many modes of a model takes at most [bytes].
     pub fn memory(model: &Model, count: usize) -> u64 {
-        let unknowns = model.rotations().len();
+        let unknowns = model.unknown_kinds().len();
         // There are no more than that: a larger number is refused by the search.
         let numbers = numbers(unknowns, count.min(unknowns));
         (numbers * size_of::<f64>() + Pencil::memory(model)) as u64

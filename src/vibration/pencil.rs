@@ -24,17 +24,25 @@ impl Pencil {
     /// The eigenvalue problem of the present configuration of a model.
     pub(super) fn of(model: &Model) -> Result<Self, VibrationError> {
         let size = model.unknowns();
-        let mut stiffness = PreciseBand::zeros(size, model.half_bandwidth());
+        let mut stiffness = PreciseBand::zeros(size, model.half_bandwidth_at_rest());
         let mut elastic = Elastic::default();
         model.each_span_at_rest(&mut |degrees, span| {
             add_resistance(&mut stiffness, degrees, span);
             elastic.add(size, degrees, span);
         });
         let inertia = model.sparse_inertia();
+        let scale = model.slowest_bending().unwrap_or(1.0);
+        let own: Vec<f64> = (0..size)
+            .map(|at| stiffness.diagonal(at).abs() + scale * inertia.diagonal(at))
+            .collect();
+        model.each_lever_at_rest(|at| own[at], &mut |degrees, span| {
+            add_resistance(&mut stiffness, degrees, span);
+            elastic.add(size, degrees, span);
+        });
         let is_finite = (0..size)
             .all(|at| stiffness.diagonal(at).is_finite() && inertia.diagonal(at).is_finite());
         let finite = (0..size).filter(|at| inertia.diagonal(*at) > 0.0).count();
-        let scale = model.slowest_bending().unwrap_or(1.0);
+        let finite = finite.saturating_sub(model.held_by_levers(&inertia));
         if !is_finite || !scale.is_normal() {
             return Err(VibrationError::NotFinite);
         }
@@ -43,7 +51,7 @@ impl Pencil {
 
     /// About the memory that the eigenvalue problem of a model takes [bytes].
     pub(super) fn memory(model: &Model) -> usize {
-        let (size, reach) = (model.unknowns(), model.half_bandwidth() + 1);
+        let (size, reach) = (model.unknowns(), model.half_bandwidth_at_rest() + 1);
         // The stiffness in two parts, its factors, inertia while it is sorted, and about two strains for each movement.
         size * reach * 8 * size_of::<f64>() + Elastic::memory(2 * size, reach)
     }

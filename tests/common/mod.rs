@@ -1,6 +1,7 @@
 //! What several test files need: scenes, meshes, reference tables, random numbers.
 #![allow(dead_code, clippy::unwrap_used)]
 
+pub mod body_scenes;
 pub mod corpus;
 pub mod fingerprint;
 pub mod fixed_way;

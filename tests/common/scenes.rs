@@ -9,7 +9,7 @@ use withy::joints::{Component, Components, JointKind, Partner};
 use withy::loads::{Course, Frame, LoadKind, Schedule};
 use withy::model::{
     Along, Anchor, BeamDefinition, Drag, Dragged, Drive, DriveKind, Origin, ParticleDefinition,
-    PointMass, RestoringLaw, Scene, Spring, SpringKind, StartMotion,
+    PointMass, RestoringLaw, RigidBodyDefinition, Scene, Spring, SpringKind, StartMotion,
 };
 
 /// The section of the flying spaghetti with `EA = GA` and `EI` as given.
@@ -43,7 +43,7 @@ pub fn line(from: Vec2, to: Vec2) -> Curve {
     Curve::line(from, to).unwrap()
 }
 
-fn start_of(scene: &mut Scene, beam: usize) -> Station {
+pub fn start_of(scene: &mut Scene, beam: usize) -> Station {
     scene.station(beam, 0.0).unwrap()
 }
 
@@ -349,6 +349,26 @@ pub fn dragged(mesh: &Mesh) -> Scene {
     scene
 }
 
+/// A flying beam with a flywheel on a hinge at one end, which a torsion spring turns, and a rigid body fixed to the other: both by their centres.
+pub fn flywheels(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("flywheels");
+    let beam = add_beam(&mut scene, line(at(0.0, 1.0), at(3.0, 2.0)), mesh, rod());
+    let ends = [start_of(&mut scene, beam), end_of(&mut scene, beam)];
+    let joints = [JointKind::Hinge, JointKind::Rigid];
+    let motion = StartMotion { velocity: at(0.4, 0.7), spin: 0.8, about: Some(Vec2::zeros()) };
+    scene.beams[beam].motion = motion;
+    for (end, kind) in ends.into_iter().zip(joints) {
+        let (name, position) = (scene.free_name("body"), scene.drawn_at(&end).unwrap());
+        let body = RigidBodyDefinition { name, position, angle: 0.2, points: Vec::new(), motion };
+        let body = scene.add_rigid_body(body, 0.6, 0.15).unwrap();
+        scene.join(kind, Station::on_rigid_body(body, 0), Partner::Station(end)).unwrap();
+    }
+    let wheel = [Anchor::Station(ends[0]), Anchor::Station(Station::on_rigid_body(0, 0))];
+    let drawn = 0.2 - 1.0_f64.atan2(3.0);
+    spring(&mut scene, SpringKind::Torsion(wheel), linear(3.0, drawn), 0.0);
+    scene
+}
+
 /// Every scene on a mesh.
 pub fn all(mesh: &Mesh) -> Vec<Scene> {
     vec![
@@ -364,6 +384,7 @@ pub fn all(mesh: &Mesh) -> Vec<Scene> {
         mounted(mesh),
         damped(mesh),
         dragged(mesh),
+        flywheels(mesh),
         driven(mesh),
     ]
 }

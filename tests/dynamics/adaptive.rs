@@ -3,7 +3,8 @@
 
 use crate::common::reference::distance;
 use crate::common::{
-    assert_energy_never_grows, ends, run, scenes, sci, settings, simulate, sliding_scenes,
+    assert_energy_never_grows, body_scenes, ends, run, scenes, sci, settings, simulate,
+    sliding_scenes,
 };
 use withy::beams::Mesh;
 use withy::geometry::Vec2;
@@ -106,7 +107,8 @@ fn every_method_keeps_what_it_claims_whatever_the_steps() {
         let with_sliders = sliding_scenes::all(&smooth(4), SlidingRule::Conserving);
         let flying = [scenes::spaghetti(&smooth(8), 1e4), scenes::spaghetti(&smooth(8), 1e8)];
         let others = [scenes::four_bar_linkage(&smooth(4)), scenes::flying_tree(&smooth(4))];
-        let all = flying.into_iter().chain(others).map(|scene| (scene, 3.0));
+        let rigid = [body_scenes::double_pendulum(), body_scenes::dumbbell(&smooth(4))];
+        let all = flying.into_iter().chain(others).chain(rigid).map(|scene| (scene, 3.0));
         let all = all.chain(with_sliders.into_iter().map(|scene| (scene, 0.4)));
         let mut worst = [0.0_f64; 4];
         for (scene, end) in all {

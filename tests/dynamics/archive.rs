@@ -3,7 +3,7 @@
 
 use std::rc::Rc;
 
-use crate::common::{Random, meshes, run, scenes, settings, sliding_scenes};
+use crate::common::{Random, body_scenes, meshes, run, scenes, settings, sliding_scenes};
 use withy::beams::Mesh;
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::SlidingRule;
@@ -49,7 +49,7 @@ fn assert_survives(
 fn every_scene_comes_back_and_goes_on_bit_for_bit() {
     for entry in INTEGRATORS {
         for (name, mesh) in meshes(4) {
-            for scene in scenes::all(&mesh) {
+            for scene in scenes::all(&mesh).into_iter().chain(body_scenes::all(&mesh)) {
                 let label = format!("{}, {}, {name}", entry.name, scene.name);
                 assert_survives(&label, scene, (entry.method, Recording::default()), 0.05, 0.6);
             }

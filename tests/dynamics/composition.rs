@@ -3,7 +3,7 @@
 
 use std::rc::Rc;
 
-use crate::common::{at, scenes, simulate};
+use crate::common::{at, body_scenes, scenes, simulate};
 use withy::beams::{Mesh, Section};
 use withy::integrators::{Integrator, Interval, Method, StepError};
 use withy::loads::{Frame, LoadKind, Schedule};
@@ -44,7 +44,7 @@ fn numbers(measures: &Measures) -> [f64; 9] {
 #[test]
 fn a_step_back_in_time_undoes_the_step() {
     for method in [Method::EnergyMomentum, Method::FourthOrder] {
-        for scene in scenes::all(&mesh()) {
+        for scene in scenes::all(&mesh()).into_iter().chain(body_scenes::all(&mesh())) {
             let (mut model, mut integrator) = under_way(&scene, method, 5);
             let before = model.measure();
             let points: Vec<_> = model.control_points().flatten().copied().collect();

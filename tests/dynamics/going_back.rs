@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::num::NonZeroUsize;
 use std::rc::Rc;
 
-use crate::common::{Random, meshes, run, scenes, settings, sliding_scenes};
+use crate::common::{Random, body_scenes, meshes, run, scenes, settings, sliding_scenes};
 use withy::beams::Mesh;
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::{EndAction, SlidingRule};
@@ -121,7 +121,7 @@ fn assert_walk_is_straight(
 #[test]
 fn walks_through_every_scene_are_straight() {
     for (number, (name, mesh)) in meshes(4).into_iter().enumerate() {
-        for scene in scenes::all(&mesh) {
+        for scene in scenes::all(&mesh).into_iter().chain(body_scenes::all(&mesh)) {
             let entry = INTEGRATORS[number % INTEGRATORS.len()];
             let label = format!("{}, {}, {name}", entry.name, scene.name);
             assert_walk_is_straight(
@@ -144,7 +144,9 @@ fn walks_with_sliders_that_bounce_rest_leave_or_end_the_run_are_straight() {
     for (ends, entry) in
         actions.into_iter().flat_map(|ends| INTEGRATORS.iter().map(move |entry| (ends, entry)))
     {
-        for (number, mut scene) in sliding_scenes::all(&mesh, rule).into_iter().enumerate() {
+        let carriage = body_scenes::carriage(&mesh, rule);
+        let all = sliding_scenes::all(&mesh, rule).into_iter().chain([carriage]);
+        for (number, mut scene) in all.enumerate() {
             scene.sliders.iter_mut().for_each(|slider| slider.ends = ends);
             let label = format!("{}, {}, {ends:?}", entry.name, scene.name);
             let settings = settings(entry.method, 0.02);

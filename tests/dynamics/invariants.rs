@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{
-    assert_energy_never_grows, at, energies, meshes, run, scenes, settings, simulate,
+    assert_energy_never_grows, at, body_scenes, energies, meshes, run, scenes, settings, simulate,
 };
 use withy::beams::Mesh;
 use withy::integrators::{EnergyClaim, INTEGRATORS, Interval, Method};
@@ -32,7 +32,7 @@ fn every_claim_holds_on_every_mesh_and_scene() {
         ];
         let mut worst = [f64::NAN; 4];
         for (mesh_name, mesh) in meshes(6) {
-            for scene in scenes::all(&mesh) {
+            for scene in scenes::all(&mesh).into_iter().chain(body_scenes::all(&mesh)) {
                 let label = format!("{}, {}, {mesh_name}", entry.name, scene.name);
                 let simulation = simulate(scene, entry.method, 0.1, 7.5);
                 for (worst, (invariant, _)) in
@@ -184,7 +184,7 @@ fn half_a_turn_in_a_step_is_tried_again_in_smaller_steps() {
 #[test]
 fn a_restored_state_goes_on_bit_for_bit_as_it_did() {
     for entry in INTEGRATORS {
-        for scene in scenes::all(&smooth(6)) {
+        for scene in scenes::all(&smooth(6)).into_iter().chain(body_scenes::all(&smooth(6))) {
             let mut model = Model::assemble(&scene).unwrap();
             let mut integrator = entry.method.build(&mut model, Tolerance::default());
             let mut advance = |model: &mut Model, steps: std::ops::Range<u32>| {

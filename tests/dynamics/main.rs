@@ -5,6 +5,7 @@ mod common;
 
 mod adaptive;
 mod archive;
+mod bodies;
 mod composition;
 mod consistency;
 mod cores;
@@ -13,6 +14,7 @@ mod drag;
 mod drives;
 mod going_back;
 mod invariants;
+mod levers;
 mod literature;
 mod meshes;
 mod notes;

@@ -318,3 +318,28 @@ check((min(sim.history.column(\"ring.position\")) < 0.5) == {crosses});"
     let (_, told) = outcome(&script("0.05", false));
     assert_eq!(told, "");
 }
+
+#[test]
+fn rounding_of_a_scene_at_rest_is_no_vibration() {
+    let mut scene = Scene::new("rest");
+    let section = Section {
+        axial_stiffness: 1e4,
+        shear_stiffness: 1e4,
+        bending_stiffness: 100.0,
+        mass_per_length: 1.0,
+        rotary_inertia: 10.0,
+    };
+    let definition = BeamDefinition {
+        name: "rod".to_owned(),
+        axis: line(at(0.0, 8.0), at(6.0, 0.0)),
+        mesh: Mesh::bspline(16, 3, 2).unwrap(),
+        section,
+        motion: StartMotion::default(),
+    };
+    scene.add_beam(definition).unwrap();
+    scene.join(JointKind::Rigid, Station::on_beam(0, 0.0), Partner::Ground).unwrap();
+    let simulation = simulate(scene, Method::EnergyMomentum, 0.1, 10.0);
+    let kinetic = simulation.history().column("kinetic").unwrap();
+    assert!(kinetic.iter().any(|energy| *energy > 0.0), "it moves by rounding");
+    assert!(motion(&simulation.notes()).is_none());
+}

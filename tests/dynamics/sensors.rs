@@ -1,7 +1,9 @@
 //! What sensors read: against balance, differences and closed forms; and that reading changes nothing.
 #![allow(clippy::unwrap_used)]
 
-use crate::common::{at, orders, run, scenes, sci, settings, simulate, sliding_scenes};
+use crate::common::{
+    at, body_scenes, orders, run, scenes, sci, settings, simulate, sliding_scenes,
+};
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::Vec2;
 use withy::integrators::{INTEGRATORS, Method};
@@ -28,7 +30,8 @@ fn with_all_sensors(mut scene: Scene) -> Scene {
 fn reading_changes_no_bit_of_the_motion() {
     let mesh = smooth(5);
     let sliding = sliding_scenes::all(&mesh, SlidingRule::Conserving);
-    for scene in scenes::all(&mesh).into_iter().chain(sliding) {
+    let with_bodies = body_scenes::all(&mesh);
+    for scene in scenes::all(&mesh).into_iter().chain(with_bodies).chain(sliding) {
         for entry in INTEGRATORS {
             let plain = simulate(scene.clone(), entry.method, 0.02, 0.2);
             let watched = with_all_sensors(scene.clone());
@@ -53,8 +56,9 @@ fn reading_changes_no_bit_of_the_motion() {
 
 #[test]
 fn energies_of_all_bodies_are_that_of_the_scene() {
-    for scene in scenes::all(&smooth(5)) {
-        let (name, bodies) = (scene.name.clone(), scene.beams.len() + scene.particles.len());
+    for scene in scenes::all(&smooth(5)).into_iter().chain(body_scenes::all(&smooth(5))) {
+        let name = scene.name.clone();
+        let bodies = scene.beams.len() + scene.particles.len() + scene.rigid_bodies.len();
         let mut simulation = simulate(scene, Method::default(), 0.02, 0.4);
         let total = simulation.history().samples().last().unwrap().measures.energy;
         let mut sums = [0.0; 3];

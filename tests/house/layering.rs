@@ -168,10 +168,17 @@ fn layers_use_only_those_to_their_right() {
 
 /// The rooms of the model: each with those it may use.
 const ROOMS: &[(&str, &[&str])] = &[
-    ("looking", &["mechanism", "motion", "sliders", "scene", "elements", "bodies", "words"]),
-    ("assembly", &["mechanism", "motion", "sliders", "scene", "elements", "bodies", "words"]),
-    ("mechanism", &["motion", "sliders", "elements", "bodies", "words"]),
+    (
+        "looking",
+        &["mechanism", "motion", "levers", "sliders", "scene", "elements", "bodies", "words"],
+    ),
+    (
+        "assembly",
+        &["mechanism", "motion", "levers", "sliders", "scene", "elements", "bodies", "words"],
+    ),
+    ("mechanism", &["motion", "levers", "sliders", "elements", "bodies", "words"]),
     ("motion", &[]),
+    ("levers", &["bodies"]),
     ("sliders", &["bodies", "words"]),
     ("scene", &["elements", "words"]),
     ("elements", &["bodies", "words"]),

@@ -226,6 +226,37 @@ fn a_column_is_preferred_to_a_variable_of_its_name_and_that_is_told() {
 }
 
 #[test]
+fn what_a_command_has_written_is_not_quoted_and_one_state_is_no_curve() {
+    let style = Style { glyphs: Glyphs::Ascii, colours: Colours::None, width: 50, height: 14 };
+    let mut prompt = Prompt::with(MEGABYTE, Screen::Terminal(style));
+    prompt.ask(SPINNING);
+    for curves in [":plot energy", ":plot sim.position(rod.end).x"] {
+        let (reply, told) = prompt.ask_both(curves);
+        assert!(
+            reply.contains("at the start") && told.contains("one state so far"),
+            "{reply}{told}"
+        );
+    }
+    prompt.ask(":step 2e0");
+    for (input, expected) in [
+        (":run 0", "cannot run to t = 0"),
+        (":back 1e7", "cannot go back 10000000 steps"),
+        (":plot 0.0/0.0", "nowhere a finite number"),
+    ] {
+        assert_eq!(prompt.shell.submit(input), Outcome::Failed);
+        let said = format!("{}{}", prompt.told.take(), prompt.printed.take());
+        assert!(said.contains(expected) && !said.contains("prompt:"), "{input}: {said}");
+    }
+    prompt.ask("let words = \"a text that is far too long for the screen of a telephone\";");
+    let listed = prompt.ask(":vars");
+    assert!(listed.lines().all(|line| line.chars().count() <= 50), "{listed}");
+    let (_, told) = prompt.ask_both("scene.gravity([0, -9.81]); scene.gravity([0, -9.81]);");
+    assert_eq!(told, "");
+    let (_, told) = prompt.ask_both("scene.gravity([0, -1.62]);");
+    assert!(told.contains("was (0, -9.81) and is now (0, -1.62)"), "{told}");
+}
+
+#[test]
 fn where_states_are_forgotten_the_run_is_made_again_and_compared() {
     let mut prompt = Prompt::with(0, Screen::Pipe);
     prompt.ask(SPINNING);

@@ -107,7 +107,10 @@ fn dots_are_left_out_where_there_are_many_and_loads_when_they_have_ended() {
     let dots = |options: &str| drawn(options, "0.4").matches("<circle").count();
     assert_eq!(dots("") - dots(", dots: false"), 18);
     let lines = |options: &str, until: &str| drawn(options, until).matches("<polyline").count();
-    let arrow = |until: &str| lines("", until) - lines(", symbols: false", until);
+    // In the same view, for lines of the grid are lines too.
+    let view = ", x_limits: [-1, 4], y_limits: [-2, 3]";
+    let bare = format!("{view}, symbols: false");
+    let arrow = |until: &str| lines(view, until) - lines(&bare, until);
     assert_eq!(arrow("0.4") - arrow("0.8"), 2, "shaft and head of the arrow");
     let many = picture(
         "for i in 0..5 { scene.beam(#{ axis: line([0, 1], [2, 1]), basis: bspline(16), section: s }); }

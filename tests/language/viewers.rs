@@ -30,6 +30,11 @@ let sim = scene.start(#{ dt: 0.02 });
 
 /// What a script prints, and a file that it writes.
 fn written(script: &str, file: &str) -> (String, Vec<u8>) {
+    written_in(SCENE, script, file)
+}
+
+/// The same after another scene.
+fn written_in(scene: &str, script: &str, file: &str) -> (String, Vec<u8>) {
     let out = tempfile::tempdir().unwrap();
     let printed = Notepad::default();
     let settings = Settings {
@@ -37,7 +42,7 @@ fn written(script: &str, file: &str) -> (String, Vec<u8>) {
         printed: Box::new(printed.clone()),
         ..Settings::silent(Mode::Run)
     };
-    let program = Program::named("viewer", &format!("{SCENE}{script}"));
+    let program = Program::named("viewer", &format!("{scene}{script}"));
     let outcome = run(&program, &language(), settings);
     assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
     (printed.take(), fs::read(out.path().join(file)).unwrap_or_default())
@@ -182,6 +187,73 @@ fn columns_and_colours_are_those_of_the_run() {
 }
 
 #[test]
+fn moments_and_strain_energy_are_those_of_the_states_also_where_a_run_is_made_again_over_bounces() {
+    // Section forces of both ends of the first beam, then of the last place of the second one.
+    let script = "
+        let look = |q| { let f = [q.section_forces(one, 0), q.section_forces(one, 2), q.section_forces(two, 2)];
+            for s in f { print(`${q.t} ${s.M} ${0.5 * (s.N * s.axial_strain + s.Q * s.shear_strain + s.M * s.curvature)}`); } };
+        for k in 1..=24 { sim.at(k * 0.04, look); }
+        sim.run_to(1);
+        check(sim.events.len() > 0, \"the ring bounces\");
+        write_viewer(sim, \"page.html\", #{ fields: [\"M\", \"strain_energy\"] });";
+    let of_kept = SCENE.replace("dt: 0.02", "dt: 0.02, snapshots: 50");
+    let both = [SCENE, of_kept.as_str()].map(|scene| written_in(scene, script, "page.html"));
+    assert_eq!(both[0].1, both[1].1, "kept states are those of the run made again");
+    let data = data(&both[0].1);
+    let film = &data["films"][0];
+    let names: Vec<_> = film["fields"].as_array().unwrap().iter().map(|f| &f["name"]).collect();
+    assert_eq!(names, ["bending moment", "strain energy per length"]);
+    let times: Vec<f64> =
+        film["times"].as_array().unwrap().iter().map(|t| t.as_f64().unwrap()).collect();
+    let stations = |beam: usize| {
+        let shape = film["beams"][beam]["shape"].as_u64().unwrap() as usize;
+        film["shapes"][shape]["stations"].as_array().unwrap().len()
+    };
+    let places = [0, stations(0) - 1, stations(0) + stations(1) - 1];
+    let values = [0, 1].map(|field| series(&film["fields"][field]["values"]));
+    let steps = [0, 1].map(|field| film["fields"][field]["values"]["step"].as_f64().unwrap());
+    let lines: Vec<&str> = both[0].0.lines().collect();
+    assert_eq!(lines.len(), 72);
+    for (index, line) in lines.iter().enumerate() {
+        let numbers: Vec<f64> = line.split(' ').map(|number| number.parse().unwrap()).collect();
+        let frame = times.iter().position(|time| (time - numbers[0]).abs() < 1e-12).unwrap();
+        for field in [0, 1] {
+            let (shown, known) = (values[field][places[index % 3]][frame], numbers[1 + field]);
+            assert!((shown - known).abs() <= 0.51 * steps[field], "{line}: {shown}");
+        }
+    }
+    assert!(steps.iter().all(|step| *step > 0.0));
+}
+
+#[test]
+fn springs_are_drawn_between_their_ends_and_a_slider_until_it_has_left() {
+    let script = "
+        scene.spring([0, 3], two.end, #{ name: \"hook\", stiffness: 50 });
+        scene.spring(one.at(1), two.at(1), #{ name: \"brake\", damping: 2 });
+        let free = scene.particle([1, 0], 0.1, #{ name: \"free\", velocity: [3, 0] });
+        scene.slider(free, one, #{ name: \"leaver\", ends: \"release\" });
+        let run = scene.start(#{ dt: 0.02 });
+        run.run_to(1);
+        for event in run.events { if event.what == \"released\" { print(event.t); } }
+        write_viewer(run, \"page.html\", #{ fields: [] });";
+    let (printed, page) = written(script, "page.html");
+    let data = data(&page);
+    let film = &data["films"][0];
+    let springs = film["springs"].as_array().unwrap();
+    assert_eq!(
+        springs.iter().map(|one| one["kind"].as_str().unwrap()).collect::<Vec<_>>(),
+        ["spring", "damper"]
+    );
+    assert_eq!(springs[0]["anchors"][0], serde_json::json!({ "x": 0.0, "y": 3.0 }));
+    assert!(springs[1]["anchors"].as_array().unwrap().iter().all(Value::is_array));
+    let symbols = film["symbols"].as_array().unwrap();
+    let leaver = symbols.iter().find(|one| one["name"] == "leaver").unwrap();
+    assert_eq!(leaver["until"].as_f64(), Some(printed.trim().parse().unwrap()));
+    let others = symbols.iter().filter(|one| one["name"] != "leaver");
+    assert!(others.into_iter().all(|one| one["until"].is_null()));
+}
+
+#[test]
 fn signs_and_loads_are_there() {
     let (_, page) = written("sim.run_to(1);\nwrite_viewer(sim, \"page.html\");", "page.html");
     let data = data(&page);
@@ -303,7 +375,7 @@ impl Frame {
 fn an_animation_shows_the_tip_where_the_solver_says() {
     let script = "
         for k in 0..=10 { sim.run_to(0.1 * k); let p = sim.position(two.end); print(`${p.x} ${p.y}`); }
-        write_animation(sim, \"a.png\", #{ frames: 11, fps: 10, width: 400 });";
+        write_animation(sim, \"a.png\", #{ frames: 11, fps: 10, width: 400, symbols: false });";
     let (printed, bytes) = written(script, "a.png");
     assert!(bytes.len() < 200_000, "{} bytes", bytes.len());
     let frames = Frame::all(&bytes);

@@ -4,7 +4,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use crate::common::{meshes, run, scenes, settings, sliding_scenes};
+use crate::common::{body_scenes, meshes, run, scenes, settings, sliding_scenes};
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::SLIDING_RULES;
 use withy::model::Scene;
@@ -97,7 +97,7 @@ fn a_full_store_of_snapshots_takes_no_allocations() {
 fn fifteen_times_the_steps_take_no_more_allocations() {
     for entry in INTEGRATORS {
         for (name, mesh) in meshes(4) {
-            for scene in scenes::all(&mesh) {
+            for scene in scenes::all(&mesh).into_iter().chain(body_scenes::all(&mesh)) {
                 let label = format!("{}, {}, {name}", entry.name, scene.name);
                 // Room for the rows of the history, the times and the configurations of the trajectory, and for columns of springs.
                 let of_springs = usize::from(scene.springs().next().is_some());

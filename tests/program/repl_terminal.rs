@@ -170,7 +170,9 @@ fn a_script_may_come_first_and_pictures_are_drawn() {
     let mut session = spawn_command(command, Some(PATIENCE)).unwrap();
     session.exp_string("withy:5> ").unwrap();
     ask(&mut session, ":step 5", "after 5 steps");
-    for command in [":plot kinetic", ":show"] {
+    let commands =
+        [":plot kinetic", ":show", ":show #{ every: 0.1, trace: [rod.end] }", ":along Q"];
+    for command in commands {
         session.send_line(command).unwrap();
         session.exp_regex(BRAILLE).unwrap();
         session.exp_string("withy:6> ").unwrap();

@@ -292,7 +292,7 @@ fn all_of_many_equal_modes_are_found() {
         let start = scene.station(beam, 0.0).unwrap();
         scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
     }
-    assert!(Model::assemble(&scene).unwrap().rotations().len() > 240);
+    assert!(Model::assemble(&scene).unwrap().unknown_kinds().len() > 240);
     let found = modes(&scene, 10).unwrap();
     let single = modes(&Support::Cantilever.scene(&mesh, section), 2).unwrap();
     for (number, mode) in found.all().iter().enumerate() {
@@ -372,7 +372,7 @@ fn random_scenes(count: usize) {
         let mesh = Mesh::bspline(spans, degree, degree - 1).unwrap();
         let section = section(ratio, None);
         let scene = support.scene(&mesh, section);
-        let available = Model::assemble(&scene).unwrap().rotations().len();
+        let available = Model::assemble(&scene).unwrap().unknown_kinds().len();
         let (zeros, asked) = (support.zeros(), (6 + support.zeros()).min(available));
         let name = format!("{number}: {support:?}, {}, EA L²/EI {ratio:.1e}", mesh.describe());
         let found = match modes(&scene, asked) {

@@ -1,12 +1,13 @@
 """How far the archer of bow.rhai draws with 150 N, without withy: python3 bow.py.
 
-Each limb is a cantilever elastica, inextensible, of length 0.75 m and EI = 60 N m², that stands at (0, 0.1) and is pulled at its tip by the
+Each limb is a cantilever elastica, inextensible, of length 0.75 m and EI = 60 N m², that leaves (0, 0.1) at 105 degrees and is pulled at its tip by the
 string, whose half is 0.8 m at ease and stretches by its force over 1e5 N/m. Shooting from the tip, Runge–Kutta of order 4.
 """
 
 from math import cos, pi, sin
 
 EI, LIMB, GRIP, STRING, STIFFNESS, DRAW = 60.0, 0.75, 0.1, 0.8, 1e5, 150.0
+FOOT = 105 * pi / 180
 STEPS = 400
 
 
@@ -35,7 +36,7 @@ def misses(tip_angle, slope):
     tip = (-x, GRIP - y)
     string = STRING + tension / STIFFNESS
     nock = (tip[0] - string * cos(slope), tip[1] - string * sin(slope))
-    return (angle - pi / 2, nock[1]), nock[0], tip
+    return (angle - FOOT, nock[1]), nock[0], tip
 
 
 def solve(tip_angle=2.4, slope=0.9):

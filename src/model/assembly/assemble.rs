@@ -1,22 +1,27 @@
 //! The parts of a scene put together.
 
-use super::Numbering;
-use crate::beams::{BodyDynamics, Mesh, Particle, Place, Section, Station, discretise};
+use super::numbering::{LeverPlace, Numbering};
+use crate::beams::{BodyDynamics, Mesh, Place, Points, Section, Station, discretise};
+use crate::elementary::square;
 use crate::geometry::{GeometryError, Vec2, interpolate};
 use crate::joints::{CONTACT_UNKNOWNS, Partner};
 use crate::model::bodies::{Bodies, Body, Tracker};
 use crate::model::elements::{Elements, Site, Weight};
+use crate::model::levers::{Lever, Levers};
 use crate::model::motion::Motion;
 use crate::model::scene::same_place;
 use crate::model::sliders::Sliders;
 use crate::model::{BeamDefinition, Model, ModelError, Scene};
+
+/// Strains are known to so many roundings: they are differences of coordinates, which are larger than spans.
+const STRAIN_ROUNDINGS: f64 = 100.0;
 
 /// The bodies of a scene on their meshes, from which its model is made.
 pub struct Assembly<'a> {
     pub scene: &'a Scene,
     /// The meshes of the beams, with breaks where joints are, one for each beam of the scene.
     pub meshes: Vec<Mesh>,
-    /// The bodies of the scene: one for each beam, then one for each particle.
+    /// The bodies of the scene: one for each beam, then one for each particle, then one for each rigid body.
     pub bodies: Vec<Box<dyn BodyDynamics>>,
 }
 
@@ -26,7 +31,7 @@ impl Model {
     /// # Errors
     /// When the scene is empty, a beam cannot be put on its mesh, or start velocities do not fit the joints.
     pub fn assemble(scene: &Scene) -> Result<Self, ModelError> {
-        if scene.beams.is_empty() && scene.particles.is_empty() {
+        if scene.beams.is_empty() && scene.particles.is_empty() && scene.rigid_bodies.is_empty() {
             return Err(ModelError::Empty { scene: scene.name.clone() });
         }
         let assembly = Assembly::new(scene)?;
@@ -35,6 +40,7 @@ impl Model {
             Numbering::new(scene, &assembly.bodies, border, |station| assembly.place(station))?;
         let sliders = Sliders::new(assembly.sliders(&numbering)?);
         let elements = assembly.elements()?;
+        let levers = assembly.levers(&numbering);
         let (trackers, joined) = (assembly.trackers()?, assembly.joined()?);
         let (supports, given, unknowns) = numbering.supports_and_unknowns(scene, border)?;
         let mut rates = assembly.start_rates(&numbering, border, &given)?;
@@ -46,8 +52,10 @@ impl Model {
             .map(|(dynamics, degrees)| Body::new(dynamics, degrees, unknowns.count()))
             .collect();
         let bodies = Bodies::new(bodies, meshes, trackers, joined, mass);
-        let motion = Motion::new(rates, f64::EPSILON * scene.rounding_energy());
-        let mut model = Self::new(bodies, elements, sliders, supports, unknowns, motion);
+        let motion =
+            Motion::new(rates, square(STRAIN_ROUNDINGS) * f64::EPSILON * scene.rounding_energy());
+        let mut model = Self::new(bodies, elements, levers, sliders, supports, unknowns, motion);
+        model.check_levers(scene)?;
         if !scene.sliders.is_empty() {
             model.check_determined(scene)?;
         }
@@ -83,7 +91,10 @@ impl<'a> Assembly<'a> {
                     let (length, mesh) = (beam.axis.length(), &assembly.meshes[index]);
                     discretise(points, length, mesh, beam.section).map_err(wrap)?
                 }
-                None => Box::new(Particle::new(points[0])),
+                None => match index.checked_sub(scene.beams.len() + scene.particles.len()) {
+                    None => Box::new(Points::particle(points[0])),
+                    Some(body) => Box::new(Points::rigid(points, scene.rigid_bodies[body].angle)),
+                },
             });
         }
         Ok(assembly)
@@ -95,7 +106,9 @@ impl<'a> Assembly<'a> {
             interpolate(&beam.axis, mesh.basis()).map_err(ModelError::geometry(&beam.name))
         });
         let particles = self.scene.particles.iter().map(|particle| Ok(vec![particle.position]));
-        let mut points = beams.chain(particles).collect::<Result<Vec<_>, ModelError>>()?;
+        let rigid = self.scene.rigid_bodies.iter().map(|body| Ok(body.control_points()));
+        let mut points =
+            beams.chain(particles).chain(rigid).collect::<Result<Vec<_>, ModelError>>()?;
         // A slave may be on a master that slides itself: its own place is right once that of its master is.
         for _ in &self.scene.sliders {
             for slider in &self.scene.sliders {
@@ -137,14 +150,26 @@ impl<'a> Assembly<'a> {
         self.scene.joints.iter().filter_map(pair).collect()
     }
 
-    /// Starts and ends of all beams, then the stations of the scene.
+    /// Starts and ends of all beams, then the stations of the scene, then the rigid bodies.
     fn trackers(&self) -> Result<Vec<Tracker>, ModelError> {
         let ends = self.scene.beams.iter().enumerate().flat_map(|(beam, definition)| {
             [0.0, definition.axis.length()].map(|arc_length| Station::on_beam(beam, arc_length))
         });
         ends.chain(self.scene.stations.iter().copied())
+            .chain((0..self.scene.rigid_bodies.len()).map(|body| Station::on_rigid_body(body, 0)))
             .map(|station| Ok(Tracker::new(self.place(&station)?)))
             .collect()
+    }
+
+    /// The points of rigid bodies, each held to the centre of its body where it is drawn.
+    fn levers(&self, numbering: &Numbering) -> Levers {
+        let first = self.scene.beams.len() + self.scene.particles.len();
+        let lever = |&LeverPlace { body, point, force }: &LeverPlace| {
+            let points = self.bodies[body].control_points();
+            let angle = self.scene.rigid_bodies[body - first].angle;
+            Lever::new(body, point, force, [points[0], points[point]], angle)
+        };
+        Levers::new(numbering.levers.iter().map(lever).collect())
     }
 
     fn elements(&self) -> Result<Elements, ModelError> {

@@ -5,14 +5,24 @@ use crate::joints::{Component, Partner};
 use crate::linalg::reverse_cuthill_mckee;
 use crate::model::ModelError;
 use crate::model::elements::{Guided, Guides, Support, Supports};
-use crate::model::motion::Unknowns;
+use crate::model::motion::{UnknownKind, Unknowns};
 use crate::model::scene::{Scene, Ties};
+
+/// Where a lever is: its body, the control point that it holds to the first one, and the unknowns of its force.
+#[derive(Debug, Clone, Copy)]
+pub struct LeverPlace {
+    pub body: usize,
+    pub point: usize,
+    pub force: [usize; 2],
+}
 
 /// The degree of freedom of every component of every control point of every body: the unknowns come first,
 /// the supported ones last.
 #[derive(Debug, Clone)]
 pub struct Numbering {
     pub degrees_of_freedom: Vec<Vec<[usize; 3]>>,
+    /// The two unknowns of the force of each lever, among those of the movements that it couples.
+    pub levers: Vec<LeverPlace>,
     pub unknowns: usize,
     /// Of the supported ones, those that are given stand first.
     given: usize,
@@ -42,6 +52,22 @@ impl Numbering {
         for offset in offsets[scene.beams.len()..].iter().take(scene.particles.len()) {
             ties.tie(0, offset + Component::Rotation as usize);
         }
+        // The points of a rigid body turn with it; one at the centre is the centre.
+        let first_rigid = scene.beams.len() + scene.particles.len();
+        let mut levers = Vec::new();
+        for (body, definition) in (first_rigid..).zip(&scene.rigid_bodies) {
+            let offset = offsets[body];
+            for point in 1..=definition.points.len() {
+                ties.tie(offset + 2, offset + 3 * point + 2);
+            }
+            let at_centre = |point: &usize| !definition.levers().any(|other| other == *point);
+            for point in (1..=definition.points.len()).filter(at_centre) {
+                (0..2).for_each(|component| {
+                    ties.tie(offset + component, offset + 3 * point + component);
+                });
+            }
+            levers.extend(definition.levers().map(|point| (body, point)));
+        }
         for joint in &scene.joints {
             let node = |station: &Station| -> Result<usize, ModelError> {
                 // Stations of joints are breaks of the mesh, where a control point lies on the axis.
@@ -69,7 +95,15 @@ impl Numbering {
         // Free classes get numbers in the order of the beams; ground is class 0.
         let mut number = vec![usize::MAX; all];
         let mut unknowns = 0;
+        // The force of a lever stands before the point that it holds.
+        let mut forces = vec![[0; 2]; levers.len()];
         for at in 1..all {
+            for (force, (body, point)) in forces.iter_mut().zip(&levers) {
+                if at == offsets[*body] + 3 * point {
+                    *force = [unknowns, unknowns + 1];
+                    unknowns += 2;
+                }
+            }
             let root = ties.root(at);
             if root != 0 && number[root] == usize::MAX && !given.contains(&root) {
                 number[root] = unknowns;
@@ -90,6 +124,17 @@ impl Numbering {
                 groups.push(group);
             }
         }
+        for (force, &(body, point)) in forces.iter().zip(&levers) {
+            let (centre, point) = (offsets[body], offsets[body] + 3 * point);
+            for (component, &force) in force.iter().enumerate() {
+                for at in [centre + component, centre + 2, point + component] {
+                    let other = number[ties.root(at)];
+                    if other != usize::MAX {
+                        groups.push(vec![force.min(other), force.max(other)]);
+                    }
+                }
+            }
+        }
         for element in &scene.elements {
             let mut group = Vec::new();
             for station in element.description().coupled() {
@@ -107,6 +152,12 @@ impl Numbering {
             }
         }
         let ordering = reverse_cuthill_mckee(unknowns, &groups);
+        let levers = forces.iter().zip(levers).map(|(force, (body, point))| LeverPlace {
+            body,
+            point,
+            force: force.map(|at| ordering.position[at]),
+        });
+        let levers = levers.collect();
 
         let mut supported = given.len();
         let degrees_of_freedom = bodies
@@ -133,6 +184,7 @@ impl Numbering {
             .collect();
         Ok(Self {
             degrees_of_freedom,
+            levers,
             unknowns,
             given: given.len(),
             supported,
@@ -147,7 +199,7 @@ impl Numbering {
         scene: &Scene,
         border: usize,
     ) -> Result<(Supports, Vec<f64>, Unknowns), ModelError> {
-        let mut is_rotation = vec![false; self.unknowns];
+        let mut kinds = vec![UnknownKind::Position; self.unknowns];
         let mut supports =
             vec![Support { body: 0, point: 0, component: Component::X }; self.supported];
         for (body, points) in self.degrees_of_freedom.iter().enumerate() {
@@ -155,10 +207,16 @@ impl Numbering {
                 for (component, &at) in Component::ALL.into_iter().zip(degrees) {
                     match at.checked_sub(self.unknowns + border) {
                         Some(support) => supports[support] = Support { body, point, component },
-                        None => is_rotation[at] = component == Component::Rotation,
+                        None if component == Component::Rotation => {
+                            kinds[at] = UnknownKind::Rotation;
+                        }
+                        None => (),
                     }
                 }
             }
+        }
+        for at in self.levers.iter().flat_map(|lever| lever.force) {
+            kinds[at] = UnknownKind::Force;
         }
         let held = supports.split_off(self.given);
         let courses = scene.drives.iter().enumerate();
@@ -171,7 +229,7 @@ impl Numbering {
         let drives = scene.drives.iter().map(|drive| drive.name.clone());
         let (guides, rates) = Guides::new(guided.collect(), drives, self.unknowns, border)
             .map_err(|(drive, source)| ModelError::DriveValue { drive, source })?;
-        let unknowns = Unknowns::new(is_rotation, self.half_bandwidth);
+        let unknowns = Unknowns::new(kinds, self.half_bandwidth);
         Ok((Supports::new(guides, held), rates, unknowns))
     }
 }

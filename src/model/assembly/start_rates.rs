@@ -1,10 +1,10 @@
-//! Start velocities: rigid motions of beams, which tied movements must share, and velocities of single nodes.
+//! Start velocities: rigid motions of beams and bodies, which tied movements must share, and velocities of single nodes.
 
 use super::{Assembly, Numbering};
-use crate::beams::BodyDynamics;
+use crate::beams::{BodyDynamics, BodyIndex};
 use crate::geometry::{Vec2, perpendicular};
 use crate::model::elements::Site;
-use crate::model::{BeamDefinition, ModelError, StationVelocity, Turning};
+use crate::model::{ModelError, StartMotion, StationVelocity, Turning};
 
 /// Largest difference of tied start velocities, relative to the velocities of the beam.
 const SAME_VELOCITY: f64 = 1e-9;
@@ -23,7 +23,7 @@ fn given_there(rate: f64) -> String {
     format!("its motion is given there, and begins with {rate}")
 }
 
-/// The rate of each unknown, with the beam that has given it.
+/// The rate of each unknown, with the beam or the rigid body that has given it.
 struct Shared {
     rates: Vec<Option<(usize, f64)>>,
 }
@@ -80,9 +80,17 @@ impl Assembly<'_> {
     ) -> Result<Vec<f64>, ModelError> {
         let begun = Beginnings { unknowns: numbering.unknowns, rates: given, constraints };
         let mut shared = Shared { rates: vec![None; numbering.unknowns] };
-        for index in 0..self.scene.beams.len() {
+        for (index, beam) in self.scene.beams.iter().enumerate() {
             let degrees = &numbering.degrees_of_freedom[index];
-            self.share_rigid_motion(index, degrees, &mut shared, begun)?;
+            let length = beam.axis.length();
+            self.share_rigid_motion(index, length, &beam.motion, degrees, &mut shared, begun)?;
+        }
+        let first = self.scene.beams.len() + self.scene.particles.len();
+        for (index, body) in (first..).zip(&self.scene.rigid_bodies) {
+            let degrees = &numbering.degrees_of_freedom[index];
+            // One without points is as large as anything: what it shares is its centre.
+            let size = if body.size() > 0.0 { body.size() } else { 1.0 };
+            self.share_rigid_motion(index, size, &body.motion, degrees, &mut shared, begun)?;
         }
         let rates = shared.rates.into_iter();
         let mut rates: Vec<f64> = rates.map(|rate| rate.map_or(0.0, |(_, value)| value)).collect();
@@ -92,22 +100,25 @@ impl Assembly<'_> {
         Ok(rates)
     }
 
-    /// Gives the movements of a beam the rates of its rigid motion.
+    /// Gives the movements of a body of some length the rates of its rigid motion.
     fn share_rigid_motion(
         &self,
         index: usize,
+        length: f64,
+        motion: &StartMotion,
         degrees_of_freedom: &[[usize; 3]],
         shared: &mut Shared,
         begun: Beginnings<'_>,
     ) -> Result<(), ModelError> {
-        let (beam, BeamDefinition { name, axis, motion, .. }) =
-            (self.body(index), &self.scene.beams[index]);
-        let about = motion.about.unwrap_or_else(|| centre(beam));
-        let length = axis.length();
-        let rests = !self.scene.beams[index].starts_in_motion();
+        let body = self.body(index);
+        let about = motion.about.unwrap_or_else(|| match index < self.scene.beams.len() {
+            true => centre(body),
+            false => body.control_points()[0],
+        });
+        let rests = motion.velocity == Vec2::zeros() && motion.spin == 0.0;
         let speed = motion.velocity.norm() + motion.spin.abs() * length;
         let sizes = [speed, speed, speed / length];
-        for (point, degrees) in beam.control_points().iter().zip(degrees_of_freedom) {
+        for (point, degrees) in body.control_points().iter().zip(degrees_of_freedom) {
             let velocity = motion.velocity + perpendicular(point - about) * motion.spin;
             let rates = [velocity.x, velocity.y, motion.spin];
             let sized = degrees.iter().zip(rates).zip(sizes).zip(COMPONENTS);
@@ -116,7 +127,7 @@ impl Assembly<'_> {
                     // What rests is set in motion by a blow.
                     if !rests && (rate - begins).abs() > SAME_START * size.max(begins.abs()) {
                         return Err(ModelError::StartVelocity {
-                            body: format!("beam '{name}'"),
+                            body: self.name_of(index),
                             place: format!("drive ({component})"),
                             velocity: rate,
                             other: given_there(begins),
@@ -126,11 +137,10 @@ impl Assembly<'_> {
                 }
                 if let Some(other) = shared.take(at, index, rate, size) {
                     let other = other.map_or(GROUND.to_owned(), |(other, rate)| {
-                        let name = &self.scene.beams[other].name;
-                        format!("beam '{name}', joined there, has {rate}")
+                        format!("{}, joined there, has {rate}", self.name_of(other))
                     });
                     return Err(ModelError::StartVelocity {
-                        body: format!("beam '{name}'"),
+                        body: self.name_of(index),
                         place: format!("joint ({component})"),
                         velocity: rate,
                         other,
@@ -139,6 +149,15 @@ impl Assembly<'_> {
             }
         }
         Ok(())
+    }
+
+    /// A beam or a rigid body in words, by its index in the model.
+    fn name_of(&self, index: usize) -> String {
+        let first = self.scene.beams.len() + self.scene.particles.len();
+        match self.scene.beams.get(index) {
+            Some(beam) => format!("beam '{}'", beam.name),
+            None => format!("body '{}'", self.scene.rigid_bodies[index - first].name),
+        }
     }
 
     /// Sets the rates of the node at a station, whatever its beam does.
@@ -150,8 +169,11 @@ impl Assembly<'_> {
         begun: Beginnings<'_>,
     ) -> Result<(), ModelError> {
         let StationVelocity { station, velocity, spin } = velocity;
-        if station.beam().is_none() && spin.is_some() {
-            let object = format!("start velocity of {}", self.scene.describe(station));
+        let object = format!("start velocity of {}", self.scene.describe(station));
+        if let BodyIndex::Rigid(..) = station.body {
+            return Err(ModelError::PointAlone { object });
+        }
+        if !station.turns() && spin.is_some() {
             return Err(ModelError::ParticleTurned { object, by: Turning::Spin });
         }
         let place = self.place(station)?;

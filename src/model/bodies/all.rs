@@ -9,12 +9,12 @@ use crate::geometry::{Vec2, larger};
 /// A function that is smaller than this at a place is zero there.
 const NO_WEIGHT: f64 = 1e-12;
 
-/// The bodies of a model: beams, then particles, and what is watched on them; it derefs to the slice of them.
+/// The bodies of a model: beams, then particles, then rigid bodies, and what is watched on them; it derefs to the slice of them.
 pub struct Bodies {
     all: Vec<Body>,
     /// Of the beams.
     meshes: Vec<Mesh>,
-    /// Sections whose angle is followed: starts and ends of all beams, then the stations of the scene.
+    /// Sections whose angle is followed: starts and ends of all beams, then the stations of the scene, then rigid bodies.
     trackers: Vec<Tracker>,
     /// Pairs of places that joints hold together.
     joined: Vec<(Place, Place)>,

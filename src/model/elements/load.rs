@@ -31,6 +31,18 @@ impl Description for Load {
         }
     }
 
+    /// Forces that turn with a rigid body couple a point of it with its rotation, which no span does.
+    fn coupled(&self) -> Vec<Station> {
+        match &self.kind {
+            LoadKind::Force { station, frame: Frame::Follower, .. }
+                if station.turns() && station.beam().is_none() =>
+            {
+                vec![*station]
+            }
+            _ => Vec::new(),
+        }
+    }
+
     fn schedule(&self) -> Option<(&str, &Schedule)> {
         Some((&self.name, &self.schedule))
     }

@@ -27,14 +27,20 @@ impl Description for PointMass {
         let refused = |name, value, allowed| {
             Err(ModelError::Value { object: object(), name, value, allowed })
         };
-        if !(mass.is_finite() && *mass > 0.0) {
-            return refused("mass", *mass, "a positive finite number [mass]");
+        // What only turns, as a flywheel on its shaft may be seen, has no mass.
+        let is_light = *mass == 0.0 && *rotary_inertia > 0.0;
+        if !(mass.is_finite() && (*mass > 0.0 || is_light)) {
+            let allowed = match station.turns() && *mass == 0.0 {
+                true => "positive where the inertia is zero [mass]",
+                false => "a positive finite number [mass]",
+            };
+            return refused("mass", *mass, allowed);
         }
         if !(rotary_inertia.is_finite() && *rotary_inertia >= 0.0) {
             let allowed = "zero or a positive finite number [mass·length²]";
             return refused("rotary inertia", *rotary_inertia, allowed);
         }
-        if *rotary_inertia > 0.0 && station.beam().is_none() {
+        if *rotary_inertia > 0.0 && !station.turns() {
             let by = Turning::RotaryInertia;
             return Err(ModelError::ParticleTurned { object: object(), by });
         }

@@ -51,11 +51,11 @@ impl RestoringLaw {
         }
     }
 
-    /// The stored energy `U(q)`: of a linear law zero at ease, of a table zero at its first point [energy].
+    /// The stored energy `U(q)`, zero at ease; where a table has no such place, at its first point [energy].
     pub fn energy(&self, q: f64) -> f64 {
         match self {
             Self::Linear { stiffness, natural } => 0.5 * stiffness * (q - natural) * (q - natural),
-            Self::Table { points } => self.work(points, points[0].0, q),
+            Self::Table { points } => self.work(points, ease(points), q),
         }
     }
 
@@ -120,6 +120,24 @@ fn segment(points: &[(f64, f64)], q: f64) -> [(f64, f64); 2] {
     [points[beyond - 1], points[beyond]]
 }
 
+/// Where the force of a table passes from below to above zero, or beyond its ends would: the least energy. The first point if it does not.
+fn ease(points: &[(f64, f64)]) -> f64 {
+    let zero = |(q0, f0): (f64, f64), (q1, f1): (f64, f64)| match f1 == f0 {
+        true => q0,
+        false => q0 - f0 * (q1 - q0) / (f1 - f0),
+    };
+    let passes = |pair: &&[(f64, f64)]| pair[0].1 <= 0.0 && pair[1].1 >= 0.0;
+    let last = points.len() - 1;
+    match points.windows(2).find(passes) {
+        Some(pair) => zero(pair[0], pair[1]),
+        None if points[0].1 > 0.0 && points[1].1 > points[0].1 => zero(points[0], points[1]),
+        None if points[last].1 < 0.0 && points[last].1 > points[last - 1].1 => {
+            zero(points[last - 1], points[last])
+        }
+        None => points[0].0,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -152,6 +170,21 @@ mod tests {
                 assert!(((more - less) / (2.0 * h) - slope).abs() < 1e-6, "{law:?} {q} {change}");
             }
         }
+    }
+
+    #[test]
+    fn nothing_is_stored_at_ease_and_never_less() {
+        let push = vec![(0.0, -1e5), (1.0, 0.0), (2.0, 0.0)];
+        let pull = vec![(0.0, 0.0), (1.0, 0.0), (2.0, 3.0)];
+        let tensioned = vec![(1.0, 2.0), (2.0, 4.0)];
+        let pressed = vec![(1.0, -4.0), (2.0, -2.0)];
+        for (points, ease) in [(push, 1.5), (pull, 0.5), (tensioned, 0.0), (pressed, 3.0)] {
+            let law = RestoringLaw::Table { points };
+            assert_eq!(law.energy(ease), 0.0, "{law:?}");
+            assert!([-1.0, 0.5, 1.5, 4.0].iter().all(|q| law.energy(*q) >= 0.0), "{law:?}");
+        }
+        let constant = RestoringLaw::Table { points: vec![(1.0, 2.0), (2.0, 2.0)] };
+        assert_eq!([constant.energy(1.0), constant.energy(0.0)], [0.0, -2.0]);
     }
 
     #[test]

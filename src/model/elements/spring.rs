@@ -61,7 +61,8 @@ impl Spring {
         }
     }
 
-    fn stations(&self) -> impl Iterator<Item = &Station> {
+    /// Those of them that are on bodies.
+    pub fn stations(&self) -> impl Iterator<Item = &Station> {
         self.anchors().iter().filter_map(|anchor| match anchor {
             Anchor::Station(station) => Some(station),
             Anchor::Ground(_) => None,
@@ -76,7 +77,7 @@ impl Description for Spring {
         };
         for station in self.stations() {
             setting.check_station("a spring", station)?;
-            if matches!(self.kind, SpringKind::Torsion(_)) && station.beam().is_none() {
+            if matches!(self.kind, SpringKind::Torsion(_)) && !station.turns() {
                 let by = Turning::TorsionSpring;
                 return Err(ModelError::ParticleTurned { object: self.object(), by });
             }

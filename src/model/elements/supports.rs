@@ -102,10 +102,18 @@ impl Supports {
         sum
     }
 
-    /// The force [force] and the moment [force·length] on some nodes, bodies and control points, with the reactions of a residual; none
+    /// The force [force] and the moment [force·length] on some nodes, bodies and control points, and against the rotation of bodies that turn as a whole, with the reactions of a residual; none
     /// where nothing is held.
-    pub fn force_on(&self, nodes: &[(usize, usize)], residual: &[f64]) -> Option<(Vec2, f64)> {
-        let is_there = |support: &Support| nodes.contains(&(support.body, support.point));
+    pub fn force_on(
+        &self,
+        nodes: &[(usize, usize)],
+        turning: &[usize],
+        residual: &[f64],
+    ) -> Option<(Vec2, f64)> {
+        let is_there = |support: &Support| {
+            let turns = support.component == Component::Rotation && turning.contains(&support.body);
+            turns || nodes.contains(&(support.body, support.point))
+        };
         let mut held = self.with_reactions(residual).filter(|(at, _)| is_there(at)).peekable();
         held.peek()?;
         Some(held.fold((Vec2::zeros(), 0.0), |(force, moment), (support, reaction)| {

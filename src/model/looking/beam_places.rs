@@ -7,10 +7,7 @@ use crate::elementary::atan2;
 use crate::geometry::{Vec2, corresponding};
 use crate::model::{Model, ModelError, Scene};
 
-/// Places in each span besides the knots.
-const WITHIN_A_SPAN: usize = 3;
-
-/// Places along a beam, found once, to be asked often: those at its knots, and three between each two of them.
+/// Places along a beam, found once, to be asked often: those at its knots, and so many between each two of them.
 ///
 /// Where a joint cuts the beam there are two of the same arc length, the end of the part before and the start of the part behind.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,7 +31,26 @@ pub struct BeamSample {
     pub forces: SectionForces,
 }
 
+impl BeamSample {
+    /// The energy that the strains there store, per length as drawn: `(N Γ1 + Q Γ2 + M κ)/2` [energy/length].
+    pub fn strain_energy(&self) -> f64 {
+        let SectionForces { axial, shear, moment, axial_strain, shear_strain, curvature, .. } =
+            self.forces;
+        0.5 * (axial * axial_strain + shear * shear_strain + moment * curvature)
+    }
+}
+
 impl BeamPlaces {
+    /// Places between two knots that tell what section forces do there.
+    pub const WITHIN_A_SPAN: usize = 3;
+
+    /// Of two places with the same arc length, at a joint that cuts the beam, that of the part behind alone.
+    pub fn one_at_each_arc_length(mut self) -> Self {
+        let mut behind = self.arc_lengths().skip(1).collect::<Vec<_>>().into_iter();
+        self.places.retain(|(arc_length, ..)| behind.next() != Some(*arc_length));
+        self
+    }
+
     /// From the start of the beam as drawn, in rising order [length].
     pub fn arc_lengths(&self) -> impl Iterator<Item = f64> + '_ {
         self.places.iter().map(|(arc_length, ..)| *arc_length)
@@ -47,11 +63,16 @@ impl BeamPlaces {
 }
 
 impl Model {
-    /// The places of a beam at which [`sample_along`](Self::sample_along) looks.
+    /// The places of a beam at which [`sample_along`](Self::sample_along) looks: its knots, and so many between each two of them.
     ///
     /// # Errors
     /// When an axis has a point without a tangent.
-    pub fn places_along(&self, scene: &Scene, beam: usize) -> Result<BeamPlaces, ModelError> {
+    pub fn places_along(
+        &self,
+        scene: &Scene,
+        beam: usize,
+        within_a_span: usize,
+    ) -> Result<BeamPlaces, ModelError> {
         let (definition, mesh) = (&scene.beams[beam], &self.meshes()[beam]);
         let (from, onto) = (mesh.basis().domain(), definition.axis.domain());
         let of_geometry = ModelError::geometry(&definition.name);
@@ -59,7 +80,7 @@ impl Model {
             let arc_length = definition.axis.length_to(corresponding(xi, from, onto))?;
             Ok((arc_length, Place::at(beam, &definition.axis, mesh, xi)?, section))
         };
-        let sections = self.section_points(scene, beam)?.along(WITHIN_A_SPAN);
+        let sections = self.section_points(scene, beam)?.along(within_a_span);
         let sections = sections.map_err(ModelError::beam(&definition.name))?;
         let places = sections.into_iter().map(place).collect::<Result<_, _>>();
         Ok(BeamPlaces { beam, places: places.map_err(of_geometry)? })

@@ -60,7 +60,9 @@ impl Model {
     pub fn explain(&self, scene: &Scene, methods: &[Method]) -> Vec<Part> {
         let mut parts = vec![self.explain_matrix()];
         parts.extend(self.explain_beams(scene));
-        parts.extend([explain_particles(scene), explain_masses(scene)]);
+        parts.push(explain_particles(scene));
+        parts.extend(self.explain_bodies(scene));
+        parts.push(explain_masses(scene));
         parts.extend([self.explain_joints(scene), self.explain_supports(scene)]);
         parts.extend(scene.drives.iter().map(|drive| explain_drive(scene, drive)));
         parts.extend([self.explain_sliders(scene), self.explain_gravity(methods)]);
@@ -72,12 +74,34 @@ impl Model {
 
     fn explain_matrix(&self) -> Part {
         let how =
-            format!("{} movements, half-bandwidth {}", self.unknowns(), self.half_bandwidth());
+            format!("{} movements, half-bandwidth {}", self.movements(), self.half_bandwidth());
+        let how = match 2 * self.levers().count() {
+            0 => how,
+            forces => format!("{how}; {forces} of levers among them, in the band"),
+        };
         let how = match self.constraint_shape().width {
             0 => how,
             width => format!("{how}; {width} of contacts, in the border"),
         };
         Part::used("unknowns", how)
+    }
+
+    /// The unknowns that are movements.
+    fn movements(&self) -> usize {
+        self.unknowns() - 2 * self.levers().count()
+    }
+
+    fn explain_bodies(&self, scene: &Scene) -> Option<Part> {
+        let points = self.levers().count();
+        let how = match (scene.rigid_bodies.len(), points) {
+            (0, _) => return None,
+            (count, 0) => format!("{count}, which are held at their centres: no levers"),
+            (count, points) => format!(
+                "{count} with {}: a force with two components holds each, and keeps energy and momenta",
+                plural(points, "lever")
+            ),
+        };
+        Some(Part::used("rigid bodies", how))
     }
 
     fn explain_beams(&self, scene: &Scene) -> Vec<Part> {
@@ -119,7 +143,7 @@ impl Model {
             return Part::left_out("joints", "no movement is shared");
         }
         let all: usize = self.bodies().iter().map(|body| 3 * body.degrees_of_freedom.len()).sum();
-        let shared = all - self.supports().count() - self.unknowns();
+        let shared = all - self.supports().count() - self.movements();
         let saved = plural(shared, "unknown");
         Part::used(
             "joints",
@@ -133,7 +157,8 @@ impl Model {
         if kinds.is_empty() {
             return Part::left_out("supports", "everything is free: no reactions");
         }
-        let of_particles = |body: usize| body >= scene.beams.len();
+        let first_rigid = scene.beams.len() + scene.particles.len();
+        let of_particles = |body: usize| (scene.beams.len()..first_rigid).contains(&body);
         let turns = |component| component == Component::Rotation;
         let held =
             self.supports().held().filter(|at| !(of_particles(at.body) && turns(at.component)));
@@ -248,7 +273,7 @@ fn explain_particles(scene: &Scene) -> Part {
 
 /// Masses besides those of the particles themselves.
 fn explain_masses(scene: &Scene) -> Part {
-    match scene.masses().count().saturating_sub(scene.particles.len()) {
+    match scene.masses().count().saturating_sub(scene.particles.len() + scene.rigid_bodies.len()) {
         0 => Part::left_out("point masses", "the mass matrix is that of the bodies"),
         count => {
             let turning = scene.masses().filter(|mass| mass.rotary_inertia > 0.0).count();

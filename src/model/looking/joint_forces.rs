@@ -57,6 +57,12 @@ impl Model {
         };
         let all = scene.joints.iter().map(|joint| Ok((joint.kind, ends(joint)?)));
         let all = all.collect::<Result<Vec<_>, ModelError>>()?;
+        // A rigid body turns as a whole.
+        let turning = self
+            .levers()
+            .iter()
+            .map(|lever| (Some((lever.body, 0)), Some((lever.body, lever.point))));
+        let turning: Vec<(Node, Node)> = turning.collect();
         let drives = scene.drives.iter().map(|drive| {
             let place = scene.place(&drive.station, self.meshes())?;
             Ok((drive, Some((place.body, place.nearest_control_point()))))
@@ -68,9 +74,11 @@ impl Model {
             };
             let joints = all.iter().enumerate().filter(|(at, _)| *at != joint).filter(tied);
             let driven = drives.iter().filter(|(drive, _)| drive.drives(component));
+            let turning = turning.iter().filter(|_| component == Component::Rotation);
             let pairs: Vec<(Node, Node)> = joints
                 .map(|(_, (_, ends))| *ends)
                 .chain(driven.map(|(_, node)| (*node, None)))
+                .chain(turning.copied())
                 .collect();
             let (here, there) = all[joint].1;
             let near = reached(here, &pairs);

@@ -1,6 +1,5 @@
 //! Looking at a model: where it is, how it moves, and what it uses.
 
-mod along;
 mod beam_places;
 mod drives;
 mod explain;
@@ -12,7 +11,6 @@ mod sensing;
 mod sliders;
 mod springs;
 
-pub use along::AlongSample;
 pub use beam_places::{BeamPlaces, BeamSample};
 pub use explain::{Part, Usage};
 pub use joint_forces::Transmission;

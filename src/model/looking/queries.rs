@@ -1,10 +1,10 @@
 //! Looking at a model: places, velocities and angles.
 
-use crate::beams::{Mesh, Place, Station};
+use crate::beams::{BodyIndex, Mesh, Place, Station};
 use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
 use crate::model::bodies::Body;
-use crate::model::{Model, Scene};
+use crate::model::{Model, Scene, UnknownKind};
 
 impl Model {
     /// The meshes of the beams, with breaks where joints are.
@@ -12,7 +12,7 @@ impl Model {
         self.bodies().meshes()
     }
 
-    /// The control points of all bodies: beams first, then particles [length].
+    /// The control points of all bodies: beams first, then particles, then rigid bodies [length].
     pub fn control_points(&self) -> impl Iterator<Item = &[Vec2]> {
         self.bodies().iter().map(|body| body.dynamics.control_points())
     }
@@ -40,7 +40,13 @@ impl Model {
 
     /// The number of the section at a station among those that are followed; none when the scene did not know it at the start.
     pub fn followed_section(&self, scene: &Scene, station: &Station) -> Option<usize> {
-        let beam = station.beam()?;
+        let beam = match station.body {
+            BodyIndex::Beam(beam) => beam,
+            BodyIndex::Particle(_) => return None,
+            BodyIndex::Rigid(body, _) => {
+                return Some(2 * scene.beams.len() + scene.stations.len() + body);
+            }
+        };
         Some(if station.arc_length == 0.0 {
             2 * beam
         } else if station.arc_length == scene.beams[beam].axis.length() {
@@ -57,9 +63,9 @@ impl Model {
         (angle(2 * beam), angle(2 * beam + 1))
     }
 
-    /// Which unknown movements of the model are rotations, one entry for each.
-    pub fn rotations(&self) -> &[bool] {
-        self.unknown_movements().rotations()
+    /// What the unknowns of the model are, one entry for each.
+    pub fn unknown_kinds(&self) -> &[UnknownKind] {
+        self.unknown_movements().kinds()
     }
 
     /// The displacements of the control points of all bodies in a movement [length].

@@ -1,6 +1,6 @@
 //! What the cross sections of a beam transmit.
 
-use super::beam_places::BeamSample;
+use super::beam_places::{BeamPlaces, BeamSample};
 use crate::beams::{BodyIndex, SectionForces, SectionPlace, SectionPoints, Station};
 use crate::model::{Model, ModelError, Scene};
 
@@ -61,7 +61,8 @@ impl Model {
         scene: &Scene,
         beam: usize,
     ) -> Result<Vec<SectionSample>, ModelError> {
-        let samples = self.sample_along(&self.places_along(scene, beam)?);
+        let places = self.places_along(scene, beam, BeamPlaces::WITHIN_A_SPAN)?;
+        let samples = self.sample_along(&places);
         let section = |sample: BeamSample| SectionSample {
             arc_length: sample.arc_length,
             forces: sample.forces,

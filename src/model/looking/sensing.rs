@@ -40,6 +40,10 @@ impl Sensing {
             Probe::Body(BodyIndex::Particle(particle), quantity) => {
                 Ok(Reading::Body(scene.beams.len() + particle, quantity.value))
             }
+            Probe::Body(BodyIndex::Rigid(body, _), quantity) => {
+                let first = scene.beams.len() + scene.particles.len();
+                Ok(Reading::Body(first + body, quantity.value))
+            }
             Probe::Joint(joint, quantity) => {
                 Ok(Reading::Joint(model.transmission(scene, *joint)?, quantity.value))
             }

@@ -104,18 +104,26 @@ impl Model {
     fn strike(&mut self, directions: &[Direction], factor: f64) -> Result<Vec<f64>, LinearError> {
         let count = directions.len();
         let mut inertia = self.banded_inertia();
-        let answers = self.answers(&inertia.factorise()?, directions);
+        let inertia = inertia.factorise()?;
+        let answers = self.answers(&inertia, directions);
+        // What points of rigid bodies move beside these is changed by the same factor: then levers do no work either.
+        let mut change = vec![0.0; self.unknowns()];
+        if self.levers.count() > 0 {
+            self.levers.set_slip(&self.bodies, &self.motion.rates, factor, &mut change);
+            inertia.solve(&mut change);
+        }
         let mut response = BandedMatrix::zeros(count, count.saturating_sub(1));
         for (row, Answer { forces, .. }) in answers.iter().enumerate() {
             for (column, Answer { rates, .. }) in answers.iter().enumerate() {
                 response.add(row, column, product(rates, forces));
             }
         }
-        let wanted = |answer: &Answer| factor * product(&self.motion.rates, &answer.forces);
+        let wanted = |answer: &Answer| {
+            factor * product(&self.motion.rates, &answer.forces) - product(&change, &answer.forces)
+        };
         let mut impulses: Vec<f64> = answers.iter().map(wanted).collect();
         response.factorise()?.solve(&mut impulses);
 
-        let mut change = vec![0.0; self.unknowns()];
         let mut residual = vec![0.0; self.degrees_of_freedom()];
         for (impulse, Answer { forces, rates }) in impulses.iter().zip(&answers) {
             change.iter_mut().zip(rates).for_each(|(change, rate)| *change += impulse * rate);
@@ -123,6 +131,9 @@ impl Model {
         }
         // What is left of `M (v⁺ - v⁻) - Gᵀ P` at supports is their impulse.
         self.add_inertia(1.0, &change, &mut residual);
+        self.levers.transmit(&self.bodies, &change, &mut residual);
+        // Impulses of levers are no forces that go on.
+        self.levers.clear(&mut change);
         self.motion.jump(&change);
         self.exchanged += self.supports.exchange_in_blow(&self.bodies, &residual);
         if self.supports.guides().count() > 0 {

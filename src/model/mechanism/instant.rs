@@ -20,7 +20,7 @@ use crate::model::{ModelError, SliderState};
 /// What acts at the present moment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Instant {
-    /// Of the unknowns [length/time², 1/time²].
+    /// Of the unknown movements [length/time², 1/time²]; forces of levers where their unknowns stand.
     accelerations: Vec<f64>,
     /// What is left at each degree of freedom: what supports give [force, force·length].
     residual: Vec<f64>,
@@ -96,6 +96,7 @@ impl Model {
         let of_all: Vec<f64> =
             degrees.iter().map(|&at| accelerations.get(at).copied().unwrap_or(0.0)).collect();
         self.add_inertia(1.0, &of_all, &mut apart);
+        self.levers.transmit(&self.bodies, &accelerations, &mut apart);
         for (slider, force) in self.sliders.iter().zip(&contacts) {
             slider.transmit(&self.bodies, *force, &mut apart);
         }
@@ -113,6 +114,7 @@ impl Model {
     fn answer(&self, residual: &[f64]) -> Result<(Vec<f64>, Vec<Vec2>), LinearError> {
         let mut accelerations: Vec<f64> =
             residual[..self.unknowns()].iter().map(|force| -force).collect();
+        self.levers.set_centripetal(&self.bodies, &self.motion.rates, &mut accelerations);
         let mut inertia = self.banded_inertia();
         let inertia = inertia.factorise()?;
         inertia.solve(&mut accelerations);
@@ -156,8 +158,15 @@ impl Model {
         Vec2::new(x, y)
     }
 
+    /// The rigid bodies among those of some nodes: what holds one in its rotation turns all its points.
+    pub(super) fn rigid_bodies_of(&self, nodes: &[(usize, usize)]) -> Vec<usize> {
+        let is_rigid = |body: &usize| self.levers.iter().any(|lever| lever.body == *body);
+        nodes.iter().map(|(body, _)| *body).filter(is_rigid).collect()
+    }
+
     /// What supports give at a place: force [force] and moment [force·length]; none where nothing is held.
     pub fn reaction(&self, now: &Instant, place: &Place) -> Option<(Vec2, f64)> {
-        self.supports.force_on(&self.bodies.tied_nodes(place)?, &now.residual)
+        let nodes = self.bodies.tied_nodes(place)?;
+        self.supports.force_on(&nodes, &self.rigid_bodies_of(&nodes), &now.residual)
     }
 }

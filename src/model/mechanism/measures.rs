@@ -75,7 +75,10 @@ impl Model {
             angular_impulse: self.exchanged.angular_impulse,
             gross_impulse: self.exchanged.gross_impulse,
             gross_angular_impulse: self.exchanged.gross_angular_impulse,
-            gap: larger(self.bodies.largest_gap(), self.sliders.largest_gap(&self.bodies)),
+            gap: larger(
+                larger(self.bodies.largest_gap(), self.sliders.largest_gap(&self.bodies)),
+                self.levers.largest_gap(&self.bodies),
+            ),
         }
     }
 }

@@ -8,6 +8,7 @@ use crate::beams::{Place, RotationIncrement};
 use crate::geometry::{Vec2, larger};
 use crate::integrators::Stage;
 use crate::linalg::BandedMatrix;
+use crate::model::levers::Leverage;
 
 /// The largest of the forces that meet in a model at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -25,6 +26,7 @@ impl Model {
     pub fn begin_movement(&mut self) {
         self.bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
         self.elements.begin_movement();
+        self.levers.begin_movement();
     }
 
     /// Adds the internal forces of the model minus `load_factor` times the loads, with the section forces as they are.
@@ -56,6 +58,11 @@ impl Model {
         self.add_linearised(Stage::End, movements, (1.0, load_factor), out, tangent);
     }
 
+    /// The largest distance of a point of a rigid body from its place by the forces of the model, relative to its movements and its arm [-].
+    pub fn lever_violation(&self, residual: &[f64]) -> f64 {
+        self.levers.violation(residual)
+    }
+
     /// Subtracts `load_factor` times the loads and the weight of the model; gives the largest force and moment of a whole load on a
     /// control point.
     pub fn subtract_static_loads(
@@ -72,6 +79,8 @@ impl Model {
         self.bodies.gather(&self.supports.guides().at_rest(movements, load_factor));
         self.supports.guides_mut().place(load_factor);
         self.elements.advance(&self.bodies, RotationIncrement::Angle);
+        let leverage = Leverage { rotations: RotationIncrement::Angle, share: 1.0 };
+        self.levers.advance(&self.bodies, leverage, movements);
         self.bodies.advance(RotationIncrement::Angle);
         self.motion.rates.fill(0.0);
     }
@@ -86,6 +95,7 @@ impl Model {
     ///
     /// Where several bodies are tied to the place, the supports hold all of them.
     pub fn support_force(&self, place: &Place, forces: &[f64]) -> Option<(Vec2, f64)> {
-        self.supports.force_on(&self.bodies.tied_nodes(place)?, forces)
+        let nodes = self.bodies.tied_nodes(place)?;
+        self.supports.force_on(&nodes, &self.rigid_bodies_of(&nodes), forces)
     }
 }

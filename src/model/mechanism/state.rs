@@ -54,6 +54,7 @@ impl Model {
         self.bodies.save(numbers);
         self.elements.save(numbers);
         self.supports.guides().save(numbers);
+        self.levers.save(numbers);
         self.motion.accelerations.save(numbers);
         self.sliders.save(numbers);
         *trend = self.motion.trend();
@@ -74,6 +75,7 @@ impl Model {
         self.bodies.restore(next);
         self.elements.restore(next);
         self.supports.guides_mut().restore(next);
+        self.levers.restore(next);
         self.motion.accelerations.restore(state.knows_accelerations, next);
         self.sliders.restore(&state.sliders, next);
         assert!(numbers.next().is_none(), "the state is one of this model");

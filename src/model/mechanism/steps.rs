@@ -1,7 +1,7 @@
 //! The model as integrators see it: a mechanism.
 
 use super::Model;
-use crate::beams::ForceSummary;
+use crate::beams::{Collocation, ForceSummary};
 use crate::geometry::larger;
 use crate::integrators::{
     Accelerated, Cause, Checkpoint, Constraints, Forces, Given, Interval, Mechanism, Overshoot,
@@ -9,6 +9,15 @@ use crate::integrators::{
 };
 use crate::linalg::{BandedMatrix, Border, BorderShape};
 use crate::model::elements::{Exchange, Iterate, collocation};
+use crate::model::levers::Leverage;
+
+/// Where a method that balances the forces of a stage, with such a share of them after the start of the step, takes the arms of levers: at the time
+/// of that balance, as otherwise it would be of first order.
+fn leverage(stage: Stage, weight: f64) -> Leverage {
+    let Collocation { rotations, configuration, .. } = collocation(stage);
+    let share = if stage == Stage::End { weight } else { configuration };
+    Leverage { rotations, share }
+}
 
 impl Model {
     /// Adds what bodies, springs and dampers resist with; the largest that was met.
@@ -25,6 +34,10 @@ impl Model {
         }
         let at = Iterate { bodies: &self.bodies, stage, increments, weight };
         self.elements.add_resistance(at, out, &mut summary);
+        if stage != Stage::Start {
+            let leverage = leverage(stage, weight);
+            self.levers.add(&self.bodies, leverage, increments, out, &mut summary);
+        }
         summary
     }
 
@@ -55,6 +68,9 @@ impl Model {
         let (at, unknowns) =
             (Iterate { bodies: &self.bodies, stage, increments, weight }, self.unknowns.count());
         self.elements.add_linearised_resistance(at, out, unknowns, tangent);
+        let (leverage, none) = (leverage(stage, weight), &mut ForceSummary::default());
+        self.levers.add(&self.bodies, leverage, increments, out, none);
+        self.levers.add_tangent(&self.bodies, leverage, increments, unknowns, tangent);
         self.subtract_loads(stage, increments, share, out);
         let at = Iterate { bodies: &self.bodies, stage, increments, weight: share };
         self.elements.add_tangent(at, unknowns, tangent);
@@ -165,7 +181,8 @@ impl Constraints for Model {
 
     fn relative_violation(&self, residual: &[f64]) -> f64 {
         let equations = &residual[self.unknowns.count()..];
-        self.sliders.violation(equations, |force| self.step.relative_force(force))
+        let contacts = self.sliders.violation(equations, |force| self.step.relative_force(force));
+        larger(contacts, self.levers.violation(residual))
     }
 
     fn check_constraints(&self, unknowns: &[f64]) -> Result<(), Overshoot> {
@@ -203,7 +220,8 @@ impl Mechanism for Model {
     }
 
     fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), StepError> {
-        let Self { bodies, elements, supports, motion, step, unknowns, .. } = self;
+        let Self { bodies, elements, levers, supports, motion, step, unknowns, .. } = self;
+        levers.begin_step(interval.duration());
         let refused = |(load, error)| StepError::Load { interval, load, source: Cause::new(error) };
         let rotations = collocation(stages.first().copied().unwrap_or(Stage::Midpoint)).rotations;
         let guides = supports.guides_mut();
@@ -233,8 +251,11 @@ impl Mechanism for Model {
         }
         self.elements.advance(&self.bodies, self.step.rotations);
         self.bodies.advance(self.step.rotations);
+        let leverage = Leverage { rotations: self.step.rotations, share: 0.5 };
+        self.levers.advance(&self.bodies, leverage, increments);
         self.sliders.advance(&self.bodies, constraints, self.step.interval.ending());
         self.motion.advance(&self.step, increments, rates);
+        self.levers.write_forces(&mut self.motion.rates);
     }
 
     fn checkpoint(&mut self) -> &mut dyn Checkpoint {

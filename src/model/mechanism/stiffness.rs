@@ -6,7 +6,14 @@
 use super::Model;
 use crate::beams::SpanAtRest;
 use crate::elementary::square;
+use crate::geometry::larger;
 use crate::linalg::{PreciseBand, SymmetricSparse};
+use crate::model::levers::Lever;
+use crate::model::motion::UnknownKind;
+
+/// A lever is so many times as stiff as anything else of a model where small movements are looked for: frequencies are lower by less than a part of that,
+/// and with 32 digits nothing else is hidden.
+const RIGID: f64 = 1e8;
 
 impl Model {
     /// Gives every span of every body, and every spring, as at rest: the unknowns of its components, and its rows. Those of supported components stand
@@ -28,6 +35,54 @@ impl Model {
         self.elements.dissipation(&self.bodies, rates)
     }
 
+    /// How far from the diagonal the stiffness of a configuration has entries, where levers couple points and bodies without forces between them.
+    pub fn half_bandwidth_at_rest(&self) -> usize {
+        let of_lever = |lever: &Lever| {
+            let degrees = &self.bodies[lever.body].degrees_of_freedom;
+            let ([x, y, rotation], [point_x, point_y, _]) = (degrees[0], degrees[lever.point]);
+            let free = [x, y, rotation, point_x, point_y];
+            let free = free.into_iter().filter(|at| *at < self.unknowns.count());
+            free.clone().max().unwrap_or(0) - free.min().unwrap_or(0)
+        };
+        self.levers.iter().map(of_lever).fold(self.unknowns.half_bandwidth(), usize::max)
+    }
+
+    /// Gives every lever as at rest, so stiff that nothing is seen of what gives way: `RIGID` times the largest `stiffness` of a
+    /// movement of the model [force/length, force·length].
+    pub fn each_lever_at_rest(
+        &self,
+        stiffness: impl Fn(usize) -> f64,
+        take: &mut dyn FnMut(&[usize], &SpanAtRest),
+    ) {
+        let kinds = self.unknowns.kinds().iter().enumerate();
+        let of_movements = kinds.map(|(at, kind)| match kind {
+            UnknownKind::Position => stiffness(at),
+            UnknownKind::Rotation | UnknownKind::Force => 0.0,
+        });
+        let of_levers = self.levers.iter().map(|lever| {
+            let own = self.levers.iter().filter(|other| other.body == lever.body);
+            let size = own.map(|other| other.arm().norm()).fold(0.0, larger);
+            let [.., rotation] = self.bodies[lever.body].degrees_of_freedom[0];
+            let moment = if rotation < self.unknowns.count() { stiffness(rotation) } else { 0.0 };
+            larger(moment / square(size), lever.force().norm() / size)
+        });
+        let largest = of_movements.chain(of_levers).fold(0.0, larger);
+        let rigid = if largest > 0.0 { RIGID * largest } else { 1.0 };
+        self.levers.each_at_rest(&self.bodies, rigid, take);
+    }
+
+    /// How many movements with inertia fewer the model has than its inertia matrix: the levers hold them to each other.
+    pub fn held_by_levers(&self, inertia: &SymmetricSparse) -> usize {
+        if self.levers.count() == 0 {
+            return 0;
+        }
+        let kinds = self.unknowns.kinds().iter().enumerate();
+        let is_light = |(at, kind): &(usize, &UnknownKind)| {
+            **kind != UnknownKind::Force && inertia.diagonal(*at) == 0.0
+        };
+        (2 * self.levers.count()).saturating_sub(kinds.filter(is_light).count())
+    }
+
     /// About the square of the slowest bending, as if all beams were one: the least `EI` over the largest `ρA` and the fourth power of
     /// their length together; none without a beam [1/time²].
     pub fn slowest_bending(&self) -> Option<f64> {
@@ -44,8 +99,12 @@ impl Model {
     pub fn falls(&self) -> usize {
         let nothing = SymmetricSparse::new(self.unknowns.count(), |_| {});
         let mut stiffness =
-            PreciseBand::zeros(self.unknowns.count(), self.unknowns.half_bandwidth());
+            PreciseBand::zeros(self.unknowns.count(), self.half_bandwidth_at_rest());
         self.each_span_at_rest(&mut |degrees, span| add_resistance(&mut stiffness, degrees, span));
+        let own: Vec<f64> = (0..stiffness.size()).map(|at| stiffness.diagonal(at).abs()).collect();
+        self.each_lever_at_rest(|at| own[at], &mut |degrees, span| {
+            add_resistance(&mut stiffness, degrees, span);
+        });
         stiffness.pivots(0.0, &nothing).map_or(0, |pivots| pivots.negative)
     }
 }

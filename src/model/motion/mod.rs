@@ -11,4 +11,4 @@ pub use forecast::Trend;
 pub use present::Motion;
 pub use resolution::Resolution;
 pub use step::Step;
-pub use unknowns::Unknowns;
+pub use unknowns::{UnknownKind, Unknowns};

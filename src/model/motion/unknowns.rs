@@ -1,22 +1,33 @@
-//! The unknown movements of a model.
+//! The unknowns of a model: movements, and forces of levers among them.
 
 use crate::geometry::larger;
 
-/// The unknown movements of a model: how many there are, which are rotations, and how far they reach in a matrix.
+/// What an unknown is, and with it the equation of the same number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UnknownKind {
+    /// A movement along an axis [length], balanced by forces.
+    Position,
+    /// A rotation [rad], balanced by moments.
+    Rotation,
+    /// The force of a lever, in steps its impulse [force, force·time]; its equation is a length.
+    Force,
+}
+
+/// The unknowns of a model: how many there are, of which kinds, and how far they reach in a matrix.
 pub struct Unknowns {
-    is_rotation: Vec<bool>,
+    kinds: Vec<UnknownKind>,
     half_bandwidth: usize,
 }
 
 impl Unknowns {
-    /// The unknown movements of a model, of which some are rotations, with the half-bandwidth of the matrices of a step.
-    pub fn new(is_rotation: Vec<bool>, half_bandwidth: usize) -> Self {
-        Self { is_rotation, half_bandwidth }
+    /// The unknowns of a model of these kinds, with the half-bandwidth of the matrices of a step.
+    pub fn new(kinds: Vec<UnknownKind>, half_bandwidth: usize) -> Self {
+        Self { kinds, half_bandwidth }
     }
 
-    /// The number of unknown movements of the model.
+    /// The number of unknowns of the model.
     pub fn count(&self) -> usize {
-        self.is_rotation.len()
+        self.kinds.len()
     }
 
     /// The half-bandwidth of the matrices of a step: how far from the diagonal they have entries.
@@ -24,20 +35,18 @@ impl Unknowns {
         self.half_bandwidth
     }
 
-    /// Which unknown movements are rotations, one entry for each.
-    pub fn rotations(&self) -> &[bool] {
-        &self.is_rotation
+    /// What the unknowns are, one entry for each.
+    pub fn kinds(&self) -> &[UnknownKind] {
+        &self.kinds
     }
 
     /// The largest magnitudes among the entries of positions and among those of rotations.
     pub fn largest(&self, values: &[f64]) -> (f64, f64) {
-        let entries = values.iter().zip(&self.is_rotation);
-        entries.fold((0.0, 0.0), |(force, moment), (value, rotation)| {
-            if *rotation {
-                (force, larger(moment, value.abs()))
-            } else {
-                (larger(force, value.abs()), moment)
-            }
+        let entries = values.iter().zip(&self.kinds);
+        entries.fold((0.0, 0.0), |(force, moment), (value, kind)| match kind {
+            UnknownKind::Position => (larger(force, value.abs()), moment),
+            UnknownKind::Rotation => (force, larger(moment, value.abs())),
+            UnknownKind::Force => (force, moment),
         })
     }
 }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::stored::StoredScene;
 use super::ties::check_ties;
-use super::{BeamDefinition, ParticleDefinition, Sensor, StationVelocity};
+use super::{BeamDefinition, ParticleDefinition, RigidBodyDefinition, Sensor, StationVelocity};
 use crate::beams::{BodyIndex, Mesh, Place, Station};
 use crate::geometry::Vec2;
 use crate::joints::{Joint, JointKind, Partner, Slider};
@@ -13,7 +13,7 @@ use crate::model::ModelError;
 use crate::model::elements::{Drive, Element, MaterialDamping, PointMass, Setting, Spring};
 use crate::model::words::{refusal, rounded};
 
-/// What is simulated: beams, particles, joints, masses and loads.
+/// What is simulated: beams, particles, rigid bodies, joints, masses and loads.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(try_from = "StoredScene")]
 pub struct Scene {
@@ -23,6 +23,8 @@ pub struct Scene {
     pub beams: Vec<BeamDefinition>,
     /// The particles of the scene, in the order in which they were added.
     pub particles: Vec<ParticleDefinition>,
+    /// The rigid bodies of the scene, in the order in which they were added.
+    pub rigid_bodies: Vec<RigidBodyDefinition>,
     /// The stations whose angle is followed, besides the ends of all beams.
     pub stations: Vec<Station>,
     /// The joints of the scene: supports and joints between beams.
@@ -122,6 +124,7 @@ impl Scene {
             name: name.into(),
             beams: Vec::new(),
             particles: Vec::new(),
+            rigid_bodies: Vec::new(),
             stations: Vec::new(),
             joints: Vec::new(),
             sliders: Vec::new(),
@@ -181,7 +184,9 @@ impl Scene {
         let drives = self.drives.iter().map(|drive| (drive.kind.name(), &drive.name));
         let loads = self.loads().filter_map(|load| Some(("load", load.title.as_ref()?)));
         let drags = self.drags().map(|drag| ("drag", &drag.name));
-        beams.chain(particles).chain(sliders).chain(springs).chain(drags).chain(drives).chain(loads)
+        let bodies = self.rigid_bodies.iter().map(|body| ("body", &body.name));
+        let all = beams.chain(particles).chain(bodies).chain(sliders).chain(springs);
+        all.chain(drags).chain(drives).chain(loads)
     }
 
     pub(in crate::model) fn check_name(
@@ -307,9 +312,13 @@ impl Scene {
         }
     }
 
-    /// The length of the beam that a station is on, as drawn; zero for a particle [length].
+    /// The length of the beam that a station is on, as drawn; the size of a rigid body, zero for a particle [length].
     pub fn length_at(&self, station: &Station) -> f64 {
-        station.beam().map_or(0.0, |beam| self.beams[beam].axis.length())
+        match station.body {
+            BodyIndex::Beam(beam) => self.beams[beam].axis.length(),
+            BodyIndex::Particle(_) => 0.0,
+            BodyIndex::Rigid(body, _) => self.rigid_bodies[body].size(),
+        }
     }
 
     /// The point where a station is as drawn [length].
@@ -324,6 +333,7 @@ impl Scene {
                 at.map_err(ModelError::geometry(name))
             }
             BodyIndex::Particle(particle) => Ok(self.particles[particle].position),
+            BodyIndex::Rigid(body, point) => Ok(self.rigid_bodies[body].control_points()[point]),
         }
     }
 
@@ -341,6 +351,10 @@ impl Scene {
                 place.map_err(ModelError::geometry(name))
             }
             BodyIndex::Particle(particle) => Ok(Place::of_particle(self.beams.len() + particle)),
+            BodyIndex::Rigid(body, point) => {
+                let first = self.beams.len() + self.particles.len();
+                Ok(Place::of_point(first + body, point, self.rigid_bodies[body].angle))
+            }
         }
     }
 
@@ -351,11 +365,15 @@ impl Scene {
             BodyIndex::Particle(particle) => {
                 format!("particle '{}'", self.particles[particle].name)
             }
+            BodyIndex::Rigid(body, _) => format!("body '{}'", self.rigid_bodies[body].name),
         }
     }
 
     /// A station in words.
     pub fn describe(&self, station: &Station) -> String {
+        if let BodyIndex::Rigid(body, point) = station.body {
+            return self.describe_point(body, point);
+        }
         let (body, length) = (self.name_of_body(station), self.length_at(station));
         match station.arc_length {
             _ if station.beam().is_none() => body,
@@ -375,9 +393,16 @@ impl Setting for Scene {
         let (kind, index, count) = match station.body {
             BodyIndex::Beam(index) => ("beam", index, self.beams.len()),
             BodyIndex::Particle(index) => ("particle", index, self.particles.len()),
+            BodyIndex::Rigid(index, _) => ("body", index, self.rigid_bodies.len()),
         };
         if index >= count {
             return Err(ModelError::Missing { object, kind, index, count });
+        }
+        if let BodyIndex::Rigid(body, index) = station.body
+            && index > self.rigid_bodies[body].points.len()
+        {
+            let count = self.rigid_bodies[body].points.len() + 1;
+            return Err(ModelError::Missing { object, kind: "point", index, count });
         }
         let length = self.length_at(station);
         if (0.0..=length).contains(&station.arc_length) {

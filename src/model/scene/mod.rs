@@ -5,12 +5,15 @@ mod description;
 mod drives;
 mod likeness;
 mod resisting;
+mod rigid_bodies;
 mod sensors;
 mod sliders;
 mod stored;
 mod ties;
 
-pub use definitions::{BeamDefinition, ParticleDefinition, StartMotion, StationVelocity};
+pub use definitions::{
+    BeamDefinition, ParticleDefinition, RigidBodyDefinition, StartMotion, StationVelocity,
+};
 pub use description::Scene;
 pub use sensors::{Probe, Quantity, Sensor, Value};
 pub use ties::{Ties, same_place};

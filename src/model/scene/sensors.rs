@@ -23,7 +23,7 @@ pub struct Sensor {
 pub enum Probe {
     /// Something of the place of a station, or of what holds it.
     Station(Station, Quantity),
-    /// Something of a beam or a particle as a whole.
+    /// Something of a beam, a particle or a rigid body as a whole.
     Body(BodyIndex, Quantity),
     /// Something of a joint, by its index.
     Joint(usize, Quantity),
@@ -78,7 +78,7 @@ const fn quantity(name: &'static str, dimension: &'static str, value: Value) -> 
     Quantity { name, dimension, value }
 }
 
-/// What can be read of any station; the first seven of a particle too.
+/// What can be read of any station; the first seven of a particle too, the first nine of a rigid body.
 pub const OF_STATIONS: &[Quantity] = &[
     quantity("x", "length", Value::X),
     quantity("y", "length", Value::Y),
@@ -99,6 +99,9 @@ pub const OF_STATIONS: &[Quantity] = &[
 
 /// How many of them a particle has.
 const OF_PARTICLES: usize = 7;
+
+/// How many of them a point of a rigid body has.
+const OF_POINTS: usize = 9;
 
 /// What can be read of a joint: what it gives to its first station.
 pub const OF_JOINTS: &[Quantity] = &[
@@ -194,8 +197,14 @@ impl Scene {
             listed(particle.name.clone(), &OF_STATIONS[..OF_PARTICLES])
                 .chain(listed(particle.name.clone(), OF_BODIES))
         });
+        let rigid = self.rigid_bodies.iter().flat_map(|body| {
+            let points = body.points.iter().map(|(point, _)| format!("{}.{point}", body.name));
+            let places = std::iter::once(body.name.clone()).chain(points);
+            let of_places = places.flat_map(move |place| listed(place, &OF_STATIONS[..OF_POINTS]));
+            of_places.chain(listed(body.name.clone(), OF_BODIES))
+        });
         let joints = self.joint_names().into_iter().flat_map(|joint| listed(joint, OF_JOINTS));
-        beams.chain(particles).chain(joints).collect()
+        beams.chain(particles).chain(rigid).chain(joints).collect()
     }
 
     /// What joints are called in names of sensors, in their order: `hinge1`, `clamp1`, `hinge2`, `rigid1`, `support1`.
@@ -228,12 +237,21 @@ impl Scene {
         let names = self.joint_names();
         let joints = names.iter().enumerate();
         let joints = joints.filter_map(|(at, joint)| Some((of(joint)?, Object::Joint(at))));
+        let rigid = self.rigid_bodies.iter().enumerate();
+        let rigid = rigid.filter_map(|(at, body)| Some((of(&body.name)?, Object::Rigid(at))));
         // Names may begin alike; the first of equal ones counts.
-        let all = beams.chain(particles).chain(joints);
+        let all = beams.chain(particles).chain(rigid).chain(joints);
         let longest = all.reduce(|best, other| if other.0.0 > best.0.0 { other } else { best });
+        let others = self.sliders.iter().map(|slider| &slider.name);
+        let mut others = others.chain(self.springs().map(|spring| &spring.name));
         let Some(((_, rest), object)) = longest else {
+            if let Some(other) = others.find(|known| of(known).is_some()) {
+                return Err(refused(format!(
+                    "sliders and springs, such as '{other}', have their columns in every history without being recorded"
+                )));
+            }
             return Err(refused(
-                "it must begin with the name of a beam, a particle or a joint (hinge1, clamp1, rigid1) of the scene".to_owned(),
+                "it must begin with the name of a beam, a particle, a body or a joint (hinge1, clamp1, rigid1) of the scene".to_owned(),
             ));
         };
         let find = |known: &'static [Quantity], rest: &str| {
@@ -252,6 +270,25 @@ impl Scene {
                     find(&OF_STATIONS[..OF_PARTICLES], rest)?,
                 )),
             },
+            Object::Rigid(at) => {
+                let dotted = rest.strip_prefix('.').unwrap_or_default();
+                let point = dotted.split_once('.').and_then(|(point, _)| {
+                    Some((self.rigid_bodies[at].control_point(point)?, point.len() + 1))
+                });
+                let (point, rest) = match point {
+                    Some((point, length)) => (point, &rest[length..]),
+                    None => (0, rest),
+                };
+                match find(OF_BODIES, rest) {
+                    Ok(quantity) if point == 0 => {
+                        Ok(Probe::Body(BodyIndex::Rigid(at, 0), quantity))
+                    }
+                    _ => Ok(Probe::Station(
+                        Station::on_rigid_body(at, point),
+                        find(&OF_STATIONS[..OF_POINTS], rest)?,
+                    )),
+                }
+            }
             Object::Beam(at) => {
                 let length = self.beams[at].axis.length();
                 let (arc_length, rest) = if let Some(rest) = rest.strip_prefix(".start.") {
@@ -292,5 +329,6 @@ impl Scene {
 enum Object {
     Beam(usize),
     Particle(usize),
+    Rigid(usize),
     Joint(usize),
 }

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use super::ties::check_ties;
-use super::{BeamDefinition, ParticleDefinition, Scene, StationVelocity};
+use super::{BeamDefinition, ParticleDefinition, RigidBodyDefinition, Scene, StationVelocity};
 use crate::beams::Station;
 use crate::geometry::Vec2;
 use crate::joints::{Joint, Partner, Slider};
@@ -23,6 +23,7 @@ pub struct StoredScene {
     name: String,
     beams: Vec<BeamDefinition>,
     particles: Vec<ParticleDefinition>,
+    rigid_bodies: Vec<RigidBodyDefinition>,
     stations: Vec<Station>,
     joints: Vec<Joint>,
     sliders: Vec<Slider>,
@@ -53,6 +54,10 @@ impl TryFrom<StoredScene> for Scene {
             scene.check_name("particle", &particle.name)?;
             finite("particle", "position", particle.position.as_slice())?;
             scene.particles.push(particle);
+        }
+        for body in stored.rigid_bodies {
+            scene.check_rigid_body(&body)?;
+            scene.rigid_bodies.push(body);
         }
         for station in &stored.stations {
             scene.check_station("a station", station)?;

@@ -1,7 +1,7 @@
 //! Which places joints tie to each other or to the ground.
 
 use super::Scene;
-use crate::beams::Station;
+use crate::beams::{BodyIndex, Station};
 use crate::joints::{Component, JointKind, Partner};
 use crate::model::ModelError;
 use crate::model::words::{Turning, written};
@@ -55,12 +55,23 @@ pub fn check_ties(scene: &Scene) -> Result<(), ModelError> {
         .collect();
     let driven: Vec<usize> = scene.drives.iter().map(|drive| index(&drive.station)).collect();
     let mut ties = Ties::new(1 + 3 * places.len());
+    // The points of a rigid body turn with it.
+    for (at, place) in places.iter().enumerate() {
+        let is_own = |other: &Station| match (place.body, other.body) {
+            (BodyIndex::Rigid(body, _), BodyIndex::Rigid(other, _)) => body == other,
+            _ => false,
+        };
+        if let Some(first) = places[..at].iter().position(is_own) {
+            let rotation = |place: usize| 1 + 3 * place + Component::Rotation as usize;
+            ties.tie(rotation(first), rotation(at));
+        }
+    }
     for (joint, (place, partner)) in scene.joints.iter().zip(pairs) {
         let stations = match &joint.partner {
             Partner::Ground => vec![joint.station],
             Partner::Station(other) => vec![joint.station, *other],
         };
-        if joint.kind.ties_rotation() && stations.iter().any(|at| at.beam().is_none()) {
+        if joint.kind.ties_rotation() && stations.iter().any(|at| !at.turns()) {
             let (object, by) = (joint.name.clone(), Turning::RigidJoint);
             return Err(ModelError::ParticleTurned { object, by });
         }

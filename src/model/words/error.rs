@@ -9,7 +9,7 @@ use crate::loads::LoadError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ModelError {
     /// There is nothing to simulate.
-    #[error("the scene '{scene}' has no beams and no particles")]
+    #[error("the scene '{scene}' has no beams, no particles and no bodies")]
     Empty {
         /// The name of the scene with nothing in it.
         scene: String,
@@ -43,6 +43,30 @@ pub enum ModelError {
         station: f64,
         /// The length of the beam whose station was asked for [length].
         length: f64,
+    },
+    /// A point that a rigid body does not have.
+    #[error("body '{body}' has no point '{point}'; it has {}", if known.is_empty() { "none but its centre" } else { known })]
+    NoPoint {
+        /// The name of the rigid body.
+        body: String,
+        /// The name that was asked for.
+        point: String,
+        /// The names of its points, in words.
+        known: String,
+    },
+    /// Rigid bodies that are held more often than they can move.
+    #[error(
+        "body '{body}' is held more often than it can move: joints of its points ask for the same twice, and their forces are not determined; remove one of them, or let a beam take the place of a body"
+    )]
+    HeldTwice {
+        /// The name of a rigid body whose forces are not determined.
+        body: String,
+    },
+    /// A start velocity of a single point of a rigid body.
+    #[error("{object}: the points of a body move with it")]
+    PointAlone {
+        /// The start velocity of the point, in words.
+        object: String,
     },
     /// Section forces of a particle, which has no section.
     #[error("{body} has no cross section")]

@@ -2,7 +2,9 @@
 
 use serde_json::{Value, json};
 
-use super::film::{Arrow, ArrowKind, Beam, Column, Field, Film, Place, SymbolKind};
+use super::film::{
+    Anchor, Arrow, ArrowKind, Beam, Column, Field, Film, Place, Spring, SpringKind, SymbolKind,
+};
 use super::packing::{FINEST, Scale, pack};
 use super::thinning::rows_to_keep;
 use crate::output::OutputError;
@@ -110,7 +112,7 @@ fn packed_film(film: &Film) -> Result<Value, OutputError> {
             SymbolKind::Rigid => "rigid",
             SymbolKind::Slider => "slider",
         };
-        json!({ "kind": kind, "name": symbol.name, "at": place(&symbol.at, 0), "angle": symbol.angle })
+        json!({ "kind": kind, "name": symbol.name, "at": place(&symbol.at, 0), "angle": symbol.angle, "until": symbol.until })
     };
     let trail = |trail: &super::Trail| json!({ "name": trail.name, "at": place(&trail.at, 0) });
     let (x, y) = packed_points(film)?;
@@ -123,11 +125,28 @@ fn packed_film(film: &Film) -> Result<Value, OutputError> {
         "beams": beams,
         "particles": film.particles.iter().map(particle).collect::<Vec<_>>(),
         "symbols": film.symbols.iter().map(symbol).collect::<Vec<_>>(),
+        "springs": film.springs.iter().map(packed_spring).collect::<Vec<_>>(),
         "trails": film.trails.iter().map(trail).collect::<Vec<_>>(),
         "arrows": packed_arrows(&film.arrows, film.times.len())?,
         "fields": film.fields.iter().map(packed_field).collect::<Result<Vec<_>, _>>()?,
         "history": packed_history(film)?,
     }))
+}
+
+/// A spring: its places, those on the ground as points without weights.
+fn packed_spring(spring: &Spring) -> Value {
+    let kind = match spring.kind {
+        SpringKind::Spring => "spring",
+        SpringKind::Damper => "damper",
+        SpringKind::Tendon => "tendon",
+        SpringKind::Torsion => "torsion",
+    };
+    let anchor = |anchor: &Anchor| match anchor {
+        Anchor::Moving(at) => place(at, 0),
+        Anchor::Ground((x, y)) => json!({ "x": x, "y": y }),
+    };
+    let anchors = spring.anchors.iter().map(anchor).collect::<Vec<_>>();
+    json!({ "kind": kind, "name": spring.name, "anchors": anchors })
 }
 
 /// A beam by its first point and its shape, which beams of the same mesh share.

@@ -69,6 +69,41 @@ pub struct Symbol {
     pub at: Place,
     /// The direction of the beam there as drawn [rad].
     pub angle: f64,
+    /// When it is gone: a slider that has left its beam.
+    pub until: Option<f64>,
+}
+
+/// Where a spring is attached.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Anchor {
+    /// A place of a body.
+    Moving(Place),
+    /// A point of the ground.
+    Ground(Point),
+}
+
+/// How a spring is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpringKind {
+    /// A zigzag.
+    Spring,
+    /// A piston in a cylinder.
+    Damper,
+    /// A line: what goes over several places.
+    Tendon,
+    /// A spiral about its last place that moves.
+    Torsion,
+}
+
+/// A spring or what acts like one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spring {
+    /// How it is drawn.
+    pub kind: SpringKind,
+    /// What it is called.
+    pub name: String,
+    /// Where it is attached, in order.
+    pub anchors: Vec<Anchor>,
 }
 
 /// What an arrow stands for.
@@ -141,6 +176,8 @@ pub struct Film {
     pub particles: Vec<Particle>,
     /// Supports, joints, sliders.
     pub symbols: Vec<Symbol>,
+    /// Springs, dampers, tendons.
+    pub springs: Vec<Spring>,
     /// Loads.
     pub arrows: Vec<Arrow>,
     /// Paths.

@@ -14,5 +14,6 @@ mod thinning;
 
 pub use document::Viewer;
 pub use film::{
-    Arrow, ArrowKind, Beam, Column, Field, Film, Particle, Place, Symbol, SymbolKind, Trail,
+    Anchor, Arrow, ArrowKind, Beam, Column, Field, Film, Particle, Place, Spring, SpringKind,
+    Symbol, SymbolKind, Trail,
 };

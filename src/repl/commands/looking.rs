@@ -1,8 +1,8 @@
 //! Commands that only look.
 
-use rhai::Map;
+use rhai::{Dynamic, Map};
 
-use crate::output::{Cell, Colours, Glyphs, Style, Table};
+use crate::output::{Cell, Colours, Glyphs, Style, Table, columns, cut};
 use crate::repl::session::Reply;
 use crate::repl::shell::{Outcome, Screen, Shell, no_simulation};
 use crate::script::diagnose::Diagnostic;
@@ -11,50 +11,73 @@ use crate::script::looks::along::Inside;
 use crate::script::looks::present::present_in_a_line;
 use crate::script::looks::quantities::{NAMES, Quantity};
 use crate::script::looks::sight;
-use crate::script::packages::motion_pictures::motion_text;
+use crate::script::packages::pictures::motion::motion_text;
 use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::format_number;
 use crate::script::words::suggest::nearest;
 use crate::simulation::Simulation;
 
-/// Characters of a value in the list of variables.
+/// Characters of a value in the list of variables, at most, and at least, however narrow the terminal is.
 const VALUE_WIDTH: usize = 70;
+const LEAST_VALUE_WIDTH: usize = 12;
 
 /// The command `:vars`: lists the variables, functions and modules of the session.
 pub fn variables(shell: &mut Shell, _: &str) -> Outcome {
     let session = shell.session();
-    let mut table = Table::new(&["name", "type", "value"]);
-    let mut is_empty = true;
-    let mut row = |name: &str, of: &str, value: String| {
-        table.row([name.to_owned(), of.to_owned(), value].map(Cell::Text));
-        is_empty = false;
-    };
     let variables: Vec<_> = session.variables().iter_raw().collect();
-    for (name, is_constant, value) in variables.into_iter().rev() {
+    let of_variables = variables.into_iter().rev().map(|(name, is_constant, value)| {
         let of = session.engine().map_type_name(value.type_name());
         let of = if is_constant { format!("constant {of}") } else { of.to_owned() };
-        row(name, &of, present_in_a_line(session.catalog(), value, VALUE_WIDTH));
-    }
-    for function in session.functions() {
-        row(
-            function.name,
-            "function",
-            format!("{}({})", function.name, function.params.join(", ")),
-        );
-    }
-    for (name, module) in session.modules() {
+        (name.to_owned(), of, Shown::Value(value))
+    });
+    let of_functions = session.functions().map(|function| {
+        let signature = format!("{}({})", function.name, function.params.join(", "));
+        (function.name.to_owned(), "function".to_owned(), Shown::Words(signature))
+    });
+    let of_modules = session.modules().map(|(name, module)| {
         // What a module keeps to itself and its closures have no place here.
         let public = |of: &str| !of.starts_with("private ") && !of.starts_with("anon$");
-        let functions = module
-            .gen_fn_signatures_with_mapper(|name| name.into())
-            .filter(|signature| public(signature));
-        row(name, "import", functions.collect::<Vec<_>>().join(", "));
+        let functions = module.gen_fn_signatures_with_mapper(|name| name.into());
+        let functions: Vec<_> = functions.filter(|signature| public(signature)).collect();
+        (name.to_owned(), "import".to_owned(), Shown::Words(functions.join(", ")))
+    });
+    let rows: Vec<_> = of_variables.chain(of_functions).chain(of_modules).collect();
+    if rows.is_empty() {
+        shell.print("there are no variables yet");
+        return Outcome::Good;
     }
-    match is_empty {
-        true => shell.print("there are no variables yet"),
-        false => shell.print(table.to_string().trim_end()),
+    let room = match shell.screen() {
+        Screen::Terminal(style) => {
+            let longest = |texts: &mut dyn Iterator<Item = &String>| {
+                texts.map(|text| columns(text)).max().unwrap_or_default()
+            };
+            let names = longest(&mut rows.iter().map(|(name, ..)| name)).max(4);
+            let types = longest(&mut rows.iter().map(|(_, of, _)| of)).max(4);
+            // Two blanks stand between columns.
+            Some(style.width.saturating_sub(names + types + 4).max(LEAST_VALUE_WIDTH))
+        }
+        Screen::Pipe => None,
+    };
+    let mut table = Table::new(&["name", "type", "value"]);
+    for (name, of, shown) in rows {
+        let value = match shown {
+            Shown::Value(value) => {
+                let width = room.unwrap_or(VALUE_WIDTH).min(VALUE_WIDTH);
+                present_in_a_line(session.catalog(), value, width)
+            }
+            Shown::Words(words) => words,
+        };
+        let value = room.map_or_else(|| value.clone(), |room| cut(&value, room, '…'));
+        table.row([name, of, value].map(Cell::Text));
     }
+    shell.print(table.to_string().trim_end());
     Outcome::Good
+}
+
+/// What stands behind a name in the list of variables.
+enum Shown<'a> {
+    Value(&'a Dynamic),
+    Words(String),
 }
 
 /// The command `:invariants`: shows how far energy and momenta of the last simulation drift.
@@ -70,7 +93,7 @@ pub fn view(shell: &mut Shell, operand: &str) -> Outcome {
     let outcome = shell.call_latest(&format!("write_viewer(\"{name}\")"));
     if outcome == Outcome::Good {
         let page = shell.session().context().output().folder().join(&name);
-        shell.print(&format!("wrote {}; open it in a browser", page.display()));
+        shell.print(&format!("open {} in a browser to see it", page.display()));
     }
     outcome
 }

@@ -12,6 +12,7 @@ use crate::script::diagnose::Diagnostic;
 use crate::script::handles::simulation::{Revisit, SimulationHandle};
 use crate::script::looks::sight;
 use crate::script::source::scanner::{Kind, scan};
+use crate::script::words::error::ScriptError;
 use crate::script::words::nouns::with_article;
 use crate::simulation::History;
 
@@ -46,17 +47,38 @@ fn plot_columns(shell: &mut Shell, columns: &[String]) -> Outcome {
             "note: '{name}' is a column of the history here; write ({name}) for the variable"
         ));
     }
-    draw(shell, |simulation, screen| match screen {
+    let has_one_row = has_one_row(shell);
+    let outcome = draw(shell, |simulation, screen| match screen {
+        Screen::Terminal(_) if has_one_row && columns != ["drift"] => {
+            column_summaries(simulation.history(), columns)
+        }
         Screen::Terminal(style) if columns == ["drift"] => {
             Ok(sight::drift_chart(simulation.history(), &style))
         }
         Screen::Terminal(style) => sight::history_chart(simulation.history(), columns, &style),
         Screen::Pipe if columns == ["drift"] => Ok(sight::drift_summary(simulation.history())),
-        Screen::Pipe => {
-            let line = |column: &String| sight::column_summary(simulation.history(), column);
-            Ok(columns.iter().map(line).collect::<Result<Vec<_>, _>>()?.join("\n"))
-        }
-    })
+        Screen::Pipe => column_summaries(simulation.history(), columns),
+    });
+    if outcome == Outcome::Good {
+        note_one_state(shell);
+    }
+    outcome
+}
+
+fn has_one_row(shell: &Shell) -> bool {
+    shell.latest().is_some_and(|of| of.simulation().history().samples().len() == 1)
+}
+
+/// Says at a terminal why there are numbers in the place of a chart.
+fn note_one_state(shell: &mut Shell) {
+    if has_one_row(shell) && matches!(shell.screen(), Screen::Terminal(_)) {
+        shell.note("note: there is one state so far; :run T or :step 10 makes a curve");
+    }
+}
+
+fn column_summaries(history: &History, columns: &[String]) -> Result<String, ScriptError> {
+    let line = |column: &String| sight::column_summary(history, column);
+    Ok(columns.iter().map(line).collect::<Result<Vec<_>, _>>()?.join("\n"))
 }
 
 /// Columns are names, as they stand or in quotes; so are words that can be nothing else.
@@ -101,12 +123,20 @@ fn plot_expressions(shell: &mut Shell, found: Vec<Part>) -> Outcome {
         }
     }
     let Some(first) = curves.first().map(|curve: &Curve| curve.over) else { return Outcome::Good };
+    if let Some(empty) = curves.iter().find(|curve| !curve.has_points()) {
+        let told = format!("'{}' is nowhere a finite number", empty.name);
+        return shell.refuse(&Diagnostic::general(told).with_hint("there is nothing to draw"));
+    }
     if let Some(other) = curves.iter().find(|curve| curve.over != first) {
         let (one, two) = (first.in_words(), other.over.in_words());
         let told = format!("'{}' goes over {one} and '{}' over {two}", curves[0].name, other.name);
         return shell.refuse(&Diagnostic::general(told).with_hint("plot them one after the other"));
     }
+    let is_one_state = |curve: &Curve| curve.over == Over::Time && curve.points.len() == 1;
     match shell.screen() {
+        Screen::Terminal(_) if curves.iter().any(is_one_state) => {
+            curves.iter().for_each(|curve| shell.print(&summary(curve)));
+        }
         Screen::Pipe => {
             curves.iter().for_each(|curve| shell.print(&summary(curve)));
         }
@@ -120,6 +150,7 @@ fn plot_expressions(shell: &mut Shell, found: Vec<Part>) -> Outcome {
         }
     }
     said.iter().for_each(|words| shell.note(words));
+    note_one_state(shell);
     Outcome::Good
 }
 

@@ -4,6 +4,9 @@ use crate::repl::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::words::numbers::format_number;
 
+/// Whole numbers below this are exact as numbers of the language.
+const MOST_STEPS: f64 = 9e15;
+
 /// The command `:step [count]`: takes steps with the last simulation.
 pub fn step(shell: &mut Shell, operand: &str) -> Outcome {
     let count = match whole(operand, "step") {
@@ -74,7 +77,12 @@ fn whole(operand: &str, command: &str) -> Result<u64, Diagnostic> {
         return Ok(1);
     }
     let hint = format!("write :{command} or, for example, :{command} 10");
-    operand.parse().map_err(|_| not_a_number(operand, "a number of steps").with_hint(hint))
+    let refused = || not_a_number(operand, "a number of steps").with_hint(hint);
+    // 1e3 is a whole number too.
+    match operand.parse::<f64>() {
+        Ok(count) if count >= 0.0 && count.fract() == 0.0 && count < MOST_STEPS => Ok(count as u64),
+        _ => Err(refused()),
+    }
 }
 
 fn not_a_number(operand: &str, wanted: &str) -> Diagnostic {

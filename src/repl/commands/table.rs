@@ -4,6 +4,7 @@ use super::{help, looking, plotting, session, stepping, timing};
 use crate::repl::editor::surroundings::Operand;
 use crate::repl::shell::{Outcome, Shell};
 use crate::script::diagnose::Diagnostic;
+use crate::script::looks::quantities::NAMES;
 use crate::script::words::suggest::nearest;
 
 /// A command of the prompt.
@@ -100,7 +101,7 @@ pub const COMMANDS: &[Command] = &[
     },
     Command {
         name: ":show",
-        operand: Operand::Expression,
+        operand: Operand::OptionsOf("plot_motion(0, \"\", "),
         placeholder: "[TIME] [OPTIONS]",
         summary: "draws the beams as they are now, or as they were at a time",
         doc: "The start is dotted behind them. With options, those of plot_motion, as in `:show #{ trace: [rod.end], magnify: 10 }`, what is dotted is \
@@ -109,7 +110,7 @@ pub const COMMANDS: &[Command] = &[
     },
     Command {
         name: ":along",
-        operand: Operand::Expression,
+        operand: Operand::OneOf(NAMES),
         placeholder: "[QUANTITY]",
         summary: "draws a quantity along the beams as they are now; the bending moment M unless given",
         doc: "Quantities are N, Q, M, axial_strain, shear_strain, curvature, strain_energy and speed. Pictures for files are drawn by plot_along.",

@@ -47,6 +47,19 @@ pub fn complete_command(text: &str, surroundings: &Surroundings) -> (usize, Vec<
             let (offset, found) = complete(operand, operand.len(), surroundings);
             (start + offset, found)
         }
+        Some(Operand::OneOf(words)) => {
+            (start, fitting(operand, words.iter().map(|word| Candidate::word(word, ""))))
+        }
+        Some(Operand::OptionsOf(call)) => {
+            let Some(map) = operand.find("#{") else {
+                let (offset, found) = complete(operand, operand.len(), surroundings);
+                return (start + offset, found);
+            };
+            // As if they were typed in that call.
+            let typed = format!("{call}{}", &operand[map..]);
+            let (offset, found) = complete(&typed, typed.len(), surroundings);
+            (start + map + offset.saturating_sub(call.len()), found)
+        }
         Some(Operand::Nothing | Operand::Number) | None => (text.len(), Vec::new()),
     }
 }
@@ -78,4 +91,30 @@ fn topics(surroundings: &Surroundings) -> Vec<Candidate> {
         )
         .chain(surroundings.commands.iter().map(|word| Candidate::word(word.name, word.summary)))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::repl::editor::samples::surroundings;
+
+    #[test]
+    fn words_and_options_of_commands_are_completed() {
+        let mut known = surroundings();
+        let command = |name, operand| CommandWord { name, summary: "", operand };
+        known.commands.push(command(":along", Operand::OneOf(&["M", "N", "speed"])));
+        known.commands.push(command(":look", Operand::OptionsOf("plot_motion(0, \"\", ")));
+        let found = |text: &str| {
+            let (start, found) = complete_command(text, &known);
+            let names: Vec<String> = found.iter().map(|one| one.replacement.clone()).collect();
+            (start, names)
+        };
+        assert_eq!(found(":along sp"), (7, vec!["speed".to_owned()]));
+        assert_eq!(found(":along ").1.len(), 3);
+        let (start, names) = found(":look 2, #{ mag");
+        assert_eq!(start, 12);
+        assert!(names.len() == 1 && names[0].starts_with("magnify"), "{names:?}");
+        let (_, names) = found(":look #{ trace: [rod.e");
+        assert!(names.iter().any(|name| name.starts_with("end")), "{names:?}");
+    }
 }

@@ -64,8 +64,12 @@ fn highlight_command(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary)
     };
     let mut drawn = String::new();
     draw(&mut drawn, word, style);
-    let has_colours =
-        |operand| matches!(operand, Operand::Expression | Operand::Curves | Operand::Name);
+    let has_colours = |operand| {
+        matches!(
+            operand,
+            Operand::Expression | Operand::Curves | Operand::Name | Operand::OptionsOf(_)
+        )
+    };
     if is_question || command.is_some_and(|command| has_colours(command.operand)) {
         let cursor = cursor.and_then(|cursor| cursor.checked_sub(word.len()));
         drawn.push_str(&highlight::highlight(operand, cursor, &vocabulary.language));

@@ -45,7 +45,10 @@ pub fn hint(line: &str, position: usize, surroundings: &Surroundings) -> Option<
         // An expression after a command has its hints too.
         if let Some((word, operand)) = line.trim_start().split_once(char::is_whitespace)
             && let Some(command) = command_named(word, surroundings)
-            && matches!(command.operand, Operand::Expression | Operand::Curves)
+            && matches!(
+                command.operand,
+                Operand::Expression | Operand::Curves | Operand::OptionsOf(_)
+            )
         {
             return hint(operand, operand.len(), surroundings);
         }

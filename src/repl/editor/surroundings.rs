@@ -83,6 +83,10 @@ pub enum Operand {
     Curves,
     /// A number is written after the command.
     Number,
+    /// One of these words is written after the command.
+    OneOf(&'static [&'static str]),
+    /// An expression, or a map of the options that stand where this call, cut off, ends, is written after the command.
+    OptionsOf(&'static str),
 }
 
 impl Surroundings {

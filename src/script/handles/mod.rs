@@ -5,6 +5,7 @@ pub mod events;
 pub mod history;
 pub mod notes;
 pub mod report;
+pub mod rigid_body;
 pub mod scene;
 pub mod section;
 pub mod simulation;

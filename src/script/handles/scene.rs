@@ -99,7 +99,9 @@ impl Scripted for SceneHandle {
             format!("{number} {what}{}", if number == 1 { "" } else { "s" })
         };
         let always = [(scene.beams.len(), "beam")];
-        let if_any = [(scene.particles.len(), "particle"), (scene.sliders.len(), "slider")];
+        let bodies = scene.rigid_bodies.len();
+        let bodies = (bodies, if bodies == 1 { "body" } else { "bodie" });
+        let if_any = [(scene.particles.len(), "particle"), bodies, (scene.sliders.len(), "slider")];
         let last = [(scene.joints.len(), "joint"), (scene.loads().count(), "load")];
         let some = if_any.into_iter().filter(|(number, _)| *number > 0);
         let parts: Vec<String> = always.into_iter().chain(some).chain(last).map(count).collect();

@@ -1,4 +1,4 @@
-//! A place on a beam, or a particle, of a scene that a script holds.
+//! A place on a beam, a particle or a point of a rigid body, of a scene that a script holds.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -39,6 +39,7 @@ impl StationHandle {
         let known = match self.station.body {
             BodyIndex::Beam(beam) => beam < built.beams.len(),
             BodyIndex::Particle(particle) => particle < built.particles.len(),
+            BodyIndex::Rigid(body, _) => body < built.rigid_bodies.len(),
         };
         if !known {
             let told = format!("{} was added after the scene was started", self.show());
@@ -52,7 +53,7 @@ impl StationHandle {
 
 impl Scripted for StationHandle {
     const NAME: &'static str = "station";
-    const DOC: &'static str = "A place on a beam, or a particle.";
+    const DOC: &'static str = "A place on a beam, a particle, or a point of a rigid body.";
 
     fn show(&self) -> String {
         self.scene.scene().borrow().describe(&self.station)

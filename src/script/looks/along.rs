@@ -1,13 +1,14 @@
 //! Pictures of what is inside of beams: strips, charts and colours, from the same description.
 
 use super::quantities::Quantity;
-use super::symbols::symbols;
+use super::symbols::{SceneAt, symbols};
 use crate::geometry::Vec2;
-use crate::model::{AlongSample, Model, ModelError, Scene};
+use crate::model::{BeamPlaces, BeamSample, Model, ModelError};
 use crate::output::{
     FieldPicture, LineChart, PlacedSymbol, Point, Series, Strip, StripPicture, Style, significant,
 };
 use crate::simulation::{Outline, Simulation};
+use crate::statics::Equilibrium;
 
 /// Digits of numbers in words.
 const DIGITS: usize = 6;
@@ -25,7 +26,7 @@ pub struct Inside {
 struct Beam {
     name: String,
     line: Vec<Point>,
-    along: Vec<AlongSample>,
+    along: Vec<BeamSample>,
 }
 
 impl Inside {
@@ -35,29 +36,31 @@ impl Inside {
     /// When an axis has a point without a tangent.
     pub fn of_simulation(simulation: &Simulation, beams: &[usize]) -> Result<Self, ModelError> {
         let when = format!("t = {}", significant(simulation.time(), DIGITS));
-        Self::of_model(simulation.scene(), simulation.model(), simulation.time(), beams)
-            .map(|inside| Self { when, ..inside })
+        let at = SceneAt::of(simulation, simulation.time());
+        Self::of_model(&at, simulation.model(), beams).map(|inside| Self { when, ..inside })
     }
 
-    /// A model as it is at a time.
+    /// An equilibrium, under all of its loads.
     ///
     /// # Errors
     /// When an axis has a point without a tangent.
-    pub fn of_model(
-        scene: &Scene,
-        model: &Model,
-        time: f64,
-        beams: &[usize],
-    ) -> Result<Self, ModelError> {
+    pub fn of_equilibrium(rest: &Equilibrium, beams: &[usize]) -> Result<Self, ModelError> {
+        let at = SceneAt { scene: rest.scene(), time: 0.0, released: Vec::new() };
+        Self::of_model(&at, rest.model(), beams)
+    }
+
+    fn of_model(at: &SceneAt, model: &Model, beams: &[usize]) -> Result<Self, ModelError> {
+        let SceneAt { scene, time, .. } = *at;
         let outlines = Outline::of_scene(scene, model.meshes())?;
         let points: Vec<&[Vec2]> = model.control_points().collect();
         let lines = Outline::draw(&outlines, time, &points).lines;
         let is_wanted = |index: &usize| beams.is_empty() || beams.contains(index);
         let beam = |index: usize| {
+            let places = model.places_along(scene, index, BeamPlaces::WITHIN_A_SPAN)?;
             Ok(Beam {
                 name: scene.beams[index].name.clone(),
                 line: lines[index].iter().map(plain).collect(),
-                along: model.along(scene, index)?,
+                along: model.sample_along(&places),
             })
         };
         let beams = (0..scene.beams.len()).filter(is_wanted).map(beam);
@@ -66,7 +69,7 @@ impl Inside {
             title: scene.name.clone(),
             when: String::new(),
             beams: beams.collect::<Result<_, ModelError>>()?,
-            symbols: symbols(scene, time, |stations| stations.iter().map(place).collect())?,
+            symbols: symbols(at, |stations| stations.iter().map(place).collect())?,
         })
     }
 
@@ -127,7 +130,7 @@ impl Inside {
         let picture =
             FieldPicture::new(self.heading(quantity), label).symbols(self.symbols.iter().copied());
         self.beams.iter().fold(picture, |picture, beam| {
-            let value = |at: &AlongSample| (plain(&at.position), (quantity.of)(at).abs());
+            let value = |at: &BeamSample| (plain(&at.position), (quantity.of)(at).abs());
             picture.beam(beam.along.iter().map(value).collect())
         })
     }

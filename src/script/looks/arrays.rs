@@ -11,7 +11,9 @@ pub fn archive(simulation: &Simulation) -> NpzArchive {
     let beams = scene.beams.iter().map(|beam| (&beam.name, true));
     let particles = scene.particles.iter().map(|particle| (&particle.name, false));
     let mut from = 0;
-    for ((name, is_beam), points) in beams.chain(particles).zip(simulation.model().control_points())
+    let bodies = scene.rigid_bodies.iter().map(|body| (&body.name, true));
+    for ((name, is_beam), points) in
+        beams.chain(particles).chain(bodies).zip(simulation.model().control_points())
     {
         let to = from + 2 * points.len();
         let of_body = |index: usize| trajectory.configuration(index)[from..to].to_vec();

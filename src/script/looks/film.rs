@@ -1,11 +1,18 @@
 //! A simulation as a film for the viewer: its bodies, supports and loads in frames, and columns of its history.
 
+mod fields;
+
+use fields::fields;
+pub use fields::{FIELDS, Inside};
+
 use crate::beams::{self, Station};
 use crate::geometry::{Vec2, perpendicular};
 use crate::joints::{Joint, JointKind, Partner};
 use crate::loads::{Frame, Load, LoadKind, Side};
+use crate::model;
 use crate::output::viewer::{
-    Arrow, ArrowKind, Beam, Column, Field, Film, Particle, Place, Symbol, SymbolKind, Trail,
+    Anchor, Arrow, ArrowKind, Beam, Column, Field, Film, Particle, Place, Spring, SpringKind,
+    Symbol, SymbolKind, Trail,
 };
 use crate::script::words::error::ScriptError;
 use crate::simulation::{Axes, AxisStation, Outline, Simulation};
@@ -19,8 +26,8 @@ const ARROWS_A_BEAM: usize = 6;
 pub struct Wishes<'a> {
     /// From when to when [time].
     pub span: (f64, f64),
-    /// Most frames.
-    pub frames: usize,
+    /// The configurations shown, by their index in the trajectory.
+    pub frames: Vec<usize>,
     /// What it is called.
     pub label: String,
     /// The places whose paths are drawn; where none are given, free ends.
@@ -29,24 +36,17 @@ pub struct Wishes<'a> {
     pub columns: &'a [String],
     /// Quantities along beams, of [`FIELDS`].
     pub fields: &'a [&'a str],
+    /// Those of them that states tell.
+    pub inside: Vec<Field>,
 }
-
-/// A quantity along beams by name, with its dimension.
-type FieldEntry = (&'static str, &'static str);
-
-/// What beams can be coloured by. Speed: from the configurations before and after [length/time]. Stretch: how much longer the axis is than as
-/// drawn [-]. Curvature: how much more it bends than as drawn [1/length].
-pub const FIELDS: [FieldEntry; 3] =
-    [("speed", "length/time"), ("stretch", "-"), ("curvature", "1/length")];
 
 /// A film of the frames that are recorded.
 ///
 /// # Errors
 /// When nothing is recorded in the span, a station lies outside its beam, or the function of a load fails.
-pub fn film(simulation: &Simulation, wishes: &Wishes) -> Result<Film, ScriptError> {
+pub fn film(simulation: &Simulation, wishes: Wishes) -> Result<Film, ScriptError> {
     let (from, to) = wishes.span;
-    let frames = simulation.frames_between(from, to, wishes.frames);
-    let shown = Shown::of(simulation, &frames);
+    let shown = Shown::of(simulation, wishes.frames);
     let history = simulation.history().between(from, to);
     let column = |name: &String| Column {
         name: name.replace('_', " "),
@@ -54,15 +54,16 @@ pub fn film(simulation: &Simulation, wishes: &Wishes) -> Result<Film, ScriptErro
         values: history.column(name).unwrap_or_default(),
     };
     Ok(Film {
-        label: wishes.label.clone(),
-        times: frames.iter().map(|&frame| simulation.trajectory().times()[frame]).collect(),
+        label: wishes.label,
+        times: shown.indices.iter().map(|&at| simulation.trajectory().times()[at]).collect(),
         points: shown.frames.iter().map(|bodies| plain(bodies.iter().flatten())).collect(),
         beams: beams(simulation, &shown)?,
         particles: particles(simulation, &shown)?,
         symbols: symbols(simulation, &shown)?,
+        springs: springs(simulation, &shown)?,
         arrows: arrows(simulation, &shown)?,
         trails: trails(simulation, &shown, wishes.trails)?,
-        fields: fields(simulation, &shown, wishes.fields)?,
+        fields: fields(simulation, &shown, wishes.fields, wishes.inside)?,
         rows: history.samples().iter().map(|row| row.measures.time).collect(),
         columns: wishes.columns.iter().map(column).collect(),
     })
@@ -84,7 +85,7 @@ struct Shown {
 }
 
 impl Shown {
-    fn of(simulation: &Simulation, indices: &[usize]) -> Self {
+    fn of(simulation: &Simulation, indices: Vec<usize>) -> Self {
         let points = simulation.model().control_points().map(<[Vec2]>::len);
         let first = points.scan(0, |sum, count| {
             let first = *sum;
@@ -92,9 +93,9 @@ impl Shown {
             Some(first)
         });
         Self {
-            indices: indices.to_vec(),
-            frames: indices.iter().map(|&frame| simulation.control_points_at(frame)).collect(),
             first: first.collect(),
+            frames: indices.iter().map(|&frame| simulation.control_points_at(frame)).collect(),
+            indices,
         }
     }
 
@@ -110,7 +111,7 @@ impl Shown {
 
 fn beams(simulation: &Simulation, shown: &Shown) -> Result<Vec<Beam>, ScriptError> {
     let outlines = simulation.outlines()?;
-    let beam = |((definition, mesh), outline): ((&crate::model::BeamDefinition, _), &Outline)| {
+    let beam = |((definition, mesh), outline): ((&model::BeamDefinition, _), &Outline)| {
         let degree = crate::beams::Mesh::basis(mesh).degree();
         let places = outline.line().len();
         let a_mark = (places - 1) / (outline.marks().len() - 1).max(1);
@@ -127,11 +128,21 @@ fn beams(simulation: &Simulation, shown: &Shown) -> Result<Vec<Beam>, ScriptErro
 
 fn particles(simulation: &Simulation, shown: &Shown) -> Result<Vec<Particle>, ScriptError> {
     let particles = simulation.scene().particles.iter().enumerate();
-    let particle = |(index, particle): (usize, &crate::model::ParticleDefinition)| {
+    let particle = |(index, particle): (usize, &model::ParticleDefinition)| {
         let at = shown.station(simulation, &Station::on_particle(index))?;
         Ok(Particle { name: particle.name.clone(), at })
     };
-    particles.map(particle).collect()
+    // The centres of rigid bodies, and their points.
+    let rigid = simulation.scene().rigid_bodies.iter().enumerate().flat_map(|(index, body)| {
+        let centre = std::iter::once((body.name.clone(), 0));
+        let points =
+            body.levers().map(|at| (format!("{}.{}", body.name, body.points[at - 1].0), at));
+        centre.chain(points).map(move |(name, point)| (name, Station::on_rigid_body(index, point)))
+    });
+    let point = |(name, station): (String, Station)| {
+        Ok(Particle { name, at: shown.station(simulation, &station)? })
+    };
+    particles.map(particle).chain(rigid.map(point)).collect()
 }
 
 fn symbols(simulation: &Simulation, shown: &Shown) -> Result<Vec<Symbol>, ScriptError> {
@@ -147,13 +158,35 @@ fn symbols(simulation: &Simulation, shown: &Shown) -> Result<Vec<Symbol>, Script
         // The hatching of a wall is behind the beam: it points from the wall along the beam.
         let is_end = joint.station.arc_length > 0.5 * scene.length_at(&joint.station);
         let angle = place.tangent_angle + if is_end { std::f64::consts::PI } else { 0.0 };
-        Ok(Symbol { kind, name: joint.name.clone(), at: shown.place(&place), angle })
+        Ok(Symbol { kind, name: joint.name.clone(), at: shown.place(&place), angle, until: None })
     };
-    let of_slider = |slider: &crate::joints::Slider| {
+    let of_slider = |(index, slider): (usize, &crate::joints::Slider)| {
         let at = shown.station(simulation, &slider.slave)?;
-        Ok(Symbol { kind: SymbolKind::Slider, name: slider.name.clone(), at, angle: 0.0 })
+        let (name, until) = (slider.name.clone(), simulation.release_of(index));
+        Ok(Symbol { kind: SymbolKind::Slider, name, at, angle: 0.0, until })
     };
-    scene.joints.iter().map(of_joint).chain(scene.sliders.iter().map(of_slider)).collect()
+    let of_sliders = scene.sliders.iter().enumerate().map(of_slider);
+    scene.joints.iter().map(of_joint).chain(of_sliders).collect()
+}
+
+fn springs(simulation: &Simulation, shown: &Shown) -> Result<Vec<Spring>, ScriptError> {
+    let spring = |spring: &model::Spring| {
+        let kind = match (&spring.kind, &spring.law) {
+            (model::SpringKind::Torsion(_), _) => SpringKind::Torsion,
+            (model::SpringKind::Way(way), _) if way.len() > 2 => SpringKind::Tendon,
+            (model::SpringKind::Way(_), None) => SpringKind::Damper,
+            (model::SpringKind::Way(_), Some(_)) => SpringKind::Spring,
+        };
+        let anchor = |anchor: &model::Anchor| {
+            Ok(match anchor {
+                model::Anchor::Station(at) => Anchor::Moving(shown.station(simulation, at)?),
+                model::Anchor::Ground(at) => Anchor::Ground((at.x, at.y)),
+            })
+        };
+        let anchors = spring.anchors().iter().map(anchor).collect::<Result<_, ScriptError>>()?;
+        Ok(Spring { kind, name: spring.name.clone(), anchors })
+    };
+    simulation.scene().springs().map(spring).collect()
 }
 
 fn trails(
@@ -186,47 +219,6 @@ fn free_ends(simulation: &Simulation) -> Vec<Station> {
         .chain((0..scene.particles.len()).map(Station::on_particle))
         .collect();
     if ends.len() <= MOST_FREE_ENDS { ends } else { Vec::new() }
-}
-
-fn fields(
-    simulation: &Simulation,
-    shown: &Shown,
-    names: &[&str],
-) -> Result<Vec<Field>, ScriptError> {
-    let stations = Axes::of(simulation.scene())?.stations()?;
-    // Each station, with the control points of its beam in a configuration.
-    let over = |bodies: &[Vec<Vec2>], value: &dyn Fn(&AxisStation, &[Vec2]) -> f64| -> Vec<f64> {
-        let of_beam = |(stations, points): (&Vec<AxisStation>, &Vec<Vec2>)| {
-            stations.iter().map(|at| value(at, points)).collect::<Vec<_>>()
-        };
-        stations.iter().zip(bodies).flat_map(of_beam).collect()
-    };
-    let everywhere = |value: fn(&AxisStation, &[Vec2]) -> f64| {
-        shown.frames.iter().map(|bodies| over(bodies, &value)).collect()
-    };
-    let field = |(name, unit): &FieldEntry| Field {
-        name: (*name).to_owned(),
-        unit: (*unit).to_owned(),
-        values: match *name {
-            "stretch" => everywhere(AxisStation::stretch),
-            "curvature" => everywhere(AxisStation::curvature),
-            _ => shown.indices.iter().map(|&index| speeds(simulation, &stations, index)).collect(),
-        },
-    };
-    Ok(FIELDS.iter().filter(|(name, _)| names.contains(name)).map(field).collect())
-}
-
-/// How fast stations move in a configuration, from those recorded before and after it.
-fn speeds(simulation: &Simulation, stations: &[Vec<AxisStation>], index: usize) -> Vec<f64> {
-    let times = simulation.trajectory().times();
-    let (before, after) = (index.saturating_sub(1), (index + 1).min(times.len() - 1));
-    let duration = times[after] - times[before];
-    let (start, end) = (simulation.control_points_at(before), simulation.control_points_at(after));
-    let of_beam = |(stations, (start, end)): (&Vec<AxisStation>, (&Vec<Vec2>, &Vec<Vec2>))| {
-        let speed = |at: &AxisStation| (at.position(end) - at.position(start)).norm() / duration;
-        stations.iter().map(speed).collect::<Vec<_>>()
-    };
-    stations.iter().zip(start.iter().zip(&end)).flat_map(of_beam).collect()
 }
 
 fn arrows(simulation: &Simulation, shown: &Shown) -> Result<Vec<Arrow>, ScriptError> {

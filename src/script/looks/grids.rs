@@ -8,7 +8,7 @@ use crate::simulation::Simulation;
 
 /// The places of all beams, found once for many frames.
 pub struct Grids {
-    /// Beams first, then particles.
+    /// Beams first, then particles and the centres of rigid bodies.
     names: Vec<String>,
     beams: Vec<BeamPlaces>,
 }
@@ -23,11 +23,13 @@ impl Grids {
     /// When an axis has a point without a tangent.
     pub fn of(simulation: &Simulation) -> Result<Self, ModelError> {
         let scene = simulation.scene();
-        let beams = (0..scene.beams.len()).map(|beam| simulation.places_along(beam));
+        let beams = (0..scene.beams.len())
+            .map(|beam| simulation.places_along(beam, BeamPlaces::WITHIN_A_SPAN));
         let names = scene.beams.iter().map(|beam| beam.name.clone());
         let particles = scene.particles.iter().map(|particle| particle.name.clone());
+        let bodies = scene.rigid_bodies.iter().map(|body| body.name.clone());
         Ok(Self {
-            names: names.chain(particles).collect(),
+            names: names.chain(particles).chain(bodies).collect(),
             beams: beams.collect::<Result<_, _>>()?,
         })
     }
@@ -38,7 +40,8 @@ impl Grids {
         let (of_beams, of_particles) = bodies.split_at(self.beams.len());
         let lines = self.beams.iter().zip(of_beams);
         let lines = lines.map(|(along, points)| along.positions(points).map(plain).collect());
-        let dots = of_particles.iter().map(|points| points.iter().copied().map(plain).collect());
+        let centres = of_particles.iter().map(|points| points.iter().take(1));
+        let dots = centres.map(|centre| centre.copied().map(plain).collect());
         VtkGrid { cells: self.cells(lines.chain(dots)), fields: vec![self.arc_lengths()] }
     }
 

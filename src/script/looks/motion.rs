@@ -1,6 +1,6 @@
 //! What a picture of a motion shows, found once for files and for terminals.
 
-use super::symbols::symbols;
+use super::symbols::{SceneAt, symbols};
 use crate::beams::Place;
 use crate::geometry::Vec2;
 use crate::output::{
@@ -167,9 +167,16 @@ impl Motion {
             }
         }
         picture = self.traces.into_iter().fold(picture, |picture, (_, path)| picture.ghost(path));
-        let marks = self.symbols.iter().filter_map(|placed| Some((mark(placed)?, placed.at)));
-        marks.fold(picture, |picture, (mark, at)| picture.mark(mark, at)).text(style)
+        marked(picture, &self.symbols).text(style)
     }
+}
+
+/// A picture for a terminal with symbols: springs as lines, supports, joints and sliders as signs.
+pub fn marked(picture: ConfigurationPicture, symbols: &[PlacedSymbol]) -> ConfigurationPicture {
+    let links = symbols.iter().filter_map(PlacedSymbol::link);
+    let picture = links.fold(picture, |picture, link| picture.ghost(link.to_vec()));
+    let marks = symbols.iter().filter_map(|placed| Some((mark(placed)?, placed.at)));
+    marks.fold(picture, |picture, (mark, at)| picture.mark(mark, at))
 }
 
 /// The sign of a symbol at a terminal.
@@ -179,7 +186,8 @@ fn mark(placed: &PlacedSymbol) -> Option<Mark> {
         Symbol::Clamp => Some(Mark::Clamp),
         Symbol::Slider => Some(Mark::Slider),
         Symbol::Joint | Symbol::RigidJoint => Some(Mark::Joint),
-        Symbol::Force | Symbol::LineForce | Symbol::Moment => None,
+        // Springs are lines, loads are not drawn.
+        _ => None,
     }
 }
 
@@ -233,7 +241,11 @@ fn magnified(start: &Configuration, now: &Configuration, lens: Lens) -> Snapshot
     }
 }
 
-fn placed(
+/// The symbols of a simulation in the configuration nearest to a time, displacements magnified where that is asked for.
+///
+/// # Errors
+/// When a station lies outside its beam.
+pub fn placed(
     simulation: &Simulation,
     time: f64,
     magnify: Option<f64>,
@@ -247,5 +259,5 @@ fn placed(
         let start = simulation.stations_near(stations, 0.0)?;
         Ok(start.iter().zip(now).map(|(start, now)| start + (now - start) * factor).collect())
     };
-    Ok(symbols(simulation.scene(), time, places)?)
+    Ok(symbols(&SceneAt::of(simulation, time), places)?)
 }

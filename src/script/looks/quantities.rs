@@ -1,6 +1,6 @@
 //! What can be drawn along beams.
 
-use crate::model::AlongSample;
+use crate::model::BeamSample;
 use crate::output::Side;
 
 /// A quantity along a beam.
@@ -14,7 +14,7 @@ pub struct Quantity {
     /// Its dimension.
     pub dimension: &'static str,
     /// Its value.
-    pub of: fn(&AlongSample) -> f64,
+    pub of: fn(&BeamSample) -> f64,
     /// The side of a beam on which strips stand where it is positive.
     pub side: Side,
 }
@@ -46,7 +46,7 @@ const fn quantity(
     name: &'static str,
     words: &'static str,
     dimension: &'static str,
-    of: fn(&AlongSample) -> f64,
+    of: fn(&BeamSample) -> f64,
 ) -> Quantity {
     let sign = if name.len() == 1 { name } else { words };
     Quantity { name, words, sign, dimension, of, side: Side::Left }

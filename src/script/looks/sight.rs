@@ -1,9 +1,8 @@
 //! Seeing a simulation: charts of its history and pictures of its configuration, from the same description for files and for
 //! a terminal.
 
-use crate::beams::Station;
+use super::motion::{marked, placed};
 use crate::geometry::Vec2;
-use crate::joints::{JointKind, Partner};
 use crate::output::{
     ConfigurationPicture, LineChart, Mark, Scale, Series, Style, scientific, significant,
 };
@@ -102,13 +101,8 @@ pub fn configuration_picture(
         .particles
         .iter()
         .fold(picture.time(shown.time), |picture, at| picture.mark(Mark::Particle, (at.x, at.y)));
-    let (marks, stations) = marked(simulation);
-    let places = match time {
-        Some(_) => simulation.stations_near(&stations, shown.time)?,
-        None => simulation.stations(&stations)?,
-    };
-    let marks = marks.into_iter().zip(places);
-    Ok(marks.fold(picture, |picture, (mark, at)| picture.mark(mark, (at.x, at.y))).text(style))
+    let symbols = placed(simulation, time.unwrap_or(simulation.time()), None)?;
+    Ok(marked(picture, &symbols).text(style))
 }
 
 /// What a picture of the configuration of a simulation would show, in lines: where there is no terminal.
@@ -131,7 +125,9 @@ pub fn configuration_summary(
     let particles = scene.particles.iter().zip(&shown.particles);
     let particles =
         particles.map(|(particle, at)| format!("{}: at {}", particle.name, place(Some(at))));
-    let lines: Vec<String> = beams.chain(particles).collect();
+    let bodies = scene.rigid_bodies.iter().zip(&shown.particles[scene.particles.len()..]);
+    let bodies = bodies.map(|(body, at)| format!("{}: at {}", body.name, place(Some(at))));
+    let lines: Vec<String> = beams.chain(particles).chain(bodies).collect();
     Ok(format!("t = {}\n{}", significant(shown.time, DIGITS), lines.join("\n")))
 }
 
@@ -144,17 +140,6 @@ fn shown_at(
         Some(time) => simulation.configuration_near(time)?,
         None => Some(simulation.configuration()?),
     })
-}
-
-/// The marks of supports and sliders, and the stations where they are.
-fn marked(simulation: &Simulation) -> (Vec<Mark>, Vec<Station>) {
-    let scene = simulation.scene();
-    let supports = scene.joints.iter().filter(|joint| joint.partner == Partner::Ground);
-    let supports = supports.map(|joint| match joint.kind {
-        JointKind::Hinge | JointKind::Support(_) => (Mark::Hinge, joint.station),
-        JointKind::Rigid => (Mark::Clamp, joint.station),
-    });
-    supports.chain(scene.sliders.iter().map(|slider| (Mark::Slider, slider.slave))).unzip()
 }
 
 /// A chart of columns of a history over time, read in one of its ways.
@@ -226,9 +211,11 @@ pub fn column_names(history: &History) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::beams::Station;
     use crate::beams::{Mesh, Section};
     use crate::geometry::Curve;
     use crate::integrators::Method;
+    use crate::joints::{JointKind, Partner};
     use crate::model::{BeamDefinition, Scene, StartMotion};
     use crate::newton::Tolerance;
     use crate::output::{Colours, Glyphs};

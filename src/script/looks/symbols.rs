@@ -4,8 +4,9 @@ use crate::beams::Station;
 use crate::geometry::Vec2;
 use crate::joints::{JointKind, Partner};
 use crate::loads::{Frame, Load, LoadKind, Side};
-use crate::model::{ModelError, Scene};
+use crate::model::{Anchor, ModelError, Scene, Spring, SpringKind};
 use crate::output::{PlacedSymbol, Symbol};
+use crate::simulation::Simulation;
 
 /// The arrows of a load that is spread along a beam.
 const ARROWS: usize = 5;
@@ -27,20 +28,42 @@ enum Pointing {
     WithBeam(Vec2),
 }
 
+/// A scene at a time.
+pub struct SceneAt<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// The time.
+    pub time: f64,
+    /// Sliders that have left their masters, by their index.
+    pub released: Vec<usize>,
+}
+
+impl<'a> SceneAt<'a> {
+    /// That of a simulation.
+    pub fn of(simulation: &'a Simulation, time: f64) -> Self {
+        let scene = simulation.scene();
+        let is_gone =
+            |slider: &usize| simulation.release_of(*slider).is_some_and(|release| release < time);
+        Self { scene, time, released: (0..scene.sliders.len()).filter(is_gone).collect() }
+    }
+}
+
 /// The symbols of a scene at a time. `places` finds stations; loads that are zero then have none.
 ///
 /// # Errors
 /// Those of `places`.
 pub fn symbols(
-    scene: &Scene,
-    time: f64,
+    at: &SceneAt,
     places: impl FnOnce(&[Station]) -> Result<Vec<Vec2>, ModelError>,
 ) -> Result<Vec<PlacedSymbol>, ModelError> {
+    let SceneAt { scene, time, .. } = *at;
     let unplaced: Vec<Unplaced> =
-        of_joints(scene).chain(of_sliders(scene)).chain(of_loads(scene, time)).collect();
-    // For each its place, and one before and one behind it on its beam.
+        of_joints(scene).chain(of_sliders(at)).chain(of_loads(scene, time)).collect();
+    // For each its place, and one before and one behind it on its beam; then those of springs.
     let around = unplaced.iter().flat_map(|symbol| around(scene, &symbol.at));
-    let found = places(&around.collect::<Vec<_>>())?;
+    let of_springs = scene.springs().flat_map(|spring| spring.stations()).copied();
+    let found = places(&around.chain(of_springs).collect::<Vec<_>>())?;
+    let (found, of_springs) = found.split_at(3 * unplaced.len());
     let placed = unplaced.iter().zip(found.chunks_exact(3)).map(|(symbol, found)| {
         let along = found[2] - found[1];
         let direction = match symbol.pointing {
@@ -53,7 +76,42 @@ pub fn symbols(
         let plain = |vector: Vec2| (vector.x, vector.y);
         PlacedSymbol { symbol: symbol.symbol, at: plain(found[0]), direction: plain(direction) }
     });
-    Ok(placed.collect())
+    let mut ends = of_springs.iter().copied();
+    Ok(placed.chain(scene.springs().flat_map(|spring| of_spring(spring, &mut ends))).collect())
+}
+
+/// The symbols of a spring, whose stations come next among the places found: a tendon has one for each part of its way.
+fn of_spring(spring: &Spring, found: &mut impl Iterator<Item = Vec2>) -> Vec<PlacedSymbol> {
+    let place = |anchor: &Anchor| match anchor {
+        Anchor::Station(_) => found.next(),
+        Anchor::Ground(at) => Some(*at),
+    };
+    let way: Vec<Vec2> = spring.anchors().iter().filter_map(place).collect();
+    let plain = |vector: Vec2| (vector.x, vector.y);
+    let placed = |symbol, at: Vec2, direction: Vec2| PlacedSymbol {
+        symbol,
+        at: plain(at),
+        direction: plain(direction),
+    };
+    if let SpringKind::Torsion(anchors) = &spring.kind {
+        let moving = anchors.iter().rposition(|anchor| matches!(anchor, Anchor::Station(_)));
+        let at = moving.and_then(|index| way.get(index));
+        return at
+            .map(|at| placed(Symbol::TorsionSpring, *at, Vec2::zeros()))
+            .into_iter()
+            .collect();
+    }
+    let symbol = match spring.law {
+        _ if way.len() > 2 => Symbol::Tendon,
+        None => Symbol::Damper,
+        Some(_) => Symbol::Spring,
+    };
+    let parts = way.windows(2).map(|part| placed(symbol, part[0], part[1] - part[0]));
+    let on_ground = spring.anchors().iter().filter_map(|anchor| match anchor {
+        Anchor::Ground(at) => Some(placed(Symbol::Joint, *at, Vec2::zeros())),
+        Anchor::Station(_) => None,
+    });
+    parts.chain(on_ground).collect()
 }
 
 fn around(scene: &Scene, at: &Station) -> [Station; 3] {
@@ -78,8 +136,9 @@ fn of_joints(scene: &Scene) -> impl Iterator<Item = Unplaced> + '_ {
     })
 }
 
-fn of_sliders(scene: &Scene) -> impl Iterator<Item = Unplaced> + '_ {
-    scene.sliders.iter().map(|slider| Unplaced {
+fn of_sliders<'a>(at: &'a SceneAt) -> impl Iterator<Item = Unplaced> + 'a {
+    let holding = |(index, _): &(usize, _)| !at.released.contains(index);
+    at.scene.sliders.iter().enumerate().filter(holding).map(|(_, slider)| Unplaced {
         symbol: Symbol::Slider,
         at: slider.slave,
         pointing: Pointing::To(Vec2::zeros()),

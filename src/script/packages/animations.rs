@@ -2,18 +2,23 @@
 
 use rhai::Dynamic;
 
-use super::pictures::{FILE, MOVING, plain, simulations, stations};
+use super::pictures::files::FILE;
+use super::pictures::subjects::{MOVING, plain, simulations, stations};
 use super::simulations::SPINNING;
 use super::viewers::span;
 use crate::elementary::whole_power;
-use crate::output::{Animation, Figure, MotionPicture, OutputError, Page, Panel, Snapshot};
+use crate::output::{
+    Animation, Figure, MotionPicture, OutputError, Page, Panel, PlacedSymbol, Point, Snapshot,
+};
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
-use crate::script::looks::motion::snapshot;
+use crate::script::looks::motion::{Shown, placed, snapshot};
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Scripted;
 use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{Parameter, Presence, array, number, options, text, whole};
+use crate::script::rows::parameter::{
+    Parameter, Presence, array, boolean, number, options, text, whole,
+};
 use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
 
@@ -48,6 +53,11 @@ const ANIMATION: &[Parameter] = &[
         .doc("pixels; 640, or 960 for several simulations, unless given")
         .optional(),
     array("trace").doc("stations whose paths are drawn as they come about").optional(),
+    boolean("symbols")
+        .doc(
+            "whether supports, joints, sliders, springs and loads are drawn; they are unless given",
+        )
+        .optional(),
 ];
 
 /// Pixels of a picture, alone and of several.
@@ -55,16 +65,16 @@ const WIDTHS: (f64, f64) = (640.0, 960.0);
 /// Least height of a picture in pixels.
 const LEAST_HEIGHT: f64 = 160.0;
 
-/// A point in the plane as it is drawn.
-type Drawn = (f64, f64);
 /// A path: points with their times.
-type Path = Vec<(f64, Drawn)>;
+type Path = Vec<(f64, Point)>;
 
 /// A simulation in frames.
 struct Reel {
-    /// The picture without what moves, with a view of everything.
+    /// The picture without what moves.
     base: MotionPicture,
     snapshots: Vec<Snapshot>,
+    /// The symbols of each snapshot.
+    symbols: Vec<Vec<PlacedSymbol>>,
     /// Paths by name.
     traces: Vec<(String, Path)>,
 }
@@ -76,15 +86,19 @@ impl Reel {
             path.iter().filter(|(at, _)| *at <= time).map(|(_, point)| *point).collect()
         };
         let picture = self.base.clone().snapshot(self.snapshots[frame].clone());
+        let picture = picture.symbols(self.symbols[frame].iter().copied());
         let traces = self.traces.iter();
         traces.fold(picture, |picture, (name, path)| picture.trace(name.clone(), until(path)))
     }
 
-    /// All that is ever seen of it.
-    fn points(&self) -> impl Iterator<Item = &Drawn> {
-        let snapshots = self.snapshots.iter();
-        let moving = snapshots.flat_map(|at| at.lines.iter().flatten().chain(&at.particles));
-        moving.chain(self.traces.iter().flat_map(|(_, path)| path.iter().map(|(_, point)| point)))
+    /// All that is ever seen of it, in one picture.
+    fn whole(&self) -> MotionPicture {
+        let picture =
+            self.snapshots.iter().cloned().fold(self.base.clone(), MotionPicture::snapshot);
+        let picture = picture.symbols(self.symbols.iter().flatten().copied());
+        self.traces.iter().fold(picture, |picture, (_, path)| {
+            picture.trace("", path.iter().map(|(_, at)| *at).collect())
+        })
     }
 }
 
@@ -104,9 +118,13 @@ fn write_animation(call: &mut Call) -> Result<Dynamic, ScriptError> {
         stations(call, &options.array("trace").unwrap_or_default(), Place::Key("trace".into()))?;
     let title = options.text("title").map(|title| title.to_string());
     let title = title.unwrap_or_else(|_| simulations[0].name().to_owned());
+    let shown = match options.boolean("symbols") {
+        Ok(false) => Shown::No,
+        _ => Shown::Yes,
+    };
     let reels = simulations.iter().map(|of| {
         call.proceed()?;
-        reel(of, &times, &traced)
+        reel(of, &times, &traced, shown)
     });
     let reels = framed(reels.collect::<Result<Vec<_>, ScriptError>>()?);
     let usual = if reels.len() == 1 { WIDTHS.0 } else { WIDTHS.1 };
@@ -153,11 +171,17 @@ fn reel(
     of: &SimulationHandle,
     times: &[f64],
     traced: &[StationHandle],
+    shown: Shown,
 ) -> Result<Reel, ScriptError> {
     let simulation = of.simulation();
-    let mut snapshots = Vec::new();
+    let (mut snapshots, mut symbols) = (Vec::new(), Vec::new());
     for time in times {
-        snapshots.extend(simulation.configuration_near(*time)?.map(|at| snapshot(&at)));
+        let Some(configuration) = simulation.configuration_near(*time)? else { continue };
+        symbols.push(match shown {
+            Shown::Yes => placed(&simulation, configuration.time, None)?,
+            Shown::No => Vec::new(),
+        });
+        snapshots.push(snapshot(&configuration));
     }
     let (first, last) = (times[0], times[times.len() - 1]);
     let trace = |station: &StationHandle| {
@@ -170,19 +194,16 @@ fn reel(
     Ok(Reel {
         base: MotionPicture::new(of.name()).beams(names),
         snapshots,
+        symbols,
         traces: traced.iter().map(trace).collect::<Result<_, ScriptError>>()?,
     })
 }
 
 /// The reels with the same view of all that is ever seen.
 fn framed(reels: Vec<Reel>) -> Vec<Reel> {
-    let ends = |pick: fn(&Drawn) -> f64| {
-        let all = reels.iter().flat_map(Reel::points).map(pick).filter(|x| x.is_finite());
-        all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
-    };
-    let (x, y) = (ends(|point| point.0), ends(|point| point.1));
-    let view = |reel: Reel| Reel { base: reel.base.window((x.0, y.0), (x.1, y.1)), ..reel };
-    reels.into_iter().map(view).collect()
+    let all: Vec<MotionPicture> = reels.iter().map(Reel::whole).collect();
+    let limits = MotionPicture::shared_limits(&all);
+    reels.into_iter().map(|reel| Reel { base: reel.base.limits(limits), ..reel }).collect()
 }
 
 /// A picture so wide, as high as suits it.

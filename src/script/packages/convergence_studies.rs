@@ -108,5 +108,5 @@ fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let ConvergenceStudy(study) = call.receiver()?;
     let quantity = call.text("quantity")?;
     expect_quantity(call, &study, &quantity)?;
-    super::pictures::write_picture(call, &chart(&study, &quantity))
+    super::pictures::files::write_picture(call, &chart(&study, &quantity))
 }

@@ -2,7 +2,7 @@
 
 use rhai::Dynamic;
 
-use super::recording::expect_near;
+use super::recording::{Missing, expect_near, tell_another_run};
 use super::simulations::{SIMULATION, SPINNING};
 use super::tables::{TABULAR, table};
 use crate::output::{Heading, vtk_collection};
@@ -31,9 +31,9 @@ pub const TABLE: Table = Table {
         function("write_vtk", &[OF, VTK_FILE, options("options", FRAMES).optional()], write_vtk)
             .summary("Writes frames of the motion for ParaView: RUN.pvd, which has the times, and a grid RUN/RUN_0001.vtu … for each frame.")
             .doc(
-                "A beam is a line through its knots and three places between each two of them, twice where a joint cuts it; a particle is a dot. \
-                 The cell field `body` numbers them: beams first, then particles. Fields of points are arc_length, velocity, angle [rad], N, Q \
-                 and M, zero on particles. A configuration that is recorded has no velocities and no section forces, so the states themselves \
+                "A beam is a line through its knots and three places between each two of them, twice where a joint cuts it; a particle is a dot, and so is the centre of a rigid body. \
+                 The cell field `body` numbers them: beams first, then particles, then rigid bodies. Fields of points are arc_length, velocity, angle [rad], N, Q \
+                 and M, zero on particles and rigid bodies. A configuration that is recorded has no velocities and no section forces, so the states themselves \
                  are needed: those that are kept to go back to (option `snapshots`), or, where one is forgotten, those of the run made again in a copy, which takes \
                  the time of the run and is compared with it bit for bit. Where that is another run, because a function had changed it on its way or it began at \
                  an equilibrium, the shape alone is written, and that is told. Frames are recorded \
@@ -92,6 +92,8 @@ const FRAMES: &[Parameter] = &[
 const HEADER: &[Parameter] =
     &[boolean("units").doc("whether the second line has the dimensions of the columns").optional()];
 
+const MISSING: Missing =
+    Missing { what: "velocities, angles and section forces", instead: "fields: \"shape\"" };
 const MOST_FRAMES: f64 = 100_000.0;
 /// Frames unless the script says how many.
 const FRAMES_UNLESS_GIVEN: usize = 101;
@@ -151,7 +153,7 @@ fn write_vtk(call: &mut Call) -> Result<Dynamic, ScriptError> {
         wish => match write_states(call, &of, &frames, (&grids, &files))? {
             Visited::All => false,
             Visited::Another(time) => {
-                tell_another(call, &of, time, wish.is_some())?;
+                tell_another_run(call, &of, time, (MISSING, wish.is_some()))?;
                 true
             }
         },
@@ -186,29 +188,6 @@ fn write_states(
         let grid = grids.of_state(state).to_vtu()?;
         call.context().write_file(&files.of_frame(number), grid.as_bytes()).map(|_| ())
     })
-}
-
-/// What is done when the states cannot be had again: all that was asked for is refused, and otherwise less is told.
-fn tell_another(
-    call: &Call,
-    of: &SimulationHandle,
-    time: f64,
-    is_asked: bool,
-) -> Result<(), ScriptError> {
-    let (name, time) = (of.name(), format_number(time));
-    let told = format!(
-        "the states of '{name}' are forgotten, and the run made again is another one from t = {time} or before"
-    );
-    if is_asked {
-        return Err(call
-            .error(told)
-            .hint("start it with the option snapshots: 1000 to keep more states, or write #{ fields: \"shape\" }")
-            .at(Place::Key("fields".into())));
-    }
-    call.context().tell(&format!(
-        "note: {told}: velocities, angles and section forces are not written; start it with the option snapshots: 1000 to keep more states"
-    ));
-    Ok(())
 }
 
 /// The recorded configurations that are written, in the order of time.

@@ -1,13 +1,11 @@
 //! The domains of the language, one file each. A new domain is a new file and a line in [`TABLES`].
 
-mod along_pictures;
 mod animations;
 mod arrays;
-mod chart_options;
+mod bodies;
 mod checking;
 mod convergence_studies;
 mod cost_studies;
-mod curve_pictures;
 mod drag;
 mod drives;
 mod equilibria;
@@ -21,13 +19,11 @@ mod language;
 mod loads;
 mod math;
 mod modes;
-pub mod motion_pictures;
 mod notes;
-mod pictures;
+pub mod pictures;
 mod precision_studies;
 mod reading_options;
 mod recording;
-mod rest_pictures;
 mod saving;
 mod scenes;
 mod schedules;
@@ -65,6 +61,7 @@ pub const TABLES: &[&Table] = &[
     &scenes::TABLE,
     &loads::TABLE,
     &drives::TABLE,
+    &bodies::TABLE,
     &springs::TABLE,
     &drag::TABLE,
     &equilibria::TABLE,
@@ -79,10 +76,10 @@ pub const TABLES: &[&Table] = &[
     &histories::TABLE,
     &statistics::TABLE,
     &explaining::TABLE,
-    &curve_pictures::TABLE,
+    &pictures::curves::TABLE,
     &pictures::TABLE,
-    &along_pictures::TABLE,
-    &rest_pictures::TABLE,
+    &pictures::along::TABLE,
+    &pictures::rest::TABLE,
     &exports::TABLE,
     &viewers::TABLE,
     &animations::TABLE,

@@ -11,7 +11,7 @@ use crate::script::rows::kind::{Scripted, Type};
 use crate::script::rows::parameter::whole;
 use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function};
-use crate::script::words::error::ScriptError;
+use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::format_number;
 use crate::simulation::Recording;
 
@@ -80,6 +80,34 @@ pub(super) fn expect_rows_between(call: &Call, of: &SimulationHandle) -> Result<
     }
     let told = format!("'{}' recorded {}", of.name(), simulation.recording().describe());
     Err(call.error(told).hint("start it with the option record: every(100), or without it"))
+}
+
+/// What is missing from a file where the states of a run cannot be had again.
+pub(super) struct Missing {
+    /// What is not written, in words.
+    pub what: &'static str,
+    /// What to write to have less without being told.
+    pub instead: &'static str,
+}
+
+/// Says that the states of a run cannot be had again, seen first at a time: refused where all of them were asked for, told where not.
+pub(super) fn tell_another_run(
+    call: &Call,
+    of: &SimulationHandle,
+    time: f64,
+    (missing, is_asked): (Missing, bool),
+) -> Result<(), ScriptError> {
+    let (name, time) = (of.name(), format_number(time));
+    let told = format!(
+        "the states of '{name}' are forgotten, and the run made again is another one from t = {time} or before"
+    );
+    let more = "start it with the option snapshots: 1000 to keep more states";
+    if is_asked {
+        let hint = format!("{more}, or write #{{ {} }}", missing.instead);
+        return Err(call.error(told).hint(hint).at(Place::Key("fields".into())));
+    }
+    call.context().tell(&format!("note: {told}: {} are not written; {more}", missing.what));
+    Ok(())
 }
 
 /// Refuses a picture of a time from which the nearest recorded configuration is too far away.

@@ -1,7 +1,8 @@
 //! Simulations in files, the latest one, and things of a scene by their names.
 
-use rhai::Dynamic;
+use rhai::{Array, Dynamic};
 
+use super::bodies::BODY;
 use super::scenes::BEAM;
 use super::scenes::SCENE;
 use super::scenes::STATION;
@@ -11,12 +12,13 @@ use super::sliding::SliderHandle;
 use crate::beams::Station;
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::notes::Notes;
+use crate::script::handles::rigid_body::RigidBodyHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::rows::call::Call;
-use crate::script::rows::parameter::{Parameter, text};
-use crate::script::rows::returns::Returns;
+use crate::script::rows::parameter::{Parameter, array, text};
+use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Table, function, method, property};
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::suggest::nearest;
@@ -44,6 +46,12 @@ pub const TABLE: Table = Table {
             .doc("A file that is cut off, damaged, of a later withy or something else is refused with the reason.")
             .example("sim.run_to(1);\nsim.save(\"half.withy\");\nlet on = load_simulation(\"half.withy\");\non.run_to(2);\nprint(on.position(on.scene.beam_named(\"rod\").end));")
             .see(&["save", "scene", "beam_named"]),
+        function("simulations_among", &[array("values")], |call| Ok(simulations_among(&call.array("values")?).into()))
+            .returns(Returns::array_of(&ValueKind::Object(SIMULATION)))
+            .summary("The simulations in an array of any values, also in arrays within it, each once.")
+            .doc("`withy view` shows those among the variables of a script.")
+            .example("let other = sim.fork();\ncheck(simulations_among([1, sim, [other, sim]]).len() == 2);")
+            .see(&["latest_simulation", "write_viewer"]),
         function("latest_simulation", &[], |call| {
             call.context().latest_simulation().ok_or_else(|| {
                 call.error("there is no simulation yet").hint("start one: let sim = scene.start(#{ dt: 0.01 });")
@@ -57,7 +65,7 @@ pub const TABLE: Table = Table {
             .returns(Returns::object(SCENE))
             .summary("The scene that was started; for a loaded simulation, the scene that was saved with it.")
             .example("check(sim.scene.name == \"example\");")
-            .see(&["beam_named", "particle_named", "slider_named"]),
+            .see(&["beam_named", "particle_named", "body_named", "slider_named"]),
         method(SCENE, "beam_named", &[NAME], |call| {
             let scene = call.receiver::<SceneHandle>()?;
             let index = find(call, "beam", |held| held.beams.iter().map(|beam| &beam.name).collect())?;
@@ -76,6 +84,15 @@ pub const TABLE: Table = Table {
         .summary("The particle of that name.")
         .example("scene.particle([0, 3], 0.5, #{ name: \"stone\" });\nprint(scene.particle_named(\"stone\"));")
         .see(&["particle", "scene"]),
+        method(SCENE, "body_named", &[NAME], |call| {
+            let scene = call.receiver::<SceneHandle>()?;
+            let index = find(call, "body", |held| held.rigid_bodies.iter().map(|body| &body.name).collect())?;
+            Ok(Dynamic::from(RigidBodyHandle { scene, index }))
+        })
+        .returns(Returns::object(BODY))
+        .summary("The rigid body of that name.")
+        .example("scene.body(#{ name: \"hub\", at: [0, 1], mass: 1, inertia: 1 });\nprint(scene.body_named(\"hub\"));")
+        .see(&["body", "scene"]),
         method(SCENE, "slider_named", &[NAME], |call| {
             let scene = call.receiver::<SceneHandle>()?;
             let index = find(call, "slider", |held| held.sliders.iter().map(|slider| &slider.name).collect())?;
@@ -89,6 +106,22 @@ pub const TABLE: Table = Table {
 };
 
 const NAME: Parameter = text("name");
+
+/// The simulations in an array, also in arrays within it, each once.
+fn simulations_among(values: &Array) -> Array {
+    let mut found: Vec<SimulationHandle> = Vec::new();
+    let mut left: Vec<Dynamic> = values.iter().rev().cloned().collect();
+    while let Some(value) = left.pop() {
+        if let Some(array) = value.read_lock::<Array>() {
+            left.extend(array.iter().rev().cloned());
+        } else if let Some(simulation) = value.clone().try_cast::<SimulationHandle>()
+            && !found.iter().any(|other| other.is_same(&simulation))
+        {
+            found.push(simulation);
+        }
+    }
+    found.into_iter().map(Dynamic::from).collect()
+}
 
 fn save(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;

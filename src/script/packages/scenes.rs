@@ -7,7 +7,7 @@ use rhai::Dynamic;
 use super::geometry::CURVE;
 use super::sections::{MESH_KINDS, SECTION, mesh_of};
 use crate::beams::Mesh;
-use crate::geometry::Curve;
+use crate::geometry::{Curve, Vec2};
 use crate::joints::{JointKind, Partner};
 use crate::model::{
     BeamDefinition, ModelError, ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity,
@@ -24,6 +24,7 @@ use crate::script::rows::parameter::{
 use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function, method, property};
 use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::format_number;
 
 /// The domain of scenes and what stands in them.
 pub const TABLE: Table = Table {
@@ -116,6 +117,11 @@ pub const TABLE: Table = Table {
         method(SCENE, "velocity", &[AT, point("velocity").unit("length/time"), SPIN], |call| {
             let (station, scene) = here(call, "station")?;
             let (velocity, spin) = (call.point("velocity")?, call.number_if_given("spin"));
+            let earlier = scene.borrow().velocities.iter().rev().find(|one| one.station == station).copied();
+            if let Some(earlier) = earlier.filter(|one| (one.velocity, one.spin) != (velocity, spin)) {
+                let at = scene.borrow().describe(&station);
+                tell_replaced(call, &format!("the velocity at {at}"), (earlier.velocity, velocity));
+            }
             scene.borrow_mut().velocities.push(StationVelocity { station, velocity, spin });
             Ok(Dynamic::UNIT)
         })
@@ -125,13 +131,26 @@ pub const TABLE: Table = Table {
         .see(&["beam"]),
         method(SCENE, "gravity", &[point("acceleration").unit("length/time²")], |call| {
             let gravity = call.point("acceleration")?;
-            call.receiver::<SceneHandle>()?.scene().borrow_mut().gravity = gravity;
+            let handle = call.receiver::<SceneHandle>()?;
+            let earlier = std::mem::replace(&mut handle.scene().borrow_mut().gravity, gravity);
+            if earlier != Vec2::zeros() && earlier != gravity {
+                let name = handle.scene().borrow().name.clone();
+                tell_replaced(call, &format!("the gravity of '{name}'"), (earlier, gravity));
+            }
             Ok(Dynamic::UNIT)
         })
         .summary("The acceleration of free fall; none unless given.")
+        .doc("A scene has one: another one takes its place, which is told.")
         .example("scene.gravity([0, -9.81]);"),
     ],
 };
+
+/// Says that a value takes the place of an earlier one, which a reader of the script may not expect.
+fn tell_replaced(call: &Call, what: &str, (earlier, now): (Vec2, Vec2)) {
+    let [earlier, now] = [earlier, now]
+        .map(|vector| format!("({}, {})", format_number(vector.x), format_number(vector.y)));
+    call.context().tell(&format!("note: {what} was {earlier} and is now {now}"));
+}
 
 /// The lines by which examples get a beam.
 pub(super) const ROD: &str = "let scene = new_scene(\"example\");\n\

@@ -145,9 +145,9 @@ pub const TABLE: Table = Table {
         method(SIMULATION, "spin", &[AT], |call| {
             let (handle, station) = (call.receiver::<SimulationHandle>()?, call.get::<StationHandle>("station")?);
             let place = station.on(&handle)?;
-            if station.station.beam().is_none() {
+            if !station.station.turns() {
                 let told = format!("{} does not turn: it has no spin", station.show());
-                return Err(call.error(told).hint("ask for the spin at a station of a beam"));
+                return Err(call.error(told).hint("ask for the spin at a station of a beam or a body"));
             }
             Ok(handle.simulation().model().spin(&place).into())
         })

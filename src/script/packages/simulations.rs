@@ -314,9 +314,9 @@ pub(super) fn followed(
     station: &StationHandle,
     angle: Option<f64>,
 ) -> Result<Dynamic, ScriptError> {
-    if station.station.beam().is_none() {
+    if !station.station.turns() {
         let told = format!("{} does not turn: it has no angle", station.show());
-        return Err(call.error(told).hint("ask for the angle at a station of a beam"));
+        return Err(call.error(told).hint("ask for the angle at a station of a beam or a body"));
     }
     angle.map(Dynamic::from).ok_or_else(|| {
         call.error(format!("the angle at {} was not followed", station.show()))

@@ -1,19 +1,22 @@
 //! Pages on which simulations move.
 
-use rhai::{Array, Dynamic};
+use rhai::Dynamic;
 
-use super::pictures::{FILE, MOVING, simulations, stations};
+use super::pictures::files::FILE;
+use super::pictures::subjects::{MOVING, simulations, stations};
+use super::recording::{Missing, tell_another_run};
 use super::simulations::SPINNING;
 use crate::beams::Station;
-use crate::output::viewer::Viewer;
-use crate::script::handles::simulation::SimulationHandle;
+use crate::output::viewer::{Field, Viewer};
+use crate::script::handles::simulation::{SimulationHandle, Visited};
 use crate::script::handles::station::StationHandle;
-use crate::script::looks::film::{FIELDS, Wishes, film};
+use crate::script::looks::film::{FIELDS, Inside, Wishes, film};
 use crate::script::looks::sight::column_hint;
 use crate::script::rows::call::Call;
 use crate::script::rows::options::Options;
 use crate::script::rows::parameter::{Parameter, Presence, array, number, options, text, whole};
 use crate::script::rows::table::{Table, function};
+use crate::script::state::settings::Mode;
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::format_number;
 use crate::script::words::suggest::nearest;
@@ -32,7 +35,9 @@ pub const TABLE: Table = Table {
                 "Given an array, simulations stand side by side with one time and one view; of more than four, two are shown until others are \
                  chosen. Frames are configurations that the simulation has recorded, none is made up between them; places are kept in 16 bits, \
                  which is far below a pixel until one zooms in some hundred times. Colours: speed, from the configurations before and after; \
-                 stretch, how much longer the axis is than as drawn; curvature, how much more it bends than as drawn. Keys are listed by `?` on \
+                 M, N, Q and strain_energy (per length), from the states themselves; \
+                 stretch, how much longer the axis is than as drawn; curvature, how much more it bends than as drawn. Where states are forgotten (option \
+                 `snapshots`), the run is made again for them in a copy, as by write_vtk; `fields: [\"speed\", \"stretch\", \"curvature\"]` does without. Keys are listed by `?` on \
                  the page.",
             )
             .example(
@@ -59,8 +64,17 @@ const VIEWER: &[Parameter] = &[
     array("columns")
         .doc("columns of the history; kinetic, strain, potential, energy and work unless given")
         .optional(),
-    array("fields").doc("what beams can be coloured by: \"speed\", \"stretch\", \"curvature\"; all unless given").optional(),
+    array("fields")
+        .doc("what beams can be coloured by: \"speed\", \"M\", \"strain_energy\", \"N\", \"Q\", \"stretch\", \"curvature\"; all but N and Q unless given")
+        .optional(),
 ];
+const MISSING: Missing = Missing {
+    what: "section forces and strain energy",
+    instead: "fields: [\"speed\", \"stretch\", \"curvature\"]",
+};
+
+/// What beams can be coloured by unless it is said.
+const USUAL_FIELDS: [&str; 5] = ["speed", "M", "strain_energy", "stretch", "curvature"];
 
 /// What is drawn below the motion unless columns are named.
 const LEDGER: [&str; 5] = ["kinetic", "strain", "potential", "energy", "work"];
@@ -87,22 +101,53 @@ fn write_viewer(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let mut films = Vec::new();
     for (index, (of, label)) in simulations.iter().zip(labels).enumerate() {
         call.proceed()?;
-        let simulation = of.simulation();
+        let span = span(call, of, &options)?;
+        let most = options.count("frames")?;
+        let frames = of.simulation().frames_between(span.0, span.1, most);
         let wishes = Wishes {
-            span: span(call, of, &options)?,
-            frames: options.count("frames")?,
+            span,
+            inside: inside(call, of, &frames, (&fields, options.has("fields")))?,
+            frames,
             label,
             trails: trails.as_ref().map(|trails| trails[index].as_slice()),
             columns: &columns(call, of, &options)?,
             fields: &fields,
         };
-        films.push(film(&simulation, &wishes)?);
+        films.push(film(&of.simulation(), wishes)?);
     }
     let title = options.text("title").map(|title| title.to_string());
     let title = title.unwrap_or_else(|_| simulations[0].name().to_owned());
     let page = Viewer { title, films }.to_html()?;
     call.context().write_file(&file, page.as_bytes())?;
     Ok(Dynamic::UNIT)
+}
+
+/// The fields that the states of a simulation tell: those that are kept, or those of the run made again. None where that is another run,
+/// which is told, or refused where the fields were asked for.
+fn inside(
+    call: &Call,
+    of: &SimulationHandle,
+    frames: &[usize],
+    (names, is_asked): (&[&str], bool),
+) -> Result<Vec<Field>, ScriptError> {
+    let taken = Inside::of(&of.simulation(), frames.len(), names)?;
+    let Some(mut taken) = taken.filter(|_| call.context().mode() != Mode::DryBuild) else {
+        return Ok(Vec::new());
+    };
+    let times = of.simulation().trajectory().times().to_vec();
+    let times: Vec<f64> = frames.iter().map(|&frame| times[frame]).collect();
+    let visited = of.visit(&times, call.context(), &mut |frame, state| {
+        call.proceed()?;
+        taken.take(frame, state);
+        Ok(())
+    })?;
+    match visited {
+        Visited::All => Ok(taken.fields()),
+        Visited::Another(time) => {
+            tell_another_run(call, of, time, (MISSING, is_asked))?;
+            Ok(Vec::new())
+        }
+    }
 }
 
 /// What the simulations are called.
@@ -183,20 +228,18 @@ fn columns(
 
 /// The names of the fields that are asked for.
 fn fields(call: &Call, options: &Options) -> Result<Vec<String>, ScriptError> {
-    let all = || FIELDS.map(|(name, _)| name.to_owned()).to_vec();
-    let given: Array = match options.array("fields") {
-        Ok(given) => given,
-        Err(_) => return Ok(all()),
+    let Ok(given) = options.array("fields") else {
+        return Ok(USUAL_FIELDS.map(str::to_owned).to_vec());
     };
     let field = |value: &Dynamic| {
         let name = value.clone().into_string().unwrap_or_default();
-        if FIELDS.iter().any(|(known, _)| *known == name) {
+        if FIELDS.contains(&name.as_str()) {
             return Ok(name);
         }
-        let meant = nearest(&name, FIELDS.iter().map(|(known, _)| *known));
+        let meant = nearest(&name, FIELDS.iter().copied());
         let suggestion = meant.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
         let told = format!("there is no field {}", call.show(value));
-        let hint = format!("{suggestion}fields: {}", all().join(", "));
+        let hint = format!("{suggestion}fields: {}", FIELDS.join(", "));
         Err(call.error(told).hint(hint).at(Place::Key("fields".into())))
     };
     given.iter().map(field).collect()

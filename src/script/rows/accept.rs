@@ -100,7 +100,7 @@ pub fn readable(owner: &str, name: &str) -> Result<String, ScriptError> {
 }
 
 /// A vector, or an array of two finite numbers.
-fn as_point(value: &Dynamic) -> Option<Vec2> {
+pub fn as_point(value: &Dynamic) -> Option<Vec2> {
     let point = match value.read_lock::<Vec2>() {
         Some(vector) => *vector,
         None => match value.read_lock::<Array>()?.as_slice() {

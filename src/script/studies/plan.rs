@@ -316,7 +316,9 @@ fn usual_stations(scene: &Scene) -> Vec<(String, Station)> {
     let particles = scene.particles.iter().enumerate();
     let particles =
         particles.map(|(index, particle)| (particle.name.clone(), Station::on_particle(index)));
-    ends.chain(particles).collect()
+    let bodies = scene.rigid_bodies.iter().enumerate();
+    let bodies = bodies.map(|(index, body)| (body.name.clone(), Station::on_rigid_body(index, 0)));
+    ends.chain(particles).chain(bodies).collect()
 }
 
 /// Refuses other scenes of a study without the stations of the first one; their columns are not looked for yet.

@@ -87,6 +87,10 @@ fn on_model(error: &ModelError) -> Option<String> {
             "add one with scene.beam(#{ axis: …, section: … }) or scene.particle([x, y], mass)"
         }
         ModelError::NoSection { .. } => "give a station of a beam",
+        ModelError::NoPoint { .. } => {
+            "name it in the points of scene.body(…); its centre is body.centre"
+        }
+        ModelError::PointAlone { .. } => "give velocity and spin to scene.body(#{ … })",
         ModelError::StationOutside { .. } => "use beam.end for its end",
         ModelError::ParticleTurned { by, .. } => match by {
             Turning::RigidJoint => "use scene.hinge(…), or scene.mass(…) on the beam",

@@ -22,12 +22,16 @@ impl Simulation {
         self.model.section_forces_along(&self.scene, beam)
     }
 
-    /// Places along a beam, found once, at which it is sampled.
+    /// Places along a beam, found once, at which it is sampled: its knots, and so many between each two of them.
     ///
     /// # Errors
     /// When an axis has a point without a tangent.
-    pub fn places_along(&self, beam: usize) -> Result<BeamPlaces, ModelError> {
-        self.model.places_along(&self.scene, beam)
+    pub fn places_along(
+        &self,
+        beam: usize,
+        within_a_span: usize,
+    ) -> Result<BeamPlaces, ModelError> {
+        self.model.places_along(&self.scene, beam, within_a_span)
     }
 
     /// What a beam does in the present configuration, from its start to its end.

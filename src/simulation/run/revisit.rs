@@ -4,6 +4,18 @@
 use super::Simulation;
 use crate::simulation::{Monitor, SimulationError};
 
+/// Pauses a run where it has come to a time.
+struct PauseAt<'m> {
+    time: f64,
+    monitor: &'m mut dyn Monitor,
+}
+
+impl Monitor for PauseAt<'_> {
+    fn goes_on(&mut self, time: f64) -> bool {
+        self.monitor.goes_on(time) && time < self.time
+    }
+}
+
 impl Simulation {
     /// Steps and times of the states that the simulation keeps without a gap up to the present, the present included.
     pub fn states_kept(&self) -> Vec<(usize, f64)> {
@@ -64,9 +76,18 @@ impl Simulation {
         row: usize,
         monitor: &mut dyn Monitor,
     ) -> Result<bool, SimulationError> {
-        let Some(wanted) = of.record.history.samples().get(row) else { return Ok(false) };
-        if wanted.measures.time > self.time() {
-            self.run_to(wanted.measures.time, monitor)?;
+        let rows = of.record.history.samples();
+        let Some(wanted) = rows.get(row) else { return Ok(false) };
+        let time = wanted.measures.time;
+        if time > self.time() {
+            // No step was to end where a slider arrived: the run goes on towards the next row, and pauses.
+            let is_arrival = |at: &f64| of.arrivals().iter().any(|arrival| arrival.time == *at);
+            let mut ends = rows[row..].iter().map(|row| row.measures.time);
+            let goal = ends.find(|end| !is_arrival(end)).unwrap_or(time);
+            match self.run_to(goal, &mut PauseAt { time, monitor }) {
+                Err(SimulationError::Interrupted { .. }) if self.time() == time => {}
+                ran => ran?,
+            }
         }
         Ok(self
             .record

@@ -4,7 +4,7 @@ use super::Simulation;
 use crate::beams::{Place, Station};
 use crate::geometry::Vec2;
 use crate::model::ModelError;
-use crate::simulation::{Configuration, Outline};
+use crate::simulation::{Arrival, ArrivalKind, Configuration, Outline};
 use crate::vibration::{Modes, VibrationError};
 
 impl Simulation {
@@ -68,6 +68,14 @@ impl Simulation {
         let bodies = self.control_points_at(index);
         let bodies: Vec<&[Vec2]> = bodies.iter().map(Vec::as_slice).collect();
         Ok(Some(Outline::draw(self.outlines()?, self.record.trajectory.times()[index], &bodies)))
+    }
+
+    /// When a slider left its master at an end, if it has [time].
+    pub fn release_of(&self, slider: usize) -> Option<f64> {
+        let is_release = |arrival: &&Arrival| {
+            arrival.limit.slider == slider && arrival.kind == ArrivalKind::Released
+        };
+        self.arrivals().iter().find(is_release).map(|arrival| arrival.time)
     }
 
     /// The points where stations are at present [length].

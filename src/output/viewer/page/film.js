@@ -36,6 +36,12 @@ class Film {
     return [x, y];
   }
 
+  /** Where a spring is attached: at places that move, and at points of the ground. */
+  way(spring, frame) { return spring.anchors.map((anchor) => (Array.isArray(anchor) ? this.at(anchor, frame) : [anchor.x, anchor.y])); }
+
+  /** Supports, joints and sliders: what has left its beam is none any more. */
+  held(frame) { return this.symbols.filter(({ until }) => until === null || this.times[frame] <= until); }
+
   /** The centre line of a beam. */
   line(beam, frame) { return beam.shape.line.map((place) => this.at(place, frame, beam.first)); }
 
@@ -63,6 +69,7 @@ class Film {
     const box = new Box();
     for (const beam of this.beams) for (const point of this.line(beam, frame)) box.add(point);
     for (const { at } of [...this.particles, ...this.symbols]) box.add(this.at(at, frame));
+    for (const spring of this.springs) for (const point of this.way(spring, frame)) box.add(point);
     return box;
   }
 

@@ -74,14 +74,16 @@ class Stage {
         sheet.line(film.path(at).slice(0, frame + 1).map(place), colour, 1.4);
       });
     }
+    if (switches.symbols) for (const spring of film.springs) drawSpring(sheet, spring, film.way(spring, frame).map(place), theme);
     film.beams.forEach((beam, index) => {
       const line = film.line(beam, frame).map(place);
       if (shading) this.drawShaded(line, film.along(film.fields[shading.field], beam, frame), shading, theme);
       else sheet.line(line, theme.hue(hues, index), 3);
-      if (switches.knots) beam.shape.marks.forEach((mark) => sheet.disc(line[mark], 2.6, theme.ink));
+      // On a coloured line they must not hide the colour.
+      if (switches.knots) beam.shape.marks.forEach((mark) => sheet.disc(line[mark], shading ? 1.4 : 2.6, shading ? theme.paper : theme.ink));
     });
     for (const { at } of film.particles) sheet.disc(place(film.at(at, frame)), 6, theme.ink, theme.paper);
-    if (switches.symbols) for (const symbol of film.symbols) drawSymbol(sheet, symbol, place(film.at(symbol.at, frame)), theme);
+    if (switches.symbols) for (const symbol of film.held(frame)) drawSymbol(sheet, symbol, place(film.at(symbol.at, frame)), theme);
     if (switches.loads) {
       film.arrows.forEach(({ kind, at }, index) => {
         const value = [film.loads.at(2 * index, frame), film.loads.at(2 * index + 1, frame)];
@@ -124,13 +126,13 @@ class Stage {
     for (let at = 1; at < line.length; at++) {
       const next = shade((values[at - 1] + values[at]) / 2);
       if (next !== colour && piece.length > 1) {
-        this.sheet.line(piece, colour, 4);
+        this.sheet.line(piece, colour, 6);
         piece = [line[at - 1]];
       }
       colour = next;
       piece.push(line[at]);
     }
-    this.sheet.line(piece, colour, 4);
+    this.sheet.line(piece, colour, 6);
   }
 }
 
@@ -156,6 +158,33 @@ function drawSymbol(sheet, { kind, angle }, at, theme) {
     slider() { sheet.shape(around(at, 0, [[-7, 0], [0, -7], [7, 0], [0, 7]]), theme.paper, theme.ink); },
   };
   draw[kind]();
+}
+
+/** A spring between its ends, in as many turns as fit; a piston in its cylinder; the way of a tendon; a spiral about a section. */
+function drawSpring(sheet, { kind, anchors }, way, theme) {
+  const [from, to] = [way[0], way[way.length - 1]];
+  const [length, angle] = [Math.hypot(to[0] - from[0], to[1] - from[1]), Math.atan2(from[1] - to[1], to[0] - from[0])];
+  const lines = (...all) => all.forEach((points) => sheet.line(around(from, angle, points), theme.ink, 1.4));
+  const draw = {
+    spring() {
+      const [lead, turns] = [Math.min(8, 0.15 * length), Math.min(Math.max(Math.round(length / 12), 3), 12)];
+      const teeth = Array.from({ length: 2 * turns }, (_, at) => [lead + ((at + 0.5) * (length - 2 * lead)) / (2 * turns), at % 2 === 0 ? 5 : -5]);
+      lines([[0, 0], [lead, 0], ...teeth, [length - lead, 0], [length, 0]]);
+    },
+    damper() {
+      const [middle, half] = [length / 2, Math.min(9, 0.2 * length)];
+      lines([[0, 0], [middle - half, 0]], [[middle + half, 5], [middle - half, 5], [middle - half, -5], [middle + half, -5]]);
+      lines([[middle, 4], [middle, -4]], [[middle, 0], [length, 0]]);
+    },
+    tendon() { sheet.line(way, theme.ink, 1.2); },
+    torsion() {
+      const at = way[anchors.findLastIndex(Array.isArray)] ?? to;
+      const turn = Array.from({ length: 49 }, (_, index) => [(5 * Math.PI * index) / 48, 3 + (10 * index) / 48]);
+      sheet.line(turn.flatMap(([angle, radius]) => around(at, angle, [[radius, 0]])), theme.ink, 1.2);
+    },
+  };
+  draw[kind]();
+  if (kind !== "torsion") anchors.forEach((anchor, index) => Array.isArray(anchor) || drawSymbol(sheet, { kind: "hinge", angle: 0 }, way[index], theme));
 }
 
 /** A load relative to the largest of its kind: an arrow that leaves its place, or one around it. */

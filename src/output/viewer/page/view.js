@@ -19,7 +19,7 @@ class View {
 
   /** Shows a box on a stage of a size, with paper around it for signs and numbers. */
   fit(box, { width, height }) {
-    const [wide, high] = [Math.max(width - 110, 40), Math.max(height - 90, 40)];
+    const [wide, high] = [Math.max(width - 130, 40), Math.max(height - 130, 40)];
     const largest = Math.max(box.right - box.left, box.top - box.bottom);
     this.centre = Number.isFinite(largest) ? box.centre : [0, 0];
     this.scale = largest > 0 ? Math.min(wide / (box.right - box.left || largest * 1e-6), high / (box.top - box.bottom || largest * 1e-6)) : 100;

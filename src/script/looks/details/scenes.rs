@@ -14,6 +14,7 @@ pub fn of_scene(scene: &Scene) -> Details {
     let kinds = [
         ("beams (length)", listed(scene.beams.iter().map(beam))),
         ("particles", listed(scene.particles.iter().map(|particle| particle.name.clone()))),
+        ("bodies", listed(scene.rigid_bodies.iter().map(|body| body.name.clone()))),
         ("joints", listed(scene.joints.iter().map(|joint| joint.name.clone()))),
         ("sliders", listed(scene.sliders.iter().map(|slider| slider.name.clone()))),
         ("loads", listed(loads.into_iter())),
@@ -26,11 +27,15 @@ pub fn of_scene(scene: &Scene) -> Details {
     }
     let is_moving = |beam: &&BeamDefinition| beam.starts_in_motion();
     let moving = (scene.beams.iter().filter(is_moving).count(), scene.velocities.len());
+    let bodies = scene.rigid_bodies.iter().filter(|body| body.starts_in_motion()).count();
     details.push(line(
         "at the start",
-        match moving {
-            (0, 0) => "at rest".to_owned(),
-            (beams, nodes) => format!("beams that move: {beams}, single nodes: {nodes}"),
+        match (moving, bodies) {
+            ((0, 0), 0) => "at rest".to_owned(),
+            ((beams, nodes), 0) => format!("beams that move: {beams}, single nodes: {nodes}"),
+            ((beams, nodes), bodies) => {
+                format!("beams that move: {beams}, bodies: {bodies}, single nodes: {nodes}")
+            }
         },
     ));
     details
@@ -59,6 +64,26 @@ pub fn of_beam(scene: &Scene, index: usize) -> Details {
     lines.into_iter().flatten().collect()
 }
 
+/// The details of a rigid body: where it is as drawn, its inertia, and its points in its own frame.
+pub fn of_rigid_body(scene: &Scene, index: usize) -> Details {
+    let body = &scene.rigid_bodies[index];
+    let centre = Station::on_rigid_body(index, 0);
+    let own = scene.masses().find(|mass| mass.station == centre);
+    let (mass, inertia) = own.map_or((0.0, 0.0), |own| (own.mass, own.rotary_inertia));
+    let points = body.points.iter().map(|(name, at)| format!("{name} {}", pair(*at)));
+    let moving =
+        format!("velocity {}, spin {}", pair(body.motion.velocity), number(body.motion.spin));
+    let lines = [
+        Some(line("centre", pair(body.position))),
+        Some(line("angle", number(body.angle))),
+        Some(line("mass", number(mass))),
+        Some(line("inertia", number(inertia))),
+        (!body.points.is_empty()).then(|| line("points", listed(points))),
+        body.starts_in_motion().then(|| line("at the start", moving)),
+    ];
+    lines.into_iter().flatten().collect()
+}
+
 /// The details of a station: where it is as drawn.
 pub fn of_station(scene: &Scene, station: &Station) -> Details {
     let along = match station.body {
@@ -68,7 +93,7 @@ pub fn of_station(scene: &Scene, station: &Station) -> Details {
             let s = number(station.arc_length);
             Some(line("arc length", format!("{s} of {}, {part} of it", number(length))))
         }
-        BodyIndex::Particle(_) => None,
+        BodyIndex::Particle(_) | BodyIndex::Rigid(..) => None,
     };
     let at = scene.drawn_at(station).ok().map(|at| line("drawn at", pair(at)));
     along.into_iter().chain(at).collect()

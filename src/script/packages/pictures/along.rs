@@ -2,16 +2,16 @@
 
 use rhai::{Array, Dynamic};
 
-use super::chart_options::{X_LIMITS, Y_LIMITS, limits};
-use super::equilibria::{EQUILIBRIUM, EquilibriumHandle};
-use super::pictures::write_picture;
-use super::simulations::{SIMULATION, SPINNING};
+use super::files::{FILE, write_picture};
+use super::options::{X_LIMITS, Y_LIMITS, limits};
 use crate::output::Page;
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::looks::along::Inside;
 use crate::script::looks::quantities::{NAMES, Quantity};
+use crate::script::packages::equilibria::{EQUILIBRIUM, EquilibriumHandle};
+use crate::script::packages::simulations::{SIMULATION, SPINNING};
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Kind;
 use crate::script::rows::options::Options;
@@ -54,11 +54,10 @@ const OF: Parameter = either("of", &[Kind::Object(SIMULATION), Kind::Object(EQUI
 const QUANTITIES: Parameter = either("quantity", &[Kind::Choice(NAMES), Kind::Array])
     .doc("the name of a quantity, or an array of names");
 const QUANTITY: Parameter = choice("quantity", NAMES);
-const FILE: Parameter = text("file").doc("its name in the output folder");
 const BEAMS: Parameter = array("beams").doc("those that are drawn, all unless given").optional();
 const TITLE: Parameter = text("title").doc("the name of the simulation unless given").optional();
 const SYMBOLS: Parameter = boolean("symbols")
-    .doc("whether supports, joints, sliders and loads are drawn; they are unless given")
+    .doc("whether supports, joints, sliders, springs and loads are drawn; they are unless given")
     .optional();
 const ALONG: &[Parameter] = &[TITLE, BEAMS, SYMBOLS];
 const FIELD: &[Parameter] = &[TITLE, BEAMS, SYMBOLS, X_LIMITS, Y_LIMITS];
@@ -81,7 +80,9 @@ fn plot_field(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options_or_defaults("options")?;
     let name = call.text("quantity")?;
     let inside = inside(call, &options)?;
-    let picture = inside.field(quantity(call, &name)?).limits(limits(call, &options)?);
+    let picture = inside
+        .field(quantity(call, &name)?)
+        .limits(limits(&options).map_err(|wrong| wrong.in_call(call))?);
     write_picture(call, &picture)
 }
 
@@ -113,7 +114,7 @@ fn inside(call: &Call, options: &Options) -> Result<Inside, ScriptError> {
         Some(handle) => {
             let rest = handle.rest();
             let beams = beams(call, options, handle.scene(), rest.scene().beams.len())?;
-            Inside::of_model(rest.scene(), rest.model(), 0.0, &beams)?
+            Inside::of_equilibrium(&rest, &beams)?
         }
         None => {
             let handle = call.get::<SimulationHandle>("of")?;

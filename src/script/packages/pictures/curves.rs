@@ -2,14 +2,14 @@
 
 use rhai::Dynamic;
 
-use super::chart_options::{
+use super::files::{FILE, write_picture};
+use super::options::{
     LABELS, MARKERS, TITLE, X_LABEL, X_LIMITS, X_LOG, Y_LABEL, Y_LIMITS, Y_LOG, curves, dressed,
     labels, marked,
 };
-use super::pictures::write_picture;
 use crate::output::{LineChart, Series};
 use crate::script::rows::call::Call;
-use crate::script::rows::parameter::{Parameter, array, options, text};
+use crate::script::rows::parameter::{Parameter, array, options};
 use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
 
@@ -47,7 +47,6 @@ const RESTING: &str = "let scene = new_scene(\"example\");\n\
 
 const X: Parameter = array("x").doc("numbers, or an array of numbers for each curve");
 const Y: Parameter = array("y").doc("as many numbers, or an array of numbers for each curve");
-const FILE: Parameter = text("file").doc("its name in the output folder");
 const OPTIONS: &[Parameter] =
     &[TITLE, X_LABEL, Y_LABEL, X_LOG, Y_LOG, X_LIMITS, Y_LIMITS, MARKERS, LABELS];
 

@@ -9,50 +9,66 @@ use crate::script::rows::parameter::{Parameter, array, boolean, choice, numbers,
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::{as_number, format_number};
 
-pub(super) const TITLE: Parameter = text("title").doc("what stands above it").optional();
-pub(super) const X_LABEL: Parameter = text("x_label").doc("of the horizontal axis").optional();
-pub(super) const Y_LABEL: Parameter = text("y_label").doc("of the vertical axis").optional();
-pub(super) const X_LOG: Parameter =
+pub const TITLE: Parameter = text("title").doc("what stands above it").optional();
+pub const X_LABEL: Parameter = text("x_label").doc("of the horizontal axis").optional();
+pub const Y_LABEL: Parameter = text("y_label").doc("of the vertical axis").optional();
+pub const X_LOG: Parameter =
     boolean("x_log").doc("whether the horizontal axis is logarithmic").optional();
-pub(super) const Y_LOG: Parameter =
+pub const Y_LOG: Parameter =
     boolean("y_log").doc("whether the vertical axis is logarithmic").optional();
-pub(super) const X_LIMITS: Parameter =
+pub const X_LIMITS: Parameter =
     numbers("x_limits").doc("[low, high]: the ends of the horizontal axis").optional();
-pub(super) const Y_LIMITS: Parameter =
+pub const Y_LIMITS: Parameter =
     numbers("y_limits").doc("[low, high]: the ends of the vertical axis").optional();
-pub(super) const MARKERS: Parameter = choice("markers", &["on_lines", "alone"])
+pub const MARKERS: Parameter = choice("markers", &["on_lines", "alone"])
     .doc("a mark at every point, on the lines or without them; none unless given")
     .optional();
-pub(super) const LABELS: Parameter =
+pub const LABELS: Parameter =
     array("labels").doc("the name of each curve, a text or a number, for the legend").optional();
 
 /// Digits of a number that is a label.
 const DIGITS: usize = 6;
 
+/// What is wrong with an option: a call says where it stands, the prompt of which command it is.
+pub struct Wrong {
+    key: String,
+    told: String,
+    hint: &'static str,
+}
+
+impl Wrong {
+    /// As an error of a call.
+    pub fn in_call(self, call: &Call) -> ScriptError {
+        call.error(self.told).hint(self.hint).at(Place::Key(self.key))
+    }
+
+    /// As an error of a command.
+    pub fn in_command(self, command: &str) -> ScriptError {
+        ScriptError::new(format!("{command}: {}", self.told)).hint(self.hint)
+    }
+}
+
 /// The ends of axes.
-pub(super) fn limits(call: &Call, options: &Options) -> Result<Limits, ScriptError> {
+pub fn limits(options: &Options) -> Result<Limits, Wrong> {
     let ends = |name: &str| match options.numbers(name).ok().as_deref() {
         None => Ok(None),
         Some([low, high]) if low < high => Ok(Some((*low, *high))),
         Some(other) => {
             let got: Vec<String> = other.iter().map(|end| format_number(*end)).collect();
             let told = format!("'{name}' must be [low, high], got [{}]", got.join(", "));
-            Err(call
-                .error(told)
-                .hint("two numbers, the smaller one first")
-                .at(Place::Key(name.to_owned())))
+            Err(Wrong { key: name.to_owned(), told, hint: "two numbers, the smaller one first" })
         }
     };
     Ok(Limits { x: ends("x_limits")?, y: ends("y_limits")? })
 }
 
 /// The chart with the labels, scales and limits of its options; what is not given stays as it is.
-pub(super) fn dressed(
+pub fn dressed(
     call: &Call,
     options: &Options,
     mut chart: LineChart,
 ) -> Result<LineChart, ScriptError> {
-    let limits = limits(call, options)?;
+    let limits = limits(options).map_err(|wrong| wrong.in_call(call))?;
     let is_asked = |name: &str| options.boolean(name).unwrap_or(false);
     for (axis, ends) in [("x", limits.x), ("y", limits.y)] {
         if let Some((low, _)) = ends.filter(|(low, _)| *low <= 0.0)
@@ -82,7 +98,7 @@ pub(super) fn dressed(
 }
 
 /// A curve with the marks of its options.
-pub(super) fn marked(options: &Options, index: usize, series: Series) -> Series {
+pub fn marked(options: &Options, index: usize, series: Series) -> Series {
     match options.text("markers").as_deref() {
         Ok("alone") => series.stroke(Stroke::Unjoined).marker(Marker::of_index(index)),
         Ok(_) => series.stroke(Stroke::Marked).marker(Marker::of_index(index)),
@@ -91,7 +107,7 @@ pub(super) fn marked(options: &Options, index: usize, series: Series) -> Series 
 }
 
 /// The names of so many curves, where they are given.
-pub(super) fn labels(
+pub fn labels(
     call: &Call,
     options: &Options,
     count: usize,
@@ -113,7 +129,7 @@ pub(super) fn labels(
 }
 
 /// Arrays of numbers: one, or an array of them. What is not finite is a gap.
-pub(super) fn curves(call: &Call, name: &str, at: usize) -> Result<Vec<Vec<f64>>, ScriptError> {
+pub fn curves(call: &Call, name: &str, at: usize) -> Result<Vec<Vec<f64>>, ScriptError> {
     let given = call.array(name)?;
     let is_many = !given.is_empty() && given.iter().all(Dynamic::is_array);
     let read = |array: &Array| -> Result<Vec<f64>, ScriptError> {

@@ -2,13 +2,14 @@
 
 use rhai::{Dynamic, Map};
 
-use super::chart_options::{X_LIMITS, Y_LIMITS};
-use super::pictures::{simulations, stations, write_picture};
-use super::recording::expect_near;
+use super::files::write_picture;
+use super::options::{X_LIMITS, Y_LIMITS, limits};
+use super::subjects::{simulations, stations};
 use crate::output::{Limits, MotionPicture, Style};
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::looks::motion::{Motion, Shown, Times, Wanted};
+use crate::script::packages::recording::expect_near;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Scripted;
 use crate::script::rows::options::Options;
@@ -33,17 +34,20 @@ pub const MOTION: &[Parameter] = &[
         .doc("whether knots or nodes are marked; unless given, up to 40 spans in all")
         .optional(),
     boolean("symbols")
-        .doc("whether supports, joints, sliders and loads are drawn; they are unless given")
+        .doc(
+            "whether supports, joints, sliders, springs and loads are drawn; they are unless given",
+        )
         .optional(),
     X_LIMITS,
     Y_LIMITS,
     text("title").doc("the name of the simulation unless given").optional(),
 ];
 
-pub(super) fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
+/// Draws a motion, or several side by side.
+pub fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let simulations = simulations(call)?;
     let options = call.options_or_defaults("options")?;
-    let limits = super::chart_options::limits(call, &options)?;
+    let limits = limits(&options).map_err(|wrong| wrong.in_call(call))?;
     let picture = |of: &SimulationHandle| {
         call.proceed()?;
         let traced = options.array("trace").unwrap_or_default();
@@ -79,22 +83,14 @@ pub fn motion_text(
     style: &Style,
 ) -> Result<String, ScriptError> {
     let options = Options::read(engine, ":show", MOTION, map)?;
-    let wrong = |told: &str, hint: &str| ScriptError::new(format!(":show: {told}")).hint(hint);
     let traced = options.array("trace").unwrap_or_default();
     let traced: Option<Vec<StationHandle>> =
         traced.iter().map(|value| value.clone().try_cast()).collect();
     let traced = traced.ok_or_else(|| {
-        wrong("'trace' must be an array of stations", "for example #{ trace: [rod.end] }")
+        ScriptError::new(":show: 'trace' must be an array of stations")
+            .hint("for example #{ trace: [rod.end] }")
     })?;
-    let ends = |name: &str| match options.numbers(name).ok().as_deref() {
-        None => Ok(None),
-        Some([low, high]) if low < high => Ok(Some((*low, *high))),
-        Some(_) => {
-            let told = format!("'{name}' must be [low, high]");
-            Err(wrong(&told, "two numbers, the smaller one first"))
-        }
-    };
-    let limits = Limits { x: ends("x_limits")?, y: ends("y_limits")? };
+    let limits = limits(&options).map_err(|wrong| wrong.in_command(":show"))?;
     let mut wanted = wanted(of, &options, &traced, limits)?;
     if !options.has("every") && !options.has("from") {
         wanted.times.from = wanted.times.to.min(of.time());

@@ -2,14 +2,15 @@
 
 use rhai::Dynamic;
 
-use super::equilibria::{BENT, EQUILIBRIUM, EquilibriumHandle};
-use super::modes::{MODES, ModesHandle};
-use super::pictures::{plain, stations, write_csv, write_picture};
-use super::scenes::STATION;
+use super::files::{FILE, write_csv, write_picture};
+use super::subjects::{plain, stations};
 use crate::geometry::Vec2;
 use crate::output::{CsvTable, LineChart, MotionPicture, Page, Series, Snapshot, significant};
 use crate::script::handles::station::StationHandle;
 use crate::script::looks::motion::snapshot;
+use crate::script::packages::equilibria::{BENT, EQUILIBRIUM, EquilibriumHandle};
+use crate::script::packages::modes::{MODES, ModesHandle};
+use crate::script::packages::scenes::STATION;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Scripted;
 use crate::script::rows::parameter::{
@@ -48,7 +49,6 @@ pub const TABLE: Table = Table {
 };
 
 const REST: Parameter = object("equilibrium", EQUILIBRIUM);
-const FILE: Parameter = text("file").doc("its name in the output folder");
 const STATIONS: Parameter = array("stations").doc("stations, such as [rod.end]");
 const SHAPES: &[Parameter] = &[
     whole("shapes").positive().or(Presence::Whole(20)).doc("at most so many configurations"),

@@ -1,0 +1,57 @@
+//! A rigid body of a scene that a script holds.
+
+use super::scene::SceneHandle;
+use super::station::StationHandle;
+use crate::beams::Station;
+use crate::script::looks::details;
+use crate::script::rows::kind::{Details, Scripted};
+use crate::script::words::error::ScriptError;
+
+/// A handle on a rigid body of a scene.
+#[derive(Clone)]
+pub struct RigidBodyHandle {
+    /// The scene that the body is in.
+    pub scene: SceneHandle,
+    /// The index of the body among the rigid ones of its scene, from 0.
+    pub index: usize,
+}
+
+impl RigidBodyHandle {
+    /// The name of the body.
+    pub fn name(&self) -> String {
+        self.scene.scene().borrow().rigid_bodies[self.index].name.clone()
+    }
+
+    /// The station at the centre of mass of the body.
+    pub fn centre(&self) -> StationHandle {
+        StationHandle { scene: self.scene.clone(), station: Station::on_rigid_body(self.index, 0) }
+    }
+
+    /// The station at a point of the body, by its name.
+    ///
+    /// # Errors
+    /// When the body has no such point.
+    pub fn point(&self, name: &str) -> Result<StationHandle, ScriptError> {
+        let station = self.scene.scene().borrow().point_of_body(self.index, name)?;
+        Ok(StationHandle { scene: self.scene.clone(), station })
+    }
+}
+
+impl Scripted for RigidBodyHandle {
+    const NAME: &'static str = "body";
+    const DOC: &'static str = "A rigid body of a scene.";
+
+    fn show(&self) -> String {
+        let scene = self.scene.scene().borrow();
+        let body = &scene.rigid_bodies[self.index];
+        let points = body.points.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>();
+        match points.is_empty() {
+            true => format!("body '{}'", body.name),
+            false => format!("body '{}' with points {}", body.name, points.join(", ")),
+        }
+    }
+
+    fn details(&self) -> Details {
+        details::of_rigid_body(&self.scene.scene().borrow(), self.index)
+    }
+}

@@ -1,0 +1,102 @@
+//! Columns of histories over time, and how far invariants drift.
+
+use rhai::Dynamic;
+
+use super::files::write_picture;
+use super::options::{
+    MARKERS, X_LABEL, X_LIMITS, X_LOG, Y_LABEL, Y_LIMITS, Y_LOG, dressed, marked,
+};
+use super::subjects::histories_over_time;
+use crate::output::{LineChart, Page, Scale};
+use crate::script::handles::history::HistoryHandle;
+use crate::script::looks::sight::{drift_lines, line_chart};
+use crate::script::packages::recording::expect_all_rows;
+use crate::script::rows::call::Call;
+use crate::script::rows::parameter::{Parameter, Presence, array, boolean, choice, text};
+use crate::script::words::error::{Place, ScriptError};
+use crate::simulation::History;
+
+/// What is drawn.
+pub const COLUMNS: Parameter = array("columns").doc("names of columns of the history");
+/// How.
+pub const HISTORY_OPTIONS: &[Parameter] = &[
+    text("title").doc("the name of the simulation unless given").optional(),
+    choice("axes", &["own", "shared"])
+        .or(Presence::Text("own"))
+        .doc("of several simulations: each has its own, side by side, or all share them"),
+    boolean("logarithmic").doc("whether magnitudes are drawn on a logarithmic axis").optional(),
+    boolean("average")
+        .doc("whether each value is drawn as its mean with the one before, as `averaged` gives it")
+        .optional(),
+    X_LABEL,
+    Y_LABEL,
+    X_LOG,
+    Y_LOG,
+    X_LIMITS,
+    Y_LIMITS,
+    MARKERS,
+];
+
+/// A chart for each history, side by side where there are several.
+fn write_charts(call: &Call, charts: Vec<LineChart>) -> Result<Dynamic, ScriptError> {
+    let mut charts = charts;
+    match charts.len() {
+        1 => write_picture(call, &charts.remove(0)),
+        _ => write_picture(call, &charts.into_iter().fold(Page::row(), Page::panel)),
+    }
+}
+
+pub fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let options = call.options_or_defaults("options")?;
+    let is_asked = |name: &str| options.boolean(name).unwrap_or(false);
+    let (scale, shown): (_, fn(f64) -> f64) = match is_asked("logarithmic") {
+        true => (Scale::Logarithmic, f64::abs),
+        false => (Scale::Linear, |value| value),
+    };
+    let read = if is_asked("average") { History::averaged } else { History::column };
+    let histories = histories_over_time(call)?;
+    if is_asked("average") {
+        let whose = histories.iter().map(|history| &history.of);
+        whose.into_iter().try_for_each(|of| expect_all_rows(call, of, "`average`"))?;
+    }
+    let names = columns(call, &histories)?;
+    let title = options.text_if_given("title")?;
+    let values = |history: &History, name: &str| {
+        read(history, name).map(|values| values.into_iter().map(shown).collect())
+    };
+    let chart = |of: &HistoryHandle| {
+        let title = title.clone().unwrap_or_else(|| of.of.name().to_owned());
+        of.read(|history| line_chart(title, history, &names, values))
+    };
+    let mut charts: Vec<LineChart> = histories.iter().map(chart).collect();
+    if options.text("axes")? == "shared" && charts.len() > 1 {
+        let title = options.text_if_given("title")?.unwrap_or_default();
+        let named: Vec<String> = histories.iter().map(|of| of.of.name().to_owned()).collect();
+        charts = vec![LineChart::shared(title, named.into_iter().zip(charts))];
+    }
+    let dress = |chart: LineChart| {
+        let chart = chart.y_scale(scale).each(|at, series| marked(&options, at, series));
+        dressed(call, &options, chart)
+    };
+    write_charts(call, charts.into_iter().map(dress).collect::<Result<_, _>>()?)
+}
+
+/// The names of the columns asked for, which all of the histories have.
+fn columns(call: &Call, histories: &[HistoryHandle]) -> Result<Vec<String>, ScriptError> {
+    let columns = call.array("columns")?;
+    for (history, name) in histories.iter().flat_map(|of| columns.iter().map(move |n| (of, n))) {
+        history.expect_column(call, name, 1)?;
+    }
+    match (columns.as_slice(), histories) {
+        ([], [first, ..]) => {
+            let hint = format!("columns: {}", first.column_names());
+            Err(call.error("no column is named").hint(hint).at(Place::Argument(1)))
+        }
+        _ => Ok(columns.iter().map(Dynamic::to_string).collect()),
+    }
+}
+
+pub fn plot_drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let chart = |of: &HistoryHandle| of.read(|history| drift_lines(of.of.name(), history));
+    write_charts(call, histories_over_time(call)?.iter().map(chart).collect())
+}

@@ -1,0 +1,90 @@
+//! What pictures and files are of: simulations, histories, stations.
+
+use rhai::{Array, Dynamic};
+
+use crate::geometry::Vec2;
+use crate::script::handles::history::HistoryHandle;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::handles::station::StationHandle;
+use crate::script::packages::histories::HISTORY;
+use crate::script::packages::recording::expect_rows_between;
+use crate::script::packages::simulations::SIMULATION;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Kind, Scripted};
+use crate::script::rows::parameter::{Parameter, either};
+use crate::script::words::error::{Place, ScriptError};
+
+/// What moves.
+pub const MOVING: Parameter =
+    either("of", &[Kind::Object(SIMULATION), Kind::Array]).doc("a simulation, or an array of them");
+/// What has rows over time.
+pub const RECORDED: Parameter =
+    either("of", &[Kind::Object(SIMULATION), Kind::Object(HISTORY), Kind::Array])
+        .doc("a simulation or history, or an array of them");
+
+/// Most simulations in one picture.
+const MOST_SIDE_BY_SIDE: usize = 100;
+
+fn things<T: Scripted>(
+    call: &Call,
+    convert: fn(&Dynamic) -> Option<T>,
+) -> Result<Vec<T>, ScriptError> {
+    let of = call.value("of")?;
+    let values = of.read_lock::<Array>().map_or_else(|| vec![of.clone()], |array| array.clone());
+    if values.len() > MOST_SIDE_BY_SIDE {
+        let told = format!(
+            "{} pictures side by side are too many: {MOST_SIDE_BY_SIDE} at most",
+            values.len()
+        );
+        return Err(call.error(told).hint("draw some of them").at(Place::Argument(0)));
+    }
+    let things: Option<Vec<T>> = values.iter().map(convert).collect();
+    things.filter(|things| !things.is_empty()).ok_or_else(|| {
+        call.error("the array must hold simulations, at least one")
+            .hint("for example [first, second]")
+            .at(Place::Argument(0))
+    })
+}
+
+/// The simulations given.
+pub fn simulations(call: &Call) -> Result<Vec<SimulationHandle>, ScriptError> {
+    things(call, as_simulation)
+}
+
+/// The histories given, none of them empty.
+pub fn histories(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
+    let histories = things(call, as_history)?;
+    match histories.iter().find(|of| of.read(|rows| rows.samples().is_empty())) {
+        Some(empty) => Err(empty.no_rows(call)),
+        None => Ok(histories),
+    }
+}
+
+/// The histories given, with rows between their ends.
+pub fn histories_over_time(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
+    let histories = histories(call)?;
+    histories.iter().try_for_each(|history| expect_rows_between(call, &history.of))?;
+    Ok(histories)
+}
+
+fn as_simulation(value: &Dynamic) -> Option<SimulationHandle> {
+    value.clone().try_cast()
+}
+
+fn as_history(value: &Dynamic) -> Option<HistoryHandle> {
+    let whole = |of| HistoryHandle { of, from: f64::NEG_INFINITY, to: f64::INFINITY };
+    value.clone().try_cast::<HistoryHandle>().or_else(|| as_simulation(value).map(whole))
+}
+
+/// A point in plain numbers, as it is drawn.
+pub fn plain(point: &Vec2) -> (f64, f64) {
+    (point.x, point.y)
+}
+
+/// The stations in an array that stands at a place of the call.
+pub fn stations(call: &Call, array: &Array, at: Place) -> Result<Vec<StationHandle>, ScriptError> {
+    let stations = array.iter().map(|value| value.clone().try_cast::<StationHandle>());
+    stations.collect::<Option<_>>().ok_or_else(|| {
+        call.error("the array must hold stations").hint("for example [rod.end]").at(at)
+    })
+}

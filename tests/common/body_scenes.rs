@@ -1,0 +1,168 @@
+//! Scenes with rigid bodies whose points levers hold.
+
+use std::f64::consts::FRAC_PI_3;
+
+use super::at;
+use super::scenes::{add_beam, end_of, line, spaghetti_section, spring, start_of};
+use withy::beams::{Mesh, Section, Station};
+use withy::geometry::Vec2;
+use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
+use withy::loads::{Frame, LoadKind, Schedule};
+use withy::model::{
+    Anchor, PointMass, RestoringLaw, RigidBodyDefinition, Scene, SpringKind, StartMotion,
+};
+
+/// A rigid body with some points, called a, b, c, …, at rest.
+pub fn add_body(
+    scene: &mut Scene,
+    position: Vec2,
+    angle: f64,
+    (mass, inertia): (f64, f64),
+    points: &[Vec2],
+) -> usize {
+    let name = scene.free_name("body");
+    let names = ('a'..).map(String::from);
+    let points = names.zip(points.iter().copied()).collect();
+    let motion = StartMotion::default();
+    let body = RigidBodyDefinition { name, position, angle, points, motion };
+    scene.add_rigid_body(body, mass, inertia).unwrap()
+}
+
+/// The station of a rigid body at its point of that number, or at its centre.
+pub fn point(body: usize, number: usize) -> Station {
+    Station::on_rigid_body(body, number)
+}
+
+pub fn hinge(scene: &mut Scene, station: Station, other: Option<Station>) {
+    let partner = other.map_or(Partner::Ground, Partner::Station);
+    scene.join(JointKind::Hinge, station, partner).unwrap();
+}
+
+fn soft() -> Section {
+    Section { bending_stiffness: 30.0, rotary_inertia: 0.3, ..spaghetti_section(2e3, 30.0) }
+}
+
+/// A rigid body on a hinge: its centre of mass `arm` from there, hanging and turned by an angle, with a second point beyond it.
+pub fn pendulum(inertia: f64, arm: f64, angle: f64) -> Scene {
+    let mut scene = Scene::new("rigid pendulum");
+    let direction = at(angle.sin(), -angle.cos());
+    let points = [at(0.0, arm), at(0.1, -0.5 * arm)];
+    let body = add_body(&mut scene, direction * arm, angle, (1.0, inertia), &points);
+    hinge(&mut scene, point(body, 1), None);
+    scene.gravity = at(0.0, -9.81);
+    scene
+}
+
+/// Two rigid bodies, one hanging on the other beside its axis, pushed by a force on a point and one that turns with the body.
+pub fn double_pendulum() -> Scene {
+    let mut scene = Scene::new("rigid double pendulum");
+    let one = add_body(&mut scene, at(0.5, 0.0), 0.0, (1.0, 0.1), &[at(-0.5, 0.0), at(0.5, 0.1)]);
+    // Its frame is turned by 60°.
+    let place = at(1.0, 0.1) - at(FRAC_PI_3.cos(), FRAC_PI_3.sin()) * 0.6;
+    let points = [at(0.6, 0.0), at(0.6, -0.2)];
+    let other = add_body(&mut scene, place, FRAC_PI_3, (2.0, 0.2), &points);
+    hinge(&mut scene, point(one, 1), None);
+    hinge(&mut scene, point(one, 2), Some(point(other, 1)));
+    scene.gravity = at(0.0, -9.81);
+    let hold = Schedule::hold_for(1.3).unwrap();
+    let station = point(other, 2);
+    let dead = LoadKind::Force { station, force: at(2.0, 1.0), frame: Frame::Dead };
+    scene.add_load(dead, hold.clone());
+    let follower = LoadKind::Force { station, force: at(0.0, -3.0), frame: Frame::Follower };
+    scene.add_load(follower, hold.clone());
+    scene.add_load(LoadKind::Moment { station: point(one, 2), moment: 0.7 }, hold);
+    scene
+}
+
+/// A flying beam with rigid bodies at both ends, one on a hinge and one joined rigidly beside its centre, with a mass, a spring between points and one that turns.
+pub fn dumbbell(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("flying dumbbell");
+    let beam = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 0.0)), mesh, soft());
+    let hung =
+        add_body(&mut scene, at(-0.4, -0.3), 0.0, (0.8, 0.1), &[at(0.4, 0.3), at(-0.2, 0.5)]);
+    let fixed =
+        add_body(&mut scene, at(3.5, 0.2), 0.0, (1.2, 0.2), &[at(-0.5, -0.2), at(0.2, 0.6)]);
+    let (start, end) = (start_of(&mut scene, beam), end_of(&mut scene, beam));
+    hinge(&mut scene, start, Some(point(hung, 1)));
+    scene.join(JointKind::Rigid, point(fixed, 1), Partner::Station(end)).unwrap();
+    let mass = PointMass { station: point(hung, 2), mass: 0.3, rotary_inertia: 0.05 };
+    scene.add_mass(mass).unwrap();
+    let ends = [point(hung, 2), point(fixed, 2)].map(Anchor::Station);
+    let stretch = RestoringLaw::Linear { stiffness: 4.0, natural: 3.0 };
+    spring(&mut scene, SpringKind::Way(ends.to_vec()), stretch, 0.0);
+    let turn = [Anchor::Station(start), Anchor::Station(point(hung, 0))];
+    let twist = RestoringLaw::Linear { stiffness: 2.0, natural: 0.3 };
+    spring(&mut scene, SpringKind::Torsion(turn), twist, 0.0);
+    let motion = StartMotion { velocity: at(0.5, 1.0), spin: 0.9, about: Some(at(1.0, 0.0)) };
+    scene.beams[beam].motion = motion;
+    scene.rigid_bodies.iter_mut().for_each(|body| body.motion = motion);
+    scene
+}
+
+/// A crank without mass, driven by a moment, a flexible coupler and a rocker without inertia: a four-bar linkage.
+pub fn crank_rocker(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("crank and rocker");
+    let crank = add_body(&mut scene, at(0.0, 0.0), 0.0, (0.0, 0.3), &[at(0.0, 0.5)]);
+    let coupler = add_beam(&mut scene, line(at(0.0, 0.5), at(2.0, 1.5)), mesh, soft());
+    let rocker =
+        add_body(&mut scene, at(2.0, 0.9), 0.0, (0.9, 0.0), &[at(0.0, 0.6), at(0.0, -0.9)]);
+    let (start, end) = (start_of(&mut scene, coupler), end_of(&mut scene, coupler));
+    hinge(&mut scene, point(crank, 0), None);
+    hinge(&mut scene, point(crank, 1), Some(start));
+    hinge(&mut scene, end, Some(point(rocker, 1)));
+    hinge(&mut scene, point(rocker, 2), None);
+    let station = point(crank, 0);
+    let drive = Schedule::hold_for(1.0).unwrap();
+    scene.add_load(LoadKind::Moment { station, moment: 2.0 }, drive);
+    scene.gravity = at(0.0, -3.0);
+    scene
+}
+
+/// A carriage, a rigid body whose two wheels slide along a hinged beam, with a load that hangs on it on a hinge.
+pub fn carriage(mesh: &Mesh, rule: SlidingRule) -> Scene {
+    let mut scene = Scene::new("carriage");
+    let section = spaghetti_section(1e4, 100.0);
+    let rail = add_beam(&mut scene, line(at(0.0, 0.0), at(6.0, 0.0)), mesh, section);
+    let (start, end) = (start_of(&mut scene, rail), end_of(&mut scene, rail));
+    hinge(&mut scene, start, None);
+    hinge(&mut scene, end, None);
+    let wheels = [at(-0.4, 0.2), at(0.4, 0.2), at(0.0, -0.1)];
+    let body = add_body(&mut scene, at(2.0, -0.2), 0.0, (1.0, 0.1), &wheels);
+    let load = add_body(&mut scene, at(2.0, -1.0), 0.0, (2.0, 0.1), &[at(0.0, 0.7)]);
+    hinge(&mut scene, point(body, 3), Some(point(load, 1)));
+    let moving = StartMotion { velocity: at(0.8, 0.0), ..StartMotion::default() };
+    scene.rigid_bodies.iter_mut().for_each(|body| body.motion = moving);
+    for (number, arc_length) in [(1, 1.6), (2, 2.4)] {
+        let slider = Slider {
+            name: scene.free_name("slider"),
+            slave: point(body, number),
+            master: rail,
+            arc_length,
+            rule,
+            ends: EndAction::Bounce,
+            velocities: StartVelocities::Check,
+        };
+        scene.add_slider(slider).unwrap();
+    }
+    scene.gravity = at(0.0, -2.0);
+    scene
+}
+
+/// A chain of rigid bodies that hangs on one end and falls.
+pub fn chain(bodies: usize) -> Scene {
+    let mut scene = Scene::new("rigid chain");
+    let ends = [at(-0.5, 0.0), at(0.5, 0.0)];
+    for number in 0..bodies {
+        let place = at(number as f64 + 0.5, 0.0);
+        let body = add_body(&mut scene, place, 0.0, (1.0, 0.1), &ends);
+        let before = number.checked_sub(1).map(|before| point(before, 2));
+        hinge(&mut scene, point(body, 1), before);
+    }
+    scene.gravity = at(0.0, -9.81);
+    scene
+}
+
+/// Every scene without sliders on a mesh.
+pub fn all(mesh: &Mesh) -> Vec<Scene> {
+    vec![pendulum(0.2, 0.8, 2.0), double_pendulum(), dumbbell(mesh), crank_rocker(mesh), chain(5)]
+}
