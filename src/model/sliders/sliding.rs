@@ -276,11 +276,7 @@ impl Sliding {
         let contact = self.take(bodies, increments, unknowns);
         let equations = law.equations(&contact);
         connection.add_values(bodies, &contact, &equations, increments.len(), out);
-        let ends = larger(
-            contact.force_at_end().norm(),
-            contact.kink.map_or(0.0, |kink| kink.before.norm()),
-        );
-        let force = larger(contact.unknowns.force.norm(), ends);
+        let force = contact.unknowns.force.norm();
         let chord = contact.tangent().value.norm() / contact.length;
         (self.size, self.chord) = (contact.length + contact.slave_moved.norm(), chord);
         self.units = equations.map(|equation| equation.unit);
