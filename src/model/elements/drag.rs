@@ -84,6 +84,14 @@ impl Description for Drag {
         Ok(())
     }
 
+    /// A force that grows with the speed ties the components of a velocity together.
+    fn coupled(&self) -> Vec<Station> {
+        match &self.on {
+            Dragged::Beam { .. } => Vec::new(),
+            Dragged::Point { station, .. } => vec![*station],
+        }
+    }
+
     fn build(&self, site: &dyn Site) -> Result<Assembled, ModelError> {
         let (law, points) = match &self.on {
             Dragged::Beam { beam, normal, tangent } => {
