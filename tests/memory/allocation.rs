@@ -99,9 +99,8 @@ fn fifteen_times_the_steps_take_no_more_allocations() {
         for (name, mesh) in meshes(4) {
             for scene in scenes::all(&mesh).into_iter().chain(body_scenes::all(&mesh)) {
                 let label = format!("{}, {}, {name}", entry.name, scene.name);
-                // Room for the rows of the history, the times and the configurations of the trajectory, and for columns of springs.
-                let of_springs = usize::from(scene.springs().next().is_some());
-                assert_bounded(&label, scene, entry.method, 3 + of_springs);
+                // Room for the rows of the history, the times and the configurations of the trajectory, and for columns that a scene adds.
+                assert_bounded(&label, scene, entry.method, 4);
             }
         }
     }

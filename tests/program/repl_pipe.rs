@@ -83,7 +83,7 @@ fn words_of_other_prompts_leave_and_help() {
 fn words_of_mechanics_find_what_there_is() {
     for (word, found) in [
         ("damping", "energy_decaying"),
-        ("support", "scene.clamp(station)"),
+        ("support", "scene.support(station, options)"),
         ("roller", "scene.slider(station, rail)"),
         ("plot", "plot_motion(sim, \"name\")"),
         ("spring", "scene.spring(from, to"),
