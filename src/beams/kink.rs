@@ -16,9 +16,9 @@ const ROUNDING: f64 = 1e-11;
 /// g(ξ) = l(ξ)ᵀ M⁻¹ r(ξ)        M = Σ w t tᵀ/|x_ξ|        l = ∫ t dξ up to ξ, r = ∫ t dξ from ξ on
 /// ```
 ///
-/// over the splines `t` of one degree less, with the points and weights of the beam's shear strain: the response of the string to a point load in the middle of nothing
-/// but its own functions, taken from the exact one, whichever ends are held. A polynomial of twice the degree on each span, zero where the basis is C⁰. None where it is not
-/// positive between these places, as with fewer quadrature points than the patch rule has.
+/// over the splines `t` of one degree less, with the points and weights of the beam's shear strain: what a string on these functions gives way under a point load,
+/// taken from what it should, whichever ends are held. A polynomial of twice the degree on each span, zero where the basis is C⁰. None where it is
+/// not positive between these places, as with fewer quadrature points than the patch rule has.
 ///
 /// # Errors
 /// When the mesh has no quadrature, or the axis a point without a tangent.
@@ -61,7 +61,8 @@ fn control_points_around(control_points: &[Vec2], span: &Span, degree: usize) ->
     own.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
 }
 
-/// The parts of the lower splines of a span that lie before a place on it, `Σ_(a > t) N_a`, each by the coefficients of its powers of t from -1 to 1 on the span.
+/// The parts of the lower splines of a span that lie before a place on it, `Σ_(a > t) N_a`, each by the coefficients of powers of t from -1 to 1 on
+/// the span.
 fn fractions(mesh: &Mesh, span: &Span) -> Vec<Vec<f64>> {
     let degree = mesh.basis().degree();
     let half = 0.5 * (span.end - span.start);
@@ -114,9 +115,11 @@ impl SplineString {
         (*first..).zip(load).map(|(at, r)| self.inverse.get(row, at) * r).sum()
     }
 
-    /// The coefficients of `g = lᵀ M⁻¹ r` on a span, with the parts of its splines before a place: all earlier splines lie before it, all later ones behind.
+    /// The coefficients of `g = lᵀ M⁻¹ r` on a span, with the parts of its splines before a place: all earlier splines lie before it, all later
+    /// ones behind.
     ///
-    /// What earlier and later splines give is `M⁻¹` times loads of ones up to a number, which is the stretched string up to there, but for what is left over.
+    /// What earlier and later splines give is `M⁻¹` times loads of ones up to a number, which is the stretched string up to there, but for what is
+    /// left over.
     fn polynomial(&self, span: &Span, fractions: &[Vec<f64>]) -> Vec<f64> {
         let own = span.first..span.first + self.degree;
         let (before, behind) = (self.left_over(own.start), self.left_over(own.end));

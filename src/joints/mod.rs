@@ -8,6 +8,5 @@ pub use joint::{Component, Components, Joint, JointKind, Partner};
 pub use slider::{EndAction, Slider, StartVelocities};
 pub use sliding::{
     Along, CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Held, Kink,
-    Relaxed, Released, RuleClaims, RuleEntry, SLIDING_RULES, SlidingLaw, SlidingRule, Smeared,
-    Unit,
+    Kinked, Relaxed, Released, RuleClaims, RuleEntry, SLIDING_RULES, SlidingLaw, SlidingRule, Unit,
 };

@@ -268,9 +268,9 @@ fn a_wheel_that_is_turned_carries_its_rim_and_what_hangs_there() {
         let place = simulation.place(&point(0, 1)).unwrap();
         let now = simulation.instant().unwrap();
         let acceleration = simulation.model().acceleration(&now, &place);
-        // `α J r - ω² r`, with ω = 0.6 t and α = 0.6.
+        // `α J r - ω² r`, with ω = 0.6 t and α = 0.6, which the drive finds from differences of its function.
         let expected = across * 0.6 - along * 1.44;
-        assert!((acceleration - expected).norm() < 1e-9, "{}: {acceleration}", entry.name);
+        assert!((acceleration - expected).norm() < 1e-6, "{}: {acceleration}", entry.name);
         if entry.claims.energy == EnergyClaim::Kept {
             for (name, invariant) in Invariant::ALL {
                 let drift = simulation.history().drift(invariant);

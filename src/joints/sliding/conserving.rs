@@ -1,58 +1,60 @@
-//! The rule that keeps energy, both momenta and the gap to the kinked axis.
+//! The rule that keeps energy, both momenta and the gap.
 
 use super::contact::AXES;
-use super::{CONTACT_UNKNOWNS, Contact, Equation, Kink, SlidingLaw, Smeared};
+use super::{CONTACT_UNKNOWNS, Contact, ContactUnknowns, Equation, SlidingLaw, Unit};
 use crate::elementary::square;
 use crate::geometry::{cross, perpendicular};
 
-/// The conserving law of sliding: the gap is closed at the end of every step, and energy, linear and angular momentum are kept, for any
-/// step.
+/// The conserving law of sliding on the smooth axis of a mesh: the gap is closed at the end of every step, and energy, linear and angular momentum are
+/// kept, for any step. The kink of the axis under the contact force is left to the mesh, which smears it.
 ///
 /// ```text
-/// x_s1 = Σ B_i(ξ1) x_i1 + g1 p1/GA         |τ|² η + (d × λ - ¼ (Δg/Δξ) (p0 × p1)/GA) Jτ = 0
-/// λ·τ + 4 η·d + ½ (Δg/Δξ) p0·p1/GA = 0        p1 = 2 λ - p0
+/// x_s1 = Σ B_i(ξ1) x_i1          |τ|² η + (d × λ) Jτ = 0          λ·τ + 4 η·d = 0
 /// ```
 ///
-/// The slave is on the axis as the contact force `p` kinks it, whose energy `½ g |p|²/GA` the mesh misses. Where there is no [`Kink`] it is
-/// the law [`Smeared`]. Derived in docs/theory.md, sections 10 and 10.1.
+/// The mean place of the slave is `Σ B̄_i x̄_i + Δξ d`, off the place where `λ` acts on the master: the smallest `η` that
+/// balances this moment is taken, and the sliding equation follows from the energy. Derived in docs/theory.md, section 10.
 #[derive(Debug, Clone, Copy)]
 pub struct Conserving;
 
 impl SlidingLaw for Conserving {
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
-        let [_, _, mut couple_x, mut couple_y, mut sliding] = Smeared.equations(contact);
-        let [gap_x, gap_y] = contact.closed_on_kinked_axis();
-        if let Some(kink) = &contact.kink {
-            add_moment(contact, kink, [&mut couple_x, &mut couple_y]);
-            add_work(contact, kink, &mut sliding);
+        let [gap_x, gap_y] = contact.closed();
+        let [couple_x, couple_y] = balanced_moment(contact);
+        [gap_x, gap_y, couple_x, couple_y, kept_energy(contact)]
+    }
+}
+
+/// `(|τ|² η + (d × λ) Jτ)/ℓ² = 0`: `d × λ + τ × η = 0` with the smallest `η`.
+fn balanced_moment(contact: &Contact<'_>) -> [Equation; 2] {
+    let (tangent, swing) = (contact.tangent(), contact.swing());
+    let ContactUnknowns { force, couple, .. } = contact.unknowns;
+    let scale = 1.0 / square(contact.length);
+    let (square, moment) = (tangent.value.norm_squared(), cross(swing.value, force));
+    AXES.map(|axis| {
+        let (couple, normal) = (couple.dot(&axis), perpendicular(tangent.value).dot(&axis));
+        let by_tangent = (tangent.value * (2.0 * couple) - perpendicular(axis) * moment) * scale;
+        let by_swing = perpendicular(force) * (-normal * scale);
+        Equation {
+            by_difference: by_tangent * 0.5 + by_swing * 0.25,
+            by_unknowns: ContactUnknowns {
+                force: perpendicular(swing.value) * (normal * scale),
+                couple: axis * (square * scale),
+                way: by_tangent.dot(&tangent.by_way) + by_swing.dot(&swing.by_way),
+            },
+            ..Equation::new((square * couple + moment * normal) * scale, Unit::Force)
         }
-        [gap_x, gap_y, couple_x, couple_y, sliding]
-    }
+    })
 }
 
-/// Adds `-¼ (Δg/Δξ) (p0 × p1)/GA · Jτ/ℓ²`: the mean offset `½ (g0 p0 + g1 p1)/GA` of the slave from the axis is no mean of what pushes it.
-fn add_moment(contact: &Contact<'_>, kink: &Kink, equations: [&mut Equation; 2]) {
-    let (tangent, scale) = (contact.tangent(), kink.compliance / square(contact.length));
-    // p0 × p1 = 2 p0 × λ
-    let turn = 0.5 * cross(kink.before, contact.unknowns.force);
-    let (difference, change) = (kink.along.difference, kink.along.change);
-    for (equation, axis) in equations.into_iter().zip(AXES) {
-        let normal = perpendicular(tangent.value).dot(&axis);
-        let by_tangent = perpendicular(axis) * (scale * difference * turn);
-        equation.value -= scale * difference * turn * normal;
-        equation.by_difference += by_tangent * 0.5;
-        equation.by_unknowns.force -=
-            perpendicular(kink.before) * (0.5 * scale * difference * normal);
-        equation.by_unknowns.way +=
-            by_tangent.dot(&tangent.by_way) - scale * change * turn * normal;
-    }
-}
-
-/// Adds `½ (Δg/Δξ) p0·p1/(GA ℓ)`: with it what the contact takes is what the kink stores.
-fn add_work(contact: &Contact<'_>, kink: &Kink, equation: &mut Equation) {
-    let scale = 0.5 * kink.compliance / contact.length;
-    let product = kink.before.dot(&contact.force_at_end());
-    equation.value += scale * kink.along.difference * product;
-    equation.by_unknowns.force += kink.before * (2.0 * scale * kink.along.difference);
-    equation.by_unknowns.way += scale * kink.along.change * product;
+/// `(λ·τ + 4 η·d)/ℓ = 0`: the contact does no work.
+fn kept_energy(contact: &Contact<'_>) -> Equation {
+    let ContactUnknowns { force, couple, .. } = contact.unknowns;
+    let (swing, scale) = (contact.swing(), 1.0 / contact.length);
+    let mut equation = contact.frictionless(contact.tangent());
+    equation.value += 4.0 * couple.dot(&swing.value) * scale;
+    equation.by_difference = (force * 0.5 + couple) * scale;
+    equation.by_unknowns.couple = swing.value * (4.0 * scale);
+    equation.by_unknowns.way += 4.0 * couple.dot(&swing.by_way) * scale;
+    equation
 }

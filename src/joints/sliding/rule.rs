@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Conserving, Exact, Relaxed, SlidingLaw, Smeared};
+use super::{Conserving, Exact, Kinked, Relaxed, SlidingLaw};
 
 /// A choice of the law by which a step keeps a slider on its master.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -11,11 +11,11 @@ pub enum SlidingRule {
     Relaxed,
     /// The law [`Exact`]: the contact is closed at the end of each step; angular momentum is not kept.
     Exact,
-    /// The law [`Conserving`]: the contact is closed on the kinked axis at the end of each step; energy and momenta are kept.
+    /// The law [`Conserving`]: the contact is closed at the end of each step; energy and momenta are kept.
     #[default]
     Conserving,
-    /// The law [`Smeared`]: the contact is closed on the smooth axis of the mesh at the end of each step; energy and momenta are kept.
-    Smeared,
+    /// The law [`Kinked`]: the contact is closed on the kinked axis at the end of each step; energy and momenta are kept.
+    Kinked,
 }
 
 /// What a law of sliding keeps to rounding, with an integrator that keeps it without sliders. All laws keep linear momentum.
@@ -45,22 +45,22 @@ pub struct RuleEntry {
 }
 
 /// All laws of sliding, the default first.
-pub const SLIDING_RULES: &[RuleEntry] = &[CONSERVING, SMEARED, EXACT, RELAXED];
+pub const SLIDING_RULES: &[RuleEntry] = &[CONSERVING, KINKED, EXACT, RELAXED];
 
 const CONSERVING: RuleEntry = RuleEntry {
     rule: SlidingRule::Conserving,
     name: "conserving",
-    summary: "keeps energy, both momenta and the gap to rounding at any step, on the axis as the contact force kinks it; the default",
-    claims: RuleClaims { energy: true, angular_momentum: true, gap: true },
-    source: "withy, docs/theory.md, sections 10 and 10.1",
-};
-
-const SMEARED: RuleEntry = RuleEntry {
-    rule: SlidingRule::Smeared,
-    name: "smeared",
-    summary: "keeps energy, both momenta and the gap; for comparison: the kink under the contact force is smeared over the mesh, first order in space",
+    summary: "keeps energy, both momenta and the gap to rounding at any step; the default",
     claims: RuleClaims { energy: true, angular_momentum: true, gap: true },
     source: "withy, docs/theory.md, section 10",
+};
+
+const KINKED: RuleEntry = RuleEntry {
+    rule: SlidingRule::Kinked,
+    name: "kinked",
+    summary: "keeps energy, both momenta and the gap, on the axis as the contact force kinks it: nearer on coarse meshes, forces at their own time",
+    claims: RuleClaims { energy: true, angular_momentum: true, gap: true },
+    source: "withy, docs/theory.md, section 10.1",
 };
 
 const EXACT: RuleEntry = RuleEntry {
@@ -83,8 +83,8 @@ impl SlidingRule {
     /// The row of this law of sliding in [`SLIDING_RULES`].
     pub fn entry(self) -> &'static RuleEntry {
         match self {
+            Self::Kinked => &KINKED,
             Self::Conserving => &CONSERVING,
-            Self::Smeared => &SMEARED,
             Self::Exact => &EXACT,
             Self::Relaxed => &RELAXED,
         }
@@ -93,8 +93,8 @@ impl SlidingRule {
     /// The equations of this law of sliding.
     pub fn law(self) -> &'static dyn SlidingLaw {
         match self {
+            Self::Kinked => &Kinked,
             Self::Conserving => &Conserving,
-            Self::Smeared => &Smeared,
             Self::Exact => &Exact,
             Self::Relaxed => &Relaxed,
         }

@@ -60,7 +60,7 @@ impl Assembly<'_> {
         let basis = self.mesh(master).basis();
         // At a node where the mesh itself may kink there is no kink length, and a slider would have to pass a wall.
         let has_nodes = basis.breaks().len() > 2 && basis.continuity() == 0;
-        if slider.rule != SlidingRule::Conserving || has_nodes {
+        if slider.rule != SlidingRule::Kinked || has_nodes {
             return Ok(None);
         }
         if found[master].is_none() {

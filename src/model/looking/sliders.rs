@@ -27,7 +27,7 @@ impl Model {
         self.slider(slider).blows_in_a_step
     }
 
-    /// The force of a slider on its master [force]; the slave gets the opposite. With the conserving rule it is the one at present, with all others the
+    /// The force of a slider on its master [force]; the slave gets the opposite. With the kinked rule it is the one at present, with all others the
     /// mean of the last step.
     ///
     /// Zero before the first step and after a release.

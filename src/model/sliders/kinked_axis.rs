@@ -51,8 +51,8 @@ impl KinkedAxis {
         self.force = if self.gives() { mean * 2.0 - self.force } else { mean };
     }
 
-    /// Takes from the contact force what was that of a stop, along the tangent `x'` of the axis [length]: `p·x' + ½ g' |p|²/GA = 0` of a slider is left, but for
-    /// the third power of `p`.
+    /// Takes from the contact force what was that of a stop, along the tangent `x'` of the axis [length]: what is left has `p·x' + ½ g' |p|²/GA = 0`,
+    /// but for the third power of `p`.
     ///
     /// Beside the end by rounding, where the axis gives way, the force is not touched: it is a matter of places there.
     pub fn leave_stop(&mut self, tangent: Vec2) {
