@@ -34,7 +34,9 @@ fn main() {
             rotary_inertia: 100.0 / ratio,
         };
         let (name, motion) = ("rod".to_owned(), StartMotion::default());
-        let beam = scene.add_beam(BeamDefinition { name, axis, mesh, section, motion }).unwrap();
+        let beam = scene
+            .add_beam(BeamDefinition { name, axis, mesh, section: section.into(), motion })
+            .unwrap();
         if !free {
             let start = scene.station(beam, 0.0).unwrap();
             scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();

@@ -43,7 +43,7 @@ fn flying_scene(spans: usize) -> Scene {
         name: "rod".to_owned(),
         axis: Curve::line(Vec2::zeros(), Vec2::new(0.6, -0.8) * length).unwrap(),
         mesh: Mesh::bspline(spans, 3, 2).unwrap(),
-        section,
+        section: section.into(),
         motion: StartMotion::default(),
     };
     let rod = scene.add_beam(beam).unwrap();

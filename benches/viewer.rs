@@ -32,7 +32,7 @@ fn turning(beams: usize, steps: usize) -> Simulation {
             name: format!("rod {row}"),
             axis: Curve::line(from, from + Vec2::new(10.0, 0.0)).expect("a line"),
             mesh: Mesh::bspline(8, 3, 2).expect("a mesh"),
-            section,
+            section: section.into(),
             motion: StartMotion { spin: 0.1 * (row + 1) as f64, ..StartMotion::default() },
         };
         scene.add_beam(beam).expect("a beam");

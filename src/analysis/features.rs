@@ -54,12 +54,12 @@ fn length(scene: &Scene) -> f64 {
 }
 
 fn beam_mass(scene: &Scene) -> f64 {
-    scene.beams[0].section.mass_per_length * length(scene)
+    scene.beams[0].mass()
 }
 
 /// A part of the force that bends the beam by its length [force].
 fn small_force(scene: &Scene) -> f64 {
-    SMALL * scene.beams[0].section.bending_stiffness / square(length(scene))
+    SMALL * scene.beams[0].section.mean().bending_stiffness / square(length(scene))
 }
 
 fn end(scene: &mut Scene) -> Result<Station, ModelError> {

@@ -32,7 +32,7 @@ pub fn spinning(dt: f64, stops: &[f64]) -> Case {
         name: "rod".to_owned(),
         axis: Curve::line(Vec2::zeros(), Vec2::new(2.0, 0.0)).unwrap(),
         mesh: Mesh::bspline(2, 3, 2).unwrap(),
-        section,
+        section: section.into(),
         motion,
     };
     scene.add_beam(beam).unwrap();

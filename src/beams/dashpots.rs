@@ -12,7 +12,8 @@ use serde::{Deserialize, Serialize};
 use super::dynamics::{ForceSummary, Movement};
 use super::force_dashpot::ForceDashpot;
 use super::moment_dashpot::MomentDashpot;
-use super::{BeamError, Mesh, RotationIncrement, Section};
+use super::sections::Laid;
+use super::{BeamError, Mesh, Profile, RotationIncrement, Section};
 use crate::geometry::{Vec2, larger};
 
 /// The relaxation times of a Kelvin–Voigt material: a section resists with `C (Γ + τ Γ̇)` and `EI (κ + τ κ̇)` [time].
@@ -104,12 +105,13 @@ impl Dashpots {
     pub fn new(
         mesh: &Mesh,
         control_points: &[Vec2],
-        section: &Section,
+        profile: &Profile,
         relaxation: Relaxation,
     ) -> Result<Self, BeamError> {
         let order = mesh.basis().degree() + 1;
+        let laid = Laid::new(profile, mesh, control_points)?;
         let mut spans = Vec::new();
-        for quadrature in mesh.quadrature_spans()? {
+        for (index, quadrature) in mesh.quadrature_spans()?.into_iter().enumerate() {
             let span = quadrature.span;
             let point = |(xi, weight): (f64, f64)| {
                 let values = mesh.basis().evaluate_in(&span, xi);
@@ -117,17 +119,19 @@ impl Dashpots {
                 let speed = derivative.norm();
                 let slope = values.slopes().iter().map(|slope| slope / speed).collect();
                 let shape = values.values().to_vec();
-                (Functions { shape, slope, weight: weight * speed }, derivative / speed)
+                let functions = Functions { shape, slope, weight: weight * speed };
+                (functions, derivative / speed, laid.at(index, &span, xi))
             };
-            let force = |(functions, tangent)| {
+            let force = |(functions, tangent, section): (_, _, Section)| {
                 let stiffness = Vec2::new(section.axial_stiffness, section.shear_stiffness);
                 let times = Vec2::new(relaxation.axial, relaxation.shear);
                 ForceDashpot::new(functions, tangent, stiffness.component_mul(&times))
             };
-            let damping = section.bending_stiffness * relaxation.bending;
+            let moment = |(functions, _, section): (_, Vec2, Section)| {
+                MomentDashpot::new(functions, section.bending_stiffness * relaxation.bending)
+            };
             let rule = quadrature.moment_rule()?;
-            let moments = rule.iter_on(span.start, span.end).map(point);
-            let moments = moments.map(|(functions, _)| MomentDashpot::new(functions, damping));
+            let moments = rule.iter_on(span.start, span.end).map(point).map(moment);
             spans.push(SpanDashpots {
                 first: span.first,
                 moments: moments.collect(),

@@ -5,30 +5,29 @@ use std::ops::Range;
 use pulp::{Arch, Simd, WithSimd};
 
 use super::at_rest::SpanAtRest;
-use super::axis_point::AxisPoint;
+use super::axis_point::Axis;
 use super::block::Block;
 use super::dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Movement};
 use super::force_point::ForcePoint;
 use super::mesh::QuadratureSpan;
 use super::moment_point::MomentPoint;
 use super::parts::{MOST_PARTS, Parts};
+use super::sections::{Entry, Laid, Own, Same, Sections};
 use super::span_points::{SpanPoints, window_mut};
-use super::{BeamError, Mesh, RotationIncrement, Section, SectionForces, SectionPlace};
-use crate::geometry::{Basis, Span, Vec2};
-
-/// The slowest an axis may run along its parameter, relative to its mean.
-const STANDSTILL: f64 = 1e-9;
+use super::{BeamError, Mesh, Profile, RotationIncrement, Section, SectionForces, SectionPlace};
+use crate::geometry::Vec2;
 
 /// A beam whose basis has `N` non-zero functions on a span.
 #[derive(Debug, Clone)]
-struct DiscreteBeam<const N: usize> {
+struct DiscreteBeam<const N: usize, S: Sections = Same> {
+    /// That of all points, or of a beam that tapers the mean.
     section: Section,
     control_points: Vec<Vec2>,
     remainders: Vec<Vec2>,
-    spans: Vec<SpanPoints<N>>,
+    spans: Vec<SpanPoints<N, S>>,
     parts: Parts,
-    /// `∫ N_a N_{a+k} dX` for k = 0 … N-1 [length].
-    gram: Vec<[f64; N]>,
+    /// `∫ N_a N_{a+k} dX` for k = 0 … N-1 [length], with the inertia where it varies.
+    gram: Vec<[S::Entry; N]>,
 }
 
 /// A beam with the axis that the control points draw on a mesh, where it is free of stress; `length` is about that of the
@@ -40,69 +39,55 @@ pub fn discretise(
     control_points: Vec<Vec2>,
     length: f64,
     mesh: &Mesh,
-    section: Section,
+    profile: &Profile,
 ) -> Result<Box<dyn BodyDynamics>, BeamError> {
-    Ok(match mesh.basis().degree() {
-        1 => Box::new(DiscreteBeam::<2>::new(mesh, section, length, control_points)?),
-        2 => Box::new(DiscreteBeam::<3>::new(mesh, section, length, control_points)?),
-        3 => Box::new(DiscreteBeam::<4>::new(mesh, section, length, control_points)?),
-        4 => Box::new(DiscreteBeam::<5>::new(mesh, section, length, control_points)?),
-        5 => Box::new(DiscreteBeam::<6>::new(mesh, section, length, control_points)?),
-        6 => Box::new(DiscreteBeam::<7>::new(mesh, section, length, control_points)?),
-        7 => Box::new(DiscreteBeam::<8>::new(mesh, section, length, control_points)?),
-        8 => Box::new(DiscreteBeam::<9>::new(mesh, section, length, control_points)?),
-        9 => Box::new(DiscreteBeam::<10>::new(mesh, section, length, control_points)?),
-        // Knot vectors refuse degrees above 10.
-        _ => Box::new(DiscreteBeam::<11>::new(mesh, section, length, control_points)?),
-    })
-}
-
-struct Axis<'a> {
-    basis: &'a Basis,
-    control_points: &'a [Vec2],
-    /// Derivatives by the parameter below this are rounding, not a direction.
-    standstill: f64,
-}
-
-impl Axis<'_> {
-    /// The points of a rule on a span, with the unit tangents there.
-    fn points<const N: usize>(
-        &self,
-        span: Span,
-        rule: impl IntoIterator<Item = (f64, f64)>,
-    ) -> Result<Vec<(AxisPoint<N>, Vec2)>, BeamError> {
-        let place = |(xi, weight): (f64, f64)| {
-            let values = self.basis.evaluate_in(&span, xi);
-            let derivative = values.combine(1, self.control_points);
-            let speed = derivative.norm();
-            if speed.is_nan() || speed <= self.standstill {
-                return Err(BeamError::NoTangent { parameter: xi });
-            }
-            let (mut shape, mut slope) = ([0.0; N], [0.0; N]);
-            shape.copy_from_slice(values.values());
-            slope.iter_mut().zip(values.slopes()).for_each(|(to, from)| *to = from / speed);
-            Ok((AxisPoint { shape, slope, weight: weight * speed }, derivative / speed))
-        };
-        rule.into_iter().map(place).collect()
+    match profile {
+        Profile::Uniform(_) => with_sections::<Same>(control_points, length, mesh, profile),
+        Profile::Numbers(_) | Profile::Dimensions(_) => {
+            with_sections::<Own>(control_points, length, mesh, profile)
+        }
     }
 }
 
-impl<const N: usize> DiscreteBeam<N> {
+fn with_sections<S: Sections + 'static>(
+    points: Vec<Vec2>,
+    length: f64,
+    mesh: &Mesh,
+    profile: &Profile,
+) -> Result<Box<dyn BodyDynamics>, BeamError> {
+    Ok(match mesh.basis().degree() {
+        1 => Box::new(DiscreteBeam::<2, S>::new(mesh, profile, length, points)?),
+        2 => Box::new(DiscreteBeam::<3, S>::new(mesh, profile, length, points)?),
+        3 => Box::new(DiscreteBeam::<4, S>::new(mesh, profile, length, points)?),
+        4 => Box::new(DiscreteBeam::<5, S>::new(mesh, profile, length, points)?),
+        5 => Box::new(DiscreteBeam::<6, S>::new(mesh, profile, length, points)?),
+        6 => Box::new(DiscreteBeam::<7, S>::new(mesh, profile, length, points)?),
+        7 => Box::new(DiscreteBeam::<8, S>::new(mesh, profile, length, points)?),
+        8 => Box::new(DiscreteBeam::<9, S>::new(mesh, profile, length, points)?),
+        9 => Box::new(DiscreteBeam::<10, S>::new(mesh, profile, length, points)?),
+        // Knot vectors refuse degrees above 10.
+        _ => Box::new(DiscreteBeam::<11, S>::new(mesh, profile, length, points)?),
+    })
+}
+
+impl<const N: usize, S: Sections> DiscreteBeam<N, S> {
     fn new(
         mesh: &Mesh,
-        section: Section,
+        profile: &Profile,
         length: f64,
         control_points: Vec<Vec2>,
     ) -> Result<Self, BeamError> {
-        let (start, end) = mesh.basis().domain();
-        let standstill = STANDSTILL * length / (end - start);
-        let axis = Axis { basis: mesh.basis(), control_points: &control_points, standstill };
+        let axis = Axis::new(mesh.basis(), &control_points, length);
         let inertia_rule = mesh.inertia_rule()?;
-        let mut gram = vec![[0.0; N]; control_points.len()];
+        let laid = Laid::new(profile, mesh, &control_points)?;
+        let mut gram = vec![[S::Entry::default(); N]; control_points.len()];
         let mut spans = Vec::new();
-        for quadrature in mesh.quadrature_spans()? {
+        for (index, quadrature) in mesh.quadrature_spans()?.into_iter().enumerate() {
             let moment_rule = quadrature.moment_rule()?;
             let QuadratureSpan { span, force_rule, .. } = quadrature;
+            let section = |(xi, _): (f64, f64)| laid.at(index, &span, xi);
+            let at_force = force_rule.iter().copied().map(section).collect();
+            let at_moment = moment_rule.iter_on(span.start, span.end).map(section).collect();
             spans.push(SpanPoints {
                 first: span.first,
                 force_points: axis
@@ -115,18 +100,37 @@ impl<const N: usize> DiscreteBeam<N> {
                     .into_iter()
                     .map(|(axis, _)| MomentPoint::new(axis))
                     .collect(),
+                sections: S::new(at_force, at_moment),
             });
-            for (at, _) in axis.points::<N>(span, inertia_rule.iter_on(span.start, span.end))? {
+            let of_inertia = || inertia_rule.iter_on(span.start, span.end);
+            let points = axis.points::<N>(span, of_inertia())?;
+            for ((at, _), place) in points.into_iter().zip(of_inertia()) {
+                let section = section(place);
                 for (a, row) in gram[span.first..span.first + N].iter_mut().enumerate() {
                     for (k, entry) in row[..N - a].iter_mut().enumerate() {
-                        *entry += at.weight * at.shape[a] * at.shape[a + k];
+                        entry.add(at.weight * at.shape[a] * at.shape[a + k], &section);
                     }
                 }
             }
         }
         let remainders = vec![Vec2::zeros(); control_points.len()];
         let parts = Parts::default();
+        let section = profile.mean();
         Ok(Self { section, control_points, remainders, spans, parts, gram })
+    }
+
+    /// The sum over the functions of what belongs to their products with that of every control point.
+    fn lumped(&self, of: impl Fn(S::Entry) -> f64) -> Vec<f64> {
+        let mut sums = vec![0.0; self.gram.len()];
+        for (a, row) in self.gram.iter().enumerate() {
+            for (b, entry) in (a..self.gram.len()).zip(row) {
+                sums[a] += of(*entry);
+                if b > a {
+                    sums[b] += of(*entry);
+                }
+            }
+        }
+        sums
     }
 
     /// Adds `factor · M · rates` to the forces on the control points of a range.
@@ -146,7 +150,7 @@ impl<const N: usize> DiscreteBeam<N> {
         let first = start.saturating_sub(N - 1);
         for (a, row) in (first..end).zip(&self.gram[first..]) {
             for (b, entry) in (a..rates.len()).zip(row) {
-                let inertia = self.inertia_of(factor * entry);
+                let inertia = entry.inertia(factor, &self.section);
                 if a >= start {
                     add(a, inertia, rates[b]);
                 }
@@ -155,12 +159,6 @@ impl<const N: usize> DiscreteBeam<N> {
                 }
             }
         }
-    }
-
-    fn inertia_of(&self, entry: f64) -> Movement {
-        let (mass, rotary) =
-            (entry * self.section.mass_per_length, entry * self.section.rotary_inertia);
-        [mass, mass, rotary]
     }
 }
 
@@ -173,9 +171,9 @@ pub(super) fn move_compensated(point: &mut Vec2, remainder: &mut Vec2, [x, y, _]
 }
 
 /// The work of [`add_linearised_forces`](BodyDynamics::add_linearised_forces) on some spans.
-struct Linearisation<'a, const N: usize> {
+struct Linearisation<'a, const N: usize, S> {
     section: &'a Section,
-    spans: &'a mut [SpanPoints<N>],
+    spans: &'a mut [SpanPoints<N, S>],
     at: Collocation,
     moved: &'a [Movement],
     weight: f64,
@@ -185,11 +183,11 @@ struct Linearisation<'a, const N: usize> {
     tangent: &'a mut dyn FnMut(usize, &[f64]),
 }
 
-impl<const N: usize> WithSimd for Linearisation<'_, N> {
+impl<const N: usize, S: Sections> WithSimd for Linearisation<'_, N, S> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
+    fn with_simd<V: Simd>(self, simd: V) {
         let Self { section, spans, at, moved, weight, first, forces, tangent } = self;
         for span in spans {
             let forces = window_mut(forces, span.first - first);
@@ -200,7 +198,7 @@ impl<const N: usize> WithSimd for Linearisation<'_, N> {
     }
 }
 
-impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
+impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
     fn order(&self) -> usize {
         N
     }
@@ -305,9 +303,9 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
         let first = points.start.saturating_sub(N - 1);
         for (a, row) in (first..).zip(&self.gram[first..points.end]) {
             // Functions that share no span may stand far apart in the numbering of the tangent.
-            let coupled = (a..self.gram.len()).zip(row).filter(|(_, entry)| **entry != 0.0);
+            let coupled = (a..self.gram.len()).zip(row).filter(|(_, entry)| entry.length() != 0.0);
             for (b, entry) in coupled {
-                let inertia = self.inertia_of(factor * entry);
+                let inertia = entry.inertia(factor, &self.section);
                 if a >= points.start {
                     tangent(a, b, inertia);
                 }
@@ -326,8 +324,8 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
         }
     }
 
-    fn extent(&self) -> Option<(&Section, f64)> {
-        Some((&self.section, self.lumped_lengths().iter().sum()))
+    fn extent(&self) -> Option<(Section, f64)> {
+        Some((self.section, self.lumped_lengths().iter().sum()))
     }
 
     fn write_normals(&self, normals: &mut Vec<Vec2>) {
@@ -352,16 +350,12 @@ impl<const N: usize> BodyDynamics for DiscreteBeam<N> {
     }
 
     fn lumped_lengths(&self) -> Vec<f64> {
-        let mut lengths = vec![0.0; self.gram.len()];
-        for (a, row) in self.gram.iter().enumerate() {
-            for (b, entry) in (a..self.gram.len()).zip(row) {
-                lengths[a] += entry;
-                if b > a {
-                    lengths[b] += entry;
-                }
-            }
-        }
-        lengths
+        self.lumped(|entry| entry.length())
+    }
+
+    fn lumped_masses(&self) -> Vec<f64> {
+        let weighed = self.lumped(|entry| entry.inertia(1.0, &self.section)[0]);
+        S::masses(&self.section, self.lumped_lengths(), weighed)
     }
 
     fn save(&self, state: &mut Vec<f64>) {

@@ -118,8 +118,8 @@ pub trait BodyDynamics: Sync {
     /// Gives, span by span, how this body resists small movements of its control points at the start of the step, as at rest there.
     fn each_span_at_rest(&self, take: &mut dyn FnMut(&SpanAtRest));
 
-    /// The section of a beam and the length of its axis as drawn [length]; none for a body without extent.
-    fn extent(&self) -> Option<(&Section, f64)>;
+    /// The section of a beam, of one that tapers the mean, and the length of its axis as drawn [length]; none for a body without extent.
+    fn extent(&self) -> Option<(Section, f64)>;
 
     /// Appends the normal [-], in space, of each section at which strains are taken, at the start of the step.
     fn write_normals(&self, normals: &mut Vec<Vec2>);
@@ -135,6 +135,9 @@ pub trait BodyDynamics: Sync {
 
     /// The length `∫ N_a dX` that belongs to every control point of this body [length].
     fn lumped_lengths(&self) -> Vec<f64>;
+
+    /// The mass `∫ ρA N_a dX` that belongs to every control point of this body, without what stands on it [mass].
+    fn lumped_masses(&self) -> Vec<f64>;
 
     /// Appends the state of this body at the start of a step to `state`.
     fn save(&self, state: &mut Vec<f64>);

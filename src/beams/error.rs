@@ -35,6 +35,27 @@ pub enum BeamError {
         /// The outer radius given for a tube [length].
         outer: f64,
     },
+    /// A taper with too few or too many places.
+    #[error("taper: a section varies between 2 places or more, at most {most}, and {} given", places(.count))]
+    TaperPlaces {
+        /// The number of places that were given.
+        count: usize,
+        /// The most places of a taper.
+        most: usize,
+    },
+    /// A taper whose places do not rise from its start to its end.
+    #[error(
+        "taper: a place is {value}, but places must rise from 0, the start of the beam, to 1, its end"
+    )]
+    TaperPlace {
+        /// The place that is in the wrong order [-].
+        value: f64,
+    },
+    /// A taper between shapes between which there is none.
+    #[error(
+        "taper: there is no shape between a rectangle, a circle and a tube; give shapes of one kind, or stiffness and inertia"
+    )]
+    TaperShapes,
     /// A quadrature with too few or too many points.
     #[error("quadrature: {points} points a span, but allowed are 1 to {most} for degree {degree}")]
     Quadrature {
@@ -66,4 +87,9 @@ pub enum BeamError {
         /// The parameter of the axis at which there is no tangent [-].
         parameter: f64,
     },
+}
+
+/// How many places are given, in words.
+fn places(count: &usize) -> String {
+    if *count == 1 { "1 place is".to_owned() } else { format!("{count} places are") }
 }

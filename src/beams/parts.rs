@@ -55,12 +55,12 @@ pub fn at_once<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + S
 
 impl Parts {
     /// The cut of some spans into at most so many parts, each as large as is worth a thread.
-    pub(super) fn worthwhile<const N: usize>(spans: &[SpanPoints<N>], most: usize) -> Self {
+    pub(super) fn worthwhile<const N: usize, S>(spans: &[SpanPoints<N, S>], most: usize) -> Self {
         Self::new(spans, most.min(MOST_PARTS).min(spans.len() / SMALLEST_PART))
     }
 
     /// So many parts, of about as many spans each.
-    fn new<const N: usize>(spans: &[SpanPoints<N>], count: usize) -> Self {
+    fn new<const N: usize, S>(spans: &[SpanPoints<N, S>], count: usize) -> Self {
         let cut = |part: usize| {
             let behind = part * spans.len() / count;
             let point = spans[behind].first;
@@ -80,10 +80,10 @@ impl Parts {
     }
 
     /// Works on all spans of a beam, parts at once, where spans give nothing to each other.
-    pub(super) fn each<const N: usize>(
+    pub(super) fn each<const N: usize, S: Send>(
         &self,
-        spans: &mut [SpanPoints<N>],
-        work: impl Fn(&mut SpanPoints<N>) + Sync,
+        spans: &mut [SpanPoints<N, S>],
+        work: impl Fn(&mut SpanPoints<N, S>) + Sync,
     ) {
         if self.cuts.is_empty() {
             return spans.iter_mut().for_each(work);
@@ -116,26 +116,28 @@ impl Parts {
     ///
     /// `work` is called with what a part has for itself, some spans, the first control point of some sums, and these. Of
     /// spans astride a cut it is called twice, and must do the same both times.
-    pub(super) fn sum<const N: usize, C: Send>(
+    pub(super) fn sum<const N: usize, S: Send, C: Send>(
         &self,
-        spans: &mut [SpanPoints<N>],
+        spans: &mut [SpanPoints<N, S>],
         sums: &mut [Movement],
         own: &mut [C],
-        work: impl Fn(&mut C, &mut [SpanPoints<N>], usize, &mut [Movement]) + Sync,
+        work: impl Fn(&mut C, &mut [SpanPoints<N, S>], usize, &mut [Movement]) + Sync,
     ) {
         if self.cuts.is_empty() {
             return work(&mut own[0], spans, 0, sums);
         }
-        let on_one_side =
-            |own: &mut C, span: &mut SpanPoints<N>, sums: &mut [Movement], side: Range<usize>| {
-                let first = span.first;
-                let mut copy: [Movement; N] = *window(sums, first);
-                work(own, std::slice::from_mut(span), first, &mut copy);
-                let sums = window_mut::<N>(sums, first);
-                let Range { start, end } = side;
-                let side = start.max(first) - first..end.min(first + N) - first;
-                sums[side.clone()].copy_from_slice(&copy[side]);
-            };
+        let on_one_side = |own: &mut C,
+                           span: &mut SpanPoints<N, S>,
+                           sums: &mut [Movement],
+                           side: Range<usize>| {
+            let first = span.first;
+            let mut copy: [Movement; N] = *window(sums, first);
+            work(own, std::slice::from_mut(span), first, &mut copy);
+            let sums = window_mut::<N>(sums, first);
+            let Range { start, end } = side;
+            let side = start.max(first) - first..end.min(first + N) - first;
+            sums[side.clone()].copy_from_slice(&copy[side]);
+        };
         for (cut, own) in self.cuts.iter().zip(&mut own[1..]) {
             for span in &mut spans[cut.astride.clone()] {
                 on_one_side(own, span, sums, cut.point..usize::MAX);
@@ -152,12 +154,12 @@ impl Parts {
     }
 
     /// What each part has for itself: its spans without those astride, its first control point and its sums.
-    fn split<'a, const N: usize, C>(
+    fn split<'a, const N: usize, S, C>(
         &self,
-        mut spans: &'a mut [SpanPoints<N>],
+        mut spans: &'a mut [SpanPoints<N, S>],
         mut sums: &'a mut [Movement],
         own: &'a mut [C],
-    ) -> Vec<(&'a mut C, &'a mut [SpanPoints<N>], usize, &'a mut [Movement])> {
+    ) -> Vec<(&'a mut C, &'a mut [SpanPoints<N, S>], usize, &'a mut [Movement])> {
         let mut parts = Vec::with_capacity(self.count());
         let (mut next_span, mut next_point) = (0, 0);
         let mut own = own.iter_mut();

@@ -103,7 +103,7 @@ impl BodyDynamics for Points {
 
     fn each_span_at_rest(&self, _take: &mut dyn FnMut(&SpanAtRest)) {}
 
-    fn extent(&self) -> Option<(&Section, f64)> {
+    fn extent(&self) -> Option<(Section, f64)> {
         None
     }
 
@@ -124,6 +124,10 @@ impl BodyDynamics for Points {
     }
 
     fn lumped_lengths(&self) -> Vec<f64> {
+        vec![0.0; self.positions.len()]
+    }
+
+    fn lumped_masses(&self) -> Vec<f64> {
         vec![0.0; self.positions.len()]
     }
 

@@ -8,7 +8,7 @@ use super::BeamError;
 use crate::elementary::{square, whole_power};
 
 /// The stiffnesses and inertias of a linear elastic, homogeneous cross section.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Section {
     /// Axial stiffness `EA` of the section [force].
     pub axial_stiffness: f64,
@@ -23,7 +23,7 @@ pub struct Section {
 }
 
 /// The outline of a cross section; bending is about the horizontal centroidal axis.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Shape {
     /// The cross section is a solid rectangle.
     Rectangle {
@@ -47,7 +47,7 @@ pub enum Shape {
 }
 
 /// A cross section as a homogeneous isotropic material in a shape.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Solid {
     /// Young's modulus of the material [force/length²].
     pub young: f64,
@@ -127,6 +127,11 @@ impl Section {
         {
             return Err(BeamError::Tube { inner, outer });
         }
+        Self::of_solid(solid).validated()
+    }
+
+    /// The section of a solid whose numbers are in their ranges.
+    pub(super) fn of_solid(Solid { young, poisson, density, shape }: Solid) -> Self {
         let (area, inertia) = (shape.area(), shape.second_moment());
         Self {
             axial_stiffness: young * area,
@@ -136,7 +141,57 @@ impl Section {
             mass_per_length: density * area,
             rotary_inertia: density * inertia,
         }
-        .validated()
+    }
+
+    /// Numbers made of those of two sections, one by one.
+    pub(super) fn each(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
+        Self {
+            axial_stiffness: of(self.axial_stiffness, other.axial_stiffness),
+            shear_stiffness: of(self.shear_stiffness, other.shear_stiffness),
+            bending_stiffness: of(self.bending_stiffness, other.bending_stiffness),
+            mass_per_length: of(self.mass_per_length, other.mass_per_length),
+            rotary_inertia: of(self.rotary_inertia, other.rotary_inertia),
+        }
+    }
+
+    /// The mixture of this section and a share of another.
+    pub(super) fn mixed(&self, other: &Self, share: f64) -> Self {
+        self.each(other, |a, b| a + share * (b - a))
+    }
+
+    /// The sum of this section and another, weighted.
+    pub(super) fn plus(&self, other: &Self, weight: f64) -> Self {
+        self.each(other, |a, b| a + weight * b)
+    }
+}
+
+impl Solid {
+    /// Whether another solid has a shape of the same kind, so that there are shapes between them.
+    pub fn is_of_one_kind_with(&self, other: &Self) -> bool {
+        std::mem::discriminant(&self.shape) == std::mem::discriminant(&other.shape)
+    }
+
+    /// The mixture of this solid and a share of another of the same kind, dimension by dimension.
+    pub(super) fn mixed(&self, other: &Self, share: f64) -> Self {
+        let mix = |a: f64, b: f64| a + share * (b - a);
+        let shape = match (self.shape, other.shape) {
+            (Shape::Rectangle { width: w, height: h }, Shape::Rectangle { width, height }) => {
+                Shape::Rectangle { width: mix(w, width), height: mix(h, height) }
+            }
+            (Shape::Circle { radius: r }, Shape::Circle { radius }) => {
+                Shape::Circle { radius: mix(r, radius) }
+            }
+            (Shape::Tube { outer: o, inner: i }, Shape::Tube { outer, inner }) => {
+                Shape::Tube { outer: mix(o, outer), inner: mix(i, inner) }
+            }
+            (shape, _) => shape,
+        };
+        Self {
+            young: mix(self.young, other.young),
+            poisson: mix(self.poisson, other.poisson),
+            density: mix(self.density, other.density),
+            shape,
+        }
     }
 }
 

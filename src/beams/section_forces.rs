@@ -19,6 +19,7 @@
 //! `T` they are weighted sums over the points, whose weights fall off within a few spans. Runs know nothing of each
 //! other: where they meet, at a joint or a node of Lagrange elements, both have a value.
 
+use super::sections::{Blend, Sections};
 use super::span_points::SpanPoints;
 use super::{BeamError, Mesh, Section};
 use crate::geometry::{LowerSplines, Reproduction, Span, Vec2, cross, larger};
@@ -73,24 +74,29 @@ pub struct SectionPlace {
 
 impl SectionPlace {
     /// What the quadrature points of the spans of a beam add up to here.
-    pub(super) fn sum_up<const N: usize>(
+    pub(super) fn sum_up<const N: usize, S: Sections>(
         &self,
         section: &Section,
-        spans: &[SpanPoints<N>],
+        spans: &[SpanPoints<N, S>],
     ) -> SectionForces {
         let (mut normal, mut force, mut moment) = (Vec2::zeros(), Vec2::zeros(), 0.0);
+        let mut here = S::Blend::default();
         for share in &self.force_shares {
-            let point = &spans[share.span].force_points[share.point];
-            let (at_point, couple) = point.transmitted(section);
+            let span = &spans[share.span];
+            let point = &span.force_points[share.point];
+            let of_point = span.sections.of_force(section, share.point);
+            let (at_point, couple) = point.transmitted(of_point);
+            here.add(of_point, share.of_normal);
             normal += point.normal() * share.of_normal;
             force += at_point * share.of_force;
             moment += couple * share.of_couple;
         }
         for share in &self.moment_shares {
-            let point = &spans[share.span].moment_points[share.point];
-            moment += point.transmitted(section) * share.of_moment;
+            let span = &spans[share.span];
+            let of_point = span.sections.of_moment(section, share.point);
+            moment += span.moment_points[share.point].transmitted(of_point) * share.of_moment;
         }
-        SectionForces::of(section, normal, force, moment)
+        SectionForces::of(here.section(section), normal, force, moment)
     }
 }
 

@@ -167,7 +167,8 @@ fn of_equal_stiffness(scene: &Scene) -> Scene {
             bending_stiffness: square,
             mass_per_length: 1.0,
             rotary_inertia: square,
-        };
+        }
+        .into();
     }
     let length = scene.longest_beam().unwrap_or(1.0);
     for element in &mut equal.elements {

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::at;
-use withy::beams::{Mesh, Relaxation, Section, Station};
+use withy::beams::{Mesh, Profile, Relaxation, Section, Station};
 use withy::geometry::{Curve, Vec2};
 use withy::joints::{Component, Components, JointKind, Partner};
 use withy::loads::{Course, Frame, LoadKind, Schedule};
@@ -36,7 +36,15 @@ pub fn rod() -> Section {
 pub fn add_beam(scene: &mut Scene, axis: Curve, mesh: &Mesh, section: Section) -> usize {
     let name = format!("beam{}", scene.beams.len() + 1);
     let motion = StartMotion::default();
-    scene.add_beam(BeamDefinition { name, axis, mesh: mesh.clone(), section, motion }).unwrap()
+    scene
+        .add_beam(BeamDefinition {
+            name,
+            axis,
+            mesh: mesh.clone(),
+            section: section.into(),
+            motion,
+        })
+        .unwrap()
 }
 
 pub fn line(from: Vec2, to: Vec2) -> Curve {
@@ -369,6 +377,21 @@ pub fn flywheels(mesh: &Mesh) -> Scene {
     scene
 }
 
+/// A curved beam that tapers, of a damped material, swings from a hinge with a force at its thin end.
+pub fn tapered(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("tapered");
+    let axis = Curve::arc(at(0.5, 1.0), 2.0, 0.3, -1.2).unwrap();
+    let beam = add_beam(&mut scene, axis, mesh, rod());
+    let thin = Section { bending_stiffness: 12.0, mass_per_length: 0.6, ..rod() };
+    scene.beams[beam].section = Profile::Numbers(vec![(0.0, rod()), (0.4, rod()), (1.0, thin)]);
+    scene.add_damping(beam, Relaxation { axial: 0.01, shear: 0.0, bending: 0.03 }).unwrap();
+    let (start, end) = (start_of(&mut scene, beam), end_of(&mut scene, beam));
+    scene.join(JointKind::Hinge, start, Partner::Ground).unwrap();
+    force(&mut scene, end, at(1.0, 2.0), Frame::Dead, hold(1.1));
+    scene.gravity = at(0.0, -2.0);
+    scene
+}
+
 /// Every scene on a mesh.
 pub fn all(mesh: &Mesh) -> Vec<Scene> {
     vec![
@@ -386,5 +409,6 @@ pub fn all(mesh: &Mesh) -> Vec<Scene> {
         dragged(mesh),
         flywheels(mesh),
         driven(mesh),
+        tapered(mesh),
     ]
 }

@@ -23,5 +23,6 @@ mod same_bits;
 mod saving;
 mod sensors;
 mod springs;
+mod tapers;
 mod unused_features;
 mod work_counts;

@@ -34,7 +34,7 @@ fn beam(scene: &mut Scene, to: withy::geometry::Vec2, spans: usize, section: Sec
         name,
         axis: line(at(0.0, 0.0), to),
         mesh: Mesh::bspline(spans, 3, 2).unwrap(),
-        section,
+        section: section.into(),
         motion: StartMotion::default(),
     };
     scene.add_beam(definition).unwrap()
@@ -333,7 +333,7 @@ fn rounding_of_a_scene_at_rest_is_no_vibration() {
         name: "rod".to_owned(),
         axis: line(at(0.0, 8.0), at(6.0, 0.0)),
         mesh: Mesh::bspline(16, 3, 2).unwrap(),
-        section,
+        section: section.into(),
         motion: StartMotion::default(),
     };
     scene.add_beam(definition).unwrap();

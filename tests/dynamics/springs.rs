@@ -223,3 +223,25 @@ fn energy_decaying_steps_take_energy_from_stiff_springs_and_no_other_does() {
         }
     }
 }
+
+#[test]
+fn a_hardening_spring_given_by_a_function_swings_as_the_integral_says() {
+    // m ẍ = -(k x + b x³) from rest at a: T = 4 ∫ dx/√(2/m (U(a) - U(x))), by x = a sin φ.
+    let (k, b, a, mass) = (18.0, 40.0, 0.6, 2.0);
+    let law = RestoringLaw::sampled((-0.8, 0.8), |e: f64| Ok::<f64, ()>(k * e + b * e * e * e));
+    let law = law.unwrap().shifted(NATURAL);
+    let mut scene = oscillator(1.0, 0.0, a);
+    scene.elements.retain(|element| !matches!(element, withy::model::Element::Spring(_)));
+    let bead = Anchor::Station(withy::beams::Station::on_particle(0));
+    add(&mut scene, vec![Anchor::Ground(at(5.0, 3.0)), bead], Some(law), 0.0);
+    let slices = 400;
+    let mean = (0..slices).map(|slice| {
+        let phi = (f64::from(slice) + 0.5) / f64::from(slices) * 0.25 * TAU;
+        // U(a) - U(x) = (a² - x²)(k/2 + b (a² + x²)/4), and a² - x² = a² cos² φ.
+        1.0 / (2.0 / mass * (0.5 * k + 0.25 * b * a * a * (1.0 + phi.sin().powi(2)))).sqrt()
+    });
+    let period = mean.sum::<f64>() / f64::from(slices) * TAU;
+    let simulation = simulate(scene, Method::FourthOrder, period / 200.0, period);
+    assert!((place(&simulation) - a).abs() < 1e-5, "{}", place(&simulation));
+    assert!(simulation.history().drift(Invariant::Energy) < 1e-13);
+}

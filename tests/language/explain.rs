@@ -25,7 +25,7 @@ fn add_beam(scene: &mut Scene, name: &str, from: Vec2, to: Vec2) -> usize {
         name: name.to_owned(),
         axis: Curve::line(from, to).unwrap(),
         mesh: Mesh::bspline(4, 3, 2).unwrap(),
-        section,
+        section: section.into(),
         motion: StartMotion::default(),
     };
     scene.add_beam(beam).unwrap()

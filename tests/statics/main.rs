@@ -9,3 +9,4 @@ mod modes;
 mod section_forces;
 mod springs;
 mod stiff_modes;
+mod tapers;

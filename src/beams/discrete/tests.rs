@@ -40,7 +40,7 @@ fn assert_same<const N: usize>(mesh: &Mesh, movements: &[f64]) {
     };
     let count = mesh.basis().functions();
     let points = (0..count).map(|i| Vec2::new(i as f64, 0.05 * (i * i) as f64)).collect();
-    let mut beam = DiscreteBeam::<N>::new(mesh, section, count as f64, points).unwrap();
+    let mut beam = DiscreteBeam::<N>::new(mesh, &section.into(), count as f64, points).unwrap();
     let mut movements = movements.iter().cycle();
     for _ in 0..2 {
         let moved: Vec<Movement> =

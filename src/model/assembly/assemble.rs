@@ -1,7 +1,7 @@
 //! The parts of a scene put together.
 
 use super::numbering::{LeverPlace, Numbering};
-use crate::beams::{BodyDynamics, Mesh, Place, Points, Section, Station, discretise};
+use crate::beams::{BodyDynamics, Mesh, Place, Points, Profile, Station, discretise};
 use crate::elementary::square;
 use crate::geometry::{GeometryError, Vec2, interpolate};
 use crate::joints::{CONTACT_UNKNOWNS, Partner};
@@ -89,7 +89,7 @@ impl<'a> Assembly<'a> {
                 Some(beam) => {
                     let wrap = |source| ModelError::Beam { beam: beam.name.clone(), source };
                     let (length, mesh) = (beam.axis.length(), &assembly.meshes[index]);
-                    discretise(points, length, mesh, beam.section).map_err(wrap)?
+                    discretise(points, length, mesh, &beam.section).map_err(wrap)?
                 }
                 None => match index.checked_sub(scene.beams.len() + scene.particles.len()) {
                     None => Box::new(Points::particle(points[0])),
@@ -177,8 +177,8 @@ impl<'a> Assembly<'a> {
         let parts = parts.collect::<Result<Vec<_>, ModelError>>()?;
         let gravity = self.scene.gravity;
         let weight = (gravity != Vec2::zeros()).then(|| {
-            let beams = self.bodies.iter().zip(&self.scene.beams);
-            Weight::new(gravity, beams.map(|(body, beam)| (&**body, &beam.section)))
+            let beams = self.bodies.iter().take(self.scene.beams.len());
+            Weight::new(gravity, beams.map(|body| &**body))
         });
         Ok(Elements::new(parts.into_iter(), weight))
     }
@@ -187,7 +187,7 @@ impl<'a> Assembly<'a> {
     fn mass(&self) -> f64 {
         let lengths = self.bodies.iter().map(|beam| beam.lumped_lengths().iter().sum::<f64>());
         let beams = lengths.zip(&self.scene.beams);
-        beams.map(|(length, beam)| beam.section.mass_per_length * length).sum()
+        beams.map(|(length, beam)| beam.section.mean().mass_per_length * length).sum()
     }
 }
 
@@ -205,7 +205,7 @@ impl Site for Assembly<'_> {
         &self.meshes[beam]
     }
 
-    fn section(&self, beam: usize) -> &Section {
+    fn profile(&self, beam: usize) -> &Profile {
         &self.scene.beams[beam].section
     }
 

@@ -69,8 +69,9 @@ impl Assembly<'_> {
             let length = kink_length(self.mesh(master), points).map_err(wrap)?;
             found[master] = Some(length.map(Arc::new));
         }
-        let axis =
-            |length| KinkedAxis::new(length, beam.axis.length(), beam.section.shear_stiffness);
+        let axis = |length| {
+            KinkedAxis::new(length, beam.axis.length(), beam.section.mean().shear_stiffness)
+        };
         Ok(found[master].clone().flatten().map(axis))
     }
 
@@ -84,7 +85,7 @@ impl Assembly<'_> {
 }
 
 fn bar(beam: &BeamDefinition) -> Bar {
-    Bar { length: beam.axis.length(), section: beam.section }
+    Bar { length: beam.axis.length(), section: beam.section.mean() }
 }
 
 impl Model {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::point_mass::Lump;
 use super::{Drag, ForceElement, MaterialDamping, PointMass, Resistance, Spring};
-use crate::beams::{BodyDynamics, Mesh, Place, Section, Station};
+use crate::beams::{BodyDynamics, Mesh, Place, Profile, Station};
 use crate::geometry::GeometryError;
 use crate::loads::{Load, Schedule};
 use crate::model::ModelError;
@@ -130,8 +130,8 @@ pub trait Site {
     /// The mesh of a beam, by its index.
     fn mesh(&self, beam: usize) -> &Mesh;
 
-    /// The section of a beam, by its index.
-    fn section(&self, beam: usize) -> &Section;
+    /// The sections along a beam, by its index.
+    fn profile(&self, beam: usize) -> &Profile;
 
     /// A body at its start, by its index: beams come first, then particles.
     fn body(&self, index: usize) -> &dyn BodyDynamics;

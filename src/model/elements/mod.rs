@@ -20,6 +20,7 @@ mod pattern;
 mod point_mass;
 mod resistance;
 mod restoring;
+mod sampling;
 mod spring;
 mod spring_damper;
 mod supports;

@@ -17,6 +17,13 @@ pub enum RestoringLaw {
         /// Elongations `q` [length, rad], rising, each with the force there [force, force·length]; at least two.
         points: Vec<(f64, f64)>,
     },
+    /// A function that was asked when the scene was described, and is a table from then on.
+    Sampled {
+        /// As those of a table.
+        points: Vec<(f64, f64)>,
+        /// How far the function is from the polygon in the middle of its segments at most [force, force·length].
+        error: f64,
+    },
 }
 
 /// The mean force of a step: the discrete gradient of the stored energy (Gonzalez 1996), with its derivative.
@@ -33,7 +40,7 @@ impl RestoringLaw {
     pub fn force(&self, q: f64) -> f64 {
         match self {
             Self::Linear { stiffness, natural } => stiffness * (q - natural),
-            Self::Table { points } => {
+            Self::Table { points } | Self::Sampled { points, .. } => {
                 let [(q0, f0), _] = segment(points, q);
                 f0 + self.slope(q) * (q - q0)
             }
@@ -44,7 +51,7 @@ impl RestoringLaw {
     pub fn slope(&self, q: f64) -> f64 {
         match self {
             Self::Linear { stiffness, .. } => *stiffness,
-            Self::Table { points } => {
+            Self::Table { points } | Self::Sampled { points, .. } => {
                 let [(q0, f0), (q1, f1)] = segment(points, q);
                 (f1 - f0) / (q1 - q0)
             }
@@ -55,14 +62,20 @@ impl RestoringLaw {
     pub fn energy(&self, q: f64) -> f64 {
         match self {
             Self::Linear { stiffness, natural } => 0.5 * stiffness * (q - natural) * (q - natural),
-            Self::Table { points } => self.work(points, ease(points), q),
+            Self::Table { points } | Self::Sampled { points, .. } => {
+                self.work(points, ease(points), q)
+            }
         }
     }
 
     /// The work `∫ F dq` from one elongation of a table to another, corner by corner: no difference of large numbers.
     fn work(&self, points: &[(f64, f64)], from: f64, to: f64) -> f64 {
         let (low, high) = (from.min(to), from.max(to));
-        let corners = points.iter().map(|(q, _)| *q).filter(|q| low < *q && *q < high);
+        let [first, last] = [
+            points.partition_point(|(q, _)| *q <= low),
+            points.partition_point(|(q, _)| *q < high),
+        ];
+        let corners = points[first..last.max(first)].iter().map(|(q, _)| *q);
         let (mut at, mut force, mut sum) = (low, self.force(low), 0.0);
         for next in corners.chain([high]) {
             let next_force = self.force(next);
@@ -80,11 +93,13 @@ impl RestoringLaw {
                 force: stiffness * ((q - natural) + 0.5 * change),
                 slope: 0.5 * stiffness,
             },
-            Self::Table { points } if segment(points, q) != segment(points, end) && q != end => {
+            Self::Table { points } | Self::Sampled { points, .. }
+                if segment(points, q) != segment(points, end) && q != end =>
+            {
                 let force = self.work(points, q, end) / (end - q);
                 MeanForce { force, slope: (self.force(end) - force) / (end - q) }
             }
-            Self::Table { .. } => {
+            Self::Table { .. } | Self::Sampled { .. } => {
                 let slope = self.slope(end);
                 MeanForce { force: self.force(q) + 0.5 * slope * change, slope: 0.5 * slope }
             }
@@ -97,8 +112,9 @@ impl RestoringLaw {
             Self::Linear { stiffness, natural } => {
                 Self::Linear { stiffness: *stiffness, natural: natural + by }
             }
-            Self::Table { points } => {
-                Self::Table { points: points.iter().map(|(q, force)| (q + by, *force)).collect() }
+            Self::Table { points } => Self::Table { points: moved(points, by) },
+            Self::Sampled { points, error } => {
+                Self::Sampled { points: moved(points, by), error: *error }
             }
         }
     }
@@ -110,8 +126,18 @@ impl RestoringLaw {
                 format!("stiffness {stiffness}, at ease at {natural}")
             }
             Self::Table { points } => format!("a table of {} points", points.len()),
+            Self::Sampled { points, error } => {
+                let (count, first, last) = (points.len(), points[0].0, points[points.len() - 1].0);
+                format!(
+                    "a function asked at {count} points from {first} to {last}, off by {error:.1e} between them and straight beyond"
+                )
+            }
         }
     }
+}
+
+fn moved(points: &[(f64, f64)], by: f64) -> Vec<(f64, f64)> {
+    points.iter().map(|(q, force)| (q + by, *force)).collect()
 }
 
 /// The ends of the segment of a table that an elongation lies on, or is nearest to; at a corner the one beyond it.

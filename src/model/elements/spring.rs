@@ -104,7 +104,7 @@ impl Description for Spring {
                     return refused("length", *natural, allowed);
                 }
             }
-            Some(RestoringLaw::Table { points }) => {
+            Some(RestoringLaw::Table { points } | RestoringLaw::Sampled { points, .. }) => {
                 if let Some(wrong) =
                     points.iter().flat_map(|(q, f)| [q, f]).find(|x| !x.is_finite())
                 {

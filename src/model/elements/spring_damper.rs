@@ -92,7 +92,7 @@ impl SpringDamper {
                 // A law that falls would gain what one that rises loses.
                 let late = match law {
                     RestoringLaw::Linear { stiffness, .. } => 0.5 * chi * stiffness.max(0.0),
-                    RestoringLaw::Table { .. } => 0.0,
+                    RestoringLaw::Table { .. } | RestoringLaw::Sampled { .. } => 0.0,
                 };
                 Target { force: mean.force + late * change, stiffness: mean.slope + late }
             }

@@ -3,7 +3,7 @@
 use super::pattern::Pattern;
 use super::point_mass::Lump;
 use super::{Exchange, ForceElement, Iterate};
-use crate::beams::{BodyDynamics, Section};
+use crate::beams::BodyDynamics;
 use crate::geometry::Vec2;
 use crate::integrators::Method;
 use crate::model::bodies::Body;
@@ -15,15 +15,12 @@ pub struct Weight {
 }
 
 impl Weight {
-    /// The weight of beams with their sections, in a field of gravity [length/time²].
-    pub fn new<'a>(
-        gravity: Vec2,
-        beams: impl Iterator<Item = (&'a dyn BodyDynamics, &'a Section)>,
-    ) -> Self {
+    /// The weight of beams in a field of gravity [length/time²].
+    pub fn new<'a>(gravity: Vec2, beams: impl Iterator<Item = &'a dyn BodyDynamics>) -> Self {
         let mut forces = Pattern::default();
-        for (index, (beam, section)) in beams.enumerate() {
-            for (point, length) in beam.lumped_lengths().into_iter().enumerate() {
-                let force = gravity * (length * section.mass_per_length);
+        for (index, beam) in beams.enumerate() {
+            for (point, mass) in beam.lumped_masses().into_iter().enumerate() {
+                let force = gravity * mass;
                 forces.push(index, point, [force.x, force.y, 0.0]);
             }
         }

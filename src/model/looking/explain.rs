@@ -1,6 +1,6 @@
 //! What a scene uses, and what it therefore leaves out.
 
-use crate::beams::PointCounts;
+use crate::beams::{PointCounts, Profile};
 use crate::geometry::Vec2;
 use crate::integrators::{Constraints, INTEGRATORS, Mechanism, Method};
 use crate::joints::{Component, Joint, Partner, SLIDING_RULES, StartVelocities};
@@ -118,7 +118,13 @@ impl Model {
             let how = format!(
                 "{mesh}, {points} control points; points for Γ {force}, κ {moment}, mass {inertia}"
             );
-            Part::used(format!("beam '{}'", beam.name), how)
+            let taper = match beam.section {
+                Profile::Uniform(_) => "",
+                Profile::Numbers(_) | Profile::Dimensions(_) => {
+                    "; a taper: each point has a section of its own"
+                }
+            };
+            Part::used(format!("beam '{}'", beam.name), format!("{how}{taper}"))
         };
         let mut parts: Vec<Part> = match scene.beams.len() {
             count if count > MOST => {

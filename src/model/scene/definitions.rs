@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::beams::{Mesh, Rotation, Section, Station};
+use crate::beams::{Mesh, Profile, Rotation, Station};
 use crate::geometry::{Curve, Vec2};
 
 /// How a beam moves when the scene starts: a rigid motion.
@@ -31,8 +31,8 @@ pub struct BeamDefinition {
     pub axis: Curve,
     /// The mesh of the beam: basis and quadrature.
     pub mesh: Mesh,
-    /// The section of the beam: stiffness and inertia.
-    pub section: Section,
+    /// The sections along the beam: stiffness and inertia.
+    pub section: Profile,
     /// How the beam moves at the start.
     pub motion: StartMotion,
 }
@@ -40,7 +40,7 @@ pub struct BeamDefinition {
 impl BeamDefinition {
     /// The mass of the beam, without what stands on it [mass].
     pub fn mass(&self) -> f64 {
-        self.section.mass_per_length * self.axis.length()
+        self.section.mean().mass_per_length * self.axis.length()
     }
 
     /// Whether the beam moves when the scene starts.

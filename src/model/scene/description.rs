@@ -53,7 +53,8 @@ impl Scene {
     pub fn rounding_energy(&self) -> f64 {
         let stiffness = self.beams.iter().map(|beam| {
             let length = beam.axis.length();
-            beam.section.axial_stiffness * length + beam.section.bending_stiffness / length
+            let section = beam.section.largest();
+            section.axial_stiffness * length + section.bending_stiffness / length
         });
         f64::EPSILON * stiffness.sum::<f64>()
     }
@@ -66,10 +67,8 @@ impl Scene {
 
     /// The speed of the fastest axial wave in the scene's beams; zero where there are no beams [length/time].
     pub(in crate::model) fn fastest_wave(&self) -> f64 {
-        let squares = self
-            .beams
-            .iter()
-            .map(|beam| beam.section.axial_stiffness / beam.section.mass_per_length);
+        let sections = self.beams.iter().flat_map(|beam| beam.section.given());
+        let squares = sections.map(|section| section.axial_stiffness / section.mass_per_length);
         squares.fold(0.0, f64::max).sqrt()
     }
 

@@ -46,6 +46,7 @@ impl TryFrom<StoredScene> for Scene {
             finite("start motion", "spin", &[motion.spin])?;
             finite("start motion", "centre", motion.about.as_ref().map_or(&[], Vec2::as_slice))?;
             beam.section
+                .clone()
                 .validated()
                 .map_err(|source| ModelError::Beam { beam: beam.name.clone(), source })?;
             scene.add_beam(beam)?;

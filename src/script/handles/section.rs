@@ -1,6 +1,6 @@
-//! A cross section that a script holds.
+//! Cross sections that a script holds.
 
-use crate::beams::{Relaxation, Section};
+use crate::beams::{Profile, Relaxation, Section, Solid};
 use crate::output::significant;
 use crate::script::looks::details;
 use crate::script::rows::kind::{Details, Scripted};
@@ -8,37 +8,51 @@ use crate::script::rows::kind::{Details, Scripted};
 /// Digits of a stiffness or an inertia where it is shown.
 const DIGITS: usize = 7;
 
-/// A cross section, and the damping of its material, if it has any.
+/// A cross section or a taper, and the damping of its material, if it has any.
 #[derive(Clone)]
 pub struct SectionHandle {
-    /// Its stiffness and inertia.
-    pub section: Section,
+    /// Stiffness and inertia along a beam.
+    pub profile: Profile,
+    /// The material and the shape that it was made from, if it was: what tapers.
+    pub solid: Option<Solid>,
     /// The relaxation times of its material; none of an elastic one.
     pub relaxation: Option<Relaxation>,
 }
 
 impl Scripted for SectionHandle {
     const NAME: &'static str = "section";
-    const DOC: &'static str = "A cross section: stiffness and inertia.";
+    const DOC: &'static str = "A cross section, or a taper: stiffness and inertia.";
 
     fn show(&self) -> String {
-        let section = &self.section;
-        let [ea, ga, ei, mass, rotary] = [
-            section.axial_stiffness,
-            section.shear_stiffness,
-            section.bending_stiffness,
-            section.mass_per_length,
-            section.rotary_inertia,
-        ]
-        .map(|number| significant(number, DIGITS));
         let damped = self.relaxation.map(|of| format!(", {}", in_words(&of))).unwrap_or_default();
-        format!("section with EA {ea}, GA {ga}, EI {ei}, rho_A {mass}, rho_I {rotary}{damped}")
+        let what = match &self.profile {
+            Profile::Uniform(section) => format!("section with {}", numbers(section)),
+            tapered => {
+                let places = tapered.given().len();
+                let [start, end] = [0.0, 1.0].map(|part| numbers(&tapered.at(part)));
+                format!("taper over {places} places, from {start} to {end}")
+            }
+        };
+        format!("{what}{damped}")
     }
 
     fn details(&self) -> Details {
         let damped = self.relaxation.map(|of| ("material".to_owned(), in_words(&of)));
-        details::of_section(&self.section).into_iter().chain(damped).collect()
+        details::of_section(&self.profile.mean()).into_iter().chain(damped).collect()
     }
+}
+
+/// Stiffness and inertia in words.
+fn numbers(section: &Section) -> String {
+    let [ea, ga, ei, mass, rotary] = [
+        section.axial_stiffness,
+        section.shear_stiffness,
+        section.bending_stiffness,
+        section.mass_per_length,
+        section.rotary_inertia,
+    ]
+    .map(|number| significant(number, DIGITS));
+    format!("EA {ea}, GA {ga}, EI {ei}, rho_A {mass}, rho_I {rotary}")
 }
 
 /// The relaxation times of a material in words.

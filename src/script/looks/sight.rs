@@ -238,7 +238,8 @@ mod tests {
             StartMotion { spin: 1.0, about: Some(Vec2::zeros()), ..StartMotion::default() };
         let axis = Curve::line(Vec2::zeros(), Vec2::new(2.0, 0.0)).unwrap();
         let mesh = Mesh::bspline(4, 3, 2).unwrap();
-        let beam = BeamDefinition { name: "rod".into(), axis, mesh, section, motion };
+        let beam =
+            BeamDefinition { name: "rod".into(), axis, mesh, section: section.into(), motion };
         let beam = scene.add_beam(beam).unwrap();
         let start = scene.station(beam, 0.0).unwrap();
         scene.join(JointKind::Hinge, start, Partner::Ground).unwrap();

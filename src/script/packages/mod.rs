@@ -36,6 +36,7 @@ mod stability_studies;
 mod statistics;
 mod step_sizes;
 mod tables;
+mod tapers;
 mod text;
 mod time_travel;
 mod vectors;
@@ -55,6 +56,7 @@ pub const TABLES: &[&Table] = &[
     &text::TABLE,
     &checking::TABLE,
     &sections::TABLE,
+    &tapers::TABLE,
     &schedules::TABLE,
     &integrators::TABLE,
     &step_sizes::TABLE,

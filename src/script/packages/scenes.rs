@@ -206,12 +206,12 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
         spin: options.number_if_given("spin").unwrap_or(0.0),
         about: if options.has("about") { Some(options.point("about")?) } else { None },
     };
-    let SectionHandle { section, relaxation } = options.get("section")?;
+    let SectionHandle { profile, relaxation, .. } = options.get("section")?;
     let definition = BeamDefinition {
         name: named.unwrap_or_else(|| scene.scene().borrow().free_name("beam")),
         axis: Curve::clone(&*options.get::<Rc<Curve>>("axis")?),
         mesh,
-        section,
+        section: profile,
         motion,
     };
     let added = scene.scene().borrow_mut().add_beam(definition);

@@ -6,7 +6,7 @@ use rhai::{Dynamic, INT};
 
 use super::geometry::KNOTS;
 
-use crate::beams::{BeamError, Mesh, Quadrature, Relaxation, Section, Shape, Solid};
+use crate::beams::{BeamError, Mesh, Profile, Quadrature, Relaxation, Section, Shape, Solid};
 use crate::geometry::{Basis, KnotVector};
 use crate::script::handles::section::SectionHandle;
 use crate::script::looks::details;
@@ -45,24 +45,24 @@ pub const TABLE: Table = Table {
                  let steel = section(#{ E: 210e9, nu: 0.3, density: 7850, shape: \"rectangle\", width: 0.02, height: 0.01 });\n\
                  check_close(steel.EA, 210e9 * 0.02 * 0.01, 1);",
             )
-            .see(&["beam"]),
-        property(SECTION, "EA", |call| Ok(call.receiver::<SectionHandle>()?.section.axial_stiffness.into()))
+            .see(&["taper", "beam"]),
+        property(SECTION, "EA", |call| of_uniform(call, |section| section.axial_stiffness))
             .returns(Returns::NUMBER)
             .summary("The axial stiffness [force].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.EA == 1e4);"),
-        property(SECTION, "GA", |call| Ok(call.receiver::<SectionHandle>()?.section.shear_stiffness.into()))
+        property(SECTION, "GA", |call| of_uniform(call, |section| section.shear_stiffness))
             .returns(Returns::NUMBER)
             .summary("The shear stiffness, correction factor included [force].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.GA == 1e4);"),
-        property(SECTION, "EI", |call| Ok(call.receiver::<SectionHandle>()?.section.bending_stiffness.into()))
+        property(SECTION, "EI", |call| of_uniform(call, |section| section.bending_stiffness))
             .returns(Returns::NUMBER)
             .summary("The bending stiffness [force·length²].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.EI == 100);"),
-        property(SECTION, "rho_A", |call| Ok(call.receiver::<SectionHandle>()?.section.mass_per_length.into()))
+        property(SECTION, "rho_A", |call| of_uniform(call, |section| section.mass_per_length))
             .returns(Returns::NUMBER)
             .summary("The mass per length [mass/length].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.rho_A == 1);"),
-        property(SECTION, "rho_I", |call| Ok(call.receiver::<SectionHandle>()?.section.rotary_inertia.into()))
+        property(SECTION, "rho_I", |call| of_uniform(call, |section| section.rotary_inertia))
             .returns(Returns::NUMBER)
             .summary("The rotary inertia per length [mass·length].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.rho_I == 10);"),
@@ -208,9 +208,22 @@ fn whole_number(count: usize) -> Result<Dynamic, ScriptError> {
 
 fn section(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options("options")?;
-    let section = section_of(&options)?;
+    let (section, solid) = section_of(&options)?;
     let relaxation = relaxation(&options)?;
-    Ok(Dynamic::from(SectionHandle { section, relaxation }))
+    Ok(Dynamic::from(SectionHandle { profile: section.into(), solid, relaxation }))
+}
+
+/// A number of a section that is the same everywhere.
+fn of_uniform(call: &Call, number: fn(&Section) -> f64) -> Result<Dynamic, ScriptError> {
+    match &call.receiver::<SectionHandle>()?.profile {
+        Profile::Uniform(section) => Ok(number(section).into()),
+        tapered => {
+            let [start, end] = [0.0, 1.0].map(|part| number(&tapered.at(part)));
+            let told =
+                format!("this number varies along a taper: {start} at its start, {end} at its end");
+            Err(call.error(told).hint("ask the section at a place: taper.at(0.5).EI"))
+        }
+    }
 }
 
 /// The relaxation times that options give; none where all of them are zero.
@@ -224,10 +237,10 @@ fn relaxation(options: &Options) -> Result<Option<Relaxation>, ScriptError> {
     Ok((relaxation != Relaxation::default()).then_some(relaxation))
 }
 
-fn section_of(options: &Options) -> Result<Section, ScriptError> {
+fn section_of(options: &Options) -> Result<(Section, Option<Solid>), ScriptError> {
     let number = |name: &str| options.number(name);
     let shape = match GIVEN_BY.choose("section", options)? {
-        GivenBy::Stiffness => return from_stiffness(options),
+        GivenBy::Stiffness => return Ok((from_stiffness(options)?, None)),
         GivenBy::Rectangle => {
             Shape::Rectangle { width: number("width")?, height: number("height")? }
         }
@@ -235,7 +248,8 @@ fn section_of(options: &Options) -> Result<Section, ScriptError> {
         GivenBy::Tube => Shape::Tube { outer: number("outer")?, inner: number("inner")? },
     };
     let (young, poisson, density) = (number("E")?, number("nu")?, number("density")?);
-    Section::from_solid(Solid { young, poisson, density, shape }).map_err(blamed)
+    let solid = Solid { young, poisson, density, shape };
+    Ok((Section::from_solid(solid).map_err(blamed)?, Some(solid)))
 }
 
 fn from_stiffness(options: &Options) -> Result<Section, ScriptError> {

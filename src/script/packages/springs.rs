@@ -15,11 +15,13 @@ use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Details, Kind, Scripted, Type};
 use crate::script::rows::options::Options;
 use crate::script::rows::parameter::{
-    Parameter, Presence, array, choice, either, number, object, options, points, text,
+    Parameter, Presence, array, callback, choice, either, number, object, options, point, points,
+    text,
 };
 use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, method, property};
 use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::as_number;
 
 /// Springs and dampers.
 pub const TABLE: Table = Table {
@@ -44,9 +46,12 @@ pub const TABLE: Table = Table {
         .returns(Returns::object(SPRING))
         .summary("A spring between two stations, or a station and a point of the ground; a damper may act beside it.")
         .doc("It pulls with stiffness · (distance - length), and with damping · the rate of the distance. A spring as stiff as a rod takes no more \
-              iterations than a soft one. Where the distance is zero it has no direction and no force.")
+              iterations than a soft one. Where the distance is zero it has no direction and no force. A law is asked when the spring is made, at so many elongations \
+              of its range that the polygon through them is right to 1e-7 of the largest force: its energy is known exactly, and files keep it. Printed, the spring \
+              tells how far it is off.")
         .example("let s1 = scene.spring(rod.end, bead, #{ stiffness: 100, length: 0.5, damping: 0.5 });\n\
                   scene.spring([2, -2], bead, #{ stiffness: 20, acts: \"pull\" });\n\
+                  scene.spring([0, 1], bead, #{ law: |e| 20 * e + 5 * e * e * e, range: [-2, 2] });\n\
                   let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\n\
                   check(sim.history.drift(\"energy\") < 1e-12);\ncheck(sim.history.last(\"dissipated\") > 0);")
         .see(&["damper", "tendon", "torsion_spring", "spring_force"]),
@@ -116,6 +121,8 @@ const SPRING_KEYS: &[Parameter] = &[
     points("table")
         .doc("points [length, force] in place of a stiffness: a polygon, which goes on beyond its ends as in its last parts")
         .optional(),
+    callback("law").doc("the force over the elongation, |e| …, in place of a stiffness").optional(),
+    point("range").unit("length").doc("the elongations for which the law is asked; beyond it goes on straight").beside("law").optional(),
     DAMPING,
     text("name").optional(),
 ];
@@ -128,6 +135,14 @@ const TORSION_KEYS: &[Parameter] = &[
         .doc("where it is at ease, with the ground from the x axis like sim.angle; as drawn unless given")
         .optional(),
     points("table").doc("points [angle, moment] in place of a stiffness").optional(),
+    callback("law")
+        .doc("the moment over the angle beyond ease, |a| …, in place of a stiffness")
+        .optional(),
+    point("range")
+        .unit("rad")
+        .doc("the angles for which the law is asked")
+        .beside("law")
+        .optional(),
     number("damping").unit("force·length·time/rad").or(Presence::Number(0.0)),
     text("name").optional(),
 ];
@@ -231,6 +246,9 @@ fn law(call: &Call, options: &Options, kind: &SpringKind) -> Result<Law, ScriptE
         SpringKind::Torsion(_) => ("angle", Acts::Both),
         SpringKind::Way(_) => ("length", meant(&ACTS, &options.text("acts")?)),
     };
+    if options.has("law") {
+        return sampled(call, options, ease);
+    }
     if options.has("table") {
         let odd = match acts {
             Acts::Both => ["stiffness", ease].into_iter().find(|key| options.has(key)),
@@ -264,6 +282,41 @@ fn law(call: &Call, options: &Options, kind: &SpringKind) -> Result<Law, ScriptE
         Acts::Push => side(-stiffness, 0.0),
     };
     Ok((Some(law), origin))
+}
+
+/// The law of a function, which is asked over a range of elongations now and never again.
+fn sampled(call: &Call, options: &Options, ease: &str) -> Result<Law, ScriptError> {
+    let function = options.callback("law")?;
+    call.expect_arguments(&function, 1, "law: |e| 100 * e, e being the elongation")?;
+    let odd = options.given().find(|key| ["stiffness", "table"].contains(key));
+    if let Some(odd) = odd {
+        let told = format!("a law says all about the force, and {odd} is given besides");
+        let hint = format!("leave out {odd}, or the law");
+        return Err(call.error(told).hint(hint).at(Place::Key(odd.into())));
+    }
+    if !options.has("range") {
+        let told = "for which elongations the law is asked is missing";
+        let hint = "give range: [-0.1, 0.1], from the shortest to the longest";
+        return Err(call.error(told).hint(hint).at(Place::Key("law".into())));
+    }
+    let range = options.point("range")?;
+    if range.x >= range.y {
+        let told = format!("the range [{}, {}] does not rise", range.x, range.y);
+        let hint = "give the smaller elongation first";
+        return Err(call.error(told).hint(hint).at(Place::Key("range".into())));
+    }
+    let force = |elongation: f64| {
+        let value = call.invoke(&function, [Dynamic::from(elongation)])?;
+        as_number(&value).filter(|force| force.is_finite()).ok_or_else(|| {
+            let told = format!("the law gives no finite number at the elongation {elongation}");
+            call.error(told).at(Place::Key("law".into()))
+        })
+    };
+    let law = RestoringLaw::sampled((range.x, range.y), force)?;
+    Ok(match options.number_if_given(ease) {
+        Some(natural) => (Some(law.shifted(natural)), Origin::Zero),
+        None => (Some(law), Origin::AsBuilt),
+    })
 }
 
 fn tendon(call: &mut Call) -> Result<Dynamic, ScriptError> {

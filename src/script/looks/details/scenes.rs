@@ -48,6 +48,7 @@ pub fn of_beam(scene: &Scene, index: usize) -> Details {
     let (start, end) = axis.domain();
     let ends = axis.point(start).ok().zip(axis.point(end).ok());
     let ends = ends.map(|(start, end)| line("ends", format!("{} … {}", pair(start), pair(end))));
+    let (tapers, section) = (section.given().len() > 1, section.mean());
     let [ea, ga, ei] =
         [section.axial_stiffness, section.shear_stiffness, section.bending_stiffness];
     let stiffness = format!("EA {}, GA {}, EI {}", number(ea), number(ga), number(ei));
@@ -56,7 +57,7 @@ pub fn of_beam(scene: &Scene, index: usize) -> Details {
     let lines = [
         ends,
         Some(line("control points", mesh.basis().functions().to_string())),
-        Some(line("stiffness", stiffness)),
+        Some(line(if tapers { "mean stiffness" } else { "stiffness" }, stiffness)),
         Some(line("mass", number(beam.mass()))),
         (!held.is_empty()).then(|| line("joints", listed(held.into_iter()))),
         beam.starts_in_motion().then(|| line("at the start", moving)),

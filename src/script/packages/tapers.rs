@@ -1,0 +1,98 @@
+//! Sections that vary along a beam.
+
+use rhai::{Array, Dynamic};
+
+use super::sections::SECTION;
+use crate::beams::{BeamError, Profile, Section, Solid};
+use crate::script::handles::section::SectionHandle;
+use crate::script::rows::call::Call;
+use crate::script::rows::parameter::array;
+use crate::script::rows::parameter::number;
+use crate::script::rows::returns::Returns;
+use crate::script::rows::table::{Table, function, method};
+use crate::script::words::error::{Place, ScriptError};
+
+/// The domain of tapers.
+pub const TABLE: Table = Table {
+    name: "tapers",
+    doc: "Sections that vary along a beam: blades, whips, fly rods.",
+    types: &[],
+    setup: "",
+    constants: &[],
+    rows: &[
+        function("taper", &[array("places")], taper)
+            .returns(Returns::object(SECTION))
+            .summary("A section that varies along a beam, between the sections at some places: [[0, thick], [1, thin]].")
+            .doc(
+                "Places are parts of the length as drawn and rise from 0 to 1. Where all sections were made from a material and one kind of shape, dimensions and \
+                 material are linear between the places: the height of a wedge, so that its EI is cubic. Otherwise EA, GA, EI, rho_A and rho_I themselves are. Sections \
+                 of one taper have the same damping.",
+            )
+            .example(
+                "fn solid(height) { section(#{ E: 12e9, nu: 0.3, density: 700, shape: \"rectangle\", width: 0.02, height: height }) }\n\
+                 let blade = taper([[0, solid(0.01)], [1, solid(0.002)]]);\n\
+                 check_close(blade.at(0.5).EI, 12e9 * 0.02 * 0.006^3 / 12, 1e-9);\n\
+                 let scene = new_scene(\"blade\");\nlet beam = scene.beam(#{ axis: line([0, 0], [1, 0]), section: blade });\nscene.clamp(beam.start);",
+            )
+            .see(&["section", "beam"]),
+        method(SECTION, "at", &[number("part").between(0.0, 1.0).doc("of the length, from the start")], |call| {
+            let handle = call.receiver::<SectionHandle>()?;
+            let section = handle.profile.at(call.number("part")?);
+            Ok(Dynamic::from(SectionHandle { profile: section.into(), solid: None, ..handle }))
+        })
+        .returns(Returns::object(SECTION))
+        .summary("The section of a taper at a part of the length.")
+        .example("fn of(bending) { section(#{ EA: 1e4, GA: 1e4, EI: bending, rho_A: 1, rho_I: 1 }) }\ncheck(taper([[0, of(4)], [1, of(2)]]).at(0.25).EI == 3.5);")
+        .see(&["taper"]),
+    ],
+};
+
+fn taper(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let mut all: Vec<(f64, SectionHandle)> = Vec::new();
+    for (index, given) in call.array("places")?.into_iter().enumerate() {
+        all.push(place(call, index, given)?);
+    }
+    let relaxation = all.first().and_then(|(_, section)| section.relaxation);
+    if let Some((place, _)) = all.iter().find(|(_, section)| section.relaxation != relaxation) {
+        let told = format!("the section at {place} has another damping than that at the start");
+        let hint = "give the sections of a taper the same damping";
+        return Err(call.error(told).hint(hint).at(Place::Argument(0)));
+    }
+    let profile = profile(&all).validated().map_err(|error| match error {
+        BeamError::SectionValue { .. } => ScriptError::from(error),
+        _ => ScriptError::from(error).hint("write taper([[0, thick], [1, thin]])"),
+    });
+    let profile = profile.map_err(|error| error.at(Place::Argument(0)))?;
+    Ok(Dynamic::from(SectionHandle { profile, solid: None, relaxation }))
+}
+
+/// Between solids of one kind dimensions are linear, otherwise the numbers are.
+fn profile(all: &[(f64, SectionHandle)]) -> Profile {
+    let solids: Option<Vec<(f64, Solid)>> =
+        all.iter().map(|(place, section)| Some((*place, section.solid?))).collect();
+    let alike = |all: &Vec<(f64, Solid)>| {
+        all.windows(2).all(|pair| pair[0].1.is_of_one_kind_with(&pair[1].1))
+    };
+    match solids.filter(alike) {
+        Some(solids) => Profile::Dimensions(solids),
+        None => {
+            let section = |section: &SectionHandle| -> Section { section.profile.at(0.0) };
+            Profile::Numbers(all.iter().map(|(place, of)| (*place, section(of))).collect())
+        }
+    }
+}
+
+/// One place of a taper: a part of the length, and a section.
+fn place(call: &Call, index: usize, given: Dynamic) -> Result<(f64, SectionHandle), ScriptError> {
+    let read = |given: Dynamic| {
+        let pair = given.try_cast::<Array>()?;
+        let [place, section] = <[Dynamic; 2]>::try_from(pair).ok()?;
+        let place = place.as_float().or_else(|_| place.as_int().map(|whole| whole as f64)).ok()?;
+        let section = section.try_cast::<SectionHandle>()?;
+        matches!(section.profile, Profile::Uniform(_)).then_some((place, section))
+    };
+    read(given).ok_or_else(|| {
+        let told = format!("place {} is not a part of the length and a section", index + 1);
+        call.error(told).hint("write [0.5, section], 0.5 being the middle").at(Place::Argument(0))
+    })
+}
