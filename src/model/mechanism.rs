@@ -75,6 +75,13 @@ impl Model {
         self.motion.begin(inertia);
     }
 
+    /// Gives what is moved by functions of time the rates with which these begin, in a model that has not taken a step.
+    pub fn set_given_in_motion(&mut self) {
+        let first = self.unknowns.count();
+        let given = &self.supports.guides().given().rates;
+        self.motion.rates[first..].copy_from_slice(given);
+    }
+
     pub(super) fn bodies(&self) -> &Bodies {
         &self.bodies
     }

@@ -77,6 +77,7 @@ impl Simulation {
         let scene = rest.scene().clone();
         let mut model = Model::assemble(&scene)?;
         model.restore(&rest.model().state());
+        model.set_given_in_motion();
         Self::of(scene, model, settings)
     }
 

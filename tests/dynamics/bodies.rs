@@ -4,12 +4,16 @@
 use std::f64::consts::PI;
 
 use crate::common::body_scenes::{add_body, hinge, pendulum, point};
+use crate::common::scenes::drive;
 use crate::common::{at, body_scenes, orders, simulate};
 use withy::beams::Station;
 use withy::geometry::{Vec2, perpendicular};
 use withy::integrators::{EnergyClaim, INTEGRATORS, Mechanism, Method};
+use withy::joints::Component;
+use withy::loads::{Course, Schedule};
 use withy::model::{Anchor, Element, Origin, RestoringLaw, Scene, Spring, SpringKind, StartMotion};
 use withy::simulation::{Invariant, Simulation};
+use withy::statics::{Equilibrium, Loading};
 
 const GRAVITY: f64 = 9.81;
 
@@ -231,6 +235,59 @@ fn two_four_bars_in_a_row_are_where_the_benchmark_has_them() {
             assert_eq!(simulation.counts().retries, 0);
         }
     }
+}
+
+/// A wheel that is turned by `0.3 t²`, and a body that hangs on its rim on a hinge with a torsion spring.
+fn driven_wheel() -> Scene {
+    let mut scene = Scene::new("driven wheel");
+    let wheel = add_body(&mut scene, at(0.0, 0.0), 0.0, (2.0, 0.3), &[at(0.5, 0.0)]);
+    let hung = add_body(&mut scene, at(0.5, -0.4), 0.0, (1.0, 0.1), &[at(0.0, 0.4)]);
+    hinge(&mut scene, point(wheel, 0), None);
+    hinge(&mut scene, point(wheel, 1), Some(point(hung, 1)));
+    let function = std::rc::Rc::new(|t: f64| Ok(0.3 * t * t));
+    let course = Course::Place(Schedule::Function { function, breaks: vec![] });
+    drive(&mut scene, point(wheel, 0), &[(Component::Rotation, course)]);
+    let ends = [point(wheel, 1), point(hung, 1)].map(Anchor::Station);
+    let law = Some(RestoringLaw::Linear { stiffness: 2.0, natural: 0.0 });
+    let (name, kind) = ("spring".to_owned(), SpringKind::Torsion(ends));
+    let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0 };
+    scene.add_spring(spring).unwrap();
+    scene
+}
+
+#[test]
+fn a_wheel_that_is_turned_carries_its_rim_and_what_hangs_there() {
+    for entry in INTEGRATORS {
+        let mut scene = driven_wheel();
+        scene.gravity = at(0.0, -GRAVITY);
+        let mut simulation = simulate(scene, entry.method, 0.02, 2.0);
+        let (sin, cos) = 1.2_f64.sin_cos();
+        let (along, across) = (at(cos, sin) * 0.5, at(-sin, cos) * 0.5);
+        let rim = position(&simulation, &point(0, 1));
+        assert!((rim - along).norm() < 1e-12, "{}: {rim}", entry.name);
+        let place = simulation.place(&point(0, 1)).unwrap();
+        let now = simulation.instant().unwrap();
+        let acceleration = simulation.model().acceleration(&now, &place);
+        // `α J r - ω² r`, with ω = 0.6 t and α = 0.6.
+        let expected = across * 0.6 - along * 1.44;
+        assert!((acceleration - expected).norm() < 1e-9, "{}: {acceleration}", entry.name);
+        if entry.claims.energy == EnergyClaim::Kept {
+            for (name, invariant) in Invariant::ALL {
+                let drift = simulation.history().drift(invariant);
+                assert!(drift < 1e-12, "{}, {name}: {drift:.1e}", entry.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn an_equilibrium_puts_on_the_turn_of_a_wheel() {
+    let loading = Loading { time: 2.0, steps: 4, ..Loading::default() };
+    let rest = Equilibrium::find(driven_wheel(), loading, &mut |_| true).unwrap();
+    let (sin, cos) = 1.2_f64.sin_cos();
+    let turned = at(0.5 * cos + 0.4 * sin, 0.5 * sin - 0.4 * cos);
+    let found = rest.model().control_points().nth(1).unwrap()[0];
+    assert!((found - turned).norm() < 1e-12, "{found} {turned}");
 }
 
 #[test]

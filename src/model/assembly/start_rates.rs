@@ -82,14 +82,8 @@ impl Assembly<'_> {
         let mut shared = Shared { rates: vec![None; numbering.unknowns] };
         for (index, beam) in self.scene.beams.iter().enumerate() {
             let degrees = &numbering.degrees_of_freedom[index];
-            self.share_rigid_motion(
-                index,
-                beam.axis.length(),
-                &beam.motion,
-                degrees,
-                &mut shared,
-                begun,
-            )?;
+            let length = beam.axis.length();
+            self.share_rigid_motion(index, length, &beam.motion, degrees, &mut shared, begun)?;
         }
         let first = self.scene.beams.len() + self.scene.particles.len();
         for (index, body) in (first..).zip(&self.scene.rigid_bodies) {
@@ -121,7 +115,7 @@ impl Assembly<'_> {
             true => centre(body),
             false => body.control_points()[0],
         });
-        let rests = *motion == StartMotion::default();
+        let rests = motion.velocity == Vec2::zeros() && motion.spin == 0.0;
         let speed = motion.velocity.norm() + motion.spin.abs() * length;
         let sizes = [speed, speed, speed / length];
         for (point, degrees) in body.control_points().iter().zip(degrees_of_freedom) {

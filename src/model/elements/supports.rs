@@ -71,12 +71,31 @@ impl Supports {
         self.iter().zip(residual[first..].iter().copied())
     }
 
-    /// The impulse that the supports which do not move give in a time with the reactions of a residual.
+    /// The impulse that the supports give which are not given a motion, in the step of the movements that the bodies gathered last, with its reactions.
+    ///
+    /// What is free moves, as a roller does: they act at the mean place.
     pub fn exchange(&self, bodies: &[Body], residual: &[f64], duration: f64) -> Exchange {
+        self.impulse(residual, duration, |body, point| {
+            let [x, y, _] = bodies[body].moved()[point];
+            bodies[body].dynamics.control_points()[point] + 0.5 * Vec2::new(x, y)
+        })
+    }
+
+    /// The impulse that these supports give in a blow, which moves nothing, with its impulses.
+    pub fn exchange_in_blow(&self, bodies: &[Body], impulses: &[f64]) -> Exchange {
+        self.impulse(impulses, 1.0, |body, point| bodies[body].dynamics.control_points()[point])
+    }
+
+    fn impulse(
+        &self,
+        residual: &[f64],
+        duration: f64,
+        place: impl Fn(usize, usize) -> Vec2,
+    ) -> Exchange {
         let mut sum = Exchange::default();
         for (support, reaction) in self.with_reactions(residual).skip(self.guides.count()) {
-            let at = bodies[support.body].dynamics.control_points()[support.point];
             let (force, moment) = support.reaction(reaction);
+            let at = place(support.body, support.point);
             let angular = (cross(at, force) + moment) * duration;
             sum += Exchange::of(0.0, force * duration, angular);
         }

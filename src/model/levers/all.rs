@@ -72,10 +72,10 @@ impl Levers {
         self.all.iter().for_each(|lever| lever.add_coupling(bodies, unknowns, matrix));
     }
 
-    /// Puts the accelerations by which arms turn where the equations of the levers stand.
-    pub fn set_centripetal(&self, bodies: &Bodies, rates: &[f64], out: &mut [f64]) {
+    /// Puts the accelerations by which arms turn, and what given accelerations make of them, where the equations of the levers stand.
+    pub fn set_carried(&self, bodies: &Bodies, rates: &[f64], given: &[f64], out: &mut [f64]) {
         for lever in &self.all {
-            let carried = lever.centripetal(bodies, rates);
+            let carried = lever.centripetal(bodies, rates) - lever.slip(bodies, given);
             [out[lever.unknowns[0]], out[lever.unknowns[1]]] = [carried.x, carried.y];
         }
     }

@@ -217,7 +217,8 @@ impl Lever {
         self.arm() * (-spin * spin)
     }
 
-    /// How fast the point moves beside its place: as the velocities at the ends of steps are made, that is of second order and alternates [length/time].
+    /// How fast the point moves beside its place: as the velocities at the ends of steps are made, that is of second order and alternates [length/time]; so for
+    /// accelerations, the turn of the arm set aside.
     pub fn slip(&self, bodies: &Bodies, rates: &[f64]) -> Vec2 {
         let body = &bodies[self.body];
         let ([.., rotation], _) = self.degrees(bodies);

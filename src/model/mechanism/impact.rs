@@ -135,9 +135,11 @@ impl Model {
         // Impulses of levers are no forces that go on.
         self.levers.clear(&mut change);
         self.motion.jump(&change);
-        self.exchanged += self.supports.exchange(&self.bodies, &residual, 1.0);
-        let guides = self.supports.guides_mut();
-        self.exchanged += guides.exchange_in_blow(&self.bodies, &residual, &self.motion.rates);
+        self.exchanged += self.supports.exchange_in_blow(&self.bodies, &residual);
+        if self.supports.guides().count() > 0 {
+            let guides = self.supports.guides_mut();
+            self.exchanged += guides.exchange_in_blow(&self.bodies, &residual, &self.motion.rates);
+        }
         Ok(impulses)
     }
 

@@ -114,11 +114,11 @@ impl Model {
     fn answer(&self, residual: &[f64]) -> Result<(Vec<f64>, Vec<Vec2>), LinearError> {
         let mut accelerations: Vec<f64> =
             residual[..self.unknowns()].iter().map(|force| -force).collect();
-        self.levers.set_centripetal(&self.bodies, &self.motion.rates, &mut accelerations);
+        let given = self.supports.guides().accelerations();
+        self.levers.set_carried(&self.bodies, &self.motion.rates, &given, &mut accelerations);
         let mut inertia = self.banded_inertia();
         let inertia = inertia.factorise()?;
         inertia.solve(&mut accelerations);
-        let given = self.supports.guides().accelerations();
         accelerations.extend(given.into_iter().skip(self.unknowns()));
         let mut contacts = vec![Vec2::zeros(); self.sliders.len()];
         let directions = self.sliders.directions(&self.bodies, usize::MAX);

@@ -76,11 +76,12 @@ impl Model {
 
     /// Moves the model by some movements of its unknowns [length, rad] to where given motions are under a part of the load, and leaves it at rest there.
     pub fn move_by(&mut self, movements: &[f64], load_factor: f64) {
-        self.bodies.gather(&self.supports.guides().at_rest(movements, load_factor));
+        let movements = self.supports.guides().at_rest(movements, load_factor);
+        self.bodies.gather(&movements);
+        let leverage = Leverage { rotations: RotationIncrement::Angle, share: 1.0 };
+        self.levers.advance(&self.bodies, leverage, &movements);
         self.supports.guides_mut().place(load_factor);
         self.elements.advance(&self.bodies, RotationIncrement::Angle);
-        let leverage = Leverage { rotations: RotationIncrement::Angle, share: 1.0 };
-        self.levers.advance(&self.bodies, leverage, movements);
         self.bodies.advance(RotationIncrement::Angle);
         self.motion.rates.fill(0.0);
     }

@@ -166,7 +166,8 @@ impl Constraints for Model {
     }
 
     fn add_constraints(&mut self, increments: &[f64], unknowns: &[f64], out: &mut [f64]) {
-        self.step.contact = self.sliders.add(&self.bodies, increments, unknowns, out);
+        let movements = self.unknowns.count();
+        self.step.contact = self.sliders.add(&self.bodies, movements, increments, unknowns, out);
     }
 
     fn add_linearised_constraints(
@@ -176,7 +177,8 @@ impl Constraints for Model {
         out: &mut [f64],
         border: &mut Border,
     ) {
-        self.sliders.add_linearised(&self.bodies, increments, unknowns, out, border);
+        let movements = self.unknowns.count();
+        self.sliders.add_linearised(&self.bodies, movements, increments, unknowns, out, border);
     }
 
     fn relative_violation(&self, residual: &[f64]) -> f64 {

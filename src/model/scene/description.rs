@@ -8,7 +8,7 @@ use super::{BeamDefinition, ParticleDefinition, RigidBodyDefinition, Sensor, Sta
 use crate::beams::{BodyIndex, Mesh, Place, Station};
 use crate::geometry::Vec2;
 use crate::joints::{Joint, JointKind, Partner, Slider};
-use crate::loads::{Load, LoadKind, Schedule};
+use crate::loads::{Load, Schedule};
 use crate::model::ModelError;
 use crate::model::elements::{Drive, Element, MaterialDamping, PointMass, Setting, Spring};
 use crate::model::words::{refusal, rounded};
@@ -185,8 +185,8 @@ impl Scene {
         let loads = self.loads().filter_map(|load| Some(("load", load.title.as_ref()?)));
         let drags = self.drags().map(|drag| ("drag", &drag.name));
         let bodies = self.rigid_bodies.iter().map(|body| ("body", &body.name));
-        let bodies = beams.chain(particles).chain(bodies).chain(sliders);
-        bodies.chain(springs).chain(drags).chain(drives).chain(loads)
+        let all = beams.chain(particles).chain(bodies).chain(sliders).chain(springs);
+        all.chain(drags).chain(drives).chain(loads)
     }
 
     pub(in crate::model) fn check_name(
@@ -279,37 +279,6 @@ impl Scene {
     pub fn add_spring(&mut self, spring: Spring) -> Result<(), ModelError> {
         self.check_name("spring", &spring.name)?;
         self.add_element(Element::Spring(spring))
-    }
-
-    /// Adds a load to the scene; its name is made of its kind.
-    pub fn add_load(&mut self, kind: LoadKind, schedule: Schedule) {
-        let name = self.name_of_load(&kind);
-        self.elements.push(Element::Load(Load { name, kind, schedule, title: None }));
-    }
-
-    /// Adds a load with a name, by which columns of the history have its work.
-    ///
-    /// # Errors
-    /// When something of that name exists, or a number of it is out of its range.
-    pub fn add_named_load(
-        &mut self,
-        title: String,
-        kind: LoadKind,
-        schedule: Schedule,
-    ) -> Result<(), ModelError> {
-        self.check_name("load", &title)?;
-        let name = self.name_of_load(&kind);
-        self.add_element(Element::Load(Load { name, kind, schedule, title: Some(title) }))
-    }
-
-    fn name_of_load(&self, kind: &LoadKind) -> String {
-        match kind {
-            LoadKind::Force { station, .. } => format!("force at {}", self.describe(station)),
-            LoadKind::Moment { station, .. } => format!("moment at {}", self.describe(station)),
-            LoadKind::Line { beam, .. } => {
-                format!("line load on beam '{}'", self.beams[*beam].name)
-            }
-        }
     }
 
     /// The length of the beam that a station is on, as drawn; the size of a rigid body, zero for a particle [length].

@@ -19,7 +19,7 @@ impl Scene {
     pub fn add_drive(&mut self, drive: Drive) -> Result<(), ModelError> {
         self.check_name(drive.kind.name(), &drive.name)?;
         self.check_station("a drive", &drive.station)?;
-        if drive.drives(Component::Rotation) && drive.station.beam().is_none() {
+        if drive.drives(Component::Rotation) && !drive.station.turns() {
             let (object, by) = (drive.name, crate::model::Turning::Drive);
             return Err(ModelError::ParticleTurned { object, by });
         }

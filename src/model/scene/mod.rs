@@ -4,6 +4,7 @@ mod definitions;
 mod description;
 mod drives;
 mod likeness;
+mod loads;
 mod resisting;
 mod rigid_bodies;
 mod sensors;

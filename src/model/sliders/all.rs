@@ -67,12 +67,13 @@ impl Sliders {
     pub fn add(
         &mut self,
         bodies: &[Body],
+        movements: usize,
         increments: &[f64],
         unknowns: &[f64],
         out: &mut [f64],
     ) -> f64 {
         self.iter_mut().fold(0.0, |largest, slider| {
-            larger(largest, slider.add(bodies, increments, unknowns, out))
+            larger(largest, slider.add(bodies, movements, increments, unknowns, out))
         })
     }
 
@@ -80,13 +81,14 @@ impl Sliders {
     pub fn add_linearised(
         &mut self,
         bodies: &[Body],
+        movements: usize,
         increments: &[f64],
         unknowns: &[f64],
         out: &mut [f64],
         border: &mut Border,
     ) {
         for slider in self.iter_mut() {
-            slider.add_linearised(bodies, increments, unknowns, out, border);
+            slider.add_linearised(bodies, movements, increments, unknowns, out, border);
         }
     }
 

@@ -264,10 +264,11 @@ impl Sliding {
         Contact { passage, master: (before, moved), slave_moved, unknowns, kink, length: *length }
     }
 
-    /// Adds the forces on slave and master to a residual, and behind the movements the equations of the contact; gives the contact force [force].
+    /// Adds the forces on slave and master to a residual, and behind so many unknown movements the equations of the contact; gives the contact force [force].
     pub fn add(
         &mut self,
         bodies: &[Body],
+        movements: usize,
         increments: &[f64],
         unknowns: &[f64],
         out: &mut [f64],
@@ -275,7 +276,7 @@ impl Sliding {
         let (law, connection) = (self.law(), self.connection);
         let contact = self.take(bodies, increments, unknowns);
         let equations = law.equations(&contact);
-        connection.add_values(bodies, &contact, &equations, increments.len(), out);
+        connection.add_values(bodies, &contact, &equations, movements, out);
         let force = contact.unknowns.force.norm();
         let chord = contact.tangent().value.norm() / contact.length;
         (self.size, self.chord) = (contact.length + contact.slave_moved.norm(), chord);
@@ -287,12 +288,13 @@ impl Sliding {
     pub fn add_linearised(
         &mut self,
         bodies: &[Body],
+        movements: usize,
         increments: &[f64],
         unknowns: &[f64],
         out: &mut [f64],
         border: &mut Border,
     ) {
-        let (law, connection, movements) = (self.law(), self.connection, increments.len());
+        let (law, connection) = (self.law(), self.connection);
         let contact = self.take(bodies, increments, unknowns);
         let equations = law.equations(&contact);
         connection.add_values(bodies, &contact, &equations, movements, out);

@@ -89,9 +89,7 @@ impl Motion {
         expect: impl Fn(f64, f64) -> Result<(), ScriptError>,
     ) -> Result<Self, ScriptError> {
         let Times { from, to, .. } = wanted.times;
-        let spans: usize =
-            simulation.model().meshes().iter().map(|mesh| mesh.basis().breaks().len() - 1).sum();
-        let has_dots = wanted.dots.unwrap_or(spans <= MOST_SPANS_WITH_DOTS);
+        let has_dots = wanted.dots.unwrap_or_else(|| has_room_for_dots(simulation));
         let start = simulation.configuration_near(0.0)?;
         let mut snapshots = Vec::new();
         for time in times(simulation, &wanted.times)? {
@@ -217,6 +215,13 @@ fn configuration(simulation: &Simulation, time: f64) -> Result<Option<Configurat
         true => Some(simulation.configuration()?),
         false => simulation.configuration_near(time)?,
     })
+}
+
+/// Whether the beams have so few spans in all that dots at their knots do not hide them.
+pub fn has_room_for_dots(simulation: &Simulation) -> bool {
+    let meshes = simulation.model().meshes();
+    let spans: usize = meshes.iter().map(|mesh| mesh.basis().breaks().len() - 1).sum();
+    spans <= MOST_SPANS_WITH_DOTS
 }
 
 /// A configuration as it is drawn.

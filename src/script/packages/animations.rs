@@ -3,16 +3,18 @@
 use rhai::Dynamic;
 
 use super::pictures::files::FILE;
+use super::pictures::options::{X_LIMITS, Y_LIMITS, limits};
 use super::pictures::subjects::{MOVING, plain, simulations, stations};
 use super::simulations::SPINNING;
 use super::viewers::span;
 use crate::elementary::whole_power;
 use crate::output::{
-    Animation, Figure, MotionPicture, OutputError, Page, Panel, PlacedSymbol, Point, Snapshot,
+    Animation, Figure, Limits, MotionPicture, OutputError, Page, Panel, PlacedSymbol, Point,
+    Snapshot,
 };
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
-use crate::script::looks::motion::{Shown, placed, snapshot};
+use crate::script::looks::motion::{Shown, has_room_for_dots, placed, snapshot};
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Scripted;
 use crate::script::rows::options::Options;
@@ -34,7 +36,8 @@ pub const TABLE: Table = Table {
             .summary("Writes the motion as an animated picture, a PNG file that repeats without end.")
             .doc(
                 "Frames are the recorded configurations nearest to times that are evenly spread. Given an array, simulations stand side by side \
-                 with the same view. All frames together have at most 256 colours. For a long motion, or to look closely, write_viewer is the \
+                 with the same view. Knots are dots where there are up to 40 spans. \
+                 All frames together have at most 256 colours. For a long motion, or to look closely, write_viewer is the \
                  smaller file.",
             )
             .example("sim.run_to(2);\nwrite_animation(sim, \"spin.png\", #{ frames: 20, fps: 10, width: 320, trace: [rod.end] });")
@@ -58,6 +61,8 @@ const ANIMATION: &[Parameter] = &[
             "whether supports, joints, sliders, springs and loads are drawn; they are unless given",
         )
         .optional(),
+    X_LIMITS,
+    Y_LIMITS,
 ];
 
 /// Pixels of a picture, alone and of several.
@@ -122,9 +127,10 @@ fn write_animation(call: &mut Call) -> Result<Dynamic, ScriptError> {
         Ok(false) => Shown::No,
         _ => Shown::Yes,
     };
+    let limits = limits(&options).map_err(|wrong| wrong.in_call(call))?;
     let reels = simulations.iter().map(|of| {
         call.proceed()?;
-        reel(of, &times, &traced, shown)
+        reel(of, &times, &traced, shown, limits)
     });
     let reels = framed(reels.collect::<Result<Vec<_>, ScriptError>>()?);
     let usual = if reels.len() == 1 { WIDTHS.0 } else { WIDTHS.1 };
@@ -172,8 +178,10 @@ fn reel(
     times: &[f64],
     traced: &[StationHandle],
     shown: Shown,
+    limits: Limits,
 ) -> Result<Reel, ScriptError> {
     let simulation = of.simulation();
+    let has_dots = has_room_for_dots(&simulation);
     let (mut snapshots, mut symbols) = (Vec::new(), Vec::new());
     for time in times {
         let Some(configuration) = simulation.configuration_near(*time)? else { continue };
@@ -181,7 +189,11 @@ fn reel(
             Shown::Yes => placed(&simulation, configuration.time, None)?,
             Shown::No => Vec::new(),
         });
-        snapshots.push(snapshot(&configuration));
+        let mut snapshot = snapshot(&configuration);
+        if !has_dots {
+            snapshot.marks.clear();
+        }
+        snapshots.push(snapshot);
     }
     let (first, last) = (times[0], times[times.len() - 1]);
     let trace = |station: &StationHandle| {
@@ -192,7 +204,7 @@ fn reel(
     };
     let names = simulation.scene().beams.iter().map(|beam| beam.name.clone());
     Ok(Reel {
-        base: MotionPicture::new(of.name()).beams(names),
+        base: MotionPicture::new(of.name()).beams(names).limits(limits),
         snapshots,
         symbols,
         traces: traced.iter().map(trace).collect::<Result<_, ScriptError>>()?,

@@ -5,7 +5,7 @@ pub mod curves;
 pub mod files;
 mod histories;
 pub mod motion;
-mod options;
+pub mod options;
 pub mod rest;
 pub mod subjects;
 mod tables;

@@ -9,20 +9,29 @@ use crate::script::rows::parameter::{Parameter, array, boolean, choice, numbers,
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::{as_number, format_number};
 
+/// What stands above a chart.
 pub const TITLE: Parameter = text("title").doc("what stands above it").optional();
+/// What stands along the horizontal axis of a chart.
 pub const X_LABEL: Parameter = text("x_label").doc("of the horizontal axis").optional();
+/// What stands along the vertical axis of a chart.
 pub const Y_LABEL: Parameter = text("y_label").doc("of the vertical axis").optional();
+/// Whether the horizontal axis of a chart is logarithmic.
 pub const X_LOG: Parameter =
     boolean("x_log").doc("whether the horizontal axis is logarithmic").optional();
+/// Whether the vertical axis of a chart is logarithmic.
 pub const Y_LOG: Parameter =
     boolean("y_log").doc("whether the vertical axis is logarithmic").optional();
+/// From where to where the horizontal axis of a chart goes.
 pub const X_LIMITS: Parameter =
     numbers("x_limits").doc("[low, high]: the ends of the horizontal axis").optional();
+/// From where to where the vertical axis of a chart goes.
 pub const Y_LIMITS: Parameter =
     numbers("y_limits").doc("[low, high]: the ends of the vertical axis").optional();
+/// Whether the points of a chart are marked, on their lines or alone.
 pub const MARKERS: Parameter = choice("markers", &["on_lines", "alone"])
     .doc("a mark at every point, on the lines or without them; none unless given")
     .optional();
+/// The names of the series of a chart.
 pub const LABELS: Parameter =
     array("labels").doc("the name of each curve, a text or a number, for the legend").optional();
 
