@@ -11,6 +11,10 @@ use std::thread;
 use super::dynamics::Movement;
 use super::span_points::{SpanPoints, window, window_mut};
 
+/// What a part of a beam has for itself: what its work needs, its spans, its first control point and its sums.
+type PartOf<'a, const N: usize, S, C> =
+    (&'a mut C, &'a mut [SpanPoints<N, S>], usize, &'a mut [Movement]);
+
 /// The largest number of parts of a beam that are worked on at once: a few cores use up the bandwidth of the memory.
 pub(super) const MOST_PARTS: usize = 8;
 
@@ -153,13 +157,13 @@ impl Parts {
         }
     }
 
-    /// What each part has for itself: its spans without those astride, its first control point and its sums.
+    /// What each part has for itself, without the spans astride.
     fn split<'a, const N: usize, S, C>(
         &self,
         mut spans: &'a mut [SpanPoints<N, S>],
         mut sums: &'a mut [Movement],
         own: &'a mut [C],
-    ) -> Vec<(&'a mut C, &'a mut [SpanPoints<N, S>], usize, &'a mut [Movement])> {
+    ) -> Vec<PartOf<'a, N, S, C>> {
         let mut parts = Vec::with_capacity(self.count());
         let (mut next_span, mut next_point) = (0, 0);
         let mut own = own.iter_mut();

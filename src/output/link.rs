@@ -47,7 +47,7 @@ impl Link {
         let teeth = 2.0 * (self.length / TURN).round().clamp(TURNS.0, TURNS.1);
         let tooth = |index: u32| {
             let ahead = lead + (f64::from(index) + 0.5) * (self.length - 2.0 * lead) / teeth;
-            (ahead, if index % 2 == 0 { BREADTH } else { -BREADTH })
+            (ahead, if index.is_multiple_of(2) { BREADTH } else { -BREADTH })
         };
         let zigzag = (0..teeth as u32).map(tooth);
         let (begin, end) =

@@ -121,7 +121,7 @@ impl PlacedSymbol {
                 Symbol::Damper => link.damper(),
                 _ => vec![link.ends()],
             };
-            for piece in lines.into_iter().flat_map(|line| curve::pieces(line.into_iter(), plot)) {
+            for piece in lines.into_iter().flat_map(|line| curve::pieces(line, plot)) {
                 canvas.line(piece, LINK, INK);
             }
             return;

@@ -37,8 +37,9 @@ impl Model {
         let of =
             |unknowns: [usize; 2]| larger(forces[unknowns[0]].abs(), forces[unknowns[1]].abs());
         let worst = self.levers().iter().max_by(|a, b| of(a.unknowns).total_cmp(&of(b.unknowns)));
+        let is_undetermined = |force: f64| force.is_nan() || force >= UNDETERMINED;
         match worst {
-            Some(worst) if answer.is_err() || !(of(worst.unknowns) < UNDETERMINED) => {
+            Some(worst) if answer.is_err() || is_undetermined(of(worst.unknowns)) => {
                 let first = scene.beams.len() + scene.particles.len();
                 let body = scene.rigid_bodies[worst.body - first].name.clone();
                 Err(ModelError::HeldTwice { body })
