@@ -142,8 +142,8 @@ fn a_free_body_turns_evenly_and_late_by_the_cube_of_its_spin() {
 
 #[test]
 fn a_body_on_a_torsion_spring_beside_its_centre_swings_as_a_cosine() {
-    let (mass, inertia, arm, stiffness) = (1.5, 0.2, 0.4, 7.0);
-    let frequency: f64 = (stiffness / (inertia + mass * arm * arm)).sqrt();
+    let (mass, inertia, arm, stiffness) = (1.5, 0.2, 0.4, 7.0_f64);
+    let frequency = (stiffness / (inertia + mass * arm * arm)).sqrt();
     for entry in INTEGRATORS {
         let errors = [0.04, 0.02, 0.01].map(|dt| {
             let mut scene = Scene::new("balance wheel");
