@@ -45,10 +45,10 @@ const RATE_AT_END: [f64; 5] = [0.5, 2.0 / (-1.0 - INNER), 2.0, 2.0 / (INNER - 1.
 /// Its second derivative there.
 const BENT_AT_END: [f64; 5] = [5.0, 12.0 * INNER - 20.0, 18.0, -12.0 * INNER - 20.0, 17.0];
 
-/// The spans of time in which the beginning of a course is looked for, from the longest to the shortest: each is this part of the one before,
+/// The beginning of a course is looked for in spans of time from one unit of time on, each of which is this part of the one before.
 const SHRINKS: f64 = 0.125;
 
-/// and there are so many, from one unit of time on.
+/// In how many spans of time the beginning of a course is looked for.
 const SPANS: usize = 14;
 
 impl Course {

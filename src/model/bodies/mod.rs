@@ -1,4 +1,4 @@
-//! Beams and particles, and where their movements stand among the unknowns of the model.
+//! Beams, particles and rigid bodies, and where their movements stand among the unknowns of the model.
 
 mod all;
 mod body;

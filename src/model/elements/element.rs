@@ -11,7 +11,7 @@ use crate::model::ModelError;
 
 /// An element of a scene: something with mass on a body, or something that puts forces on bodies.
 ///
-/// A further kind is a variant, and a file in `model/elements` with its [`Description`] and its [`ForceElement`].
+/// A further kind is a variant, and a file in `model/elements` with its [`Description`] and what it is built into: a [`ForceElement`], or a [`Resistance`](super::Resistance).
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum Element {
     /// The element is a mass at a station.
@@ -133,7 +133,7 @@ pub trait Site {
     /// The sections along a beam, by its index.
     fn profile(&self, beam: usize) -> &Profile;
 
-    /// A body at its start, by its index: beams come first, then particles.
+    /// A body at its start, by its index: beams come first, then particles, then rigid bodies.
     fn body(&self, index: usize) -> &dyn BodyDynamics;
 
     /// Wraps an error of geometry as one of a beam, by its index.

@@ -30,7 +30,7 @@ impl BodyEnergy {
 }
 
 impl Model {
-    /// The energy of a body: beams come first, then particles.
+    /// The energy of a body: beams come first, then particles, then rigid bodies.
     pub fn energy_of(&mut self, body: usize) -> BodyEnergy {
         let rates = &self.motion.rates;
         let own = self.bodies[body].momenta(rates).twice_kinetic;

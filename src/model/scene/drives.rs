@@ -7,8 +7,11 @@ use crate::loads::{Course, Side};
 use crate::model::ModelError;
 use crate::model::elements::{Drive, Setting};
 
-/// By how much of its size a given motion may miss its start, or jump: what rounding makes of functions.
-const SAME_PLACE: f64 = 1e-12;
+/// By how much of its size a given motion may miss its start: what rounding makes of functions.
+const CLOSED_AT_START: f64 = 1e-12;
+
+/// By how much of its size and of where it is a given motion may differ on both sides of a place where it may jump.
+const LARGEST_JUMP: f64 = 1e-9;
 
 impl Scene {
     /// Gives a station a motion.
@@ -47,7 +50,7 @@ impl Scene {
             Component::X | Component::Y => self.length_at(&drive.station),
         };
         let (drive, component) = (|| drive.name.clone(), component.name());
-        if value.abs() > SAME_PLACE * size {
+        if value.abs() > CLOSED_AT_START * size {
             return Err(ModelError::DriveStart { drive: drive(), component, value });
         }
         for time in schedule.breaks() {
@@ -55,7 +58,7 @@ impl Scene {
                 [Side::Before, Side::After].map(|side| schedule.value(time, side));
             let (before, after) = (before.map_err(refused)?, after.map_err(refused)?);
             let jump = after - before;
-            if time >= 0.0 && jump.abs() > 1e-9 * (size + before.abs()) {
+            if time >= 0.0 && jump.abs() > LARGEST_JUMP * (size + before.abs()) {
                 return Err(ModelError::DriveJump { drive: drive(), component, time, jump });
             }
         }
