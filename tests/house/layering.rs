@@ -113,10 +113,27 @@ fn first_names(rest: &str) -> Vec<String> {
     names
 }
 
+/// The text of a file without its unit tests.
+pub fn without_tests<'t>(path: &Path, text: &'t str) -> &'t str {
+    match path.file_stem().is_some_and(|name| name == "tests") {
+        true => "",
+        false => text.split("#[cfg(test)]\nmod tests {").next().unwrap(),
+    }
+}
+
+/// How the code of a file names the module of a folder of `src` that it lies in without its path: `super::`, so often as it lies deep; not at all at its root.
+fn upwards(path: &Path, root: &str) -> Option<String> {
+    let inside = path.strip_prefix(Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(root));
+    let depth = inside.ok()?.components().count() - usize::from(path.ends_with("mod.rs"));
+    (depth > 0).then(|| "super::".repeat(depth))
+}
+
 /// Walls between parts of the code.
 pub struct Walls<'w> {
     /// What one part is, in words.
     pub part: &'static str,
+    /// The folder of `src` that the parts are in.
+    pub root: &'static str,
     /// The part that a file stands in; none for files that are in no part.
     pub of_file: &'w dyn Fn(&Path) -> Option<String>,
     /// The paths that names of parts stand behind.
@@ -137,7 +154,12 @@ impl Walls<'_> {
                 found.push(format!("{}: no {} '{own}' in the table", path.display(), self.part));
                 continue;
             }
-            for (line, name) in self.paths.iter().flat_map(|of| named_after(text, of)) {
+            // Unit tests stand a module deeper.
+            let code = without_tests(path, text);
+            let upwards = upwards(path, self.root);
+            let named = self.paths.iter().flat_map(|of| named_after(text, of));
+            let named = named.chain(upwards.iter().flat_map(|of| named_after(code, of)));
+            for (line, name) in named {
                 let other = (self.of_name)(&name);
                 if other != own && (self.may_use)(&own, &other) != Some(true) {
                     found.push(format!("{}:{line}: {own} uses {other}", path.display()));
@@ -152,6 +174,7 @@ impl Walls<'_> {
 fn trespasses(files: &[(PathBuf, String)]) -> Vec<String> {
     let walls = Walls {
         part: "layer",
+        root: "",
         of_file: &|path| Some(layer(path)),
         paths: &["crate::", "withy::"],
         of_name: &str::to_owned,
@@ -206,7 +229,7 @@ fn strangers(files: &[(PathBuf, String)], exports: &[(String, String)]) -> Vec<S
     };
     let (of_name, may_use) = (&of_name, &may_use);
     let paths = &["crate::model::"];
-    Walls { part: "room", of_file: &room, paths, of_name, may_use }.breaches(files)
+    Walls { part: "room", root: "model", of_file: &room, paths, of_name, may_use }.breaches(files)
 }
 
 /// What `model/mod.rs` hands on: names with their rooms.
@@ -233,7 +256,14 @@ fn rooms_of_the_model_use_one_another_one_way() {
     let bodies = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/model/bodies/body.rs");
     let text =
         "// crate::model::scene\nuse crate::model::{\n    Model, words::finite};\n".to_owned();
+    assert_eq!(strangers(&[(bodies.clone(), text)], &exports).len(), 2);
+    let text =
+        "use super::body::Body;\nuse super::super::{\n    Model, words::finite};\n".to_owned();
     assert_eq!(strangers(&[(bodies, text)], &exports).len(), 2);
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/model/mechanism.rs");
+    let text = "use super::motion::Motion;\nuse super::scene::Scene;\n".to_owned();
+    let found = strangers(&[(beside, text)], &exports);
+    assert!(found.len() == 1 && found[0].ends_with("rs:2: mechanism uses scene"), "{found:?}");
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::layering::{Walls, sources};
+use crate::layering::{Walls, sources, without_tests};
 
 /// From left to right: a wing may use those to its left.
 const WINGS: &[&str] = &[
@@ -22,23 +22,17 @@ fn wing(path: &Path) -> Option<String> {
     first.as_os_str().to_str().filter(|name| *name != "mod.rs").map(str::to_owned)
 }
 
-/// The text of a file without its unit tests, which may use everything.
-fn without_tests<'t>(path: &Path, text: &'t str) -> &'t str {
-    match path.file_stem().is_some_and(|name| name == "tests") {
-        true => "",
-        false => text.split("#[cfg(test)]\nmod tests {").next().unwrap(),
-    }
-}
-
 /// Uses of a wing by one to its left.
 fn trespasses(files: &[(PathBuf, String)]) -> Vec<String> {
     let place = |name: &str| WINGS.iter().position(|wing| *wing == name);
+    // Unit tests may use everything.
     let code: Vec<_> = files
         .iter()
         .map(|(path, text)| (path.clone(), without_tests(path, text).to_owned()))
         .collect();
     let walls = Walls {
         part: "wing",
+        root: "script",
         of_file: &wing,
         paths: &["crate::script::"],
         of_name: &str::to_owned,
@@ -59,6 +53,9 @@ fn wings_of_the_script_use_those_to_their_left() {
     let text = "use crate::script::rows::table::Row;\nuse crate::script::words::stop::Stop;\n";
     let found = trespasses(&[(script().join("source/program.rs"), text.to_owned())]);
     assert!(found.len() == 1 && found[0].ends_with("program.rs:1: source uses rows"), "{found:?}");
+    let text = "use super::lexing::Lexed;\nuse super::super::rows::table::Row;\n";
+    let found = trespasses(&[(script().join("source/program.rs"), text.to_owned())]);
+    assert!(found.len() == 1 && found[0].ends_with("program.rs:2: source uses rows"), "{found:?}");
 }
 
 #[test]
