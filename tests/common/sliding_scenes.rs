@@ -130,6 +130,34 @@ pub fn pinned_cross(mesh: &Mesh, rule: SlidingRule) -> Scene {
     scene
 }
 
+/// Eight sliders of all kinds, more than a border is for: beads, a pin through two beams, an eyelet, and an arm.
+pub fn crowd(mesh: &Mesh, rule: SlidingRule) -> Scene {
+    let mut scene = Scene::new("crowd");
+    let end = at(3.0, 1.0);
+    let rail = add_beam(&mut scene, line(at(0.0, 0.0), end), mesh, paper_section(300.0));
+    scene.beams[rail].motion =
+        StartMotion { velocity: at(0.2, -0.3), spin: 0.7, about: Some(end * 0.5) };
+    for (along, mass, speed) in [(0.1, 0.1, 1.0), (0.25, 0.04, -0.5), (0.4, 0.2, 0.7), (0.85, 0.3, -0.6)] {
+        bead(&mut scene, rail, along, mass, speed, rule);
+    }
+    let (cross, other) = (end * 0.6, at(-0.5, 1.5));
+    let other = line(cross - other * 0.4, cross + other * 0.6);
+    let other = add_beam(&mut scene, other, mesh, paper_section(300.0));
+    let pin = particle(&mut scene, cross, 0.05);
+    slide(&mut scene, pin, rail, 0.6, rule);
+    slide(&mut scene, pin, other, 0.4, rule);
+    let axis = &scene.beams[other].axis;
+    let eye = axis.point(axis.parameter_at(0.8 * axis.length()).unwrap()).unwrap();
+    let eye = particle(&mut scene, eye, 1.0);
+    scene.join(JointKind::Hinge, eye, Partner::Ground).unwrap();
+    slide(&mut scene, eye, other, 0.8, rule);
+    let foot = end * 0.7;
+    let arm = add_beam(&mut scene, line(foot, foot + at(0.6, -0.9)), mesh, paper_section(300.0));
+    let foot = scene.station(arm, 0.0).unwrap();
+    slide(&mut scene, foot, rail, 0.7, rule);
+    scene
+}
+
 /// Every scene, with a rule for all sliders.
 pub fn all(mesh: &Mesh, rule: SlidingRule) -> Vec<Scene> {
     let mut scenes = vec![
@@ -142,6 +170,7 @@ pub fn all(mesh: &Mesh, rule: SlidingRule) -> Vec<Scene> {
         bead_on_an_arc(mesh, rule),
         eyelet(mesh, rule),
         pinned_cross(mesh, rule),
+        crowd(mesh, rule),
     ];
     for slider in scenes.iter_mut().flat_map(|scene| &mut scene.sliders) {
         slider.ends = EndAction::Bounce;

@@ -4,7 +4,7 @@ use super::numbering::{LeverPlace, Numbering};
 use crate::beams::{BodyDynamics, Mesh, Place, Points, Profile, Station, discretise};
 use crate::elementary::square;
 use crate::geometry::{GeometryError, Vec2, interpolate};
-use crate::joints::{CONTACT_UNKNOWNS, Partner};
+use crate::joints::{CONTACT_UNKNOWNS, Partner, Slider};
 use crate::model::bodies::{Bodies, Body, Tracker};
 use crate::model::elements::{Elements, Site, Weight};
 use crate::model::levers::{Lever, Levers};
@@ -38,7 +38,9 @@ impl Model {
         let border = CONTACT_UNKNOWNS * scene.sliders.len();
         let numbering =
             Numbering::new(scene, &assembly.bodies, border, |station| assembly.place(station))?;
-        let sliders = Sliders::new(assembly.sliders(&numbering)?);
+        let sliders = assembly.sliders(&numbering)?;
+        let blocks = numbering.contact_blocks(&sliders);
+        let sliders = Sliders::new(sliders, blocks);
         let elements = assembly.elements()?;
         let levers = assembly.levers(&numbering);
         let (trackers, joined) = (assembly.trackers()?, assembly.joined()?);
@@ -110,13 +112,22 @@ impl<'a> Assembly<'a> {
         let mut points =
             beams.chain(particles).chain(rigid).collect::<Result<Vec<_>, ModelError>>()?;
         // A slave may be on a master that slides itself: its own place is right once that of its master is.
+        let place = |slider: &Slider| {
+            Ok((self.place_at(slider.master, self.slider_parameter(slider)?)?, self.nodes_at(&slider.slave)?))
+        };
+        let places = self.scene.sliders.iter().map(place).collect::<Result<Vec<_>, ModelError>>()?;
         for _ in &self.scene.sliders {
-            for slider in &self.scene.sliders {
-                let place = self.place_at(slider.master, self.slider_parameter(slider)?)?;
+            let mut is_settled = true;
+            for (slider, (place, nodes)) in self.scene.sliders.iter().zip(&places) {
                 let target = place.interpolate(&points[slider.master]);
-                for node in self.nodes_at(&slider.slave)? {
-                    points[node.body][node.nearest_control_point()] = target;
+                for node in nodes {
+                    let point = &mut points[node.body][node.nearest_control_point()];
+                    is_settled &= *point == target;
+                    *point = target;
                 }
+            }
+            if is_settled {
+                break;
             }
         }
         Ok(points)

@@ -24,6 +24,8 @@ pub struct Numbering {
     /// The two unknowns of the force of each lever, among those of the movements that it couples.
     pub levers: Vec<LeverPlace>,
     pub unknowns: usize,
+    /// The unknowns that are coupled with each other.
+    pub groups: Vec<Vec<usize>>,
     /// Of the supported ones, those that are given stand first.
     given: usize,
     supported: usize,
@@ -152,6 +154,16 @@ impl Numbering {
             }
         }
         let ordering = reverse_cuthill_mckee(unknowns, &groups);
+        // What acts at a point couples its movements, which stand side by side.
+        for (body, offset) in bodies.iter().zip(&offsets).filter(|(body, _)| body.order() == 1) {
+            for first in (0..body.control_points().len()).map(|point| offset + 3 * point) {
+                let movements = (first..first + 3).map(|at| number[ties.root(at)]);
+                groups.push(movements.filter(|&n| n != usize::MAX).collect());
+            }
+        }
+        for member in groups.iter_mut().flatten() {
+            *member = ordering.position[*member];
+        }
         let levers = forces.iter().zip(levers).map(|(force, (body, point))| LeverPlace {
             body,
             point,
@@ -186,6 +198,7 @@ impl Numbering {
             degrees_of_freedom,
             levers,
             unknowns,
+            groups,
             given: given.len(),
             supported,
             half_bandwidth: ordering.half_bandwidth,

@@ -81,6 +81,9 @@ impl Model {
         };
         let how = match self.constraint_shape().width {
             0 => how,
+            width if self.constraint_blocks().is_some() => {
+                format!("{how}; {width} of contacts, eliminated where they are")
+            }
             width => format!("{how}; {width} of contacts, in the border"),
         };
         Part::used("unknowns", how)
@@ -187,7 +190,15 @@ impl Model {
             (count > 0).then(|| format!("{count} {}", entry.name))
         });
         let rules = used.collect::<Vec<_>>().join(", ");
-        let how = format!("{rules}: a border of {width} columns; ends of their beams are watched");
+        let solved = match self.constraint_blocks() {
+            None => format!("a border of {width} columns"),
+            Some(blocks) => {
+                let free = blocks.own.iter().filter(|own| !own.is_empty()).count();
+                let all = blocks.own.len();
+                format!("{all} blocks beside the band, {free} with their slaves")
+            }
+        };
+        let how = format!("{rules}: {solved}; ends of their beams are watched");
         Part::used("sliders", how)
     }
 
