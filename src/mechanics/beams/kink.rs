@@ -1,0 +1,148 @@
+//! The kink of an axis under a point force, which smooth functions smear: how far the force moves the axis beyond what the mesh knows.
+//!
+//! A force on a shear-flexible beam makes its tangent jump. What a mesh that cannot jump misses is that of a string on the same
+//! functions, with the same points and weights; derived in docs/theory.md, section 10.1.
+
+use super::{BeamError, Mesh};
+use crate::geometry::{PiecewisePolynomial, PositiveBand, Span, Vec2, lower_splines};
+
+/// A length below this part of a span is rounding.
+const ROUNDING: f64 = 1e-11;
+
+/// The kink length `g(ξ)` of the axis that control points draw on a mesh [length]: a force `λ` across the beam at `ξ` moves the
+/// axis there by `g λ/GA` more than the mesh lets it.
+///
+/// ```text
+/// g(ξ) = l(ξ)ᵀ M⁻¹ r(ξ)        M = Σ w t tᵀ/|x_ξ|        l = ∫ t dξ up to ξ, r = ∫ t dξ from ξ on
+/// ```
+///
+/// over the splines `t` of one degree less, with the points and weights of the beam's shear strain: what a string on these functions gives way under a point load,
+/// taken from what it should, whichever ends are held. A polynomial of twice the degree on each span, zero where the basis is C⁰. None where it is
+/// not positive between these places, as with fewer quadrature points than the patch rule has.
+///
+/// # Errors
+/// When the mesh has no quadrature, or the axis a point without a tangent.
+pub fn kink_length(
+    mesh: &Mesh,
+    control_points: &[Vec2],
+) -> Result<Option<PiecewisePolynomial>, BeamError> {
+    let (basis, degree) = (mesh.basis(), mesh.basis().degree());
+    let spans = basis.spans();
+    let mut products = PositiveBand::zeros(basis.functions() - 1, degree - 1);
+    for quadrature in mesh.quadrature_spans()? {
+        for (xi, weight) in quadrature.force_rule {
+            let values = basis.evaluate_in(&quadrature.span, xi);
+            let speed = values.combine(1, control_points).norm();
+            if speed.is_nan() || speed <= 0.0 {
+                return Err(BeamError::NoTangent { parameter: xi });
+            }
+            let lower: Vec<f64> = lower_splines(&values).collect();
+            products.add_square(quadrature.span.first, weight / speed, &lower);
+        }
+    }
+    let Some(string) = SplineString::new(products, degree) else { return Ok(None) };
+    let rows: Vec<Vec<f64>> =
+        spans.iter().map(|span| string.polynomial(span, &fractions(mesh, span))).collect();
+    let kink = PiecewisePolynomial::new(&spans, &rows);
+    let is_positive = spans.iter().enumerate().all(|(at, span)| {
+        let width = span.end - span.start;
+        let least = -ROUNDING * control_polygon_length(control_points, span, degree);
+        (0..=8 * degree).all(|k| {
+            let xi = span.start + width * k as f64 / (8 * degree) as f64;
+            kink.in_span(at, xi)[0] >= least
+        })
+    });
+    Ok(is_positive.then_some(kink))
+}
+
+/// The length of the control polygon of a span [length].
+fn control_polygon_length(control_points: &[Vec2], span: &Span, degree: usize) -> f64 {
+    let own = &control_points[span.first..=span.first + degree];
+    own.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
+}
+
+/// The parts of the lower splines of a span that lie before a place on it, `Σ_(a > t) N_a`, each by the coefficients of powers of t from -1 to 1 on
+/// the span.
+fn fractions(mesh: &Mesh, span: &Span) -> Vec<Vec<f64>> {
+    let degree = mesh.basis().degree();
+    let half = 0.5 * (span.end - span.start);
+    let middle = mesh.basis().evaluate_in(span, 0.5 * (span.start + span.end));
+    let mut scales = vec![1.0; degree + 1];
+    (1..=degree).for_each(|order| scales[order] = scales[order - 1] * half / order as f64);
+    let behind = |lower: usize, order: usize| -> f64 {
+        scales[order] * middle.derivatives(order)[lower + 1..].iter().sum::<f64>()
+    };
+    (0..degree).map(|lower| (0..=degree).map(|order| behind(lower, order)).collect()).collect()
+}
+
+/// A string on splines: the products `M` of its strains, what solves `M a = 1`, and the inverse of `M` near its diagonal.
+struct SplineString {
+    degree: usize,
+    products: PositiveBand,
+    /// The string under a constant force.
+    stretched: Vec<f64>,
+    inverse: PositiveBand,
+}
+
+impl SplineString {
+    fn new(products: PositiveBand, degree: usize) -> Option<Self> {
+        let factors = products.factorise()?;
+        let mut stretched = vec![1.0; products.size()];
+        factors.solve(&mut stretched);
+        let inverse = factors.inverse(3 * degree);
+        Some(Self { degree, products, stretched, inverse })
+    }
+
+    /// What is left of a load on all splines before number `cut` when these are stretched as a constant force would stretch them: it has a few entries
+    /// about the cut only, of which the first one's number comes first.
+    fn left_over(&self, cut: usize) -> (usize, Vec<f64>) {
+        let (size, reach) = (self.stretched.len(), self.degree - 1);
+        let first = cut.saturating_sub(reach);
+        let entry = |row: usize| -> f64 {
+            let columns = if row < cut {
+                cut..(row + reach + 1).min(size)
+            } else {
+                row.saturating_sub(reach)..cut
+            };
+            let sum: f64 = columns.map(|at| self.products.get(row, at) * self.stretched[at]).sum();
+            if row < cut { sum } else { -sum }
+        };
+        (first, (first..(cut + reach).min(size)).map(entry).collect())
+    }
+
+    /// `Σ_j (M⁻¹)_ij r_j`
+    fn response(&self, row: usize, (first, load): &(usize, Vec<f64>)) -> f64 {
+        (*first..).zip(load).map(|(at, r)| self.inverse.get(row, at) * r).sum()
+    }
+
+    /// The coefficients of `g = lᵀ M⁻¹ r` on a span, with the parts of its splines before a place: all earlier splines lie before it, all later
+    /// ones behind.
+    ///
+    /// What earlier and later splines give is `M⁻¹` times loads of ones up to a number, which is the stretched string up to there, but for what is
+    /// left over.
+    fn polynomial(&self, span: &Span, fractions: &[Vec<f64>]) -> Vec<f64> {
+        let own = span.first..span.first + self.degree;
+        let (before, behind) = (self.left_over(own.start), self.left_over(own.end));
+        let mut sum = vec![0.0; 2 * self.degree + 1];
+        // Earlier and later splines.
+        sum[0] -=
+            (before.0..).zip(&before.1).map(|(at, r)| r * self.response(at, &behind)).sum::<f64>();
+        for (i, part) in own.clone().zip(fractions) {
+            // Earlier splines and the rest of this one; this one and later splines.
+            let (earlier, later) = (self.response(i, &before), -self.response(i, &behind));
+            sum[0] += earlier;
+            sum.iter_mut().zip(part).for_each(|(sum, c)| *sum += (later - earlier) * c);
+            for (j, other) in own.clone().zip(fractions) {
+                let entry = self.inverse.get(i, j);
+                sum.iter_mut().zip(part).for_each(|(sum, c)| *sum += entry * c);
+                for (k, c) in part.iter().enumerate() {
+                    sum[k..].iter_mut().zip(other).for_each(|(sum, d)| *sum -= entry * c * d);
+                }
+            }
+        }
+        sum
+    }
+}
+
+#[cfg(test)]
+mod tests;

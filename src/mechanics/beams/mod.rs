@@ -1,0 +1,41 @@
+//! The beam theory: planar Simo–Reissner beams on any basis, stress-free as drawn.
+//!
+//! J. C. Simo & L. Vu-Quoc, ASME J. Appl. Mech. 53 (1986) 849–863; E. Reissner, ZAMP 23 (1972) 795–804.
+
+mod at_rest;
+mod axis_point;
+mod block;
+mod dashpots;
+mod discrete;
+mod dynamics;
+mod error;
+mod force_dashpot;
+mod force_point;
+mod kink;
+mod mesh;
+mod moment_dashpot;
+mod moment_point;
+mod parts;
+mod rigid_points;
+mod rotation;
+mod section;
+mod section_forces;
+mod section_profile;
+mod sections;
+mod span_points;
+mod station;
+
+pub use at_rest::SpanAtRest;
+pub use dashpots::{Dashpots, RateCollocation, Relaxation};
+pub use discrete::discretise;
+pub use dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Movement};
+pub use error::BeamError;
+pub use kink::kink_length;
+pub use mesh::{Mesh, PointCounts, Quadrature};
+pub use parts::at_once;
+pub use rigid_points::RigidPoints;
+pub use rotation::{Rotation, RotationIncrement};
+pub use section::{Section, Shape, Solid};
+pub use section_forces::{SectionForces, SectionPlace, SectionPoints};
+pub use section_profile::SectionProfile;
+pub use station::{BodyIndex, Place, Station};

@@ -1,0 +1,192 @@
+//! Sections along a beam: the same everywhere, or a taper.
+
+use serde::{Deserialize, Serialize};
+
+use super::{BeamError, Section, Solid};
+use crate::geometry::{GaussRule, larger};
+
+/// Most places of a taper.
+const MOST_PLACES: usize = 10_000;
+
+/// Points that integrate what is cubic along a piece of a taper: mass, and what a height does to stiffness.
+const POINTS: usize = 3;
+
+/// What a beam is made of along its axis.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum SectionProfile {
+    /// The section is the same everywhere.
+    Uniform(Section),
+    /// Stiffness and inertia are linear between the sections at some places, which are parts of the length [-]: rising from 0 to 1.
+    Numbers(Vec<(f64, Section)>),
+    /// Dimensions and material are linear between some places; all solids are of one shape.
+    Dimensions(Vec<(f64, Solid)>),
+}
+
+impl From<Section> for SectionProfile {
+    fn from(section: Section) -> Self {
+        Self::Uniform(section)
+    }
+}
+
+impl SectionProfile {
+    /// Checks the sections and their places, and hands the profile on.
+    ///
+    /// # Errors
+    /// When a number of a section is out of its range, or places do not rise from 0 to 1.
+    pub fn validated(self) -> Result<Self, BeamError> {
+        let places: Vec<f64> = match &self {
+            Self::Uniform(section) => return section.validated().map(Self::Uniform),
+            Self::Numbers(all) => {
+                all.iter().try_for_each(|(_, section)| section.validated().map(|_| ()))?;
+                all.iter().map(|(place, _)| *place).collect()
+            }
+            Self::Dimensions(all) => {
+                all.iter().try_for_each(|(_, solid)| Section::from_solid(*solid).map(|_| ()))?;
+                let same = all.windows(2).all(|pair| pair[0].1.is_of_one_kind_with(&pair[1].1));
+                if !same {
+                    return Err(BeamError::TaperShapes);
+                }
+                all.iter().map(|(place, _)| *place).collect()
+            }
+        };
+        if places.len() < 2 || places.len() > MOST_PLACES {
+            return Err(BeamError::TaperPlaces { count: places.len(), most: MOST_PLACES });
+        }
+        let rises = places.windows(2).all(|pair| pair[0] < pair[1]);
+        if !rises || places[0] != 0.0 || places[places.len() - 1] != 1.0 {
+            let pair = places.windows(2).find(|pair| pair[1].is_nan() || pair[0] >= pair[1]);
+            let wrong = match pair {
+                Some(pair) => pair[1],
+                None if places[0] != 0.0 => places[0],
+                None => places[places.len() - 1],
+            };
+            return Err(BeamError::TaperPlace { value: wrong });
+        }
+        Ok(self)
+    }
+
+    /// The section at a part of the length of the beam, from 0 to 1 [-].
+    pub fn at(&self, part: f64) -> Section {
+        match self {
+            Self::Uniform(section) => *section,
+            Self::Numbers(all) => {
+                let (share, [before, after]) = between(all, part);
+                before.mixed(&after, share)
+            }
+            Self::Dimensions(all) => {
+                let (share, [before, after]) = between(all, part);
+                // Between two solids that are allowed there is no other.
+                let solid = before.mixed(&after, share);
+                Section::from_solid(solid).unwrap_or_else(|_| Section::of_solid(solid))
+            }
+        }
+    }
+
+    /// The mean over the length: the section itself where it is the same everywhere.
+    pub fn mean(&self) -> Section {
+        let places: Vec<f64> = match self {
+            Self::Uniform(section) => return *section,
+            Self::Numbers(all) => all.iter().map(|(place, _)| *place).collect(),
+            Self::Dimensions(all) => all.iter().map(|(place, _)| *place).collect(),
+        };
+        let mut sum = Section::default();
+        let Ok(rule) = GaussRule::new(POINTS) else { return self.at(0.5) };
+        for pair in places.windows(2) {
+            for (place, weight) in rule.iter_on(pair[0], pair[1]) {
+                sum = sum.plus(&self.at(place), weight);
+            }
+        }
+        sum
+    }
+
+    /// The largest of each number, wherever it is.
+    pub fn largest(&self) -> Section {
+        self.given().into_iter().reduce(|a, b| a.each(&b, larger)).unwrap_or_default()
+    }
+
+    /// How fast the fastest wave of stretching runs, `√(EA/ρA)` [length/time]: between places it is no faster.
+    pub fn axial_wave_speed(&self) -> f64 {
+        self.given().iter().map(Section::axial_wave_speed).fold(0.0, larger)
+    }
+
+    /// The sections at the places of a taper.
+    pub fn given(&self) -> Vec<Section> {
+        match self {
+            Self::Uniform(section) => vec![*section],
+            Self::Numbers(all) => all.iter().map(|(_, section)| *section).collect(),
+            Self::Dimensions(all) => all.iter().map(|(place, _)| self.at(*place)).collect(),
+        }
+    }
+}
+
+/// The two values around a part of the length, and the share of the second.
+fn between<T: Copy>(all: &[(f64, T)], part: f64) -> (f64, [T; 2]) {
+    let beyond = all.partition_point(|(place, _)| *place <= part).clamp(1, all.len() - 1);
+    let [(start, before), (end, after)] = [all[beyond - 1], all[beyond]];
+    (((part - start) / (end - start)).clamp(0.0, 1.0), [before, after])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::beams::Shape;
+
+    fn thick() -> Section {
+        Section {
+            axial_stiffness: 4.0,
+            shear_stiffness: 2.0,
+            bending_stiffness: 8.0,
+            mass_per_length: 3.0,
+            rotary_inertia: 0.5,
+        }
+    }
+
+    fn wedge() -> SectionProfile {
+        let solid = |height: f64| Solid {
+            young: 2.0,
+            poisson: 0.3,
+            density: 3.0,
+            shape: Shape::Rectangle { width: 0.5, height },
+        };
+        SectionProfile::Dimensions(vec![(0.0, solid(1.0)), (0.25, solid(0.8)), (1.0, solid(0.2))])
+    }
+
+    #[test]
+    fn numbers_are_linear_between_places_and_heights_are_where_those_are() {
+        let thin = Section { bending_stiffness: 2.0, ..thick() };
+        let profile = SectionProfile::Numbers(vec![(0.0, thick()), (0.5, thin), (1.0, thin)]);
+        let bending = |part: f64| profile.at(part).bending_stiffness;
+        assert_eq!([0.0, 0.25, 0.5, 0.7, 1.0].map(bending), [8.0, 5.0, 2.0, 2.0, 2.0]);
+        assert!((wedge().at(0.625).bending_stiffness - 2.0 * 0.5 * 0.125 / 12.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn means_are_integrals() {
+        // ∫ h: 0.9 over a quarter, 0.5 over the rest; ∫ h³ by antiderivatives of straight pieces.
+        let mean = wedge().mean();
+        assert!((mean.mass_per_length - 1.5 * (0.25 * 0.9 + 0.75 * 0.5)).abs() < 1e-14);
+        let cubes = 0.25 * (1.0 - 0.8_f64.powi(4)) / (4.0 * 0.2)
+            + 0.75 * (0.8_f64.powi(4) - 0.2_f64.powi(4)) / (4.0 * 0.6);
+        assert!((mean.bending_stiffness - cubes / 12.0).abs() < 1e-14);
+        assert_eq!(SectionProfile::from(thick()).mean(), thick());
+    }
+
+    #[test]
+    fn places_rise_from_zero_to_one() {
+        let of = |places: &[f64]| {
+            SectionProfile::Numbers(places.iter().map(|place| (*place, thick())).collect())
+                .validated()
+        };
+        assert!(of(&[0.0, 0.3, 1.0]).is_ok() && wedge().validated().is_ok());
+        for (places, told) in [
+            (&[0.0][..], "1 place"),
+            (&[0.0, 0.6, 0.4, 1.0], "0.4"),
+            (&[0.0, 0.5], "0.5"),
+            (&[0.1, 1.0], "0.1"),
+            (&[0.0, f64::NAN, 1.0], "NaN"),
+        ] {
+            let message = of(places).unwrap_err().to_string();
+            assert!(message.contains(told), "{message}");
+        }
+    }
+}

@@ -1,0 +1,251 @@
+//! The equations of one step, and the work space to solve them: what all integrators here share.
+
+use super::prescribed::BalancedAt;
+use super::{Interval, Mechanism, Solution, Stage, StepError};
+use crate::elementary::square;
+use crate::linalg::BorderedMatrix;
+use crate::newton::{Equations, Imbalance, Newton, NewtonReport, Tolerance};
+
+/// The largest increment `Δω`, mean rate times step: beyond it a turn cannot be told from one the other way round.
+const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
+
+/// The shortest chord: where the mean configuration folds the way of a slider up, by a turn of about π, the equations of its contact have
+/// no direction, and are solved by what is no solution.
+const SHORTEST_CHORD: f64 = 1e-3;
+
+/// What a method puts into the balance of a step: how much inertia, and forces of which stage.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rule {
+    /// The factor `ι` of the inertia, which is that of the acceleration `ι d/Δt²`, but for what is carried [-].
+    pub(super) inertia: f64,
+    /// The stage of the step at which forces are taken that depend on the increments.
+    pub(super) stage: Stage,
+    /// The factor of the forces that depend on the increments [-].
+    pub(super) weight: f64,
+    /// The acceleration of prescribed movements that is balanced.
+    pub(super) prescribed: BalancedAt,
+}
+
+impl Rule {
+    /// The balance of methods with `(v0 + v1)/2 = Δq/Δt` and the acceleration `(v1 - v0)/Δt`.
+    pub(super) fn mean(stage: Stage, weight: f64) -> Self {
+        Self { inertia: 2.0, stage, weight, prescribed: BalancedAt::Mean }
+    }
+}
+
+/// `R(d, z) = ι/Δt² M d + weight · F(stage, u) + carried + G(u, z)`, `u = Δt v0 + d`.
+///
+/// `z` are the unknowns of constraints and `G` their forces, for the whole step. The unknown of the movements is the deviation `d` from coasting, not the increment `u`: `v1 = v0 + 2/Δt d` then rounds like the change
+/// of the velocity, so that momenta do not creep over many steps.
+struct StepBalance<'a> {
+    mechanism: &'a mut dyn Mechanism,
+    rule: Rule,
+    duration: f64,
+    carried: &'a [f64],
+    coasting: &'a [f64],
+    increments: &'a mut [f64],
+    movements: usize,
+}
+
+impl StepBalance<'_> {
+    /// The deviation from coasting, and the unknowns of the constraints.
+    fn split<'u>(&self, unknowns: &'u [f64]) -> (&'u [f64], &'u [f64]) {
+        unknowns.split_at(self.movements)
+    }
+
+    fn begin(&mut self, deviation: &[f64], residual: &mut [f64]) {
+        for ((u, coasting), d) in self.increments.iter_mut().zip(self.coasting).zip(deviation) {
+            *u = coasting + d;
+        }
+        residual.iter_mut().zip(self.carried).for_each(|(r, carried)| *r += carried);
+        self.mechanism.add_inertia(self.inertia(), deviation, residual);
+    }
+
+    /// `ι/Δt²`
+    fn inertia(&self) -> f64 {
+        self.rule.inertia / square(self.duration)
+    }
+}
+
+impl Equations for StepBalance<'_> {
+    fn linearise(&mut self, unknowns: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix) {
+        let (deviation, constraints) = self.split(unknowns);
+        self.begin(deviation, residual);
+        let inertia = self.inertia();
+        let Self { mechanism, rule, increments, .. } = self;
+        let band = tangent.band_mut();
+        mechanism.add_inertia_tangent(inertia, band);
+        mechanism.add_linearised_forces(rule.stage, increments, rule.weight, residual, band);
+        let border = tangent.border_mut();
+        mechanism.add_linearised_constraints(increments, constraints, residual, border);
+    }
+
+    fn condense(&mut self, residual: &mut [f64]) {
+        self.mechanism.add_mismatch_forces(self.rule.weight, residual);
+    }
+
+    fn correct(&mut self, correction: &[f64]) {
+        self.mechanism.correct_section_forces(self.split(correction).0);
+    }
+
+    fn imbalance(&mut self, unknowns: &[f64], residual: &mut [f64]) -> Imbalance {
+        let (deviation, constraints) = self.split(unknowns);
+        self.begin(deviation, residual);
+        let Rule { stage, weight, .. } = self.rule;
+        let strain = self.mechanism.add_forces(stage, self.increments, weight, residual);
+        self.mechanism.add_constraints(self.increments, constraints, residual);
+        Imbalance {
+            force: self.mechanism.relative_imbalance(residual),
+            strain,
+            constraint: self.mechanism.relative_violation(residual),
+        }
+    }
+}
+
+/// The equations of a step: its vectors and the Newton solver, allocated once.
+#[derive(Debug, Clone)]
+pub(super) struct StepSolver {
+    newton: Newton,
+    /// `Δt v0`
+    coasting: Vec<f64>,
+    /// The deviation from coasting, then the unknowns of the constraints.
+    unknowns: Vec<f64>,
+    /// Of the unknown movements, and behind them of those that are prescribed.
+    increments: Vec<f64>,
+    /// The part of the residual that does not depend on the increments.
+    carried: Vec<f64>,
+    rates: Vec<f64>,
+    residual: Vec<f64>,
+}
+
+impl StepSolver {
+    pub(super) fn new(mechanism: &dyn Mechanism, tolerance: Tolerance) -> Self {
+        let (movements, all) = (mechanism.unknowns(), mechanism.degrees_of_freedom());
+        let border = mechanism.constraint_shape();
+        let moving = movements + mechanism.prescribed().width();
+        let half_bandwidth = mechanism.half_bandwidth();
+        let tangent = match mechanism.constraint_blocks() {
+            None => BorderedMatrix::zeros(movements, half_bandwidth, border),
+            Some(blocks) => BorderedMatrix::with_blocks(movements, half_bandwidth, blocks.clone()),
+        };
+        Self {
+            newton: Newton::with_tangent(tangent, tolerance),
+            coasting: vec![0.0; movements],
+            unknowns: vec![0.0; movements + border.width],
+            increments: vec![0.0; moving],
+            carried: vec![0.0; all],
+            rates: vec![0.0; moving],
+            residual: vec![0.0; all],
+        }
+    }
+
+    /// Predicts the increments of a step with the rates that the mechanism expects.
+    pub(super) fn predict(&mut self, mechanism: &mut dyn Mechanism, interval: Interval) {
+        let duration = interval.duration();
+        self.coasting.iter_mut().zip(mechanism.rates()).for_each(|(u, rate)| *u = duration * rate);
+        let (deviation, constraints) = self.unknowns.split_at_mut(self.coasting.len());
+        let expected = mechanism.expected_rates().iter().zip(mechanism.rates());
+        deviation
+            .iter_mut()
+            .zip(expected)
+            .for_each(|(d, (expected, rate))| *d = duration * (expected - rate));
+        mechanism.predict_constraints(interval, constraints);
+        self.carried.fill(0.0);
+    }
+
+    /// Carries a share of the forces of a stage at which nothing has moved yet into the balance of the step.
+    pub(super) fn carry(&mut self, mechanism: &mut dyn Mechanism, stage: Stage, share: f64) {
+        self.increments.fill(0.0);
+        mechanism.add_forces(stage, &self.increments, share, &mut self.carried);
+    }
+
+    /// Carries the inertia of accelerations times a factor into the balance of the step.
+    pub(super) fn carry_inertia(
+        &mut self,
+        mechanism: &mut dyn Mechanism,
+        factor: f64,
+        accelerations: &[f64],
+    ) {
+        mechanism.add_inertia(factor, accelerations, &mut self.carried);
+    }
+
+    /// Solves the balance of the step for the increments.
+    pub(super) fn solve(
+        &mut self,
+        mechanism: &mut dyn Mechanism,
+        interval: Interval,
+        rule: Rule,
+    ) -> Result<NewtonReport, StepError> {
+        self.take_given(mechanism, rule.prescribed);
+        let mut balance = StepBalance {
+            mechanism,
+            rule,
+            duration: interval.duration(),
+            carried: &self.carried,
+            coasting: &self.coasting,
+            increments: &mut self.increments,
+            movements: self.coasting.len(),
+        };
+        let report = self
+            .newton
+            .solve(&mut balance, &mut self.unknowns, &mut self.residual)
+            .map_err(|source| StepError::Newton { interval, source, before: 0 })?;
+        let rotation = balance.mechanism.largest_rotation();
+        let is_resolved = rotation < LARGEST_INCREMENT;
+        if !is_resolved {
+            return Err(StepError::Rotation { interval, rotation, iterations: report.iterations });
+        }
+        let chord = balance.mechanism.shortest_chord();
+        if chord < SHORTEST_CHORD {
+            return Err(StepError::Chord { interval, chord, iterations: report.iterations });
+        }
+        let (_, constraints) = self.unknowns.split_at(self.coasting.len());
+        match mechanism.check_constraints(constraints) {
+            Ok(()) => Ok(report),
+            Err(overshoot) => {
+                Err(StepError::Overshoot { interval, overshoot, iterations: report.iterations })
+            }
+        }
+    }
+
+    /// Takes over the increments that are prescribed, and carries the inertia of what moves so into the balance of the step.
+    fn take_given(&mut self, mechanism: &mut dyn Mechanism, at: BalancedAt) {
+        let movements = self.coasting.len();
+        let prescribed = mechanism.prescribed();
+        if prescribed.width() == 0 {
+            return;
+        }
+        self.increments[movements..].copy_from_slice(&prescribed.increments);
+        let (unknown, behind) = self.rates.split_at_mut(movements);
+        unknown.fill(0.0);
+        behind
+            .iter_mut()
+            .zip(prescribed.balanced(at))
+            .for_each(|(entry, balanced)| *entry = balanced);
+        mechanism.add_inertia(1.0, &self.rates, &mut self.carried);
+    }
+
+    /// Accepts the increments of the step, with the rates `v1 = 2 u/Δt - v0` at its end.
+    pub(super) fn correct(&mut self, mechanism: &mut dyn Mechanism, interval: Interval) {
+        let twice_inverse = 2.0 / interval.duration();
+        self.accept(mechanism, |_, v0, d| v0 + twice_inverse * d);
+    }
+
+    /// Accepts the increments of the step, with the rates at its end that a method makes of the number of an unknown, its rate at
+    /// the start and its deviation from coasting.
+    pub(super) fn accept(
+        &mut self,
+        mechanism: &mut dyn Mechanism,
+        mut rate: impl FnMut(usize, f64, f64) -> f64,
+    ) {
+        let (deviation, constraints) = self.unknowns.split_at(self.coasting.len());
+        let known = mechanism.rates().iter().zip(deviation).enumerate();
+        for (v1, (at, (v0, d))) in self.rates.iter_mut().zip(known) {
+            *v1 = rate(at, *v0, *d);
+        }
+        let movements = self.coasting.len();
+        self.rates[movements..].copy_from_slice(&mechanism.prescribed().rates);
+        let Self { increments, rates, residual, .. } = self;
+        mechanism.advance(&Solution { increments, constraints, rates, residual });
+    }
+}

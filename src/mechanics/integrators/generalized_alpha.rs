@@ -1,0 +1,153 @@
+//! The generalized-α method.
+
+use super::balance::{Rule, StepSolver};
+use super::prescribed::BalancedAt;
+use super::{Integrator, Interval, Mechanism, Stage, StepError};
+use crate::elementary::square;
+use crate::newton::{NewtonReport, Tolerance};
+
+/// Newmark's formulas with the balance taken at different places for inertia and forces. It damps what vibrates fast, by the
+/// factor `ρ∞` a step at the most, and what is slow hardly. It keeps neither energy nor momenta.
+///
+/// ```text
+/// M ((1-αm) a1 + αm a0) + (1-αf) F(end) + αf F(start) = 0
+/// Δq = Δt v0 + Δt² ((½-β) a0 + β a1)          v1 = v0 + Δt ((1-γ) a0 + γ a1)
+/// αm = (2ρ∞ - 1)/(ρ∞ + 1)     αf = ρ∞/(ρ∞ + 1)     γ = ½ - αm + αf     β = ¼ (1 - αm + αf)²
+/// ```
+///
+/// Rotation increments are those of the angle. Accelerations `a` are a state of their own; where there are none yet, at the
+/// start, after an impact and where a load jumps, a step of the trapezoidal rule finds them as `(v1 - v0)/Δt`. With `ρ∞ = 1` all steps are such.
+/// Second order.
+///
+/// J. Chung & G. M. Hulbert, J. Appl. Mech. 60 (1993) 371–375.
+#[derive(Debug, Clone)]
+pub struct GeneralizedAlpha {
+    solver: StepSolver,
+    weights: Weights,
+    /// `a`, of the start of the step and then of its end.
+    accelerations: Vec<f64>,
+}
+
+/// The numbers of the method.
+#[derive(Debug, Clone, Copy)]
+struct Weights {
+    /// `αm`
+    inertia_before: f64,
+    /// `αf`
+    forces_before: f64,
+    gamma: f64,
+    beta: f64,
+}
+
+impl Weights {
+    fn new(rho_infinity: f64) -> Self {
+        let inertia_before = (2.0 * rho_infinity - 1.0) / (rho_infinity + 1.0);
+        let forces_before = rho_infinity / (rho_infinity + 1.0);
+        let late = forces_before - inertia_before;
+        let (gamma, beta) = (0.5 + late, 0.25 * square(1.0 + late));
+        Self { inertia_before, forces_before, gamma, beta }
+    }
+
+    /// `½/β - 1`: what `a0` takes off `a1`.
+    fn carried(&self) -> f64 {
+        0.5 / self.beta - 1.0
+    }
+}
+
+impl GeneralizedAlpha {
+    /// The stages of a step at which the method takes forces.
+    pub const STAGES: &[Stage] = &[Stage::Start, Stage::End];
+
+    /// The generalised-α method with `ρ∞` [-] and work space for a mechanism, which it makes keep accelerations.
+    pub fn new(rho_infinity: f64, mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
+        mechanism.accelerated().keep_accelerations();
+        Self {
+            solver: StepSolver::new(mechanism, tolerance),
+            weights: Weights::new(rho_infinity),
+            accelerations: vec![0.0; mechanism.unknowns()],
+        }
+    }
+
+    /// A step that needs no acceleration at its start.
+    fn step_without(
+        &mut self,
+        mechanism: &mut dyn Mechanism,
+        interval: Interval,
+    ) -> Result<NewtonReport, StepError> {
+        let Self { solver, accelerations, .. } = self;
+        solver.carry(mechanism, Stage::Start, 0.5);
+        let report = solver.solve(mechanism, interval, Rule::mean(Stage::End, 0.5))?;
+        let inverse = 1.0 / interval.duration();
+        solver.accept(mechanism, |at, start, deviation| {
+            accelerations[at] = 2.0 * deviation * inverse * inverse;
+            start + 2.0 * deviation * inverse
+        });
+        Ok(report)
+    }
+
+    fn step_with(
+        &mut self,
+        mechanism: &mut dyn Mechanism,
+        interval: Interval,
+    ) -> Result<NewtonReport, StepError> {
+        let Self { solver, weights, accelerations } = self;
+        let Weights { inertia_before, forces_before, gamma, beta } = *weights;
+        // a1 = d/(β Δt²) - (½/β - 1) a0
+        let carried = weights.carried();
+        solver.carry_inertia(
+            mechanism,
+            inertia_before - (1.0 - inertia_before) * carried,
+            accelerations,
+        );
+        solver.carry(mechanism, Stage::Start, forces_before);
+        let rule = Rule {
+            inertia: (1.0 - inertia_before) / beta,
+            stage: Stage::End,
+            weight: 1.0 - forces_before,
+            // Where the forces are: those of unknown movements are as late.
+            prescribed: BalancedAt::Share(1.0 - forces_before),
+        };
+        let report = solver.solve(mechanism, interval, rule)?;
+        let duration = interval.duration();
+        let scale = 1.0 / (beta * square(duration));
+        solver.accept(mechanism, |at, start, deviation| {
+            let before = accelerations[at];
+            let after = scale * deviation - carried * before;
+            accelerations[at] = after;
+            start + duration * ((1.0 - gamma) * before + gamma * after)
+        });
+        Ok(report)
+    }
+}
+
+impl Integrator for GeneralizedAlpha {
+    fn step(
+        &mut self,
+        mechanism: &mut dyn Mechanism,
+        interval: Interval,
+    ) -> Result<NewtonReport, StepError> {
+        mechanism.begin_step(interval, Self::STAGES)?;
+        self.solver.predict(mechanism, interval);
+        let report = match mechanism.accelerated().accelerations() {
+            Some(known) => {
+                self.accelerations.copy_from_slice(known);
+                self.step_with(mechanism, interval)?
+            }
+            None => self.step_without(mechanism, interval)?,
+        };
+        mechanism.accelerated().set_accelerations(&self.accelerations);
+        Ok(report)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_damping_it_is_the_trapezoidal_rule() {
+        let Weights { inertia_before, forces_before, gamma, beta } = Weights::new(1.0);
+        assert_eq!([inertia_before, forces_before, gamma, beta], [0.5, 0.5, 0.5, 0.25]);
+        assert_eq!(Weights::new(1.0).carried(), 1.0);
+    }
+}

@@ -1,0 +1,30 @@
+//! Time steps over an abstract mechanism: predict, solve, correct. No integrator mentions a beam.
+
+mod balance;
+mod energy_decaying;
+mod energy_momentum;
+mod error;
+mod fourth_order;
+mod generalized_alpha;
+mod integrator;
+mod interval;
+mod mechanism;
+mod prescribed;
+mod registry;
+mod trapezoidal;
+
+pub use energy_decaying::EnergyDecaying;
+pub use energy_momentum::EnergyMomentum;
+pub use error::{Cause, StepError};
+pub use fourth_order::FourthOrder;
+pub use generalized_alpha::GeneralizedAlpha;
+pub use integrator::Integrator;
+pub use interval::{Ending, Interval};
+pub use mechanism::{
+    Accelerated, Checkpoint, Constraints, Forces, Inertia, Mechanism, Overshoot, Solution, Stage,
+};
+pub use prescribed::Prescribed;
+pub use registry::{
+    Claims, EnergyClaim, INTEGRATORS, IntegratorEntry, Method, MethodError, MethodParameter,
+};
+pub use trapezoidal::Trapezoidal;

@@ -1,0 +1,283 @@
+//! The methods by name, with what each of them claims. Tests and help read this list.
+
+use serde::{Deserialize, Serialize};
+
+use super::{
+    EnergyDecaying, EnergyMomentum, FourthOrder, GeneralizedAlpha, Integrator, Mechanism, Stage,
+    Trapezoidal,
+};
+use crate::newton::Tolerance;
+
+/// A choice of time integrator, before there is a mechanism to apply it to.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub enum Method {
+    /// The method [`EnergyMomentum`], the default.
+    #[default]
+    EnergyMomentum,
+    /// The method [`Trapezoidal`]: Newmark with β = 1/4, γ = 1/2.
+    Trapezoidal,
+    /// The method [`EnergyDecaying`]: momenta are kept, vibration is damped.
+    EnergyDecaying {
+        /// The dissipation `χ` of the energy-decaying method: by how much of the change of strain its section forces are late [-].
+        chi: f64,
+    },
+    /// The method [`FourthOrder`]: seven energy–momentum steps in one.
+    FourthOrder,
+    /// The method [`GeneralizedAlpha`] of Chung & Hulbert.
+    GeneralizedAlpha {
+        /// The spectral radius `ρ∞` of the generalised-α method: by what the fastest vibration is multiplied in a step [-].
+        rho_infinity: f64,
+    },
+}
+
+/// What a method promises about the energy.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EnergyClaim {
+    /// The method keeps the energy to rounding.
+    Kept,
+    /// With the method the energy never grows, but for rounding.
+    Decays,
+    /// The method promises nothing about the energy.
+    Nothing,
+}
+
+/// What a method promises in nonlinear problems, loads and supports accounted for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Claims {
+    /// The order of convergence of the method in time.
+    pub order: u32,
+    /// What becomes of the energy with the method.
+    pub energy: EnergyClaim,
+    /// Whether the method keeps the linear momentum to rounding.
+    pub momentum: bool,
+    /// Whether the method keeps the angular momentum to rounding.
+    pub angular_momentum: bool,
+}
+
+impl Claims {
+    /// The quantities that the method keeps to rounding, in words.
+    pub fn kept(&self) -> impl Iterator<Item = &'static str> {
+        let claims = [
+            (self.energy == EnergyClaim::Kept, "energy"),
+            (self.momentum, "linear momentum"),
+            (self.angular_momentum, "angular momentum"),
+        ];
+        claims.into_iter().filter(|(is_kept, _)| *is_kept).map(|(_, what)| what)
+    }
+}
+
+/// The number that a family of methods is tuned by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MethodParameter {
+    /// The name of the method's parameter in scripts.
+    pub name: &'static str,
+    /// What the method's parameter does, in a sentence.
+    pub meaning: &'static str,
+    /// The smallest value that the method's parameter may have [-].
+    pub least: f64,
+    /// The largest value that the method's parameter may have [-]; may be infinite.
+    pub most: f64,
+    /// The value of the method's parameter where none is prescribed [-].
+    pub default: f64,
+}
+
+impl MethodParameter {
+    /// The range of the method's parameter in words, such as `from 0 to 1`.
+    pub fn range(&self) -> String {
+        match self.most {
+            f64::INFINITY => format!("{} or greater", self.least),
+            most => format!("from {} to {most}", self.least),
+        }
+    }
+}
+
+/// A method whose parameter is out of its range.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{method}: {name} is {value}, but must be a finite number, {allowed}")]
+pub struct MethodError {
+    method: &'static str,
+    name: &'static str,
+    value: f64,
+    allowed: String,
+}
+
+/// A time integrator in the list [`INTEGRATORS`].
+#[derive(Debug, Clone, Copy)]
+pub struct IntegratorEntry {
+    /// The method that this row describes, with the default of its parameter.
+    pub method: Method,
+    /// The name of the method in scripts and reports.
+    pub name: &'static str,
+    /// What the method is good for, in a sentence.
+    pub summary: &'static str,
+    /// What the method promises.
+    pub claims: Claims,
+    /// The parameter that the method is tuned by, if it has one.
+    pub parameter: Option<MethodParameter>,
+    /// The source of the method in the literature.
+    pub source: &'static str,
+}
+
+/// All time integrators, the default first.
+pub const INTEGRATORS: &[IntegratorEntry] =
+    &[ENERGY_MOMENTUM, TRAPEZOIDAL, ENERGY_DECAYING, FOURTH_ORDER, GENERALIZED_ALPHA];
+
+const ENERGY_MOMENTUM: IntegratorEntry = IntegratorEntry {
+    method: Method::EnergyMomentum,
+    name: "energy_momentum",
+    summary: "keeps energy and both momenta to rounding at any step; the default",
+    claims: Claims { order: 2, energy: EnergyClaim::Kept, momentum: true, angular_momentum: true },
+    parameter: None,
+    source: "Stander & Stein, Eng. Comput. 13 (1996) 60-85",
+};
+
+const TRAPEZOIDAL: IntegratorEntry = IntegratorEntry {
+    method: Method::Trapezoidal,
+    name: "trapezoidal",
+    summary: "Newmark's β = 1/4, γ = 1/2; for comparison: the energy wanders in nonlinear problems",
+    claims: Claims {
+        order: 2,
+        energy: EnergyClaim::Nothing,
+        momentum: true,
+        angular_momentum: false,
+    },
+    parameter: None,
+    source: "Newmark, J. Eng. Mech. Div. ASCE 85 (1959) 67-94",
+};
+
+const ENERGY_DECAYING: IntegratorEntry = IntegratorEntry {
+    method: Method::EnergyDecaying { chi: CHI.default },
+    name: "energy_decaying",
+    summary: "keeps both momenta to rounding and damps vibration: the energy never grows at any step",
+    claims: Claims {
+        order: 1,
+        energy: EnergyClaim::Decays,
+        momentum: true,
+        angular_momentum: true,
+    },
+    parameter: Some(CHI),
+    source: "Armero & Romero, Comput. Methods Appl. Mech. Eng. 190 (2001) 2603-2649",
+};
+
+const CHI: MethodParameter = MethodParameter {
+    name: "chi",
+    meaning: "χ, the share of damping; 0 is energy_momentum itself",
+    least: 0.0,
+    most: f64::INFINITY,
+    default: 0.1,
+};
+
+const FOURTH_ORDER: IntegratorEntry = IntegratorEntry {
+    method: Method::FourthOrder,
+    name: "fourth_order",
+    summary: "seven energy-momentum steps in one, for accuracy: keeps energy and both momenta to rounding",
+    claims: Claims { order: 4, energy: EnergyClaim::Kept, momentum: true, angular_momentum: true },
+    parameter: None,
+    source: "composition as in McLachlan, SIAM J. Sci. Comput. 16 (1995) 151-168",
+};
+
+const GENERALIZED_ALPHA: IntegratorEntry = IntegratorEntry {
+    method: Method::GeneralizedAlpha { rho_infinity: RHO_INFINITY.default },
+    name: "generalized_alpha",
+    summary: "for comparison: damps fast vibration, and keeps nothing exactly",
+    claims: Claims {
+        order: 2,
+        energy: EnergyClaim::Nothing,
+        momentum: false,
+        angular_momentum: false,
+    },
+    parameter: Some(RHO_INFINITY),
+    source: "Chung & Hulbert, J. Appl. Mech. 60 (1993) 371-375",
+};
+
+const RHO_INFINITY: MethodParameter = MethodParameter {
+    name: "rho_infinity",
+    meaning: "ρ∞, by what the fastest vibration is multiplied in a step; 1 is the trapezoidal rule",
+    least: 0.0,
+    most: 1.0,
+    default: 0.8,
+};
+
+impl Method {
+    /// The row of this method in [`INTEGRATORS`].
+    pub fn entry(&self) -> &'static IntegratorEntry {
+        match self {
+            Self::EnergyMomentum => &ENERGY_MOMENTUM,
+            Self::Trapezoidal => &TRAPEZOIDAL,
+            Self::EnergyDecaying { .. } => &ENERGY_DECAYING,
+            Self::FourthOrder => &FOURTH_ORDER,
+            Self::GeneralizedAlpha { .. } => &GENERALIZED_ALPHA,
+        }
+    }
+
+    /// The value of the method's parameter [-], if it has one.
+    pub fn parameter(&self) -> Option<f64> {
+        match *self {
+            Self::EnergyMomentum | Self::Trapezoidal | Self::FourthOrder => None,
+            Self::EnergyDecaying { chi } => Some(chi),
+            Self::GeneralizedAlpha { rho_infinity } => Some(rho_infinity),
+        }
+    }
+
+    /// Checks the parameter of the method.
+    ///
+    /// # Errors
+    /// When it is out of its range or not finite.
+    pub fn check(&self) -> Result<(), MethodError> {
+        let entry = self.entry();
+        let Some((parameter, value)) = entry.parameter.zip(self.parameter()) else { return Ok(()) };
+        if value.is_finite() && (parameter.least..=parameter.most).contains(&value) {
+            return Ok(());
+        }
+        let (name, allowed) = (parameter.name, parameter.range());
+        Err(MethodError { method: entry.name, name, value, allowed })
+    }
+
+    /// The stages of a step at which the method asks loads for their values.
+    pub fn stages(&self) -> &'static [Stage] {
+        match self {
+            Self::EnergyMomentum => EnergyMomentum::STAGES,
+            Self::Trapezoidal => Trapezoidal::STAGES,
+            Self::EnergyDecaying { .. } => EnergyDecaying::STAGES,
+            Self::FourthOrder => FourthOrder::STAGES,
+            Self::GeneralizedAlpha { .. } => GeneralizedAlpha::STAGES,
+        }
+    }
+
+    /// The method with work space for a mechanism, which from here on keeps what the method needs.
+    pub fn build(
+        &self,
+        mechanism: &mut dyn Mechanism,
+        tolerance: Tolerance,
+    ) -> Box<dyn Integrator> {
+        match *self {
+            Self::EnergyMomentum => Box::new(EnergyMomentum::new(mechanism, tolerance)),
+            Self::Trapezoidal => Box::new(Trapezoidal::new(mechanism, tolerance)),
+            Self::EnergyDecaying { chi } => {
+                Box::new(EnergyDecaying::new(chi, mechanism, tolerance))
+            }
+            Self::FourthOrder => Box::new(FourthOrder::new(mechanism, tolerance)),
+            Self::GeneralizedAlpha { rho_infinity } => {
+                Box::new(GeneralizedAlpha::new(rho_infinity, mechanism, tolerance))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parameters_of_the_list_are_in_their_ranges_and_others_are_refused() {
+        for entry in INTEGRATORS {
+            assert_eq!(entry.method.check(), Ok(()), "{}", entry.name);
+            assert_eq!(entry.parameter.map(|of| of.default), entry.method.parameter());
+        }
+        for chi in [-0.1, f64::NAN, f64::INFINITY] {
+            assert!(Method::EnergyDecaying { chi }.check().is_err(), "{chi}");
+        }
+        let told = Method::GeneralizedAlpha { rho_infinity: 1.5 }.check().unwrap_err().to_string();
+        assert!(told.contains("rho_infinity is 1.5") && told.contains("from 0 to 1"), "{told}");
+    }
+}

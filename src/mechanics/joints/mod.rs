@@ -1,0 +1,13 @@
+//! Joints: which movements are tied, to what, and where; and the laws of joints that slide.
+
+mod joint;
+mod slider;
+mod sliding;
+
+pub use joint::{Component, Components, Joint, JointKind, Partner};
+pub use slider::{EndAction, Slider, StartVelocities};
+pub use sliding::{
+    CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Held, Kink, Kinked,
+    Relaxed, Released, RuleClaims, RuleEntry, SLIDING_RULES, SlidingLaw, SlidingRule, Unit,
+    WayVector,
+};

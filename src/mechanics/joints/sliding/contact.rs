@@ -1,0 +1,226 @@
+//! The contact of a slider in one step: where the master passes, and the forces on both.
+
+use super::{Equation, Unit};
+use crate::geometry::{AlongWay, Passage, Vec2};
+
+/// The number of unknowns of a contact: `λ` and `η` with two components each, and `Δξ`.
+pub const CONTACT_UNKNOWNS: usize = 5;
+
+/// The unknowns of a sliding contact in a step, or a derivative by each of them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactUnknowns {
+    /// The contact force `λ` on the master; `-λ` acts on the slave [force].
+    pub force: Vec2,
+    /// The couple `η` of the contact: with `Δξ D_i η` the forces on the master that balance the angular momentum [force].
+    pub couple: Vec2,
+    /// The way `Δξ` of the slave along the parameter of the master in the step [-].
+    pub way: f64,
+}
+
+/// The unit vectors of the two axes [-]: the components of a vector are its products with these.
+pub(super) const AXES: [Vec2; 2] = [Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0)];
+
+/// No force, no couple, no way; and derivatives by none of them.
+const NONE: ContactUnknowns =
+    ContactUnknowns { force: Vec2::new(0.0, 0.0), couple: Vec2::new(0.0, 0.0), way: 0.0 };
+
+impl ContactUnknowns {
+    /// The unknowns of a contact without force, couple and way.
+    pub fn zeros() -> Self {
+        NONE
+    }
+
+    /// The unknowns of a contact as they stand in a vector of unknowns: `λ` and `η` with two components each, and `Δξ`.
+    pub fn of([force_x, force_y, couple_x, couple_y, way]: [f64; CONTACT_UNKNOWNS]) -> Self {
+        Self { force: Vec2::new(force_x, force_y), couple: Vec2::new(couple_x, couple_y), way }
+    }
+
+    /// The unknowns of the contact in the order of a vector of unknowns: `λ` and `η` with two components each, and `Δξ`.
+    pub fn to_array(&self) -> [f64; CONTACT_UNKNOWNS] {
+        [self.force.x, self.force.y, self.couple.x, self.couple.y, self.way]
+    }
+}
+
+/// A place or direction on the way of a slave along its master, with its derivative by the end `ξ1` of the way [length].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WayVector {
+    /// The place or direction itself [length].
+    pub value: Vec2,
+    /// The derivative of the place or direction by the end `ξ1` of the way [length].
+    pub by_way: Vec2,
+}
+
+/// How the contact force kinks the axis of the master where the slave is, beyond what its mesh knows: by `g p/GA` across it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Kink {
+    /// The kink length `g` of the master along the way of the slave [length].
+    pub along: AlongWay,
+    /// The compliance `1/GA` of the master [1/force].
+    pub compliance: f64,
+    /// The contact force `p0` on the master at the start of the step [force].
+    pub before: Vec2,
+}
+
+/// The kinematics of a sliding contact in a step, of which the laws of sliding are made, with places counted from where the slave starts.
+///
+/// The forces are the same in all laws: the slave gets `-λ`, control point `i` of the master `B̄_i λ - Δξ D_i η`.
+#[derive(Debug, Clone, Copy)]
+pub struct Contact<'a> {
+    /// The way of the slave along the master.
+    pub passage: &'a Passage,
+    /// The control points of the master in the window of the passage, counted from the slave, and how they move in the step
+    /// [length].
+    pub master: (&'a [Vec2], &'a [Vec2]),
+    /// The movement `Δx_s` of the slave in the step [length].
+    pub slave_moved: Vec2,
+    /// The unknowns of the contact: `λ` [force], `η` [force] and `Δξ` [-].
+    pub unknowns: ContactUnknowns,
+    /// The kink of the master under the contact force, where the contact has one.
+    pub kink: Option<Kink>,
+    /// The length of the master for a parameter of one, by which equations become lengths and forces [length].
+    pub length: f64,
+}
+
+impl Contact<'_> {
+    /// `Σ w_i (x_i0 + share Δx_i)`
+    fn sum(&self, weights: &[f64], share: f64) -> Vec2 {
+        let (before, moved) = self.master;
+        let points = before.iter().zip(moved);
+        weights.iter().zip(points).map(|(w, (x, moved))| (x + moved * share) * *w).sum()
+    }
+
+    /// `Σ w_i Δx_i`
+    fn movement(&self, weights: &[f64]) -> Vec2 {
+        let (_, moved) = self.master;
+        weights.iter().zip(moved).map(|(w, moved)| moved * *w).sum()
+    }
+
+    /// The gap between master and slave at the start of the step, `Σ B_i(ξ0) x_i0` counted from the slave [length].
+    pub fn start_gap(&self) -> Vec2 {
+        self.sum(self.passage.start(), 0.0)
+    }
+
+    /// The mean tangent `Σ D_i x_i0` of the way on the master as it is at the start of the step [length].
+    pub fn start_tangent(&self) -> WayVector {
+        let value = self.sum(self.passage.difference(), 0.0);
+        WayVector { value, by_way: self.sum(self.passage.change(), 0.0) }
+    }
+
+    /// The place `Σ B_i(ξ1) x_i1` on the master at the end of the way and of the step [length].
+    pub fn end_point(&self) -> WayVector {
+        let value = self.sum(self.passage.end(), 1.0);
+        WayVector { value, by_way: self.sum(self.passage.slope(), 1.0) }
+    }
+
+    /// The mean place `Σ B̄_i x̄_i` of way and step on the master [length].
+    pub fn mean_point(&self) -> WayVector {
+        let value = self.sum(self.passage.mean(), 0.5);
+        WayVector { value, by_way: self.sum(self.passage.slope(), 0.5) * 0.5 }
+    }
+
+    /// The mean tangent `τ = Σ D_i x̄_i` of the way on the master in its mean configuration [length].
+    pub fn tangent(&self) -> WayVector {
+        let value = self.sum(self.passage.difference(), 0.5);
+        WayVector { value, by_way: self.sum(self.passage.change(), 0.5) }
+    }
+
+    /// The swing `d = ¼ Σ D_i Δx_i` of the master along the way: a quarter of the change of its tangent [length].
+    pub fn swing(&self) -> WayVector {
+        let value = self.movement(self.passage.difference()) * 0.25;
+        WayVector { value, by_way: self.movement(self.passage.change()) * 0.25 }
+    }
+
+    /// The index of the first control point of the master in the window of the way.
+    pub fn first(&self) -> usize {
+        self.passage.first()
+    }
+
+    /// The contact forces on the control points of the master in the window of the way [force], in order.
+    pub fn master_forces(&self) -> impl Iterator<Item = Vec2> + '_ {
+        let ContactUnknowns { force, couple, way } = self.unknowns;
+        let weights = self.passage.mean().iter().zip(self.passage.difference());
+        weights.map(move |(mean, difference)| force * *mean - couple * (way * difference))
+    }
+
+    /// The derivatives of the contact forces on the control points of the master, in order: by `λ` and by `η` a factor each, by `Δξ` a force.
+    pub fn master_force_slopes(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
+        let ContactUnknowns { force, couple, way } = self.unknowns;
+        let by_way = force * 0.5 - couple;
+        let weights =
+            self.passage.mean().iter().zip(self.passage.difference()).zip(self.passage.slope());
+        weights.map(move |((mean, difference), slope)| (*mean, -way * difference, by_way * *slope))
+    }
+
+    /// The weights `B_i(ξ1)`, `B̄_i` and `D_i` of the control points of the master in the window of the way [-], in order.
+    pub fn weights(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
+        let mean_and_difference = self.passage.mean().iter().zip(self.passage.difference());
+        let weights = self.passage.end().iter().zip(mean_and_difference);
+        weights.map(|(end, (mean, difference))| (*end, *mean, *difference))
+    }
+
+    /// The equations of a gap that is closed at the end of the step: `x_s1 = Σ B_i(ξ1) x_i1` (paper, equation 15).
+    pub(super) fn closed(&self) -> [Equation; 2] {
+        let point = self.end_point();
+        let gap = self.slave_moved - point.value;
+        AXES.map(|axis| Equation {
+            by_slave: axis,
+            by_end: -axis,
+            by_unknowns: ContactUnknowns { way: -point.by_way.dot(&axis), ..NONE },
+            ..Equation::new(gap.dot(&axis), Unit::Length)
+        })
+    }
+
+    /// The contact force `p1 = 2 λ - p0` on the master at the end of the step [force]; `λ` where nothing is known of forces at ends of steps.
+    pub fn force_at_end(&self) -> Vec2 {
+        let force = self.unknowns.force;
+        self.kink.map_or(force, |kink| force * 2.0 - kink.before)
+    }
+
+    /// The equations of a gap to the kinked axis that is closed at the end of the step: `x_s1 = Σ B_i(ξ1) x_i1 + g1 p1/GA`.
+    pub(super) fn closed_on_kinked_axis(&self) -> [Equation; 2] {
+        let mut equations = self.closed();
+        if let Some(Kink { along, compliance, .. }) = self.kink {
+            let force = self.force_at_end() * compliance;
+            for (equation, axis) in equations.iter_mut().zip(AXES) {
+                equation.value -= along.end * force.dot(&axis);
+                equation.by_unknowns.force -= axis * (2.0 * compliance * along.end);
+                equation.by_unknowns.way -= along.slope * force.dot(&axis);
+            }
+        }
+        equations
+    }
+
+    /// The equations `η = 0` of a contact without a couple.
+    pub(super) fn no_couple(&self) -> [Equation; 2] {
+        AXES.map(|axis| Equation {
+            by_unknowns: ContactUnknowns { couple: axis, ..NONE },
+            ..Equation::new(self.unknowns.couple.dot(&axis), Unit::Force)
+        })
+    }
+
+    /// The equations `λ = 0` of a contact without a force.
+    pub(super) fn no_force(&self) -> [Equation; 2] {
+        AXES.map(|axis| Equation {
+            by_unknowns: ContactUnknowns { force: axis, ..NONE },
+            ..Equation::new(self.unknowns.force.dot(&axis), Unit::Force)
+        })
+    }
+
+    /// The equation `Δξ = 0` of a slave that stays where it is on the master, times the length `ℓ`.
+    pub(super) fn no_way(&self) -> Equation {
+        Equation {
+            by_unknowns: ContactUnknowns { way: self.length, ..NONE },
+            ..Equation::new(self.length * self.unknowns.way, Unit::Length)
+        }
+    }
+
+    /// The equation `λ·direction/ℓ = 0` of a contact without friction, for a direction that does not move with the master.
+    pub(super) fn frictionless(&self, direction: WayVector) -> Equation {
+        let (force, scale) = (self.unknowns.force, 1.0 / self.length);
+        let way = force.dot(&direction.by_way) * scale;
+        Equation {
+            by_unknowns: ContactUnknowns { force: direction.value * scale, way, ..NONE },
+            ..Equation::new(force.dot(&direction.value) * scale, Unit::Force)
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! The laws of sliding joints: how the contact of a step is closed, and what equation its sliding obeys.
+//!
+//! A step has, for each slider, the contact force `λ` on the master, the couple force `η` and the way `Δξ` as unknowns. All
+//! laws put the same forces on slave and master (see [`Contact`]) and differ in the five equations for these unknowns.
+
+mod conserving;
+mod contact;
+mod equation;
+mod exact;
+mod held;
+mod kinked;
+mod law;
+mod relaxed;
+mod released;
+mod rule;
+
+pub use conserving::Conserving;
+pub use contact::{CONTACT_UNKNOWNS, Contact, ContactUnknowns, Kink, WayVector};
+pub use equation::{Equation, Unit};
+pub use exact::Exact;
+pub use held::Held;
+pub use kinked::Kinked;
+pub use law::SlidingLaw;
+pub use relaxed::Relaxed;
+pub use released::Released;
+pub use rule::{RuleClaims, RuleEntry, SLIDING_RULES, SlidingRule};

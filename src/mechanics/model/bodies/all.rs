@@ -1,0 +1,184 @@
+//! All bodies of a model, and what is watched on them.
+
+use std::ops::{Deref, DerefMut};
+
+use super::{Body, Momenta, Tracker};
+use crate::beams::{Mesh, Movement, Place, RotationIncrement};
+use crate::geometry::{Vec2, larger};
+
+/// A function that is smaller than this at a place is zero there.
+const NO_WEIGHT: f64 = 1e-12;
+
+/// The bodies of a model: beams, then particles, then rigid bodies, and what is watched on them; it derefs to the slice of them.
+pub struct Bodies {
+    all: Vec<Body>,
+    /// Of the beams.
+    meshes: Vec<Mesh>,
+    /// Sections whose angle is followed: starts and ends of all beams, then the stations of the scene, then rigid bodies.
+    trackers: Vec<Tracker>,
+    /// Pairs of places that joints hold together.
+    joined: Vec<(Place, Place)>,
+    /// That of the beams alone [mass].
+    mass: f64,
+}
+
+impl Deref for Bodies {
+    type Target = [Body];
+
+    fn deref(&self) -> &[Body] {
+        &self.all
+    }
+}
+
+impl DerefMut for Bodies {
+    fn deref_mut(&mut self) -> &mut [Body] {
+        &mut self.all
+    }
+}
+
+impl Bodies {
+    /// Bodies with the meshes of the beams among them, the sections that are followed, the places that joints hold together, and the
+    /// mass of the beams [mass].
+    pub fn new(
+        all: Vec<Body>,
+        meshes: Vec<Mesh>,
+        trackers: Vec<Tracker>,
+        joined: Vec<(Place, Place)>,
+        mass: f64,
+    ) -> Self {
+        Self { all, meshes, trackers, joined, mass }
+    }
+
+    /// The meshes of the beams, with breaks where joints are.
+    pub fn meshes(&self) -> &[Mesh] {
+        &self.meshes
+    }
+
+    /// The mass of the beams, without what stands on them [mass].
+    pub fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    /// The number of sections whose angle is followed.
+    pub fn followed_sections(&self) -> usize {
+        self.trackers.len()
+    }
+
+    /// The unwrapped angle of a section that is followed, by its number [rad].
+    pub fn angle(&self, section: usize) -> Option<f64> {
+        self.trackers.get(section).map(|tracker| tracker.angle)
+    }
+
+    /// The point where a place is at the start of the step [length].
+    pub fn position(&self, place: &Place) -> Vec2 {
+        place.interpolate(self[place.body].dynamics.control_points())
+    }
+
+    /// The speed of the fastest control point [length/time].
+    pub fn fastest_speed(&self, rates: &[f64]) -> f64 {
+        let speeds = self.iter().flat_map(|body| {
+            (0..body.degrees_of_freedom.len()).map(|point| body.vector_at(point, rates).norm())
+        });
+        speeds.fold(0.0, larger)
+    }
+
+    /// The largest distance between places that joints hold together [length].
+    pub fn largest_gap(&self) -> f64 {
+        let gap = |(a, b): &(Place, Place)| (self.position(a) - self.position(b)).norm();
+        self.joined.iter().map(gap).fold(0.0, larger)
+    }
+
+    /// Momenta and twice the kinetic energy of all bodies, from the rates of the unknowns.
+    pub fn momenta(&mut self, rates: &[f64]) -> Momenta {
+        let mut sum = Momenta::default();
+        self.all.iter_mut().for_each(|body| sum += body.momenta(rates));
+        sum
+    }
+
+    /// The strain energy of all bodies [energy].
+    pub fn strain_energy(&self) -> f64 {
+        self.iter().map(|body| body.dynamics.strain_energy()).sum()
+    }
+
+    /// Adds `factor · M · rates` of all bodies to `out`, one entry for each unknown.
+    pub fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
+        self.all.iter_mut().for_each(|body| body.add_inertia(factor, rates, out));
+    }
+
+    /// Gives every body its part of the increments of the unknowns.
+    pub fn gather(&mut self, increments: &[f64]) {
+        for body in &mut self.all {
+            body.gather(increments);
+        }
+    }
+
+    /// Lets all bodies accept the movements that were gathered last.
+    pub fn advance(&mut self, rotations: RotationIncrement) {
+        for tracker in &mut self.trackers {
+            tracker.advance(self.all[tracker.place.body].moved(), rotations);
+        }
+        self.all.iter_mut().for_each(|body| body.advance(rotations));
+    }
+
+    /// The values of unknowns at the control points of every body; supported movements are zero.
+    pub fn by_control_point(&self, values: &[f64]) -> Vec<Vec<Movement>> {
+        self.iter().map(|body| body.by_control_point(values).collect()).collect()
+    }
+
+    /// Gives every movement of every control point a number of its own, as if nothing were joined; the numbers that they had.
+    pub fn number_apart(&mut self) -> Vec<Vec<[usize; 3]>> {
+        let mut next = 0;
+        let own = self.iter().map(|body| {
+            let points = body.degrees_of_freedom.iter().map(|_| {
+                next += 3;
+                [next - 3, next - 2, next - 1]
+            });
+            points.collect()
+        });
+        let own = own.collect();
+        self.number_as(own)
+    }
+
+    /// Gives the movements of all control points other numbers; the numbers that they had.
+    pub fn number_as(&mut self, numbers: Vec<Vec<[usize; 3]>>) -> Vec<Vec<[usize; 3]>> {
+        let bodies = self.all.iter_mut().zip(numbers);
+        bodies.map(|(body, own)| std::mem::replace(&mut body.degrees_of_freedom, own)).collect()
+    }
+
+    /// The nodes that joints hold together at a place, as indices of bodies and control points; none where the place is no node.
+    pub fn tied_nodes(&self, place: &Place) -> Option<Vec<(usize, usize)>> {
+        let mut nodes = vec![node_of(place)?];
+        let mut next = 0;
+        while let Some(&at) = nodes.get(next) {
+            next += 1;
+            for (one, other) in &self.joined {
+                for (here, there) in [(one, other), (other, one)] {
+                    let there = node_of(there).filter(|there| !nodes.contains(there));
+                    if node_of(here) == Some(at) {
+                        nodes.extend(there);
+                    }
+                }
+            }
+        }
+        Some(nodes)
+    }
+
+    /// Appends the state of all bodies at the start of a step.
+    pub fn save(&self, state: &mut Vec<f64>) {
+        self.iter().for_each(|body| body.dynamics.save(state));
+        self.trackers.iter().for_each(|tracker| tracker.save(state));
+    }
+
+    /// Takes the state of all bodies back, in the order in which it was appended.
+    pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.all.iter_mut().for_each(|body| body.dynamics.restore(next));
+        self.trackers.iter_mut().for_each(|tracker| tracker.restore(next));
+    }
+}
+
+/// The body and the control point of a place, if it is where a control point is.
+fn node_of(place: &Place) -> Option<(usize, usize)> {
+    let point = place.nearest_control_point();
+    let is_node = place.weights().all(|(at, weight)| at == point || weight.abs() < NO_WEIGHT);
+    is_node.then_some((place.body, point))
+}

@@ -1,0 +1,147 @@
+//! Laws of drag: a force against a velocity, with its derivatives.
+//!
+//! ```text
+//! point    G = (c + k |v|) v        line    G = φn(n·v) n + φt(t·v) t,  φ(s) = c s + k |s| s        G·v ≥ 0
+//! ```
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::{Vec2, perpendicular};
+
+/// A force over a speed, `c s + k |s| s`: of a point, or per length of a line.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct SpeedLaw {
+    /// `c` [force·time/length; of a line force·time/length²].
+    pub linear: f64,
+    /// `k` [force·time²/length²; of a line force·time²/length³].
+    pub quadratic: f64,
+}
+
+impl SpeedLaw {
+    fn force(&self, speed: f64) -> f64 {
+        (self.linear + self.quadratic * speed.abs()) * speed
+    }
+
+    fn slope(&self, speed: f64) -> f64 {
+        self.linear + 2.0 * self.quadratic * speed.abs()
+    }
+}
+
+/// How the medium resists.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum DragLaw {
+    /// Alike in every direction.
+    Point(SpeedLaw),
+    /// Across and along a line.
+    Line {
+        /// Across it.
+        normal: SpeedLaw,
+        /// SpeedLaw it.
+        tangent: SpeedLaw,
+    },
+}
+
+/// The force of a point of the body on the medium, with its derivatives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resisted {
+    /// `G` [force, or force/length].
+    pub force: Vec2,
+    /// `∂G/∂v`, column by column.
+    pub by_velocity: [Vec2; 2],
+    /// The derivative of `G` by the angle of the line.
+    pub by_turn: Vec2,
+}
+
+impl DragLaw {
+    /// What resists a velocity relative to the medium, where the line has a unit tangent; that of a point does not count.
+    pub fn resist(&self, velocity: Vec2, t: Vec2) -> Resisted {
+        match self {
+            Self::Point(law) => {
+                let speed = velocity.norm();
+                let factor = law.linear + law.quadratic * speed;
+                // k v ⊗ v/|v|
+                let bend = if speed > 0.0 { velocity * (law.quadratic / speed) } else { velocity };
+                Resisted {
+                    force: velocity * factor,
+                    by_velocity: [
+                        Vec2::new(factor, 0.0) + bend * velocity.x,
+                        Vec2::new(0.0, factor) + bend * velocity.y,
+                    ],
+                    by_turn: Vec2::zeros(),
+                }
+            }
+            Self::Line { normal, tangent } => {
+                let n = perpendicular(t);
+                let (across, along) = (n.dot(&velocity), t.dot(&velocity));
+                let (force_n, force_t) = (normal.force(across), tangent.force(along));
+                let (slope_n, slope_t) = (normal.slope(across), tangent.slope(along));
+                let column = |axis: usize| n * (slope_n * n[axis]) + t * (slope_t * t[axis]);
+                Resisted {
+                    force: n * force_n + t * force_t,
+                    by_velocity: [column(0), column(1)],
+                    by_turn: n * (force_t - slope_n * along) + t * (slope_t * across - force_n),
+                }
+            }
+        }
+    }
+
+    /// The same law without what is quadratic in velocities.
+    pub fn linear(&self) -> Self {
+        let linear = |law: &SpeedLaw| SpeedLaw { quadratic: 0.0, ..*law };
+        match self {
+            Self::Point(law) => Self::Point(linear(law)),
+            Self::Line { normal, tangent } => {
+                Self::Line { normal: linear(normal), tangent: linear(tangent) }
+            }
+        }
+    }
+
+    /// The law in words.
+    pub fn describe(&self) -> String {
+        let law = |law: &SpeedLaw| match (law.linear, law.quadratic) {
+            (linear, 0.0) => format!("{linear} v"),
+            (0.0, quadratic) => format!("{quadratic} |v| v"),
+            (linear, quadratic) => format!("{linear} v + {quadratic} |v| v"),
+        };
+        match self {
+            Self::Point(along) => law(along),
+            Self::Line { normal, tangent } => {
+                format!("{} across, {} along", law(normal), law(tangent))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::unit;
+
+    #[test]
+    fn derivatives_are_those_of_the_force_and_no_force_drives() {
+        let (normal, tangent) =
+            (SpeedLaw { linear: 0.3, quadratic: 2.0 }, SpeedLaw { linear: 0.1, quadratic: 0.4 });
+        for law in [DragLaw::Point(normal), DragLaw::Line { normal, tangent }] {
+            for (angle, velocity) in [(0.3, Vec2::new(1.0, -2.0)), (2.5, Vec2::new(-0.4, 0.2))] {
+                let h = 1e-6;
+                let found = law.resist(velocity, unit(angle));
+                assert!(found.force.dot(&velocity) > 0.0);
+                let force = |v: Vec2, angle: f64| law.resist(v, unit(angle)).force;
+                for (axis, by) in [Vec2::x(), Vec2::y()].into_iter().zip(found.by_velocity) {
+                    let (more, less) = (velocity + axis * h, velocity - axis * h);
+                    let expected = (force(more, angle) - force(less, angle)) / (2.0 * h);
+                    assert!((by - expected).norm() < 1e-8, "{law:?}: {by} {expected}");
+                }
+                let turned = force(velocity, angle + h) - force(velocity, angle - h);
+                assert!((found.by_turn - turned / (2.0 * h)).norm() < 1e-8, "{law:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_does_not_move_is_not_dragged() {
+        let law = DragLaw::Point(SpeedLaw { linear: 0.3, quadratic: 2.0 });
+        let found = law.resist(Vec2::zeros(), Vec2::x());
+        assert_eq!((found.force, found.by_velocity[0].x), (Vec2::zeros(), 0.3));
+    }
+}

@@ -1,0 +1,141 @@
+//! The elements of a scene as they are described, and what their descriptions offer to a model.
+
+use serde::{Deserialize, Serialize};
+
+use super::point_mass::Lump;
+use super::{Drag, ForceElement, MaterialDamping, PointMass, Resistance, Spring};
+use crate::beams::{BodyDynamics, Mesh, Place, SectionProfile, Station};
+use crate::geometry::GeometryError;
+use crate::loads::{Load, Schedule};
+use crate::model::ModelError;
+
+/// An element of a scene: something with mass on a body, or something that puts forces on bodies.
+///
+/// A further kind is a variant, and a file in `model/elements` with its [`Description`] and what it is built into: a [`ForceElement`], or a [`Resistance`](super::Resistance).
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub enum Element {
+    /// The element is a mass at a station.
+    PointMass(PointMass),
+    /// A load: a force, a moment or a force per length that follows a schedule.
+    Load(Load),
+    /// A spring, a damper or a tendon.
+    Spring(Spring),
+    /// The damping of the material of a beam.
+    Damping(MaterialDamping),
+    /// Drag of air or water.
+    Drag(Drag),
+}
+
+impl Element {
+    /// What it is, in a word.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::PointMass(_) => "mass",
+            Self::Load(_) => "load",
+            Self::Spring(_) => "spring",
+            Self::Damping(_) => "damping",
+            Self::Drag(_) => "drag",
+        }
+    }
+
+    /// Its name, if it has one.
+    pub(in crate::model) fn name_mut(&mut self) -> Option<&mut String> {
+        match self {
+            Self::PointMass(_) => None,
+            Self::Load(load) => Some(&mut load.name),
+            Self::Spring(spring) => Some(&mut spring.name),
+            Self::Damping(damping) => Some(&mut damping.name),
+            Self::Drag(drag) => Some(&mut drag.name),
+        }
+    }
+
+    /// The element as what every kind of element can be asked.
+    pub(in crate::model) fn description(&self) -> &dyn Description {
+        match self {
+            Self::PointMass(mass) => mass,
+            Self::Load(load) => load,
+            Self::Spring(spring) => spring,
+            Self::Damping(damping) => damping,
+            Self::Drag(drag) => drag,
+        }
+    }
+}
+
+/// A kind of element as a scene describes it.
+pub trait Description {
+    /// Checks the numbers and the stations of an element.
+    ///
+    /// # Errors
+    /// When a number is out of its range, or a station is none of the scene.
+    fn check(&self, setting: &dyn Setting) -> Result<(), ModelError>;
+
+    /// The stations at which the element needs a node of the mesh.
+    fn nodes(&self) -> Vec<Station> {
+        Vec::new()
+    }
+
+    /// Stations whose movements it ties together, however far apart they are: the order of the unknowns keeps them near each other.
+    fn coupled(&self) -> Vec<Station> {
+        Vec::new()
+    }
+
+    /// The schedule that the element follows, with the element's name; steps end where a schedule jumps or bends.
+    fn schedule(&self) -> Option<(&str, &Schedule)> {
+        None
+    }
+
+    /// Builds the element into a model: what it is there.
+    ///
+    /// # Errors
+    /// When it cannot act where it is.
+    fn build(&self, site: &dyn Site) -> Result<Assembled, ModelError>;
+}
+
+/// What becomes of an element in a model.
+pub enum Assembled {
+    /// The element becomes a part of the inertia.
+    Mass(Lump),
+    /// The element becomes forces on bodies.
+    Force(Box<dyn ForceElement>),
+    /// What resists movements of bodies.
+    Resistance(Box<dyn Resistance>),
+}
+
+/// What the check of an element may ask of its scene.
+pub trait Setting {
+    /// A station of the scene in words.
+    fn describe(&self, station: &Station) -> String;
+
+    /// Refuses a station that is none of the scene; `object` is what is there, in words.
+    ///
+    /// # Errors
+    /// When there is no such body, or the station lies outside its beam.
+    fn check_station(&self, object: &'static str, station: &Station) -> Result<(), ModelError>;
+}
+
+/// What an element may ask of the model that it is built into.
+pub trait Site {
+    /// The place of a station on the mesh of its body.
+    ///
+    /// # Errors
+    /// When the station lies outside its beam.
+    fn place(&self, station: &Station) -> Result<Place, ModelError>;
+
+    /// The place of a beam at a parameter of its mesh.
+    ///
+    /// # Errors
+    /// When the parameter lies outside the mesh.
+    fn place_at(&self, beam: usize, parameter: f64) -> Result<Place, ModelError>;
+
+    /// The mesh of a beam, by its index.
+    fn mesh(&self, beam: usize) -> &Mesh;
+
+    /// The sections along a beam, by its index.
+    fn profile(&self, beam: usize) -> &SectionProfile;
+
+    /// A body at its start, by its index: beams come first, then particles, then rigid bodies.
+    fn body(&self, index: usize) -> &dyn BodyDynamics;
+
+    /// Wraps an error of geometry as one of a beam, by its index.
+    fn wrong(&self, beam: usize, error: GeometryError) -> ModelError;
+}

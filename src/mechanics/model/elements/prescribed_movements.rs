@@ -1,0 +1,324 @@
+//! Supported movements that are prescribed: their increments in a step, and what the drives give by that.
+//!
+//! Let `v` be the rates, of which those of prescribed movements are derivatives of the prescribed functions, and `ε = Δx - Δt v̄` by how much a prescribed increment
+//! differs from its mean rate (of third order in `Δt`; zero for what is unknown). By the proofs of the energy–momentum step
+//!
+//! ```text
+//! ΔE = Σ R·Δx - Σ ε·M Δv/Δt          Δp = Δt Σ R          ΔL = Δt Σ x̄ × R + Σ ε × M v̄          R: what is left of the equations
+//! ```
+//!
+//! over the prescribed movements, exactly. These are work, impulse and angular impulse of a drive.
+
+use std::borrow::Cow;
+
+use super::Exchange;
+use super::supports::Support;
+use crate::beams::RotationIncrement;
+use crate::geometry::{Vec2, cross, larger};
+use crate::integrators::{Interval, Prescribed};
+use crate::joints::Component;
+use crate::loads::{LoadError, MotionAtStart, PrescribedMotion, Side};
+use crate::model::bodies::Body;
+
+/// A supported movement that is prescribed.
+pub struct PrescribedMovement {
+    /// Where it is.
+    pub support: Support,
+    /// The number of its drive.
+    pub drive: usize,
+    /// What it does.
+    pub motion: PrescribedMotion,
+}
+
+/// A drive, and what it has given so far.
+struct Driven {
+    name: String,
+    /// Since the start [energy].
+    work: f64,
+}
+
+/// The present of a prescribed movement.
+#[derive(Debug, Clone, Copy, Default)]
+struct Present {
+    /// At the end of the last step [length/time², 1/time²].
+    acceleration: f64,
+    /// Mean of the last step [force, force·length].
+    reaction: f64,
+    /// `M Δv` of the step that is being accepted [force·time, force·length·time].
+    struck: f64,
+    /// The place or turn that it has at rest under the whole load [length, rad].
+    goal: f64,
+    /// How far it has been moved there [length, rad].
+    placed: f64,
+    /// `M v̄` at its control point in that step [mass·length/time].
+    momentum: Vec2,
+}
+
+/// What a drive has given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DriveState<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Which of x, y and the angle it gives.
+    pub prescribed: [bool; 3],
+    /// Its work since the start [energy].
+    pub work: f64,
+    /// The force on the station, mean of the last step [force].
+    pub force: Vec2,
+    /// The moment on the station, mean of the last step [force·length].
+    pub moment: f64,
+}
+
+/// The movements of a model that are prescribed, in the order of their degrees of freedom.
+#[derive(Default)]
+pub struct PrescribedMovements {
+    movements: Vec<PrescribedMovement>,
+    present: Vec<Present>,
+    drives: Vec<Driven>,
+    /// The number of the first degree of freedom among them.
+    first: usize,
+    /// Entries of constraints in what is prescribed.
+    constraints: usize,
+    prescribed: Prescribed,
+    /// The largest turn of the step [rad].
+    turn: f64,
+    /// Room for rates of everything.
+    room: Vec<f64>,
+}
+
+impl PrescribedMovements {
+    /// The prescribed movements of drives, whose names are told, behind some unknown movements and unknowns of constraints.
+    ///
+    /// # Errors
+    /// When a function has no value at the start: the name of its drive, and why.
+    pub fn new(
+        movements: Vec<PrescribedMovement>,
+        drives: impl Iterator<Item = String>,
+        unknowns: usize,
+        constraints: usize,
+    ) -> Result<(Self, Vec<f64>), (String, LoadError)> {
+        let drives: Vec<Driven> = drives.map(|name| Driven { name, work: 0.0 }).collect();
+        let mut prescribed = Prescribed::new(constraints, movements.len());
+        let mut present = vec![Present::default(); movements.len()];
+        for (at, movement) in movements.iter().enumerate() {
+            let MotionAtStart { rate, acceleration } = movement
+                .motion
+                .beginning()
+                .map_err(|error| (drives[movement.drive].name.clone(), error))?;
+            prescribed.rates[constraints + at] = rate;
+            present[at].acceleration = acceleration;
+        }
+        let rates = prescribed.rates.clone();
+        let room = vec![0.0; if movements.is_empty() { 0 } else { unknowns + prescribed.width() }];
+        let first = unknowns + constraints;
+        let all =
+            Self { movements, present, drives, first, constraints, prescribed, turn: 0.0, room };
+        Ok((all, rates))
+    }
+
+    /// The number of movements that are prescribed.
+    pub fn count(&self) -> usize {
+        self.movements.len()
+    }
+
+    /// Where the prescribed movements are.
+    pub fn supports(&self) -> impl Iterator<Item = &Support> {
+        self.movements.iter().map(|movement| &movement.support)
+    }
+
+    /// What they do in the present step.
+    pub fn in_step(&self) -> &Prescribed {
+        &self.prescribed
+    }
+
+    /// The largest turn that is prescribed in the present step [rad].
+    pub fn turn(&self) -> f64 {
+        self.turn
+    }
+
+    /// What the drives have given, in the order of the scene.
+    pub fn states(&self) -> impl Iterator<Item = DriveState<'_>> {
+        self.drives.iter().enumerate().map(|(index, drive)| {
+            let own = self.movements.iter().zip(&self.present);
+            let own = own.filter(|(movement, _)| movement.drive == index);
+            let (mut force, mut moment, mut prescribed) = (Vec2::zeros(), 0.0, [false; 3]);
+            for (movement, present) in own {
+                prescribed[movement.support.component as usize] = true;
+                let (by, turning) = movement.support.reaction(present.reaction);
+                (force, moment) = (force + by, moment + turning);
+            }
+            DriveState { name: &drive.name, prescribed, work: drive.work, force, moment }
+        })
+    }
+
+    /// Finds what is prescribed in a step, with the rates at its start.
+    ///
+    /// # Errors
+    /// When a function has no finite value: the name of its drive, and why.
+    pub fn begin_step(
+        &mut self,
+        interval: Interval,
+        rotations: RotationIncrement,
+        rates: &[f64],
+    ) -> Result<(), (String, LoadError)> {
+        let duration = interval.duration();
+        self.turn = 0.0;
+        for (at, movement) in self.movements.iter().enumerate() {
+            let step = movement
+                .motion
+                .over(interval.start, interval.end, duration)
+                .map_err(|error| (self.drives[movement.drive].name.clone(), error))?;
+            let entry = self.constraints + at;
+            let turns = movement.support.component == Component::Rotation;
+            self.prescribed.increments[entry] =
+                if turns { rotations.of_angle(step.moved) } else { step.moved };
+            if turns {
+                self.turn = larger(self.turn, step.moved.abs());
+            }
+            let before = rates[self.first + at];
+            self.prescribed.rates[entry] = step.rate;
+            self.prescribed.mean_accelerations[entry] = (step.rate - before) / duration;
+            let [start, end] = &mut self.prescribed.accelerations;
+            [start[entry], end[entry]] = step.accelerations;
+        }
+        Ok(())
+    }
+
+    /// Room for rates of all movements, filled by a function of their number.
+    pub fn fill(&mut self, rate: impl FnMut(usize) -> f64) -> &[f64] {
+        self.room.clear();
+        let width = if self.movements.is_empty() { 0 } else { self.first + self.movements.len() };
+        self.room.extend((0..width).map(rate));
+        &self.room
+    }
+
+    /// The accelerations of what is prescribed at the start of the step, where its degrees of freedom are; zero for what is unknown.
+    pub fn accelerations(&self) -> Vec<f64> {
+        let behind = self.present.iter().map(|present| present.acceleration);
+        let ahead = if self.movements.is_empty() { 0 } else { self.first };
+        std::iter::repeat_n(0.0, ahead).chain(behind).collect()
+    }
+
+    /// Takes the part of `M Δv` of a step that belongs to what is prescribed.
+    pub fn take_struck(&mut self, struck: &[f64]) {
+        for (present, struck) in self.present.iter_mut().zip(&struck[self.first..]) {
+            present.struck = *struck;
+        }
+    }
+
+    /// Takes the part of `M v̄` of a step that belongs to what is prescribed.
+    pub fn take_momentum(&mut self, bodies: &[Body], momentum: &[f64]) {
+        for (movement, present) in self.movements.iter().zip(&mut self.present) {
+            let Support { body, point, .. } = movement.support;
+            let [x, y, _] = bodies[body].degrees_of_freedom[point];
+            present.momentum = Vec2::new(momentum[x], momentum[y]);
+        }
+    }
+
+    /// What the drives gave in the step of the movements that the bodies gathered last, with its reactions; their works are kept.
+    ///
+    /// `mean` tells mean rates by degree of freedom.
+    pub fn exchange(
+        &mut self,
+        bodies: &[Body],
+        residual: &[f64],
+        duration: f64,
+        mean: impl Fn(usize) -> f64,
+    ) -> Exchange {
+        let mut sum = Exchange::default();
+        for (at, (movement, present)) in self.movements.iter().zip(&mut self.present).enumerate() {
+            let Support { body, point, component } = movement.support;
+            let reaction = residual[self.first + at];
+            let [x, y, turned] = bodies[body].moved()[point];
+            let moved = [x, y, turned][component as usize];
+            let missed = moved - duration * mean(self.first + at);
+            let work = reaction * moved - missed * present.struck / duration;
+            let middle = bodies[body].dynamics.control_points()[point] + 0.5 * Vec2::new(x, y);
+            let (force, moment) = movement.support.reaction(reaction);
+            let (aside, _) = match component {
+                Component::Rotation => (Vec2::zeros(), 0.0),
+                _ => movement.support.reaction(missed),
+            };
+            let angular =
+                (cross(middle, force) + moment) * duration + cross(aside, present.momentum);
+            sum += Exchange::of(work, force * duration, angular);
+            self.drives[movement.drive].work += work;
+            present.reaction = reaction;
+            present.acceleration = self.prescribed.accelerations[1][self.constraints + at];
+        }
+        sum
+    }
+
+    /// What the drives gave in a blow, with its impulses, at these rates of everything.
+    pub fn exchange_in_blow(
+        &mut self,
+        bodies: &[Body],
+        impulses: &[f64],
+        rates: &[f64],
+    ) -> Exchange {
+        let mut sum = Exchange::default();
+        for (at, movement) in self.movements.iter().enumerate() {
+            let Support { body, point, .. } = movement.support;
+            let impulse = impulses[self.first + at];
+            let work = impulse * rates[self.first + at];
+            let (force, moment) = movement.support.reaction(impulse);
+            let place = bodies[body].dynamics.control_points()[point];
+            sum += Exchange::of(work, force, cross(place, force) + moment);
+            self.drives[movement.drive].work += work;
+        }
+        sum
+    }
+
+    /// Takes the places that are prescribed at a time, which equilibria put on with their loads.
+    ///
+    /// # Errors
+    /// When a function has no finite value: the name of its drive, and why.
+    pub fn hold_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
+        for (movement, present) in self.movements.iter().zip(&mut self.present) {
+            if let PrescribedMotion::Place(schedule) = &movement.motion {
+                present.goal = schedule
+                    .value(time, Side::After)
+                    .map_err(|error| (self.drives[movement.drive].name.clone(), error))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether something is prescribed that an equilibrium has to put on.
+    pub fn moves_at_rest(&self) -> bool {
+        self.present.iter().any(|present| present.goal != 0.0)
+    }
+
+    /// Movements at rest, those that are prescribed behind the unknown ones: from where they are to their places under a part of the load.
+    pub fn at_rest<'m>(&self, movements: &'m [f64], load_factor: f64) -> Cow<'m, [f64]> {
+        if self.movements.is_empty() {
+            return Cow::Borrowed(movements);
+        }
+        let mut all = movements.to_vec();
+        all.resize(self.first, 0.0);
+        all.extend(self.present.iter().map(|now| load_factor * now.goal - now.placed));
+        Cow::Owned(all)
+    }
+
+    /// Leaves what is prescribed where it is under a part of the load.
+    pub fn place(&mut self, load_factor: f64) {
+        for present in &mut self.present {
+            present.placed = load_factor * present.goal;
+        }
+    }
+
+    pub fn save(&self, state: &mut Vec<f64>) {
+        state.extend(
+            self.present.iter().flat_map(|now| [now.acceleration, now.reaction, now.placed]),
+        );
+        state.extend(self.drives.iter().map(|drive| drive.work));
+    }
+
+    pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        for present in &mut self.present {
+            (present.acceleration, present.reaction) = (next(), next());
+            present.placed = next();
+        }
+        self.drives.iter_mut().for_each(|drive| drive.work = next());
+    }
+}

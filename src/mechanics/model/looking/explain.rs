@@ -1,0 +1,314 @@
+//! What a scene uses, and what it therefore leaves out.
+
+use crate::beams::{PointCounts, SectionProfile};
+use crate::geometry::Vec2;
+use crate::integrators::{Constraints, INTEGRATORS, Mechanism, Method};
+use crate::joints::{Component, Joint, Partner, SLIDING_RULES, StartVelocities};
+use crate::model::elements::{ForceElement, Resistance};
+use crate::model::words::{MOST, in_words, plural};
+use crate::model::{BeamDefinition, Drive, Model, ModelError, Scene};
+
+/// A part of the mechanics, and whether a simulation uses it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Part {
+    /// The part of the mechanics in words.
+    pub name: String,
+    /// Whether the part is used, and how or what is saved.
+    pub usage: Usage,
+}
+
+/// Whether a part of the mechanics is used.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Usage {
+    /// The part is used: how much, or why.
+    Used(String),
+    /// The part is not used: what is saved by that.
+    LeftOut(String),
+}
+
+impl Part {
+    /// A part of the mechanics that is used, and how.
+    pub fn used(name: impl Into<String>, how: impl Into<String>) -> Self {
+        Self { name: name.into(), usage: Usage::Used(how.into()) }
+    }
+
+    /// The steps of a simulation as a part that is used: their size in words, and the times at which they are cut.
+    pub fn steps(size: &str, cuts: &[f64]) -> Self {
+        let cut = in_words(cuts).map(|times| format!("cut ahead at t = {times}"));
+        Self::used("steps", format!("{size}, {}", cut.unwrap_or("no cuts ahead".to_owned())))
+    }
+
+    /// A part of the mechanics that is left out, and what is saved by that.
+    pub fn left_out(name: impl Into<String>, saved: impl Into<String>) -> Self {
+        Self { name: name.into(), usage: Usage::LeftOut(saved.into()) }
+    }
+}
+
+impl Scene {
+    /// What a simulation of this scene uses and what it leaves out, with any integrator.
+    ///
+    /// # Errors
+    /// When the scene cannot be assembled.
+    pub fn explain(&self) -> Result<Vec<Part>, ModelError> {
+        let methods: Vec<Method> = INTEGRATORS.iter().map(|entry| entry.method).collect();
+        Ok(Model::assemble(self)?.explain(self, &methods))
+    }
+}
+
+impl Model {
+    /// What this model of a scene uses and what it leaves out; `methods` are those that may advance it.
+    pub fn explain(&self, scene: &Scene, methods: &[Method]) -> Vec<Part> {
+        let mut parts = vec![self.explain_matrix()];
+        parts.extend(self.explain_beams(scene));
+        parts.push(explain_particles(scene));
+        parts.extend(self.explain_bodies(scene));
+        parts.push(explain_masses(scene));
+        parts.extend([self.explain_joints(scene), self.explain_supports(scene)]);
+        parts.extend(scene.drives.iter().map(|drive| explain_drive(scene, drive)));
+        parts.extend([self.explain_sliders(scene), self.explain_gravity(methods)]);
+        parts.extend(self.explain_loads(methods));
+        parts.extend(self.explain_springs());
+        parts.extend([self.explain_angles(), explain_start(scene)]);
+        parts
+    }
+
+    fn explain_matrix(&self) -> Part {
+        let how =
+            format!("{} movements, half-bandwidth {}", self.movements(), self.half_bandwidth());
+        let how = match 2 * self.links().count() {
+            0 => how,
+            forces => format!("{how}; {forces} of rigid links among them, in the band"),
+        };
+        let how = match self.constraint_shape().width {
+            0 => how,
+            width if self.constraint_blocks().is_some() => {
+                format!("{how}; {width} of contacts, eliminated where they are")
+            }
+            width => format!("{how}; {width} of contacts, in the border"),
+        };
+        Part::used("unknowns", how)
+    }
+
+    /// The unknowns that are movements.
+    fn movements(&self) -> usize {
+        self.unknowns() - 2 * self.links().count()
+    }
+
+    fn explain_bodies(&self, scene: &Scene) -> Option<Part> {
+        let points = self.links().count();
+        let how = match (scene.rigid_bodies.len(), points) {
+            (0, _) => return None,
+            (count, 0) => format!("{count}, which are held at their centres: no rigid links"),
+            (count, points) => format!(
+                "{count} with {}: a force with two components holds each, and keeps energy and momenta",
+                plural(points, "rigid link")
+            ),
+        };
+        Some(Part::used("rigid bodies", how))
+    }
+
+    fn explain_beams(&self, scene: &Scene) -> Vec<Part> {
+        if scene.beams.is_empty() {
+            return vec![Part::left_out("beams", "no strains, no section forces, no quadrature")];
+        }
+        let counts: Vec<PointCounts> =
+            self.meshes().iter().map(|mesh| mesh.point_counts()).collect();
+        let sum = |of: fn(&PointCounts) -> usize| counts.iter().map(of).sum::<usize>();
+        let beam = |(index, beam): (usize, &BeamDefinition)| {
+            let PointCounts { force, moment, inertia } = counts[index];
+            let mesh = self.meshes()[index].describe();
+            let points = self.bodies()[index].dynamics.control_points().len();
+            let how = format!(
+                "{mesh}, {points} control points; points for Γ {force}, κ {moment}, mass {inertia}"
+            );
+            let taper = match beam.section {
+                SectionProfile::Uniform(_) => "",
+                SectionProfile::Numbers(_) | SectionProfile::Dimensions(_) => {
+                    "; a taper: each point has a section of its own"
+                }
+            };
+            Part::used(format!("beam '{}'", beam.name), format!("{how}{taper}"))
+        };
+        let mut parts: Vec<Part> = match scene.beams.len() {
+            count if count > MOST => {
+                let (force, moment) = (sum(|of| of.force), sum(|of| of.moment));
+                let how = format!(
+                    "{count}; points for Γ {force}, κ {moment}, mass {}",
+                    sum(|of| of.inertia)
+                );
+                vec![Part::used("beams", how)]
+            }
+            _ => scene.beams.iter().enumerate().map(beam).collect(),
+        };
+        let inertia = "rho_I of every section: rotations have an inertia of their own";
+        parts.push(Part::used("rotary inertia", inertia));
+        parts
+    }
+
+    fn explain_joints(&self, scene: &Scene) -> Part {
+        let between = |joint: &&Joint| joint.partner != Partner::Ground;
+        let kinds = counted(scene.joints.iter().filter(between));
+        if kinds.is_empty() {
+            return Part::left_out("joints", "no movement is shared");
+        }
+        let all: usize = self.bodies().iter().map(|body| 3 * body.degrees_of_freedom.len()).sum();
+        let shared = all - self.supports().count() - self.movements();
+        let saved = plural(shared, "unknown");
+        Part::used(
+            "joints",
+            format!("{kinds}: tied movements are one, {saved} less; no multipliers"),
+        )
+    }
+
+    fn explain_supports(&self, scene: &Scene) -> Part {
+        let on_ground = |joint: &&Joint| joint.partner == Partner::Ground;
+        let kinds = counted(scene.joints.iter().filter(on_ground));
+        if kinds.is_empty() {
+            return Part::left_out("supports", "everything is free: no reactions");
+        }
+        let first_rigid = scene.beams.len() + scene.particles.len();
+        let of_particles = |body: usize| (scene.beams.len()..first_rigid).contains(&body);
+        let turns = |component| component == Component::Rotation;
+        let held =
+            self.supports().held().filter(|at| !(of_particles(at.body) && turns(at.component)));
+        let held = plural(held.count(), "movement");
+        Part::used(
+            "supports",
+            format!("{kinds}: {held} held and no unknowns; reactions are measured"),
+        )
+    }
+
+    fn explain_sliders(&self, scene: &Scene) -> Part {
+        let width = self.constraint_shape().width;
+        if width == 0 {
+            let saved =
+                "the matrix is a plain band: no border, no contact forces, no search for ends";
+            return Part::left_out("sliders", saved);
+        }
+        let used = SLIDING_RULES.iter().filter_map(|entry| {
+            let count = scene.sliders.iter().filter(|slider| slider.rule == entry.rule).count();
+            (count > 0).then(|| format!("{count} {}", entry.name))
+        });
+        let rules = used.collect::<Vec<_>>().join(", ");
+        let solved = match self.constraint_blocks() {
+            None => format!("a border of {width} columns"),
+            Some(blocks) => {
+                let free = blocks.own.iter().filter(|own| !own.is_empty()).count();
+                let all = blocks.own.len();
+                format!("{all} blocks beside the band, {free} with their slaves")
+            }
+        };
+        let how = format!("{rules}: {solved}; ends of their beams are watched");
+        Part::used("sliders", how)
+    }
+
+    fn explain_gravity(&self, methods: &[Method]) -> Part {
+        match self.elements().weight() {
+            Some(weight) => Part::used(weight.name(), weight.explain(methods)),
+            None => Part::left_out("gravity", "no weight; the potential energy stays 0"),
+        }
+    }
+
+    fn explain_loads(&self, methods: &[Method]) -> Vec<Part> {
+        let all = self.elements().forces();
+        let one = |load: &dyn ForceElement| Part::used(load.name(), load.explain(methods));
+        let mut parts: Vec<Part> = all.clone().take(MOST).map(one).collect();
+        if parts.is_empty() {
+            return vec![Part::left_out("loads", "no schedules, no work")];
+        }
+        let rest = all.skip(MOST).map(|load| load.functions()).collect::<Vec<_>>();
+        if !rest.is_empty() {
+            let scripts = plural(rest.iter().sum(), "function");
+            let how = format!("{} more, {scripts} of scripts among them", rest.len());
+            parts.push(Part::used("loads", how));
+        }
+        parts
+    }
+
+    fn explain_springs(&self) -> Vec<Part> {
+        let all = self.elements().resistances();
+        let one = |spring: &dyn Resistance| Part::used(spring.name(), spring.explain());
+        let mut parts: Vec<Part> = all.clone().take(MOST).map(one).collect();
+        if parts.is_empty() {
+            return vec![Part::left_out(
+                "springs",
+                "nothing beside the beams stores energy, nothing damps",
+            )];
+        }
+        let rest = all.skip(MOST).count();
+        if rest > 0 {
+            parts.push(Part::used("springs", format!("{rest} more")));
+        }
+        parts
+    }
+
+    fn explain_angles(&self) -> Part {
+        match self.bodies().followed_sections() + self.elements().followed_sections() {
+            0 => Part::left_out("followed angles", "no section is followed"),
+            count => {
+                let how = "ends of beams, stations, and where loads turn";
+                Part::used("followed angles", format!("{}: {how}", plural(count, "section")))
+            }
+        }
+    }
+}
+
+fn explain_drive(scene: &Scene, drive: &Drive) -> Part {
+    let names: Vec<&str> = drive.motions().map(|(component, _)| component.name()).collect();
+    let place = scene.describe(&drive.station);
+    let functions: usize = drive.schedules().map(|schedule| schedule.functions()).sum();
+    let calls = match functions {
+        0 => String::new(),
+        count => format!("; {} calls of functions in a step, or a part of one", 5 * count),
+    };
+    let how =
+        format!("{} of {place}: given and no unknown, exact in place{calls}", names.join(", "));
+    Part::used(format!("{} '{}'", drive.kind.name(), drive.name), how)
+}
+
+fn explain_start(scene: &Scene) -> Part {
+    let is_zero = |velocity: Vec2, spin: f64| velocity == Vec2::zeros() && spin == 0.0;
+    let beams_rest = scene.beams.iter().all(|beam| is_zero(beam.motion.velocity, beam.motion.spin));
+    let nodes_rest = scene.velocities.iter().all(|at| is_zero(at.velocity, at.spin.unwrap_or(0.0)));
+    let is_projected =
+        scene.sliders.iter().any(|slider| slider.velocities == StartVelocities::Project);
+    let how = match (beams_rest && nodes_rest, is_projected) {
+        (_, true) => "made to fit the sliders, by solving once with the mass matrix",
+        (true, false) => return Part::left_out("start velocities", "everything starts at rest"),
+        (false, false) if scene.sliders.is_empty() => "as given",
+        (false, false) => "as given; checked to fit the sliders",
+    };
+    Part::used("start velocities", how)
+}
+
+fn explain_particles(scene: &Scene) -> Part {
+    match scene.particles.len() {
+        0 => Part::left_out("particles", "every unknown belongs to a beam"),
+        count => Part::used("particles", format!("{count}, which do not turn")),
+    }
+}
+
+/// Masses besides those of the particles themselves.
+fn explain_masses(scene: &Scene) -> Part {
+    match scene.masses().count().saturating_sub(scene.particles.len() + scene.rigid_bodies.len()) {
+        0 => Part::left_out("point masses", "the mass matrix is that of the bodies"),
+        count => {
+            let turning = scene.masses().filter(|mass| mass.rotary_inertia > 0.0).count();
+            let how = format!("{count}, {turning} with rotary inertia; part of the mass matrix");
+            Part::used("point masses", how)
+        }
+    }
+}
+
+/// `2 hinges, 1 clamp`.
+fn counted<'a>(joints: impl Iterator<Item = &'a Joint>) -> String {
+    let mut kinds: Vec<(&str, usize)> = Vec::new();
+    for joint in joints {
+        let kind = joint.kind.describe(&joint.partner);
+        match kinds.iter_mut().find(|(other, _)| *other == kind) {
+            Some((_, count)) => *count += 1,
+            None => kinds.push((kind, 1)),
+        }
+    }
+    kinds.iter().map(|(kind, count)| plural(*count, kind)).collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,113 @@
+//! What joints transmit.
+//!
+//! A joint holds two sets of nodes at one place together. What it gives to one of them is what joints and supports give to all nodes of that side,
+//! as other joints on the same side only pass on among them; with the ground on that side, it is the opposite of what the other gets. A scene refuses
+//! joints that hold a place twice, so that no other joint leads from one side to the other.
+
+use crate::geometry::Vec2;
+use crate::joints::{Component, Joint, JointKind, Partner};
+use crate::model::{Instant, Model, ModelError, Scene};
+
+/// A node of a body, or the ground.
+type Node = Option<(usize, usize)>;
+
+/// The nodes that get what a joint gives, and whether they get it with the opposite sign.
+#[derive(Debug, Clone, PartialEq)]
+struct Side {
+    nodes: Vec<(usize, usize)>,
+    sign: f64,
+}
+
+/// A joint, found among the nodes of a model once, to be asked often.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Transmission {
+    /// For each component of movement, if the joint ties it.
+    sides: [Option<Side>; 3],
+}
+
+impl Transmission {
+    /// Force [force] and moment [force·length] on the first of the two stations of the joint.
+    pub fn read(&self, now: &Instant) -> (Vec2, f64) {
+        let sum = |component: Component| {
+            let at = component as usize;
+            self.sides[at].as_ref().map_or(0.0, |side| {
+                side.sign * side.nodes.iter().map(|node| now.given(*node)[at]).sum::<f64>()
+            })
+        };
+        (Vec2::new(sum(Component::X), sum(Component::Y)), sum(Component::Rotation))
+    }
+}
+
+impl Model {
+    /// What a joint holds together, by its index in the scene.
+    ///
+    /// # Errors
+    /// When a station is off its beam, which it was not when the scene was described.
+    pub fn transmission(&self, scene: &Scene, joint: usize) -> Result<Transmission, ModelError> {
+        let ends = |joint: &Joint| -> Result<(Node, Node), ModelError> {
+            let node = |station| -> Result<Node, ModelError> {
+                let place = scene.place(station, self.meshes())?;
+                Ok(Some((place.body, place.nearest_control_point())))
+            };
+            let other = match &joint.partner {
+                Partner::Ground => None,
+                Partner::Station(other) => node(other)?,
+            };
+            Ok((node(&joint.station)?, other))
+        };
+        let all = scene.joints.iter().map(|joint| Ok((joint.kind, ends(joint)?)));
+        let all = all.collect::<Result<Vec<_>, ModelError>>()?;
+        // A rigid body turns as a whole.
+        let links = self.links().iter();
+        let turning = links.map(|link| (Some((link.body, 0)), Some((link.body, link.point))));
+        let turning: Vec<(Node, Node)> = turning.collect();
+        let drives = scene.drives.iter().map(|drive| {
+            let place = scene.place(&drive.station, self.meshes())?;
+            Ok((drive, Some((place.body, place.nearest_control_point()))))
+        });
+        let drives = drives.collect::<Result<Vec<_>, ModelError>>()?;
+        let side = |component: Component| {
+            let tied = |(_, (kind, _)): &(usize, &(JointKind, (Node, Node)))| {
+                kind.components().contains(&component)
+            };
+            let joints = all.iter().enumerate().filter(|(at, _)| *at != joint).filter(tied);
+            let driven = drives.iter().filter(|(drive, _)| drive.drives(component));
+            let bodies = turning.iter().filter(|_| component == Component::Rotation);
+            let pairs: Vec<(Node, Node)> = joints
+                .map(|(_, (_, ends))| *ends)
+                .chain(driven.map(|(_, node)| (*node, None)))
+                .chain(bodies.copied())
+                .collect();
+            let (here, there) = all[joint].1;
+            let near = reached(here, &pairs);
+            let (side, sign) = match near.contains(&None) {
+                false => (near, 1.0),
+                true => (reached(there, &pairs), -1.0),
+            };
+            Side { nodes: side.into_iter().flatten().collect(), sign }
+        };
+        let ties = |component| all[joint].0.components().contains(&component);
+        let sides = Component::ALL.map(|component| ties(component).then(|| side(component)));
+        Ok(Transmission { sides })
+    }
+}
+
+/// The nodes that pairs connect with one; what hangs on the ground elsewhere does not.
+fn reached(from: Node, pairs: &[(Node, Node)]) -> Vec<Node> {
+    let mut found = vec![from];
+    let mut next = 0;
+    while let Some(&at) = found.get(next) {
+        next += 1;
+        if at.is_none() {
+            continue;
+        }
+        for (one, other) in pairs {
+            for (here, there) in [(one, other), (other, one)] {
+                if *here == at && !found.contains(there) {
+                    found.push(*there);
+                }
+            }
+        }
+    }
+    found
+}

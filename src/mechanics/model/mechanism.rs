@@ -1,0 +1,169 @@
+//! The model: bodies, elements, rigid links and sliders, their present motion, and what can be done with them.
+
+mod acceleration;
+mod energies;
+mod impact;
+mod inertia;
+mod instant;
+mod measures;
+mod rest;
+mod state;
+mod steps;
+mod stiffness;
+
+pub use energies::BodyEnergy;
+pub use instant::Instant;
+pub use measures::{Energy, Measures};
+pub use rest::StaticForces;
+pub use state::ModelState;
+pub use stiffness::add_resistance;
+
+use super::bodies::Bodies;
+use super::elements::{Elements, Exchange, Supports};
+use super::motion::{Motion, Resolution, Step, Unknowns};
+use super::rigid_links::RigidLinks;
+use super::sliders::{Sliders, Sliding, TrackLimit};
+use crate::loads::LoadError;
+
+/// The mechanism of a scene: assembled, with its state of motion, and ready to be advanced by an integrator.
+pub struct Model {
+    bodies: Bodies,
+    elements: Elements,
+    links: RigidLinks,
+    sliders: Sliders,
+    supports: Supports,
+    unknowns: Unknowns,
+    motion: Motion,
+    /// Since the start.
+    exchanged: Exchange,
+    step: Step,
+    /// A state to go back to, for methods whose steps have parts.
+    kept: ModelState,
+}
+
+impl Model {
+    /// A model made of its groups, in the state at its start.
+    pub(super) fn new(
+        bodies: Bodies,
+        elements: Elements,
+        links: RigidLinks,
+        sliders: Sliders,
+        supports: Supports,
+        unknowns: Unknowns,
+        motion: Motion,
+    ) -> Self {
+        let degrees_of_freedom = unknowns.count() + sliders.border().width + supports.count();
+        Self {
+            bodies,
+            elements,
+            links,
+            sliders,
+            supports,
+            unknowns,
+            motion,
+            exchanged: Exchange::default(),
+            step: Step::new(degrees_of_freedom),
+            kept: ModelState::default(),
+        }
+    }
+
+    /// Begins the motion: what supports gave to make velocities fit is not counted, and the first step is guessed from the rates
+    /// as they are now.
+    pub(super) fn begin(&mut self) {
+        self.exchanged = Exchange::default();
+        let inertia = self.diagonal_of_inertia();
+        self.motion.begin(inertia);
+    }
+
+    /// Gives what is moved by functions of time the rates with which these begin, in a model that has not taken a step.
+    pub fn set_given_in_motion(&mut self) {
+        let first = self.unknowns.count();
+        let prescribed = &self.supports.prescribed().in_step().rates;
+        self.motion.rates[first..].copy_from_slice(prescribed);
+    }
+
+    pub(super) fn bodies(&self) -> &Bodies {
+        &self.bodies
+    }
+
+    pub(super) fn elements(&self) -> &Elements {
+        &self.elements
+    }
+
+    pub(super) fn links(&self) -> &RigidLinks {
+        &self.links
+    }
+
+    pub(super) fn supports(&self) -> &Supports {
+        &self.supports
+    }
+
+    pub(super) fn unknown_movements(&self) -> &Unknowns {
+        &self.unknowns
+    }
+
+    pub(super) fn sliders(&self) -> &Sliders {
+        &self.sliders
+    }
+
+    pub(super) fn slider(&self, slider: usize) -> &Sliding {
+        &self.sliders[slider]
+    }
+
+    /// The time of the model's present state [time].
+    pub fn time(&self) -> f64 {
+        self.motion.time
+    }
+
+    /// How far the steps so far resolve the motion of the model.
+    pub fn resolution(&self) -> &Resolution {
+        self.motion.resolution()
+    }
+
+    /// The mass of all bodies and point masses [mass].
+    pub fn total_mass(&self) -> f64 {
+        self.bodies.mass() + self.elements.mass()
+    }
+
+    /// Lets up to `threads` threads work on a large body from here on, with the same results; gives how many will at most.
+    pub fn divide(&mut self, threads: usize) -> usize {
+        self.bodies.iter_mut().map(|body| body.divide(threads)).max().unwrap_or(1)
+    }
+
+    /// Moves the clock of the model to a time without moving anything else.
+    pub fn pass_time_to(&mut self, time: f64) {
+        self.motion.time = time;
+    }
+
+    /// Gives all loads the values that they have just after a time, and prescribed motions their places at rest.
+    ///
+    /// # Errors
+    /// When one has no finite value then: its name, and why.
+    pub fn hold_loads_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
+        self.supports.prescribed_mut().hold_at(time)?;
+        self.elements.hold_at(time)
+    }
+
+    /// Makes steps end where a slider reaches a limit of its master, or lets them go where they lead again.
+    pub fn aim_at(&mut self, limit: Option<TrackLimit>) {
+        self.sliders.aim_at(limit);
+    }
+
+    /// Lets a slider, by its index, leave its master.
+    pub fn release(&mut self, slider: usize) {
+        self.sliders[slider].release();
+        self.motion.accelerations.forget();
+    }
+
+    /// Lets a slider rest against the stop at a limit, until the stop would have to pull.
+    pub fn hold(&mut self, limit: TrackLimit) {
+        self.sliders[limit.slider].hold(limit.end);
+        self.motion.accelerations.forget();
+    }
+
+    /// Whether the present velocities lead a slider beyond a limit at which it is.
+    pub fn leads_beyond(&self, limit: TrackLimit) -> bool {
+        let rate = self.sliders[limit.slider].rate(&self.bodies, &self.motion.rates);
+        rate * limit.end.outward() > 0.0
+    }
+}

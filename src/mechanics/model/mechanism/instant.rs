@@ -1,0 +1,171 @@
+//! The present moment by the equations of motion: accelerations, and what supports, joints and contacts give.
+//!
+//! ```text
+//! M a + F(x) - f(t) - Gᵀ λ = r        G a = 2 ξ̇ u·Σ B_i' v_i + ξ̇² u·Σ B_i'' x_i        r = 0 but where something is held
+//! ```
+//!
+//! Where the axis gives way under a slider, `λ` is known, as is the kink.
+//! Configuration and rates at the end of a step are of second order with every method, and so is what follows from them. It is a matter of the
+//! present state alone: the same after going back, in a copy and from a file. Where steps do not resolve a vibration, it rings with it, while the
+//! mean of two neighbouring steps does not.
+
+use super::Model;
+use crate::beams::{Movement, Place};
+use crate::geometry::Vec2;
+use crate::integrators::{Inertia, Mechanism, Stage};
+use crate::linalg::{BandedMatrix, LinearError};
+use crate::model::elements::{Iterate, collocation};
+use crate::model::{ModelError, SliderState};
+
+/// What acts at the present moment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Instant {
+    /// Of the unknown movements [length/time², 1/time²]; forces of rigid links where their unknowns stand.
+    accelerations: Vec<f64>,
+    /// What is left at each degree of freedom: what supports give [force, force·length].
+    residual: Vec<f64>,
+    /// What joints and supports give to each control point of each body [force, force·length].
+    given: Vec<Vec<Movement>>,
+    /// Of each slave on its master [force].
+    contacts: Vec<Vec2>,
+}
+
+impl Instant {
+    /// The accelerations of the unknown movements [length/time², 1/time²].
+    pub fn accelerations(&self) -> &[f64] {
+        &self.accelerations
+    }
+
+    /// What joints and supports give to a control point of a body.
+    pub fn given(&self, (body, point): (usize, usize)) -> Movement {
+        self.given[body][point]
+    }
+
+    /// The force of a slider on its master [force].
+    pub fn contact(&self, slider: usize) -> Vec2 {
+        self.contacts[slider]
+    }
+}
+
+impl Model {
+    /// Accelerations and forces at the present moment, with loads as they are just after it. What follows is not changed by that.
+    ///
+    /// # Errors
+    /// When a load has no value, or contact forces are not determined.
+    pub fn instant(&mut self) -> Result<Instant, ModelError> {
+        let time = self.motion.time;
+        let refused = |reason: String| ModelError::NoInstant { time, reason };
+        self.elements
+            .hold_at(time)
+            .map_err(|(load, source)| refused(format!("{load}: {source}")))?;
+        let rates = self.bodies.by_control_point(&self.motion.rates);
+        let joined = self.bodies.number_apart();
+        let mut apart = vec![0.0; joined.iter().map(|body| 3 * body.len()).sum()];
+        for body in self.bodies.iter_mut() {
+            body.add_forces(collocation(Stage::Start), &[], 1.0, &mut apart);
+        }
+        let at = Iterate { bodies: &self.bodies, stage: Stage::End, increments: &[], weight: 1.0 };
+        self.elements.subtract_from(at, &mut apart);
+        self.elements.add_resisting(&self.bodies, &rates, &mut apart);
+        let own = self.bodies.number_as(joined);
+
+        let degrees: Vec<usize> = self
+            .bodies
+            .iter()
+            .flat_map(|body| body.degrees_of_freedom.iter().flatten())
+            .copied()
+            .collect();
+        let mut residual = vec![0.0; self.degrees_of_freedom()];
+        degrees.iter().zip(&apart).for_each(|(&at, force)| residual[at] += force);
+        if self.supports.prescribed().count() > 0 {
+            let prescribed = self.supports.prescribed().accelerations();
+            self.add_inertia(1.0, &prescribed, &mut residual);
+        }
+        for slider in self.sliders.iter().filter(|slider| slider.gives_way()) {
+            slider.transmit(&self.bodies, slider.contact_force(), &mut residual);
+        }
+        let (accelerations, mut contacts) =
+            self.answer(&residual).map_err(|error| refused(error.to_string()))?;
+        for (contact, slider) in contacts.iter_mut().zip(self.sliders.iter()) {
+            if slider.gives_way() {
+                *contact += slider.contact_force();
+            }
+        }
+
+        let joined = self.bodies.number_as(own);
+        let of_all: Vec<f64> =
+            degrees.iter().map(|&at| accelerations.get(at).copied().unwrap_or(0.0)).collect();
+        self.add_inertia(1.0, &of_all, &mut apart);
+        self.links.transmit(&self.bodies, &accelerations, &mut apart);
+        for (slider, force) in self.sliders.iter().zip(&contacts) {
+            slider.transmit(&self.bodies, *force, &mut apart);
+        }
+        self.bodies.number_as(joined);
+        residual.fill(0.0);
+        degrees.iter().zip(&apart).for_each(|(&at, force)| residual[at] += force);
+        let mut forces = apart.chunks_exact(3).map(|force| [force[0], force[1], force[2]]);
+        let given = self.bodies.iter().map(|body| {
+            forces.by_ref().take(body.degrees_of_freedom.len()).collect::<Vec<Movement>>()
+        });
+        Ok(Instant { given: given.collect(), accelerations, residual, contacts })
+    }
+
+    /// Accelerations that answer to `M a + residual = Gᵀ λ`, and the forces on the masters.
+    fn answer(&self, residual: &[f64]) -> Result<(Vec<f64>, Vec<Vec2>), LinearError> {
+        let mut accelerations: Vec<f64> =
+            residual[..self.unknowns()].iter().map(|force| -force).collect();
+        let prescribed = self.supports.prescribed().accelerations();
+        self.links.set_carried(&self.bodies, &self.motion.rates, &prescribed, &mut accelerations);
+        let mut inertia = self.banded_inertia();
+        let inertia = inertia.factorise()?;
+        inertia.solve(&mut accelerations);
+        accelerations.extend(prescribed.into_iter().skip(self.unknowns()));
+        let mut contacts = vec![Vec2::zeros(); self.sliders.len()];
+        let directions = self.sliders.directions(&self.bodies, usize::MAX);
+        let answers = self.answers(&inertia, &directions);
+        let count = answers.len();
+        if count == 0 {
+            return Ok((accelerations, contacts));
+        }
+        let mut response = BandedMatrix::zeros(count, count - 1);
+        for (row, answer) in answers.iter().enumerate() {
+            for (column, other) in answers.iter().enumerate() {
+                response.add(row, column, answer.velocity(&other.rates));
+            }
+        }
+        let wanted = answers.iter().zip(&directions).map(|(answer, (slider, unit))| {
+            let slider = &self.sliders[*slider];
+            let carried = match slider.state {
+                SliderState::Sliding => slider.carried(&self.bodies, &self.motion.rates).dot(unit),
+                SliderState::Held(_) | SliderState::Released => 0.0,
+            };
+            carried - answer.velocity(&accelerations)
+        });
+        let mut forces: Vec<f64> = wanted.collect();
+        response.factorise()?.solve(&mut forces);
+        for ((force, answer), (slider, unit)) in forces.iter().zip(&answers).zip(&directions) {
+            contacts[*slider] -= unit * *force;
+            let all = accelerations.iter_mut().zip(&answer.rates);
+            all.for_each(|(acceleration, rate)| *acceleration += force * rate);
+        }
+        Ok((accelerations, contacts))
+    }
+
+    /// The acceleration of a place [length/time²].
+    pub fn acceleration(&self, now: &Instant, place: &Place) -> Vec2 {
+        let [x, y, _] = self.bodies[place.body].at(place, &now.accelerations);
+        Vec2::new(x, y)
+    }
+
+    /// The rigid bodies among those of some nodes: what holds one in its rotation turns all its points.
+    pub(super) fn rigid_bodies_of(&self, nodes: &[(usize, usize)]) -> Vec<usize> {
+        let is_rigid = |body: &usize| self.links.iter().any(|link| link.body == *body);
+        nodes.iter().map(|(body, _)| *body).filter(is_rigid).collect()
+    }
+
+    /// What supports give at a place: force [force] and moment [force·length]; none where nothing is held.
+    pub fn reaction(&self, now: &Instant, place: &Place) -> Option<(Vec2, f64)> {
+        let nodes = self.bodies.tied_nodes(place)?;
+        self.supports.force_on(&nodes, &self.rigid_bodies_of(&nodes), &now.residual)
+    }
+}

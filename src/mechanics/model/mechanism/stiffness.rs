@@ -1,0 +1,122 @@
+//! How the present configuration resists small movements, and with which inertia.
+//!
+//! Rotations are increments of the angle itself, for which the stiffness is the Hessian of the strain energy. Loads of fixed direction
+//! have none; those that turn with a section are left out.
+
+use super::Model;
+use crate::beams::SpanAtRest;
+use crate::elementary::square;
+use crate::geometry::larger;
+use crate::linalg::{PreciseBand, SymmetricSparse};
+use crate::model::motion::UnknownKind;
+use crate::model::rigid_links::RigidLink;
+
+/// A rigid link is so many times as stiff as anything else of a model where small movements are looked for: frequencies are lower by less than a part of that,
+/// and with 32 digits nothing else is hidden.
+const RIGID: f64 = 1e8;
+
+impl Model {
+    /// Gives every span of every body, and every spring, as at rest: the unknowns of its components, and its rows. Those of supported components stand
+    /// behind the unknowns of all.
+    pub fn each_span_at_rest(&self, take: &mut dyn FnMut(&[usize], &SpanAtRest)) {
+        for body in self.bodies.iter() {
+            let order = body.dynamics.order();
+            body.dynamics.each_span_at_rest(&mut |span| {
+                let degrees = &body.degrees_of_freedom[span.first..span.first + order];
+                take(degrees.as_flattened(), span);
+            });
+        }
+        self.elements.each_at_rest(&self.bodies, take);
+    }
+
+    /// The power that dampers, damped materials and drag dissipate at such rates of the unknowns in the present configuration, as at rest there
+    /// [energy/time].
+    pub fn dissipation(&self, rates: &[f64]) -> f64 {
+        self.elements.dissipation(&self.bodies, rates)
+    }
+
+    /// How far from the diagonal the stiffness of a configuration has entries, where rigid links couple points and bodies without forces between them.
+    pub fn half_bandwidth_at_rest(&self) -> usize {
+        let of_lever = |link: &RigidLink| {
+            let degrees = &self.bodies[link.body].degrees_of_freedom;
+            let ([x, y, rotation], [point_x, point_y, _]) = (degrees[0], degrees[link.point]);
+            let free = [x, y, rotation, point_x, point_y];
+            let free = free.into_iter().filter(|at| *at < self.unknowns.count());
+            free.clone().max().unwrap_or(0) - free.min().unwrap_or(0)
+        };
+        self.links.iter().map(of_lever).fold(self.unknowns.half_bandwidth(), usize::max)
+    }
+
+    /// Gives every rigid link as at rest, so stiff that nothing is seen of what gives way: `RIGID` times the largest `stiffness` of a
+    /// movement of the model [force/length, force·length].
+    pub fn each_lever_at_rest(
+        &self,
+        stiffness: impl Fn(usize) -> f64,
+        take: &mut dyn FnMut(&[usize], &SpanAtRest),
+    ) {
+        let kinds = self.unknowns.kinds().iter().enumerate();
+        let of_movements = kinds.map(|(at, kind)| match kind {
+            UnknownKind::Position => stiffness(at),
+            UnknownKind::Rotation | UnknownKind::Force => 0.0,
+        });
+        let of_levers = self.links.iter().map(|link| {
+            let own = self.links.iter().filter(|other| other.body == link.body);
+            let size = own.map(|other| other.arm().norm()).fold(0.0, larger);
+            let [.., rotation] = self.bodies[link.body].degrees_of_freedom[0];
+            let moment = if rotation < self.unknowns.count() { stiffness(rotation) } else { 0.0 };
+            larger(moment / square(size), link.force().norm() / size)
+        });
+        let largest = of_movements.chain(of_levers).fold(0.0, larger);
+        let rigid = if largest > 0.0 { RIGID * largest } else { 1.0 };
+        self.links.each_at_rest(&self.bodies, rigid, take);
+    }
+
+    /// How many movements with inertia fewer the model has than its inertia matrix: the rigid links hold them to each other.
+    pub fn held_by_levers(&self, inertia: &SymmetricSparse) -> usize {
+        if self.links.count() == 0 {
+            return 0;
+        }
+        let kinds = self.unknowns.kinds().iter().enumerate();
+        let is_light = |(at, kind): &(usize, &UnknownKind)| {
+            **kind != UnknownKind::Force && inertia.diagonal(*at) == 0.0
+        };
+        (2 * self.links.count()).saturating_sub(kinds.filter(is_light).count())
+    }
+
+    /// About the square of the slowest bending, as if all beams were one: the least `EI` over the largest `ρA` and the fourth power of
+    /// their length together; none without a beam [1/time²].
+    pub fn slowest_bending(&self) -> Option<f64> {
+        let extents = || self.bodies.iter().filter_map(|body| body.dynamics.extent());
+        let length: f64 = extents().map(|(_, length)| length).sum();
+        let bending =
+            extents().map(|(section, _)| section.bending_stiffness).fold(f64::INFINITY, f64::min);
+        let mass = extents().map(|(section, _)| section.mass_per_length).fold(0.0, f64::max);
+        (length > 0.0).then(|| bending / mass / square(square(length)))
+    }
+
+    /// In how many ways a movement from here would release energy if loads keep their directions: the negative eigenvalues of the
+    /// stiffness.
+    pub fn falls(&self) -> usize {
+        let nothing = SymmetricSparse::new(self.unknowns.count(), |_| {});
+        let mut stiffness =
+            PreciseBand::zeros(self.unknowns.count(), self.half_bandwidth_at_rest());
+        self.each_span_at_rest(&mut |degrees, span| add_resistance(&mut stiffness, degrees, span));
+        let own: Vec<f64> = (0..stiffness.size()).map(|at| stiffness.diagonal(at).abs()).collect();
+        self.each_lever_at_rest(|at| own[at], &mut |degrees, span| {
+            add_resistance(&mut stiffness, degrees, span);
+        });
+        stiffness.pivots(0.0, &nothing).map_or(0, |pivots| pivots.negative)
+    }
+}
+
+/// Adds to the stiffness of a configuration how a span resists: `Bᵀ k B + K_g`.
+pub fn add_resistance(stiffness: &mut PreciseBand, degrees: &[usize], span: &SpanAtRest) {
+    let width = degrees.len();
+    for (factor, row) in span.stiffness.iter().zip(span.strains.chunks_exact(width)) {
+        stiffness.add_square(degrees, *factor, row);
+    }
+    for twist in span.twists.chunks_exact(2 * width) {
+        let (p, q) = twist.split_at(width);
+        stiffness.add_product(degrees, p, q);
+    }
+}

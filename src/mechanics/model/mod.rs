@@ -1,0 +1,33 @@
+//! From a scene, as the user describes it, to a mechanism that integrators can advance.
+
+mod assembly;
+mod bodies;
+mod elements;
+mod looking;
+mod mechanism;
+mod motion;
+mod rigid_links;
+mod scene;
+mod sliders;
+mod words;
+
+pub use elements::{
+    Anchor, Drag, Dragged, Drive, DriveKind, DriveState, Element, LoadAccount, MaterialDamping,
+    Origin, PointMass, RestoringLaw, SpeedLaw, Spring, SpringKind,
+};
+pub use looking::{
+    BeamPlaces, BeamSample, CrossSection, Distance, Part, Placement, SectionSample, Sensing,
+    SpringState, Transmission, Usage,
+};
+pub use mechanism::{
+    BodyEnergy, Energy, Instant, Measures, Model, ModelState, StaticForces, add_resistance,
+};
+pub use motion::{Resolution, UnknownKind};
+pub use scene::{
+    BeamDefinition, ParticleDefinition, Probe, Quantity, RigidBodyDefinition, Scene, Sensor,
+    StartMotion, StationVelocity, Value,
+};
+pub use sliders::{Blow, SliderState, TrackEnd, TrackLimit};
+pub use words::{
+    Approach, ModelError, SliderError, SliderParts, Turning, refusal as refusal_of_name,
+};

@@ -1,0 +1,52 @@
+//! The unknowns of a model: movements, and forces of rigid links among them.
+
+use crate::geometry::larger;
+
+/// What an unknown is, and with it the equation of the same number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UnknownKind {
+    /// A movement along an axis [length], balanced by forces.
+    Position,
+    /// A rotation [rad], balanced by moments.
+    Rotation,
+    /// The force of a rigid link, in steps its impulse [force, force·time]; its equation is a length.
+    Force,
+}
+
+/// The unknowns of a model: how many there are, of which kinds, and how far they reach in a matrix.
+pub struct Unknowns {
+    kinds: Vec<UnknownKind>,
+    half_bandwidth: usize,
+}
+
+impl Unknowns {
+    /// The unknowns of a model of these kinds, with the half-bandwidth of the matrices of a step.
+    pub fn new(kinds: Vec<UnknownKind>, half_bandwidth: usize) -> Self {
+        Self { kinds, half_bandwidth }
+    }
+
+    /// The number of unknowns of the model.
+    pub fn count(&self) -> usize {
+        self.kinds.len()
+    }
+
+    /// The half-bandwidth of the matrices of a step: how far from the diagonal they have entries.
+    pub fn half_bandwidth(&self) -> usize {
+        self.half_bandwidth
+    }
+
+    /// What the unknowns are, one entry for each.
+    pub fn kinds(&self) -> &[UnknownKind] {
+        &self.kinds
+    }
+
+    /// The largest magnitudes among the entries of positions and among those of rotations.
+    pub fn largest(&self, values: &[f64]) -> (f64, f64) {
+        let entries = values.iter().zip(&self.kinds);
+        entries.fold((0.0, 0.0), |(force, moment), (value, kind)| match kind {
+            UnknownKind::Position => (larger(force, value.abs()), moment),
+            UnknownKind::Rotation => (force, larger(moment, value.abs())),
+            UnknownKind::Force => (force, moment),
+        })
+    }
+}

@@ -1,0 +1,170 @@
+//! The columns of a history: those that every history has, and those that a scene adds.
+
+use super::Sample;
+use crate::joints::{Component, Slider};
+use crate::loads::Load;
+use crate::model::{Drive, DriveKind, DriveState, Model, Scene, Spring, SpringKind, SpringState};
+
+/// A column that the history of every run has.
+#[derive(Debug, Clone, Copy)]
+pub struct Column {
+    /// The name of the column.
+    pub name: &'static str,
+    /// The dimension of the column's values, in words.
+    pub dimension: &'static str,
+    /// The value of the column in a row of the history.
+    pub value: fn(&Sample) -> f64,
+}
+
+/// A column that a history has because of its scene.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ExtraColumn {
+    /// The name of the column: a thing of the scene and a quantity of it, such as `slider1.force`.
+    pub name: String,
+    /// The dimension of the column's values, in words.
+    pub dimension: &'static str,
+}
+
+/// The columns that every history has, in their order.
+pub(super) const FIXED: &[Column] = &[
+    fixed("t", "time", |row| row.measures.time),
+    fixed("kinetic", "energy", |row| row.measures.energy.kinetic),
+    fixed("strain", "energy", |row| row.measures.energy.strain),
+    fixed("potential", "energy", |row| row.measures.energy.potential),
+    fixed("energy", "energy", |row| row.measures.energy.total()),
+    fixed("work", "energy", |row| row.measures.work),
+    fixed("momentum_x", "mass·length/time", |row| row.measures.momentum.x),
+    fixed("momentum_y", "mass·length/time", |row| row.measures.momentum.y),
+    fixed("impulse_x", "mass·length/time", |row| row.measures.impulse.x),
+    fixed("impulse_y", "mass·length/time", |row| row.measures.impulse.y),
+    fixed("angular_momentum", "mass·length²/time", |row| row.measures.angular_momentum),
+    fixed("angular_impulse", "mass·length²/time", |row| row.measures.angular_impulse),
+    fixed("gap", "length", |row| row.measures.gap),
+    fixed("dt", "time", |row| row.dt),
+    fixed("newton_iterations", "-", |row| row.newton_iterations as f64),
+    fixed("retries", "-", |row| row.retries as f64),
+];
+
+const fn fixed(name: &'static str, dimension: &'static str, value: fn(&Sample) -> f64) -> Column {
+    Column { name, dimension, value }
+}
+
+/// The columns that each slider of a scene adds: what is measured, and its dimension.
+const OF_SLIDER: [(&str, &str); 5] = [
+    ("position", "-"),
+    ("speed", "length/time"),
+    ("force", "force"),
+    ("force_x", "force"),
+    ("force_y", "force"),
+];
+
+/// What a scene with springs stores.
+const STORED: &str = "stored";
+
+/// What a scene dissipates in springs with dampers, in damped materials and by drag.
+const DISSIPATED: &str = "dissipated";
+
+/// The columns that a scene adds to those that every history has.
+pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
+    let of_slider = |slider: &Slider| {
+        let name = slider.name.clone();
+        OF_SLIDER.map(move |(quantity, dimension)| ExtraColumn {
+            name: format!("{name}.{quantity}"),
+            dimension,
+        })
+    };
+    let column = |name: String, dimension| ExtraColumn { name, dimension };
+    let of_spring = |spring: &Spring| {
+        let (name, kind) = (&spring.name, &spring.kind);
+        let (measure, length, force) = match kind {
+            SpringKind::Way(_) => ("length", "length", "force"),
+            SpringKind::Torsion(_) => ("angle", "rad", "force·length"),
+        };
+        let of_ledger =
+            [STORED, DISSIPATED].map(|entry| column(format!("{entry}.{name}"), "energy"));
+        let own =
+            [column(format!("{name}.{measure}"), length), column(format!("{name}.force"), force)];
+        own.into_iter().chain(of_ledger).collect::<Vec<_>>()
+    };
+    let stores = scene.springs().next().is_some();
+    let dissipates = stores || scene.dissipating().next().is_some();
+    let sums = [(STORED, stores), (DISSIPATED, dissipates)].into_iter().filter(|(_, has)| *has);
+    let sums = sums.map(|(entry, _)| column(entry.to_owned(), "energy"));
+    let others = scene.dissipating().map(|name| column(format!("{DISSIPATED}.{name}"), "energy"));
+    let of_drive = |drive: &Drive| {
+        let name = &drive.name;
+        let own = drive.motions().map(|(component, _)| {
+            let dimension = match component {
+                Component::X | Component::Y => "force",
+                Component::Rotation => "force·length",
+            };
+            column(format!("{name}.{}", told_of(drive.kind, component)), dimension)
+        });
+        own.chain([column(format!("work.{name}"), "energy")]).collect::<Vec<_>>()
+    };
+    let of_load = |load: &Load| {
+        let (measure, dimension, _) = load.kind.measure();
+        let of_title = |title: &String| {
+            let own = column(format!("{title}.{measure}"), dimension);
+            [own, column(format!("work.{title}"), "energy")]
+        };
+        load.title.as_ref().map(of_title).into_iter().flatten().collect::<Vec<_>>()
+    };
+    let sensors = scene.sensors.iter();
+    let sensors = sensors
+        .map(|sensor| ExtraColumn { name: sensor.name.clone(), dimension: sensor.dimension() });
+    let of_sliders = scene.sliders.iter().flat_map(of_slider);
+    let of_springs = scene.springs().flat_map(of_spring);
+    let of_drives = scene.drives.iter().flat_map(of_drive);
+    let of_loads = scene.loads().flat_map(of_load);
+    of_sliders
+        .chain(sums)
+        .chain(of_springs)
+        .chain(others)
+        .chain(of_drives)
+        .chain(of_loads)
+        .chain(sensors)
+        .collect()
+}
+
+/// What the column of a component of a drive is called.
+fn told_of(kind: DriveKind, component: Component) -> &'static str {
+    match kind {
+        DriveKind::Move => component.name(),
+        DriveKind::Motor => "torque",
+    }
+}
+
+/// The values of those of the sliders at the present state of the model, in the same order.
+pub(super) fn extra_values(model: &Model) -> impl Iterator<Item = f64> {
+    let of_sliders = (0..model.slider_names().count()).flat_map(|slider| {
+        let force = model.contact_force(slider);
+        let (position, speed) = (model.slider_position(slider), model.slider_speed(slider));
+        [position, speed, force.norm(), force.x, force.y]
+    });
+    let sum = |of: fn(&SpringState) -> f64| model.springs().map(|spring| of(&spring)).sum::<f64>();
+    let stores = model.springs().next().is_some();
+    let dissipates = stores || model.dissipations().next().is_some();
+    let dissipated = model
+        .dissipations()
+        .fold(sum(|spring| spring.dissipated), |sum, dissipated| sum + dissipated);
+    let sums = [(sum(|spring| spring.stored), stores), (dissipated, dissipates)];
+    let sums = sums.into_iter().filter(|(_, has)| *has).map(|(sum, _)| sum);
+    let of_springs = model
+        .springs()
+        .flat_map(|spring| [spring.elongation, spring.force, spring.stored, spring.dissipated]);
+    let of_drive = |drive: DriveState<'_>| {
+        let [x, y, turned] = drive.prescribed;
+        let own = [(x, drive.force.x), (y, drive.force.y), (turned, drive.moment)];
+        let own = own.into_iter().filter(|(given, _)| *given).map(|(_, reaction)| reaction);
+        own.chain([drive.work])
+    };
+    let of_drives = model.drives().flat_map(of_drive);
+    let of_loads = model.named_loads().flat_map(|load| [load.value, load.work]);
+    of_sliders
+        .chain(sums)
+        .chain(of_springs)
+        .chain(model.dissipations())
+        .chain(of_drives)
+        .chain(of_loads)
+}

@@ -1,0 +1,129 @@
+//! How beams, particles and rigid bodies look: lines to draw, and marks at knots or nodes.
+
+use crate::beams::{Mesh, Place};
+use crate::elementary::atan2;
+use crate::geometry::Vec2;
+use crate::model::{BeamDefinition, ModelError, RigidBodyDefinition, Scene};
+
+/// Points along each span of a beam of higher degree.
+const POINTS_A_SPAN: usize = 8;
+
+/// Points along a span of a beam of some degree.
+fn pieces(degree: usize) -> usize {
+    if degree == 1 { 1 } else { POINTS_A_SPAN }
+}
+
+/// The places of a beam that a picture needs: points of its axis, and its knots or nodes; or those of a rigid body: its points, around it.
+#[derive(Debug, Clone)]
+pub struct Outline {
+    line: Vec<Place>,
+    marks: Vec<Place>,
+}
+
+/// A configuration of a scene as it is drawn, in plain points [length].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Configuration {
+    /// The time of the configuration [time].
+    pub time: f64,
+    /// A line of points for each beam, and then for each rigid body with points [length].
+    pub lines: Vec<Vec<Vec2>>,
+    /// The knots or nodes of all beams [length].
+    pub marks: Vec<Vec2>,
+    /// The places of the particles, then of the centres of rigid bodies [length].
+    pub particles: Vec<Vec2>,
+}
+
+impl Outline {
+    /// The outlines of the beams of a scene on their meshes, then those of its rigid bodies with points.
+    ///
+    /// # Errors
+    /// When an axis has a point without a tangent.
+    pub fn of_scene(scene: &Scene, meshes: &[Mesh]) -> Result<Vec<Self>, ModelError> {
+        let of_beam = |(index, (beam, mesh)): (usize, (&BeamDefinition, &Mesh))| {
+            let place = |xi: f64| {
+                Place::at(index, &beam.axis, mesh, xi).map_err(|source| ModelError::Beam {
+                    beam: beam.name.clone(),
+                    source: source.into(),
+                })
+            };
+            Ok(Self {
+                line: Self::parameters(mesh).into_iter().map(place).collect::<Result<_, _>>()?,
+                marks: mesh.basis().breaks().into_iter().map(place).collect::<Result<_, _>>()?,
+            })
+        };
+        let first = scene.beams.len() + scene.particles.len();
+        let bodies = (first..).zip(&scene.rigid_bodies);
+        let bodies = bodies.filter(|(_, body)| body.links().next().is_some());
+        let bodies = bodies.map(|(index, body)| Ok(Self::of_rigid_body(index, body)));
+        scene.beams.iter().zip(meshes).enumerate().map(of_beam).chain(bodies).collect()
+    }
+
+    /// One point is a line from the centre, two are a line over it, and more go around it.
+    fn of_rigid_body(index: usize, body: &RigidBodyDefinition) -> Self {
+        let mut points: Vec<usize> = body.links().collect();
+        let direction = |point: &usize| {
+            let place = body.points[point - 1].1;
+            atan2(place.y, place.x)
+        };
+        points.sort_by(|a, b| direction(a).total_cmp(&direction(b)));
+        match points.as_slice() {
+            [only] => points = vec![0, *only],
+            [one, other] => points = vec![*one, 0, *other],
+            _ => points.extend(points.first().copied()),
+        }
+        let place = |point| Place::of_point(index, point, body.angle);
+        Self { line: points.into_iter().map(place).collect(), marks: Vec::new() }
+    }
+
+    /// Whether it is that of a beam, which has knots.
+    fn is_of_beam(&self) -> bool {
+        !self.marks.is_empty()
+    }
+
+    /// The parameters of a mesh at the places of its line: the breaks, and evenly between them.
+    pub(super) fn parameters(mesh: &Mesh) -> Vec<f64> {
+        let pieces = pieces(mesh.basis().degree());
+        let within = |pair: &[f64]| {
+            let (start, end) = (pair[0], pair[1]);
+            (0..pieces).map(move |i| start + (end - start) * i as f64 / pieces as f64)
+        };
+        let breaks = mesh.basis().breaks();
+        breaks.windows(2).flat_map(within).chain(breaks.last().copied()).collect()
+    }
+
+    /// How many places of the line further the next station of the axis is: there are two a span, and one where spans are straight.
+    pub fn places_a_station(degree: usize) -> usize {
+        pieces(degree).div_ceil(2)
+    }
+
+    /// Stations of the axis between two knots.
+    pub fn stations_within_a_span(degree: usize) -> usize {
+        pieces(degree) / Self::places_a_station(degree) - 1
+    }
+
+    /// The places of the centre line, from its start to its end.
+    pub fn line(&self) -> &[Place] {
+        &self.line
+    }
+
+    /// The knots or nodes.
+    pub fn marks(&self) -> &[Place] {
+        &self.marks
+    }
+
+    /// The configuration as drawn from the control points of all bodies [length]: one beam after another, then rigid bodies and particles.
+    pub fn draw(outlines: &[Self], time: f64, control_points: &[&[Vec2]]) -> Configuration {
+        let at = |place: &Place| place.interpolate(control_points[place.body]);
+        let beams = outlines.iter().filter(|outline| outline.is_of_beam()).count();
+        Configuration {
+            time,
+            lines: outlines.iter().map(|outline| outline.line.iter().map(at).collect()).collect(),
+            marks: outlines.iter().flat_map(|outline| outline.marks.iter().map(at)).collect(),
+            particles: control_points[beams..]
+                .iter()
+                .filter_map(|of| of.first())
+                .copied()
+                .collect(),
+        }
+    }
+}

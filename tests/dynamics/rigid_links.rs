@@ -1,0 +1,228 @@
+//! RigidLinks fit together: their tangent, their balances, what joints give to bodies, and what is refused.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::body_scenes::{add_body, hinge, point};
+use crate::common::probe::{STEP, condensed, differences, settle, tangent};
+use crate::common::{Random, at, body_scenes, meshes, run, scenes, settings, simulate};
+use withy::beams::{Mesh, Station};
+use withy::geometry::{Vec2, cross};
+use withy::integrators::{EnergyClaim, INTEGRATORS, Mechanism, Method, Stage};
+use withy::joints::{EndAction, JointKind, Partner, SlidingRule};
+use withy::model::{Model, ModelError, PointMass, Scene, StationVelocity};
+use withy::simulation::{Invariant, Simulation};
+
+fn smooth(spans: usize) -> Mesh {
+    Mesh::bspline(spans, 3, 2).unwrap()
+}
+
+#[test]
+fn the_tangent_is_the_derivative_of_forces_and_places() {
+    let mut random = Random(20);
+    for (name, mesh) in meshes(4) {
+        for scene in body_scenes::all(&mesh) {
+            let mut model = Model::assemble(&scene).unwrap();
+            let increments = random.vector(model.unknowns(), 0.2);
+            for stage in [Stage::Midpoint, Stage::DampedMidpoint(0.6), Stage::End] {
+                model.begin_step(STEP, &Stage::ALL).unwrap();
+                settle(&mut model, stage, &increments);
+                let found = tangent(&mut model, stage, &increments);
+                let forces = &mut |u: &[f64]| condensed(&mut model, stage, u);
+                let expected = differences(&increments, 1e-3, forces);
+                let expected = expected.rows(0, increments.len()).into_owned();
+                let error = (found - &expected).amax() / expected.amax();
+                assert!(error < 1e-8, "{} on {name}, {stage:?}: {error:.1e}", scene.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn what_methods_do_not_claim_is_seen_to_fail() {
+    for entry in INTEGRATORS {
+        let drift = |scene: Scene, invariant| {
+            simulate(scene, entry.method, 0.05, 3.0).history().drift(invariant)
+        };
+        if entry.claims.energy == EnergyClaim::Nothing {
+            let energy = drift(body_scenes::double_pendulum(), Invariant::Energy);
+            assert!(energy > 1e-4, "{}: {energy:.1e}", entry.name);
+        }
+        if !entry.claims.angular_momentum {
+            let momentum = drift(body_scenes::dumbbell(&smooth(4)), Invariant::AngularMomentum);
+            assert!(momentum > 1e-5, "{}: {momentum:.1e}", entry.name);
+        }
+        // Nothing strains a rigid body: what is damped in beams is not damped in it.
+        let decays = entry.claims.energy == EnergyClaim::Decays;
+        if decays {
+            let energy = drift(body_scenes::double_pendulum(), Invariant::Energy);
+            assert!(energy < 1e-12, "{}: {energy:.1e}", entry.name);
+        }
+    }
+}
+
+#[test]
+fn a_carriage_keeps_all_while_its_wheels_slide_and_bounce() {
+    for rule in [SlidingRule::Conserving, SlidingRule::Exact] {
+        let scene = body_scenes::carriage(&smooth(6), rule);
+        let mut simulation =
+            Simulation::start(scene, settings(Method::EnergyMomentum, 0.01)).unwrap();
+        run(&mut simulation, 4.0).unwrap();
+        let bounced = simulation.history().column("dt").unwrap().iter().any(|dt| *dt < 0.0099);
+        assert!(bounced, "no wheel came to an end");
+        for (name, invariant) in Invariant::ALL {
+            let drift = simulation.history().drift(invariant);
+            let is_kept =
+                rule == SlidingRule::Conserving || invariant != Invariant::AngularMomentum;
+            assert!(!is_kept || drift < 1e-11, "{rule:?}, {name}: {drift:.1e}");
+        }
+    }
+}
+
+/// The sums of forces and moments on a body as joints, weight and inertia make them, from what is told of the present moment.
+#[test]
+fn joints_give_to_a_body_what_its_accelerations_need() {
+    let mut scene = body_scenes::dumbbell(&smooth(6));
+    scene.elements.retain(|element| matches!(element, withy::model::Element::PointMass(_)));
+    let fixed = 1;
+    let mut simulation = simulate(scene, Method::EnergyMomentum, 0.01, 0.5);
+    let scene = simulation.scene().clone();
+    let place = |simulation: &Simulation, station: &Station| {
+        scene.place(station, simulation.model().meshes()).unwrap()
+    };
+    let [centre, held] = [point(fixed, 0), point(fixed, 1)].map(|at| place(&simulation, &at));
+    let rigid = simulation.model().transmission(&scene, 1).unwrap();
+    let now = simulation.instant().unwrap();
+    let (force, moment) = rigid.read(&now);
+    let model = simulation.model();
+    let acceleration = model.acceleration(&now, &centre);
+    let inertia = (1.2 * acceleration).norm();
+    assert!((force - 1.2 * acceleration).norm() < 1e-10 * inertia, "{force} {acceleration}");
+    let arm = model.position(&held) - model.position(&centre);
+    // The angular acceleration from the acceleration of the point: a_p - a_c = α J r - ω² r.
+    let relative = model.acceleration(&now, &held) - acceleration;
+    let spin = model.spin(&centre);
+    let turning = cross(arm, relative) / arm.norm_squared();
+    let inward = -relative.dot(&arm) / arm.norm_squared();
+    assert!((inward - spin * spin).abs() < 1e-9 * spin * spin, "{inward} {spin}");
+    let sum = moment + cross(arm, force) - 0.2 * turning;
+    assert!(sum.abs() < 1e-10 * moment.abs().max(inertia), "{sum:e} {moment}");
+}
+
+#[test]
+fn a_clamp_at_a_point_gives_the_moment_of_the_body() {
+    let mut scene = Scene::new("bracket");
+    let body = add_body(&mut scene, at(1.0, 0.5), 0.3, (2.0, 0.1), &[at(-0.4, 0.1), at(0.3, 0.0)]);
+    let beam = scenes::add_beam(
+        &mut scene,
+        scenes::line(at(4.0, 0.0), at(5.0, 0.0)),
+        &smooth(3),
+        scenes::spaghetti_section(1e4, 100.0),
+    );
+    let end = scenes::start_of(&mut scene, beam);
+    scene.join(JointKind::Rigid, end, Partner::Ground).unwrap();
+    scene.join(JointKind::Rigid, point(body, 1), Partner::Ground).unwrap();
+    scene.gravity = at(0.0, -10.0);
+    let mut simulation = simulate(scene, Method::EnergyMomentum, 0.1, 0.2);
+    let scene = simulation.scene().clone();
+    let at_point = scene.place(&point(body, 1), simulation.model().meshes()).unwrap();
+    let joint = simulation.model().transmission(&scene, 1).unwrap();
+    let now = simulation.instant().unwrap();
+    let arm = at(1.0, 0.5) - simulation.model().position(&at_point);
+    let expected = (at(0.0, 20.0), 20.0 * arm.x);
+    for (force, moment) in [simulation.model().reaction(&now, &at_point).unwrap(), joint.read(&now)]
+    {
+        assert!((force - expected.0).norm() < 1e-12 && (moment - expected.1).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn what_holds_a_body_twice_is_refused_by_its_name() {
+    let held = |points: &[Station]| {
+        let mut scene = Scene::new("held");
+        add_body(&mut scene, at(0.0, 0.0), 0.4, (1.0, 0.1), &[at(-0.5, 0.0), at(0.5, 0.2)]);
+        scene.gravity = at(0.0, -1.0);
+        points.iter().for_each(|station| hinge(&mut scene, *station, None));
+        Model::assemble(&scene).map(|_| ())
+    };
+    assert!(held(&[point(0, 1)]).is_ok());
+    for points in [[point(0, 1), point(0, 2)], [point(0, 0), point(0, 2)]] {
+        let error = held(&points).unwrap_err();
+        assert_eq!(error, ModelError::HeldTwice { body: "body1".to_owned() }, "{error}");
+    }
+    // A hundred bodies in a row are not.
+    assert!(Model::assemble(&body_scenes::chain(100)).is_ok());
+    // Five parallel bars are, though none of them is.
+    let mut scene = Scene::new("parallel bars");
+    let across = add_body(
+        &mut scene,
+        at(1.0, 1.0),
+        0.0,
+        (1.0, 0.1),
+        &[at(-1.0, 0.0), at(0.1, 0.0), at(1.0, 0.0)],
+    );
+    for (number, x) in [(1, 0.0), (2, 1.1), (3, 2.0)] {
+        let bar = add_body(&mut scene, at(x, 0.5), 0.0, (1.0, 0.1), &[at(0.0, -0.5), at(0.0, 0.5)]);
+        hinge(&mut scene, point(bar, 1), None);
+        hinge(&mut scene, point(bar, 2), Some(point(across, number)));
+    }
+    assert!(matches!(Model::assemble(&scene), Err(ModelError::HeldTwice { .. })));
+}
+
+#[test]
+fn numbers_and_names_that_make_no_body_are_refused() {
+    let definition = |name: &str, points: &[(&str, Vec2)]| withy::model::RigidBodyDefinition {
+        name: name.to_owned(),
+        position: Vec2::zeros(),
+        angle: 0.0,
+        points: points.iter().map(|(name, at)| ((*name).to_owned(), *at)).collect(),
+        motion: withy::model::StartMotion::default(),
+    };
+    let mut scene = Scene::new("wrong");
+    for (mass, inertia) in
+        [(0.0, 0.0), (-1.0, 1.0), (1.0, -1.0), (f64::NAN, 1.0), (1.0, f64::INFINITY)]
+    {
+        let error = scene.add_rigid_body(definition("hub", &[]), mass, inertia).unwrap_err();
+        assert!(matches!(error, ModelError::Value { .. }), "{error}");
+        assert!(scene.rigid_bodies.is_empty() && scene.elements.is_empty());
+    }
+    let twice = definition("hub", &[("a", Vec2::x()), ("a", Vec2::y())]);
+    let error = scene.add_rigid_body(twice, 1.0, 1.0).unwrap_err();
+    assert!(matches!(error, ModelError::DuplicateName { kind: "point", .. }), "{error}");
+    let lost = definition("hub", &[("a", at(f64::NAN, 0.0))]);
+    assert!(scene.add_rigid_body(lost, 1.0, 1.0).is_err());
+    let hub = scene.add_rigid_body(definition("hub", &[("a", Vec2::x())]), 1.0, 0.0).unwrap();
+    assert_eq!(scene.point_of_body(hub, "a").unwrap(), point(hub, 1));
+    let error = scene.point_of_body(hub, "b").unwrap_err();
+    assert_eq!(error.to_string(), "body 'hub' has no point 'b'; it has 'a'");
+    let again = scene.add_rigid_body(definition("hub", &[]), 1.0, 1.0).unwrap_err();
+    assert!(matches!(again, ModelError::DuplicateName { .. }), "{again}");
+    // Inertia without a mass may stand on a body, nothing may not.
+    let station = point(hub, 1);
+    scene.add_mass(PointMass { station, mass: 0.0, rotary_inertia: 0.1 }).unwrap();
+    assert!(scene.add_mass(PointMass { station, mass: 0.0, rotary_inertia: 0.0 }).is_err());
+    scene.velocities.push(StationVelocity { station, velocity: Vec2::x(), spin: None });
+    assert!(matches!(Model::assemble(&scene), Err(ModelError::PointAlone { .. })));
+}
+
+#[test]
+fn start_velocities_must_fit_the_joints() {
+    let mut scene = body_scenes::pendulum(0.2, 0.8, 1.0);
+    scene.rigid_bodies[0].motion.spin = 2.0;
+    let error = Model::assemble(&scene).err().unwrap();
+    assert!(matches!(error, ModelError::StartVelocity { .. }), "{error}");
+    scene.rigid_bodies[0].motion.about = Some(Vec2::zeros());
+    let mut model = Model::assemble(&scene).unwrap();
+    let energy = model.measure().energy.kinetic;
+    assert!((energy - 0.5 * (0.2 + 0.64) * 4.0).abs() < 1e-14, "{energy}");
+}
+
+#[test]
+fn a_slider_on_a_point_may_leave_its_beam() {
+    let mut scene = body_scenes::carriage(&smooth(6), SlidingRule::Conserving);
+    scene.sliders.iter_mut().for_each(|slider| slider.ends = EndAction::Release);
+    let simulation = simulate(scene, Method::EnergyMomentum, 0.02, 6.0);
+    let [one, other] = [0, 1].map(|slider| simulation.model().slider_state(slider));
+    assert!(
+        one != withy::model::SliderState::Sliding || other != withy::model::SliderState::Sliding
+    );
+    assert!(simulation.history().drift(Invariant::Energy) < 1e-11);
+}
