@@ -90,7 +90,8 @@ fn eyelets(spans: usize, eyelets: usize) -> Scene {
         rotary_inertia: 0.1,
     };
     let rope = add_beam(&mut scene, Vec2::zeros(), Vec2::new(length, 0.0), spans, section);
-    scene.beams[rope].motion = StartMotion { velocity: Vec2::new(3.0, 0.0), ..StartMotion::default() };
+    scene.beams[rope].motion =
+        StartMotion { velocity: Vec2::new(3.0, 0.0), ..StartMotion::default() };
     scene.gravity = Vec2::new(0.0, -9.81);
     for eyelet in 0..eyelets {
         let arc_length = (length - 8.0) * (eyelet as f64 + 0.5) / eyelets as f64;
@@ -161,9 +162,10 @@ fn print(title: &str, rows: impl Iterator<Item = (String, Scene)>, dt: f64) {
 }
 
 fn main() {
-    for (spans, counts) in
-        [(10, [0, 1, 3, 4, 10, 30, 60, 100].as_slice()), (400, &[0, 1, 3, 4, 10, 30, 100, 300, 1000])]
-    {
+    for (spans, counts) in [
+        (10, [0, 1, 3, 4, 10, 30, 60, 100].as_slice()),
+        (400, &[0, 1, 3, 4, 10, 30, 100, 300, 1000]),
+    ] {
         let rows = counts.iter().map(|&count| (format!("{count} beads"), beads(spans, count)));
         print(&format!("A beam of {spans} spans with beads"), rows, 0.02);
     }

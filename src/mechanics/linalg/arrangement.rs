@@ -139,9 +139,10 @@ impl Arrangement {
         }
         let mut run = self.position.len();
         for at in (0..self.position.len()).rev() {
-            let follows = self.position.get(at + 1).is_some_and(|next| {
-                self.position[at] != NOWHERE && *next == self.position[at] + 1
-            });
+            let follows = self
+                .position
+                .get(at + 1)
+                .is_some_and(|next| self.position[at] != NOWHERE && *next == self.position[at] + 1);
             run = if follows { run } else { at };
             self.runs_to[at] = run;
         }

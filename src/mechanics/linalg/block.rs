@@ -289,6 +289,8 @@ impl Block {
 
     /// The unknown that stands at each place of the columns: of the band, or of the block.
     pub(super) fn unknowns(&self) -> impl Iterator<Item = Result<usize, usize>> + '_ {
-        self.column_at.iter().map(|&at| at.checked_sub(self.own.len()).map_or_else(|| Ok(self.own[at]), Err))
+        self.column_at
+            .iter()
+            .map(|&at| at.checked_sub(self.own.len()).map_or_else(|| Ok(self.own[at]), Err))
     }
 }

@@ -156,7 +156,8 @@ fn eliminate_panel<S: Simd>(
     let mut is_stable = is_small(l10) & is_small(l20) & is_small(l21);
     is_stable &= u00.is_finite() & u11.is_finite() & u22.is_finite();
     let multipliers = &mut storage.multipliers[..below];
-    for (index, (row, found)) in rows_below.chunks_exact(stride).zip(&mut *multipliers).enumerate() {
+    for (index, (row, found)) in rows_below.chunks_exact(stride).zip(&mut *multipliers).enumerate()
+    {
         let entries = &row[reach - 1 - index..][..PANEL];
         let l0 = entries[0] * inverse0;
         let l1 = (entries[1] - l0 * u01) * inverse1;

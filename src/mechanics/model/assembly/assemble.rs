@@ -115,9 +115,13 @@ impl<'a> Assembly<'a> {
             beams.chain(particles).chain(rigid).collect::<Result<Vec<_>, ModelError>>()?;
         // A slave may be on a master that slides itself: its own place is right once that of its master is.
         let place = |slider: &Slider| {
-            Ok((self.place_at(slider.master, self.slider_parameter(slider)?)?, self.nodes_at(&slider.slave)?))
+            Ok((
+                self.place_at(slider.master, self.slider_parameter(slider)?)?,
+                self.nodes_at(&slider.slave)?,
+            ))
         };
-        let places = self.scene.sliders.iter().map(place).collect::<Result<Vec<_>, ModelError>>()?;
+        let places =
+            self.scene.sliders.iter().map(place).collect::<Result<Vec<_>, ModelError>>()?;
         for _ in &self.scene.sliders {
             let mut is_settled = true;
             for (slider, (place, nodes)) in self.scene.sliders.iter().zip(&places) {
