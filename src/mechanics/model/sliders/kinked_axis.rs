@@ -82,6 +82,15 @@ impl KinkedAxis {
         (force * slope, 0.5 * length * bend * force.norm_squared())
     }
 
+    /// The compliance `g/GA` [length/force], the derivative of [`offset`](Self::offset) by `ξ` [length], and the second one of the energy for a
+    /// given force, `½ g'' |p|²/GA` [energy].
+    pub fn at_rest(&self) -> (f64, Vec2, f64) {
+        let [length, slope, bend] = self.here;
+        let force = self.force * self.compliance;
+        let compliance = if self.gives() { length * self.compliance } else { 0.0 };
+        (compliance, force * slope, 0.5 * bend * force.dot(&self.force))
+    }
+
     /// The energy of the kink, `½ g |p|²/GA` [energy].
     pub fn energy(&self) -> f64 {
         0.5 * self.force.dot(&self.offset())
