@@ -42,7 +42,7 @@ impl Pencil {
         let is_finite = (0..size)
             .all(|at| stiffness.diagonal(at).is_finite() && inertia.diagonal(at).is_finite());
         let finite = (0..size).filter(|at| inertia.diagonal(*at) > 0.0).count();
-        let finite = finite.saturating_sub(model.held_by_levers(&inertia));
+        let finite = finite.saturating_sub(model.held_by_links(&inertia));
         if !is_finite || !scale.is_normal() {
             return Err(VibrationError::NotFinite);
         }

@@ -59,20 +59,20 @@ impl Model {
             UnknownKind::Position => stiffness(at),
             UnknownKind::Rotation | UnknownKind::Force => 0.0,
         });
-        let of_levers = self.links.iter().map(|link| {
+        let of_links = self.links.iter().map(|link| {
             let own = self.links.iter().filter(|other| other.body == link.body);
             let size = own.map(|other| other.arm().norm()).fold(0.0, larger);
             let [.., rotation] = self.bodies[link.body].degrees_of_freedom[0];
             let moment = if rotation < self.unknowns.count() { stiffness(rotation) } else { 0.0 };
             larger(moment / square(size), link.force().norm() / size)
         });
-        let largest = of_movements.chain(of_levers).fold(0.0, larger);
+        let largest = of_movements.chain(of_links).fold(0.0, larger);
         let rigid = if largest > 0.0 { RIGID * largest } else { 1.0 };
         self.links.each_at_rest(&self.bodies, rigid, take);
     }
 
     /// How many movements with inertia fewer the model has than its inertia matrix: the rigid links hold them to each other.
-    pub fn held_by_levers(&self, inertia: &SymmetricSparse) -> usize {
+    pub fn held_by_links(&self, inertia: &SymmetricSparse) -> usize {
         if self.links.count() == 0 {
             return 0;
         }
