@@ -149,7 +149,7 @@ fn a_beam_with_a_rigid_tip_body_has_the_frequencies_of_its_characteristic_equati
             let (below, above) = (omega * (1.0 - 2e-6), omega * (1.0 + 2e-6));
             assert!(f(below) * f(above) < 0.0, "{mass}, {inertia}, {offset}: {omega} is no root");
         }
-        // All movements of the body are those of the beam's end; its levers have four forces, body and second point four movements.
+        // All movements of the body are those of the beam's end; its rigid links have four forces, body and second point four movements.
         let finite = model.unknowns() - 8;
         assert!(Modes::of(&model, finite + 1, &mut || true).is_err());
     }

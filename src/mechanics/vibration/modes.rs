@@ -115,7 +115,8 @@ impl Modes {
         &self.modes
     }
 
-    /// How fast each mode decays by damping, `½ φᵀ D φ`: exact where damping does not couple modes, as that of a material with one relaxation time for all strains,
+    /// How fast each mode decays by damping, `½ φᵀ D φ`: exact where damping does not couple modes, as that of a material with one relaxation time for all
+    /// strains,
     /// else to first order in the damping [1/time].
     pub fn decay_rates(&self) -> &[f64] {
         &self.decay_rates

@@ -35,7 +35,7 @@ impl KinkedAxis {
         }
     }
 
-    /// The kink along the way of a step.
+    /// The kink of the axis of the master in a step in which the slave moves along a passage.
     pub fn along(&self, passage: &Passage) -> Kink {
         Kink { along: passage.along(&self.length), compliance: self.compliance, before: self.force }
     }
