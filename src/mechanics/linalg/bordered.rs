@@ -5,6 +5,7 @@
 
 use super::full_border::FullLu;
 use super::local_border::LocalLu;
+use super::together::{Together, TogetherLu};
 use super::{BandedLu, BandedMatrix, BlockLayout, FullBorder, LinearError, LocalBorder};
 
 /// A square matrix that is banded but for its last rows and columns, the border.
@@ -12,6 +13,8 @@ use super::{BandedLu, BandedMatrix, BlockLayout, FullBorder, LinearError, LocalB
 pub struct BorderedMatrix {
     band: BandedMatrix,
     border: Border,
+    /// Where the band alone may be singular.
+    together: Option<Together>,
 }
 
 /// The size of the border of a [`BorderedMatrix`]: its last rows and columns.
@@ -40,6 +43,7 @@ pub struct BorderedLu<'a>(Factors<'a>);
 enum Factors<'a> {
     Band(BandedLu<'a>),
     Full(FullLu<'a>),
+    Together(TogetherLu<'a>),
     Local(LocalLu<'a>),
 }
 
@@ -109,6 +113,7 @@ impl BorderedMatrix {
         Self {
             band: BandedMatrix::zeros(size, half_bandwidth),
             border: Border::Full(FullBorder::zeros(size, border)),
+            together: None,
         }
     }
 
@@ -117,7 +122,14 @@ impl BorderedMatrix {
         Self {
             band: BandedMatrix::zeros(size, half_bandwidth),
             border: Border::Local(LocalBorder::zeros(size, half_bandwidth, layout)),
+            together: None,
         }
+    }
+
+    /// The same matrix, if its border is one of full columns, to be eliminated with the border among the rows of the band, which alone may
+    /// be singular; the last `full` rows and columns, which couple with all others, are a border still.
+    pub fn together(self, full: usize) -> Self {
+        Self { together: Some(Together::new(self.size(), full)), ..self }
     }
 
     /// The number of rows of the matrix, those of the border included.
@@ -160,12 +172,17 @@ impl BorderedMatrix {
     /// # Errors
     /// When a column has no non-zero or no finite pivot; the entries are then lost.
     pub fn factorise(&mut self) -> Result<BorderedLu<'_>, LinearError> {
-        let Self { band, border } = self;
+        let Self { band, border, together } = self;
         let size = band.size();
-        let factors = match border {
-            Border::Full(border) if border.width() == 0 => Factors::Band(band.factorise()?),
-            Border::Full(border) => Factors::Full(border.factorise(band.factorise()?, size)?),
-            Border::Local(border) => Factors::Local(border.factorise(band)?),
+        let factors = match (border, together) {
+            (Border::Local(border), _) => Factors::Local(border.factorise(band)?),
+            (Border::Full(border), Some(together)) => {
+                Factors::Together(together.factorise(&border.entries_with(band))?)
+            }
+            (Border::Full(border), None) if border.width() == 0 => Factors::Band(band.factorise()?),
+            (Border::Full(border), None) => {
+                Factors::Full(border.factorise(band.factorise()?, size)?)
+            }
         };
         Ok(BorderedLu(factors))
     }
@@ -177,6 +194,7 @@ impl BorderedLu<'_> {
         match &mut self.0 {
             Factors::Band(factors) => factors.solve(x),
             Factors::Full(factors) => factors.solve(x),
+            Factors::Together(factors) => factors.solve(x),
             Factors::Local(factors) => factors.solve(x),
         }
     }
@@ -221,6 +239,35 @@ mod tests {
             matrix.factorise().unwrap().solve(&mut x);
             let error = dense * DVector::from_vec(x) - right;
             prop_assert!(error.amax() < 1e-8, "residual {}", error.amax());
+        }
+    }
+
+    #[test]
+    fn what_only_the_border_holds_is_solved_with_it() {
+        // Three masses on springs of stiffness 2 and 3, of which the border holds the last; the last border row is full.
+        let border = BorderShape { width: 2, row_entries: 4 };
+        let mut matrix = BorderedMatrix::zeros(3, 1, border).together(1);
+        for (at, stiffness) in [2e6, 3e6].into_iter().enumerate() {
+            for (row, column) in [(at, at), (at + 1, at + 1)] {
+                matrix.band_mut().add(row, column, stiffness);
+            }
+            matrix.band_mut().add(at, at + 1, -stiffness);
+            matrix.band_mut().add(at + 1, at, -stiffness);
+        }
+        matrix.border_mut().add_to_row(0, 2, 1.0);
+        matrix.border_mut().add_to_column(2, 0, 1.0);
+        for at in 0..3 {
+            matrix.border_mut().add_to_row(1, at, 1.0 + at as f64);
+            matrix.border_mut().add_to_column(at, 1, -1.0);
+        }
+        matrix.border_mut().add_to_corner(0, 1, 0.5);
+        let dense = DMatrix::from_fn(5, 5, |i, j| matrix.get(i, j));
+        for _ in 0..2 {
+            let mut x = [1.0, -2.0, 0.5, 0.25, 4.0];
+            matrix.factorise().unwrap().solve(&mut x);
+            let right = DVector::from_vec(vec![1.0, -2.0, 0.5, 0.25, 4.0]);
+            let error = &dense * DVector::from_row_slice(&x) - right;
+            assert!(error.amax() < 1e-9, "{error}");
         }
     }
 

@@ -105,6 +105,27 @@ impl FullBorder {
         self.corner.get(border_row, border_column)
     }
 
+    /// All entries of a matrix with this border and a band that are not zero: row, column, value; those of one place add up.
+    pub(super) fn entries_with(&self, band: &BandedMatrix) -> Vec<(usize, usize, f64)> {
+        let (Self { width, strips, rows, corner }, n) = (self, band.size());
+        let reach = band.half_bandwidth();
+        let in_band = (0..n).flat_map(|row| {
+            let columns = row.saturating_sub(reach)..(row + reach + 1).min(n);
+            columns.map(move |column| (row, column, band.get(row, column)))
+        });
+        let in_columns = (0..*width).flat_map(|column| {
+            let rows = strips[column / STRIP].rows.iter().enumerate();
+            rows.map(move |(row, entries)| (row, n + column, entries[column % STRIP]))
+        });
+        let in_rows = rows.iter().map(|&(row, column, value)| (n + row, column, value));
+        let in_corner = (0..width * width).map(|at| {
+            let (row, column) = (at / width, at % width);
+            (n + row, n + column, corner.get(row, column))
+        });
+        let all = in_band.chain(in_columns).chain(in_rows).chain(in_corner);
+        all.filter(|(.., value)| *value != 0.0).collect()
+    }
+
     /// The factors of a matrix with this border, and a band of which these are the factors.
     pub(super) fn factorise<'a>(
         &'a mut self,

@@ -94,11 +94,11 @@ impl Newton {
         border: BorderShape,
         tolerance: Tolerance,
     ) -> Self {
-        Self::with_tangent(BorderedMatrix::zeros(unknowns, half_bandwidth, border), tolerance)
+        Self::of(BorderedMatrix::zeros(unknowns, half_bandwidth, border), tolerance)
     }
 
-    /// A solver with a matrix for its tangent.
-    pub fn with_tangent(tangent: BorderedMatrix, tolerance: Tolerance) -> Self {
+    /// A solver with room for a tangent, which says how it is eliminated.
+    pub fn of(tangent: BorderedMatrix, tolerance: Tolerance) -> Self {
         Self {
             correction: Vec::with_capacity(tangent.size()),
             tangent,
