@@ -5,6 +5,7 @@ mod energies;
 mod impact;
 mod inertia;
 mod instant;
+mod letting_go;
 mod measures;
 mod rest;
 mod state;
@@ -13,6 +14,7 @@ mod stiffness;
 
 pub use energies::BodyEnergy;
 pub use instant::Instant;
+pub(in crate::model) use letting_go::Numbers;
 pub use measures::{Energy, Measures};
 pub use rest::StaticForces;
 pub use state::ModelState;

@@ -1,6 +1,7 @@
 //! From a scene to a model: meshes with nodes where joints are, numbers, elements, sliders and start velocities.
 
 mod assemble;
+mod letting_go;
 mod levers;
 mod numbering;
 mod redundancy;

@@ -1,10 +1,10 @@
 //! The numbers of the unknowns that are left where movements are tied to each other or to the ground.
 
 use crate::beams::{BodyDynamics, Place, Station};
-use crate::joints::{Component, Partner};
+use crate::joints::{Component, Hold, Partner};
 use crate::linalg::reverse_cuthill_mckee;
 use crate::model::ModelError;
-use crate::model::elements::{Guided, Guides, Support, Supports};
+use crate::model::elements::{Guided, Support};
 use crate::model::motion::{UnknownKind, Unknowns};
 use crate::model::scene::{Scene, Ties};
 
@@ -32,10 +32,11 @@ pub struct Numbering {
 
 impl Numbering {
     /// Numbers the movements of bodies; `place` finds the stations of joints on their meshes. Constraints with `border`
-    /// unknowns stand between the unknown and the supported movements.
+    /// unknowns stand between the unknown and the supported movements. Joints and drives that were `released` tie nothing.
     pub fn new(
         scene: &Scene,
-        bodies: &[Box<dyn BodyDynamics>],
+        released: &[Hold],
+        bodies: &[&dyn BodyDynamics],
         border: usize,
         place: impl Fn(&Station) -> Result<Place, ModelError>,
     ) -> Result<Self, ModelError> {
@@ -68,7 +69,9 @@ impl Numbering {
             }
             levers.extend(definition.levers().map(|point| (body, point)));
         }
-        for joint in &scene.joints {
+        let holds = |hold: Hold| !released.contains(&hold);
+        let joints = scene.joints.iter().enumerate();
+        for (_, joint) in joints.filter(|(at, _)| holds(Hold::Joint(*at))) {
             let node = |station: &Station| -> Result<usize, ModelError> {
                 // Stations of joints are breaks of the mesh, where a control point lies on the axis.
                 let place = place(station)?;
@@ -86,7 +89,8 @@ impl Numbering {
 
         // Classes that are given get theirs in the order of the drives.
         let mut given = Vec::new();
-        for drive in &scene.drives {
+        let drives = scene.drives.iter().enumerate();
+        for (_, drive) in drives.filter(|(at, _)| holds(Hold::Drive(*at))) {
             let place = place(&drive.station)?;
             let node = offsets[place.body] + 3 * place.nearest_control_point();
             given.extend(drive.courses().map(|(at, _)| ties.root(node + at as usize)));
@@ -192,13 +196,14 @@ impl Numbering {
         })
     }
 
-    /// The supports in the order of their degrees of freedom, the rates at which those begin that are given, and the unknowns; constraints with `border`
+    /// The supports in the order of their degrees of freedom, those that move as is given and those that do not, and the unknowns; constraints with `border`
     /// unknowns stand between.
     pub fn supports_and_unknowns(
         &self,
         scene: &Scene,
+        released: &[Hold],
         border: usize,
-    ) -> Result<(Supports, Vec<f64>, Unknowns), ModelError> {
+    ) -> (Vec<Guided>, Vec<Support>, Unknowns) {
         let mut kinds = vec![UnknownKind::Position; self.unknowns];
         let mut supports =
             vec![Support { body: 0, point: 0, component: Component::X }; self.supported];
@@ -219,17 +224,14 @@ impl Numbering {
             kinds[at] = UnknownKind::Force;
         }
         let held = supports.split_off(self.given);
-        let courses = scene.drives.iter().enumerate();
+        let drives = scene.drives.iter().enumerate();
+        let courses = drives.filter(|(drive, _)| !released.contains(&Hold::Drive(*drive)));
         let courses = courses.flat_map(|(drive, of)| of.courses().map(move |(_, at)| (drive, at)));
         let guided = supports.into_iter().zip(courses).map(|(support, (drive, course))| Guided {
             support,
             drive,
             course: course.clone(),
         });
-        let drives = scene.drives.iter().map(|drive| drive.name.clone());
-        let (guides, rates) = Guides::new(guided.collect(), drives, self.unknowns, border)
-            .map_err(|(drive, source)| ModelError::DriveValue { drive, source })?;
-        let unknowns = Unknowns::new(kinds, self.half_bandwidth);
-        Ok((Supports::new(guides, held), rates, unknowns))
+        (guided.collect(), held, Unknowns::new(kinds, self.half_bandwidth, released))
     }
 }

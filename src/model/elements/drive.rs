@@ -44,6 +44,11 @@ impl Drive {
         self.courses[component as usize].is_some()
     }
 
+    /// Which of x, y and the angle are given.
+    pub fn given(&self) -> [bool; 3] {
+        Component::ALL.map(|component| self.drives(component))
+    }
+
     /// The components that are given, with what they do.
     pub fn courses(&self) -> impl Iterator<Item = (Component, &Course)> {
         let all = Component::ALL.into_iter().zip(&self.courses);

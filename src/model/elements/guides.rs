@@ -34,6 +34,8 @@ pub struct Guided {
 /// A drive, and what it has given so far.
 struct Driven {
     name: String,
+    /// Which of x, y and the angle it gives, or gave before it let go.
+    given: [bool; 3],
     /// Since the start [energy].
     work: f64,
 }
@@ -88,17 +90,17 @@ pub struct Guides {
 }
 
 impl Guides {
-    /// The given movements of drives, whose names are told, behind some unknown movements and unknowns of constraints.
+    /// The given movements of drives, of which names and components are told, behind some unknown movements and unknowns of constraints.
     ///
     /// # Errors
     /// When a function has no value at the start: the name of its drive, and why.
     pub fn new(
         guided: Vec<Guided>,
-        drives: impl Iterator<Item = String>,
+        drives: impl Iterator<Item = (String, [bool; 3])>,
         unknowns: usize,
         constraints: usize,
     ) -> Result<(Self, Vec<f64>), (String, LoadError)> {
-        let drives: Vec<Driven> = drives.map(|name| Driven { name, work: 0.0 }).collect();
+        let drives: Vec<Driven> = drives.map(|(name, given)| Driven { name, given, work: 0.0 }).collect();
         let mut given = Given::new(constraints, guided.len());
         let mut present = vec![Present::default(); guided.len()];
         for (at, guide) in guided.iter().enumerate() {
@@ -114,6 +116,23 @@ impl Guides {
         let first = unknowns + constraints;
         let all = Self { guided, present, drives, first, constraints, given, turn: 0.0, room };
         Ok((all, rates))
+    }
+
+    /// The same drives with such given movements, those that are left where some let go, behind so many unknown movements. What is known of those that
+    /// stay is kept.
+    pub fn with(self, guided: Vec<Guided>, unknowns: usize) -> Self {
+        let is_same = |one: &Guided, other: &Guided| {
+            one.drive == other.drive && one.support.component == other.support.component
+        };
+        let known = |guide: &Guided| {
+            let mut all = self.guided.iter().zip(&self.present);
+            all.find(|(own, _)| is_same(own, guide)).map(|(_, present)| *present)
+        };
+        let present = guided.iter().map(|guide| known(guide).unwrap_or_default()).collect();
+        let given = Given::new(self.constraints, guided.len());
+        let room = vec![0.0; if guided.is_empty() { 0 } else { unknowns + given.width() }];
+        let first = unknowns + self.constraints;
+        Self { guided, present, first, given, room, ..self }
     }
 
     /// The number of movements that are given.
@@ -141,13 +160,12 @@ impl Guides {
         self.drives.iter().enumerate().map(|(index, drive)| {
             let own = self.guided.iter().zip(&self.present);
             let own = own.filter(|(guide, _)| guide.drive == index);
-            let (mut force, mut moment, mut given) = (Vec2::zeros(), 0.0, [false; 3]);
+            let (mut force, mut moment) = (Vec2::zeros(), 0.0);
             for (guide, present) in own {
-                given[guide.support.component as usize] = true;
                 let (by, turning) = guide.support.reaction(present.reaction);
                 (force, moment) = (force + by, moment + turning);
             }
-            DriveState { name: &drive.name, given, work: drive.work, force, moment }
+            DriveState { name: &drive.name, given: drive.given, work: drive.work, force, moment }
         })
     }
 

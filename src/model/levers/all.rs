@@ -19,6 +19,11 @@ impl Levers {
         Self { all, acting: Acting::AtRest }
     }
 
+    /// Gives the forces of all levers other unknowns, in their order.
+    pub fn renumber(&mut self, unknowns: impl Iterator<Item = [usize; 2]>) {
+        self.all.iter_mut().zip(unknowns).for_each(|(lever, own)| lever.unknowns = own);
+    }
+
     /// The number of levers.
     pub fn count(&self) -> usize {
         self.all.len()

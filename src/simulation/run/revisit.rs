@@ -27,16 +27,18 @@ impl Simulation {
 
     /// Takes the state in which another simulation, of which this is a copy that has not gone on, was after fewer steps than this
     /// one is now. Gives whether that state is kept.
-    pub fn revisit(&mut self, of: &Self, steps: usize) -> bool {
+    ///
+    /// # Errors
+    /// When the scene cannot be built, which it could before.
+    pub fn revisit(&mut self, of: &Self, steps: usize) -> Result<bool, SimulationError> {
         if steps == self.progress.counts.steps {
-            return true;
+            return Ok(true);
         }
         let found = of.snapshots.find(steps).filter(|_| steps < self.progress.counts.steps);
-        found.inspect(|snapshot| {
-            self.stand_at(snapshot);
-            self.show_present();
-        });
-        found.is_some()
+        let Some(snapshot) = found else { return Ok(false) };
+        self.stand_at(snapshot)?;
+        self.show_present();
+        Ok(true)
     }
 
     /// A copy of the simulation at the present, without states of its own to go back to.
@@ -54,14 +56,48 @@ impl Simulation {
     pub fn copy_at_start(&self) -> Result<Self, SimulationError> {
         let mut copy = self.fork_without_snapshots()?;
         match self.snapshots.find(0) {
-            Some(first) => copy.stand_at(first),
+            Some(first) => copy.stand_at(first)?,
             None => {
                 let start = Self::start(self.scene.clone(), self.settings)?;
-                copy.stand_at(&start.snapshot(start.model.state()));
+                copy.stand_at(&start.snapshot(start.model.state()))?;
             }
         }
         copy.show_present();
         Ok(copy)
+    }
+
+    /// Goes on, in a copy, over what somebody outside let go in the original before a time, and lets it go at the same places.
+    fn run_over_releases(
+        &mut self,
+        of: &Self,
+        time: f64,
+        monitor: &mut dyn Monitor,
+    ) -> Result<(), SimulationError> {
+        let ahead = of.let_go().iter().filter(|gone| gone.time < time);
+        for gone in ahead.filter(|gone| self.waits_for_release(gone.release)).collect::<Vec<_>>() {
+            if gone.time > self.time() {
+                self.run_to_row(of, gone.time, monitor)?;
+            }
+            self.release(gone.release)?;
+        }
+        Ok(())
+    }
+
+    /// Goes on, in a copy, to the time of a row of the original, taking the same steps.
+    fn run_to_row(
+        &mut self,
+        of: &Self,
+        time: f64,
+        monitor: &mut dyn Monitor,
+    ) -> Result<(), SimulationError> {
+        // No step was to end where a slider arrived: the run goes on towards the next row, and pauses.
+        let is_arrival = |at: &f64| of.arrivals().iter().any(|arrival| arrival.time == *at);
+        let rows = of.record.history.samples().iter().map(|row| row.measures.time);
+        let goal = rows.skip_while(|at| *at < time).find(|end| !is_arrival(end)).unwrap_or(time);
+        match self.run_to(goal, &mut PauseAt { time, monitor }) {
+            Err(SimulationError::Interrupted { .. }) if self.time() == time => Ok(()),
+            ran => ran,
+        }
     }
 
     /// Goes on, in a copy at an earlier place of the same run, to a row of the history of the original. Gives whether energy, momenta and
@@ -79,15 +115,9 @@ impl Simulation {
         let rows = of.record.history.samples();
         let Some(wanted) = rows.get(row) else { return Ok(false) };
         let time = wanted.measures.time;
+        self.run_over_releases(of, time, monitor)?;
         if time > self.time() {
-            // No step was to end where a slider arrived: the run goes on towards the next row, and pauses.
-            let is_arrival = |at: &f64| of.arrivals().iter().any(|arrival| arrival.time == *at);
-            let mut ends = rows[row..].iter().map(|row| row.measures.time);
-            let goal = ends.find(|end| !is_arrival(end)).unwrap_or(time);
-            match self.run_to(goal, &mut PauseAt { time, monitor }) {
-                Err(SimulationError::Interrupted { .. }) if self.time() == time => {}
-                ran => ran?,
-            }
+            self.run_to_row(of, time, monitor)?;
         }
         Ok(self
             .record
