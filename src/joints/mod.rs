@@ -9,6 +9,7 @@ pub use joint::{Component, Components, Joint, JointKind, Partner};
 pub use release::{Hold, Release, Trigger};
 pub use slider::{EndAction, Slider, StartVelocities};
 pub use sliding::{
-    Along, CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Held, Kink,
-    Kinked, Relaxed, Released, RuleClaims, RuleEntry, SLIDING_RULES, SlidingLaw, SlidingRule, Unit,
+    CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Held, Kink, Kinked,
+    Relaxed, Released, RuleClaims, RuleEntry, SLIDING_RULES, SlidingLaw, SlidingRule, Unit,
+    WayVector,
 };

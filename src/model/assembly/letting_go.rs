@@ -51,12 +51,12 @@ impl Model {
             self.bodies().iter().map(|body| &*body.dynamics).collect();
         let place = |station: &_| scene.place(station, meshes);
         let numbering = Numbering::new(scene, released, &bodies, border, place)?;
-        let (guided, held, unknowns) = numbering.supports_and_unknowns(scene, released, border);
+        let (prescribed, held, unknowns) = numbering.supports_and_unknowns(scene, released, border);
         Ok(Numbers {
             joined: joined(scene, released, meshes)?,
-            levers: numbering.levers.iter().map(|lever| lever.force).collect(),
+            links: numbering.links.iter().map(|link| link.force).collect(),
             degrees_of_freedom: numbering.degrees_of_freedom,
-            guided,
+            prescribed,
             held,
             unknowns,
         })

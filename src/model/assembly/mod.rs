@@ -1,10 +1,11 @@
 //! From a scene to a model: meshes with nodes where joints are, numbers, elements, sliders and start velocities.
 
 mod assemble;
+mod classes;
 mod letting_go;
-mod levers;
 mod numbering;
 mod redundancy;
+mod rigid_links;
 mod sliders;
 mod start_rates;
 

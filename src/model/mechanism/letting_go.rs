@@ -6,17 +6,17 @@ use super::Model;
 use crate::beams::Place;
 use crate::integrators::Mechanism;
 use crate::joints::Hold;
-use crate::model::elements::{Guided, Support, Supports};
+use crate::model::elements::{PrescribedMovement, Support, Supports};
 use crate::model::motion::{Step, Unknowns};
 
 /// Numbers for all movements of a model, and what follows from them.
 pub struct Numbers {
     /// Of each component of each control point of each body.
     pub degrees_of_freedom: Vec<Vec<[usize; 3]>>,
-    /// Of the forces of levers.
-    pub levers: Vec<[usize; 2]>,
-    /// The movements that are given, in the order of their numbers.
-    pub guided: Vec<Guided>,
+    /// Of the forces of rigid links.
+    pub links: Vec<[usize; 2]>,
+    /// The movements that are prescribed, in the order of their numbers.
+    pub prescribed: Vec<PrescribedMovement>,
     /// The movements that are held, in the order of their numbers.
     pub held: Vec<Support>,
     /// What is left unknown.
@@ -29,14 +29,14 @@ impl Model {
     /// Numbers all movements anew; the state of motion stays.
     pub(in crate::model) fn renumber(&mut self, numbers: Numbers) {
         let moving = self.bodies.by_control_point(&self.motion.rates);
-        let Numbers { degrees_of_freedom, levers, guided, held, unknowns, joined } = numbers;
+        let Numbers { degrees_of_freedom, links, prescribed, held, unknowns, joined } = numbers;
         let count = unknowns.count();
         self.unknowns = unknowns;
         self.bodies.renumber(degrees_of_freedom, count, joined);
-        self.levers.renumber(levers.into_iter());
-        let guides = std::mem::take(self.supports.guides_mut()).with(guided, count);
-        let mut rates = vec![0.0; count + guides.given().width()];
-        self.supports = Supports::new(guides, held);
+        self.links.renumber(links.into_iter());
+        let movements = std::mem::take(self.supports.prescribed_mut()).with(prescribed, count);
+        let mut rates = vec![0.0; count + movements.in_step().width()];
+        self.supports = Supports::new(movements, held);
         for (body, moving) in self.bodies.iter().zip(&moving) {
             for (degrees, movement) in body.degrees_of_freedom.iter().zip(moving) {
                 for (at, rate) in degrees.iter().zip(movement) {
@@ -44,7 +44,7 @@ impl Model {
                 }
             }
         }
-        self.levers.write_forces(&mut rates);
+        self.links.write_forces(&mut rates);
         self.motion.renumber(rates, self.diagonal_of_inertia());
         self.step = Step::new(self.degrees_of_freedom());
     }

@@ -136,7 +136,7 @@ fn particles(simulation: &Simulation, shown: &Shown) -> Result<Vec<Particle>, Sc
     let rigid = simulation.scene().rigid_bodies.iter().enumerate().flat_map(|(index, body)| {
         let centre = std::iter::once((body.name.clone(), 0));
         let points =
-            body.levers().map(|at| (format!("{}.{}", body.name, body.points[at - 1].0), at));
+            body.links().map(|at| (format!("{}.{}", body.name, body.points[at - 1].0), at));
         centre.chain(points).map(move |(name, point)| (name, Station::on_rigid_body(index, point)))
     });
     let point = |(name, station): (String, Station)| {

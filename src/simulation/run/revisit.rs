@@ -66,40 +66,6 @@ impl Simulation {
         Ok(copy)
     }
 
-    /// Goes on, in a copy, over what somebody outside let go in the original before a time, and lets it go at the same places.
-    fn run_over_releases(
-        &mut self,
-        of: &Self,
-        time: f64,
-        monitor: &mut dyn Monitor,
-    ) -> Result<(), SimulationError> {
-        let ahead = of.let_go().iter().filter(|gone| gone.time < time);
-        for gone in ahead.filter(|gone| self.waits_for_release(gone.release)).collect::<Vec<_>>() {
-            if gone.time > self.time() {
-                self.run_to_row(of, gone.time, monitor)?;
-            }
-            self.release(gone.release)?;
-        }
-        Ok(())
-    }
-
-    /// Goes on, in a copy, to the time of a row of the original, taking the same steps.
-    fn run_to_row(
-        &mut self,
-        of: &Self,
-        time: f64,
-        monitor: &mut dyn Monitor,
-    ) -> Result<(), SimulationError> {
-        // No step was to end where a slider arrived: the run goes on towards the next row, and pauses.
-        let is_arrival = |at: &f64| of.arrivals().iter().any(|arrival| arrival.time == *at);
-        let rows = of.record.history.samples().iter().map(|row| row.measures.time);
-        let goal = rows.skip_while(|at| *at < time).find(|end| !is_arrival(end)).unwrap_or(time);
-        match self.run_to(goal, &mut PauseAt { time, monitor }) {
-            Err(SimulationError::Interrupted { .. }) if self.time() == time => Ok(()),
-            ran => ran,
-        }
-    }
-
     /// Goes on, in a copy at an earlier place of the same run, to a row of the history of the original. Gives whether energy, momenta and
     /// what was exchanged are there what they were, to the last bit: functions that a script had called on the way, or loads that it
     /// computes, may have made another run of it.
@@ -115,9 +81,15 @@ impl Simulation {
         let rows = of.record.history.samples();
         let Some(wanted) = rows.get(row) else { return Ok(false) };
         let time = wanted.measures.time;
-        self.run_over_releases(of, time, monitor)?;
         if time > self.time() {
-            self.run_to_row(of, time, monitor)?;
+            // No step was to end where a slider arrived: the run goes on towards the next row, and pauses.
+            let is_arrival = |at: &f64| of.arrivals().iter().any(|arrival| arrival.time == *at);
+            let mut ends = rows[row..].iter().map(|row| row.measures.time);
+            let goal = ends.find(|end| !is_arrival(end)).unwrap_or(time);
+            match self.run_to(goal, &mut PauseAt { time, monitor }) {
+                Err(SimulationError::Interrupted { .. }) if self.time() == time => {}
+                ran => ran?,
+            }
         }
         Ok(self
             .record
