@@ -3,10 +3,10 @@
 use std::collections::VecDeque;
 use std::rc::Rc;
 
-use super::{LetGo, WorkCounts};
 use super::controller::Pace;
 use super::halving::Halving;
 use super::progress::StepTaken;
+use super::{LetGo, WorkCounts};
 use crate::model::ModelState;
 
 /// A snapshot: what a simulation needs to be where it was, bit for bit.

@@ -11,8 +11,8 @@
 
 use std::borrow::Cow;
 
-use super::{Drive, Exchange};
 use super::supports::Support;
+use super::{Drive, Exchange};
 use crate::beams::RotationIncrement;
 use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Interval, Prescribed};

@@ -15,12 +15,6 @@ impl Simulation {
         &self.progress.let_go
     }
 
-    /// When something let go, if it has [time].
-    pub fn let_go_at(&self, hold: Hold) -> Option<f64> {
-        let is_it = |gone: &&LetGo| self.scene.releases[gone.release].hold == hold;
-        self.let_go().iter().find(is_it).map(|gone| gone.time)
-    }
-
     /// Whether something waits for somebody outside to say that it lets go, by its index among the releases of the scene.
     pub fn waits_for_release(&self, release: usize) -> bool {
         let described = self.scene.releases.get(release);
