@@ -9,7 +9,7 @@ use crate::model::Scene;
 use crate::script::looks::details;
 use crate::script::rows::kind::{Details, Scripted};
 use crate::script::rows::stored::StoredFunction;
-use crate::script::words::error::ScriptError;
+use crate::script::words::error::{Place, ScriptError};
 
 /// A handle on a scene that a script holds.
 #[derive(Clone)]
@@ -85,6 +85,19 @@ impl SceneHandle {
     /// The functions that say when something lets go.
     pub fn conditions(&self) -> Vec<Condition> {
         self.conditions.borrow().clone()
+    }
+
+    /// Refuses a scene of which functions are asked between steps: a study runs it without its script.
+    ///
+    /// # Errors
+    /// When a load or a drive has a controller, or a release a condition.
+    pub fn expect_unasked(&self) -> Result<(), ScriptError> {
+        if self.controllers.borrow().is_empty() && self.conditions.borrow().is_empty() {
+            return Ok(());
+        }
+        let told = "functions of the simulation, |t, q| … of a controller or when: |q| … of a release, are asked between steps, which a study does not do";
+        let hint = "give functions of time, |t| …, and the time of a release, or step the scene in a loop of your own";
+        Err(ScriptError::new(told).hint(hint).at(Place::Key("scene".into())))
     }
 
     /// The functions that are asked at the start of every step.

@@ -84,7 +84,7 @@ fn release(call: &mut Call) -> Result<Dynamic, ScriptError> {
         Said::At => (Trigger::Time(options.number("at")?), None),
         Said::When => {
             let function = options.callback("when")?;
-            let shape = "when: |q| q.time > 0.5, q being the simulation";
+            let shape = "when: |q| q.t > 0.5, q being the simulation";
             call.expect_arguments(&function, 1, shape)?;
             (Trigger::Outside, Some(function))
         }
