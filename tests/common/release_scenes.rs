@@ -29,7 +29,7 @@ pub fn chain(mesh: &Mesh) -> Scene {
     scene.join(JointKind::Hinge, foot, Partner::Ground).unwrap();
     scene.join(JointKind::Rigid, middle, Partner::Station(next)).unwrap();
     scene.join(JointKind::Hinge, tip, Partner::Station(bead)).unwrap();
-    let turn = Schedule::Sine { amplitude: 0.6, rate: 4.0, phase: 0.0 };
+    let turn = Schedule::Sine { amplitude: 0.3, rate: 4.0, phase: 0.0 };
     drive(&mut scene, foot, &[(Component::Rotation, PrescribedMotion::Place(turn))]);
     let ends = vec![Anchor::Ground(at(2.5, 1.0)), Anchor::Station(bead)];
     let law = RestoringLaw::Linear { stiffness: 60.0, natural: 0.4 };

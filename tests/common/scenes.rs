@@ -395,7 +395,7 @@ pub fn tapered(mesh: &Mesh) -> Scene {
 
 /// Every scene on a mesh.
 pub fn all(mesh: &Mesh) -> Vec<Scene> {
-    let own = vec![
+    vec![
         spaghetti(mesh, 1e4),
         curved_pendulum(mesh),
         blown_cantilever(mesh),
@@ -411,6 +411,6 @@ pub fn all(mesh: &Mesh) -> Vec<Scene> {
         flywheels(mesh),
         driven(mesh),
         tapered(mesh),
-    ];
-    own.into_iter().chain(super::release_scenes::all(mesh)).collect()
+        super::release_scenes::chain(mesh),
+    ]
 }
