@@ -2,7 +2,7 @@
 
 use rhai::{Dynamic, Map};
 
-use super::scenes::{SCENE, STATION};
+use super::scenes::{SCENE, START_ABOUT, START_SPIN, START_VELOCITY, STATION};
 use crate::geometry::Vec2;
 use crate::model::{ModelError, RigidBodyDefinition, StartMotion};
 use crate::script::handles::rigid_body::RigidBodyHandle;
@@ -83,13 +83,9 @@ const BODY_KEYS: &[Parameter] = &[
         .doc("by which its frame is turned at the start"),
     anything("points").doc("a map of points from its centre, in its own frame [length]").optional(),
     text("name").optional(),
-    point("velocity").unit("length/time").doc("of the point `about`, at the start").optional(),
-    number("spin").unit("1/time").doc("rate of rotation at the start").optional(),
-    point("about")
-        .unit("length")
-        .doc("the point it turns about at the start; its centre of mass unless given")
-        .beside("spin")
-        .optional(),
+    START_VELOCITY,
+    START_SPIN,
+    START_ABOUT,
 ];
 
 fn body(call: &mut Call) -> Result<Dynamic, ScriptError> {

@@ -177,18 +177,24 @@ const AT: Parameter = object("station", STATION);
 const OTHER: Parameter = object("other", STATION).doc("the ground unless given").optional();
 const SPIN: Parameter = number("spin").unit("1/time").optional();
 const ROTARY: Parameter = number("rotary_inertia").unit("mass·length²").or(Presence::Number(0.0));
+/// The motion as a rigid body with which beams and bodies start.
+pub(super) const START_VELOCITY: Parameter =
+    point("velocity").unit("length/time").doc("of the point `about`, at the start").optional();
+pub(super) const START_SPIN: Parameter =
+    number("spin").unit("1/time").doc("rate of rotation at the start").optional();
+pub(super) const START_ABOUT: Parameter = point("about")
+    .unit("length")
+    .doc("the point it turns about at the start; its centre of mass unless given")
+    .beside("spin")
+    .optional();
 const BEAM_KEYS: &[Parameter] = &[
     object("axis", CURVE).doc("the centroid line as drawn"),
     either("basis", MESH_KINDS).doc("a mesh or a knot vector").optional(),
     object("section", SECTION).doc("stiffness and inertia"),
     text("name").optional(),
-    point("velocity").unit("length/time").doc("of the point `about`, at the start").optional(),
-    number("spin").unit("1/time").doc("rate of rotation at the start").optional(),
-    point("about")
-        .unit("length")
-        .doc("the point it turns about at the start; its centre of mass unless given")
-        .beside("spin")
-        .optional(),
+    START_VELOCITY,
+    START_SPIN,
+    START_ABOUT,
 ];
 const PARTICLE_KEYS: &[Parameter] = &[
     text("name").optional(),
@@ -212,12 +218,12 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
         spin: options.number_if_given("spin").unwrap_or(0.0),
         about: if options.has("about") { Some(options.point("about")?) } else { None },
     };
-    let SectionHandle { profile, relaxation, .. } = options.get("section")?;
+    let SectionHandle { variation, relaxation, .. } = options.get("section")?;
     let definition = BeamDefinition {
         name: named.unwrap_or_else(|| scene.scene().borrow().free_name("beam")),
         axis: Curve::clone(&*options.get::<Rc<Curve>>("axis")?),
         mesh,
-        section: profile,
+        section: variation,
         motion,
     };
     let added = scene.scene().borrow_mut().add_beam(definition);

@@ -1,13 +1,14 @@
 //! From a scene to a model: meshes with nodes where joints are, numbers, elements, sliders and start velocities.
 
 mod assemble;
-mod classes;
+mod initial_numbering;
 mod letting_go;
 mod numbering;
 mod redundancy;
 mod rigid_links;
 mod sliders;
 mod start_rates;
+mod tied_components;
 
 use assemble::Assembly;
 use numbering::Numbering;

@@ -1,6 +1,7 @@
 //! Supported movements that are prescribed: their increments in a step, and what the drives give by that.
 //!
-//! Let `v` be the rates, of which those of prescribed movements are derivatives of the prescribed functions, and `ε = Δx - Δt v̄` by how much a prescribed increment
+//! Let `v` be the rates, of which those of prescribed movements are derivatives of the prescribed functions, and `ε = Δx - Δt v̄` by how much a prescribed
+//! increment
 //! differs from its mean rate (of third order in `Δt`; zero for what is unknown). By the proofs of the energy–momentum step
 //!
 //! ```text
@@ -15,7 +16,7 @@ use super::supports::Support;
 use super::{Drive, Exchange};
 use crate::beams::RotationIncrement;
 use crate::geometry::{Vec2, cross, larger};
-use crate::integrators::{Interval, Prescribed};
+use crate::integrators::{Interval, PrescribedKinematics};
 use crate::joints::Component;
 use crate::loads::{LoadError, MotionAtStart, PrescribedMotion, Side};
 use crate::model::bodies::Body;
@@ -81,7 +82,7 @@ pub struct PrescribedMovements {
     first: usize,
     /// Entries of constraints in what is prescribed.
     constraints: usize,
-    prescribed: Prescribed,
+    prescribed: PrescribedKinematics,
     /// The largest turn of the step [rad].
     turn: f64,
     /// Room for rates of everything.
@@ -105,7 +106,7 @@ impl PrescribedMovements {
             work: 0.0,
         };
         let drives: Vec<Driven> = drives.map(driven).collect();
-        let mut prescribed = Prescribed::new(constraints, movements.len());
+        let mut prescribed = PrescribedKinematics::new(constraints, movements.len());
         let mut present = vec![Present::default(); movements.len()];
         for (at, movement) in movements.iter().enumerate() {
             let MotionAtStart { rate, acceleration } = movement
@@ -134,7 +135,7 @@ impl PrescribedMovements {
             all.find(|(own, _)| is_wanted(own)).map_or_else(Present::default, |(_, now)| *now)
         };
         let present = movements.iter().map(known).collect();
-        let prescribed = Prescribed::new(self.constraints, movements.len());
+        let prescribed = PrescribedKinematics::new(self.constraints, movements.len());
         let room = vec![0.0; if movements.is_empty() { 0 } else { unknowns + prescribed.width() }];
         let first = unknowns + self.constraints;
         Self { movements, present, first, prescribed, room, ..self }
@@ -151,7 +152,7 @@ impl PrescribedMovements {
     }
 
     /// What they do in the present step.
-    pub fn in_step(&self) -> &Prescribed {
+    pub fn in_step(&self) -> &PrescribedKinematics {
         &self.prescribed
     }
 
@@ -331,6 +332,7 @@ impl PrescribedMovements {
         }
     }
 
+    /// Appends the state of the prescribed movements at the start of a step.
     pub fn save(&self, state: &mut Vec<f64>) {
         state.extend(
             self.present.iter().flat_map(|now| [now.acceleration, now.reaction, now.placed]),
@@ -338,6 +340,7 @@ impl PrescribedMovements {
         state.extend(self.drives.iter().map(|drive| drive.work));
     }
 
+    /// Takes the state of the prescribed movements back, in the order in which it was appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         for present in &mut self.present {
             (present.acceleration, present.reaction) = (next(), next());
