@@ -69,7 +69,7 @@ pub struct Symbol {
     pub at: Place,
     /// The direction of the beam there as drawn [rad].
     pub angle: f64,
-    /// When it is gone: a slider that has left its beam.
+    /// When it is gone: a slider that has left its beam, a joint that has let go.
     pub until: Option<f64>,
 }
 
@@ -104,6 +104,8 @@ pub struct Spring {
     pub name: String,
     /// Where it is attached, in order.
     pub anchors: Vec<Anchor>,
+    /// When it is gone: one that has let go.
+    pub until: Option<f64>,
 }
 
 /// What an arrow stands for.

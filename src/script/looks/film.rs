@@ -7,7 +7,7 @@ pub use fields::{FIELDS, Inside};
 
 use crate::beams::{self, Station};
 use crate::geometry::{Vec2, perpendicular};
-use crate::joints::{Joint, JointKind, Partner};
+use crate::joints::{Hold, Joint, JointKind, Partner};
 use crate::loads::{Frame, Load, LoadKind, Side};
 use crate::model;
 use crate::output::viewer::{
@@ -147,7 +147,7 @@ fn particles(simulation: &Simulation, shown: &Shown) -> Result<Vec<Particle>, Sc
 
 fn symbols(simulation: &Simulation, shown: &Shown) -> Result<Vec<Symbol>, ScriptError> {
     let scene = simulation.scene();
-    let of_joint = |joint: &Joint| {
+    let of_joint = |(index, joint): (usize, &Joint)| {
         let kind = match (joint.kind, joint.partner) {
             (JointKind::Hinge, Partner::Ground) | (JointKind::Support(_), _) => SymbolKind::Support,
             (JointKind::Rigid, Partner::Ground) => SymbolKind::Clamp,
@@ -158,19 +158,20 @@ fn symbols(simulation: &Simulation, shown: &Shown) -> Result<Vec<Symbol>, Script
         // The hatching of a wall is behind the beam: it points from the wall along the beam.
         let is_end = joint.station.arc_length > 0.5 * scene.length_at(&joint.station);
         let angle = place.tangent_angle + if is_end { std::f64::consts::PI } else { 0.0 };
-        Ok(Symbol { kind, name: joint.name.clone(), at: shown.place(&place), angle, until: None })
+        let until = simulation.release_of(Hold::Joint(index));
+        Ok(Symbol { kind, name: joint.name.clone(), at: shown.place(&place), angle, until })
     };
     let of_slider = |(index, slider): (usize, &crate::joints::Slider)| {
         let at = shown.station(simulation, &slider.slave)?;
-        let (name, until) = (slider.name.clone(), simulation.release_of(index));
+        let (name, until) = (slider.name.clone(), simulation.release_of(Hold::Slider(index)));
         Ok(Symbol { kind: SymbolKind::Slider, name, at, angle: 0.0, until })
     };
     let of_sliders = scene.sliders.iter().enumerate().map(of_slider);
-    scene.joints.iter().map(of_joint).chain(of_sliders).collect()
+    scene.joints.iter().enumerate().map(of_joint).chain(of_sliders).collect()
 }
 
 fn springs(simulation: &Simulation, shown: &Shown) -> Result<Vec<Spring>, ScriptError> {
-    let spring = |spring: &model::Spring| {
+    let spring = |(index, spring): (usize, &model::Spring)| {
         let kind = match (&spring.kind, &spring.law) {
             (model::SpringKind::Torsion(_), _) => SpringKind::Torsion,
             (model::SpringKind::Way(way), _) if way.len() > 2 => SpringKind::Tendon,
@@ -184,9 +185,10 @@ fn springs(simulation: &Simulation, shown: &Shown) -> Result<Vec<Spring>, Script
             })
         };
         let anchors = spring.anchors().iter().map(anchor).collect::<Result<_, ScriptError>>()?;
-        Ok(Spring { kind, name: spring.name.clone(), anchors })
+        let until = simulation.release_of(Hold::Spring(index));
+        Ok(Spring { kind, name: spring.name.clone(), anchors, until })
     };
-    simulation.scene().springs().map(spring).collect()
+    simulation.scene().springs().enumerate().map(spring).collect()
 }
 
 fn trails(

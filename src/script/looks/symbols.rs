@@ -2,7 +2,7 @@
 
 use crate::beams::Station;
 use crate::geometry::Vec2;
-use crate::joints::{JointKind, Partner};
+use crate::joints::{Hold, JointKind, Partner};
 use crate::loads::{Frame, Load, LoadKind, Side};
 use crate::model::{Anchor, ModelError, Scene, Spring, SpringKind};
 use crate::output::{PlacedSymbol, Symbol};
@@ -34,17 +34,17 @@ pub struct SceneAt<'a> {
     pub scene: &'a Scene,
     /// The time.
     pub time: f64,
-    /// Sliders that have left their masters, by their index.
-    pub released: Vec<usize>,
+    /// What has let go.
+    pub released: Vec<Hold>,
 }
 
 impl<'a> SceneAt<'a> {
     /// That of a simulation.
     pub fn of(simulation: &'a Simulation, time: f64) -> Self {
         let scene = simulation.scene();
-        let is_gone =
-            |slider: &usize| simulation.release_of(*slider).is_some_and(|release| release < time);
-        Self { scene, time, released: (0..scene.sliders.len()).filter(is_gone).collect() }
+        let holds = scene.holds().into_iter().map(|(_, hold)| hold);
+        let is_gone = |hold: &Hold| simulation.release_of(*hold).is_some_and(|at| at < time);
+        Self { scene, time, released: holds.filter(is_gone).collect() }
     }
 }
 
@@ -58,10 +58,13 @@ pub fn symbols(
 ) -> Result<Vec<PlacedSymbol>, ModelError> {
     let SceneAt { scene, time, .. } = *at;
     let unplaced: Vec<Unplaced> =
-        of_joints(scene).chain(of_sliders(at)).chain(of_loads(scene, time)).collect();
+        of_joints(at).chain(of_sliders(at)).chain(of_loads(scene, time)).collect();
     // For each its place, and one before and one behind it on its beam; then those of springs.
     let around = unplaced.iter().flat_map(|symbol| around(scene, &symbol.at));
-    let of_springs = scene.springs().flat_map(|spring| spring.stations()).copied();
+    let springs = scene.springs().enumerate();
+    let springs = springs.filter(|(index, _)| !at.released.contains(&Hold::Spring(*index)));
+    let springs = springs.map(|(_, spring)| spring);
+    let of_springs = springs.clone().flat_map(|spring| spring.stations()).copied();
     let found = places(&around.chain(of_springs).collect::<Vec<_>>())?;
     let (found, of_springs) = found.split_at(3 * unplaced.len());
     let placed = unplaced.iter().zip(found.chunks_exact(3)).map(|(symbol, found)| {
@@ -77,7 +80,7 @@ pub fn symbols(
         PlacedSymbol { symbol: symbol.symbol, at: plain(found[0]), direction: plain(direction) }
     });
     let mut ends = of_springs.iter().copied();
-    Ok(placed.chain(scene.springs().flat_map(|spring| of_spring(spring, &mut ends))).collect())
+    Ok(placed.chain(springs.flat_map(|spring| of_spring(spring, &mut ends))).collect())
 }
 
 /// The symbols of a spring, whose stations come next among the places found: a tendon has one for each part of its way.
@@ -121,8 +124,10 @@ fn around(scene: &Scene, at: &Station) -> [Station; 3] {
     [*at, moved(-AROUND), moved(AROUND)]
 }
 
-fn of_joints(scene: &Scene) -> impl Iterator<Item = Unplaced> + '_ {
-    scene.joints.iter().map(|joint| {
+fn of_joints<'a>(at: &'a SceneAt) -> impl Iterator<Item = Unplaced> + 'a {
+    let scene = at.scene;
+    let holding = |(index, _): &(usize, _)| !at.released.contains(&Hold::Joint(*index));
+    scene.joints.iter().enumerate().filter(holding).map(|(_, joint)| {
         let symbol = match (joint.kind, joint.partner) {
             (JointKind::Hinge, Partner::Ground) | (JointKind::Support(_), _) => Symbol::Hinge,
             (JointKind::Rigid, Partner::Ground) => Symbol::Clamp,
@@ -137,7 +142,7 @@ fn of_joints(scene: &Scene) -> impl Iterator<Item = Unplaced> + '_ {
 }
 
 fn of_sliders<'a>(at: &'a SceneAt) -> impl Iterator<Item = Unplaced> + 'a {
-    let holding = |(index, _): &(usize, _)| !at.released.contains(index);
+    let holding = |(index, _): &(usize, _)| !at.released.contains(&Hold::Slider(*index));
     at.scene.sliders.iter().enumerate().filter(holding).map(|(_, slider)| Unplaced {
         symbol: Symbol::Slider,
         at: slider.slave,

@@ -4,9 +4,9 @@ use super::numbering::{LinkPlace, Numbering};
 use crate::beams::{BodyDynamics, Mesh, Place, RigidPoints, SectionVariation, Station, discretise};
 use crate::elementary::square;
 use crate::geometry::{GeometryError, Vec2, interpolate};
-use crate::joints::{CONTACT_UNKNOWNS, Partner, Slider};
+use crate::joints::{CONTACT_UNKNOWNS, Hold, Joint, Partner, Slider};
 use crate::model::bodies::{Bodies, Body, Tracker};
-use crate::model::elements::{Elements, Site, Weight};
+use crate::model::elements::{Elements, PrescribedMovements, Site, Supports, Weight};
 use crate::model::motion::Motion;
 use crate::model::rigid_links::{RigidLink, RigidLinks};
 use crate::model::scene::same_place;
@@ -36,15 +36,21 @@ impl Model {
         }
         let assembly = Assembly::new(scene)?;
         let border = CONTACT_UNKNOWNS * scene.sliders.len();
+        let own: Vec<&dyn BodyDynamics> = assembly.bodies.iter().map(|body| &**body).collect();
         let numbering =
-            Numbering::new(scene, &assembly.bodies, border, |station| assembly.place(station))?;
+            Numbering::new(scene, &[], &own, border, |station| assembly.place(station))?;
         let sliders = assembly.sliders(&numbering)?;
         let blocks = numbering.contact_blocks(&sliders);
         let sliders = Sliders::new(sliders, blocks);
         let elements = assembly.elements()?;
         let links = assembly.links(&numbering);
-        let (trackers, joined) = (assembly.trackers()?, assembly.joined()?);
-        let (supports, prescribed, unknowns) = numbering.supports_and_unknowns(scene, border)?;
+        let trackers = assembly.trackers()?;
+        let joined = joined(scene, &[], &assembly.meshes)?;
+        let (movements, held, unknowns) = numbering.supports_and_unknowns(scene, &[], border);
+        let (movements, prescribed) =
+            PrescribedMovements::new(movements, scene.drives.iter(), unknowns.count(), border)
+                .map_err(|(drive, source)| ModelError::DriveValue { drive, source })?;
+        let supports = Supports::new(movements, held);
         let mut rates = assembly.start_rates(&numbering, border, &prescribed)?;
         rates.extend(prescribed);
         let mass = assembly.mass();
@@ -157,16 +163,6 @@ impl<'a> Assembly<'a> {
         stations.iter().map(|station| self.place(station)).collect()
     }
 
-    fn joined(&self) -> Result<Vec<(Place, Place)>, ModelError> {
-        let pair = |joint: &crate::joints::Joint| match &joint.partner {
-            Partner::Ground => None,
-            Partner::Station(other) => {
-                Some(self.place(&joint.station).and_then(|place| Ok((place, self.place(other)?))))
-            }
-        };
-        self.scene.joints.iter().filter_map(pair).collect()
-    }
-
     /// Starts and ends of all beams, then the stations of the scene, then the rigid bodies.
     fn trackers(&self) -> Result<Vec<Tracker>, ModelError> {
         let ends = self.scene.beams.iter().enumerate().flat_map(|(beam, definition)| {
@@ -233,6 +229,22 @@ impl Site for Assembly<'_> {
     fn wrong(&self, beam: usize, error: GeometryError) -> ModelError {
         ModelError::geometry(&self.scene.beams[beam].name)(error)
     }
+}
+
+/// The places that joints of a scene hold together which were not released, on meshes of its beams.
+pub fn joined(
+    scene: &Scene,
+    released: &[Hold],
+    meshes: &[Mesh],
+) -> Result<Vec<(Place, Place)>, ModelError> {
+    let pair = |(at, joint): (usize, &Joint)| match &joint.partner {
+        Partner::Station(other) if !released.contains(&Hold::Joint(at)) => {
+            let place = scene.place(&joint.station, meshes);
+            Some(place.and_then(|place| Ok((place, scene.place(other, meshes)?))))
+        }
+        _ => None,
+    };
+    scene.joints.iter().enumerate().filter_map(pair).collect()
 }
 
 fn mesh_with_nodes<'s>(

@@ -51,7 +51,7 @@ impl InitialNumbering {
     pub fn coupled(
         &self,
         scene: &Scene,
-        bodies: &[Box<dyn BodyDynamics>],
+        bodies: &[&dyn BodyDynamics],
         tied: &mut TiedComponents,
         place: &impl Fn(&Station) -> Result<Place, ModelError>,
     ) -> Result<Vec<Vec<usize>>, ModelError> {

@@ -3,6 +3,7 @@
 mod assemble;
 mod contact_blocks;
 mod initial_numbering;
+mod letting_go;
 mod numbering;
 mod redundancy;
 mod rigid_links;

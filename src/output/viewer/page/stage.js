@@ -74,7 +74,7 @@ class Stage {
         sheet.line(film.path(at).slice(0, frame + 1).map(place), colour, 1.4);
       });
     }
-    if (switches.symbols) for (const spring of film.springs) drawSpring(sheet, spring, film.way(spring, frame).map(place), theme);
+    if (switches.symbols) for (const spring of film.holding(frame)) drawSpring(sheet, spring, film.way(spring, frame).map(place), theme);
     film.beams.forEach((beam, index) => {
       const line = film.line(beam, frame).map(place);
       if (shading) this.drawShaded(line, film.along(film.fields[shading.field], beam, frame), shading, theme);

@@ -113,7 +113,7 @@ class Viewer {
     }
     found.distance += 2;
     for (const { name, at } of [...film.particles, ...film.held(frame), ...film.arrows]) look(name, film.at(at, frame));
-    for (const spring of film.springs) film.way(spring, frame).forEach((point) => look(spring.name, point));
+    for (const spring of film.holding(frame)) film.way(spring, frame).forEach((point) => look(spring.name, point));
     return found.words;
   }
 }
