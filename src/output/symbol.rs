@@ -29,7 +29,12 @@ const SHORT: f64 = 18.0;
 const HEAD: f64 = 8.0;
 const APART: f64 = 4.0;
 /// Paper around a symbol, so that nothing of it is cut.
-const ROOM: f64 = 20.0;
+const ROOM: f64 = 24.0;
+/// The radius of a roller and of a motor, half the breadth of a carriage, and the length of the heads of their arrows.
+const ROLLER: f64 = 2.5;
+const MOTOR: f64 = 11.0;
+const CARRIAGE: f64 = 6.5;
+const SMALL_HEAD: f64 = 5.5;
 /// The radius of the arrow of a moment.
 const TURN: f64 = 15.0;
 
@@ -40,6 +45,16 @@ pub enum Symbol {
     Hinge,
     /// A support that holds position and angle; its direction is that of the beam that leaves it.
     Clamp,
+    /// A support that holds one component of the position, along its direction, away from the ground.
+    Roller,
+    /// A support that holds one component of the position and the angle, likewise.
+    Guided,
+    /// A support that holds the angle alone.
+    HeldAngle,
+    /// What turns a section as a function of time.
+    Motor,
+    /// What moves a place along a direction as a function of time.
+    Carriage,
     /// A joint between beams that turns.
     Joint,
     /// A joint between beams that does not.
@@ -60,6 +75,31 @@ pub enum Symbol {
     Tendon,
     /// A spring against the turning of a section.
     TorsionSpring,
+}
+
+impl Symbol {
+    /// Its name in the data of pages.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Hinge => "hinge",
+            Self::Clamp => "clamp",
+            Self::Roller => "roller",
+            Self::Guided => "guided",
+            Self::HeldAngle => "held_angle",
+            Self::Motor => "motor",
+            Self::Carriage => "carriage",
+            Self::Joint => "joint",
+            Self::RigidJoint => "rigid_joint",
+            Self::Slider => "slider",
+            Self::Force => "force",
+            Self::LineForce => "line_force",
+            Self::Moment => "moment",
+            Self::Spring => "spring",
+            Self::Damper => "damper",
+            Self::Tendon => "tendon",
+            Self::TorsionSpring => "torsion_spring",
+        }
+    }
 }
 
 /// A symbol at a place, in the reader's units.
@@ -100,12 +140,15 @@ impl PlacedSymbol {
         points: impl Iterator<Item = Point> + Clone,
         limits: &Limits,
     ) -> View {
-        use Symbol::{Clamp, Hinge, Moment, Slider, TorsionSpring};
+        use Symbol::{
+            Carriage, Clamp, Guided, HeldAngle, Hinge, Moment, Motor, Roller, Slider, TorsionSpring,
+        };
         let bare = View::of(points.clone(), limits);
         let links = symbols.iter().filter_map(Self::link);
         let ends = links.filter(|[at, end]| bare.shows(*at) || bare.shows(*end)).flatten();
         let is_about = |placed: &&Self| {
-            matches!(placed.symbol, Hinge | Clamp | Slider | Moment | TorsionSpring)
+            let is_held = matches!(placed.symbol, Hinge | Clamp | Roller | Guided | HeldAngle);
+            is_held || matches!(placed.symbol, Motor | Carriage | Slider | Moment | TorsionSpring)
         };
         let about = symbols.iter().filter(is_about).map(|placed| placed.at);
         let about = about.filter(|at| bare.shows(*at));
@@ -137,6 +180,11 @@ impl PlacedSymbol {
         match self.symbol {
             Symbol::Hinge => spot.hinge(),
             Symbol::Clamp => spot.clamp(),
+            Symbol::Roller => spot.roller(),
+            Symbol::Guided => spot.guided(),
+            Symbol::HeldAngle => spot.square(JOINT + 2.0),
+            Symbol::Motor => spot.motor(),
+            Symbol::Carriage => spot.carriage(),
             Symbol::Joint => spot.ring(),
             Symbol::RigidJoint => Marker::Square.draw(spot.canvas, at, JOINT, INK),
             Symbol::Slider => Marker::Diamond.draw(spot.canvas, at, SLIDER, INK),
@@ -179,13 +227,75 @@ impl Spot<'_> {
         }
     }
 
+    /// A triangle whose tip is the place and which stands behind it.
+    fn triangle(&mut self) {
+        let foot = [self.at(-TRIANGLE, 0.6 * SUPPORT), self.at(-TRIANGLE, -0.6 * SUPPORT)];
+        self.line(&[self.at, foot[0], foot[1], self.at], LINE);
+    }
+
+    /// The ground so far behind the place.
+    fn ground_behind(&mut self, far: f64) {
+        let ends = [self.at(-far, SUPPORT), self.at(-far, -SUPPORT)];
+        self.ground(ends[0], ends[1], (-self.ahead.0, -self.ahead.1));
+    }
+
+    /// Two rollers on the ground, so far behind the place.
+    fn rollers_behind(&mut self, far: f64) {
+        for side in [-1.0, 1.0] {
+            let centre = self.at(-far - ROLLER, side * 0.4 * SUPPORT);
+            self.canvas.disc(centre, ROLLER, INK);
+            self.canvas.disc(centre, ROLLER - THIN, WHITE);
+        }
+        self.ground_behind(far + 2.0 * ROLLER);
+    }
+
     fn hinge(&mut self) {
-        let (x, y) = self.at;
-        let (left, right) = ((x - 0.6 * SUPPORT, y + TRIANGLE), (x + 0.6 * SUPPORT, y + TRIANGLE));
-        self.line(&[(x, y), left, right, (x, y)], LINE);
-        let (left, right) = ((x - SUPPORT, y + TRIANGLE), (x + SUPPORT, y + TRIANGLE));
-        self.ground(left, right, (0.0, 1.0));
+        // It stands upright.
+        self.ahead = (0.0, -1.0);
+        self.triangle();
+        self.ground_behind(TRIANGLE);
         self.ring();
+    }
+
+    fn roller(&mut self) {
+        self.triangle();
+        self.rollers_behind(TRIANGLE);
+        self.ring();
+    }
+
+    fn guided(&mut self) {
+        self.line(&[self.at(-JOINT, SUPPORT), self.at(-JOINT, -SUPPORT)], LINE);
+        self.rollers_behind(JOINT);
+        Marker::Square.draw(self.canvas, self.at, JOINT, INK);
+    }
+
+    /// A square that is not filled.
+    fn square(&mut self, half: f64) {
+        let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (1.0, 1.0)];
+        let corners = corners.map(|(x, y)| (self.at.0 + half * x, self.at.1 + half * y));
+        self.line(&corners, LINE);
+    }
+
+    /// A circle with two heads that run around it.
+    fn motor(&mut self) {
+        let around = |angle: f64| {
+            (self.at.0 + MOTOR * cos(angle), self.at.1 - MOTOR * sin(angle))
+        };
+        let circle: Vec<Point> = (0..=48).map(|index| around(PI * f64::from(index) / 24.0)).collect();
+        let heads = [0.9, 0.9 + PI].map(|angle| (around(angle), (-sin(angle), -cos(angle))));
+        self.line(&circle, THIN);
+        heads.into_iter().for_each(|(tip, ahead)| self.head(tip, ahead, SMALL_HEAD, LINE));
+    }
+
+    /// A square with an arrow on either side.
+    fn carriage(&mut self) {
+        self.square(CARRIAGE);
+        for side in [-1.0, 1.0] {
+            let ahead = (side * self.ahead.0, side * self.ahead.1);
+            let (near, tip) = (self.at(side * CARRIAGE, 0.0), self.at(side * (CARRIAGE + 11.0), 0.0));
+            self.line(&[near, tip], LINE);
+            self.head(tip, ahead, SMALL_HEAD, LINE);
+        }
     }
 
     fn clamp(&mut self) {
@@ -193,10 +303,10 @@ impl Spot<'_> {
         self.ground(from, to, (-self.ahead.0, -self.ahead.1));
     }
 
-    fn head(&mut self, tip: Point, ahead: Point, width: f64) {
+    fn head(&mut self, tip: Point, ahead: Point, size: f64, width: f64) {
         let wing = |side: f64| {
             let (x, y) = (ahead.0 - 0.5 * side * ahead.1, ahead.1 + 0.5 * side * ahead.0);
-            (tip.0 - HEAD * x, tip.1 - HEAD * y)
+            (tip.0 - size * x, tip.1 - size * y)
         };
         self.line(&[wing(1.0), tip, wing(-1.0)], width);
     }
@@ -211,7 +321,7 @@ impl Spot<'_> {
             false => (self.at(APART, 0.0), self.at(APART + length, 0.0)),
         };
         self.line(&[tail, tip], width);
-        self.head(tip, self.ahead, width);
+        self.head(tip, self.ahead, HEAD, width);
     }
 
     /// Two turns and a half about the place.
@@ -235,7 +345,7 @@ impl Spot<'_> {
         let arc: Vec<Point> = (0..=24).map(|index| around(angle(f64::from(index)))).collect();
         let (end, tip) = (angle(24.0), around(angle(24.0)));
         self.line(&arc, LINE);
-        self.head(tip, (-side * sin(end), -cos(end)), LINE);
+        self.head(tip, (-side * sin(end), -cos(end)), HEAD, LINE);
     }
 }
 
@@ -257,10 +367,12 @@ mod tests {
     #[test]
     fn symbols_are_drawn_where_their_place_is_seen() {
         use Symbol::{
-            Clamp, Force, Hinge, Joint, LineForce, Moment, RigidJoint, Slider, TorsionSpring,
+            Carriage, Clamp, Force, Guided, HeldAngle, Hinge, Joint, LineForce, Moment, Motor,
+            RigidJoint, Roller, Slider, TorsionSpring,
         };
-        let bodies = [Hinge, Clamp, Joint, RigidJoint, Slider, TorsionSpring];
-        for symbol in bodies.into_iter().chain([Force, LineForce, Moment]) {
+        let bodies = [Hinge, Clamp, Roller, Guided, HeldAngle, Motor, Carriage, Joint];
+        let others = [RigidJoint, Slider, TorsionSpring];
+        for symbol in bodies.into_iter().chain(others).chain([Force, LineForce, Moment]) {
             assert!(!drawn(symbol, (0.5, 0.5), (1.0, 0.0)).shapes().is_empty(), "{symbol:?}");
             assert!(drawn(symbol, (1.5, 0.5), (1.0, 0.0)).shapes().is_empty(), "{symbol:?}");
         }

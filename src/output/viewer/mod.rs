@@ -13,7 +13,4 @@ mod packing;
 mod thinning;
 
 pub use document::Viewer;
-pub use film::{
-    Anchor, Arrow, ArrowKind, Beam, Column, Field, Film, Particle, Place, Spring, SpringKind,
-    Symbol, SymbolKind, Trail,
-};
+pub use film::{Anchor, Arrow, Beam, Body, Column, Field, Film, Particle, Place, Sign, Spring, Trail};

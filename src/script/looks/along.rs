@@ -5,7 +5,7 @@ use super::symbols::{SceneAt, symbols};
 use crate::geometry::Vec2;
 use crate::model::{BeamPlaces, BeamSample, Model, ModelError};
 use crate::output::{
-    FieldPicture, LineChart, PlacedSymbol, Point, Series, Strip, StripPicture, Style, significant,
+    FieldPicture, LineChart, Point, Scenery, Series, Strip, StripPicture, Style, significant,
 };
 use crate::simulation::{Outline, Simulation};
 use crate::statics::Equilibrium;
@@ -20,7 +20,7 @@ pub struct Inside {
     /// When it is, in words; may be empty.
     pub when: String,
     beams: Vec<Beam>,
-    symbols: Vec<PlacedSymbol>,
+    scenery: Scenery,
 }
 
 struct Beam {
@@ -53,13 +53,13 @@ impl Inside {
         let SceneAt { scene, time, .. } = *at;
         let outlines = Outline::of_scene(scene, model.meshes())?;
         let points: Vec<&[Vec2]> = model.control_points().collect();
-        let lines = Outline::draw(&outlines, time, &points).lines;
+        let drawn = Outline::draw(&outlines, time, &points);
         let is_wanted = |index: &usize| beams.is_empty() || beams.contains(index);
         let beam = |index: usize| {
             let places = model.places_along(scene, index, BeamPlaces::WITHIN_A_SPAN)?;
             Ok(Beam {
                 name: scene.beams[index].name.clone(),
-                line: lines[index].iter().map(plain).collect(),
+                line: drawn.lines[index].iter().map(plain).collect(),
                 along: model.sample_along(&places),
             })
         };
@@ -69,13 +69,16 @@ impl Inside {
             title: scene.name.clone(),
             when: String::new(),
             beams: beams.collect::<Result<_, ModelError>>()?,
-            symbols: symbols(at, |stations| stations.iter().map(place).collect())?,
+            scenery: Scenery {
+                bodies: drawn.bodies.iter().map(|body| body.iter().map(plain).collect()).collect(),
+                symbols: symbols(at, |stations| stations.iter().map(place).collect())?,
+            },
         })
     }
 
     /// Leaves symbols of supports and loads out.
     pub fn without_symbols(mut self) -> Self {
-        self.symbols.clear();
+        self.scenery.symbols.clear();
         self
     }
 
@@ -103,7 +106,7 @@ impl Inside {
         let picture = StripPicture::new(self.heading(quantity))
             .caption(format!("{}; {caption}", quantity.label()))
             .side(quantity.side)
-            .symbols(self.symbols.iter().copied());
+            .scenery(self.scenery.clone());
         self.beams.iter().map(of_beam).fold(picture, StripPicture::strip)
     }
 
@@ -128,7 +131,7 @@ impl Inside {
             _ => format!("[{}]", quantity.dimension),
         };
         let picture =
-            FieldPicture::new(self.heading(quantity), label).symbols(self.symbols.iter().copied());
+            FieldPicture::new(self.heading(quantity), label).scenery(self.scenery.clone());
         self.beams.iter().fold(picture, |picture, beam| {
             let value = |at: &BeamSample| (plain(&at.position), (quantity.of)(at).abs());
             picture.beam(beam.along.iter().map(value).collect())

@@ -2,9 +2,9 @@
 
 use rhai::{Dynamic, Map};
 
-use super::scenes::{SCENE, STATION};
+use super::scenes::{ABOUT, SCENE, START_SPIN, START_VELOCITY, STATION, start_motion};
 use crate::geometry::Vec2;
-use crate::model::{ModelError, RigidBodyDefinition, StartMotion};
+use crate::model::{ModelError, RigidBodyDefinition};
 use crate::script::handles::rigid_body::RigidBodyHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::rows::accept::as_point;
@@ -83,30 +83,21 @@ const BODY_KEYS: &[Parameter] = &[
         .doc("by which its frame is turned at the start"),
     anything("points").doc("a map of points from its centre, in its own frame [length]").optional(),
     text("name").optional(),
-    point("velocity").unit("length/time").doc("of the point `about`, at the start").optional(),
-    number("spin").unit("1/time").doc("rate of rotation at the start").optional(),
-    point("about")
-        .unit("length")
-        .doc("the point it turns about at the start; its centre of mass unless given")
-        .beside("spin")
-        .optional(),
+    START_VELOCITY,
+    START_SPIN,
+    ABOUT,
 ];
 
 fn body(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let options = call.options("options")?;
     let named = options.text_if_given("name")?;
-    let given = |key: &str| options.has(key).then(|| options.point(key)).transpose();
     let definition = RigidBodyDefinition {
         name: named.unwrap_or_else(|| scene.scene().borrow().free_name("body")),
         position: options.point("at")?,
         angle: options.number("angle")?,
         points: points_of(&options)?,
-        motion: StartMotion {
-            velocity: given("velocity")?.unwrap_or_default(),
-            spin: options.number_if_given("spin").unwrap_or(0.0),
-            about: given("about")?,
-        },
+        motion: start_motion(&options)?,
     };
     let (mass, inertia) = (options.number("mass")?, options.number("inertia")?);
     let added = scene.scene().borrow_mut().add_rigid_body(definition, mass, inertia);

@@ -171,23 +171,41 @@ const AT: Parameter = object("station", STATION);
 const OTHER: Parameter = object("other", STATION).doc("the ground unless given").optional();
 const SPIN: Parameter = number("spin").unit("1/time").optional();
 const ROTARY: Parameter = number("rotary_inertia").unit("mass·length²").or(Presence::Number(0.0));
+/// How fast what is added moves at the start.
+pub(super) const START_VELOCITY: Parameter =
+    point("velocity").unit("length/time").doc("of the point `about`, at the start").optional();
+/// How fast it turns at the start.
+pub(super) const START_SPIN: Parameter =
+    number("spin").unit("1/time").doc("rate of rotation at the start").optional();
+/// The point about which it turns.
+pub(super) const ABOUT: Parameter = point("about")
+    .unit("length")
+    .doc("the point it turns about at the start; its centre of mass unless given")
+    .beside("spin")
+    .optional();
 const BEAM_KEYS: &[Parameter] = &[
     object("axis", CURVE).doc("the centroid line as drawn"),
     either("basis", MESH_KINDS).doc("a mesh or a knot vector").optional(),
     object("section", SECTION).doc("stiffness and inertia"),
     text("name").optional(),
-    point("velocity").unit("length/time").doc("of the point `about`, at the start").optional(),
-    number("spin").unit("1/time").doc("rate of rotation at the start").optional(),
-    point("about")
-        .unit("length")
-        .doc("the point it turns about at the start; its centre of mass unless given")
-        .beside("spin")
-        .optional(),
+    START_VELOCITY,
+    START_SPIN,
+    ABOUT,
 ];
 const PARTICLE_KEYS: &[Parameter] = &[
     text("name").optional(),
     point("velocity").unit("length/time").doc("at the start; at rest unless given").optional(),
 ];
+
+/// The motion at the start that options give.
+pub(super) fn start_motion(options: &Options) -> Result<StartMotion, ScriptError> {
+    let given = |key: &str| options.has(key).then(|| options.point(key)).transpose();
+    Ok(StartMotion {
+        velocity: given("velocity")?.unwrap_or_default(),
+        spin: options.number_if_given("spin").unwrap_or(0.0),
+        about: given("about")?,
+    })
+}
 
 fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
@@ -197,15 +215,7 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
         Some(mesh) => mesh,
         None => Mesh::bspline(SPANS, 3, 2)?,
     };
-    let motion = StartMotion {
-        velocity: if options.has("velocity") {
-            options.point("velocity")?
-        } else {
-            StartMotion::default().velocity
-        },
-        spin: options.number_if_given("spin").unwrap_or(0.0),
-        about: if options.has("about") { Some(options.point("about")?) } else { None },
-    };
+    let motion = start_motion(&options)?;
     let SectionHandle { profile, relaxation, .. } = options.get("section")?;
     let definition = BeamDefinition {
         name: named.unwrap_or_else(|| scene.scene().borrow().free_name("beam")),

@@ -152,10 +152,11 @@ fn plot_modes(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let at_rest = draw(modes.points());
     let size = modes.size() * options.number("amplitude")?;
-    // One line of all beams, with gaps between them.
+    // One line of all beams and bodies, with gaps between them.
     let gap = (f64::NAN, f64::NAN);
+    let lines = at_rest.lines.iter().chain(&at_rest.bodies);
     let at_rest: Vec<(f64, f64)> =
-        at_rest.lines.iter().flat_map(|line| line.iter().map(plain).chain([gap])).collect();
+        lines.flat_map(|line| line.iter().map(plain).chain([gap])).collect();
     let pictures = modes.all().iter().enumerate().map(|(number, mode)| {
         let omega = significant(mode.angular_frequency(), 5);
         MotionPicture::new(format!("mode {number}: ω = {omega}"))
