@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 use super::dynamics::{ForceSummary, Movement};
 use super::force_dashpot::ForceDashpot;
 use super::moment_dashpot::MomentDashpot;
-use super::sections::Laid;
-use super::{BeamError, Mesh, Profile, RotationIncrement, Section, SectionPlace};
+use super::sections::ProfileOnAxis;
+use super::{BeamError, Mesh, RotationIncrement, Section, SectionPlace, SectionProfile};
 use crate::geometry::{Vec2, larger};
 
 /// The relaxation times of a Kelvin–Voigt material: a section resists with `C (Γ + τ Γ̇)` and `EI (κ + τ κ̇)` [time].
@@ -105,11 +105,11 @@ impl Dashpots {
     pub fn new(
         mesh: &Mesh,
         control_points: &[Vec2],
-        profile: &Profile,
+        profile: &SectionProfile,
         relaxation: Relaxation,
     ) -> Result<Self, BeamError> {
         let order = mesh.basis().degree() + 1;
-        let laid = Laid::new(profile, mesh, control_points)?;
+        let on_axis = ProfileOnAxis::new(profile, mesh, control_points)?;
         let mut spans = Vec::new();
         for (index, quadrature) in mesh.quadrature_spans()?.into_iter().enumerate() {
             let span = quadrature.span;
@@ -120,7 +120,7 @@ impl Dashpots {
                 let slope = values.slopes().iter().map(|slope| slope / speed).collect();
                 let shape = values.values().to_vec();
                 let functions = Functions { shape, slope, weight: weight * speed };
-                (functions, derivative / speed, laid.at(index, &span, xi))
+                (functions, derivative / speed, on_axis.at(index, &span, xi))
             };
             let force = |(functions, tangent, section): (_, _, Section)| {
                 let stiffness = Vec2::new(section.axial_stiffness, section.shear_stiffness);

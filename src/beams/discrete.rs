@@ -12,9 +12,11 @@ use super::force_point::ForcePoint;
 use super::mesh::QuadratureSpan;
 use super::moment_point::MomentPoint;
 use super::parts::{MOST_PARTS, Parts};
-use super::sections::{Entry, Laid, Own, Same, Sections};
+use super::sections::{Entry, Own, ProfileOnAxis, Same, Sections};
 use super::span_points::{SpanPoints, window_mut};
-use super::{BeamError, Mesh, Profile, RotationIncrement, Section, SectionForces, SectionPlace};
+use super::{
+    BeamError, Mesh, RotationIncrement, Section, SectionForces, SectionPlace, SectionProfile,
+};
 use crate::geometry::Vec2;
 
 /// A beam whose basis has `N` non-zero functions on a span.
@@ -39,11 +41,11 @@ pub fn discretise(
     control_points: Vec<Vec2>,
     length: f64,
     mesh: &Mesh,
-    profile: &Profile,
+    profile: &SectionProfile,
 ) -> Result<Box<dyn BodyDynamics>, BeamError> {
     match profile {
-        Profile::Uniform(_) => with_sections::<Same>(control_points, length, mesh, profile),
-        Profile::Numbers(_) | Profile::Dimensions(_) => {
+        SectionProfile::Uniform(_) => with_sections::<Same>(control_points, length, mesh, profile),
+        SectionProfile::Numbers(_) | SectionProfile::Dimensions(_) => {
             with_sections::<Own>(control_points, length, mesh, profile)
         }
     }
@@ -53,7 +55,7 @@ fn with_sections<S: Sections + 'static>(
     points: Vec<Vec2>,
     length: f64,
     mesh: &Mesh,
-    profile: &Profile,
+    profile: &SectionProfile,
 ) -> Result<Box<dyn BodyDynamics>, BeamError> {
     Ok(match mesh.basis().degree() {
         1 => Box::new(DiscreteBeam::<2, S>::new(mesh, profile, length, points)?),
@@ -73,19 +75,19 @@ fn with_sections<S: Sections + 'static>(
 impl<const N: usize, S: Sections> DiscreteBeam<N, S> {
     fn new(
         mesh: &Mesh,
-        profile: &Profile,
+        profile: &SectionProfile,
         length: f64,
         control_points: Vec<Vec2>,
     ) -> Result<Self, BeamError> {
         let axis = Axis::new(mesh.basis(), &control_points, length);
         let inertia_rule = mesh.inertia_rule()?;
-        let laid = Laid::new(profile, mesh, &control_points)?;
+        let on_axis = ProfileOnAxis::new(profile, mesh, &control_points)?;
         let mut gram = vec![[S::Entry::default(); N]; control_points.len()];
         let mut spans = Vec::new();
         for (index, quadrature) in mesh.quadrature_spans()?.into_iter().enumerate() {
             let moment_rule = quadrature.moment_rule()?;
             let QuadratureSpan { span, force_rule, .. } = quadrature;
-            let section = |(xi, _): (f64, f64)| laid.at(index, &span, xi);
+            let section = |(xi, _): (f64, f64)| on_axis.at(index, &span, xi);
             let at_force = force_rule.iter().copied().map(section).collect();
             let at_moment = moment_rule.iter_on(span.start, span.end).map(section).collect();
             spans.push(SpanPoints {

@@ -46,7 +46,7 @@ pub fn kink_length(
     let kink = PiecewisePolynomial::new(&spans, &rows);
     let is_positive = spans.iter().enumerate().all(|(at, span)| {
         let width = span.end - span.start;
-        let least = -ROUNDING * control_points_around(control_points, span, degree);
+        let least = -ROUNDING * control_polygon_length(control_points, span, degree);
         (0..=8 * degree).all(|k| {
             let xi = span.start + width * k as f64 / (8 * degree) as f64;
             kink.in_span(at, xi)[0] >= least
@@ -55,8 +55,8 @@ pub fn kink_length(
     Ok(is_positive.then_some(kink))
 }
 
-/// How far the control points of a span lie apart [length].
-fn control_points_around(control_points: &[Vec2], span: &Span, degree: usize) -> f64 {
+/// The length of the control polygon of a span [length].
+fn control_polygon_length(control_points: &[Vec2], span: &Span, degree: usize) -> f64 {
     let own = &control_points[span.first..=span.first + degree];
     own.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
 }

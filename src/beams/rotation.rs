@@ -59,6 +59,14 @@ impl RotationIncrement {
         }
     }
 
+    /// The increment that stands for an angle `Δθ` [rad].
+    pub fn of_angle(self, angle: f64) -> f64 {
+        match self {
+            Self::TangentScaled => 2.0 * tan(0.5 * angle),
+            Self::Angle => angle,
+        }
+    }
+
     /// The tangent-scaled increment `2 tan(Δθ/2)` of the angle that an increment stands for, with which `Λ1 - Λ0 = 2 tan(Δθ/2) J (Λ0 + Λ1)/2` [-].
     pub fn tangent_scaled(self, increment: f64) -> f64 {
         match self {

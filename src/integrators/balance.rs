@@ -1,6 +1,6 @@
 //! The equations of one step, and the work space to solve them: what all integrators here share.
 
-use super::given::BalancedAt;
+use super::prescribed::BalancedAt;
 use super::{Interval, Mechanism, Solution, Stage, StepError};
 use crate::elementary::square;
 use crate::linalg::BorderedMatrix;
@@ -22,14 +22,14 @@ pub(super) struct Rule {
     pub(super) stage: Stage,
     /// The factor of the forces that depend on the increments [-].
     pub(super) weight: f64,
-    /// The acceleration of given movements that is balanced.
-    pub(super) given: BalancedAt,
+    /// The acceleration of prescribed movements that is balanced.
+    pub(super) prescribed: BalancedAt,
 }
 
 impl Rule {
     /// The balance of methods with `(v0 + v1)/2 = Δq/Δt` and the acceleration `(v1 - v0)/Δt`.
     pub(super) fn mean(stage: Stage, weight: f64) -> Self {
-        Self { inertia: 2.0, stage, weight, given: BalancedAt::Mean }
+        Self { inertia: 2.0, stage, weight, prescribed: BalancedAt::Mean }
     }
 }
 
@@ -110,7 +110,7 @@ pub(super) struct StepSolver {
     coasting: Vec<f64>,
     /// The deviation from coasting, then the unknowns of the constraints.
     unknowns: Vec<f64>,
-    /// Of the unknown movements, and behind them of those that are given.
+    /// Of the unknown movements, and behind them of those that are prescribed.
     increments: Vec<f64>,
     /// The part of the residual that does not depend on the increments.
     carried: Vec<f64>,
@@ -122,7 +122,7 @@ impl StepSolver {
     pub(super) fn new(mechanism: &dyn Mechanism, tolerance: Tolerance) -> Self {
         let (movements, all) = (mechanism.unknowns(), mechanism.degrees_of_freedom());
         let border = mechanism.constraint_shape();
-        let moving = movements + mechanism.given().width();
+        let moving = movements + mechanism.prescribed().width();
         Self {
             newton: Newton::new(movements, mechanism.half_bandwidth(), border, tolerance),
             coasting: vec![0.0; movements],
@@ -171,7 +171,7 @@ impl StepSolver {
         interval: Interval,
         rule: Rule,
     ) -> Result<NewtonReport, StepError> {
-        self.take_given(mechanism, rule.given);
+        self.take_given(mechanism, rule.prescribed);
         let mut balance = StepBalance {
             mechanism,
             rule,
@@ -203,17 +203,20 @@ impl StepSolver {
         }
     }
 
-    /// Takes over the increments that are given, and carries the inertia of what moves so into the balance of the step.
+    /// Takes over the increments that are prescribed, and carries the inertia of what moves so into the balance of the step.
     fn take_given(&mut self, mechanism: &mut dyn Mechanism, at: BalancedAt) {
         let movements = self.coasting.len();
-        let given = mechanism.given();
-        if given.width() == 0 {
+        let prescribed = mechanism.prescribed();
+        if prescribed.width() == 0 {
             return;
         }
-        self.increments[movements..].copy_from_slice(&given.increments);
+        self.increments[movements..].copy_from_slice(&prescribed.increments);
         let (unknown, behind) = self.rates.split_at_mut(movements);
         unknown.fill(0.0);
-        behind.iter_mut().zip(given.balanced(at)).for_each(|(entry, balanced)| *entry = balanced);
+        behind
+            .iter_mut()
+            .zip(prescribed.balanced(at))
+            .for_each(|(entry, balanced)| *entry = balanced);
         mechanism.add_inertia(1.0, &self.rates, &mut self.carried);
     }
 
@@ -236,7 +239,7 @@ impl StepSolver {
             *v1 = rate(at, *v0, *d);
         }
         let movements = self.coasting.len();
-        self.rates[movements..].copy_from_slice(&mechanism.given().rates);
+        self.rates[movements..].copy_from_slice(&mechanism.prescribed().rates);
         let Self { increments, rates, residual, .. } = self;
         mechanism.advance(&Solution { increments, constraints, rates, residual });
     }

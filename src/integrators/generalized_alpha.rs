@@ -1,7 +1,7 @@
 //! The generalized-α method.
 
 use super::balance::{Rule, StepSolver};
-use super::given::BalancedAt;
+use super::prescribed::BalancedAt;
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::elementary::square;
 use crate::newton::{NewtonReport, Tolerance};
@@ -105,7 +105,7 @@ impl GeneralizedAlpha {
             stage: Stage::End,
             weight: 1.0 - forces_before,
             // Where the forces are: those of unknown movements are as late.
-            given: BalancedAt::Share(1.0 - forces_before),
+            prescribed: BalancedAt::Share(1.0 - forces_before),
         };
         let report = solver.solve(mechanism, interval, rule)?;
         let duration = interval.duration();

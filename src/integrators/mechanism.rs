@@ -1,6 +1,6 @@
 //! What an integrator may ask of the mechanical system that it advances.
 
-use super::{Given, Interval, StepError};
+use super::{Interval, Prescribed, StepError};
 use crate::linalg::{BandedMatrix, Border, BorderShape};
 
 /// The place in a step where forces are taken. Increments are counted from the start of the step.
@@ -109,8 +109,8 @@ pub trait Constraints {
 ///
 /// Increments and rates are those of the movements that are unknown. Constraints add unknowns of their own (contact forces,
 /// places of contacts), which have no inertia and stand behind the movements, with as many equations. Forces have, after the
-/// entries of all these, those of the supported degrees of freedom, which do not move, or move as is given: what is left of a
-/// residual there is the reaction of the supports. Where movements are given, increments and rates have as many entries as
+/// entries of all these, those of the supported degrees of freedom, which do not move, or move as is prescribed: what is left of a
+/// residual there is the reaction of the supports. Where movements are prescribed, increments and rates have as many entries as
 /// lead up to them.
 pub trait Mechanism: Inertia + Forces + Constraints {
     /// The number of unknown movements of the mechanism in a step.
@@ -128,8 +128,8 @@ pub trait Mechanism: Inertia + Forces + Constraints {
     /// The rates with which the unknown movements of the next step may be guessed [length/time, 1/time].
     fn expected_rates(&self) -> &[f64];
 
-    /// The movements that are given in the present step.
-    fn given(&self) -> &Given;
+    /// The movements that are prescribed in the present step.
+    fn prescribed(&self) -> &Prescribed;
 
     /// Prepares a step that takes forces at the given stages: evaluates what depends on time only.
     ///

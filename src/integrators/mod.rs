@@ -6,10 +6,10 @@ mod energy_momentum;
 mod error;
 mod fourth_order;
 mod generalized_alpha;
-mod given;
 mod integrator;
 mod interval;
 mod mechanism;
+mod prescribed;
 mod registry;
 mod trapezoidal;
 
@@ -18,12 +18,12 @@ pub use energy_momentum::EnergyMomentum;
 pub use error::{Cause, StepError};
 pub use fourth_order::FourthOrder;
 pub use generalized_alpha::GeneralizedAlpha;
-pub use given::Given;
 pub use integrator::Integrator;
 pub use interval::{Ending, Interval};
 pub use mechanism::{
     Accelerated, Checkpoint, Constraints, Forces, Inertia, Mechanism, Overshoot, Solution, Stage,
 };
+pub use prescribed::Prescribed;
 pub use registry::{
     Claims, EnergyClaim, INTEGRATORS, IntegratorEntry, Method, MethodError, MethodParameter,
 };

@@ -7,6 +7,7 @@ mod sliding;
 pub use joint::{Component, Components, Joint, JointKind, Partner};
 pub use slider::{EndAction, Slider, StartVelocities};
 pub use sliding::{
-    Along, CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Held, Kink,
-    Kinked, Relaxed, Released, RuleClaims, RuleEntry, SLIDING_RULES, SlidingLaw, SlidingRule, Unit,
+    CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Held, Kink, Kinked,
+    Relaxed, Released, RuleClaims, RuleEntry, SLIDING_RULES, SlidingLaw, SlidingRule, Unit,
+    WayVector,
 };

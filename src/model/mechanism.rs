@@ -1,4 +1,4 @@
-//! The model: bodies, elements, levers and sliders, their present motion, and what can be done with them.
+//! The model: bodies, elements, rigid links and sliders, their present motion, and what can be done with them.
 
 mod acceleration;
 mod energies;
@@ -20,8 +20,8 @@ pub use stiffness::add_resistance;
 
 use super::bodies::Bodies;
 use super::elements::{Elements, Exchange, Supports};
-use super::levers::Levers;
 use super::motion::{Motion, Resolution, Step, Unknowns};
+use super::rigid_links::RigidLinks;
 use super::sliders::{Sliders, Sliding, TrackLimit};
 use crate::loads::LoadError;
 
@@ -29,7 +29,7 @@ use crate::loads::LoadError;
 pub struct Model {
     bodies: Bodies,
     elements: Elements,
-    levers: Levers,
+    links: RigidLinks,
     sliders: Sliders,
     supports: Supports,
     unknowns: Unknowns,
@@ -46,7 +46,7 @@ impl Model {
     pub(super) fn new(
         bodies: Bodies,
         elements: Elements,
-        levers: Levers,
+        links: RigidLinks,
         sliders: Sliders,
         supports: Supports,
         unknowns: Unknowns,
@@ -56,7 +56,7 @@ impl Model {
         Self {
             bodies,
             elements,
-            levers,
+            links,
             sliders,
             supports,
             unknowns,
@@ -78,8 +78,8 @@ impl Model {
     /// Gives what is moved by functions of time the rates with which these begin, in a model that has not taken a step.
     pub fn set_given_in_motion(&mut self) {
         let first = self.unknowns.count();
-        let given = &self.supports.guides().given().rates;
-        self.motion.rates[first..].copy_from_slice(given);
+        let prescribed = &self.supports.prescribed().in_step().rates;
+        self.motion.rates[first..].copy_from_slice(prescribed);
     }
 
     pub(super) fn bodies(&self) -> &Bodies {
@@ -90,8 +90,8 @@ impl Model {
         &self.elements
     }
 
-    pub(super) fn levers(&self) -> &Levers {
-        &self.levers
+    pub(super) fn links(&self) -> &RigidLinks {
+        &self.links
     }
 
     pub(super) fn supports(&self) -> &Supports {
@@ -135,12 +135,12 @@ impl Model {
         self.motion.time = time;
     }
 
-    /// Gives all loads the values that they have just after a time, and given motions their places at rest.
+    /// Gives all loads the values that they have just after a time, and prescribed motions their places at rest.
     ///
     /// # Errors
     /// When one has no finite value then: its name, and why.
     pub fn hold_loads_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
-        self.supports.guides_mut().hold_at(time)?;
+        self.supports.prescribed_mut().hold_at(time)?;
         self.elements.hold_at(time)
     }
 

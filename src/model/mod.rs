@@ -3,17 +3,17 @@
 mod assembly;
 mod bodies;
 mod elements;
-mod levers;
 mod looking;
 mod mechanism;
 mod motion;
+mod rigid_links;
 mod scene;
 mod sliders;
 mod words;
 
 pub use elements::{
-    Along, Anchor, Drag, Dragged, Drive, DriveKind, DriveState, Element, LoadAccount,
-    MaterialDamping, Origin, PointMass, RestoringLaw, Spring, SpringKind,
+    Anchor, Drag, Dragged, Drive, DriveKind, DriveState, Element, LoadAccount, MaterialDamping,
+    Origin, PointMass, RestoringLaw, SpeedLaw, Spring, SpringKind,
 };
 pub use looking::{
     BeamPlaces, BeamSample, CrossSection, Distance, Part, Placement, SectionSample, Sensing,

@@ -22,7 +22,11 @@ pub struct Scenery {
 
 impl Scenery {
     /// The part of the plane that points need, and the scenery that is among them.
-    pub(super) fn view(&self, points: impl Iterator<Item = Point> + Clone, limits: &Limits) -> View {
+    pub(super) fn view(
+        &self,
+        points: impl Iterator<Item = Point> + Clone,
+        limits: &Limits,
+    ) -> View {
         let bodies = self.bodies.iter().flatten().copied();
         PlacedSymbol::view(&self.symbols, points.chain(bodies), limits)
     }

@@ -278,10 +278,9 @@ impl Spot<'_> {
 
     /// A circle with two heads that run around it.
     fn motor(&mut self) {
-        let around = |angle: f64| {
-            (self.at.0 + MOTOR * cos(angle), self.at.1 - MOTOR * sin(angle))
-        };
-        let circle: Vec<Point> = (0..=48).map(|index| around(PI * f64::from(index) / 24.0)).collect();
+        let around = |angle: f64| (self.at.0 + MOTOR * cos(angle), self.at.1 - MOTOR * sin(angle));
+        let circle: Vec<Point> =
+            (0..=48).map(|index| around(PI * f64::from(index) / 24.0)).collect();
         let heads = [0.9, 0.9 + PI].map(|angle| (around(angle), (-sin(angle), -cos(angle))));
         self.line(&circle, THIN);
         heads.into_iter().for_each(|(tip, ahead)| self.head(tip, ahead, SMALL_HEAD, LINE));
@@ -292,7 +291,8 @@ impl Spot<'_> {
         self.square(CARRIAGE);
         for side in [-1.0, 1.0] {
             let ahead = (side * self.ahead.0, side * self.ahead.1);
-            let (near, tip) = (self.at(side * CARRIAGE, 0.0), self.at(side * (CARRIAGE + 11.0), 0.0));
+            let (near, tip) =
+                (self.at(side * CARRIAGE, 0.0), self.at(side * (CARRIAGE + 11.0), 0.0));
             self.line(&[near, tip], LINE);
             self.head(tip, ahead, SMALL_HEAD, LINE);
         }

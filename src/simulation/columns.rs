@@ -93,7 +93,7 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
     let others = scene.dissipating().map(|name| column(format!("{DISSIPATED}.{name}"), "energy"));
     let of_drive = |drive: &Drive| {
         let name = &drive.name;
-        let own = drive.courses().map(|(component, _)| {
+        let own = drive.motions().map(|(component, _)| {
             let dimension = match component {
                 Component::X | Component::Y => "force",
                 Component::Rotation => "force·length",
@@ -154,7 +154,7 @@ pub(super) fn extra_values(model: &Model) -> impl Iterator<Item = f64> {
         .springs()
         .flat_map(|spring| [spring.elongation, spring.force, spring.stored, spring.dissipated]);
     let of_drive = |drive: DriveState<'_>| {
-        let [x, y, turned] = drive.given;
+        let [x, y, turned] = drive.prescribed;
         let own = [(x, drive.force.x), (y, drive.force.y), (turned, drive.moment)];
         let own = own.into_iter().filter(|(given, _)| *given).map(|(_, reaction)| reaction);
         own.chain([drive.work])

@@ -55,14 +55,14 @@ impl Outline {
         };
         let first = scene.beams.len() + scene.particles.len();
         let bodies = (first..).zip(&scene.rigid_bodies);
-        let bodies = bodies.filter(|(_, body)| body.levers().next().is_some());
+        let bodies = bodies.filter(|(_, body)| body.links().next().is_some());
         let bodies = bodies.map(|(index, body)| Ok(Self::of_rigid_body(index, body)));
         scene.beams.iter().zip(meshes).enumerate().map(of_beam).chain(bodies).collect()
     }
 
     /// One point is a line from the centre, two are a line over it, and more go around it.
     fn of_rigid_body(index: usize, body: &RigidBodyDefinition) -> Self {
-        let mut points: Vec<usize> = body.levers().collect();
+        let mut points: Vec<usize> = body.links().collect();
         let direction = |point: &usize| {
             let place = body.points[point - 1].1;
             atan2(place.y, place.x)

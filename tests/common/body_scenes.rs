@@ -1,4 +1,4 @@
-//! Scenes with rigid bodies whose points levers hold.
+//! Scenes with rigid bodies whose points rigid links hold.
 
 use std::f64::consts::FRAC_PI_3;
 

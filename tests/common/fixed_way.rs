@@ -2,8 +2,8 @@
 //! step has a solution, whatever Newton's method finds.
 
 use withy::integrators::{
-    Accelerated, Checkpoint, Constraints, EnergyMomentum, Forces, Given, Inertia, Integrator,
-    Interval, Mechanism, Overshoot, Solution, Stage, StepError,
+    Accelerated, Checkpoint, Constraints, EnergyMomentum, Forces, Inertia, Integrator, Interval,
+    Mechanism, Overshoot, Prescribed, Solution, Stage, StepError,
 };
 use withy::joints::CONTACT_UNKNOWNS;
 use withy::linalg::{BandedMatrix, Border, BorderShape, BorderedMatrix};
@@ -48,8 +48,8 @@ impl<'a> FixedWay<'a> {
 }
 
 impl Mechanism for FixedWay<'_> {
-    fn given(&self) -> &Given {
-        self.model.given()
+    fn prescribed(&self) -> &Prescribed {
+        self.model.prescribed()
     }
 
     fn unknowns(&self) -> usize {

@@ -3,13 +3,13 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::at;
-use withy::beams::{Mesh, Profile, Relaxation, Section, Station};
+use withy::beams::{Mesh, Relaxation, Section, SectionProfile, Station};
 use withy::geometry::{Curve, Vec2};
 use withy::joints::{Component, Components, JointKind, Partner};
-use withy::loads::{Course, Frame, LoadKind, Schedule};
+use withy::loads::{Frame, LoadKind, PrescribedMotion, Schedule};
 use withy::model::{
-    Along, Anchor, BeamDefinition, Drag, Dragged, Drive, DriveKind, Origin, ParticleDefinition,
-    PointMass, RestoringLaw, RigidBodyDefinition, Scene, Spring, SpringKind, StartMotion,
+    Anchor, BeamDefinition, Drag, Dragged, Drive, DriveKind, Origin, ParticleDefinition, PointMass,
+    RestoringLaw, RigidBodyDefinition, Scene, SpeedLaw, Spring, SpringKind, StartMotion,
 };
 
 /// The section of the flying spaghetti with `EA = GA` and `EI` as given.
@@ -282,13 +282,13 @@ pub fn mounted(mesh: &Mesh) -> Scene {
 }
 
 /// Gives components of a station motions.
-pub fn drive(scene: &mut Scene, station: Station, given: &[(Component, Course)]) {
-    let mut courses = [None, None, None];
-    for (component, course) in given {
-        courses[*component as usize] = Some(course.clone());
+pub fn drive(scene: &mut Scene, station: Station, given: &[(Component, PrescribedMotion)]) {
+    let mut motions = [None, None, None];
+    for (component, motion) in given {
+        motions[*component as usize] = Some(motion.clone());
     }
     let (name, kind) = (scene.free_name("move"), DriveKind::Move);
-    scene.add_drive(Drive { name, kind, station, courses }).unwrap();
+    scene.add_drive(Drive { name, kind, station, motions }).unwrap();
 }
 
 fn sine(amplitude: f64, rate: f64) -> Schedule {
@@ -305,9 +305,9 @@ pub fn driven(mesh: &Mesh) -> Scene {
     scene.join(JointKind::Hinge, top, Partner::Station(next)).unwrap();
     scene.join(JointKind::Support(Components::Y), tip, Partner::Ground).unwrap();
     let motions = [
-        (Component::X, Course::Place(sine(0.2, 2.3))),
-        (Component::Y, Course::Rate(sine(0.3, 1.7))),
-        (Component::Rotation, Course::Rate(sine(0.4, 0.9))),
+        (Component::X, PrescribedMotion::Place(sine(0.2, 2.3))),
+        (Component::Y, PrescribedMotion::Rate(sine(0.3, 1.7))),
+        (Component::Rotation, PrescribedMotion::Rate(sine(0.4, 0.9))),
     ];
     drive(&mut scene, foot, &motions);
     let push = LoadKind::Force { station: tip, force: at(2.0, 0.0), frame: Frame::Dead };
@@ -344,7 +344,7 @@ pub fn dragged(mesh: &Mesh) -> Scene {
     let end = end_of(&mut scene, beam);
     let way = SpringKind::Way(vec![Anchor::Station(end), Anchor::Station(bead)]);
     spring(&mut scene, way, linear(30.0, 1.25_f64.sqrt()), 0.0);
-    let along = |linear: f64, quadratic: f64| Along { linear, quadratic };
+    let along = |linear: f64, quadratic: f64| SpeedLaw { linear, quadratic };
     let drags = [
         (Dragged::Beam { beam, normal: along(0.3, 0.0), tangent: along(0.05, 0.0) }, at(1.0, 0.5)),
         (Dragged::Point { station: bead, law: along(0.1, 0.2) }, at(-9.0, 4.0)),
@@ -383,7 +383,8 @@ pub fn tapered(mesh: &Mesh) -> Scene {
     let axis = Curve::arc(at(0.5, 1.0), 2.0, 0.3, -1.2).unwrap();
     let beam = add_beam(&mut scene, axis, mesh, rod());
     let thin = Section { bending_stiffness: 12.0, mass_per_length: 0.6, ..rod() };
-    scene.beams[beam].section = Profile::Numbers(vec![(0.0, rod()), (0.4, rod()), (1.0, thin)]);
+    scene.beams[beam].section =
+        SectionProfile::Numbers(vec![(0.0, rod()), (0.4, rod()), (1.0, thin)]);
     scene.add_damping(beam, Relaxation { axial: 0.01, shear: 0.0, bending: 0.03 }).unwrap();
     let (start, end) = (start_of(&mut scene, beam), end_of(&mut scene, beam));
     scene.join(JointKind::Hinge, start, Partner::Ground).unwrap();

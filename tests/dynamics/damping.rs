@@ -245,7 +245,11 @@ fn sections_transmit_what_is_viscous_too() {
         let model = simulation.model();
         let (_, given) = model.transmission(simulation.scene(), 0).unwrap().read(&now);
         let of_strain = BENDING * section.curvature;
-        assert!((given + section.moment).abs() < 1e-3 * 1e-2 * LENGTH, "{given} {}", section.moment);
+        assert!(
+            (given + section.moment).abs() < 1e-3 * 1e-2 * LENGTH,
+            "{given} {}",
+            section.moment
+        );
         viscous = viscous.max((section.moment - of_strain).abs() / given.abs());
         let along = simulation.section_forces_along(0).unwrap();
         assert!((along[0].forces.moment - section.moment).abs() < 1e-12 * section.moment.abs());

@@ -5,13 +5,13 @@ use crate::common::{at, orders, scenes, simulate};
 use withy::beams::{Mesh, Section};
 use withy::geometry::{Curve, Vec2};
 use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
-use withy::model::{Along, Drag, Dragged, ParticleDefinition, Scene, StartMotion};
+use withy::model::{Drag, Dragged, ParticleDefinition, Scene, SpeedLaw, StartMotion};
 use withy::simulation::{Invariant, Simulation};
 
 const GRAVITY: f64 = 9.81;
 
 /// A stone of mass 0.5 that begins to fall.
-fn stone(law: Along, wind: Vec2) -> Scene {
+fn stone(law: SpeedLaw, wind: Vec2) -> Scene {
     let mut scene = Scene::new("stone");
     let stone = ParticleDefinition { name: "stone".to_owned(), position: at(2.0, 5.0) };
     let station = scene.add_particle(stone, 0.5).unwrap();
@@ -51,7 +51,7 @@ fn a_stone_sinks_in_a_thick_medium() {
     let (c, end) = (0.8, 1.0);
     let (time, limit) = (0.5 / c, 0.5 * GRAVITY / c);
     let exact = 5.0 - limit * (end - time * (1.0 - (-end / time).exp()));
-    let law = Along { linear: c, quadratic: 0.0 };
+    let law = SpeedLaw { linear: c, quadratic: 0.0 };
     assert_orders(&|| stone(law, Vec2::zeros()), end, &|s| place(s).y, exact);
 }
 
@@ -61,13 +61,13 @@ fn a_stone_falls_through_air() {
     let (k, end) = (0.3, 1.0);
     let limit = (0.5 * GRAVITY / k).sqrt();
     let exact = 5.0 - limit * limit / GRAVITY * (GRAVITY * end / limit).cosh().ln();
-    let law = Along { linear: 0.0, quadratic: k };
+    let law = SpeedLaw { linear: 0.0, quadratic: k };
     assert_orders(&|| stone(law, Vec2::zeros()), end, &|s| place(s).y, exact);
 }
 
 #[test]
 fn a_stone_goes_with_the_wind_which_gives_what_the_air_takes_and_more() {
-    let law = Along { linear: 0.4, quadratic: 0.2 };
+    let law = SpeedLaw { linear: 0.4, quadratic: 0.2 };
     let wind = at(4.0, 0.0);
     let mut scene = stone(law, wind);
     scene.gravity = Vec2::zeros();
@@ -96,8 +96,8 @@ fn falling(direction: Vec2) -> Scene {
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
     let axis = scenes::line(at(0.0, 0.0), direction * 2.0);
     let beam = scenes::add_beam(&mut scene, axis, &mesh, section);
-    let normal = Along { linear: 1.2, quadratic: 0.0 };
-    let tangent = Along { linear: 0.3, quadratic: 0.0 };
+    let normal = SpeedLaw { linear: 1.2, quadratic: 0.0 };
+    let tangent = SpeedLaw { linear: 0.3, quadratic: 0.0 };
     let on = Dragged::Beam { beam, normal, tangent };
     scene.add_drag(Drag { name: "water".to_owned(), on, wind: Vec2::zeros() }).unwrap();
     scene.gravity = at(0.0, -GRAVITY);
@@ -125,8 +125,8 @@ fn tumbling(quadratic: f64) -> Scene {
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
     let beam = scenes::add_beam(&mut scene, axis, &mesh, scenes::rod());
     scene.beams[beam].motion = StartMotion { velocity: at(1.0, 0.5), spin: 3.0, about: None };
-    let normal = Along { linear: 0.2, quadratic };
-    let tangent = Along { linear: 0.05, quadratic: 0.02 * quadratic };
+    let normal = SpeedLaw { linear: 0.2, quadratic };
+    let tangent = SpeedLaw { linear: 0.05, quadratic: 0.02 * quadratic };
     let on = Dragged::Beam { beam, normal, tangent };
     scene.add_drag(Drag { name: "air".to_owned(), on, wind: at(-2.0, 6.0) }).unwrap();
     scene

@@ -8,7 +8,7 @@ use crate::common::{at, orders, sci, simulate};
 use withy::beams::{Mesh, Section, Station};
 use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
 use withy::joints::{Component, Components, JointKind, Partner};
-use withy::loads::{Course, LoadKind, Schedule};
+use withy::loads::{LoadKind, PrescribedMotion, Schedule};
 use withy::model::{ModelError, ParticleDefinition, Scene, StartMotion};
 use withy::simulation::{Invariant, Simulation};
 
@@ -36,9 +36,9 @@ fn bar() -> Scene {
     let beam = add_beam(&mut scene, line(at(1.0, 0.0), at(3.0, 0.0)), &mesh, section(30.0));
     let start = Station::on_beam(beam, 0.0);
     let shaken = Schedule::Sine { amplitude: AMPLITUDE, rate: SHAKEN, phase: 0.0 };
-    let held = Course::Place(Schedule::constant(0.0).unwrap());
+    let held = PrescribedMotion::Place(Schedule::constant(0.0).unwrap());
     let given = [
-        (Component::X, Course::Place(shaken)),
+        (Component::X, PrescribedMotion::Place(shaken)),
         (Component::Y, held.clone()),
         (Component::Rotation, held),
     ];
@@ -78,19 +78,19 @@ fn base_excitation_has_amplitude_and_phase_with_the_order_of_the_method() {
 }
 
 /// A particle that is moved draws another one on a spring.
-fn towing(course: Course) -> Scene {
+fn towing(motion: PrescribedMotion) -> Scene {
     let mut scene = Scene::new("towing");
     let bead =
         |name: &str, x: f64| ParticleDefinition { name: name.to_owned(), position: at(x, 0.0) };
     let hand = scene.add_particle(bead("hand", 0.7), 1.0).unwrap();
     scene.add_particle(bead("free", 2.0), 1.0).unwrap();
-    drive(&mut scene, hand, &[(Component::X, course)]);
+    drive(&mut scene, hand, &[(Component::X, motion)]);
     scene
 }
 
 #[test]
 fn after_many_steps_a_place_is_its_function_to_rounding() {
-    let scene = towing(Course::Place(function(|t| (1.3 * t).sin() + 0.01 * t * t)));
+    let scene = towing(PrescribedMotion::Place(function(|t| (1.3 * t).sin() + 0.01 * t * t)));
     let simulation = simulate(scene, Method::EnergyMomentum, 1e-3, 100.0);
     assert_eq!(simulation.counts().steps, 100_000);
     let found = simulation.model().control_points().next().unwrap()[0].x;
@@ -99,7 +99,13 @@ fn after_many_steps_a_place_is_its_function_to_rounding() {
 }
 
 /// A beam that is turned about its start by an angle or a rate, from the rate `spin` on.
-fn turned(mesh: &Mesh, section: Section, length: f64, course: Course, spin: f64) -> Scene {
+fn turned(
+    mesh: &Mesh,
+    section: Section,
+    length: f64,
+    motion: PrescribedMotion,
+    spin: f64,
+) -> Scene {
     let mut scene = Scene::new("turned");
     let beam = add_beam(&mut scene, line(at(0.0, 0.0), at(length, 0.0)), mesh, section);
     scene.beams[beam].motion =
@@ -107,7 +113,7 @@ fn turned(mesh: &Mesh, section: Section, length: f64, course: Course, spin: f64)
     let start = scene.station(beam, 0.0).unwrap();
     scene.station(beam, length).unwrap();
     scene.join(JointKind::Hinge, start, Partner::Ground).unwrap();
-    drive(&mut scene, start, &[(Component::Rotation, course)]);
+    drive(&mut scene, start, &[(Component::Rotation, motion)]);
     scene
 }
 
@@ -121,7 +127,8 @@ fn angle(simulation: &Simulation, arc_length: f64) -> f64 {
 fn a_given_rotation_is_not_late_with_any_method() {
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
     for entry in INTEGRATORS {
-        let scene = turned(&mesh, section(1e4), 1.0, Course::Place(function(|t| 3.0 * t)), 3.0);
+        let scene =
+            turned(&mesh, section(1e4), 1.0, PrescribedMotion::Place(function(|t| 3.0 * t)), 3.0);
         let simulation = simulate(scene, entry.method, 0.02, 5.0);
         let (root, tip) = (angle(&simulation, 0.0), angle(&simulation, 1.0));
         // A free body would be late by ω³Δt²t/12 = 0.0045 rad.
@@ -152,11 +159,11 @@ fn spin_up_has_its_published_stretch_and_the_lag_of_converged_runs() {
         mass_per_length: 1.2,
         rotary_inertia: 6e-4,
     };
-    let course = Course::Place(Schedule::Function {
+    let motion = PrescribedMotion::Place(Schedule::Function {
         function: Rc::new(|t| Ok(spun_up(t))),
         breaks: vec![15.0],
     });
-    let scene = turned(&Mesh::bspline(10, 3, 2).unwrap(), section, 10.0, course, 0.0);
+    let scene = turned(&Mesh::bspline(10, 3, 2).unwrap(), section, 10.0, motion, 0.0);
     let settings = crate::common::settings(Method::FourthOrder, 0.05);
     let mut simulation = Simulation::start(scene, settings).unwrap();
     let aside = |simulation: &Simulation| {
@@ -186,14 +193,15 @@ fn spin_up_has_its_published_stretch_and_the_lag_of_converged_runs() {
 #[test]
 fn a_scene_is_refused_in_which_a_movement_is_given_or_held_twice() {
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
-    let given = || Course::Place(Schedule::Sine { amplitude: 1.0, rate: 1.0, phase: 0.0 });
+    let given =
+        || PrescribedMotion::Place(Schedule::Sine { amplitude: 1.0, rate: 1.0, phase: 0.0 });
     let mut scene = turned(&mesh, section(1e4), 1.0, given(), 0.0);
     let start = Station::on_beam(0, 0.0);
     let refused = |scene: &mut Scene, component: Component| {
-        let mut courses = [None, None, None];
-        courses[component as usize] = Some(given());
+        let mut motions = [None, None, None];
+        motions[component as usize] = Some(given());
         let kind = withy::model::DriveKind::Motor;
-        let drive = withy::model::Drive { name: "other".to_owned(), kind, station: start, courses };
+        let drive = withy::model::Drive { name: "other".to_owned(), kind, station: start, motions };
         scene.add_drive(drive).unwrap_err()
     };
     let told = refused(&mut scene, Component::X);
@@ -209,8 +217,8 @@ fn a_scene_is_refused_in_which_a_movement_is_given_or_held_twice() {
 #[test]
 fn work_is_kept_by_name_and_adds_up() {
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
-    let course = Course::Place(function(|t| 0.3 * t * t));
-    let mut scene = turned(&mesh, section(1e4), 1.0, course, 0.0);
+    let motion = PrescribedMotion::Place(function(|t| 0.3 * t * t));
+    let mut scene = turned(&mesh, section(1e4), 1.0, motion, 0.0);
     let station = Station::on_beam(0, 1.0);
     let wind = LoadKind::Force { station, force: at(0.0, 2.0), frame: withy::loads::Frame::Dead };
     scene.add_named_load("wind".to_owned(), wind, Schedule::hold_for(1.0).unwrap()).unwrap();

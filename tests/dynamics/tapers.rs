@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{at, meshes, scenes, simulate};
-use withy::beams::{Mesh, Profile, Section};
+use withy::beams::{Mesh, Section, SectionProfile};
 use withy::integrators::Method;
 use withy::model::{Model, Scene, StartMotion};
 use withy::simulation::{Invariant, Simulation};
@@ -18,7 +18,7 @@ fn section(factor: f64) -> Section {
     }
 }
 
-fn thrown(mesh: &Mesh, profile: Profile) -> Scene {
+fn thrown(mesh: &Mesh, profile: SectionProfile) -> Scene {
     let mut scene = Scene::new("thrown");
     let axis = scenes::line(at(1.0, 0.0), at(4.0, 1.0));
     let beam = scenes::add_beam(&mut scene, axis, mesh, section(1.0));
@@ -35,8 +35,11 @@ fn tip(simulation: &Simulation) -> withy::geometry::Vec2 {
 #[test]
 fn a_taper_between_equal_sections_is_a_uniform_beam() {
     for (name, mesh) in meshes(5) {
-        let same =
-            Profile::Numbers(vec![(0.0, section(1.3)), (0.4, section(1.3)), (1.0, section(1.3))]);
+        let same = SectionProfile::Numbers(vec![
+            (0.0, section(1.3)),
+            (0.4, section(1.3)),
+            (1.0, section(1.3)),
+        ]);
         let [one, other] = [same, section(1.3).into()]
             .map(|profile| simulate(thrown(&mesh, profile), Method::EnergyMomentum, 0.05, 3.0));
         let apart = (tip(&one) - tip(&other)).norm();
@@ -47,7 +50,7 @@ fn a_taper_between_equal_sections_is_a_uniform_beam() {
 #[test]
 fn momenta_at_the_start_are_integrals_of_the_taper() {
     // ρA = ρ (2 - s), ρI = ρ_I (2 - s)² linear between places: s from 0 to 1 in one piece is linear in numbers.
-    let profile = Profile::Numbers(vec![(0.0, section(2.0)), (1.0, section(1.0))]);
+    let profile = SectionProfile::Numbers(vec![(0.0, section(2.0)), (1.0, section(1.0))]);
     let mesh = Mesh::bspline(6, 3, 2).unwrap();
     let mut model = Model::assemble(&thrown(&mesh, profile.clone())).unwrap();
     let (length, rod) = (10.0_f64.sqrt(), scenes::rod());
@@ -77,8 +80,11 @@ fn momenta_at_the_start_are_integrals_of_the_taper() {
 
 #[test]
 fn a_taper_in_flight_keeps_everything() {
-    let profile =
-        Profile::Numbers(vec![(0.0, section(3.0)), (0.3, section(1.0)), (1.0, section(0.2))]);
+    let profile = SectionProfile::Numbers(vec![
+        (0.0, section(3.0)),
+        (0.3, section(1.0)),
+        (1.0, section(0.2)),
+    ]);
     for (name, mesh) in meshes(6) {
         let simulation =
             simulate(thrown(&mesh, profile.clone()), Method::EnergyMomentum, 0.05, 10.0);
@@ -91,7 +97,7 @@ fn a_taper_in_flight_keeps_everything() {
 
 #[test]
 fn a_taper_falls_freely_without_a_strain() {
-    let profile = Profile::Numbers(vec![(0.0, section(3.0)), (1.0, section(0.2))]);
+    let profile = SectionProfile::Numbers(vec![(0.0, section(3.0)), (1.0, section(0.2))]);
     let mut scene = thrown(&Mesh::bspline(6, 3, 2).unwrap(), profile);
     scene.beams[0].motion = StartMotion { velocity: at(1.0, 0.0), ..StartMotion::default() };
     scene.gravity = at(0.0, -9.81);

@@ -193,15 +193,15 @@ fn layers_use_only_those_to_their_right() {
 const ROOMS: &[(&str, &[&str])] = &[
     (
         "looking",
-        &["mechanism", "motion", "levers", "sliders", "scene", "elements", "bodies", "words"],
+        &["mechanism", "motion", "rigid_links", "sliders", "scene", "elements", "bodies", "words"],
     ),
     (
         "assembly",
-        &["mechanism", "motion", "levers", "sliders", "scene", "elements", "bodies", "words"],
+        &["mechanism", "motion", "rigid_links", "sliders", "scene", "elements", "bodies", "words"],
     ),
-    ("mechanism", &["motion", "levers", "sliders", "elements", "bodies", "words"]),
+    ("mechanism", &["motion", "rigid_links", "sliders", "elements", "bodies", "words"]),
     ("motion", &[]),
-    ("levers", &["bodies"]),
+    ("rigid_links", &["bodies"]),
     ("sliders", &["bodies", "words"]),
     ("scene", &["elements", "words"]),
     ("elements", &["bodies", "words"]),

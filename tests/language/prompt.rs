@@ -152,7 +152,8 @@ fn a_vector_makes_two_curves_and_commas_separate_more() {
     );
     // Names of columns need no commas, as ever.
     assert_eq!(prompt.ask(":plot kinetic strain #{ y_log: true }").lines().count(), 2);
-    let labelled = prompt.ask(":plot kinetic, 2 * sim.t, #{ labels: [\"one\", \"two\"], title: \"both\" }");
+    let labelled =
+        prompt.ask(":plot kinetic, 2 * sim.t, #{ labels: [\"one\", \"two\"], title: \"both\" }");
     assert_eq!(labelled.lines().count(), 2, "{labelled}");
     let told = prompt.refusal(":plot energy, #{ y_lag: true }");
     assert!(told.contains("unknown option 'y_lag'") && told.contains("y_log"), "{told}");

@@ -272,14 +272,23 @@ fn rigid_bodies_have_outlines_and_what_drives_has_signs() {
     let (printed, page) = written(script, "page.html");
     let data = data(&page);
     let film = &data["films"][0];
-    let kinds: Vec<&str> =
-        film["symbols"].as_array().unwrap().iter().map(|one| one["kind"].as_str().unwrap()).collect();
+    let kinds: Vec<&str> = film["symbols"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|one| one["kind"].as_str().unwrap())
+        .collect();
     assert_eq!(kinds, ["hinge", "joint", "hinge", "roller", "motor", "carriage", "slider"]);
     let bodies = film["bodies"].as_array().unwrap();
     let outlines: Vec<usize> =
         bodies.iter().map(|body| body["outline"].as_array().unwrap().len()).collect();
     assert_eq!(outlines, [4, 2, 0], "closed, a line from the centre, none");
-    let names: Vec<&str> = bodies[0]["points"].as_array().unwrap().iter().map(|at| at["name"].as_str().unwrap()).collect();
+    let names: Vec<&str> = bodies[0]["points"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|at| at["name"].as_str().unwrap())
+        .collect();
     assert_eq!(names, ["wheel.e", "wheel.n", "wheel.w"]);
     // A place of a body is one of the points that were sent: there, in the last frame, it is where the solver has it.
     let place = bodies[0]["points"][1]["at"].as_array().unwrap();

@@ -2,14 +2,14 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{at, scenes};
-use withy::beams::{Mesh, Profile, Section, Shape, Solid};
+use withy::beams::{Mesh, Section, SectionProfile, Shape, Solid};
 use withy::joints::{JointKind, Partner};
 use withy::loads::{Frame, LoadKind, Schedule};
 use withy::model::{Model, Scene};
 use withy::statics::{Equilibrium, Loading};
 use withy::vibration::{Mode, Modes};
 
-fn clamped(profile: Profile, length: f64, spans: usize) -> Scene {
+fn clamped(profile: SectionProfile, length: f64, spans: usize) -> Scene {
     let mut scene = Scene::new("clamped");
     let mesh = Mesh::bspline(spans, 4, 3).unwrap();
     let axis = scenes::line(at(0.0, 0.0), at(length, 0.0));
@@ -31,8 +31,10 @@ fn the_tip_of_a_tapered_cantilever_sinks_as_the_integral_says() {
         mass_per_length: 1.0,
         rotary_inertia: 1.0,
     };
-    let profile =
-        Profile::Numbers(vec![(0.0, section(stiffness)), (1.0, section(stiffness * (1.0 - a)))]);
+    let profile = SectionProfile::Numbers(vec![
+        (0.0, section(stiffness)),
+        (1.0, section(stiffness * (1.0 - a))),
+    ]);
     let mut scene = clamped(profile, length, 24);
     let tip = scene.station(0, length).unwrap();
     let down = LoadKind::Force { station: tip, force: at(0.0, -force), frame: Frame::Dead };
@@ -90,7 +92,7 @@ fn a_wedge_vibrates_as_kirchhoff_found() {
         density,
         shape: Shape::Rectangle { width: 0.02, height: height * part },
     };
-    let profile = Profile::Dimensions(vec![(0.0, solid(1.0)), (1.0, solid(1e-3))]);
+    let profile = SectionProfile::Dimensions(vec![(0.0, solid(1.0)), (1.0, solid(1e-3))]);
     let root = wedge_root();
     let factor = root * root / 4.0;
     assert!((factor - 5.315).abs() < 1e-3, "Kirchhoff's value: {factor}");
@@ -111,7 +113,7 @@ fn a_tapered_bar_stretches_and_rings_as_its_area_says() {
         density: mass / std::f64::consts::PI,
         shape: Shape::Circle { radius },
     };
-    let profile = Profile::Dimensions(vec![(0.0, solid(1.0)), (1.0, solid(0.5))]);
+    let profile = SectionProfile::Dimensions(vec![(0.0, solid(1.0)), (1.0, solid(0.5))]);
     // tan β = -β r/r' at the end: f' r = f r', with f = sin β s: β cos β · ½ = -½ sin β.
     let (mut low, mut high) = (std::f64::consts::FRAC_PI_2 + 1e-9, std::f64::consts::PI);
     for _ in 0..60 {

@@ -43,7 +43,7 @@ impl ContactUnknowns {
 
 /// A place or direction on the way of a slave along its master, with its derivative by the end `ξ1` of the way [length].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Along {
+pub struct WayVector {
     /// The place or direction itself [length].
     pub value: Vec2,
     /// The derivative of the place or direction by the end `ξ1` of the way [length].
@@ -101,33 +101,33 @@ impl Contact<'_> {
     }
 
     /// The mean tangent `Σ D_i x_i0` of the way on the master as it is at the start of the step [length].
-    pub fn start_tangent(&self) -> Along {
+    pub fn start_tangent(&self) -> WayVector {
         let value = self.sum(self.passage.difference(), 0.0);
-        Along { value, by_way: self.sum(self.passage.change(), 0.0) }
+        WayVector { value, by_way: self.sum(self.passage.change(), 0.0) }
     }
 
     /// The place `Σ B_i(ξ1) x_i1` on the master at the end of the way and of the step [length].
-    pub fn end_point(&self) -> Along {
+    pub fn end_point(&self) -> WayVector {
         let value = self.sum(self.passage.end(), 1.0);
-        Along { value, by_way: self.sum(self.passage.slope(), 1.0) }
+        WayVector { value, by_way: self.sum(self.passage.slope(), 1.0) }
     }
 
     /// The mean place `Σ B̄_i x̄_i` of way and step on the master [length].
-    pub fn mean_point(&self) -> Along {
+    pub fn mean_point(&self) -> WayVector {
         let value = self.sum(self.passage.mean(), 0.5);
-        Along { value, by_way: self.sum(self.passage.slope(), 0.5) * 0.5 }
+        WayVector { value, by_way: self.sum(self.passage.slope(), 0.5) * 0.5 }
     }
 
     /// The mean tangent `τ = Σ D_i x̄_i` of the way on the master in its mean configuration [length].
-    pub fn tangent(&self) -> Along {
+    pub fn tangent(&self) -> WayVector {
         let value = self.sum(self.passage.difference(), 0.5);
-        Along { value, by_way: self.sum(self.passage.change(), 0.5) }
+        WayVector { value, by_way: self.sum(self.passage.change(), 0.5) }
     }
 
     /// The swing `d = ¼ Σ D_i Δx_i` of the master along the way: a quarter of the change of its tangent [length].
-    pub fn swing(&self) -> Along {
+    pub fn swing(&self) -> WayVector {
         let value = self.movement(self.passage.difference()) * 0.25;
-        Along { value, by_way: self.movement(self.passage.change()) * 0.25 }
+        WayVector { value, by_way: self.movement(self.passage.change()) * 0.25 }
     }
 
     /// The index of the first control point of the master in the window of the way.
@@ -215,7 +215,7 @@ impl Contact<'_> {
     }
 
     /// The equation `λ·direction/ℓ = 0` of a contact without friction, for a direction that does not move with the master.
-    pub(super) fn frictionless(&self, direction: Along) -> Equation {
+    pub(super) fn frictionless(&self, direction: WayVector) -> Equation {
         let (force, scale) = (self.unknowns.force, 1.0 / self.length);
         let way = force.dot(&direction.by_way) * scale;
         Equation {

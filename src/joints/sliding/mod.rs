@@ -15,7 +15,7 @@ mod released;
 mod rule;
 
 pub use conserving::Conserving;
-pub use contact::{Along, CONTACT_UNKNOWNS, Contact, ContactUnknowns, Kink};
+pub use contact::{CONTACT_UNKNOWNS, Contact, ContactUnknowns, Kink, WayVector};
 pub use equation::{Equation, Unit};
 pub use exact::Exact;
 pub use held::Held;

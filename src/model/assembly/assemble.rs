@@ -1,14 +1,14 @@
 //! The parts of a scene put together.
 
-use super::numbering::{LeverPlace, Numbering};
-use crate::beams::{BodyDynamics, Mesh, Place, Points, Profile, Station, discretise};
+use super::numbering::{LinkPlace, Numbering};
+use crate::beams::{BodyDynamics, Mesh, Place, RigidPoints, SectionProfile, Station, discretise};
 use crate::elementary::square;
 use crate::geometry::{GeometryError, Vec2, interpolate};
 use crate::joints::{CONTACT_UNKNOWNS, Partner};
 use crate::model::bodies::{Bodies, Body, Tracker};
 use crate::model::elements::{Elements, Site, Weight};
-use crate::model::levers::{Lever, Levers};
 use crate::model::motion::Motion;
+use crate::model::rigid_links::{RigidLink, RigidLinks};
 use crate::model::scene::same_place;
 use crate::model::sliders::Sliders;
 use crate::model::{BeamDefinition, Model, ModelError, Scene};
@@ -40,11 +40,11 @@ impl Model {
             Numbering::new(scene, &assembly.bodies, border, |station| assembly.place(station))?;
         let sliders = Sliders::new(assembly.sliders(&numbering)?);
         let elements = assembly.elements()?;
-        let levers = assembly.levers(&numbering);
+        let links = assembly.links(&numbering);
         let (trackers, joined) = (assembly.trackers()?, assembly.joined()?);
-        let (supports, given, unknowns) = numbering.supports_and_unknowns(scene, border)?;
-        let mut rates = assembly.start_rates(&numbering, border, &given)?;
-        rates.extend(given);
+        let (supports, prescribed, unknowns) = numbering.supports_and_unknowns(scene, border)?;
+        let mut rates = assembly.start_rates(&numbering, border, &prescribed)?;
+        rates.extend(prescribed);
         let mass = assembly.mass();
         let Assembly { meshes, bodies, .. } = assembly;
         let bodies = bodies.into_iter().zip(numbering.degrees_of_freedom);
@@ -54,7 +54,7 @@ impl Model {
         let bodies = Bodies::new(bodies, meshes, trackers, joined, mass);
         let motion =
             Motion::new(rates, square(STRAIN_ROUNDINGS) * f64::EPSILON * scene.rounding_energy());
-        let mut model = Self::new(bodies, elements, levers, sliders, supports, unknowns, motion);
+        let mut model = Self::new(bodies, elements, links, sliders, supports, unknowns, motion);
         model.check_levers(scene)?;
         if !scene.sliders.is_empty() {
             model.check_determined(scene)?;
@@ -92,8 +92,10 @@ impl<'a> Assembly<'a> {
                     discretise(points, length, mesh, &beam.section).map_err(wrap)?
                 }
                 None => match index.checked_sub(scene.beams.len() + scene.particles.len()) {
-                    None => Box::new(Points::particle(points[0])),
-                    Some(body) => Box::new(Points::rigid(points, scene.rigid_bodies[body].angle)),
+                    None => Box::new(RigidPoints::particle(points[0])),
+                    Some(body) => {
+                        Box::new(RigidPoints::rigid(points, scene.rigid_bodies[body].angle))
+                    }
                 },
             });
         }
@@ -162,14 +164,14 @@ impl<'a> Assembly<'a> {
     }
 
     /// The points of rigid bodies, each held to the centre of its body where it is drawn.
-    fn levers(&self, numbering: &Numbering) -> Levers {
+    fn links(&self, numbering: &Numbering) -> RigidLinks {
         let first = self.scene.beams.len() + self.scene.particles.len();
-        let lever = |&LeverPlace { body, point, force }: &LeverPlace| {
+        let link = |&LinkPlace { body, point, force }: &LinkPlace| {
             let points = self.bodies[body].control_points();
             let angle = self.scene.rigid_bodies[body - first].angle;
-            Lever::new(body, point, force, [points[0], points[point]], angle)
+            RigidLink::new(body, point, force, [points[0], points[point]], angle)
         };
-        Levers::new(numbering.levers.iter().map(lever).collect())
+        RigidLinks::new(numbering.links.iter().map(link).collect())
     }
 
     fn elements(&self) -> Result<Elements, ModelError> {
@@ -205,7 +207,7 @@ impl Site for Assembly<'_> {
         &self.meshes[beam]
     }
 
-    fn profile(&self, beam: usize) -> &Profile {
+    fn profile(&self, beam: usize) -> &SectionProfile {
         &self.scene.beams[beam].section
     }
 

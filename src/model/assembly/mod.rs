@@ -1,9 +1,10 @@
 //! From a scene to a model: meshes with nodes where joints are, numbers, elements, sliders and start velocities.
 
 mod assemble;
-mod levers;
+mod classes;
 mod numbering;
 mod redundancy;
+mod rigid_links;
 mod sliders;
 mod start_rates;
 

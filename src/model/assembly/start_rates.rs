@@ -9,7 +9,7 @@ use crate::model::{ModelError, StartMotion, StationVelocity, Turning};
 /// Largest difference of tied start velocities, relative to the velocities of the beam.
 const SAME_VELOCITY: f64 = 1e-9;
 
-/// Largest difference of a start velocity from that with which a given motion begins, which is found by differences.
+/// Largest difference of a start velocity from that with which a prescribed motion begins, which is found by differences.
 const SAME_START: f64 = 1e-6;
 
 /// The components of a start velocity in messages.
@@ -18,7 +18,7 @@ const COMPONENTS: [&str; 3] = ["velocity along x", "velocity along y", "spin"];
 /// Why a supported movement has no velocity.
 const GROUND: &str = "the ground there does not move";
 
-/// Why a given movement has the velocity that it has.
+/// Why a prescribed movement has the velocity that it has.
 fn given_there(rate: f64) -> String {
     format!("its motion is given there, and begins with {rate}")
 }
@@ -28,7 +28,7 @@ struct Shared {
     rates: Vec<Option<(usize, f64)>>,
 }
 
-/// The rates with which given movements begin, behind the unknown ones.
+/// The rates with which prescribed movements begin, behind the unknown ones.
 #[derive(Clone, Copy)]
 struct Beginnings<'a> {
     unknowns: usize,
@@ -38,7 +38,7 @@ struct Beginnings<'a> {
 }
 
 impl Beginnings<'_> {
-    /// That of a degree of freedom, if it is given.
+    /// That of a degree of freedom, if it is prescribed.
     fn at(&self, degree: usize) -> Option<f64> {
         let entry = degree.checked_sub(self.unknowns)?;
         if entry < self.constraints { None } else { self.rates.get(entry).copied() }
@@ -71,14 +71,14 @@ impl Shared {
 impl Assembly<'_> {
     /// The rates of the unknown movements at the start, which fit joints and start velocities [length/time, 1/time].
     ///
-    /// Behind them stand constraints with so many unknowns, and movements that are given with rates of their own.
+    /// Behind them stand constraints with so many unknowns, and movements that are prescribed with rates of their own.
     pub fn start_rates(
         &self,
         numbering: &Numbering,
         constraints: usize,
-        given: &[f64],
+        prescribed: &[f64],
     ) -> Result<Vec<f64>, ModelError> {
-        let begun = Beginnings { unknowns: numbering.unknowns, rates: given, constraints };
+        let begun = Beginnings { unknowns: numbering.unknowns, rates: prescribed, constraints };
         let mut shared = Shared { rates: vec![None; numbering.unknowns] };
         for (index, beam) in self.scene.beams.iter().enumerate() {
             let degrees = &numbering.degrees_of_freedom[index];

@@ -79,7 +79,7 @@ impl Bodies {
         let speeds = self.iter().flat_map(|body| {
             (0..body.degrees_of_freedom.len()).map(|point| body.vector_at(point, rates).norm())
         });
-        speeds.fold(0.0, f64::max)
+        speeds.fold(0.0, larger)
     }
 
     /// The largest distance between places that joints hold together [length].

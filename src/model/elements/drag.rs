@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::drag_forces::{DragForces, DragPoint};
-use super::drag_law::{Along, DragLaw};
+use super::drag_law::{DragLaw, SpeedLaw};
 use super::element::{Assembled, Description, Setting, Site};
 use crate::beams::Station;
 use crate::geometry::{GaussRule, Vec2};
@@ -18,16 +18,16 @@ pub enum Dragged {
         /// The beam.
         beam: usize,
         /// The force per length across the axis.
-        normal: Along,
+        normal: SpeedLaw,
         /// The force per length along the axis.
-        tangent: Along,
+        tangent: SpeedLaw,
     },
     /// A point: a particle, or a station of a beam. It is dragged alike in every direction.
     Point {
         /// Where it is.
         station: Station,
         /// The force against its velocity.
-        law: Along,
+        law: SpeedLaw,
     },
 }
 
@@ -48,7 +48,7 @@ impl Drag {
         format!("drag '{}'", self.name)
     }
 
-    fn check_law(&self, law: &Along, names: [&'static str; 2]) -> Result<(), ModelError> {
+    fn check_law(&self, law: &SpeedLaw, names: [&'static str; 2]) -> Result<(), ModelError> {
         let values = [law.linear, law.quadratic];
         let wrong = names.into_iter().zip(values).find(|(_, x)| !(x.is_finite() && *x >= 0.0));
         match wrong {

@@ -10,14 +10,14 @@ use crate::geometry::{Vec2, perpendicular};
 
 /// A force over a speed, `c s + k |s| s`: of a point, or per length of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Along {
+pub struct SpeedLaw {
     /// `c` [force·time/length; of a line force·time/length²].
     pub linear: f64,
     /// `k` [force·time²/length²; of a line force·time²/length³].
     pub quadratic: f64,
 }
 
-impl Along {
+impl SpeedLaw {
     fn force(&self, speed: f64) -> f64 {
         (self.linear + self.quadratic * speed.abs()) * speed
     }
@@ -31,13 +31,13 @@ impl Along {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DragLaw {
     /// Alike in every direction.
-    Point(Along),
+    Point(SpeedLaw),
     /// Across and along a line.
     Line {
         /// Across it.
-        normal: Along,
-        /// Along it.
-        tangent: Along,
+        normal: SpeedLaw,
+        /// SpeedLaw it.
+        tangent: SpeedLaw,
     },
 }
 
@@ -87,7 +87,7 @@ impl DragLaw {
 
     /// The same law without what is quadratic in velocities.
     pub fn linear(&self) -> Self {
-        let linear = |law: &Along| Along { quadratic: 0.0, ..*law };
+        let linear = |law: &SpeedLaw| SpeedLaw { quadratic: 0.0, ..*law };
         match self {
             Self::Point(law) => Self::Point(linear(law)),
             Self::Line { normal, tangent } => {
@@ -98,7 +98,7 @@ impl DragLaw {
 
     /// The law in words.
     pub fn describe(&self) -> String {
-        let law = |law: &Along| match (law.linear, law.quadratic) {
+        let law = |law: &SpeedLaw| match (law.linear, law.quadratic) {
             (linear, 0.0) => format!("{linear} v"),
             (0.0, quadratic) => format!("{quadratic} |v| v"),
             (linear, quadratic) => format!("{linear} v + {quadratic} |v| v"),
@@ -120,7 +120,7 @@ mod tests {
     #[test]
     fn derivatives_are_those_of_the_force_and_no_force_drives() {
         let (normal, tangent) =
-            (Along { linear: 0.3, quadratic: 2.0 }, Along { linear: 0.1, quadratic: 0.4 });
+            (SpeedLaw { linear: 0.3, quadratic: 2.0 }, SpeedLaw { linear: 0.1, quadratic: 0.4 });
         for law in [DragLaw::Point(normal), DragLaw::Line { normal, tangent }] {
             for (angle, velocity) in [(0.3, Vec2::new(1.0, -2.0)), (2.5, Vec2::new(-0.4, 0.2))] {
                 let h = 1e-6;
@@ -140,7 +140,7 @@ mod tests {
 
     #[test]
     fn what_does_not_move_is_not_dragged() {
-        let law = DragLaw::Point(Along { linear: 0.3, quadratic: 2.0 });
+        let law = DragLaw::Point(SpeedLaw { linear: 0.3, quadratic: 2.0 });
         let found = law.resist(Vec2::zeros(), Vec2::x());
         assert_eq!((found.force, found.by_velocity[0].x), (Vec2::zeros(), 0.3));
     }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::beams::Station;
 use crate::joints::Component;
-use crate::loads::{Course, Schedule};
+use crate::loads::{PrescribedMotion, Schedule};
 
 /// What gives a motion: what it is called, and what is told of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -25,33 +25,33 @@ impl DriveKind {
     }
 }
 
-/// A motion of a station that is given, component by component.
+/// A motion of a station that is prescribed, component by component.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Drive {
     /// The name of the drive in messages and columns.
     pub name: String,
     /// What gives the motion.
     pub kind: DriveKind,
-    /// The station whose motion is given.
+    /// The station whose motion is prescribed.
     pub station: Station,
-    /// What is given for x, y and the angle, as far as it is; displacements are counted from the place as drawn.
-    pub courses: [Option<Course>; 3],
+    /// What is prescribed for x, y and the angle, as far as it is; displacements are counted from the place as drawn.
+    pub motions: [Option<PrescribedMotion>; 3],
 }
 
 impl Drive {
-    /// Whether a component of the station is given.
+    /// Whether a component of the station is prescribed.
     pub fn drives(&self, component: Component) -> bool {
-        self.courses[component as usize].is_some()
+        self.motions[component as usize].is_some()
     }
 
-    /// The components that are given, with what they do.
-    pub fn courses(&self) -> impl Iterator<Item = (Component, &Course)> {
-        let all = Component::ALL.into_iter().zip(&self.courses);
-        all.filter_map(|(component, course)| Some((component, course.as_ref()?)))
+    /// The components that are prescribed, with what they do.
+    pub fn motions(&self) -> impl Iterator<Item = (Component, &PrescribedMotion)> {
+        let all = Component::ALL.into_iter().zip(&self.motions);
+        all.filter_map(|(component, motion)| Some((component, motion.as_ref()?)))
     }
 
     /// The functions of time that it follows.
     pub fn schedules(&self) -> impl Iterator<Item = &Schedule> {
-        self.courses().map(|(_, course)| course.schedule())
+        self.motions().map(|(_, motion)| motion.schedule())
     }
 }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::point_mass::Lump;
 use super::{Drag, ForceElement, MaterialDamping, PointMass, Resistance, Spring};
-use crate::beams::{BodyDynamics, Mesh, Place, Profile, Station};
+use crate::beams::{BodyDynamics, Mesh, Place, SectionProfile, Station};
 use crate::geometry::GeometryError;
 use crate::loads::{Load, Schedule};
 use crate::model::ModelError;
@@ -131,7 +131,7 @@ pub trait Site {
     fn mesh(&self, beam: usize) -> &Mesh;
 
     /// The sections along a beam, by its index.
-    fn profile(&self, beam: usize) -> &Profile;
+    fn profile(&self, beam: usize) -> &SectionProfile;
 
     /// A body at its start, by its index: beams come first, then particles, then rigid bodies.
     fn body(&self, index: usize) -> &dyn BodyDynamics;

@@ -1,6 +1,6 @@
 //! What supports give.
 
-use super::{Exchange, Guides};
+use super::{Exchange, PrescribedMovements};
 use crate::geometry::{Vec2, cross};
 use crate::joints::Component;
 use crate::model::bodies::Body;
@@ -24,27 +24,27 @@ impl Support {
     }
 }
 
-/// The supports of a model, in the order of their degrees of freedom, which stand last of all: those that move as is given, then those that do not
+/// The supports of a model, in the order of their degrees of freedom, which stand last of all: those that move as is prescribed, then those that do not
 /// move.
 pub struct Supports {
-    guides: Guides,
+    prescribed: PrescribedMovements,
     held: Vec<Support>,
 }
 
 impl Supports {
-    /// The supports of a model, given in the order of their degrees of freedom.
-    pub fn new(guides: Guides, held: Vec<Support>) -> Self {
-        Self { guides, held }
+    /// The supports of a model: prescribed movements, and held ones in the order of their degrees of freedom.
+    pub fn new(prescribed: PrescribedMovements, held: Vec<Support>) -> Self {
+        Self { prescribed, held }
     }
 
     /// The number of supported degrees of freedom.
     pub fn count(&self) -> usize {
-        self.guides.count() + self.held.len()
+        self.prescribed.count() + self.held.len()
     }
 
     /// The supports, in the order of their degrees of freedom.
     pub fn iter(&self) -> impl Iterator<Item = &Support> {
-        self.guides.supports().chain(&self.held)
+        self.prescribed.supports().chain(&self.held)
     }
 
     /// Those that do not move.
@@ -52,14 +52,14 @@ impl Supports {
         self.held.iter()
     }
 
-    /// Those that move as is given.
-    pub fn guides(&self) -> &Guides {
-        &self.guides
+    /// Those that move as is prescribed.
+    pub fn prescribed(&self) -> &PrescribedMovements {
+        &self.prescribed
     }
 
-    /// Those that move as is given, to be moved.
-    pub fn guides_mut(&mut self) -> &mut Guides {
-        &mut self.guides
+    /// Those that move as is prescribed, to be moved.
+    pub fn prescribed_mut(&mut self) -> &mut PrescribedMovements {
+        &mut self.prescribed
     }
 
     /// The supports with their reactions, which are the last entries of a residual.
@@ -71,7 +71,7 @@ impl Supports {
         self.iter().zip(residual[first..].iter().copied())
     }
 
-    /// The impulse that the supports give which are not given a motion, in the step of the movements that the bodies gathered last, with its reactions.
+    /// The impulse that the supports give that hold still, in the step of the movements that the bodies gathered last, with its reactions.
     ///
     /// What is free moves, as a roller does: they act at the mean place.
     pub fn exchange(&self, bodies: &[Body], residual: &[f64], duration: f64) -> Exchange {
@@ -93,7 +93,7 @@ impl Supports {
         place: impl Fn(usize, usize) -> Vec2,
     ) -> Exchange {
         let mut sum = Exchange::default();
-        for (support, reaction) in self.with_reactions(residual).skip(self.guides.count()) {
+        for (support, reaction) in self.with_reactions(residual).skip(self.prescribed.count()) {
             let (force, moment) = support.reaction(reaction);
             let at = place(support.body, support.point);
             let angular = (cross(at, force) + moment) * duration;

@@ -6,7 +6,7 @@ use crate::model::elements::{DriveState, LoadAccount};
 impl Model {
     /// What the drives have given, in the order of the scene.
     pub fn drives(&self) -> impl Iterator<Item = DriveState<'_>> {
-        self.supports().guides().states()
+        self.supports().prescribed().states()
     }
 
     /// What the loads with names have given, in the order of the scene.

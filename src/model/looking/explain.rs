@@ -1,6 +1,6 @@
 //! What a scene uses, and what it therefore leaves out.
 
-use crate::beams::{PointCounts, Profile};
+use crate::beams::{PointCounts, SectionProfile};
 use crate::geometry::Vec2;
 use crate::integrators::{Constraints, INTEGRATORS, Mechanism, Method};
 use crate::joints::{Component, Joint, Partner, SLIDING_RULES, StartVelocities};
@@ -75,9 +75,9 @@ impl Model {
     fn explain_matrix(&self) -> Part {
         let how =
             format!("{} movements, half-bandwidth {}", self.movements(), self.half_bandwidth());
-        let how = match 2 * self.levers().count() {
+        let how = match 2 * self.links().count() {
             0 => how,
-            forces => format!("{how}; {forces} of levers among them, in the band"),
+            forces => format!("{how}; {forces} of rigid links among them, in the band"),
         };
         let how = match self.constraint_shape().width {
             0 => how,
@@ -88,17 +88,17 @@ impl Model {
 
     /// The unknowns that are movements.
     fn movements(&self) -> usize {
-        self.unknowns() - 2 * self.levers().count()
+        self.unknowns() - 2 * self.links().count()
     }
 
     fn explain_bodies(&self, scene: &Scene) -> Option<Part> {
-        let points = self.levers().count();
+        let points = self.links().count();
         let how = match (scene.rigid_bodies.len(), points) {
             (0, _) => return None,
-            (count, 0) => format!("{count}, which are held at their centres: no levers"),
+            (count, 0) => format!("{count}, which are held at their centres: no rigid links"),
             (count, points) => format!(
                 "{count} with {}: a force with two components holds each, and keeps energy and momenta",
-                plural(points, "lever")
+                plural(points, "rigid link")
             ),
         };
         Some(Part::used("rigid bodies", how))
@@ -119,8 +119,8 @@ impl Model {
                 "{mesh}, {points} control points; points for Γ {force}, κ {moment}, mass {inertia}"
             );
             let taper = match beam.section {
-                Profile::Uniform(_) => "",
-                Profile::Numbers(_) | Profile::Dimensions(_) => {
+                SectionProfile::Uniform(_) => "",
+                SectionProfile::Numbers(_) | SectionProfile::Dimensions(_) => {
                     "; a taper: each point has a section of its own"
                 }
             };
@@ -243,7 +243,7 @@ impl Model {
 }
 
 fn explain_drive(scene: &Scene, drive: &Drive) -> Part {
-    let names: Vec<&str> = drive.courses().map(|(component, _)| component.name()).collect();
+    let names: Vec<&str> = drive.motions().map(|(component, _)| component.name()).collect();
     let place = scene.describe(&drive.station);
     let functions: usize = drive.schedules().map(|schedule| schedule.functions()).sum();
     let calls = match functions {

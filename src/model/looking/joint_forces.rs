@@ -58,8 +58,8 @@ impl Model {
         let all = scene.joints.iter().map(|joint| Ok((joint.kind, ends(joint)?)));
         let all = all.collect::<Result<Vec<_>, ModelError>>()?;
         // A rigid body turns as a whole.
-        let levers = self.levers().iter();
-        let turning = levers.map(|lever| (Some((lever.body, 0)), Some((lever.body, lever.point))));
+        let links = self.links().iter();
+        let turning = links.map(|link| (Some((link.body, 0)), Some((link.body, link.point))));
         let turning: Vec<(Node, Node)> = turning.collect();
         let drives = scene.drives.iter().map(|drive| {
             let place = scene.place(&drive.station, self.meshes())?;

@@ -63,9 +63,10 @@ impl Model {
         place: &SectionPlace,
     ) -> SectionForces {
         let bodies = self.bodies();
-        let viscous = self.elements().resistances().filter_map(|resistance| {
-            resistance.transmitted(bodies, (beam, place), self.rates())
-        });
+        let viscous = self
+            .elements()
+            .resistances()
+            .filter_map(|resistance| resistance.transmitted(bodies, (beam, place), self.rates()));
         viscous.fold(of_strains, SectionForces::with_viscous)
     }
 

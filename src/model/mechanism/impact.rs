@@ -106,10 +106,10 @@ impl Model {
         let mut inertia = self.banded_inertia();
         let inertia = inertia.factorise()?;
         let answers = self.answers(&inertia, directions);
-        // What points of rigid bodies move beside these is changed by the same factor: then levers do no work either.
+        // What points of rigid bodies move beside these is changed by the same factor: then rigid links do no work either.
         let mut change = vec![0.0; self.unknowns()];
-        if self.levers.count() > 0 {
-            self.levers.set_slip(&self.bodies, &self.motion.rates, factor, &mut change);
+        if self.links.count() > 0 {
+            self.links.set_slip(&self.bodies, &self.motion.rates, factor, &mut change);
             inertia.solve(&mut change);
         }
         let mut response = BandedMatrix::zeros(count, count.saturating_sub(1));
@@ -131,14 +131,15 @@ impl Model {
         }
         // What is left of `M (v⁺ - v⁻) - Gᵀ P` at supports is their impulse.
         self.add_inertia(1.0, &change, &mut residual);
-        self.levers.transmit(&self.bodies, &change, &mut residual);
-        // Impulses of levers are no forces that go on.
-        self.levers.clear(&mut change);
+        self.links.transmit(&self.bodies, &change, &mut residual);
+        // Impulses of rigid links are no forces that go on.
+        self.links.clear(&mut change);
         self.motion.jump(&change);
         self.exchanged += self.supports.exchange_in_blow(&self.bodies, &residual);
-        if self.supports.guides().count() > 0 {
-            let guides = self.supports.guides_mut();
-            self.exchanged += guides.exchange_in_blow(&self.bodies, &residual, &self.motion.rates);
+        if self.supports.prescribed().count() > 0 {
+            let movements = self.supports.prescribed_mut();
+            self.exchanged +=
+                movements.exchange_in_blow(&self.bodies, &residual, &self.motion.rates);
         }
         Ok(impulses)
     }

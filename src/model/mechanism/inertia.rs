@@ -31,13 +31,13 @@ impl Model {
         })
     }
 
-    /// The inertia matrix of the model's unknown movements with the couplings of levers beside it, as a band: what answers to forces by accelerations
-    /// and forces of levers [mass, mass·length, mass·length²].
+    /// The inertia matrix of the model's unknown movements with the couplings of rigid links beside it, as a band: what answers to forces by accelerations
+    /// and forces of rigid links [mass, mass·length, mass·length²].
     pub(super) fn banded_inertia(&self) -> BandedMatrix {
         let mut inertia =
             BandedMatrix::zeros(self.unknowns.count(), self.unknowns.half_bandwidth());
         self.add_inertia_tangent(1.0, &mut inertia);
-        self.levers.add_coupling(&self.bodies, self.unknowns.count(), &mut inertia);
+        self.links.add_coupling(&self.bodies, self.unknowns.count(), &mut inertia);
         inertia
     }
 

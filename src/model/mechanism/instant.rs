@@ -20,7 +20,7 @@ use crate::model::{ModelError, SliderState};
 /// What acts at the present moment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Instant {
-    /// Of the unknown movements [length/time², 1/time²]; forces of levers where their unknowns stand.
+    /// Of the unknown movements [length/time², 1/time²]; forces of rigid links where their unknowns stand.
     accelerations: Vec<f64>,
     /// What is left at each degree of freedom: what supports give [force, force·length].
     residual: Vec<f64>,
@@ -77,9 +77,9 @@ impl Model {
             .collect();
         let mut residual = vec![0.0; self.degrees_of_freedom()];
         degrees.iter().zip(&apart).for_each(|(&at, force)| residual[at] += force);
-        if self.supports.guides().count() > 0 {
-            let given = self.supports.guides().accelerations();
-            self.add_inertia(1.0, &given, &mut residual);
+        if self.supports.prescribed().count() > 0 {
+            let prescribed = self.supports.prescribed().accelerations();
+            self.add_inertia(1.0, &prescribed, &mut residual);
         }
         for slider in self.sliders.iter().filter(|slider| slider.gives_way()) {
             slider.transmit(&self.bodies, slider.contact_force(), &mut residual);
@@ -96,7 +96,7 @@ impl Model {
         let of_all: Vec<f64> =
             degrees.iter().map(|&at| accelerations.get(at).copied().unwrap_or(0.0)).collect();
         self.add_inertia(1.0, &of_all, &mut apart);
-        self.levers.transmit(&self.bodies, &accelerations, &mut apart);
+        self.links.transmit(&self.bodies, &accelerations, &mut apart);
         for (slider, force) in self.sliders.iter().zip(&contacts) {
             slider.transmit(&self.bodies, *force, &mut apart);
         }
@@ -114,12 +114,12 @@ impl Model {
     fn answer(&self, residual: &[f64]) -> Result<(Vec<f64>, Vec<Vec2>), LinearError> {
         let mut accelerations: Vec<f64> =
             residual[..self.unknowns()].iter().map(|force| -force).collect();
-        let given = self.supports.guides().accelerations();
-        self.levers.set_carried(&self.bodies, &self.motion.rates, &given, &mut accelerations);
+        let prescribed = self.supports.prescribed().accelerations();
+        self.links.set_carried(&self.bodies, &self.motion.rates, &prescribed, &mut accelerations);
         let mut inertia = self.banded_inertia();
         let inertia = inertia.factorise()?;
         inertia.solve(&mut accelerations);
-        accelerations.extend(given.into_iter().skip(self.unknowns()));
+        accelerations.extend(prescribed.into_iter().skip(self.unknowns()));
         let mut contacts = vec![Vec2::zeros(); self.sliders.len()];
         let directions = self.sliders.directions(&self.bodies, usize::MAX);
         let answers = self.answers(&inertia, &directions);
@@ -160,7 +160,7 @@ impl Model {
 
     /// The rigid bodies among those of some nodes: what holds one in its rotation turns all its points.
     pub(super) fn rigid_bodies_of(&self, nodes: &[(usize, usize)]) -> Vec<usize> {
-        let is_rigid = |body: &usize| self.levers.iter().any(|lever| lever.body == *body);
+        let is_rigid = |body: &usize| self.links.iter().any(|link| link.body == *body);
         nodes.iter().map(|(body, _)| *body).filter(is_rigid).collect()
     }
 

@@ -77,7 +77,7 @@ impl Model {
             gross_angular_impulse: self.exchanged.gross_angular_impulse,
             gap: larger(
                 larger(self.bodies.largest_gap(), self.sliders.largest_gap(&self.bodies)),
-                self.levers.largest_gap(&self.bodies),
+                self.links.largest_gap(&self.bodies),
             ),
         }
     }

@@ -8,7 +8,7 @@ use crate::beams::{Place, RotationIncrement};
 use crate::geometry::{Vec2, larger};
 use crate::integrators::Stage;
 use crate::linalg::BandedMatrix;
-use crate::model::levers::Leverage;
+use crate::model::rigid_links::ArmRule;
 
 /// The largest of the forces that meet in a model at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -26,7 +26,7 @@ impl Model {
     pub fn begin_movement(&mut self) {
         self.bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
         self.elements.begin_movement();
-        self.levers.begin_movement();
+        self.links.begin_movement();
     }
 
     /// Adds the internal forces of the model minus `load_factor` times the loads, with the section forces as they are.
@@ -36,7 +36,7 @@ impl Model {
         load_factor: f64,
         out: &mut [f64],
     ) -> StaticForces {
-        let movements = &*self.supports.guides().at_rest(movements, load_factor);
+        let movements = &*self.supports.prescribed().at_rest(movements, load_factor);
         let summary = self.add_internal_forces(Stage::End, movements, 1.0, out);
         let (force, moment) = self.subtract_static_loads(movements, load_factor, out);
         StaticForces {
@@ -54,13 +54,13 @@ impl Model {
         out: &mut [f64],
         tangent: &mut BandedMatrix,
     ) {
-        let movements = &*self.supports.guides().at_rest(movements, load_factor);
+        let movements = &*self.supports.prescribed().at_rest(movements, load_factor);
         self.add_linearised(Stage::End, movements, (1.0, load_factor), out, tangent);
     }
 
     /// The largest distance of a point of a rigid body from its place by the forces of the model, relative to its movements and its arm [-].
     pub fn lever_violation(&self, residual: &[f64]) -> f64 {
-        self.levers.violation(residual)
+        self.links.violation(residual)
     }
 
     /// Subtracts `load_factor` times the loads and the weight of the model; gives the largest force and moment of a whole load on a
@@ -74,21 +74,21 @@ impl Model {
         self.subtract_loads(Stage::End, movements, load_factor, out)
     }
 
-    /// Moves the model by some movements of its unknowns [length, rad] to where given motions are under a part of the load, and leaves it at rest there.
+    /// Moves the model by some movements of its unknowns [length, rad] to where prescribed motions are under a part of the load, and leaves it at rest there.
     pub fn move_by(&mut self, movements: &[f64], load_factor: f64) {
-        let movements = self.supports.guides().at_rest(movements, load_factor);
+        let movements = self.supports.prescribed().at_rest(movements, load_factor);
         self.bodies.gather(&movements);
-        let leverage = Leverage { rotations: RotationIncrement::Angle, share: 1.0 };
-        self.levers.advance(&self.bodies, leverage, &movements);
-        self.supports.guides_mut().place(load_factor);
+        let arms = ArmRule { rotations: RotationIncrement::Angle, share: 1.0 };
+        self.links.advance(&self.bodies, arms, &movements);
+        self.supports.prescribed_mut().place(load_factor);
         self.elements.advance(&self.bodies, RotationIncrement::Angle);
         self.bodies.advance(RotationIncrement::Angle);
         self.motion.rates.fill(0.0);
     }
 
-    /// Whether given motions have to be put on with the loads.
+    /// Whether prescribed motions have to be put on with the loads.
     pub fn is_moved_at_rest(&self) -> bool {
-        self.supports.guides().moves_at_rest()
+        self.supports.prescribed().moves_at_rest()
     }
 
     /// The forces of the supports on the scene at a place, from forces at rest: force [force] and moment [force·length]; none where

@@ -53,8 +53,8 @@ impl Model {
         self.motion.save(numbers);
         self.bodies.save(numbers);
         self.elements.save(numbers);
-        self.levers.save(numbers);
-        self.supports.guides().save(numbers);
+        self.links.save(numbers);
+        self.supports.prescribed().save(numbers);
         self.motion.accelerations.save(numbers);
         self.sliders.save(numbers);
         *trend = self.motion.trend();
@@ -74,8 +74,8 @@ impl Model {
         self.motion.restore(state.trend, next);
         self.bodies.restore(next);
         self.elements.restore(next);
-        self.levers.restore(next);
-        self.supports.guides_mut().restore(next);
+        self.links.restore(next);
+        self.supports.prescribed_mut().restore(next);
         self.motion.accelerations.restore(state.knows_accelerations, next);
         self.sliders.restore(&state.sliders, next);
         assert!(numbers.next().is_none(), "the state is one of this model");

@@ -4,19 +4,19 @@ use super::Model;
 use crate::beams::{Collocation, ForceSummary};
 use crate::geometry::larger;
 use crate::integrators::{
-    Accelerated, Cause, Checkpoint, Constraints, Forces, Given, Interval, Mechanism, Overshoot,
-    Solution, Stage, StepError,
+    Accelerated, Cause, Checkpoint, Constraints, Forces, Interval, Mechanism, Overshoot,
+    Prescribed, Solution, Stage, StepError,
 };
 use crate::linalg::{BandedMatrix, Border, BorderShape};
 use crate::model::elements::{Exchange, Iterate, collocation};
-use crate::model::levers::Leverage;
+use crate::model::rigid_links::ArmRule;
 
-/// Where a method that balances the forces of a stage, with such a share of them after the start of the step, takes the arms of levers: at the time
+/// Where a method that balances the forces of a stage, with such a share of them after the start of the step, takes the arms of rigid links: at the time
 /// of that balance, as otherwise it would be of first order.
-fn leverage(stage: Stage, weight: f64) -> Leverage {
+fn arms(stage: Stage, weight: f64) -> ArmRule {
     let Collocation { rotations, configuration, .. } = collocation(stage);
     let share = if stage == Stage::End { weight } else { configuration };
-    Leverage { rotations, share }
+    ArmRule { rotations, share }
 }
 
 impl Model {
@@ -35,8 +35,8 @@ impl Model {
         let at = Iterate { bodies: &self.bodies, stage, increments, weight };
         self.elements.add_resistance(at, out, &mut summary);
         if stage != Stage::Start {
-            let leverage = leverage(stage, weight);
-            self.levers.add(&self.bodies, leverage, increments, out, &mut summary);
+            let arms = arms(stage, weight);
+            self.links.add(&self.bodies, arms, increments, out, &mut summary);
         }
         summary
     }
@@ -68,9 +68,9 @@ impl Model {
         let (at, unknowns) =
             (Iterate { bodies: &self.bodies, stage, increments, weight }, self.unknowns.count());
         self.elements.add_linearised_resistance(at, out, unknowns, tangent);
-        let (leverage, none) = (leverage(stage, weight), &mut ForceSummary::default());
-        self.levers.add(&self.bodies, leverage, increments, out, none);
-        self.levers.add_tangent(&self.bodies, leverage, increments, unknowns, tangent);
+        let (arms, none) = (arms(stage, weight), &mut ForceSummary::default());
+        self.links.add(&self.bodies, arms, increments, out, none);
+        self.links.add_tangent(&self.bodies, arms, increments, unknowns, tangent);
         self.subtract_loads(stage, increments, share, out);
         let at = Iterate { bodies: &self.bodies, stage, increments, weight: share };
         self.elements.add_tangent(at, unknowns, tangent);
@@ -83,20 +83,20 @@ impl Model {
         if duration < 0.0 { sum.taken_back() } else { sum }
     }
 
-    /// Finds what inertia the given movements met in a step: `M Δv` and `M v̄` there.
+    /// Finds what inertia the prescribed movements met in a step: `M Δv` and `M v̄` there.
     fn meet_given(&mut self, rates: &[f64]) {
         let Self { bodies, elements, supports, motion, step, .. } = self;
-        let guides = supports.guides_mut();
+        let movements = supports.prescribed_mut();
         let before = &motion.rates;
-        let (change, struck) = (guides.fill(|at| rates[at] - before[at]), step.no_forces());
+        let (change, struck) = (movements.fill(|at| rates[at] - before[at]), step.no_forces());
         bodies.add_inertia(1.0, change, struck);
         elements.add_inertia(bodies, 1.0, change, struck);
-        guides.take_struck(struck);
-        let mean = guides.fill(|at| 0.5 * (before[at] + rates[at]));
+        movements.take_struck(struck);
+        let mean = movements.fill(|at| 0.5 * (before[at] + rates[at]));
         let momentum = step.no_forces();
         bodies.add_inertia(1.0, mean, momentum);
         elements.add_inertia(bodies, 1.0, mean, momentum);
-        guides.take_momentum(bodies, momentum);
+        movements.take_momentum(bodies, momentum);
     }
 
     /// What the drives gave in a step that ends with such rates.
@@ -104,8 +104,8 @@ impl Model {
         let duration = self.step.interval.duration();
         let before = &self.motion.rates;
         let mean = |at: usize| 0.5 * (before[at] + rates[at]);
-        let guides = self.supports.guides_mut();
-        let sum = guides.exchange(&self.bodies, residual, duration, mean);
+        let movements = self.supports.prescribed_mut();
+        let sum = movements.exchange(&self.bodies, residual, duration, mean);
         if duration < 0.0 { sum.taken_back() } else { sum }
     }
 }
@@ -152,7 +152,7 @@ impl Forces for Model {
     }
 
     fn largest_rotation(&self) -> f64 {
-        larger(self.step.summary.rotation, self.supports.guides().turn())
+        larger(self.step.summary.rotation, self.supports.prescribed().turn())
     }
 }
 
@@ -184,7 +184,7 @@ impl Constraints for Model {
     fn relative_violation(&self, residual: &[f64]) -> f64 {
         let equations = &residual[self.unknowns.count()..];
         let contacts = self.sliders.violation(equations, |force| self.step.relative_force(force));
-        larger(contacts, self.levers.violation(residual))
+        larger(contacts, self.links.violation(residual))
     }
 
     fn check_constraints(&self, unknowns: &[f64]) -> Result<(), Overshoot> {
@@ -217,17 +217,17 @@ impl Mechanism for Model {
         self.motion.expected_rates()
     }
 
-    fn given(&self) -> &Given {
-        self.supports.guides().given()
+    fn prescribed(&self) -> &Prescribed {
+        self.supports.prescribed().in_step()
     }
 
     fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), StepError> {
-        let Self { bodies, elements, levers, supports, motion, step, unknowns, .. } = self;
+        let Self { bodies, elements, links, supports, motion, step, unknowns, .. } = self;
         let refused = |(load, error)| StepError::Load { interval, load, source: Cause::new(error) };
         let rotations = collocation(stages.first().copied().unwrap_or(Stage::Midpoint)).rotations;
-        let guides = supports.guides_mut();
-        guides.begin_step(interval, rotations, &motion.rates).map_err(refused)?;
-        levers.begin_step(interval.duration());
+        let movements = supports.prescribed_mut();
+        movements.begin_step(interval, rotations, &motion.rates).map_err(refused)?;
+        links.begin_step(interval.duration());
         elements.begin_step(interval, stages).map_err(refused)?;
         bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
         let knows_accelerations = motion.accelerations.known().is_some();
@@ -241,23 +241,23 @@ impl Mechanism for Model {
 
     fn advance(&mut self, solution: &Solution<'_>) {
         let Solution { increments, constraints, rates, residual } = *solution;
-        let is_driven = self.supports.guides().count() > 0;
+        let is_driven = self.supports.prescribed().count() > 0;
         if is_driven {
             self.meet_given(rates);
         }
         self.bodies.gather(increments);
         self.exchanged += self.exchange_in_step(residual);
         if is_driven {
-            let given = self.exchange_of_drives(rates, residual);
-            self.exchanged += given;
+            let prescribed = self.exchange_of_drives(rates, residual);
+            self.exchanged += prescribed;
         }
         self.elements.advance(&self.bodies, self.step.rotations);
         self.bodies.advance(self.step.rotations);
-        let leverage = Leverage { rotations: self.step.rotations, share: 0.5 };
-        self.levers.advance(&self.bodies, leverage, increments);
+        let arms = ArmRule { rotations: self.step.rotations, share: 0.5 };
+        self.links.advance(&self.bodies, arms, increments);
         self.sliders.advance(&self.bodies, constraints, self.step.interval.ending());
         self.motion.advance(&self.step, increments, rates);
-        self.levers.write_forces(&mut self.motion.rates);
+        self.links.write_forces(&mut self.motion.rates);
     }
 
     fn checkpoint(&mut self) -> &mut dyn Checkpoint {

@@ -8,10 +8,10 @@ use crate::beams::SpanAtRest;
 use crate::elementary::square;
 use crate::geometry::larger;
 use crate::linalg::{PreciseBand, SymmetricSparse};
-use crate::model::levers::Lever;
 use crate::model::motion::UnknownKind;
+use crate::model::rigid_links::RigidLink;
 
-/// A lever is so many times as stiff as anything else of a model where small movements are looked for: frequencies are lower by less than a part of that,
+/// A rigid link is so many times as stiff as anything else of a model where small movements are looked for: frequencies are lower by less than a part of that,
 /// and with 32 digits nothing else is hidden.
 const RIGID: f64 = 1e8;
 
@@ -35,19 +35,19 @@ impl Model {
         self.elements.dissipation(&self.bodies, rates)
     }
 
-    /// How far from the diagonal the stiffness of a configuration has entries, where levers couple points and bodies without forces between them.
+    /// How far from the diagonal the stiffness of a configuration has entries, where rigid links couple points and bodies without forces between them.
     pub fn half_bandwidth_at_rest(&self) -> usize {
-        let of_lever = |lever: &Lever| {
-            let degrees = &self.bodies[lever.body].degrees_of_freedom;
-            let ([x, y, rotation], [point_x, point_y, _]) = (degrees[0], degrees[lever.point]);
+        let of_lever = |link: &RigidLink| {
+            let degrees = &self.bodies[link.body].degrees_of_freedom;
+            let ([x, y, rotation], [point_x, point_y, _]) = (degrees[0], degrees[link.point]);
             let free = [x, y, rotation, point_x, point_y];
             let free = free.into_iter().filter(|at| *at < self.unknowns.count());
             free.clone().max().unwrap_or(0) - free.min().unwrap_or(0)
         };
-        self.levers.iter().map(of_lever).fold(self.unknowns.half_bandwidth(), usize::max)
+        self.links.iter().map(of_lever).fold(self.unknowns.half_bandwidth(), usize::max)
     }
 
-    /// Gives every lever as at rest, so stiff that nothing is seen of what gives way: `RIGID` times the largest `stiffness` of a
+    /// Gives every rigid link as at rest, so stiff that nothing is seen of what gives way: `RIGID` times the largest `stiffness` of a
     /// movement of the model [force/length, force·length].
     pub fn each_lever_at_rest(
         &self,
@@ -59,28 +59,28 @@ impl Model {
             UnknownKind::Position => stiffness(at),
             UnknownKind::Rotation | UnknownKind::Force => 0.0,
         });
-        let of_levers = self.levers.iter().map(|lever| {
-            let own = self.levers.iter().filter(|other| other.body == lever.body);
+        let of_levers = self.links.iter().map(|link| {
+            let own = self.links.iter().filter(|other| other.body == link.body);
             let size = own.map(|other| other.arm().norm()).fold(0.0, larger);
-            let [.., rotation] = self.bodies[lever.body].degrees_of_freedom[0];
+            let [.., rotation] = self.bodies[link.body].degrees_of_freedom[0];
             let moment = if rotation < self.unknowns.count() { stiffness(rotation) } else { 0.0 };
-            larger(moment / square(size), lever.force().norm() / size)
+            larger(moment / square(size), link.force().norm() / size)
         });
         let largest = of_movements.chain(of_levers).fold(0.0, larger);
         let rigid = if largest > 0.0 { RIGID * largest } else { 1.0 };
-        self.levers.each_at_rest(&self.bodies, rigid, take);
+        self.links.each_at_rest(&self.bodies, rigid, take);
     }
 
-    /// How many movements with inertia fewer the model has than its inertia matrix: the levers hold them to each other.
+    /// How many movements with inertia fewer the model has than its inertia matrix: the rigid links hold them to each other.
     pub fn held_by_levers(&self, inertia: &SymmetricSparse) -> usize {
-        if self.levers.count() == 0 {
+        if self.links.count() == 0 {
             return 0;
         }
         let kinds = self.unknowns.kinds().iter().enumerate();
         let is_light = |(at, kind): &(usize, &UnknownKind)| {
             **kind != UnknownKind::Force && inertia.diagonal(*at) == 0.0
         };
-        (2 * self.levers.count()).saturating_sub(kinds.filter(is_light).count())
+        (2 * self.links.count()).saturating_sub(kinds.filter(is_light).count())
     }
 
     /// About the square of the slowest bending, as if all beams were one: the least `EI` over the largest `ρA` and the fourth power of

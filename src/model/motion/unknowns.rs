@@ -1,4 +1,4 @@
-//! The unknowns of a model: movements, and forces of levers among them.
+//! The unknowns of a model: movements, and forces of rigid links among them.
 
 use crate::geometry::larger;
 
@@ -9,7 +9,7 @@ pub enum UnknownKind {
     Position,
     /// A rotation [rad], balanced by moments.
     Rotation,
-    /// The force of a lever, in steps its impulse [force, force·time]; its equation is a length.
+    /// The force of a rigid link, in steps its impulse [force, force·time]; its equation is a length.
     Force,
 }
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::beams::{Mesh, Profile, Rotation, Station};
+use crate::beams::{Mesh, Rotation, SectionProfile, Station};
 use crate::geometry::{Curve, Vec2};
 
 /// How a beam moves when the scene starts: a rigid motion.
@@ -32,7 +32,7 @@ pub struct BeamDefinition {
     /// The mesh of the beam: basis and quadrature.
     pub mesh: Mesh,
     /// The sections along the beam: stiffness and inertia.
-    pub section: Profile,
+    pub section: SectionProfile,
     /// How the beam moves at the start.
     pub motion: StartMotion,
 }
@@ -87,8 +87,8 @@ impl RigidBodyDefinition {
         std::iter::once(self.position).chain(points).collect()
     }
 
-    /// The numbers of the points that are off the centre of mass, which levers hold to it, among the control points.
-    pub fn levers(&self) -> impl Iterator<Item = usize> + '_ {
+    /// The numbers of the points that are off the centre of mass, which rigid links hold to it, among the control points.
+    pub fn links(&self) -> impl Iterator<Item = usize> + '_ {
         let points = self.points.iter().enumerate();
         points.filter(|(_, (_, place))| *place != Vec2::zeros()).map(|(at, _)| at + 1)
     }

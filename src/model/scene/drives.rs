@@ -3,7 +3,7 @@
 use super::Scene;
 use super::ties::check_ties;
 use crate::joints::Component;
-use crate::loads::{Course, Side};
+use crate::loads::{PrescribedMotion, Side};
 use crate::model::ModelError;
 use crate::model::elements::{Drive, Setting};
 
@@ -26,8 +26,8 @@ impl Scene {
             let (object, by) = (drive.name, crate::model::Turning::Drive);
             return Err(ModelError::ParticleTurned { object, by });
         }
-        for (component, course) in drive.courses() {
-            self.check_course(&drive, component, course)?;
+        for (component, motion) in drive.motions() {
+            self.check_course(&drive, component, motion)?;
         }
         self.drives.push(drive);
         check_ties(self).inspect_err(|_| {
@@ -39,12 +39,12 @@ impl Scene {
         &self,
         drive: &Drive,
         component: Component,
-        course: &Course,
+        motion: &PrescribedMotion,
     ) -> Result<(), ModelError> {
         let refused = |source| ModelError::DriveValue { drive: drive.name.clone(), source };
-        let schedule = course.schedule();
+        let schedule = motion.schedule();
         let value = schedule.value(0.0, Side::After).map_err(refused)?;
-        let Course::Place(_) = course else { return Ok(()) };
+        let PrescribedMotion::Place(_) = motion else { return Ok(()) };
         let size = match component {
             Component::Rotation => 1.0,
             Component::X | Component::Y => self.length_at(&drive.station),

@@ -102,7 +102,7 @@ pub fn check_ties(scene: &Scene) -> Result<(), ModelError> {
     }
     let mut given = Vec::new();
     for (drive, place) in scene.drives.iter().zip(driven) {
-        for (component, _) in drive.courses() {
+        for (component, _) in drive.motions() {
             let root = ties.root(1 + 3 * place + component as usize);
             let is_given = given.contains(&root);
             if root == 0 || is_given {

@@ -199,9 +199,7 @@ fn packed_arrows(arrows: &[Arrow], frames: usize) -> Result<Value, OutputError> 
         [x, y][number % 2] / sizes[number / 2]
     };
     let scale = Scale { origin: -1.0, step: 2.0 / f64::from(LOAD_STEPS - 1) };
-    let arrow = |arrow: &Arrow| {
-        json!({ "kind": arrow.symbol.name(), "name": arrow.name, "at": place(&arrow.at, 0) })
-    };
+    let arrow = |arrow: &Arrow| json!({ "kind": arrow.symbol.name(), "name": arrow.name, "at": place(&arrow.at, 0) });
     Ok(json!({
         "all": arrows.iter().map(arrow).collect::<Vec<_>>(),
         "values": pack(scale, (2 * arrows.len(), frames), value)?,

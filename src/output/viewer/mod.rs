@@ -13,4 +13,6 @@ mod packing;
 mod thinning;
 
 pub use document::Viewer;
-pub use film::{Anchor, Arrow, Beam, Body, Column, Field, Film, Particle, Place, Sign, Spring, Trail};
+pub use film::{
+    Anchor, Arrow, Beam, Body, Column, Field, Film, Particle, Place, Sign, Spring, Trail,
+};

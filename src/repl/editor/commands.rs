@@ -53,9 +53,7 @@ pub fn complete_command(text: &str, surroundings: &Surroundings) -> (usize, Vec<
         Some(Operand::OneOf(words)) => {
             (start, fitting(operand, words.iter().map(|word| Candidate::word(word, ""))))
         }
-        Some(Operand::OptionsOf(call)) => {
-            in_call(call, operand, start, surroundings)
-        }
+        Some(Operand::OptionsOf(call)) => in_call(call, operand, start, surroundings),
         Some(Operand::Nothing | Operand::Number) | None => (text.len(), Vec::new()),
     }
 }

@@ -1,6 +1,6 @@
 //! Cross sections that a script holds.
 
-use crate::beams::{Profile, Relaxation, Section, Solid};
+use crate::beams::{Relaxation, Section, SectionProfile, Solid};
 use crate::output::significant;
 use crate::script::looks::details;
 use crate::script::rows::kind::{Details, Scripted};
@@ -12,7 +12,7 @@ const DIGITS: usize = 7;
 #[derive(Clone)]
 pub struct SectionHandle {
     /// Stiffness and inertia along a beam.
-    pub profile: Profile,
+    pub profile: SectionProfile,
     /// The material and the shape that it was made from, if it was: what tapers.
     pub solid: Option<Solid>,
     /// The relaxation times of its material; none of an elastic one.
@@ -26,7 +26,7 @@ impl Scripted for SectionHandle {
     fn show(&self) -> String {
         let damped = self.relaxation.map(|of| format!(", {}", in_words(&of))).unwrap_or_default();
         let what = match &self.profile {
-            Profile::Uniform(section) => format!("section with {}", numbers(section)),
+            SectionProfile::Uniform(section) => format!("section with {}", numbers(section)),
             tapered => {
                 let places = tapered.given().len();
                 let [start, end] = [0.0, 1.0].map(|part| numbers(&tapered.at(part)));

@@ -5,6 +5,7 @@ mod fields;
 use fields::fields;
 pub use fields::{FIELDS, Inside};
 
+use super::symbols::{of_sliders, of_spring_kind, of_supports};
 use crate::beams::{self, Station};
 use crate::geometry::{Vec2, perpendicular};
 use crate::joints::Joint;
@@ -14,7 +15,6 @@ use crate::output::Symbol;
 use crate::output::viewer::{
     Anchor, Arrow, Beam, Body, Column, Field, Film, Particle, Place, Sign, Spring, Trail,
 };
-use super::symbols::{of_sliders, of_spring_kind, of_supports};
 use crate::script::words::error::ScriptError;
 use crate::simulation::{Axes, AxisStation, Outline, Simulation};
 
@@ -142,10 +142,10 @@ fn bodies(simulation: &Simulation, shown: &Shown) -> Result<Vec<Body>, ScriptErr
     // Those that have points have outlines, behind those of the beams.
     let mut outlines = simulation.outlines()?.iter().skip(scene.beams.len());
     let body = |(index, body): (usize, &model::RigidBodyDefinition)| {
-        let place =
-            |point: usize| shown.station(simulation, &Station::on_rigid_body(index, point));
-        let point = |at: usize| Ok((format!("{}.{}", body.name, body.points[at - 1].0), place(at)?));
-        let points: Vec<_> = body.levers().map(point).collect::<Result<_, ScriptError>>()?;
+        let place = |point: usize| shown.station(simulation, &Station::on_rigid_body(index, point));
+        let point =
+            |at: usize| Ok((format!("{}.{}", body.name, body.points[at - 1].0), place(at)?));
+        let points: Vec<_> = body.links().map(point).collect::<Result<_, ScriptError>>()?;
         let outline = if points.is_empty() { None } else { outlines.next() };
         let outline = outline.into_iter().flat_map(Outline::line);
         Ok(Body {

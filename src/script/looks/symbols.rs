@@ -196,16 +196,16 @@ fn away(scene: &Scene, at: &Station) -> Pointing {
 /// The signs of a drive: what moves, or else what is held.
 fn of_drive<'a>(scene: &Scene, drive: &'a Drive) -> Vec<Sign<'a>> {
     let is_moved = |component: Component| {
-        let course = drive.courses[component as usize].as_ref();
-        course.is_some_and(|course| !matches!(course.schedule(), Schedule::Constant(to) if *to == 0.0))
+        let motion = drive.motions[component as usize].as_ref();
+        motion.is_some_and(
+            |motion| !matches!(motion.schedule(), Schedule::Constant(to) if *to == 0.0),
+        )
     };
-    let sign =
-        |(symbol, pointing)| Sign { symbol, name: &drive.name, at: drive.station, pointing };
+    let sign = |(symbol, pointing)| Sign { symbol, name: &drive.name, at: drive.station, pointing };
     let along = [(Component::X, Vec2::x()), (Component::Y, Vec2::y())];
     let carried = along.into_iter().filter(|(component, _)| is_moved(*component));
-    let mut signs: Vec<Sign> = carried
-        .map(|(_, direction)| sign((Symbol::Carriage, Pointing::To(direction))))
-        .collect();
+    let mut signs: Vec<Sign> =
+        carried.map(|(_, direction)| sign((Symbol::Carriage, Pointing::To(direction)))).collect();
     if signs.is_empty() {
         let held = Components::among(|component| drive.drives(component) && !is_moved(component));
         signs.extend(held.map(|held| sign(of_held(scene, &drive.station, held))));

@@ -18,9 +18,7 @@ use crate::script::looks::motion::{Shown, has_room_for_dots, placed, snapshot};
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Scripted;
 use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{
-    Parameter, Presence, array, number, options, text, whole,
-};
+use crate::script::rows::parameter::{Parameter, Presence, array, number, options, text, whole};
 use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
 

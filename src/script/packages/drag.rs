@@ -4,7 +4,7 @@ use rhai::Dynamic;
 
 use super::scenes::{BEAM, SCENE, STATION};
 use crate::geometry::Vec2;
-use crate::model::{Along, Drag, Dragged, ModelError};
+use crate::model::{Drag, Dragged, ModelError, SpeedLaw};
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::station::StationHandle;
@@ -94,7 +94,7 @@ fn of_beam(call: &Call, beam: usize, options: &Options) -> Result<Dragged, Scrip
         return Err(call.error(told).hint(hint).at(Place::Key("quadratic".into())));
     }
     let quadratic = options.get_if::<Options>("quadratic");
-    let along = |name: &str| Along {
+    let along = |name: &str| SpeedLaw {
         linear: options.number_if_given(name).unwrap_or(0.0),
         quadratic: quadratic.as_ref().and_then(|of| of.number_if_given(name)).unwrap_or(0.0),
     };
@@ -110,7 +110,7 @@ fn of_point(call: &Call, scene: &SceneHandle, options: &Options) -> Result<Dragg
         return Err(call.error(told).hint(hint).at(Place::Key("quadratic".into())));
     }
     let station = scene.own(&call.get::<StationHandle>("on")?)?;
-    let law = Along {
+    let law = SpeedLaw {
         linear: options.number_if_given("linear").unwrap_or(0.0),
         quadratic: call_number(options, "quadratic").unwrap_or(0.0),
     };

@@ -6,7 +6,7 @@ use super::scenes::{SCENE, STATION};
 use super::schedules::{SCHEDULE_KINDS, controlled_schedule_of, schedule_of};
 use crate::geometry::Vec2;
 use crate::joints::{Component, Components, JointKind, Partner};
-use crate::loads::{Course, LoadKind};
+use crate::loads::{LoadKind, PrescribedMotion};
 use crate::model::{Drive, DriveKind, ModelError};
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::station::here;
@@ -120,20 +120,20 @@ fn across(call: &Call, along: Vec2) -> Result<Component, ScriptError> {
 
 fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options("options")?;
-    let mut courses = [None, None, None];
-    for (course, component) in courses.iter_mut().zip(Component::ALL) {
+    let mut motions = [None, None, None];
+    for (motion, component) in motions.iter_mut().zip(Component::ALL) {
         let key = component.name();
         if options.has(key) {
-            *course = Some(Course::Place(schedule_of(call, &options, key)?));
+            *motion = Some(PrescribedMotion::Place(schedule_of(call, &options, key)?));
         }
     }
-    if courses.iter().all(Option::is_none) {
+    if motions.iter().all(Option::is_none) {
         return Err(call
             .error("it moves nothing")
             .hint("write #{ y: |t| 0.1 * t }, or some of x, y and angle")
             .at(Place::Argument(1)));
     }
-    add(call, DriveKind::Move, courses, &options)
+    add(call, DriveKind::Move, motions, &options)
 }
 
 fn motor(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -153,12 +153,18 @@ fn motor(call: &mut Call) -> Result<Dynamic, ScriptError> {
         _ => controlled_schedule_of(call, &options, key, &call.receiver::<SceneHandle>()?)?,
     };
     match key {
-        "angle" => {
-            add(call, DriveKind::Motor, [None, None, Some(Course::Place(schedule))], &options)
-        }
-        "speed" => {
-            add(call, DriveKind::Motor, [None, None, Some(Course::Rate(schedule))], &options)
-        }
+        "angle" => add(
+            call,
+            DriveKind::Motor,
+            [None, None, Some(PrescribedMotion::Place(schedule))],
+            &options,
+        ),
+        "speed" => add(
+            call,
+            DriveKind::Motor,
+            [None, None, Some(PrescribedMotion::Rate(schedule))],
+            &options,
+        ),
         _ => {
             let (station, scene) = here(call, "station")?;
             if scene.borrow().is_held(&station, Component::Rotation) {
@@ -184,12 +190,12 @@ fn name_of(options: &Options) -> Option<String> {
 fn add(
     call: &Call,
     kind: DriveKind,
-    courses: [Option<Course>; 3],
+    motions: [Option<PrescribedMotion>; 3],
     options: &Options,
 ) -> Result<Dynamic, ScriptError> {
     let (station, scene) = here(call, "station")?;
     let name = name_of(options).unwrap_or_else(|| scene.borrow().free_name(kind.name()));
-    let drive = Drive { name, kind, station, courses };
+    let drive = Drive { name, kind, station, motions };
     scene.borrow_mut().add_drive(drive).map_err(blame)?;
     Ok(Dynamic::UNIT)
 }

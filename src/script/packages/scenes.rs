@@ -18,6 +18,7 @@ use crate::script::handles::section::SectionHandle;
 use crate::script::handles::station::{StationHandle, here};
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Type;
+use crate::script::rows::options::Options;
 use crate::script::rows::parameter::{
     Parameter, Presence, either, name, number, object, options, point, text,
 };

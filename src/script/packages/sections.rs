@@ -6,7 +6,9 @@ use rhai::{Dynamic, INT};
 
 use super::geometry::KNOTS;
 
-use crate::beams::{BeamError, Mesh, Profile, Quadrature, Relaxation, Section, Shape, Solid};
+use crate::beams::{
+    BeamError, Mesh, Quadrature, Relaxation, Section, SectionProfile, Shape, Solid,
+};
 use crate::geometry::{Basis, KnotVector};
 use crate::script::handles::section::SectionHandle;
 use crate::script::looks::details;
@@ -216,7 +218,7 @@ fn section(call: &mut Call) -> Result<Dynamic, ScriptError> {
 /// A number of a section that is the same everywhere.
 fn of_uniform(call: &Call, number: fn(&Section) -> f64) -> Result<Dynamic, ScriptError> {
     match &call.receiver::<SectionHandle>()?.profile {
-        Profile::Uniform(section) => Ok(number(section).into()),
+        SectionProfile::Uniform(section) => Ok(number(section).into()),
         tapered => {
             let [start, end] = [0.0, 1.0].map(|part| number(&tapered.at(part)));
             let told =

@@ -3,7 +3,7 @@
 use rhai::{Array, Dynamic};
 
 use super::sections::SECTION;
-use crate::beams::{BeamError, Profile, Section, Solid};
+use crate::beams::{BeamError, Section, SectionProfile, Solid};
 use crate::script::handles::section::SectionHandle;
 use crate::script::rows::call::Call;
 use crate::script::rows::parameter::array;
@@ -67,17 +67,17 @@ fn taper(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 /// Between solids of one kind dimensions are linear, otherwise the numbers are.
-fn profile(all: &[(f64, SectionHandle)]) -> Profile {
+fn profile(all: &[(f64, SectionHandle)]) -> SectionProfile {
     let solids: Option<Vec<(f64, Solid)>> =
         all.iter().map(|(place, section)| Some((*place, section.solid?))).collect();
     let alike = |all: &Vec<(f64, Solid)>| {
         all.windows(2).all(|pair| pair[0].1.is_of_one_kind_with(&pair[1].1))
     };
     match solids.filter(alike) {
-        Some(solids) => Profile::Dimensions(solids),
+        Some(solids) => SectionProfile::Dimensions(solids),
         None => {
             let section = |section: &SectionHandle| -> Section { section.profile.at(0.0) };
-            Profile::Numbers(all.iter().map(|(place, of)| (*place, section(of))).collect())
+            SectionProfile::Numbers(all.iter().map(|(place, of)| (*place, section(of))).collect())
         }
     }
 }
@@ -89,7 +89,7 @@ fn place(call: &Call, index: usize, given: Dynamic) -> Result<(f64, SectionHandl
         let [place, section] = <[Dynamic; 2]>::try_from(pair).ok()?;
         let place = place.as_float().or_else(|_| place.as_int().map(|whole| whole as f64)).ok()?;
         let section = section.try_cast::<SectionHandle>()?;
-        matches!(section.profile, Profile::Uniform(_)).then_some((place, section))
+        matches!(section.profile, SectionProfile::Uniform(_)).then_some((place, section))
     };
     read(given).ok_or_else(|| {
         let told = format!("place {} is not a part of the length and a section", index + 1);

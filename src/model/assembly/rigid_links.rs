@@ -1,4 +1,4 @@
-//! Whether the forces of levers are determined: what joints hold twice has no force that one could tell.
+//! Whether the forces of rigid links are determined: what joints hold twice has no force that one could tell.
 
 use crate::elementary::square;
 use crate::geometry::larger;
@@ -11,13 +11,13 @@ const UNDETERMINED: f64 = 1e11;
 impl Model {
     /// Refuses rigid bodies whose points are held more often than they can move.
     ///
-    /// All movements get a mass of one. Then the forces by which levers close small gaps are about as large as these, times the square of
+    /// All movements get a mass of one. Then the forces by which rigid links close small gaps are about as large as these, times the square of
     /// the number of bodies in a chain at most, if they are determined.
     pub(super) fn check_levers(&self, scene: &Scene) -> Result<(), ModelError> {
-        if self.levers().count() == 0 {
+        if self.links().count() == 0 {
             return Ok(());
         }
-        let size = self.levers().iter().map(|lever| lever.arm().norm()).fold(0.0, larger);
+        let size = self.links().iter().map(|link| link.arm().norm()).fold(0.0, larger);
         let unknowns = self.unknown_movements();
         let mut matrix = BandedMatrix::zeros(unknowns.count(), unknowns.half_bandwidth());
         for (at, kind) in unknowns.kinds().iter().enumerate() {
@@ -27,16 +27,16 @@ impl Model {
                 UnknownKind::Force => (),
             }
         }
-        self.levers().add_coupling(self.bodies(), unknowns.count(), &mut matrix);
+        self.links().add_coupling(self.bodies(), unknowns.count(), &mut matrix);
         // Gaps that no symmetry of a scene closes.
         let mut forces = vec![0.0; unknowns.count()];
-        for (at, unknown) in self.levers().iter().flat_map(|lever| lever.unknowns).enumerate() {
+        for (at, unknown) in self.links().iter().flat_map(|link| link.unknowns).enumerate() {
             forces[unknown] = 1.0 + (0.618_034 * at as f64).fract();
         }
         let answer = matrix.factorise().map(|factors| factors.solve(&mut forces));
         let of =
             |unknowns: [usize; 2]| larger(forces[unknowns[0]].abs(), forces[unknowns[1]].abs());
-        let worst = self.levers().iter().max_by(|a, b| of(a.unknowns).total_cmp(&of(b.unknowns)));
+        let worst = self.links().iter().max_by(|a, b| of(a.unknowns).total_cmp(&of(b.unknowns)));
         let is_undetermined = |force: f64| force.is_nan() || force >= UNDETERMINED;
         match worst {
             Some(worst) if answer.is_err() || is_undetermined(of(worst.unknowns)) => {

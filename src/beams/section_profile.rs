@@ -13,7 +13,7 @@ const POINTS: usize = 3;
 
 /// What a beam is made of along its axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum Profile {
+pub enum SectionProfile {
     /// The section is the same everywhere.
     Uniform(Section),
     /// Stiffness and inertia are linear between the sections at some places, which are parts of the length [-]: rising from 0 to 1.
@@ -22,13 +22,13 @@ pub enum Profile {
     Dimensions(Vec<(f64, Solid)>),
 }
 
-impl From<Section> for Profile {
+impl From<Section> for SectionProfile {
     fn from(section: Section) -> Self {
         Self::Uniform(section)
     }
 }
 
-impl Profile {
+impl SectionProfile {
     /// Checks the sections and their places, and hands the profile on.
     ///
     /// # Errors
@@ -141,20 +141,20 @@ mod tests {
         }
     }
 
-    fn wedge() -> Profile {
+    fn wedge() -> SectionProfile {
         let solid = |height: f64| Solid {
             young: 2.0,
             poisson: 0.3,
             density: 3.0,
             shape: Shape::Rectangle { width: 0.5, height },
         };
-        Profile::Dimensions(vec![(0.0, solid(1.0)), (0.25, solid(0.8)), (1.0, solid(0.2))])
+        SectionProfile::Dimensions(vec![(0.0, solid(1.0)), (0.25, solid(0.8)), (1.0, solid(0.2))])
     }
 
     #[test]
     fn numbers_are_linear_between_places_and_heights_are_where_those_are() {
         let thin = Section { bending_stiffness: 2.0, ..thick() };
-        let profile = Profile::Numbers(vec![(0.0, thick()), (0.5, thin), (1.0, thin)]);
+        let profile = SectionProfile::Numbers(vec![(0.0, thick()), (0.5, thin), (1.0, thin)]);
         let bending = |part: f64| profile.at(part).bending_stiffness;
         assert_eq!([0.0, 0.25, 0.5, 0.7, 1.0].map(bending), [8.0, 5.0, 2.0, 2.0, 2.0]);
         assert!((wedge().at(0.625).bending_stiffness - 2.0 * 0.5 * 0.125 / 12.0).abs() < 1e-15);
@@ -168,13 +168,14 @@ mod tests {
         let cubes = 0.25 * (1.0 - 0.8_f64.powi(4)) / (4.0 * 0.2)
             + 0.75 * (0.8_f64.powi(4) - 0.2_f64.powi(4)) / (4.0 * 0.6);
         assert!((mean.bending_stiffness - cubes / 12.0).abs() < 1e-14);
-        assert_eq!(Profile::from(thick()).mean(), thick());
+        assert_eq!(SectionProfile::from(thick()).mean(), thick());
     }
 
     #[test]
     fn places_rise_from_zero_to_one() {
         let of = |places: &[f64]| {
-            Profile::Numbers(places.iter().map(|place| (*place, thick())).collect()).validated()
+            SectionProfile::Numbers(places.iter().map(|place| (*place, thick())).collect())
+                .validated()
         };
         assert!(of(&[0.0, 0.3, 1.0]).is_ok() && wedge().validated().is_ok());
         for (places, told) in [

@@ -8,16 +8,16 @@ use super::dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Moveme
 use super::{Rotation, RotationIncrement, Section, SectionForces, SectionPlace};
 use crate::geometry::{Vec2, larger};
 
-/// A body of points without elasticity: a particle, or the centre of mass and then the points of a rigid body, which levers hold to it.
+/// A body of points without elasticity: a particle, or the centre of mass and then the points of a rigid body, which rigid links hold to it.
 #[derive(Debug, Clone)]
-pub struct Points {
+pub struct RigidPoints {
     positions: Vec<Vec2>,
     remainders: Vec<Vec2>,
     /// That of the first point; none of a particle.
     rotation: Option<Rotation>,
 }
 
-impl Points {
+impl RigidPoints {
     /// A particle at a position [length].
     pub fn particle(position: Vec2) -> Self {
         Self { positions: vec![position], remainders: vec![Vec2::zeros()], rotation: None }
@@ -36,7 +36,7 @@ impl Points {
     }
 }
 
-impl BodyDynamics for Points {
+impl BodyDynamics for RigidPoints {
     fn order(&self) -> usize {
         1
     }

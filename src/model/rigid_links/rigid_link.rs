@@ -1,4 +1,4 @@
-//! A lever in a step: a point that keeps its place in the frame of a rigid body, and the force by which it does.
+//! A rigid link in a step: a point that keeps its place in the frame of a rigid body, and the force by which it does.
 //!
 //! ```text
 //! Δx_p - Δx_b - χ J ā = 0        a = Λ r,   ā = ½ (a0 + a1),   χ = 2 tan(Δθ/2), the tangent-scaled increment itself
@@ -13,18 +13,18 @@ use crate::geometry::{Vec2, cross, larger, perpendicular};
 use crate::linalg::BandedMatrix;
 use crate::model::bodies::Bodies;
 
-/// What the unknowns of the force of a lever are.
+/// What the unknowns of the force of a rigid link are.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Acting {
+pub enum ForceUnknowns {
     /// In a step of some duration: the impulse of the force [time].
     Step(f64),
     /// In a movement between two places at rest: the change of the force.
     AtRest,
 }
 
-/// How a method takes the arms of levers.
+/// How a method takes the arms of rigid links.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Leverage {
+pub struct ArmRule {
     /// What rotation increments of the step stand for.
     pub rotations: RotationIncrement,
     /// The share `τ` of the step at which the arm of the force is taken [-].
@@ -33,7 +33,7 @@ pub struct Leverage {
 
 /// A point of a rigid body that is off its centre of mass.
 #[derive(Debug, Clone)]
-pub struct Lever {
+pub struct RigidLink {
     /// The body, and the control point that is held to its first one.
     pub body: usize,
     pub point: usize,
@@ -49,7 +49,7 @@ pub struct Lever {
     size: f64,
 }
 
-/// A lever in an iterate of a step.
+/// A rigid link in an iterate of a step.
 struct Iterated {
     /// `a0`, `a1` and the arm of the force [length].
     start: Vec2,
@@ -64,8 +64,8 @@ struct Iterated {
     increment: f64,
 }
 
-impl Lever {
-    /// A lever to a control point of a body whose frame is turned by an angle [rad], with the unknowns of its force.
+impl RigidLink {
+    /// A rigid link to a control point of a body whose frame is turned by an angle [rad], with the unknowns of its force.
     pub fn new(body: usize, point: usize, unknowns: [usize; 2], at: [Vec2; 2], angle: f64) -> Self {
         let rotation = Rotation::by(angle);
         let [centre, end] = at;
@@ -78,7 +78,7 @@ impl Lever {
         self.rotation.to_space(self.arm)
     }
 
-    /// The force of the lever in the last step, or at rest [force].
+    /// The force of the rigid link in the last step, or at rest [force].
     pub fn force(&self) -> Vec2 {
         self.force
     }
@@ -92,8 +92,8 @@ impl Lever {
     fn iterated(
         &self,
         bodies: &Bodies,
-        acting: Acting,
-        Leverage { rotations, share: at }: Leverage,
+        acting: ForceUnknowns,
+        ArmRule { rotations, share: at }: ArmRule,
         values: &[f64],
     ) -> Iterated {
         let ([.., rotation], _) = self.degrees(bodies);
@@ -103,8 +103,8 @@ impl Lever {
         let found = Vec2::new(values[self.unknowns[0]], values[self.unknowns[1]]);
         let rate = rotations.rate(increment);
         let (force, share) = match acting {
-            Acting::Step(duration) => (found / duration, 1.0 / duration),
-            Acting::AtRest => (self.force + found, 1.0),
+            ForceUnknowns::Step(duration) => (found / duration, 1.0 / duration),
+            ForceUnknowns::AtRest => (self.force + found, 1.0),
         };
         Iterated { start, end, acting: start + (end - start) * at, force, share, rate, increment }
     }
@@ -113,19 +113,19 @@ impl Lever {
     pub fn add(
         &mut self,
         bodies: &Bodies,
-        acting: Acting,
-        leverage: Leverage,
+        acting: ForceUnknowns,
+        arms: ArmRule,
         values: &[f64],
         out: &mut [f64],
     ) -> ForceSummary {
-        let now = self.iterated(bodies, acting, leverage, values);
+        let now = self.iterated(bodies, acting, arms, values);
         self.transmit(bodies, now.force, now.acting, out);
         let ([x, y, _], [point_x, point_y, _]) = self.degrees(bodies);
         let value = |at: usize| values.get(at).copied().unwrap_or(0.0);
         let (centre, point) =
             (Vec2::new(value(x), value(y)), Vec2::new(value(point_x), value(point_y)));
         let turned = perpendicular((now.start + now.end) * 0.5)
-            * leverage.rotations.tangent_scaled(now.increment);
+            * arms.rotations.tangent_scaled(now.increment);
         let off = (point - centre) - turned;
         self.unknowns.iter().zip([off.x, off.y]).for_each(|(at, off)| out[*at] += off);
         self.size = self.arm.norm() + larger(centre.amax(), point.amax());
@@ -142,19 +142,19 @@ impl Lever {
     pub fn add_tangent(
         &self,
         bodies: &Bodies,
-        acting: Acting,
-        leverage: Leverage,
+        acting: ForceUnknowns,
+        arms: ArmRule,
         values: &[f64],
         movements: usize,
         tangent: &mut BandedMatrix,
     ) {
-        let now = self.iterated(bodies, acting, leverage, values);
+        let now = self.iterated(bodies, acting, arms, values);
         let force_arm = perpendicular(now.acting) * now.share;
         let place_arm = perpendicular(now.end) * now.rate;
         self.couple(bodies, now.share, force_arm, place_arm, movements, tangent);
         let ([.., rotation], _) = self.degrees(bodies);
         if rotation < movements {
-            tangent.add(rotation, rotation, leverage.share * now.rate * now.end.dot(&now.force));
+            tangent.add(rotation, rotation, arms.share * now.rate * now.end.dot(&now.force));
         }
     }
 
@@ -228,13 +228,19 @@ impl Lever {
     }
 
     /// Accepts the unknowns of a step or a movement, in which the body turned by an increment.
-    pub fn advance(&mut self, bodies: &Bodies, acting: Acting, leverage: Leverage, values: &[f64]) {
-        let now = self.iterated(bodies, acting, leverage, values);
+    pub fn advance(
+        &mut self,
+        bodies: &Bodies,
+        acting: ForceUnknowns,
+        arms: ArmRule,
+        values: &[f64],
+    ) {
+        let now = self.iterated(bodies, acting, arms, values);
         self.force = now.force;
-        self.rotation = self.rotation.turned(leverage.rotations, now.increment).normalised();
+        self.rotation = self.rotation.turned(arms.rotations, now.increment).normalised();
     }
 
-    /// Gives how the lever resists small movements, were it as stiff as that [force/length]: the point is held to its place, and its force turns with the body.
+    /// Gives how the rigid link resists small movements, were it as stiff as that [force/length]: the point is held to its place, and its force turns with the body.
     pub fn at_rest(
         &self,
         bodies: &Bodies,

@@ -1,34 +1,33 @@
-//! Supported movements that are given: their increments in a step, and what the drives give by that.
+//! Supported movements that are prescribed: their increments in a step, and what the drives give by that.
 //!
-//! Let `v` be the rates, of which those of given movements are derivatives of the given functions, and `ε = Δx - Δt v̄` by how much a given increment
+//! Let `v` be the rates, of which those of prescribed movements are derivatives of the prescribed functions, and `ε = Δx - Δt v̄` by how much a prescribed increment
 //! differs from its mean rate (of third order in `Δt`; zero for what is unknown). By the proofs of the energy–momentum step
 //!
 //! ```text
 //! ΔE = Σ R·Δx - Σ ε·M Δv/Δt          Δp = Δt Σ R          ΔL = Δt Σ x̄ × R + Σ ε × M v̄          R: what is left of the equations
 //! ```
 //!
-//! over the given movements, exactly. These are work, impulse and angular impulse of a drive.
+//! over the prescribed movements, exactly. These are work, impulse and angular impulse of a drive.
 
 use std::borrow::Cow;
 
 use super::Exchange;
 use super::supports::Support;
 use crate::beams::RotationIncrement;
-use crate::elementary::tan;
 use crate::geometry::{Vec2, cross, larger};
-use crate::integrators::{Given, Interval};
+use crate::integrators::{Interval, Prescribed};
 use crate::joints::Component;
-use crate::loads::{Beginning, Course, LoadError, Side};
+use crate::loads::{LoadError, MotionAtStart, PrescribedMotion, Side};
 use crate::model::bodies::Body;
 
-/// A supported movement that is given.
-pub struct Guided {
+/// A supported movement that is prescribed.
+pub struct PrescribedMovement {
     /// Where it is.
     pub support: Support,
     /// The number of its drive.
     pub drive: usize,
     /// What it does.
-    pub course: Course,
+    pub motion: PrescribedMotion,
 }
 
 /// A drive, and what it has given so far.
@@ -38,7 +37,7 @@ struct Driven {
     work: f64,
 }
 
-/// The present of a given movement.
+/// The present of a prescribed movement.
 #[derive(Debug, Clone, Copy, Default)]
 struct Present {
     /// At the end of the last step [length/time², 1/time²].
@@ -61,7 +60,7 @@ pub struct DriveState<'a> {
     /// Its name.
     pub name: &'a str,
     /// Which of x, y and the angle it gives.
-    pub given: [bool; 3],
+    pub prescribed: [bool; 3],
     /// Its work since the start [energy].
     pub work: f64,
     /// The force on the station, mean of the last step [force].
@@ -70,68 +69,69 @@ pub struct DriveState<'a> {
     pub moment: f64,
 }
 
-/// The movements of a model that are given, in the order of their degrees of freedom.
+/// The movements of a model that are prescribed, in the order of their degrees of freedom.
 #[derive(Default)]
-pub struct Guides {
-    guided: Vec<Guided>,
+pub struct PrescribedMovements {
+    movements: Vec<PrescribedMovement>,
     present: Vec<Present>,
     drives: Vec<Driven>,
     /// The number of the first degree of freedom among them.
     first: usize,
-    /// Entries of constraints in what is given.
+    /// Entries of constraints in what is prescribed.
     constraints: usize,
-    given: Given,
+    prescribed: Prescribed,
     /// The largest turn of the step [rad].
     turn: f64,
     /// Room for rates of everything.
     room: Vec<f64>,
 }
 
-impl Guides {
-    /// The given movements of drives, whose names are told, behind some unknown movements and unknowns of constraints.
+impl PrescribedMovements {
+    /// The prescribed movements of drives, whose names are told, behind some unknown movements and unknowns of constraints.
     ///
     /// # Errors
     /// When a function has no value at the start: the name of its drive, and why.
     pub fn new(
-        guided: Vec<Guided>,
+        movements: Vec<PrescribedMovement>,
         drives: impl Iterator<Item = String>,
         unknowns: usize,
         constraints: usize,
     ) -> Result<(Self, Vec<f64>), (String, LoadError)> {
         let drives: Vec<Driven> = drives.map(|name| Driven { name, work: 0.0 }).collect();
-        let mut given = Given::new(constraints, guided.len());
-        let mut present = vec![Present::default(); guided.len()];
-        for (at, guide) in guided.iter().enumerate() {
-            let Beginning { rate, acceleration } = guide
-                .course
+        let mut prescribed = Prescribed::new(constraints, movements.len());
+        let mut present = vec![Present::default(); movements.len()];
+        for (at, movement) in movements.iter().enumerate() {
+            let MotionAtStart { rate, acceleration } = movement
+                .motion
                 .beginning()
-                .map_err(|error| (drives[guide.drive].name.clone(), error))?;
-            given.rates[constraints + at] = rate;
+                .map_err(|error| (drives[movement.drive].name.clone(), error))?;
+            prescribed.rates[constraints + at] = rate;
             present[at].acceleration = acceleration;
         }
-        let rates = given.rates.clone();
-        let room = vec![0.0; if guided.is_empty() { 0 } else { unknowns + given.width() }];
+        let rates = prescribed.rates.clone();
+        let room = vec![0.0; if movements.is_empty() { 0 } else { unknowns + prescribed.width() }];
         let first = unknowns + constraints;
-        let all = Self { guided, present, drives, first, constraints, given, turn: 0.0, room };
+        let all =
+            Self { movements, present, drives, first, constraints, prescribed, turn: 0.0, room };
         Ok((all, rates))
     }
 
-    /// The number of movements that are given.
+    /// The number of movements that are prescribed.
     pub fn count(&self) -> usize {
-        self.guided.len()
+        self.movements.len()
     }
 
-    /// Where the given movements are.
+    /// Where the prescribed movements are.
     pub fn supports(&self) -> impl Iterator<Item = &Support> {
-        self.guided.iter().map(|guide| &guide.support)
+        self.movements.iter().map(|movement| &movement.support)
     }
 
     /// What they do in the present step.
-    pub fn given(&self) -> &Given {
-        &self.given
+    pub fn in_step(&self) -> &Prescribed {
+        &self.prescribed
     }
 
-    /// The largest turn that is given in the present step [rad].
+    /// The largest turn that is prescribed in the present step [rad].
     pub fn turn(&self) -> f64 {
         self.turn
     }
@@ -139,19 +139,19 @@ impl Guides {
     /// What the drives have given, in the order of the scene.
     pub fn states(&self) -> impl Iterator<Item = DriveState<'_>> {
         self.drives.iter().enumerate().map(|(index, drive)| {
-            let own = self.guided.iter().zip(&self.present);
-            let own = own.filter(|(guide, _)| guide.drive == index);
-            let (mut force, mut moment, mut given) = (Vec2::zeros(), 0.0, [false; 3]);
-            for (guide, present) in own {
-                given[guide.support.component as usize] = true;
-                let (by, turning) = guide.support.reaction(present.reaction);
+            let own = self.movements.iter().zip(&self.present);
+            let own = own.filter(|(movement, _)| movement.drive == index);
+            let (mut force, mut moment, mut prescribed) = (Vec2::zeros(), 0.0, [false; 3]);
+            for (movement, present) in own {
+                prescribed[movement.support.component as usize] = true;
+                let (by, turning) = movement.support.reaction(present.reaction);
                 (force, moment) = (force + by, moment + turning);
             }
-            DriveState { name: &drive.name, given, work: drive.work, force, moment }
+            DriveState { name: &drive.name, prescribed, work: drive.work, force, moment }
         })
     }
 
-    /// Finds what is given in a step, with the rates at its start.
+    /// Finds what is prescribed in a step, with the rates at its start.
     ///
     /// # Errors
     /// When a function has no finite value: the name of its drive, and why.
@@ -163,25 +163,23 @@ impl Guides {
     ) -> Result<(), (String, LoadError)> {
         let duration = interval.duration();
         self.turn = 0.0;
-        for (at, guide) in self.guided.iter().enumerate() {
-            let piece = guide
-                .course
+        for (at, movement) in self.movements.iter().enumerate() {
+            let step = movement
+                .motion
                 .over(interval.start, interval.end, duration)
-                .map_err(|error| (self.drives[guide.drive].name.clone(), error))?;
+                .map_err(|error| (self.drives[movement.drive].name.clone(), error))?;
             let entry = self.constraints + at;
-            let turns = guide.support.component == Component::Rotation;
-            self.given.increments[entry] = match rotations {
-                RotationIncrement::TangentScaled if turns => 2.0 * tan(0.5 * piece.moved),
-                _ => piece.moved,
-            };
+            let turns = movement.support.component == Component::Rotation;
+            self.prescribed.increments[entry] =
+                if turns { rotations.of_angle(step.moved) } else { step.moved };
             if turns {
-                self.turn = larger(self.turn, piece.moved.abs());
+                self.turn = larger(self.turn, step.moved.abs());
             }
             let before = rates[self.first + at];
-            self.given.rates[entry] = piece.rate;
-            self.given.mean_accelerations[entry] = (piece.rate - before) / duration;
-            let [start, end] = &mut self.given.accelerations;
-            [start[entry], end[entry]] = piece.accelerations;
+            self.prescribed.rates[entry] = step.rate;
+            self.prescribed.mean_accelerations[entry] = (step.rate - before) / duration;
+            let [start, end] = &mut self.prescribed.accelerations;
+            [start[entry], end[entry]] = step.accelerations;
         }
         Ok(())
     }
@@ -189,29 +187,29 @@ impl Guides {
     /// Room for rates of all movements, filled by a function of their number.
     pub fn fill(&mut self, rate: impl FnMut(usize) -> f64) -> &[f64] {
         self.room.clear();
-        let width = if self.guided.is_empty() { 0 } else { self.first + self.guided.len() };
+        let width = if self.movements.is_empty() { 0 } else { self.first + self.movements.len() };
         self.room.extend((0..width).map(rate));
         &self.room
     }
 
-    /// The accelerations of what is given at the start of the step, where its degrees of freedom are; zero for what is unknown.
+    /// The accelerations of what is prescribed at the start of the step, where its degrees of freedom are; zero for what is unknown.
     pub fn accelerations(&self) -> Vec<f64> {
         let behind = self.present.iter().map(|present| present.acceleration);
-        let ahead = if self.guided.is_empty() { 0 } else { self.first };
+        let ahead = if self.movements.is_empty() { 0 } else { self.first };
         std::iter::repeat_n(0.0, ahead).chain(behind).collect()
     }
 
-    /// Takes the part of `M Δv` of a step that belongs to what is given.
+    /// Takes the part of `M Δv` of a step that belongs to what is prescribed.
     pub fn take_struck(&mut self, struck: &[f64]) {
         for (present, struck) in self.present.iter_mut().zip(&struck[self.first..]) {
             present.struck = *struck;
         }
     }
 
-    /// Takes the part of `M v̄` of a step that belongs to what is given.
+    /// Takes the part of `M v̄` of a step that belongs to what is prescribed.
     pub fn take_momentum(&mut self, bodies: &[Body], momentum: &[f64]) {
-        for (guide, present) in self.guided.iter().zip(&mut self.present) {
-            let Support { body, point, .. } = guide.support;
+        for (movement, present) in self.movements.iter().zip(&mut self.present) {
+            let Support { body, point, .. } = movement.support;
             let [x, y, _] = bodies[body].degrees_of_freedom[point];
             present.momentum = Vec2::new(momentum[x], momentum[y]);
         }
@@ -228,25 +226,25 @@ impl Guides {
         mean: impl Fn(usize) -> f64,
     ) -> Exchange {
         let mut sum = Exchange::default();
-        for (at, (guide, present)) in self.guided.iter().zip(&mut self.present).enumerate() {
-            let Support { body, point, component } = guide.support;
+        for (at, (movement, present)) in self.movements.iter().zip(&mut self.present).enumerate() {
+            let Support { body, point, component } = movement.support;
             let reaction = residual[self.first + at];
             let [x, y, turned] = bodies[body].moved()[point];
             let moved = [x, y, turned][component as usize];
             let missed = moved - duration * mean(self.first + at);
             let work = reaction * moved - missed * present.struck / duration;
             let middle = bodies[body].dynamics.control_points()[point] + 0.5 * Vec2::new(x, y);
-            let (force, moment) = guide.support.reaction(reaction);
+            let (force, moment) = movement.support.reaction(reaction);
             let (aside, _) = match component {
                 Component::Rotation => (Vec2::zeros(), 0.0),
-                _ => guide.support.reaction(missed),
+                _ => movement.support.reaction(missed),
             };
             let angular =
                 (cross(middle, force) + moment) * duration + cross(aside, present.momentum);
             sum += Exchange::of(work, force * duration, angular);
-            self.drives[guide.drive].work += work;
+            self.drives[movement.drive].work += work;
             present.reaction = reaction;
-            present.acceleration = self.given.accelerations[1][self.constraints + at];
+            present.acceleration = self.prescribed.accelerations[1][self.constraints + at];
         }
         sum
     }
@@ -259,41 +257,41 @@ impl Guides {
         rates: &[f64],
     ) -> Exchange {
         let mut sum = Exchange::default();
-        for (at, guide) in self.guided.iter().enumerate() {
-            let Support { body, point, .. } = guide.support;
+        for (at, movement) in self.movements.iter().enumerate() {
+            let Support { body, point, .. } = movement.support;
             let impulse = impulses[self.first + at];
             let work = impulse * rates[self.first + at];
-            let (force, moment) = guide.support.reaction(impulse);
+            let (force, moment) = movement.support.reaction(impulse);
             let place = bodies[body].dynamics.control_points()[point];
             sum += Exchange::of(work, force, cross(place, force) + moment);
-            self.drives[guide.drive].work += work;
+            self.drives[movement.drive].work += work;
         }
         sum
     }
 
-    /// Takes the places that are given at a time, which equilibria put on with their loads.
+    /// Takes the places that are prescribed at a time, which equilibria put on with their loads.
     ///
     /// # Errors
     /// When a function has no finite value: the name of its drive, and why.
     pub fn hold_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
-        for (guide, present) in self.guided.iter().zip(&mut self.present) {
-            if let Course::Place(schedule) = &guide.course {
+        for (movement, present) in self.movements.iter().zip(&mut self.present) {
+            if let PrescribedMotion::Place(schedule) = &movement.motion {
                 present.goal = schedule
                     .value(time, Side::After)
-                    .map_err(|error| (self.drives[guide.drive].name.clone(), error))?;
+                    .map_err(|error| (self.drives[movement.drive].name.clone(), error))?;
             }
         }
         Ok(())
     }
 
-    /// Whether something is given that an equilibrium has to put on.
+    /// Whether something is prescribed that an equilibrium has to put on.
     pub fn moves_at_rest(&self) -> bool {
         self.present.iter().any(|present| present.goal != 0.0)
     }
 
-    /// Movements at rest, those that are given behind the unknown ones: from where they are to their places under a part of the load.
+    /// Movements at rest, those that are prescribed behind the unknown ones: from where they are to their places under a part of the load.
     pub fn at_rest<'m>(&self, movements: &'m [f64], load_factor: f64) -> Cow<'m, [f64]> {
-        if self.guided.is_empty() {
+        if self.movements.is_empty() {
             return Cow::Borrowed(movements);
         }
         let mut all = movements.to_vec();
@@ -302,7 +300,7 @@ impl Guides {
         Cow::Owned(all)
     }
 
-    /// Leaves what is given where it is under a part of the load.
+    /// Leaves what is prescribed where it is under a part of the load.
     pub fn place(&mut self, load_factor: f64) {
         for present in &mut self.present {
             present.placed = load_factor * present.goal;

@@ -6,16 +6,16 @@ use super::{LoadError, Schedule, Side};
 
 /// A motion that is given: by its place or by its rate.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub enum Course {
+pub enum PrescribedMotion {
     /// The displacement from the start, as a function of time [length, rad].
     Place(Schedule),
     /// The rate, as a function of time [length/time, rad/time].
     Rate(Schedule),
 }
 
-/// What a course does in a step.
+/// What a motion does in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Piece {
+pub struct MotionInStep {
     /// How far it leads in the step [length, rad].
     pub moved: f64,
     /// Its rate at the end, from inside the step [length/time, rad/time].
@@ -24,9 +24,9 @@ pub struct Piece {
     pub accelerations: [f64; 2],
 }
 
-/// How a course begins.
+/// How a motion begins.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Beginning {
+pub struct MotionAtStart {
     /// Its rate just after the start [length/time, rad/time].
     pub rate: f64,
     /// The derivative of that [length/time², rad/time²].
@@ -45,34 +45,34 @@ const RATE_AT_END: [f64; 5] = [0.5, 2.0 / (-1.0 - INNER), 2.0, 2.0 / (INNER - 1.
 /// Its second derivative there.
 const BENT_AT_END: [f64; 5] = [5.0, 12.0 * INNER - 20.0, 18.0, -12.0 * INNER - 20.0, 17.0];
 
-/// The beginning of a course is looked for in spans of time from one unit of time on, each of which is this part of the one before.
+/// The beginning of a motion is looked for in spans of time from one unit of time on, each of which is this part of the one before.
 const SHRINKS: f64 = 0.125;
 
-/// In how many spans of time the beginning of a course is looked for.
+/// In how many spans of time the beginning of a motion is looked for.
 const SPANS: usize = 14;
 
-impl Course {
-    /// The function of time that the course is given by.
+impl PrescribedMotion {
+    /// The function of time that the motion is given by.
     pub fn schedule(&self) -> &Schedule {
         match self {
             Self::Place(schedule) | Self::Rate(schedule) => schedule,
         }
     }
 
-    /// What the course does from one time to another that is `duration` later, or earlier where that is negative [time].
+    /// What the motion does from one time to another that is `duration` later, or earlier where that is negative [time].
     ///
     /// A rate is integrated by three Gauss points, exact for polynomials of degree five. The rate of a place is that of the polynomial of
     /// degree four through five of its values in the step, so that no kink at its ends is seen through.
     ///
     /// # Errors
     /// When the function fails or a value is not finite.
-    pub fn over(&self, start: f64, end: f64, duration: f64) -> Result<Piece, LoadError> {
+    pub fn over(&self, start: f64, end: f64, duration: f64) -> Result<MotionInStep, LoadError> {
         match self {
             Self::Place(schedule) => {
                 let values = values_in(schedule, start, end)?;
                 let scale = 2.0 / duration;
                 let backwards = reversed(values);
-                Ok(Piece {
+                Ok(MotionInStep {
                     moved: values[4] - values[0],
                     rate: scale * sum(&RATE_AT_END, &values),
                     accelerations: [backwards, values]
@@ -88,23 +88,23 @@ impl Course {
                     (first + 3.0 * last - 4.0 * middle) / duration,
                 ];
                 let moved = duration * schedule.mean(start, end)?;
-                Ok(Piece { moved, rate: last, accelerations })
+                Ok(MotionInStep { moved, rate: last, accelerations })
             }
         }
     }
 
-    /// How the course begins at t = 0.
+    /// How the motion begins at t = 0.
     ///
     /// The derivatives of a place are looked for in ever shorter spans of time, and taken where two spans that follow each other agree best: the
     /// time scale of a function is its own affair.
     ///
     /// # Errors
     /// When the function fails or a value is not finite just after the start.
-    pub fn beginning(&self) -> Result<Beginning, LoadError> {
+    pub fn beginning(&self) -> Result<MotionAtStart, LoadError> {
         let spans = (0..SPANS).scan(1.0, |span, _| Some(std::mem::replace(span, *span * SHRINKS)));
         match self {
             Self::Place(schedule) => {
-                let mut found = Beginning::default();
+                let mut found = MotionAtStart::default();
                 let (mut least, mut last) = ([f64::INFINITY; 2], None::<[f64; 2]>);
                 let mut failed = None;
                 for span in spans {
@@ -137,10 +137,11 @@ impl Course {
             }
             Self::Rate(schedule) => {
                 let rate = schedule.value(0.0, Side::After)?;
-                let mut found = Beginning { rate, acceleration: 0.0 };
+                let mut found = MotionAtStart { rate, acceleration: 0.0 };
                 let (mut least, mut before) = (f64::INFINITY, None::<f64>);
                 for span in spans {
-                    let Ok(Piece { accelerations: [now, _], .. }) = self.over(0.0, span, span)
+                    let Ok(MotionInStep { accelerations: [now, _], .. }) =
+                        self.over(0.0, span, span)
                     else {
                         continue;
                     };
@@ -191,7 +192,7 @@ mod tests {
 
     #[test]
     fn a_polynomial_of_degree_four_has_its_rates_and_accelerations() {
-        let place = Course::Place(of(|t| t + 2.0 * t * t - t.powi(3) + 0.5 * t.powi(4)));
+        let place = PrescribedMotion::Place(of(|t| t + 2.0 * t * t - t.powi(3) + 0.5 * t.powi(4)));
         let (rate, bent) = (
             |t: f64| 1.0 + 4.0 * t - 3.0 * t * t + 2.0 * t.powi(3),
             |t: f64| 4.0 - 6.0 * t + 6.0 * t * t,
@@ -201,7 +202,8 @@ mod tests {
             assert!((piece.rate - rate(end)).abs() < 1e-12, "{piece:?}");
             assert!((piece.accelerations[0] - bent(start)).abs() < 1e-11, "{piece:?}");
             assert!((piece.accelerations[1] - bent(end)).abs() < 1e-11, "{piece:?}");
-            let given = Course::Rate(of(|t| 1.0 + 4.0 * t - 3.0 * t * t + 2.0 * t.powi(3)));
+            let given =
+                PrescribedMotion::Rate(of(|t| 1.0 + 4.0 * t - 3.0 * t * t + 2.0 * t.powi(3)));
             let same = given.over(start, end, end - start).unwrap();
             assert!((same.moved - piece.moved).abs() < 1e-14, "{same:?}");
         }
@@ -211,14 +213,19 @@ mod tests {
     fn a_course_begins_as_its_function_does_whatever_its_time_scale() {
         for scale in [1e-6, 1e-3, 1.0, 1e3] {
             let function = move |t: f64| Ok((3.0 * t / scale).sin() + (t / scale).powi(2));
-            let place =
-                Course::Place(Schedule::Function { function: Rc::new(function), breaks: vec![] });
-            let Beginning { rate, acceleration } = place.beginning().unwrap();
+            let place = PrescribedMotion::Place(Schedule::Function {
+                function: Rc::new(function),
+                breaks: vec![],
+            });
+            let MotionAtStart { rate, acceleration } = place.beginning().unwrap();
             assert!((rate * scale - 3.0).abs() < 1e-9, "{scale}: {rate}");
             assert!((acceleration * scale * scale - 2.0).abs() < 1e-4, "{scale}: {acceleration}");
         }
-        let soon = Course::Place(of(|t| if t < 1e-3 { (t * 4e3).sin() } else { (4.0_f64).sin() }));
+        let soon =
+            PrescribedMotion::Place(of(
+                |t| if t < 1e-3 { (t * 4e3).sin() } else { (4.0_f64).sin() },
+            ));
         assert!((soon.beginning().unwrap().rate - 4e3).abs() < 1e-5);
-        assert!(Course::Place(of(|_| f64::NAN)).beginning().is_err());
+        assert!(PrescribedMotion::Place(of(|_| f64::NAN)).beginning().is_err());
     }
 }

@@ -1,9 +1,9 @@
-//! Movements that are given and not solved for.
+//! Movements that are prescribed and not solved for.
 
-/// What the given movements of a mechanism do in the present step. They stand behind the unknown movements and the unknowns of constraints; where
-/// nothing is given, all are empty.
+/// What the prescribed movements of a mechanism do in the present step. They stand behind the unknown movements and the unknowns of constraints; where
+/// nothing is prescribed, all are empty.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Given {
+pub struct Prescribed {
     /// The entries of constraints, which are zero, then the increments in the step [length, rad].
     pub increments: Vec<f64>,
     /// The same for the rates at the end of the step [length/time, 1/time].
@@ -14,7 +14,7 @@ pub struct Given {
     pub accelerations: [Vec<f64>; 2],
 }
 
-/// Which acceleration of given movements a method balances.
+/// Which acceleration of prescribed movements a method balances.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum BalancedAt {
     /// That of the mean over the step.
@@ -23,8 +23,8 @@ pub(super) enum BalancedAt {
     Share(f64),
 }
 
-impl Given {
-    /// Nothing that is given, with room for `count` movements behind `constraints` unknowns of constraints.
+impl Prescribed {
+    /// Nothing that is prescribed, with room for `count` movements behind `constraints` unknowns of constraints.
     pub fn new(constraints: usize, count: usize) -> Self {
         let zeros = vec![0.0; if count > 0 { constraints + count } else { 0 }];
         Self {

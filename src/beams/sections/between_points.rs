@@ -1,0 +1,34 @@
+//! The section at a place between points.
+
+use crate::beams::Section;
+
+/// The section at a place between points, by shares that add up to one.
+pub(in crate::beams) trait Blend: Default {
+    /// Adds a share of the section of a point.
+    fn add(&mut self, section: &Section, share: f64);
+
+    /// What the sections of the points have come to.
+    fn section<'a>(&'a self, uniform: &'a Section) -> &'a Section;
+}
+
+impl Blend for () {
+    fn add(&mut self, _section: &Section, _share: f64) {}
+
+    fn section<'a>(&'a self, uniform: &'a Section) -> &'a Section {
+        uniform
+    }
+}
+
+/// The sum of shares of sections.
+#[derive(Debug, Default)]
+pub(in crate::beams) struct Blended(Section);
+
+impl Blend for Blended {
+    fn add(&mut self, section: &Section, share: f64) {
+        self.0 = self.0.plus(section, share);
+    }
+
+    fn section<'a>(&'a self, _uniform: &'a Section) -> &'a Section {
+        &self.0
+    }
+}

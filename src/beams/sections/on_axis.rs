@@ -1,0 +1,55 @@
+//! The section at any parameter of an axis.
+
+use crate::beams::{BeamError, Mesh, Section, SectionProfile};
+use crate::geometry::{GaussRule, Span, Vec2};
+
+/// Points by which arc lengths within a span are measured.
+const POINTS: usize = 8;
+
+/// A profile along the axis that control points draw on a mesh.
+pub(in crate::beams) struct ProfileOnAxis<'a> {
+    profile: &'a SectionProfile,
+    mesh: &'a Mesh,
+    control_points: &'a [Vec2],
+    rule: GaussRule,
+    /// The arc length at which each span starts, and that of all [length].
+    starts: Vec<f64>,
+    length: f64,
+}
+
+impl<'a> ProfileOnAxis<'a> {
+    /// The profile along an axis.
+    pub(in crate::beams) fn new(
+        profile: &'a SectionProfile,
+        mesh: &'a Mesh,
+        control_points: &'a [Vec2],
+    ) -> Result<Self, BeamError> {
+        let rule = GaussRule::new(POINTS)?;
+        let mut along =
+            Self { profile, mesh, control_points, rule, starts: Vec::new(), length: 0.0 };
+        if let SectionProfile::Uniform(_) = profile {
+            return Ok(along);
+        }
+        for span in mesh.basis().spans() {
+            along.starts.push(along.length);
+            along.length += along.within(&span, span.end);
+        }
+        Ok(along)
+    }
+
+    /// The arc length from the start of a span to a parameter in it [length].
+    fn within(&self, span: &Span, xi: f64) -> f64 {
+        let speed = |at: f64| {
+            self.mesh.basis().evaluate_in(span, at).combine(1, self.control_points).norm()
+        };
+        self.rule.iter_on(span.start, xi).map(|(at, weight)| weight * speed(at)).sum()
+    }
+
+    /// The section at a parameter in a span, by the number of that.
+    pub(in crate::beams) fn at(&self, index: usize, span: &Span, xi: f64) -> Section {
+        match self.profile {
+            SectionProfile::Uniform(section) => *section,
+            tapered => tapered.at((self.starts[index] + self.within(span, xi)) / self.length),
+        }
+    }
+}
