@@ -259,7 +259,7 @@ fn rigid_bodies_have_outlines_and_what_drives_has_signs() {
         let wheel = scene.body(#{ name: \"wheel\", at: [5, 0], mass: 1, inertia: 1, angle: 0.3,
                                   points: #{ e: [1, 0], n: [0, 1], w: [-1, 0] } });
         let arm = scene.body(#{ name: \"arm\", at: [8, 0], mass: 1, inertia: 1, points: #{ eye: [0.5, 0] } });
-        let bob = scene.body(#{ name: \"bob\", at: [9, 0], mass: 1 });
+        let bob = scene.body(#{ name: \"bob\", at: [9, 0], mass: 1, inertia: 1 });
         scene.hinge(wheel.centre);
         scene.motor(wheel.centre, #{ angle: |t| t * t });
         scene.move(arm.centre, #{ x: |t| 0.1 * t * t, y: 0, angle: 0 });

@@ -89,7 +89,7 @@ pub const COMMANDS: &[Command] = &[
     Command {
         name: ":plot",
         operand: Operand::Curves,
-        placeholder: "[CURVE, …] [OPTIONS]",
+        placeholder: "[CURVES, OPTIONS]",
         summary: "draws columns of the history, or any expression, over time; the energies unless given",
         doc: "Curves are separated by commas. Each is a column, such as `energy`, or an expression. One that is a number or a vector, such as \
               `sim.position(rod.end).x`, is evaluated in every state in which the simulation was: the one that it names, or else the last. \
