@@ -3,33 +3,25 @@
 //! Layers, each using only those to its right:
 //!
 //! ```text
-//! main → cli → repl, exercises → script → output, analysis → simulation → statics → vibration → model ┬→ joints, loads → beams → geometry
-//!                                                                                                     └→ integrators → newton → linalg
+//! main → cli → repl, exercises → script → output, analysis → mechanics: simulation → … → model → …
 //! ```
 //!
-//! At the bottom of all stand [`elementary`]: sine, logarithm and power with the same bits on every machine, and [`folders`], which opens files for all that
-//! touch any, and [`panics`], which catches our mistakes and tells of them.
+//! The mechanics is a crate of its own, so that a change of the language does not build it anew; its layers are named here as they are there. At the bottom
+//! stand [`folders`], which opens files for all that touch any, and [`panics`], which catches our mistakes and tells of them.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+pub use withy_mechanics::{
+    beams, elementary, geometry, integrators, joints, linalg, loads, model, newton, simulation,
+    statics, vibration,
+};
+
 pub mod analysis;
-pub mod beams;
 pub mod cli;
-pub mod elementary;
 pub mod exercises;
 pub mod folders;
-pub mod geometry;
-pub mod integrators;
-pub mod joints;
-pub mod linalg;
-pub mod loads;
-pub mod model;
-pub mod newton;
 pub mod output;
 pub mod panics;
 pub mod repl;
 pub mod script;
-pub mod simulation;
-pub mod statics;
-pub mod vibration;

@@ -5,6 +5,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use crate::layering::crates;
+
 /// The words of all entries of the map that are about the files of a folder, by its path.
 type Map = BTreeMap<String, String>;
 
@@ -39,7 +41,7 @@ fn named(words: &str) -> Vec<&str> {
     paths.filter(|path| !path.starts_with("tests/")).collect()
 }
 
-/// The files below a folder, as paths from `src` on.
+/// The files below a folder, as paths behind some beginning.
 fn files(folder: &Path, from: &str, all: &mut Vec<String>) {
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -62,7 +64,10 @@ fn the_folder_map_names_every_file_and_no_other() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let map = map(&std::fs::read_to_string(root.join("docs/architecture.md")).unwrap());
     let mut all = Vec::new();
-    files(&root.join("src"), "", &mut all);
+    let [mechanics, others] = crates();
+    files(&others, "", &mut all);
+    all.retain(|file| !file.starts_with("mechanics/"));
+    files(&mechanics, "", &mut all);
     all.sort();
     let mut wrong = Vec::new();
     for (folder, words) in &map {
@@ -75,12 +80,12 @@ fn the_folder_map_names_every_file_and_no_other() {
             let written = names.iter().filter(|written| is_named(written, name)).count();
             let is_own = name != "mod.rs" && name != "tests.rs";
             if is_own && written != namesakes {
-                wrong.push(format!("src/{file} is missing"));
+                wrong.push(format!("{file} is missing"));
             }
         }
         for name in names {
             if !own.iter().any(|file| is_named(file, name)) {
-                wrong.push(format!("src/{folder} has no {name}"));
+                wrong.push(format!("{folder} has no {name}"));
             }
         }
     }

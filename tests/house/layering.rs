@@ -35,7 +35,8 @@ const BRANCHES: &[(&str, &[&str])] = &[
 fn allowed(layer: &str) -> Option<Vec<&'static str>> {
     match layer {
         "main.rs" => return Some(vec!["cli"]),
-        "lib.rs" => return Some(Vec::new()),
+        // That of the language hands the layers of the mechanics on.
+        "lib.rs" => return allowed("analysis"),
         // It draws plain data.
         "output" => return Some(vec!["elementary", "folders"]),
         _ => {}
@@ -69,9 +70,18 @@ pub fn sources() -> Vec<(PathBuf, String)> {
     files
 }
 
+/// The folders that the layers of each crate stand in: those of the mechanics, and all others.
+pub fn crates() -> [PathBuf; 2] {
+    ["src/mechanics", "src"].map(|root| Path::new(env!("CARGO_MANIFEST_DIR")).join(root))
+}
+
+/// The path of a file of `src` from the folder on that the layers of its crate stand in.
+pub fn in_crate(path: &Path) -> &Path {
+    crates().iter().find_map(|root| path.strip_prefix(root).ok()).unwrap()
+}
+
 pub fn layer(path: &Path) -> String {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let first = path.strip_prefix(src).unwrap().components().next().unwrap();
+    let first = in_crate(path).components().next().unwrap();
     first.as_os_str().to_string_lossy().into_owned()
 }
 
@@ -121,10 +131,10 @@ pub fn without_tests<'t>(path: &Path, text: &'t str) -> &'t str {
     }
 }
 
-/// How the code of a file names the module of a folder of `src` that it lies in without its path: `super::`, so often as it lies deep; not at all at its root.
+/// How the code of a file names the module of a folder of its crate that it lies in without its path: `super::`, so often as it lies deep; not at all at its root.
 fn upwards(path: &Path, root: &str) -> Option<String> {
-    let inside = path.strip_prefix(Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(root));
-    let depth = inside.ok()?.components().count() - usize::from(path.ends_with("mod.rs"));
+    let depth = in_crate(path).strip_prefix(root).ok()?.components().count()
+        - usize::from(path.ends_with("mod.rs"));
     (depth > 0).then(|| "super::".repeat(depth))
 }
 
@@ -132,7 +142,7 @@ fn upwards(path: &Path, root: &str) -> Option<String> {
 pub struct Walls<'w> {
     /// What one part is, in words.
     pub part: &'static str,
-    /// The folder of `src` that the parts are in.
+    /// The folder of its crate that the parts are in.
     pub root: &'static str,
     /// The part that a file stands in; none for files that are in no part.
     pub of_file: &'w dyn Fn(&Path) -> Option<String>,
@@ -176,7 +186,7 @@ fn trespasses(files: &[(PathBuf, String)]) -> Vec<String> {
         part: "layer",
         root: "",
         of_file: &|path| Some(layer(path)),
-        paths: &["crate::", "withy::"],
+        paths: &["crate::", "withy::", "withy_mechanics::"],
         of_name: &str::to_owned,
         may_use: &|own, other| Some(allowed(own)?.contains(&other)),
     };
@@ -211,8 +221,7 @@ const ROOMS: &[(&str, &[&str])] = &[
 
 /// The room of a file of the model, by its folder or, for the file beside a folder, its name.
 fn room(path: &Path) -> Option<String> {
-    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/model");
-    let first = path.strip_prefix(model).ok()?.components().next()?;
+    let first = in_crate(path).strip_prefix("model").ok()?.components().next()?;
     let name = first.as_os_str().to_str()?.trim_end_matches(".rs").to_owned();
     (name != "mod").then_some(name)
 }
@@ -253,14 +262,14 @@ fn rooms_of_the_model_use_one_another_one_way() {
         let later = |name: &&str| ROOMS[at + 1..].iter().any(|(other, _)| other == name);
         assert!(allowed.iter().all(later), "{room} may use one that may use it");
     }
-    let bodies = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/model/bodies/body.rs");
+    let bodies = crates()[0].join("model/bodies/body.rs");
     let text =
         "// crate::model::scene\nuse crate::model::{\n    Model, words::finite};\n".to_owned();
     assert_eq!(strangers(&[(bodies.clone(), text)], &exports).len(), 2);
     let text =
         "use super::body::Body;\nuse super::super::{\n    Model, words::finite};\n".to_owned();
     assert_eq!(strangers(&[(bodies, text)], &exports).len(), 2);
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/model/mechanism.rs");
+    let beside = crates()[0].join("model/mechanism.rs");
     let text = "use super::motion::Motion;\nuse super::scene::Scene;\n".to_owned();
     let found = strangers(&[(beside, text)], &exports);
     assert!(found.len() == 1 && found[0].ends_with("rs:2: mechanism uses scene"), "{found:?}");
@@ -269,7 +278,7 @@ fn rooms_of_the_model_use_one_another_one_way() {
 #[test]
 fn a_model_and_a_simulation_are_at_most_ten_private_parts() {
     for (file, name) in [("model/mechanism.rs", "Model"), ("simulation/run.rs", "Simulation")] {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(file);
+        let path = crates()[0].join(file);
         let text = fs::read_to_string(path).unwrap();
         let (_, fields) = text.split_once(&format!("pub struct {name} {{\n")).unwrap();
         let (fields, _) = fields.split_once("\n}").unwrap();
@@ -282,7 +291,7 @@ fn a_model_and_a_simulation_are_at_most_ten_private_parts() {
 
 #[test]
 fn a_trespass_is_found() {
-    let beams = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/beams/mesh.rs");
+    let beams = crates()[0].join("beams/mesh.rs");
     let text = "use crate::geometry::Vec2;\n// crate::model is fine here\nuse crate::integrators::Stage;\n";
     let found = trespasses(&[(beams, text.to_owned())]);
     assert!(
@@ -319,4 +328,17 @@ fn no_file_is_longer_than_four_hundred_lines() {
         let lines = text.lines().count();
         assert!(lines <= LONGEST, "{} has {lines} lines", path.display());
     }
+}
+
+#[test]
+fn joints_and_loads_know_nothing_of_a_beam_but_its_stations() {
+    let mut wrong = Vec::new();
+    for (path, text) in sources() {
+        if ["joints", "loads"].contains(&layer(&path).as_str()) {
+            let names = named_after(without_tests(&path, &text), "crate::beams::");
+            let others = names.into_iter().filter(|(_, name)| name != "Station");
+            wrong.extend(others.map(|(line, name)| format!("{}:{line}: {name}", path.display())));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used)]
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+
+use crate::layering::{crates, in_crate, sources};
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -12,17 +14,9 @@ fn theory() -> String {
     std::fs::read_to_string(root().join("docs/theory.md")).unwrap()
 }
 
-/// Every file of a folder and below, with its text.
-fn sources(folder: &Path, all: &mut Vec<(PathBuf, String)>) {
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            sources(&path, all);
-        } else if path.extension().is_some_and(|ending| ending == "rs") {
-            let text = std::fs::read_to_string(&path).unwrap();
-            all.push((path, text));
-        }
-    }
+/// Whether there is a file of this name in a crate.
+fn is_source(name: &str) -> bool {
+    crates().iter().any(|root| root.join(name).is_file())
 }
 
 /// What stands between backticks in the text, outside of fenced blocks.
@@ -88,9 +82,10 @@ fn has_member(all: &[(PathBuf, String)], of: &str, member: &str) -> bool {
 
 /// Whether a module, in `src` or below one of its folders, declares a name.
 fn has_item(all: &[(PathBuf, String)], module: &str, name: &str) -> bool {
-    let folder = root().join("src").join(module.replace("::", "/"));
+    let folder = PathBuf::from(module.replace("::", "/"));
     all.iter().any(|(path, text)| {
-        (path.starts_with(&folder) || *path == folder.with_extension("rs"))
+        let own = in_crate(path);
+        (own.starts_with(&folder) || own == folder.with_extension("rs"))
             && (text.lines().any(|line| declares(line, name))
                 || path.file_stem().is_some_and(|stem| stem == name))
     })
@@ -98,8 +93,7 @@ fn has_item(all: &[(PathBuf, String)], module: &str, name: &str) -> bool {
 
 #[test]
 fn names_of_the_theory_are_in_the_code() {
-    let mut all = Vec::new();
-    sources(&root().join("src"), &mut all);
+    let all = sources();
     let mut missing = Vec::new();
     let mut count = 0;
     for word in in_code_style(&theory()) {
@@ -145,7 +139,7 @@ fn files_of_the_theory_are_there() {
         };
         for name in names {
             folder = name.rsplit_once('/').unwrap().0.to_owned();
-            if !root().join(&name).is_file() && !root().join("src").join(&name).is_file() {
+            if !root().join(&name).is_file() && !is_source(&name) {
                 missing.push(name);
             }
         }
@@ -261,10 +255,9 @@ fn tolerances_of_the_theory_are_those_of_the_code() {
         if !theory.contains(&words) {
             wrong.push(format!("docs/theory.md does not say \"{said}\""));
         }
-        if !std::fs::read_to_string(root().join("src").join(file)).unwrap().contains(code) {
-            wrong.push(format!(
-                "src/{file} does not have `{code}`, of which theory.md says \"{said}\""
-            ));
+        if !std::fs::read_to_string(crates()[0].join(file)).unwrap().contains(code) {
+            wrong
+                .push(format!("{file} does not have `{code}`, of which theory.md says \"{said}\""));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
