@@ -444,8 +444,8 @@ fn names_of_the_session_are_explained_with_their_values() {
         ("shapes::rectangle?", &["sections::rectangle("]),
         ("EA?", &["An option of"]),
         ("sqrt?", &["sqrt("]),
-        (":plot?", &[":plot [CURVE, …]", "separated by commas"]),
-        ("plot?", &[":plot [CURVE, …]", "plot_motion"]),
+        (":plot?", &[":plot [CURVES, OPTIONS]", "separated by commas"]),
+        ("plot?", &[":plot [CURVES, OPTIONS]", "plot_motion"]),
         ("?:time", &[":time INPUT"]),
         ("let?", &["let"]),
     ] {

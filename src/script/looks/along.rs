@@ -1,7 +1,7 @@
 //! Pictures of what is inside of beams: strips, charts and colours, from the same description.
 
 use super::quantities::Quantity;
-use super::symbols::{SceneAt, symbols};
+use super::symbols::SceneAt;
 use crate::geometry::Vec2;
 use crate::model::{BeamPlaces, BeamSample, Model, ModelError};
 use crate::output::{
@@ -45,8 +45,7 @@ impl Inside {
     /// # Errors
     /// When an axis has a point without a tangent.
     pub fn of_equilibrium(rest: &Equilibrium, beams: &[usize]) -> Result<Self, ModelError> {
-        let at = SceneAt { scene: rest.scene(), time: 0.0, released: Vec::new() };
-        Self::of_model(&at, rest.model(), beams)
+        Self::of_model(&SceneAt::at_rest(rest), rest.model(), beams)
     }
 
     fn of_model(at: &SceneAt, model: &Model, beams: &[usize]) -> Result<Self, ModelError> {
@@ -64,14 +63,13 @@ impl Inside {
             })
         };
         let beams = (0..scene.beams.len()).filter(is_wanted).map(beam);
-        let place = |station: &_| Ok(model.position(&scene.place(station, model.meshes())?));
         Ok(Self {
             title: scene.name.clone(),
             when: String::new(),
             beams: beams.collect::<Result<_, ModelError>>()?,
             scenery: Scenery {
                 bodies: drawn.bodies.iter().map(|body| body.iter().map(plain).collect()).collect(),
-                symbols: symbols(at, |stations| stations.iter().map(place).collect())?,
+                symbols: at.symbols(model)?,
             },
         })
     }

@@ -5,9 +5,10 @@ use crate::elementary::atan2;
 use crate::geometry::Vec2;
 use crate::joints::{Component, Components, Joint, JointKind, Partner};
 use crate::loads::{Frame, Load, LoadKind, Schedule, Side};
-use crate::model::{Anchor, Drive, ModelError, Scene, Spring, SpringKind};
+use crate::model::{Anchor, Drive, Model, ModelError, Scene, Spring, SpringKind};
 use crate::output::{PlacedSymbol, Symbol};
 use crate::simulation::Simulation;
+use crate::statics::Equilibrium;
 
 /// The arrows of a load that is spread along a beam.
 const ARROWS: usize = 5;
@@ -72,6 +73,20 @@ impl<'a> SceneAt<'a> {
         let is_gone =
             |slider: &usize| simulation.release_of(*slider).is_some_and(|release| release < time);
         Self { scene, time, released: (0..scene.sliders.len()).filter(is_gone).collect() }
+    }
+
+    /// That of an equilibrium, under all of its loads.
+    pub fn at_rest(rest: &'a Equilibrium) -> Self {
+        Self { scene: rest.scene(), time: 0.0, released: Vec::new() }
+    }
+
+    /// The symbols where a model of the scene is at present.
+    ///
+    /// # Errors
+    /// When a station lies outside its beam.
+    pub fn symbols(&self, model: &Model) -> Result<Vec<PlacedSymbol>, ModelError> {
+        let place = |at: &_| Ok(model.position(&self.scene.place(at, model.meshes())?));
+        symbols(self, |stations| stations.iter().map(place).collect())
     }
 }
 

@@ -8,6 +8,7 @@ use crate::geometry::Vec2;
 use crate::output::{CsvTable, LineChart, MotionPicture, Page, Series, Snapshot, significant};
 use crate::script::handles::station::StationHandle;
 use crate::script::looks::motion::snapshot;
+use crate::script::looks::symbols::SceneAt;
 use crate::script::packages::equilibria::{BENT, EQUILIBRIUM, EquilibriumHandle};
 use crate::script::packages::modes::{MODES, ModesHandle};
 use crate::script::packages::scenes::STATION;
@@ -30,7 +31,7 @@ pub const TABLE: Table = Table {
     rows: &[
         function("plot_equilibrium", &[REST, FILE, options("options", SHAPES).optional()], plot_equilibrium)
             .summary("Draws configurations along the path of equilibria over each other.")
-            .doc("Of a long path some are left out, the same number between each two that are drawn.")
+            .doc("Symbols of supports, joints, springs and loads stand where the last one has them. Of a long path some are left out, the same number between each two that are drawn.")
             .example("let rest = scene.equilibrium();\nplot_equilibrium(rest, \"bent.svg\", #{ trace: [rod.end] });")
             .see(&["equilibrium", "plot_load_path", "plot_motion"]),
         function("plot_load_path", &[REST, object("station", STATION), FILE], plot_load_path)
@@ -77,6 +78,7 @@ fn plot_equilibrium(call: &mut Call) -> Result<Dynamic, ScriptError> {
     if !grows {
         picture = picture.time_label("point of the path");
     }
+    picture = picture.symbols(SceneAt::at_rest(&rest).symbols(rest.model())?);
     let outlines = Outline::of_scene(scene, rest.model().meshes())?;
     let configurations = rest.along_path(|model| {
         let points: Vec<&[Vec2]> = model.control_points().collect();
