@@ -6,7 +6,7 @@ use withy::beams::{Mesh, Section};
 use withy::geometry::{Curve, Vec2};
 use withy::integrators::Mechanism;
 use withy::joints::{JointKind, Partner};
-use withy::linalg::BandedMatrix;
+use withy::linalg::{BorderShape, BorderedMatrix};
 use withy::model::{BeamDefinition, Model, Scene, StartMotion};
 use withy::vibration::Modes;
 
@@ -44,7 +44,8 @@ fn main() {
         let mut model = Model::assemble(&scene).unwrap();
         let still = vec![0.0; model.unknowns()];
         let mut forces = vec![0.0; model.degrees_of_freedom()];
-        let mut matrix = BandedMatrix::zeros(model.unknowns(), model.half_bandwidth());
+        let none = BorderShape::default();
+        let mut matrix = BorderedMatrix::zeros(model.unknowns(), model.half_bandwidth(), none);
         model.add_linearised_static_forces(&still, 1.0, &mut forces, &mut matrix);
         // The clock ticks by milliseconds: many are measured together.
         let mut copies = vec![matrix; FACTORISATIONS];

@@ -1,6 +1,7 @@
 //! Pictures one after the other in one file: an animated PNG, which browsers and Markdown play.
 //!
-//! All frames share a palette, the 256 colours that are met most, to which all others go that are nearest; of each only the box in which it differs from the one before is kept.
+//! All frames share a palette, the 256 colours that are met most, to which all others go that are nearest; of each only the box in which it differs from the
+//! one before is kept.
 
 use std::collections::BTreeMap;
 

@@ -23,7 +23,7 @@ pub struct Link {
 }
 
 impl Link {
-    /// That from one place to another.
+    /// The link from one place to another.
     pub fn between(from: Point, to: Point) -> Self {
         let (x, y) = (to.0 - from.0, to.1 - from.1);
         let length = hypot(x, y);

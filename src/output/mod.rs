@@ -1,7 +1,8 @@
 //! Tables, files and pictures from plain data. Nothing here knows what a simulation is.
 //!
 //! ```text
-//! chart, heat_map, bars, motion, strips, field → page → scenery → plane, symbol → frame, hatching, legend, colour_bar → axis, curve, stroke, marker → canvas → figure → svg, png → files
+//! chart, heat_map, bars, motion, strips, field → page → scenery → plane, symbol → frame, hatching, legend, colour_bar → axis, curve, stroke, marker → canvas → figure
+//! → svg, png → files
 //! chart, heat_map → terminal → axis, curve
 //! motion → animation → figure
 //! viewer (a page for browsers) → canvas, colour

@@ -15,9 +15,9 @@ const SPARE: f64 = 0.05;
 /// The ends of the axes, where a reader asks for others than those that fit the data.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Limits {
-    /// Of the horizontal axis.
+    /// The least and the largest value of the horizontal axis.
     pub x: Option<(f64, f64)>,
-    /// Of the vertical axis.
+    /// The least and the largest value of the vertical axis.
     pub y: Option<(f64, f64)>,
 }
 

@@ -23,7 +23,7 @@ pub enum Stroke {
 }
 
 impl Stroke {
-    /// The stroke that series number `round × hues` takes when its colour has been used before.
+    /// The stroke of the series that get their colours in a pass through the palette, from pass 0 on.
     pub fn of_round(round: usize) -> Self {
         [Stroke::Solid, Stroke::Dashed, Stroke::Dotted][round % 3]
     }

@@ -74,7 +74,8 @@ pub fn double_pendulum() -> Scene {
     scene
 }
 
-/// A flying beam with rigid bodies at both ends, one on a hinge and one joined rigidly beside its centre, with a mass, a spring between points and one that turns.
+/// A flying beam with rigid bodies at both ends, one on a hinge and one joined rigidly beside its centre, with a mass, a spring between points and one that
+/// turns.
 pub fn dumbbell(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("flying dumbbell");
     let beam = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 0.0)), mesh, soft());

@@ -3,7 +3,7 @@
 
 use withy::integrators::{
     Accelerated, Checkpoint, Constraints, EnergyMomentum, Forces, Inertia, Integrator, Interval,
-    Mechanism, Overshoot, Prescribed, Solution, Stage, StepError,
+    Mechanism, Overshoot, PrescribedKinematics, Solution, Stage, StepError,
 };
 use withy::joints::CONTACT_UNKNOWNS;
 use withy::linalg::{BandedMatrix, Border, BorderShape, BorderedMatrix};
@@ -48,7 +48,7 @@ impl<'a> FixedWay<'a> {
 }
 
 impl Mechanism for FixedWay<'_> {
-    fn prescribed(&self) -> &Prescribed {
+    fn prescribed(&self) -> &PrescribedKinematics {
         self.model.prescribed()
     }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::at;
-use withy::beams::{Mesh, Relaxation, Section, SectionProfile, Station};
+use withy::beams::{Mesh, Relaxation, Section, SectionVariation, Station};
 use withy::geometry::{Curve, Vec2};
 use withy::joints::{Component, Components, JointKind, Partner};
 use withy::loads::{Frame, LoadKind, PrescribedMotion, Schedule};
@@ -384,7 +384,7 @@ pub fn tapered(mesh: &Mesh) -> Scene {
     let beam = add_beam(&mut scene, axis, mesh, rod());
     let thin = Section { bending_stiffness: 12.0, mass_per_length: 0.6, ..rod() };
     scene.beams[beam].section =
-        SectionProfile::Numbers(vec![(0.0, rod()), (0.4, rod()), (1.0, thin)]);
+        SectionVariation::Numbers(vec![(0.0, rod()), (0.4, rod()), (1.0, thin)]);
     scene.add_damping(beam, Relaxation { axial: 0.01, shear: 0.0, bending: 0.03 }).unwrap();
     let (start, end) = (start_of(&mut scene, beam), end_of(&mut scene, beam));
     scene.join(JointKind::Hinge, start, Partner::Ground).unwrap();

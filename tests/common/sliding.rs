@@ -124,3 +124,21 @@ pub fn paper_meshes() -> Vec<(&'static str, [Mesh; 2])> {
 
 /// The time step of the paper.
 pub const PAPER_STEP: f64 = 0.01067;
+
+/// Cubic C² splines of so many spans.
+pub fn smooth(spans: usize) -> Mesh {
+    Mesh::bspline(spans, 3, 2).unwrap()
+}
+
+/// The scene of a reference, with as many spans in every beam.
+pub fn reference_scene(reference: &str, spans: usize, rule: SlidingRule) -> Scene {
+    let mesh = smooth(spans);
+    match reference {
+        "P7b" => sliding_particle(&mesh, 0.3, rule),
+        "P7c" => sliding_particle(&mesh, 1.0, rule),
+        "P7d" => kicked_sliding_particle(&mesh, rule),
+        "P8s_free" => smoothly_pushed_mass([&mesh, &mesh], Support::Free, rule),
+        "P8s_hinged" => smoothly_pushed_mass([&mesh, &mesh], Support::Hinged, rule),
+        other => panic!("there is no reference {other}"),
+    }
+}

@@ -1,4 +1,4 @@
-//! RigidLinks fit together: their tangent, their balances, what joints give to bodies, and what is refused.
+//! Rigid links fit together: their tangent, their balances, what joints give to bodies, and what is refused.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::body_scenes::{add_body, hinge, point};

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{at, meshes, scenes, simulate};
-use withy::beams::{Mesh, Section, SectionProfile};
+use withy::beams::{Mesh, Section, SectionVariation};
 use withy::integrators::Method;
 use withy::model::{Model, Scene, StartMotion};
 use withy::simulation::{Invariant, Simulation};
@@ -18,11 +18,11 @@ fn section(factor: f64) -> Section {
     }
 }
 
-fn thrown(mesh: &Mesh, profile: SectionProfile) -> Scene {
+fn thrown(mesh: &Mesh, variation: SectionVariation) -> Scene {
     let mut scene = Scene::new("thrown");
     let axis = scenes::line(at(1.0, 0.0), at(4.0, 1.0));
     let beam = scenes::add_beam(&mut scene, axis, mesh, section(1.0));
-    scene.beams[beam].section = profile;
+    scene.beams[beam].section = variation;
     scene.beams[beam].motion =
         StartMotion { velocity: at(1.0, -2.0), spin: 2.0, about: Some(at(1.0, 0.0)) };
     scene
@@ -35,13 +35,13 @@ fn tip(simulation: &Simulation) -> withy::geometry::Vec2 {
 #[test]
 fn a_taper_between_equal_sections_is_a_uniform_beam() {
     for (name, mesh) in meshes(5) {
-        let same = SectionProfile::Numbers(vec![
+        let same = SectionVariation::Numbers(vec![
             (0.0, section(1.3)),
             (0.4, section(1.3)),
             (1.0, section(1.3)),
         ]);
         let [one, other] = [same, section(1.3).into()]
-            .map(|profile| simulate(thrown(&mesh, profile), Method::EnergyMomentum, 0.05, 3.0));
+            .map(|variation| simulate(thrown(&mesh, variation), Method::EnergyMomentum, 0.05, 3.0));
         let apart = (tip(&one) - tip(&other)).norm();
         assert!(apart < 1e-11, "{name}: {apart:.1e}");
     }
@@ -50,9 +50,9 @@ fn a_taper_between_equal_sections_is_a_uniform_beam() {
 #[test]
 fn momenta_at_the_start_are_integrals_of_the_taper() {
     // ρA = ρ (2 - s), ρI = ρ_I (2 - s)² linear between places: s from 0 to 1 in one piece is linear in numbers.
-    let profile = SectionProfile::Numbers(vec![(0.0, section(2.0)), (1.0, section(1.0))]);
+    let variation = SectionVariation::Numbers(vec![(0.0, section(2.0)), (1.0, section(1.0))]);
     let mesh = Mesh::bspline(6, 3, 2).unwrap();
-    let mut model = Model::assemble(&thrown(&mesh, profile.clone())).unwrap();
+    let mut model = Model::assemble(&thrown(&mesh, variation.clone())).unwrap();
     let (length, rod) = (10.0_f64.sqrt(), scenes::rod());
     let mass = 1.5 * length * rod.mass_per_length;
     assert!((model.total_mass() / mass - 1.0).abs() < 1e-13);
@@ -80,14 +80,14 @@ fn momenta_at_the_start_are_integrals_of_the_taper() {
 
 #[test]
 fn a_taper_in_flight_keeps_everything() {
-    let profile = SectionProfile::Numbers(vec![
+    let variation = SectionVariation::Numbers(vec![
         (0.0, section(3.0)),
         (0.3, section(1.0)),
         (1.0, section(0.2)),
     ]);
     for (name, mesh) in meshes(6) {
         let simulation =
-            simulate(thrown(&mesh, profile.clone()), Method::EnergyMomentum, 0.05, 10.0);
+            simulate(thrown(&mesh, variation.clone()), Method::EnergyMomentum, 0.05, 10.0);
         for (invariant_name, invariant) in Invariant::ALL {
             let drift = simulation.history().drift(invariant);
             assert!(drift < 1e-12, "{name}, {invariant_name}: {drift:.1e}");
@@ -97,8 +97,8 @@ fn a_taper_in_flight_keeps_everything() {
 
 #[test]
 fn a_taper_falls_freely_without_a_strain() {
-    let profile = SectionProfile::Numbers(vec![(0.0, section(3.0)), (1.0, section(0.2))]);
-    let mut scene = thrown(&Mesh::bspline(6, 3, 2).unwrap(), profile);
+    let variation = SectionVariation::Numbers(vec![(0.0, section(3.0)), (1.0, section(0.2))]);
+    let mut scene = thrown(&Mesh::bspline(6, 3, 2).unwrap(), variation);
     scene.beams[0].motion = StartMotion { velocity: at(1.0, 0.0), ..StartMotion::default() };
     scene.gravity = at(0.0, -9.81);
     let simulation = simulate(scene, Method::EnergyMomentum, 0.01, 1.0);

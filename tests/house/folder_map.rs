@@ -41,7 +41,7 @@ fn named(words: &str) -> Vec<&str> {
     paths.filter(|path| !path.starts_with("tests/")).collect()
 }
 
-/// The files below a folder, as paths behind some beginning.
+/// The files below a folder, as paths that begin with `from`.
 fn files(folder: &Path, from: &str, all: &mut Vec<String>) {
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

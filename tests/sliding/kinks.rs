@@ -2,37 +2,18 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::reference::Table;
-use crate::common::sliding::{
-    Support, kicked_sliding_particle, sliding_particle, smoothly_pushed_mass,
-};
+use crate::common::sliding::{reference_scene, smooth};
 use crate::common::{at, orders, run, sci, settings, simulate, sliding_scenes};
-use withy::beams::{Mesh, Station};
+use withy::beams::Station;
 use withy::integrators::Method;
 use withy::joints::SlidingRule;
-use withy::model::Scene;
 use withy::simulation::Simulation;
-
-fn smooth(spans: usize) -> Mesh {
-    Mesh::bspline(spans, 3, 2).unwrap()
-}
-
-fn scene(reference: &str, spans: usize, rule: SlidingRule) -> Scene {
-    let mesh = smooth(spans);
-    match reference {
-        "P7b" => sliding_particle(&mesh, 0.3, rule),
-        "P7c" => sliding_particle(&mesh, 1.0, rule),
-        "P7d" => kicked_sliding_particle(&mesh, rule),
-        "P8s_free" => smoothly_pushed_mass([&mesh, &mesh], Support::Free, rule),
-        "P8s_hinged" => smoothly_pushed_mass([&mesh, &mesh], Support::Hinged, rule),
-        other => panic!("there is no reference {other}"),
-    }
-}
 
 /// Root mean squares, over the times of a reference, of the errors of place, contact point, end of the beam and contact force.
 fn errors(reference: &str, spans: usize, rule: SlidingRule, end: f64) -> [f64; 4] {
     let table = Table::read(&format!("{reference}.csv"));
     let settings = settings(Method::FourthOrder, 0.0025);
-    let mut flight = Simulation::start(scene(reference, spans, rule), settings).unwrap();
+    let mut flight = Simulation::start(reference_scene(reference, spans, rule), settings).unwrap();
     let (times, mut sums) = (table.times(end), [0.0; 4]);
     for &t in &times {
         run(&mut flight, t).unwrap();
@@ -89,7 +70,7 @@ fn contact_forces_are_told_at_their_own_time_with_the_order_of_the_method() {
         {
             let dts = [1.0, 2.0, 4.0].map(|parts: f64| first / parts);
             let forces = dts.map(|dt| {
-                let scene = scene(reference, 4, SlidingRule::Kinked);
+                let scene = reference_scene(reference, 4, SlidingRule::Kinked);
                 simulate(scene, method, dt, end).model().contact_force(0)
             });
             let changes: Vec<f64> =

@@ -2,33 +2,13 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::reference::Table;
-use crate::common::sliding::{
-    Support, kicked_sliding_particle, sliding_particle, smoothly_pushed_mass,
-};
+use crate::common::sliding::reference_scene;
 use crate::common::{at, orders, run, sci, settings, simulate};
-use withy::beams::{Mesh, Station};
+use withy::beams::Station;
 use withy::geometry::Vec2;
 use withy::integrators::Method;
 use withy::joints::{SLIDING_RULES, SlidingRule};
-use withy::model::Scene;
 use withy::simulation::Simulation;
-
-fn smooth(spans: usize) -> Mesh {
-    Mesh::bspline(spans, 3, 2).unwrap()
-}
-
-/// The scene of a reference, with as many spans in every beam.
-fn scene(reference: &str, spans: usize, rule: SlidingRule) -> Scene {
-    let mesh = smooth(spans);
-    match reference {
-        "P7b" => sliding_particle(&mesh, 0.3, rule),
-        "P7c" => sliding_particle(&mesh, 1.0, rule),
-        "P7d" => kicked_sliding_particle(&mesh, rule),
-        "P8s_free" => smoothly_pushed_mass([&mesh, &mesh], Support::Free, rule),
-        "P8s_hinged" => smoothly_pushed_mass([&mesh, &mesh], Support::Hinged, rule),
-        other => panic!("there is no reference {other}"),
-    }
-}
 
 fn position(simulation: &Simulation, station: &Station) -> Vec2 {
     simulation.model().position(&simulation.place(station).unwrap())
@@ -60,7 +40,7 @@ fn sliders_converge_in_time_at_second_order() {
         let found: Vec<(f64, Vec2)> = dts
             .into_iter()
             .map(|dt| {
-                let flight = simulate(scene(reference, 4, rule), method, dt, end);
+                let flight = simulate(reference_scene(reference, 4, rule), method, dt, end);
                 (contact_length(&flight), contact_point(&flight))
             })
             .collect();
@@ -100,7 +80,7 @@ fn errors_in_space(
     let exact = |x: &str, y: &str| at(table.at(end, x), table.at(end, y));
     let mut errors = [const { Vec::new() }; 3];
     for &spans in spans {
-        let scene = scene(reference, spans, SlidingRule::Conserving);
+        let scene = reference_scene(reference, spans, SlidingRule::Conserving);
         let flight = simulate(scene, Method::EnergyMomentum, dt, end);
         errors[0].push((contact_length(&flight) - table.at(end, "S")).abs());
         errors[1].push((contact_point(&flight) - exact("xC", "yC")).norm());
@@ -157,7 +137,7 @@ fn energies_converge_to_those_of_the_references() {
         let errors: Vec<f64> = [8, 16, 32, 64]
             .into_iter()
             .map(|spans| {
-                let scene = scene(reference, spans, SlidingRule::Conserving);
+                let scene = reference_scene(reference, spans, SlidingRule::Conserving);
                 let flight = simulate(scene, Method::EnergyMomentum, 0.0005, end);
                 let energy = flight.history().samples().last().unwrap().measures.energy;
                 let kinetic = energy.kinetic - table.at(end, "KE");
@@ -180,7 +160,7 @@ fn sliders_turn_round_without_noticing() {
     for (reference, turning, end, back) in
         [("P7c", 0.42165, 1.2, 1.101_05), ("P8s_hinged", 0.2687, 0.7, 0.628_61)]
     {
-        let scene = scene(reference, 32, SlidingRule::Conserving);
+        let scene = reference_scene(reference, 32, SlidingRule::Conserving);
         let mut flight = Simulation::start(scene, settings(Method::EnergyMomentum, 0.001)).unwrap();
         run(&mut flight, end).unwrap();
         let history = flight.history();

@@ -72,11 +72,18 @@ fn a_lamp_sinks_until_its_spring_holds_it_and_swings_about_there() {
 }
 
 #[test]
-fn a_body_that_nothing_holds_is_no_equilibrium() {
+fn a_body_that_nothing_but_its_weight_holds_hangs_and_one_that_nothing_holds_falls() {
     let mut scene = lamp(1.0);
     scene.elements.retain(|element| !matches!(element, withy::model::Element::Spring(_)));
-    let refused = Equilibrium::find(scene, Loading::default(), &mut |_| true).err().unwrap();
-    assert!(matches!(refused, StaticsError::Loose { movements: 1, .. }), "{refused}");
+    let mut free = scene.clone();
+    let rest = Equilibrium::find(scene, Loading::default(), &mut |_| true).unwrap();
+    let turned = rest.model().angle(rest.scene(), &point(0, 0)).unwrap();
+    assert!((turned + std::f64::consts::FRAC_PI_2).abs() < 1e-12, "{turned}");
+    let [square] = squares(rest.model(), 1)[..] else { panic!() };
+    assert!((square / (0.8 * GRAVITY / 0.84) - 1.0).abs() < 1e-7, "{square}");
+    free.joints.clear();
+    let refused = Equilibrium::find(free, Loading::default(), &mut |_| true).err().unwrap();
+    assert!(matches!(refused, StaticsError::Loose { movements: 3, .. }), "{refused}");
 }
 
 /// A slender clamped beam of length 2 with a rigid body at its tip, whose centre is `offset` beyond it.
@@ -142,7 +149,7 @@ fn a_beam_with_a_rigid_tip_body_has_the_frequencies_of_its_characteristic_equati
             let (below, above) = (omega * (1.0 - 2e-6), omega * (1.0 + 2e-6));
             assert!(f(below) * f(above) < 0.0, "{mass}, {inertia}, {offset}: {omega} is no root");
         }
-        // All movements of the body are those of the beam's end; its levers have four forces, body and second point four movements.
+        // All movements of the body are those of the beam's end; its rigid links have four forces, body and second point four movements.
         let finite = model.unknowns() - 8;
         assert!(Modes::of(&model, finite + 1, &mut || true).is_err());
     }

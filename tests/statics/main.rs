@@ -4,9 +4,11 @@
 mod common;
 
 mod bodies;
+mod elastica;
 mod equilibria;
 mod modes;
 mod section_forces;
+mod sliders;
 mod springs;
 mod stiff_modes;
 mod tapers;

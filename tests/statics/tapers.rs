@@ -2,19 +2,19 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{at, scenes};
-use withy::beams::{Mesh, Section, SectionProfile, Shape, Solid};
+use withy::beams::{Mesh, Section, SectionVariation, Shape, Solid};
 use withy::joints::{JointKind, Partner};
 use withy::loads::{Frame, LoadKind, Schedule};
 use withy::model::{Model, Scene};
 use withy::statics::{Equilibrium, Loading};
 use withy::vibration::{Mode, Modes};
 
-fn clamped(profile: SectionProfile, length: f64, spans: usize) -> Scene {
+fn clamped(variation: SectionVariation, length: f64, spans: usize) -> Scene {
     let mut scene = Scene::new("clamped");
     let mesh = Mesh::bspline(spans, 4, 3).unwrap();
     let axis = scenes::line(at(0.0, 0.0), at(length, 0.0));
     let beam = scenes::add_beam(&mut scene, axis, &mesh, scenes::rod());
-    scene.beams[beam].section = profile;
+    scene.beams[beam].section = variation;
     let start = scene.station(beam, 0.0).unwrap();
     scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
     scene
@@ -31,11 +31,11 @@ fn the_tip_of_a_tapered_cantilever_sinks_as_the_integral_says() {
         mass_per_length: 1.0,
         rotary_inertia: 1.0,
     };
-    let profile = SectionProfile::Numbers(vec![
+    let variation = SectionVariation::Numbers(vec![
         (0.0, section(stiffness)),
         (1.0, section(stiffness * (1.0 - a))),
     ]);
-    let mut scene = clamped(profile, length, 24);
+    let mut scene = clamped(variation, length, 24);
     let tip = scene.station(0, length).unwrap();
     let down = LoadKind::Force { station: tip, force: at(0.0, -force), frame: Frame::Dead };
     scene.add_load(down, Schedule::constant(1.0).unwrap());
@@ -92,12 +92,12 @@ fn a_wedge_vibrates_as_kirchhoff_found() {
         density,
         shape: Shape::Rectangle { width: 0.02, height: height * part },
     };
-    let profile = SectionProfile::Dimensions(vec![(0.0, solid(1.0)), (1.0, solid(1e-3))]);
+    let variation = SectionVariation::Dimensions(vec![(0.0, solid(1.0)), (1.0, solid(1e-3))]);
     let root = wedge_root();
     let factor = root * root / 4.0;
     assert!((factor - 5.315).abs() < 1e-3, "Kirchhoff's value: {factor}");
     let expected = factor * (young * height * height / (12.0 * density)).sqrt() / (length * length);
-    let model = Model::assemble(&clamped(profile, length, 40)).unwrap();
+    let model = Model::assemble(&clamped(variation, length, 40)).unwrap();
     let modes = Modes::of(&model, 1, &mut || true).unwrap();
     let found = modes.all().first().map(Mode::angular_frequency).unwrap();
     assert!((found / expected - 1.0).abs() < 3e-3, "{found} {expected}");
@@ -113,7 +113,7 @@ fn a_tapered_bar_stretches_and_rings_as_its_area_says() {
         density: mass / std::f64::consts::PI,
         shape: Shape::Circle { radius },
     };
-    let profile = SectionProfile::Dimensions(vec![(0.0, solid(1.0)), (1.0, solid(0.5))]);
+    let variation = SectionVariation::Dimensions(vec![(0.0, solid(1.0)), (1.0, solid(0.5))]);
     // tan β = -β r/r' at the end: f' r = f r', with f = sin β s: β cos β · ½ = -½ sin β.
     let (mut low, mut high) = (std::f64::consts::FRAC_PI_2 + 1e-9, std::f64::consts::PI);
     for _ in 0..60 {
@@ -121,7 +121,7 @@ fn a_tapered_bar_stretches_and_rings_as_its_area_says() {
         if middle.tan() + middle < 0.0 { low = middle } else { high = middle }
     }
     let expected = 0.5 * (low + high) * (stiffness / mass).sqrt() / length;
-    let model = Model::assemble(&clamped(profile, length, 12)).unwrap();
+    let model = Model::assemble(&clamped(variation, length, 12)).unwrap();
     let modes = Modes::of(&model, 12, &mut || true).unwrap();
     let nearest = modes
         .all()

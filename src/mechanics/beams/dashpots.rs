@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 use super::dynamics::{ForceSummary, Movement};
 use super::force_dashpot::ForceDashpot;
 use super::moment_dashpot::MomentDashpot;
-use super::sections::ProfileOnAxis;
-use super::{BeamError, Mesh, RotationIncrement, Section, SectionPlace, SectionProfile};
+use super::sections::SectionsOnAxis;
+use super::{BeamError, Mesh, RotationIncrement, Section, SectionPlace, SectionVariation};
 use crate::geometry::{Vec2, larger};
 
 /// The relaxation times of a Kelvin–Voigt material: a section resists with `C (Γ + τ Γ̇)` and `EI (κ + τ κ̇)` [time].
@@ -105,11 +105,11 @@ impl Dashpots {
     pub fn new(
         mesh: &Mesh,
         control_points: &[Vec2],
-        profile: &SectionProfile,
+        variation: &SectionVariation,
         relaxation: Relaxation,
     ) -> Result<Self, BeamError> {
         let order = mesh.basis().degree() + 1;
-        let on_axis = ProfileOnAxis::new(profile, mesh, control_points)?;
+        let on_axis = SectionsOnAxis::new(variation, mesh, control_points)?;
         let mut spans = Vec::new();
         for (index, quadrature) in mesh.quadrature_spans()?.into_iter().enumerate() {
             let span = quadrature.span;

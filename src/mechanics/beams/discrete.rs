@@ -12,16 +12,16 @@ use super::force_point::ForcePoint;
 use super::mesh::QuadratureSpan;
 use super::moment_point::MomentPoint;
 use super::parts::{MOST_PARTS, Parts};
-use super::sections::{Entry, Own, ProfileOnAxis, Same, Sections};
+use super::sections::{MassIntegral, PerPoint, Sections, SectionsOnAxis, Uniform};
 use super::span_points::{SpanPoints, window_mut};
 use super::{
-    BeamError, Mesh, RotationIncrement, Section, SectionForces, SectionPlace, SectionProfile,
+    BeamError, Mesh, RotationIncrement, Section, SectionForces, SectionPlace, SectionVariation,
 };
 use crate::geometry::Vec2;
 
 /// A beam whose basis has `N` non-zero functions on a span.
 #[derive(Debug, Clone)]
-struct DiscreteBeam<const N: usize, S: Sections = Same> {
+struct DiscreteBeam<const N: usize, S: Sections = Uniform> {
     /// That of all points, or of a beam that tapers the mean.
     section: Section,
     control_points: Vec<Vec2>,
@@ -29,7 +29,7 @@ struct DiscreteBeam<const N: usize, S: Sections = Same> {
     spans: Vec<SpanPoints<N, S>>,
     parts: Parts,
     /// `∫ N_a N_{a+k} dX` for k = 0 … N-1 [length], with the inertia where it varies.
-    gram: Vec<[S::Entry; N]>,
+    gram: Vec<[S::MassIntegral; N]>,
 }
 
 /// A beam with the axis that the control points draw on a mesh, where it is free of stress; `length` is about that of the
@@ -41,12 +41,14 @@ pub fn discretise(
     control_points: Vec<Vec2>,
     length: f64,
     mesh: &Mesh,
-    profile: &SectionProfile,
+    variation: &SectionVariation,
 ) -> Result<Box<dyn BodyDynamics>, BeamError> {
-    match profile {
-        SectionProfile::Uniform(_) => with_sections::<Same>(control_points, length, mesh, profile),
-        SectionProfile::Numbers(_) | SectionProfile::Dimensions(_) => {
-            with_sections::<Own>(control_points, length, mesh, profile)
+    match variation {
+        SectionVariation::Uniform(_) => {
+            with_sections::<Uniform>(control_points, length, mesh, variation)
+        }
+        SectionVariation::Numbers(_) | SectionVariation::Dimensions(_) => {
+            with_sections::<PerPoint>(control_points, length, mesh, variation)
         }
     }
 }
@@ -55,34 +57,34 @@ fn with_sections<S: Sections + 'static>(
     points: Vec<Vec2>,
     length: f64,
     mesh: &Mesh,
-    profile: &SectionProfile,
+    variation: &SectionVariation,
 ) -> Result<Box<dyn BodyDynamics>, BeamError> {
     Ok(match mesh.basis().degree() {
-        1 => Box::new(DiscreteBeam::<2, S>::new(mesh, profile, length, points)?),
-        2 => Box::new(DiscreteBeam::<3, S>::new(mesh, profile, length, points)?),
-        3 => Box::new(DiscreteBeam::<4, S>::new(mesh, profile, length, points)?),
-        4 => Box::new(DiscreteBeam::<5, S>::new(mesh, profile, length, points)?),
-        5 => Box::new(DiscreteBeam::<6, S>::new(mesh, profile, length, points)?),
-        6 => Box::new(DiscreteBeam::<7, S>::new(mesh, profile, length, points)?),
-        7 => Box::new(DiscreteBeam::<8, S>::new(mesh, profile, length, points)?),
-        8 => Box::new(DiscreteBeam::<9, S>::new(mesh, profile, length, points)?),
-        9 => Box::new(DiscreteBeam::<10, S>::new(mesh, profile, length, points)?),
+        1 => Box::new(DiscreteBeam::<2, S>::new(mesh, variation, length, points)?),
+        2 => Box::new(DiscreteBeam::<3, S>::new(mesh, variation, length, points)?),
+        3 => Box::new(DiscreteBeam::<4, S>::new(mesh, variation, length, points)?),
+        4 => Box::new(DiscreteBeam::<5, S>::new(mesh, variation, length, points)?),
+        5 => Box::new(DiscreteBeam::<6, S>::new(mesh, variation, length, points)?),
+        6 => Box::new(DiscreteBeam::<7, S>::new(mesh, variation, length, points)?),
+        7 => Box::new(DiscreteBeam::<8, S>::new(mesh, variation, length, points)?),
+        8 => Box::new(DiscreteBeam::<9, S>::new(mesh, variation, length, points)?),
+        9 => Box::new(DiscreteBeam::<10, S>::new(mesh, variation, length, points)?),
         // Knot vectors refuse degrees above 10.
-        _ => Box::new(DiscreteBeam::<11, S>::new(mesh, profile, length, points)?),
+        _ => Box::new(DiscreteBeam::<11, S>::new(mesh, variation, length, points)?),
     })
 }
 
 impl<const N: usize, S: Sections> DiscreteBeam<N, S> {
     fn new(
         mesh: &Mesh,
-        profile: &SectionProfile,
+        variation: &SectionVariation,
         length: f64,
         control_points: Vec<Vec2>,
     ) -> Result<Self, BeamError> {
         let axis = Axis::new(mesh.basis(), &control_points, length);
         let inertia_rule = mesh.inertia_rule()?;
-        let on_axis = ProfileOnAxis::new(profile, mesh, &control_points)?;
-        let mut gram = vec![[S::Entry::default(); N]; control_points.len()];
+        let on_axis = SectionsOnAxis::new(variation, mesh, &control_points)?;
+        let mut gram = vec![[S::MassIntegral::default(); N]; control_points.len()];
         let mut spans = Vec::new();
         for (index, quadrature) in mesh.quadrature_spans()?.into_iter().enumerate() {
             let moment_rule = quadrature.moment_rule()?;
@@ -117,12 +119,12 @@ impl<const N: usize, S: Sections> DiscreteBeam<N, S> {
         }
         let remainders = vec![Vec2::zeros(); control_points.len()];
         let parts = Parts::default();
-        let section = profile.mean();
+        let section = variation.mean();
         Ok(Self { section, control_points, remainders, spans, parts, gram })
     }
 
     /// The sum over the functions of what belongs to their products with that of every control point.
-    fn lumped(&self, of: impl Fn(S::Entry) -> f64) -> Vec<f64> {
+    fn lumped(&self, of: impl Fn(S::MassIntegral) -> f64) -> Vec<f64> {
         let mut sums = vec![0.0; self.gram.len()];
         for (a, row) in self.gram.iter().enumerate() {
             for (b, entry) in (a..self.gram.len()).zip(row) {

@@ -16,7 +16,8 @@ const ROUNDING: f64 = 1e-11;
 /// g(ξ) = l(ξ)ᵀ M⁻¹ r(ξ)        M = Σ w t tᵀ/|x_ξ|        l = ∫ t dξ up to ξ, r = ∫ t dξ from ξ on
 /// ```
 ///
-/// over the splines `t` of one degree less, with the points and weights of the beam's shear strain: what a string on these functions gives way under a point load,
+/// over the splines `t` of one degree less, with the points and weights of the beam's shear strain: what a string on these functions gives way under a point
+/// load,
 /// taken from what it should, whichever ends are held. A polynomial of twice the degree on each span, zero where the basis is C⁰. None where it is
 /// not positive between these places, as with fewer quadrature points than the patch rule has.
 ///

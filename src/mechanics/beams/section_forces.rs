@@ -7,7 +7,8 @@
 //! ```
 //!
 //! Forces `n`, `M` at the quadrature points balance that; at the ends of a beam they differ from those that balance it by exact
-//! integrals at first order in the length of a span, since the rules take few points. Told are the latter: of all derivatives `T` of the functions of a run of smoothly joined spans, the ones with
+//! integrals at first order in the length of a span, since the rules take few points. Told are the latter: of all derivatives `T` of the functions of a run
+//! of smoothly joined spans, the ones with
 //!
 //! ```text
 //! ∫ t n̂ dξ = Σ w t n               for all t in T
@@ -19,7 +20,7 @@
 //! `T` they are weighted sums over the points, whose weights fall off within a few spans. Runs know nothing of each
 //! other: where they meet, at a joint or a node of Lagrange elements, both have a value.
 
-use super::sections::{Blend, Sections};
+use super::sections::{Interpolation, Sections};
 use super::span_points::SpanPoints;
 use super::{BeamError, Mesh, Section};
 use crate::geometry::{LowerSplines, Reproduction, Span, Vec2, cross, larger};
@@ -97,7 +98,7 @@ impl SectionPlace {
         spans: &[SpanPoints<N, S>],
     ) -> SectionForces {
         let (mut normal, mut force, mut moment) = (Vec2::zeros(), Vec2::zeros(), 0.0);
-        let mut here = S::Blend::default();
+        let mut here = S::Interpolation::default();
         for share in &self.force_shares {
             let span = &spans[share.span];
             let point = &span.force_points[share.point];

@@ -7,12 +7,12 @@ use super::block::Block;
 use super::dynamics::{Collocation, ForceSummary, Movement};
 use super::force_point::ForcePoint;
 use super::moment_point::MomentPoint;
-use super::sections::{Same, Sections};
+use super::sections::{Sections, Uniform};
 use super::{RotationIncrement, Section};
 
 /// The quadrature points of a span on which `N` functions of the basis are not zero.
 #[derive(Debug, Clone)]
-pub(super) struct SpanPoints<const N: usize, S = Same> {
+pub(super) struct SpanPoints<const N: usize, S = Uniform> {
     /// The index of the first control point of the span.
     pub(super) first: usize,
     pub(super) force_points: Vec<ForcePoint<N>>,

@@ -13,15 +13,19 @@ const EQUAL: f64 = 1e-9;
 /// exactly.
 ///
 /// The spans follow each other and are joined at least C¹: their `F` functions of degree `p` have derivatives that span the `P = F - 1` splines `T` of degree
-/// `p - 1`. The points are Gauss's points of these splines: the zeros of the one spline of degree `p` that is orthogonal to all of `T`, as the points of Gauss are
-/// those of the one polynomial of degree `p` that is orthogonal to all of lower degree, which is what they are for a single span. On equal spans of full continuity, far
+/// `p - 1`. The points are Gauss's points of these splines: the zeros of the one spline of degree `p` that is orthogonal to all of `T`, as the points of
+/// Gauss are
+/// those of the one polynomial of degree `p` that is orthogonal to all of lower degree, which is what they are for a single span. On equal spans of full
+/// continuity, far
 /// from the ends, that spline is the alternating one: its zeros are the middles of spans for odd degrees and the knots for even ones, just where the
 /// alternating spline's derivative is largest.
 ///
-/// For cubics of full continuity on three or more equal spans, the common mesh, the points are two of Gauss in the first and the last span and the middles of the others: there, and
+/// For cubics of full continuity on three or more equal spans, the common mesh, the points are two of Gauss in the first and the last span and the middles of
+/// the others: there, and
 /// only there, these are better, by a factor of two in the error (docs/theory.md, section 4).
 ///
-/// That the orthogonal spline has `P` zeros follows from total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI); that the weights are positive and that `T`
+/// That the orthogonal spline has `P` zeros follows from total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI); that the
+/// weights are positive and that `T`
 /// is seen as it is, `Σ w T² ≥ 0.79 ∫ T² dξ`, is not proven but tested for every degree and continuity. None where rounding leaves fewer
 /// zeros or a weight that is not positive; no such spans are known.
 pub fn patch_rule(basis: &Basis, run: &[Span]) -> Option<RunRule> {
@@ -64,7 +68,8 @@ fn middles(run: &[Span]) -> Option<Vec<Vec<f64>>> {
     run.iter().enumerate().map(of).collect()
 }
 
-/// The splines of one degree less, as sums of derivatives: `T_t = -Σ_(a ≤ t) N'_a` is a positive multiple of a B-spline, of integral one. Those that are not zero
+/// The splines of one degree less, as sums of derivatives: `T_t = -Σ_(a ≤ t) N'_a` is a positive multiple of a B-spline, of integral one. Those that are not
+/// zero
 /// on a span have the numbers of its functions but the last.
 pub fn lower_splines(values: &BasisValues) -> impl Iterator<Item = f64> + '_ {
     let partial = values.slopes().iter().scan(0.0, |sum, slope| {

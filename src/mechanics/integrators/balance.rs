@@ -35,7 +35,8 @@ impl Rule {
 
 /// `R(d, z) = ι/Δt² M d + weight · F(stage, u) + carried + G(u, z)`, `u = Δt v0 + d`.
 ///
-/// `z` are the unknowns of constraints and `G` their forces, for the whole step. The unknown of the movements is the deviation `d` from coasting, not the increment `u`: `v1 = v0 + 2/Δt d` then rounds like the change
+/// `z` are the unknowns of constraints and `G` their forces, for the whole step. The unknown of the movements is the deviation `d` from coasting, not the
+/// increment `u`: `v1 = v0 + 2/Δt d` then rounds like the change
 /// of the velocity, so that momenta do not creep over many steps.
 struct StepBalance<'a> {
     mechanism: &'a mut dyn Mechanism,
@@ -171,7 +172,7 @@ impl StepSolver {
         interval: Interval,
         rule: Rule,
     ) -> Result<NewtonReport, StepError> {
-        self.take_given(mechanism, rule.prescribed);
+        self.take_prescribed(mechanism, rule.prescribed);
         let mut balance = StepBalance {
             mechanism,
             rule,
@@ -204,7 +205,7 @@ impl StepSolver {
     }
 
     /// Takes over the increments that are prescribed, and carries the inertia of what moves so into the balance of the step.
-    fn take_given(&mut self, mechanism: &mut dyn Mechanism, at: BalancedAt) {
+    fn take_prescribed(&mut self, mechanism: &mut dyn Mechanism, at: BalancedAt) {
         let movements = self.coasting.len();
         let prescribed = mechanism.prescribed();
         if prescribed.width() == 0 {

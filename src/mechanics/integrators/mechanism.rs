@@ -1,6 +1,6 @@
 //! What an integrator may ask of the mechanical system that it advances.
 
-use super::{Interval, Prescribed, StepError};
+use super::{Interval, PrescribedKinematics, StepError};
 use crate::linalg::{BandedMatrix, Border, BorderShape};
 
 /// The place in a step where forces are taken. Increments are counted from the start of the step.
@@ -129,7 +129,7 @@ pub trait Mechanism: Inertia + Forces + Constraints {
     fn expected_rates(&self) -> &[f64];
 
     /// The movements that are prescribed in the present step.
-    fn prescribed(&self) -> &Prescribed;
+    fn prescribed(&self) -> &PrescribedKinematics;
 
     /// Prepares a step that takes forces at the given stages: evaluates what depends on time only.
     ///

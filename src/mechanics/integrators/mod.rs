@@ -23,7 +23,7 @@ pub use interval::{Ending, Interval};
 pub use mechanism::{
     Accelerated, Checkpoint, Constraints, Forces, Inertia, Mechanism, Overshoot, Solution, Stage,
 };
-pub use prescribed::Prescribed;
+pub use prescribed::PrescribedKinematics;
 pub use registry::{
     Claims, EnergyClaim, INTEGRATORS, IntegratorEntry, Method, MethodError, MethodParameter,
 };

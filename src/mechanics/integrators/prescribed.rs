@@ -3,27 +3,27 @@
 /// What the prescribed movements of a mechanism do in the present step. They stand behind the unknown movements and the unknowns of constraints; where
 /// nothing is prescribed, all are empty.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Prescribed {
-    /// The entries of constraints, which are zero, then the increments in the step [length, rad].
+pub struct PrescribedKinematics {
+    /// The increments in the step, behind zeros for the unknowns of constraints [length, rad].
     pub increments: Vec<f64>,
-    /// The same for the rates at the end of the step [length/time, 1/time].
+    /// The rates at the end of the step, behind zeros for the unknowns of constraints [length/time, 1/time].
     pub rates: Vec<f64>,
-    /// The same for the mean accelerations `(v1 - v0)/Δt` [length/time², 1/time²].
+    /// The mean accelerations `(v1 - v0)/Δt`, behind zeros for the unknowns of constraints [length/time², 1/time²].
     pub mean_accelerations: Vec<f64>,
-    /// The same for the accelerations just after the start and just before the end [length/time², 1/time²].
+    /// The accelerations just after the start and just before the end of the step, behind zeros for the unknowns of constraints [length/time², 1/time²].
     pub accelerations: [Vec<f64>; 2],
 }
 
 /// Which acceleration of prescribed movements a method balances.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum BalancedAt {
-    /// That of the mean over the step.
+    /// The mean acceleration of the step.
     Mean,
-    /// That of a time, as a share of the step from its start on.
+    /// The acceleration at a time, as a share of the step from its start on.
     Share(f64),
 }
 
-impl Prescribed {
+impl PrescribedKinematics {
     /// Nothing that is prescribed, with room for `count` movements behind `constraints` unknowns of constraints.
     pub fn new(constraints: usize, count: usize) -> Self {
         let zeros = vec![0.0; if count > 0 { constraints + count } else { 0 }];

@@ -77,7 +77,7 @@ pub struct MethodParameter {
     pub least: f64,
     /// The largest value that the method's parameter may have [-]; may be infinite.
     pub most: f64,
-    /// The value of the method's parameter where none is prescribed [-].
+    /// The value of the method's parameter where none is given [-].
     pub default: f64,
 }
 

@@ -8,6 +8,6 @@ pub use joint::{Component, Components, Joint, JointKind, Partner};
 pub use slider::{EndAction, Slider, StartVelocities};
 pub use sliding::{
     CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Held, Kink, Kinked,
-    Relaxed, Released, RuleClaims, RuleEntry, SLIDING_RULES, SlidingLaw, SlidingRule, Unit,
-    WayVector,
+    Leaning, Relaxed, Released, Resting, RuleClaims, RuleEntry, SLIDING_RULES, SlidingLaw,
+    SlidingRule, Unit, WayVector,
 };

@@ -8,6 +8,7 @@
 //! The band keeps its width whatever the border couples (Govaerts & Pryce, Block elimination with one iterative
 //! refinement solves bordered linear systems accurately, BIT 30 (1990) 490–507; refining is the business of the caller).
 
+use super::together::{Together, TogetherLu};
 use super::{BandedLu, BandedMatrix, LinearError};
 
 /// A square matrix that is banded but for its last rows and columns, the border.
@@ -15,6 +16,8 @@ use super::{BandedLu, BandedMatrix, LinearError};
 pub struct BorderedMatrix {
     band: BandedMatrix,
     border: Border,
+    /// Where the band alone may be singular.
+    together: Option<Together>,
 }
 
 /// The size of the border of a [`BorderedMatrix`]: its last rows and columns, which are full.
@@ -50,9 +53,13 @@ pub struct Border {
 
 /// The factors of a [`BorderedMatrix`], kept in its storage.
 #[derive(Debug)]
-pub struct BorderedLu<'a> {
-    band: BandedLu<'a>,
-    border: Option<FactorisedBorder<'a>>,
+pub struct BorderedLu<'a>(Factors<'a>);
+
+#[derive(Debug)]
+enum Factors<'a> {
+    Band(BandedLu<'a>),
+    Blocks(BandedLu<'a>, FactorisedBorder<'a>),
+    Together(TogetherLu<'a>),
 }
 
 #[derive(Debug)]
@@ -139,7 +146,36 @@ impl BorderedMatrix {
         Self {
             band: BandedMatrix::zeros(size, half_bandwidth),
             border: Border::zeros(size, border),
+            together: None,
         }
+    }
+
+    /// The same matrix, to be eliminated with the border among the rows of the band, which alone may be singular; the last `full` rows and columns,
+    /// which couple with all others, are a border still.
+    pub fn together(self, full: usize) -> Self {
+        Self { together: Some(Together::new(self.size(), full)), ..self }
+    }
+
+    /// All entries of the matrix that are not zero: row, column, value; those of one place add up.
+    fn entries(&self) -> Vec<(usize, usize, f64)> {
+        let (band, n, Border { width, strips, rows, corner }) =
+            (&self.band, self.band.size(), &self.border);
+        let reach = band.half_bandwidth();
+        let in_band = (0..n).flat_map(|row| {
+            let columns = row.saturating_sub(reach)..(row + reach + 1).min(n);
+            columns.map(move |column| (row, column, band.get(row, column)))
+        });
+        let in_columns = (0..*width).flat_map(|column| {
+            let rows = strips[column / STRIP].rows.iter().enumerate();
+            rows.map(move |(row, entries)| (row, n + column, entries[column % STRIP]))
+        });
+        let in_rows = rows.iter().map(|&(row, column, value)| (n + row, column, value));
+        let in_corner = (0..width * width).map(|at| {
+            let (row, column) = (at / width, at % width);
+            (n + row, n + column, corner.get(row, column))
+        });
+        let all = in_band.chain(in_columns).chain(in_rows).chain(in_corner);
+        all.filter(|(.., value)| *value != 0.0).collect()
     }
 
     /// The number of rows of the matrix, those of the border included.
@@ -189,31 +225,45 @@ impl BorderedMatrix {
     /// # Errors
     /// When a column has no non-zero or no finite pivot; the entries are then lost.
     pub fn factorise(&mut self) -> Result<BorderedLu<'_>, LinearError> {
-        let Self { band, border } = self;
+        let entries = self.together.as_ref().map(|_| self.entries());
+        let Self { band, border, together } = self;
+        if let (Some(together), Some(entries)) = (together, entries) {
+            return together.factorise(&entries).map(Factors::Together).map(BorderedLu);
+        }
         let size = band.size();
         let band = band.factorise()?;
         if border.width == 0 {
-            return Ok(BorderedLu { band, border: None });
+            return Ok(BorderedLu(Factors::Band(band)));
         }
         border.eliminate(&band);
         let Border { width, strips, rows, corner } = border;
         let complement = corner.factorise().map_err(|error| error.behind(size))?;
         let border = FactorisedBorder { width: *width, solved: strips, rows, complement };
-        Ok(BorderedLu { band, border: Some(border) })
+        Ok(BorderedLu(Factors::Blocks(band, border)))
     }
 }
 
 impl BorderedLu<'_> {
     /// Replaces the right-hand side `x`, one number a row, those of the border last, by the solution of `A x = b`.
     pub fn solve(&self, x: &mut [f64]) {
-        let Some(border) = &self.border else { return self.band.solve(x) };
-        let (x, z) = x.split_at_mut(x.len() - border.width);
-        self.band.solve(x);
-        for &(row, column, value) in border.rows {
+        match &self.0 {
+            Factors::Band(band) => band.solve(x),
+            Factors::Blocks(band, border) => border.solve(band, x),
+            Factors::Together(together) => together.solve(x),
+        }
+    }
+}
+
+impl FactorisedBorder<'_> {
+    /// Solves for the unknowns of the band without the border, for the border, and then for both.
+    fn solve(&self, band: &BandedLu<'_>, x: &mut [f64]) {
+        let (x, z) = x.split_at_mut(x.len() - self.width);
+        band.solve(x);
+        for &(row, column, value) in self.rows {
             z[row] -= value * x[column];
         }
-        border.complement.solve(z);
-        for (strip, z) in border.solved.iter().zip(z.chunks(STRIP)) {
+        self.complement.solve(z);
+        for (strip, z) in self.solved.iter().zip(z.chunks(STRIP)) {
             for (x, solved) in x.iter_mut().zip(&strip.rows) {
                 *x -= solved.iter().zip(z).map(|(solved, z)| solved * z).sum::<f64>();
             }
@@ -260,6 +310,35 @@ mod tests {
             matrix.factorise().unwrap().solve(&mut x);
             let error = dense * DVector::from_vec(x) - right;
             prop_assert!(error.amax() < 1e-8, "residual {}", error.amax());
+        }
+    }
+
+    #[test]
+    fn what_only_the_border_holds_is_solved_with_it() {
+        // Three masses on springs of stiffness 2 and 3, of which the border holds the last; the last border row is full.
+        let border = BorderShape { width: 2, row_entries: 4 };
+        let mut matrix = BorderedMatrix::zeros(3, 1, border).together(1);
+        for (at, stiffness) in [2e6, 3e6].into_iter().enumerate() {
+            for (row, column) in [(at, at), (at + 1, at + 1)] {
+                matrix.band_mut().add(row, column, stiffness);
+            }
+            matrix.band_mut().add(at, at + 1, -stiffness);
+            matrix.band_mut().add(at + 1, at, -stiffness);
+        }
+        matrix.border_mut().add_to_row(0, 2, 1.0);
+        matrix.border_mut().add_to_column(2, 0, 1.0);
+        for at in 0..3 {
+            matrix.border_mut().add_to_row(1, at, 1.0 + at as f64);
+            matrix.border_mut().add_to_column(at, 1, -1.0);
+        }
+        matrix.border_mut().add_to_corner(0, 1, 0.5);
+        let dense = DMatrix::from_fn(5, 5, |i, j| matrix.get(i, j));
+        for _ in 0..2 {
+            let mut x = [1.0, -2.0, 0.5, 0.25, 4.0];
+            matrix.factorise().unwrap().solve(&mut x);
+            let right = DVector::from_vec(vec![1.0, -2.0, 0.5, 0.25, 4.0]);
+            let error = &dense * DVector::from_row_slice(&x) - right;
+            assert!(error.amax() < 1e-9, "{error}");
         }
     }
 

@@ -12,6 +12,7 @@ mod sparse;
 mod strips;
 mod substitution;
 mod symmetric_factors;
+mod together;
 mod twofold;
 
 pub use band_rows::BandRows;

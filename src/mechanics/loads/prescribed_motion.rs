@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn a_course_begins_as_its_function_does_whatever_its_time_scale() {
+    fn a_motion_begins_as_its_function_does_whatever_its_time_scale() {
         for scale in [1e-6, 1e-3, 1.0, 1e3] {
             let function = move |t: f64| Ok((3.0 * t / scale).sin() + (t / scale).powi(2));
             let place = PrescribedMotion::Place(Schedule::Function {

@@ -20,7 +20,8 @@ pub use looking::{
     SpringState, Transmission, Usage,
 };
 pub use mechanism::{
-    BodyEnergy, Energy, Instant, Measures, Model, ModelState, StaticForces, add_resistance,
+    BodyEnergy, Energy, Instant, Measures, Model, ModelState, OrderAtRest, StaticForces,
+    add_resistance,
 };
 pub use motion::{Resolution, UnknownKind};
 pub use scene::{

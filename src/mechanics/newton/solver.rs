@@ -94,9 +94,14 @@ impl Newton {
         border: BorderShape,
         tolerance: Tolerance,
     ) -> Self {
+        Self::of(BorderedMatrix::zeros(unknowns, half_bandwidth, border), tolerance)
+    }
+
+    /// A solver with room for a tangent, which says how it is eliminated.
+    pub fn of(tangent: BorderedMatrix, tolerance: Tolerance) -> Self {
         Self {
-            tangent: BorderedMatrix::zeros(unknowns, half_bandwidth, border),
-            correction: Vec::with_capacity(unknowns + border.width),
+            correction: Vec::with_capacity(tangent.size()),
+            tangent,
             history: Vec::with_capacity(tolerance.iterations),
             tolerance,
         }

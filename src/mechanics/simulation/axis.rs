@@ -76,7 +76,7 @@ impl AxisStation {
         station
     }
 
-    /// Where it is, given the control points of its beam [length].
+    /// The place of the station when its beam has these control points [length].
     pub fn position(&self, points: &[Vec2]) -> Vec2 {
         self.values.combine(0, points)
     }

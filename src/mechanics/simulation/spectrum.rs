@@ -1,6 +1,7 @@
 //! The frequencies in a column over time.
 //!
-//! The mean is taken off, the rows are weighted with a window of Blackman and Harris (F. J. Harris, Proc. IEEE 66 (1978) 51-83: side lobes of -92 dB), zeros are
+//! The mean is taken off, the rows are weighted with a window of Blackman and Harris (F. J. Harris, Proc. IEEE 66 (1978) 51-83: side lobes of -92 dB), zeros
+//! are
 //! appended, and a parabola through the logarithms of the three values about each maximum gives its place and height. The Fourier transform is that of Cooley
 //! and Tukey (1965) with sines of our own, so that its bits are the same on every machine.
 
@@ -30,7 +31,7 @@ const LOBE: f64 = 4.0;
 /// A vibration in a column.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
-    /// Of the sine [1/time].
+    /// The frequency of the sine [1/time].
     pub frequency: f64,
     /// Half of the way from its least to its largest value, in the dimension of the column.
     pub amplitude: f64,

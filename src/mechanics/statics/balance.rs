@@ -1,7 +1,7 @@
 //! The equations of equilibrium: under a prescribed load, and at a prescribed distance along the path.
 
 use crate::geometry::larger;
-use crate::integrators::Forces;
+use crate::integrators::{Forces, Inertia, Mechanism};
 use crate::linalg::BorderedMatrix;
 use crate::model::{Model, StaticForces, UnknownKind};
 use crate::newton::{Equations, Imbalance};
@@ -14,9 +14,9 @@ pub(super) struct Balance<'a> {
 }
 
 impl Balance<'_> {
-    fn imbalance(&mut self, movements: &[f64], factor: f64, forces: &mut [f64]) -> Imbalance {
+    fn imbalance(&mut self, unknowns: &[f64], factor: f64, forces: &mut [f64]) -> Imbalance {
         let StaticForces { force, moment, strain_mismatch } =
-            self.model.add_static_forces(movements, factor, forces);
+            self.model.add_static_forces(unknowns, factor, forces);
         let scale = force + moment / self.length;
         let kinds = self.model.unknown_kinds();
         let largest = forces.iter().zip(kinds).fold(0.0, |most, (r, kind)| match kind {
@@ -26,21 +26,39 @@ impl Balance<'_> {
         });
         // Nothing is balanced by nothing.
         let force = if largest == 0.0 { 0.0 } else { largest / scale };
-        let constraint = self.model.lever_violation(forces);
+        let constraint = self.model.violation_at_rest(forces, scale);
         Imbalance { force, strain: strain_mismatch, constraint }
     }
 }
 
-/// The equations `F(u) - λ P(u) = 0` of a model at rest for a given load factor `λ`.
+/// The equations `F(u) - λ P(u) + σ M u = 0` of a model for a given load factor `λ`: at rest for `σ = 0`, else on the way there, as if masses moved in
+/// something viscous.
 pub(super) struct UnderLoad<'a> {
     pub(super) balance: Balance<'a>,
     pub(super) factor: f64,
+    /// The rate `σ` [1/time²].
+    pub(super) rate: f64,
+}
+
+impl UnderLoad<'_> {
+    /// Adds `σ M u`.
+    fn resist(&mut self, unknowns: &[f64], residual: &mut [f64]) {
+        if self.rate > 0.0 {
+            let model = &mut *self.balance.model;
+            let movements = &unknowns[..model.unknowns()];
+            model.add_inertia(self.rate, movements, residual);
+        }
+    }
 }
 
 impl Equations for UnderLoad<'_> {
     fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix) {
-        let Self { balance: Balance { model, .. }, factor } = self;
-        model.add_linearised_static_forces(u, *factor, residual, tangent.band_mut());
+        self.resist(u, residual);
+        let Self { balance: Balance { model, .. }, factor, rate } = self;
+        if *rate > 0.0 {
+            model.add_inertia_tangent(*rate, tangent.band_mut());
+        }
+        model.add_linearised_static_forces(u, *factor, residual, tangent);
     }
 
     fn condense(&mut self, residual: &mut [f64]) {
@@ -48,10 +66,12 @@ impl Equations for UnderLoad<'_> {
     }
 
     fn correct(&mut self, correction: &[f64]) {
-        self.balance.model.correct_section_forces(correction);
+        let movements = self.balance.model.unknowns();
+        self.balance.model.correct_section_forces(&correction[..movements]);
     }
 
     fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> Imbalance {
+        self.resist(u, residual);
         self.balance.imbalance(u, self.factor, residual)
     }
 }
@@ -59,7 +79,7 @@ impl Equations for UnderLoad<'_> {
 /// The equations `F(u) - λ P(u) = 0` with `t·u = Δs`: the load factor `λ`, the last unknown, is found so that the movement ends in a plane.
 pub(super) struct AlongPath<'a> {
     pub(super) balance: Balance<'a>,
-    /// The normal `t` of the plane in which the movement ends, in the metric of the path.
+    /// The normal `t` of the plane in which the movement ends, in the metric of the path; contacts, behind the movements, have no part in it.
     pub(super) normal: &'a [f64],
     /// The distance `Δs` of that plane from the last equilibrium, in the metric of the path.
     pub(super) distance: f64,
@@ -82,20 +102,21 @@ impl AlongPath<'_> {
 
 impl Equations for AlongPath<'_> {
     fn linearise(&mut self, unknowns: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix) {
-        let (movements, factor) = unknowns.split_at(self.normal.len());
+        let (moved, factor) = unknowns.split_at(self.normal.len());
         let model = &mut *self.balance.model;
+        let movements = model.unknowns();
         self.forces.fill(0.0);
-        model.subtract_static_loads(movements, 1.0, self.forces);
-        let border = tangent.border_mut();
-        for (at, (load, normal)) in self.forces.iter().zip(self.normal).enumerate() {
-            border.add_to_column(at, 0, *load);
-            border.add_to_row(0, at, *normal);
+        model.subtract_static_loads(&moved[..movements], 1.0, self.forces);
+        let (border, last) = (tangent.border_mut(), moved.len() - movements);
+        for (at, (load, normal)) in self.forces.iter().zip(self.normal).take(movements).enumerate()
+        {
+            border.add_to_column(at, last, *load);
+            border.add_to_row(last, at, *normal);
         }
         self.forces.fill(0.0);
-        let band = tangent.band_mut();
-        model.add_linearised_static_forces(movements, factor[0], self.forces, band);
+        model.add_linearised_static_forces(moved, factor[0], self.forces, tangent);
         self.add_forces_to(residual);
-        residual[movements.len()] = self.beyond_plane(movements);
+        residual[moved.len()] = self.beyond_plane(moved);
     }
 
     fn condense(&mut self, residual: &mut [f64]) {
@@ -105,7 +126,7 @@ impl Equations for AlongPath<'_> {
     }
 
     fn correct(&mut self, correction: &[f64]) {
-        let movements = &correction[..self.normal.len()];
+        let movements = &correction[..self.balance.model.unknowns()];
         self.balance.model.correct_section_forces(movements);
     }
 

@@ -1,11 +1,12 @@
 //! A scene at rest under its loads.
 
-use super::tracer::Tracer;
+use super::tracer::{Hold, Tracer};
 use super::{Control, Loading, Path, PathPoint, StaticsError};
 use crate::beams::{Place, Section, SectionForces, Station};
 use crate::elementary::square;
 use crate::geometry::Vec2;
-use crate::integrators::Mechanism;
+use crate::integrators::{Constraints, Mechanism};
+use crate::joints::StartVelocities;
 use crate::model::{Element, Model, ModelError, Scene, SectionSample};
 use crate::vibration::{Modes, VibrationError, loose_movements};
 
@@ -36,21 +37,19 @@ impl Equilibrium {
     /// Finds the equilibrium of a scene; `goes_on` is asked after every step, with its load factor.
     ///
     /// # Errors
-    /// When the scene cannot be built or slides, a load has no value or none acts, no equilibrium is found, or it is stopped.
+    /// When the scene cannot be built, a load has no value or none acts, no equilibrium is found, or it is stopped.
     pub fn find(
         scene: Scene,
         loading: Loading,
         goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Self, StaticsError> {
         let model = prepare(&scene, &loading)?;
-        let movements = loose_movements(&Model::assemble(&of_equal_stiffness(&scene))?);
-        if movements > 0 {
-            return Err(StaticsError::Loose { scene: scene.name, movements });
-        }
+        let movements = loose_movements(&at_rest(&of_equal_stiffness(&scene))?);
+        let hold = if movements > 0 { Hold::Loads(movements) } else { Hold::Itself };
         let mut tracer = Tracer::new(&scene, model, loading);
         match loading.control {
-            Control::Load => tracer.load_up(goes_on)?,
-            Control::ArcLength(arc) => tracer.follow(arc, goes_on)?,
+            Control::Load => tracer.load_up(hold, goes_on)?,
+            Control::ArcLength(arc) => tracer.follow(arc, hold, goes_on)?,
         }
         let Tracer { model, path, .. } = tracer;
         Ok(Self { scene, loading, model, path })
@@ -92,7 +91,7 @@ impl Equilibrium {
     /// # Errors
     /// None that the scene did not have when the equilibrium was found.
     pub fn along_path<T>(&self, look: impl Fn(&Model) -> T) -> Result<Vec<T>, StaticsError> {
-        let mut model = Model::assemble(&self.scene)?;
+        let mut model = at_rest(&self.scene)?;
         let at = |point: &PathPoint| {
             model.restore(&point.state);
             look(&model)
@@ -103,7 +102,9 @@ impl Equilibrium {
     /// The reaction of the supports at a place: force [force] and moment [force·length]; none where no support is.
     pub fn reaction(&mut self, place: &Place) -> Option<(Vec2, f64)> {
         let mut forces = vec![0.0; self.model.degrees_of_freedom()];
-        let standstill = vec![0.0; self.model.unknowns()];
+        let contacts = self.model.constraint_shape().width;
+        let mut standstill = vec![0.0; self.model.unknowns() + contacts];
+        self.model.stay(&mut standstill);
         self.model.begin_movement();
         self.model.add_static_forces(&standstill, self.path.load_factor(), &mut forces);
         self.model.support_force(place, &forces)
@@ -181,13 +182,17 @@ fn of_equal_stiffness(scene: &Scene) -> Scene {
     equal
 }
 
+/// The model of a scene whose start velocities play no part, be they such that sliders would leave their masters.
+fn at_rest(scene: &Scene) -> Result<Model, ModelError> {
+    let mut still = scene.clone();
+    still.sliders.iter_mut().for_each(|slider| slider.velocities = StartVelocities::Project);
+    Model::assemble(&still)
+}
+
 /// The model at its start, its loads as they will be held.
 fn prepare(scene: &Scene, loading: &Loading) -> Result<Model, StaticsError> {
     loading.check()?;
-    if let Some(slider) = scene.sliders.first() {
-        return Err(StaticsError::Slider { slider: slider.name.clone() });
-    }
-    let mut model = Model::assemble(scene)?;
+    let mut model = at_rest(scene)?;
     model
         .hold_loads_at(loading.time)
         .map_err(|(load, source)| StaticsError::Load { load, source })?;

@@ -24,12 +24,6 @@ pub enum StaticsError {
         /// The time at which loads were taken from their schedules [time].
         time: f64,
     },
-    /// A joint that statics does not know.
-    #[error("slider '{slider}': equilibrium of sliding joints is not built")]
-    Slider {
-        /// The name of the slider.
-        slider: String,
-    },
     /// A given motion where the load factor is found by the way along a path.
     #[error(
         "{drive}: a motion that is given is put on by load steps alone, not along a path of given length"
@@ -48,15 +42,17 @@ pub enum StaticsError {
         /// The values that the refused setting may have, in words.
         allowed: &'static str,
     },
-    /// A scene that can move without resistance.
+    /// A scene that can move without resistance, and that its loads lead to no rest.
     #[error(
-        "'{scene}' is not held: {movements} of its movements meet no resistance as it is drawn"
+        "'{scene}' is not held: {movements} of its movements meet no resistance as it is drawn, and it sinks to no rest under its loads: {reason}"
     )]
     Loose {
         /// The name of the scene that can move.
         scene: String,
         /// The number of movements without resistance.
         movements: usize,
+        /// The reason why no rest was found.
+        reason: Box<Miss>,
     },
     /// No equilibrium was found near the last one.
     #[error("no equilibrium of '{scene}' was found near that at load factor {reached}: {reason}")]
@@ -85,4 +81,15 @@ pub enum Miss {
     /// Newton's method found an equilibrium that is far from the last one.
     #[error("the next one is far away, as where a structure snaps through")]
     Far,
+    /// What nothing holds moves on without end.
+    #[error("it moves on and on")]
+    Endless,
+    /// A slider would leave its master.
+    #[error("slider '{slider}' would leave its beam at its {end}")]
+    Leaves {
+        /// The name of the slider.
+        slider: String,
+        /// The end of its master, such as `start`.
+        end: &'static str,
+    },
 }

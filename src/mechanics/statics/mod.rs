@@ -5,7 +5,9 @@ mod equilibrium;
 mod error;
 mod loading;
 mod path;
+mod settling;
 mod tracer;
+mod trial;
 
 pub use equilibrium::{Equilibrium, Stability};
 pub use error::{Miss, StaticsError};

@@ -1,14 +1,15 @@
 //! Finding one equilibrium after another.
 
-use super::balance::{AlongPath, Balance, UnderLoad};
+use super::balance::{Balance, UnderLoad};
 use super::error::Miss;
 use super::path::vertex;
+use super::trial::Trial;
 use super::{ArcLength, Control, Loading, Path, PathPoint, StaticsError};
 use crate::elementary::square;
-use crate::integrators::Mechanism;
-use crate::linalg::BorderShape;
-use crate::model::{Model, Scene, UnknownKind};
-use crate::newton::{Newton, NewtonError};
+use crate::integrators::{Constraints, Mechanism};
+use crate::linalg::{BorderShape, BorderedMatrix};
+use crate::model::{Model, Scene, TrackEnd, UnknownKind};
+use crate::newton::Newton;
 
 /// A step that finds no equilibrium is halved so often.
 const MOST_HALVINGS: u32 = 8;
@@ -25,9 +26,18 @@ const NEARBY: f64 = 1e-3;
 /// Steps along the path grow and shrink so that each takes about so many iterations.
 const WANTED_ITERATIONS: f64 = 4.0;
 
+/// What holds a scene as it is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Hold {
+    /// Its supports and its stiffness, as far as that is known.
+    Itself,
+    /// Nothing but its loads holds so many movements.
+    Loads(usize),
+}
+
 /// Follows equilibria from the unloaded scene on.
 pub(super) struct Tracer<'s> {
-    scene: &'s Scene,
+    pub(super) scene: &'s Scene,
     length: f64,
     /// What movements are squared with: relative to a length, as angles, and as means over the control points.
     metric: Vec<f64>,
@@ -35,7 +45,8 @@ pub(super) struct Tracer<'s> {
     pub(super) model: Model,
     pub(super) path: Path,
     newton: Newton,
-    movements: Vec<f64>,
+    /// Movements, and behind them the unknowns of contacts.
+    pub(super) unknowns: Vec<f64>,
     residual: Vec<f64>,
     heading: Heading,
 }
@@ -60,8 +71,7 @@ impl Heading {
 
 impl<'s> Tracer<'s> {
     pub(super) fn new(scene: &'s Scene, mut model: Model, loading: Loading) -> Self {
-        let unknowns = model.unknowns();
-        let none = BorderShape::default();
+        let all = model.unknowns() + model.constraint_shape().width;
         let mut path = Path::default();
         path.push(point(&mut model, 0.0, 0.0, 0));
         // A scene of particles alone has no moments.
@@ -71,10 +81,10 @@ impl<'s> Tracer<'s> {
             length,
             metric: metric(&model, length),
             loading,
-            newton: Newton::new(unknowns, model.half_bandwidth(), none, loading.tolerance),
-            movements: vec![0.0; unknowns],
+            newton: Newton::of(tangent(&model, 0), loading.tolerance),
+            unknowns: vec![0.0; all],
             residual: vec![0.0; model.degrees_of_freedom()],
-            heading: Heading { movements: vec![0.0; unknowns], falls: 0 },
+            heading: Heading { movements: vec![0.0; all], falls: 0 },
             model,
             path,
         }
@@ -83,32 +93,56 @@ impl<'s> Tracer<'s> {
     /// Puts the loads on the scene in equal steps.
     pub(super) fn load_up(
         &mut self,
+        hold: Hold,
         goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<(), StaticsError> {
         let Loading { factor, steps, .. } = self.loading;
-        for step in 1..=steps {
+        self.begin(factor * (1.0 / steps as f64), hold, goes_on)?;
+        for step in 2..=steps {
             // The last one is the whole to the last digit.
             self.reach(factor * (step as f64 / steps as f64), MOST_HALVINGS, goes_on)?;
         }
         Ok(())
     }
 
+    /// Goes to the first load factor.
+    fn begin(
+        &mut self,
+        factor: f64,
+        hold: Hold,
+        goes_on: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<(), StaticsError> {
+        match hold {
+            Hold::Itself => self.reach(factor, MOST_HALVINGS, goes_on),
+            Hold::Loads(movements) => {
+                self.settle(factor, movements, goes_on)?;
+                self.heading.falls = self.falls();
+                Ok(())
+            }
+        }
+    }
+
     /// Follows the path until the load factor is reached, or the path has as many points as it may have.
     pub(super) fn follow(
         &mut self,
         arc: ArcLength,
+        hold: Hold,
         goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<(), StaticsError> {
         let Loading { factor: goal, steps, .. } = self.loading;
-        self.reach(goal / steps as f64, MOST_HALVINGS, goes_on)?;
+        self.begin(goal / steps as f64, hold, goes_on)?;
+        if hold != Hold::Itself && steps > 1 {
+            // Where loads alone hold the scene, the path goes from there.
+            self.reach(goal * (2.0 / steps as f64), MOST_HALVINGS, goes_on)?;
+        }
         let mut trial = Trial::new(&self.model, &self.loading);
-        let mut distance = norm(&self.metric, &self.movements).min(arc.longest);
+        let mut distance = norm(&self.metric, &self.unknowns).min(arc.longest);
         if distance == 0.0 {
             // Loads on supports alone move nothing: there is no path to follow.
             return self.reach(goal, MOST_HALVINGS, goes_on);
         }
         while self.path.load_factor() != goal && self.path.points().len() < arc.points {
-            trial.look_along(&self.metric, &self.movements);
+            trial.look_along(&self.metric, &self.unknowns);
             distance = self.advance(&mut trial, distance, goes_on)?.min(arc.longest);
         }
         Ok(())
@@ -125,7 +159,7 @@ impl<'s> Tracer<'s> {
         let mut miss = Miss::Far;
         for _ in 0..=MOST_HALVINGS {
             self.ask(goes_on)?;
-            match trial.find(&mut self.model, self.length, from, distance) {
+            match trial.find(&mut self.model, self.length, from, distance, self.scene) {
                 Ok(_) if norm(&self.metric, trial.movements()) > FAR * distance => miss = Miss::Far,
                 Ok(_) if (from < goal) != (trial.factor() < goal) => {
                     return self.reach(goal, MOST_HALVINGS, goes_on).map(|()| distance);
@@ -133,18 +167,19 @@ impl<'s> Tracer<'s> {
                 Ok(iterations) => {
                     if let Some(way) = self.way_beyond(goal, trial.factor(), distance)
                         && let Ok(iterations) = self.find(goal)
-                        && norm(&self.metric, &self.movements) <= way
+                        && norm(&self.metric, &self.unknowns) <= way
                     {
                         self.accept(goal, iterations);
                         return Ok(distance);
                     }
-                    self.movements.copy_from_slice(trial.movements());
+                    self.unknowns.copy_from_slice(trial.movements());
                     self.accept(trial.factor(), iterations);
                     let growth = (WANTED_ITERATIONS / iterations as f64).sqrt();
                     return Ok(distance * growth.clamp(0.5, 1.5));
                 }
-                Err(error) => miss = Miss::Newton(error),
+                Err(error) => miss = error,
             }
+            self.go_back();
             distance *= 0.5;
         }
         Err(self.lost(miss))
@@ -189,9 +224,8 @@ impl<'s> Tracer<'s> {
         if self.loading.control != Control::Load {
             return true;
         }
-        // The stiffness alone does not tell what loads do that turn with a beam.
-        let falls = if self.model.follower().is_some() { 0 } else { self.model.falls() };
-        let heading = Heading { movements: self.movements.clone(), falls };
+        let falls = self.falls();
+        let heading = Heading { movements: self.unknowns.clone(), falls };
         let goes_on = halvings == 0 || self.heading.is_kept_by(&heading, &self.metric);
         if goes_on {
             self.heading = heading;
@@ -199,15 +233,58 @@ impl<'s> Tracer<'s> {
         goes_on
     }
 
+    /// In how many ways a movement from here would release energy, as far as stiffness tells: not what loads do that turn with a beam.
+    pub(super) fn falls(&self) -> usize {
+        self.falls_against(0.0)
+    }
+
+    /// That against what resists every movement by such a multiple of its inertia [1/time²].
+    pub(super) fn falls_against(&self, rate: f64) -> usize {
+        if self.model.follower().is_some() { 0 } else { self.model.falls_against(rate) }
+    }
+
     /// The iterations that led to an equilibrium near the last one.
     fn find(&mut self, factor: f64) -> Result<usize, Miss> {
-        self.movements.fill(0.0);
-        self.model.begin_movement();
-        let balance = Balance { model: &mut self.model, length: self.length };
-        let mut equations = UnderLoad { balance, factor };
-        let report = self.newton.solve(&mut equations, &mut self.movements, &mut self.residual)?;
-        let moved = norm(&self.metric, &self.movements);
-        if moved <= self.farthest(factor) { Ok(report.iterations) } else { Err(Miss::Far) }
+        let found = match self.balance_from(factor, 0.0) {
+            Ok(_) if self.moved() > self.farthest(factor) => Err(Miss::Far),
+            found => found,
+        };
+        if found.is_err() {
+            self.go_back();
+        }
+        found
+    }
+
+    /// How far the unknowns lead: root mean square, relative to the longest beam.
+    pub(super) fn moved(&self) -> f64 {
+        norm(&self.metric, &self.unknowns)
+    }
+
+    /// The iterations that led from here to where a part of the loads is balanced, by masses in something viscous too if `rate` is positive [1/time²].
+    ///
+    /// Sliders may come to lean on stops, or leave them; each time all begins anew.
+    pub(super) fn balance_from(&mut self, factor: f64, rate: f64) -> Result<usize, Miss> {
+        let mut iterations = 0;
+        for _ in 0..=2 * self.scene.sliders.len() {
+            self.model.stay(&mut self.unknowns);
+            self.model.begin_movement();
+            let balance = Balance { model: &mut self.model, length: self.length };
+            let mut equations = UnderLoad { balance, factor, rate };
+            let report =
+                self.newton.solve(&mut equations, &mut self.unknowns, &mut self.residual)?;
+            iterations += report.iterations;
+            if !settle_on_stops(&mut self.model, self.scene, &self.unknowns, factor)? {
+                return Ok(iterations);
+            }
+        }
+        Err(Miss::Far)
+    }
+
+    /// Takes back what a search has made of the model that found nothing.
+    pub(super) fn go_back(&mut self) {
+        if let Some(last) = self.path.points().last() {
+            self.model.restore(&last.state);
+        }
     }
 
     /// How far an equilibrium may be: by what the last step has moved for its load, or by a long step along the path.
@@ -223,28 +300,55 @@ impl<'s> Tracer<'s> {
     }
 
     fn accept(&mut self, factor: f64, iterations: usize) {
-        self.model.move_by(&self.movements, factor);
-        let distance = norm(&self.metric, &self.movements);
+        self.model.move_by(&self.unknowns, factor);
+        self.arrive(factor, self.moved(), iterations);
+    }
+
+    /// Adds the place of the model to the path, so far from the last one.
+    pub(super) fn arrive(&mut self, factor: f64, distance: f64, iterations: usize) {
         self.path.push(point(&mut self.model, factor, distance, iterations));
     }
 
     /// Goes back to the point of the path before the last one.
     fn take_back(&mut self) {
         self.path.pop();
-        if let Some(last) = self.path.points().last() {
-            self.model.restore(&last.state);
-        }
+        self.go_back();
     }
 
-    fn ask(&self, goes_on: &mut dyn FnMut(f64) -> bool) -> Result<(), StaticsError> {
+    pub(super) fn ask(&self, goes_on: &mut dyn FnMut(f64) -> bool) -> Result<(), StaticsError> {
         let reached = self.path.load_factor();
         if goes_on(reached) { Ok(()) } else { Err(StaticsError::Interrupted { reached }) }
     }
 
-    fn lost(&self, reason: Miss) -> StaticsError {
+    pub(super) fn lost(&self, reason: Miss) -> StaticsError {
         let (scene, reached) = (self.scene.name.clone(), self.path.load_factor());
         StaticsError::Lost { scene, reached, reason: Box::new(reason) }
     }
+}
+
+/// Lets sliders lean on stops that they would pass, and leave those that would pull; whether any did.
+pub(super) fn settle_on_stops(
+    model: &mut Model,
+    scene: &Scene,
+    unknowns: &[f64],
+    factor: f64,
+) -> Result<bool, Miss> {
+    let leaves = |(slider, end): (usize, TrackEnd)| Miss::Leaves {
+        slider: scene.sliders[slider].name.clone(),
+        end: end.name(),
+    };
+    model.settle_on_stops(unknowns, factor).map_err(leaves)
+}
+
+/// The room for the tangent of a model with so many full rows and columns behind; where something slides, contacts may be all that holds.
+pub(super) fn tangent(model: &Model, full: usize) -> BorderedMatrix {
+    let (unknowns, contacts) = (model.unknowns(), model.constraint_shape());
+    let border = BorderShape {
+        width: contacts.width + full,
+        row_entries: contacts.row_entries + full * unknowns,
+    };
+    let tangent = BorderedMatrix::zeros(unknowns, model.half_bandwidth(), border);
+    if contacts.width == 0 { tangent } else { tangent.together(full) }
 }
 
 fn metric(model: &Model, length: f64) -> Vec<f64> {
@@ -258,71 +362,11 @@ fn metric(model: &Model, length: f64) -> Vec<f64> {
     model.unknown_kinds().iter().map(weight).collect()
 }
 
-/// A step along the path, with its work space.
-struct Trial {
-    newton: Newton,
-    normal: Vec<f64>,
-    /// The movements, then the load factor.
-    unknowns: Vec<f64>,
-    residual: Vec<f64>,
-    forces: Vec<f64>,
-}
-
-impl Trial {
-    fn new(model: &Model, loading: &Loading) -> Self {
-        let unknowns = model.unknowns();
-        let border = BorderShape { width: 1, row_entries: unknowns };
-        Self {
-            newton: Newton::new(unknowns, model.half_bandwidth(), border, loading.tolerance),
-            normal: vec![0.0; unknowns],
-            unknowns: vec![0.0; unknowns + 1],
-            residual: vec![0.0; unknowns + 1],
-            forces: vec![0.0; model.degrees_of_freedom()],
-        }
-    }
-
-    /// Goes on in the direction of the last movement.
-    fn look_along(&mut self, metric: &[f64], last: &[f64]) {
-        let inverse = 1.0 / norm(metric, last);
-        for ((normal, weight), u) in self.normal.iter_mut().zip(metric).zip(last) {
-            *normal = weight * u * inverse;
-        }
-    }
-
-    /// From a standstill: the first iteration then goes along the tangent of the path.
-    fn find(
-        &mut self,
-        model: &mut Model,
-        length: f64,
-        from: f64,
-        distance: f64,
-    ) -> Result<usize, NewtonError> {
-        self.unknowns.fill(0.0);
-        if let Some(factor) = self.unknowns.last_mut() {
-            *factor = from;
-        }
-        model.begin_movement();
-        let balance = Balance { model, length };
-        let mut equations =
-            AlongPath { balance, normal: &self.normal, distance, forces: &mut self.forces };
-        let report = self.newton.solve(&mut equations, &mut self.unknowns, &mut self.residual)?;
-        Ok(report.iterations)
-    }
-
-    fn movements(&self) -> &[f64] {
-        &self.unknowns[..self.normal.len()]
-    }
-
-    fn factor(&self) -> f64 {
-        self.unknowns[self.normal.len()]
-    }
-}
-
 fn point(model: &mut Model, load_factor: f64, distance: f64, iterations: usize) -> PathPoint {
     let strain_energy = model.measure().energy.strain;
     PathPoint { load_factor, strain_energy, distance, iterations, state: model.state() }
 }
 
-fn norm(metric: &[f64], movements: &[f64]) -> f64 {
+pub(super) fn norm(metric: &[f64], movements: &[f64]) -> f64 {
     metric.iter().zip(movements).map(|(weight, u)| weight * u * u).sum::<f64>().sqrt()
 }

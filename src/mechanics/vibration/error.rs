@@ -13,14 +13,6 @@ pub enum VibrationError {
         /// The number of modes that the scene has.
         available: usize,
     },
-    /// A slider in a scene whose modes are asked for: it lets places move along a beam.
-    #[error(
-        "slider '{slider}': modes of scenes with sliding joints are not built; replace it by a hinge where it is"
-    )]
-    Slider {
-        /// The name of the slider.
-        slider: String,
-    },
     /// A load that turns with a section, so that the vibration of its scene has no modes of this kind.
     #[error(
         "load '{load}' turns with the beam: its stiffness is not symmetric, and the vibration may grow by itself; give it a fixed direction, or simulate"

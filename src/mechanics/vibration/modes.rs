@@ -73,15 +73,12 @@ impl Modes {
     /// looked for in a large scene.
     ///
     /// # Errors
-    /// When there are not so many, something slides or turns with the beam, or it is stopped.
+    /// When there are not so many, a load turns with the beam, or it is stopped.
     pub fn of(
         model: &Model,
         count: usize,
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<Self, VibrationError> {
-        if let Some(slider) = model.slider_names().next() {
-            return Err(VibrationError::Slider { slider: slider.to_owned() });
-        }
         if let Some(load) = model.follower() {
             return Err(VibrationError::Follower { load: load.to_owned() });
         }
@@ -89,7 +86,11 @@ impl Modes {
         if count == 0 || count > pencil.finite {
             return Err(VibrationError::Count { asked: count, available: pencil.finite });
         }
-        let modes = lowest(&pencil, count, goes_on)?;
+        let mut modes = lowest(&pencil, count, goes_on)?;
+        for mode in &mut modes {
+            let shape = std::mem::take(&mut mode.shape);
+            mode.shape = pencil.order.in_own_order(shape, model.unknowns());
+        }
         let displacements = modes.iter().map(|mode| model.displacements(&mode.shape)).collect();
         let decay_rates = modes.iter().map(|mode| 0.5 * model.dissipation(&mode.shape)).collect();
         Ok(Self {
@@ -114,7 +115,8 @@ impl Modes {
         &self.modes
     }
 
-    /// How fast each mode decays by damping, `½ φᵀ D φ`: exact where damping does not couple modes, as that of a material with one relaxation time for all strains,
+    /// How fast each mode decays by damping, `½ φᵀ D φ`: exact where damping does not couple modes, as that of a material with one relaxation time for all
+    /// strains,
     /// else to first order in the damping [1/time].
     pub fn decay_rates(&self) -> &[f64] {
         &self.decay_rates
@@ -180,10 +182,10 @@ impl Modes {
     }
 }
 
-/// The number of movements that meet no resistance in the present configuration without loads; 0 where a scene is too
-/// large to find that out at once.
+/// The number of movements that meet no resistance in the present configuration without loads; 0 where a scene in which nothing slides
+/// is too large to find that out at once.
 pub fn loose_movements(model: &Model) -> usize {
-    if !is_small(model.unknowns()) {
+    if !is_small(model.unknowns()) && model.slider_names().next().is_none() {
         return 0;
     }
     let count = |pencil: Pencil| pencil.modes_below(LOOSE * pencil.scale).unwrap_or(0);

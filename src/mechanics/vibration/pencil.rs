@@ -2,9 +2,8 @@
 
 use super::VibrationError;
 use super::elastic::{Elastic, Lanes};
-use crate::integrators::Mechanism;
 use crate::linalg::{LinearError, PreciseBand, STRIP_WIDTH, SymmetricFactors, SymmetricSparse};
-use crate::model::{Model, add_resistance};
+use crate::model::{Model, OrderAtRest, add_resistance};
 
 /// An elimination whose numbers grew by more is not believed: of its 32 digits half are left.
 const MOST_GROWTH: f64 = 1e12;
@@ -14,6 +13,8 @@ pub(super) struct Pencil {
     stiffness: PreciseBand,
     pub(super) inertia: SymmetricSparse,
     pub(super) elastic: Elastic,
+    /// Where unknowns stand in stiffness and inertia.
+    pub(super) order: OrderAtRest,
     /// About the square of the slowest bending of the model [1/time²].
     pub(super) scale: f64,
     /// The number of movements with inertia: so many modes have a finite frequency.
@@ -23,35 +24,37 @@ pub(super) struct Pencil {
 impl Pencil {
     /// The eigenvalue problem of the present configuration of a model.
     pub(super) fn of(model: &Model) -> Result<Self, VibrationError> {
-        let size = model.unknowns();
-        let mut stiffness = PreciseBand::zeros(size, model.half_bandwidth_at_rest());
+        let order = model.order_at_rest();
+        let size = order.count();
+        let mut stiffness = PreciseBand::zeros(size, order.half_bandwidth());
         let mut elastic = Elastic::default();
-        model.each_span_at_rest(&mut |degrees, span| {
+        model.each_span_at_rest(&order, &mut |degrees, span| {
             add_resistance(&mut stiffness, degrees, span);
             elastic.add(size, degrees, span);
         });
-        let inertia = model.sparse_inertia();
+        let inertia = model.sparse_inertia(&order);
         let scale = model.slowest_bending().unwrap_or(1.0);
         let own: Vec<f64> = (0..size)
             .map(|at| stiffness.diagonal(at).abs() + scale * inertia.diagonal(at))
             .collect();
-        model.each_lever_at_rest(|at| own[at], &mut |degrees, span| {
+        model.each_tie_at_rest(&order, |at| own[at], &mut |degrees, span| {
             add_resistance(&mut stiffness, degrees, span);
             elastic.add(size, degrees, span);
         });
         let is_finite = (0..size)
             .all(|at| stiffness.diagonal(at).is_finite() && inertia.diagonal(at).is_finite());
         let finite = (0..size).filter(|at| inertia.diagonal(*at) > 0.0).count();
-        let finite = finite.saturating_sub(model.held_by_levers(&inertia));
+        let finite = finite.saturating_sub(model.held_by_ties(&order, &inertia));
         if !is_finite || !scale.is_normal() {
             return Err(VibrationError::NotFinite);
         }
-        Ok(Self { stiffness, inertia, elastic, scale, finite })
+        Ok(Self { stiffness, inertia, elastic, order, scale, finite })
     }
 
     /// About the memory that the eigenvalue problem of a model takes [bytes].
     pub(super) fn memory(model: &Model) -> usize {
-        let (size, reach) = (model.unknowns(), model.half_bandwidth_at_rest() + 1);
+        let order = model.order_at_rest();
+        let (size, reach) = (order.count(), order.half_bandwidth() + 1);
         // The stiffness in two parts, its factors, inertia while it is sorted, and about two strains for each movement.
         size * reach * 8 * size_of::<f64>() + Elastic::memory(2 * size, reach)
     }

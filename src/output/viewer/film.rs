@@ -8,12 +8,12 @@ use crate::output::symbol::Symbol;
 pub struct Place {
     /// The first of its points, by its index in a frame.
     pub first: usize,
-    /// How much of this one and those that follow.
+    /// The weights of the points from the first one on, whose weighted sum is the place.
     pub weights: Vec<f64>,
 }
 
 impl Place {
-    /// Where it is among the points of a frame.
+    /// The place among the points of a frame.
     pub fn among(&self, points: &[Point]) -> Point {
         let sum = |pick: fn(&Point) -> f64| {
             self.weights.iter().zip(&points[self.first..]).map(|(w, point)| w * pick(point)).sum()
@@ -27,7 +27,7 @@ impl Place {
 pub struct Beam {
     /// Its name.
     pub name: String,
-    /// Its centre line, from its start to its end.
+    /// The centre line of the beam, from its start to its end.
     pub line: Vec<Place>,
     /// Knots or nodes: indices of the line.
     pub marks: Vec<usize>,
@@ -40,7 +40,7 @@ pub struct Beam {
 pub struct Particle {
     /// Its name.
     pub name: String,
-    /// Where it is.
+    /// The place of the particle.
     pub at: Place,
 }
 

@@ -1,7 +1,8 @@
 //! Numbers as in science: what the operators of [`syntax`](crate::script::source::syntax) do.
 //!
 //! Comparisons are those of IEEE 754 for every mix of whole and other numbers, division is never truncated, and a
-//! power of whole numbers with an exponent of zero or more is whole; to leave the range of whole numbers is an error. Other types keep the engine's own operators, except that
+//! power of whole numbers with an exponent of zero or more is whole; to leave the range of whole numbers is an error. Other types keep the engine's own
+//! operators, except that
 //! an order between values of different types is an error and not silently `false`.
 //!
 //! Two limits of the engine remain: `switch` compares by the kind of number as well (`3.0` is not `case 3`), and a

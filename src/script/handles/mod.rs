@@ -1,6 +1,7 @@
 //! Scenes, beams, stations, simulations and histories as scripts hold them: clones are the same thing.
 
 pub mod beam;
+pub mod equilibrium;
 pub mod events;
 pub mod history;
 pub mod notes;

@@ -1,6 +1,6 @@
 //! Cross sections that a script holds.
 
-use crate::beams::{Relaxation, Section, SectionProfile, Solid};
+use crate::beams::{Relaxation, Section, SectionVariation, Solid};
 use crate::output::significant;
 use crate::script::looks::details;
 use crate::script::rows::kind::{Details, Scripted};
@@ -12,7 +12,7 @@ const DIGITS: usize = 7;
 #[derive(Clone)]
 pub struct SectionHandle {
     /// Stiffness and inertia along a beam.
-    pub profile: SectionProfile,
+    pub variation: SectionVariation,
     /// The material and the shape that it was made from, if it was: what tapers.
     pub solid: Option<Solid>,
     /// The relaxation times of its material; none of an elastic one.
@@ -25,10 +25,10 @@ impl Scripted for SectionHandle {
 
     fn show(&self) -> String {
         let damped = self.relaxation.map(|of| format!(", {}", in_words(&of))).unwrap_or_default();
-        let what = match &self.profile {
-            SectionProfile::Uniform(section) => format!("section with {}", numbers(section)),
+        let what = match &self.variation {
+            SectionVariation::Uniform(section) => format!("section with {}", numbers(section)),
             tapered => {
-                let places = tapered.given().len();
+                let places = tapered.places().len();
                 let [start, end] = [0.0, 1.0].map(|part| numbers(&tapered.at(part)));
                 format!("taper over {places} places, from {start} to {end}")
             }
@@ -38,7 +38,7 @@ impl Scripted for SectionHandle {
 
     fn details(&self) -> Details {
         let damped = self.relaxation.map(|of| ("material".to_owned(), in_words(&of)));
-        details::of_section(&self.profile.mean()).into_iter().chain(damped).collect()
+        details::of_section(&self.variation.mean()).into_iter().chain(damped).collect()
     }
 }
 

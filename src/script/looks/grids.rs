@@ -45,7 +45,7 @@ impl Grids {
         VtkGrid { cells: self.cells(lines.chain(dots)), fields: vec![self.arc_lengths()] }
     }
 
-    /// What the present state has besides: velocities, angles and section forces.
+    /// The grid of the present state: places, velocities, angles and section forces.
     pub fn of_state(&self, simulation: &Simulation) -> VtkGrid {
         let model = simulation.model();
         let samples: Vec<Vec<BeamSample>> =

@@ -2,7 +2,7 @@
 
 use rhai::{Dynamic, Map};
 
-use super::scenes::{ABOUT, SCENE, START_SPIN, START_VELOCITY, STATION, start_motion};
+use super::scenes::{SCENE, START_ABOUT, START_SPIN, START_VELOCITY, STATION, start_motion};
 use crate::geometry::Vec2;
 use crate::model::{ModelError, RigidBodyDefinition};
 use crate::script::handles::rigid_body::RigidBodyHandle;
@@ -85,7 +85,7 @@ const BODY_KEYS: &[Parameter] = &[
     text("name").optional(),
     START_VELOCITY,
     START_SPIN,
-    ABOUT,
+    START_ABOUT,
 ];
 
 fn body(call: &mut Call) -> Result<Dynamic, ScriptError> {

@@ -1,8 +1,5 @@
 //! Equilibrium of a scene: finding it, looking at it, and letting it go.
 
-use std::cell::{Ref, RefCell};
-use std::rc::Rc;
-
 use rhai::{Array, Dynamic, INT, Map};
 
 use super::modes::MODES;
@@ -10,13 +7,16 @@ use super::modes::{COUNT, ModesHandle, expect_room, look as look_for_modes};
 use super::scenes::{SCENE, STATION};
 use super::simulations::SIMULATION;
 use super::simulations::{START, begin, followed};
+use super::sliding::{SliderHandle, WHICH};
 use super::vectors::VECTOR;
 use crate::beams::Place;
+use crate::model::{Model, SliderState};
 use crate::output::significant;
+use crate::script::handles::equilibrium::EquilibriumHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Details, Scripted, Type};
+use crate::script::rows::kind::{Scripted, Type};
 use crate::script::rows::parameter::{Parameter, Presence, number, object, options, whole};
 use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Body, Row, Table, function, method, property};
@@ -38,7 +38,8 @@ pub const TABLE: Table = Table {
             .returns(Returns::object(EQUILIBRIUM))
             .summary("Finds where the scene rests under its loads and its weight.")
             .doc(
-                "Something must act, and nothing may slide. The scene must be held: supports must leave it no movement without resistance. A load step that finds nothing \
+                "Something must act. Sliders rest without friction where nothing drives them along, or lean on an end of their beam. What is held by its loads alone, as a \
+                 pendulum, a chain or a bead in a sag, sinks from where it is drawn to its rest, as in something viscous. A load step that finds nothing \
                  is halved, eight times at most. Where a structure snaps through, or to follow it under a falling load, take \
                  control: arc_length().",
             )
@@ -96,13 +97,38 @@ pub const TABLE: Table = Table {
             .summary("What the support at a station gives.")
             .doc("The map holds force, a vector, and moment. A joint between beams is no support: only what the ground gives is told.")
             .example("let rest = scene.equilibrium();\ncheck_close(rest.reaction(rod.start).moment, -s.EI * 3.14159265358979 / 4, 1e-6);"),
+        method(EQUILIBRIUM, "slider_position", &[WHICH], |call| {
+            asked(call, |model, slider| model.slider_position(slider).into())
+        })
+        .returns(Returns::NUMBER)
+        .summary("Where a slider rests on its beam: 0 at the start, 1 at the end, by length as drawn.")
+        .example(SLID)
+        .see(&["contact_force", "leans_on"]),
+        method(EQUILIBRIUM, "contact_force", &[WHICH], |call| {
+            asked(call, |model, slider| Dynamic::from(model.contact_force(slider)))
+        })
+        .returns(Returns::object(VECTOR).unit("force"))
+        .summary("The force of a slider on its beam, at rest; its station gets the opposite.")
+        .example(SLID)
+        .see(&["slider_position"]),
+        method(EQUILIBRIUM, "leans_on", &[WHICH], |call| {
+            asked(call, |model, slider| match model.slider_state(slider) {
+                SliderState::Held(end) => end.name().into(),
+                SliderState::Sliding | SliderState::Released => "".into(),
+            })
+        })
+        .returns(Returns::TEXT.note(", empty for one that hangs free of the ends"))
+        .summary("The end of its beam on whose stop a slider leans: \"start\" or \"end\".")
+        .doc("A stop pushes and never pulls. Sliders with ends: \"stop\" and ends: \"bounce\" lean; one with ends: \"release\" has left there, and has no rest.")
+        .example(SLID)
+        .see(&["slider_position"]),
         method(EQUILIBRIUM, "modes", &[COUNT], |call| {
             let handle = call.receiver::<EquilibriumHandle>()?;
             expect_room(call, handle.rest().model())?;
             let modes = look_for_modes(call, |count, goes_on| {
-                handle.0.rest.borrow_mut().modes(count, goes_on)
+                handle.rest_mut().modes(count, goes_on)
             })?;
-            Ok(Dynamic::from(ModesHandle::new(handle.0.scene.clone(), handle.rest().scene(), modes)))
+            Ok(Dynamic::from(ModesHandle::new(handle.scene().clone(), handle.rest().scene(), modes)))
         })
         .returns(Returns::object(MODES))
         .summary("The lowest natural frequencies and shapes of vibration about the equilibrium.")
@@ -111,7 +137,7 @@ pub const TABLE: Table = Table {
         .see(&["modes", "plot_modes"]),
         method(EQUILIBRIUM, "start", &[options("options", START)], |call| {
             let handle = call.receiver::<EquilibriumHandle>()?;
-            begin(call, handle.0.scene.clone(), |settings| {
+            begin(call, handle.scene().clone(), |settings| {
                 Simulation::start_at_rest(&handle.rest(), settings)
             })
         })
@@ -165,6 +191,19 @@ pub(super) const BENT: &str = "let scene = new_scene(\"example\");\n\
     scene.clamp(rod.start);\n\
     scene.moment(rod.end, s.EI * 3.14159265358979 / 4);";
 
+/// A bead that sinks into the sag of a beam.
+const SLID: &str = "let scene = new_scene(\"sag\");\n\
+    let s = section(#{ EA: 1e6, GA: 1e6, EI: 100, rho_A: 0.1, rho_I: 1e-3 });\n\
+    let wire = scene.beam(#{ axis: line([0, 0], [4, 0]), basis: bspline(8), section: s });\n\
+    scene.hinge(wire.start);\nscene.hinge(wire.end);\n\
+    let bead = scene.particle([1, 0], 2);\n\
+    let ring = scene.slider(bead, wire);\n\
+    scene.gravity([0, -9.81]);\n\
+    let rest = scene.equilibrium();\n\
+    check_close(rest.slider_position(ring), 0.5, 1e-9);\n\
+    check_close(rest.contact_force(ring).y, -2 * 9.81, 1e-9);\n\
+    check(rest.leans_on(ring) == \"\" && rest.is_stable);";
+
 /// The equilibrium type of the language, for rows of other domains.
 pub const EQUILIBRIUM: Type = Type::of::<EquilibriumHandle>();
 const CONTROL: Type = Type::of::<Control>();
@@ -188,67 +227,6 @@ const ARC_LENGTH: &[Parameter] = &[
     ),
     whole("points").between(3.0, 100_000.0).or(Presence::Whole(1000)).doc("most points of the path, which then ends where it is"),
 ];
-
-/// A handle on an equilibrium that a script holds; clones are the same one.
-#[derive(Clone)]
-pub struct EquilibriumHandle(Rc<Held>);
-
-struct Held {
-    scene: SceneHandle,
-    rest: RefCell<Equilibrium>,
-}
-
-impl EquilibriumHandle {
-    /// The scene that it is of.
-    pub fn scene(&self) -> &SceneHandle {
-        &self.0.scene
-    }
-
-    /// The equilibrium of the handle, to look at it.
-    pub fn rest(&self) -> Ref<'_, Equilibrium> {
-        self.0.rest.borrow()
-    }
-
-    /// The place of a station of the equilibrium's scene.
-    pub fn place(&self, station: &StationHandle) -> Result<Place, ScriptError> {
-        let rest = self.rest();
-        station.within(&self.0.scene, rest.scene(), rest.model().meshes())
-    }
-}
-
-impl Scripted for EquilibriumHandle {
-    const NAME: &'static str = "equilibrium";
-    const DOC: &'static str = "A scene at rest under its loads, and the path that led there.";
-
-    fn show(&self) -> String {
-        let rest = self.rest();
-        let points = rest.path().points();
-        format!(
-            "equilibrium of '{}' at load factor {}, {} points, strain energy {}",
-            rest.scene().name,
-            significant(rest.path().load_factor(), 6),
-            points.len(),
-            significant(points.last().map_or(0.0, |point| point.strain_energy), 6),
-        )
-    }
-
-    fn details(&self) -> Details {
-        let rest = self.rest();
-        let limits = rest.path().limit_points();
-        let shown = |value: &f64| significant(*value, 6);
-        let line = |label: &str, value: String| (label.to_owned(), value);
-        let most = rest.path().points().iter().map(|point| point.iterations).max();
-        let mut details = vec![
-            line("taken at", format!("t = {}", significant(rest.loading().time, 6))),
-            line("Newton iterations", format!("at most {} a step", most.unwrap_or(0))),
-        ];
-        if !limits.is_empty() {
-            let limits: Vec<String> = limits.iter().map(shown).collect();
-            details.push(line("limit points", limits.join(", ")));
-        }
-        details
-    }
-}
 
 impl Scripted for Control {
     const NAME: &'static str = "load control";
@@ -318,13 +296,13 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
             "note: the path of '{name}' ends after {points} points, at load factor {factor}"
         ));
     }
-    Ok(Dynamic::from(EquilibriumHandle(Rc::new(Held { scene, rest: RefCell::new(rest) }))))
+    Ok(Dynamic::from(EquilibriumHandle::new(scene, rest)))
 }
 
 fn is_stable(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<EquilibriumHandle>()?;
     let context = call.context();
-    let stability = handle.0.rest.borrow_mut().stability(&mut || !context.is_stopped());
+    let stability = handle.rest_mut().stability(&mut || !context.is_stopped());
     let unknown = |why: &str| {
         let hint = "simulate: rest.start(#{ dt: … }), and disturb it";
         Err(call.error(format!("whether it rests stably is not known: {why}")).hint(hint))
@@ -335,6 +313,14 @@ fn is_stable(call: &mut Call) -> Result<Dynamic, ScriptError> {
         Stability::Hidden => unknown("the stiffnesses differ so much that rounding hides it"),
         Stability::Follower => unknown("a load turns with the beam, and has no potential"),
     }
+}
+
+/// Asks the model at rest about the slider of a call.
+fn asked(call: &Call, ask: impl FnOnce(&Model, usize) -> Dynamic) -> Result<Dynamic, ScriptError> {
+    let handle = call.receiver::<EquilibriumHandle>()?;
+    let rest = handle.rest();
+    let slider = call.get::<SliderHandle>("slider")?.among(handle.scene(), rest.scene())?;
+    Ok(ask(rest.model(), slider))
 }
 
 /// The equilibrium that is called, and a place of it.
@@ -353,7 +339,7 @@ fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn reaction(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (handle, place) = place(call)?;
-    let reaction = handle.0.rest.borrow_mut().reaction(&place);
+    let reaction = handle.rest_mut().reaction(&place);
     let Some((force, moment)) = reaction else {
         let station = call.get::<StationHandle>("station")?;
         return Err(call

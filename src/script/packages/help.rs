@@ -9,7 +9,7 @@ use crate::script::rows::parameter::anything;
 use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
 
-/// The domain of help on everything else.
+/// The domain of `help`, which explains any name of the language.
 pub const TABLE: Table = Table {
     name: "help",
     doc: "What there is, and how it is written. The same is in docs/language.md, and shown by withy docs NAME.",

@@ -42,7 +42,7 @@ pub const TABLE: Table = Table {
         .doc(
             "Each comes with a residual; what cannot be had with one below 1e-6 is refused. With up to 240 unknowns all modes are found at \
              once, with more only the lowest, by the block method of Lanczos (Grimes, Lewis & Simon 1994), and a count of the negative pivots \
-             shows that none is missing. About another configuration: rest.modes(n) of an equilibrium, sim.modes(n) of a simulation.",
+             shows that none is missing. Sliders slide in them, under the contact forces that they have. About another configuration: rest.modes(n) of an equilibrium, sim.modes(n) of a simulation.",
         )
         .example("let modes = scene.modes(3);\nprint(modes);\ncheck_close(modes.angular_frequencies[0], 0.35160 * 2.5^2, 0.01);")
         .see(&["plot_modes", "equilibrium"]),

@@ -172,14 +172,12 @@ const AT: Parameter = object("station", STATION);
 const OTHER: Parameter = object("other", STATION).doc("the ground unless given").optional();
 const SPIN: Parameter = number("spin").unit("1/time").optional();
 const ROTARY: Parameter = number("rotary_inertia").unit("mass·length²").or(Presence::Number(0.0));
-/// How fast what is added moves at the start.
+/// The motion as a rigid body with which beams and bodies start.
 pub(super) const START_VELOCITY: Parameter =
     point("velocity").unit("length/time").doc("of the point `about`, at the start").optional();
-/// How fast it turns at the start.
 pub(super) const START_SPIN: Parameter =
     number("spin").unit("1/time").doc("rate of rotation at the start").optional();
-/// The point about which it turns.
-pub(super) const ABOUT: Parameter = point("about")
+pub(super) const START_ABOUT: Parameter = point("about")
     .unit("length")
     .doc("the point it turns about at the start; its centre of mass unless given")
     .beside("spin")
@@ -191,7 +189,7 @@ const BEAM_KEYS: &[Parameter] = &[
     text("name").optional(),
     START_VELOCITY,
     START_SPIN,
-    ABOUT,
+    START_ABOUT,
 ];
 const PARTICLE_KEYS: &[Parameter] = &[
     text("name").optional(),
@@ -217,12 +215,12 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
         None => Mesh::bspline(SPANS, 3, 2)?,
     };
     let motion = start_motion(&options)?;
-    let SectionHandle { profile, relaxation, .. } = options.get("section")?;
+    let SectionHandle { variation, relaxation, .. } = options.get("section")?;
     let definition = BeamDefinition {
         name: named.unwrap_or_else(|| scene.scene().borrow().free_name("beam")),
         axis: Curve::clone(&*options.get::<Rc<Curve>>("axis")?),
         mesh,
-        section: profile,
+        section: variation,
         motion,
     };
     let added = scene.scene().borrow_mut().add_beam(definition);

@@ -7,7 +7,7 @@ use rhai::{Dynamic, INT};
 use super::geometry::KNOTS;
 
 use crate::beams::{
-    BeamError, Mesh, Quadrature, Relaxation, Section, SectionProfile, Shape, Solid,
+    BeamError, Mesh, Quadrature, Relaxation, Section, SectionVariation, Shape, Solid,
 };
 use crate::geometry::{Basis, KnotVector};
 use crate::script::handles::section::SectionHandle;
@@ -212,13 +212,13 @@ fn section(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options("options")?;
     let (section, solid) = section_of(&options)?;
     let relaxation = relaxation(&options)?;
-    Ok(Dynamic::from(SectionHandle { profile: section.into(), solid, relaxation }))
+    Ok(Dynamic::from(SectionHandle { variation: section.into(), solid, relaxation }))
 }
 
 /// A number of a section that is the same everywhere.
 fn of_uniform(call: &Call, number: fn(&Section) -> f64) -> Result<Dynamic, ScriptError> {
-    match &call.receiver::<SectionHandle>()?.profile {
-        SectionProfile::Uniform(section) => Ok(number(section).into()),
+    match &call.receiver::<SectionHandle>()?.variation {
+        SectionVariation::Uniform(section) => Ok(number(section).into()),
         tapered => {
             let [start, end] = [0.0, 1.0].map(|part| number(&tapered.at(part)));
             let told =

@@ -2,7 +2,7 @@
 
 use rhai::{Array, Dynamic, FnPtr, Map};
 
-use super::equilibria::{EQUILIBRIUM, EquilibriumHandle};
+use super::equilibria::EQUILIBRIUM;
 use super::scenes::{BEAM, SCENE, STATION};
 use super::simulations::SIMULATION;
 use super::sliding::{SLIDER, SliderHandle};
@@ -12,6 +12,7 @@ use crate::beams::{SectionForces, Station};
 use crate::geometry::Vec2;
 use crate::model::{Instant, ModelError, Scene, SectionSample};
 use crate::script::handles::beam::BeamHandle;
+use crate::script::handles::equilibrium::EquilibriumHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;

@@ -151,7 +151,7 @@ const RULE: Type = Type::of::<SlidingRule>();
 /// The slider type.
 pub(super) const SLIDER: Type = Type::of::<SliderHandle>();
 
-const WHICH: Parameter = object("slider", SLIDER);
+pub(super) const WHICH: Parameter = object("slider", SLIDER);
 const ENDS: [(&str, EndAction); 3] =
     [("stop", EndAction::Stop), ("bounce", EndAction::Bounce), ("release", EndAction::Release)];
 const VELOCITIES: [(&str, StartVelocities); 2] =
@@ -185,8 +185,13 @@ impl SliderHandle {
 
     /// Its index in a simulation, if that is one of its scene.
     pub(super) fn on(&self, handle: &SimulationHandle) -> Result<usize, ScriptError> {
-        handle.scene().expect_same(&self.scene, "slider")?;
-        if self.index < handle.simulation().scene().sliders.len() {
+        self.among(handle.scene(), handle.simulation().scene())
+    }
+
+    /// Its index in a copy of a scene that was taken when it was started, if it is one of that.
+    pub(super) fn among(&self, scene: &SceneHandle, copy: &Scene) -> Result<usize, ScriptError> {
+        scene.expect_same(&self.scene, "slider")?;
+        if self.index < copy.sliders.len() {
             return Ok(self.index);
         }
         let told = format!("the slider '{}' was added after the scene was started", self.name());

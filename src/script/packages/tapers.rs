@@ -3,7 +3,7 @@
 use rhai::{Array, Dynamic};
 
 use super::sections::SECTION;
-use crate::beams::{BeamError, Section, SectionProfile, Solid};
+use crate::beams::{BeamError, Section, SectionVariation, Solid};
 use crate::script::handles::section::SectionHandle;
 use crate::script::rows::call::Call;
 use crate::script::rows::parameter::array;
@@ -37,8 +37,8 @@ pub const TABLE: Table = Table {
             .see(&["section", "beam"]),
         method(SECTION, "at", &[number("part").between(0.0, 1.0).doc("of the length, from the start")], |call| {
             let handle = call.receiver::<SectionHandle>()?;
-            let section = handle.profile.at(call.number("part")?);
-            Ok(Dynamic::from(SectionHandle { profile: section.into(), solid: None, ..handle }))
+            let section = handle.variation.at(call.number("part")?);
+            Ok(Dynamic::from(SectionHandle { variation: section.into(), solid: None, ..handle }))
         })
         .returns(Returns::object(SECTION))
         .summary("The section of a taper at a part of the length.")
@@ -58,26 +58,26 @@ fn taper(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let hint = "give the sections of a taper the same damping";
         return Err(call.error(told).hint(hint).at(Place::Argument(0)));
     }
-    let profile = profile(&all).validated().map_err(|error| match error {
+    let variation = variation(&all).validated().map_err(|error| match error {
         BeamError::SectionValue { .. } => ScriptError::from(error),
         _ => ScriptError::from(error).hint("write taper([[0, thick], [1, thin]])"),
     });
-    let profile = profile.map_err(|error| error.at(Place::Argument(0)))?;
-    Ok(Dynamic::from(SectionHandle { profile, solid: None, relaxation }))
+    let variation = variation.map_err(|error| error.at(Place::Argument(0)))?;
+    Ok(Dynamic::from(SectionHandle { variation, solid: None, relaxation }))
 }
 
 /// Between solids of one kind dimensions are linear, otherwise the numbers are.
-fn profile(all: &[(f64, SectionHandle)]) -> SectionProfile {
+fn variation(all: &[(f64, SectionHandle)]) -> SectionVariation {
     let solids: Option<Vec<(f64, Solid)>> =
         all.iter().map(|(place, section)| Some((*place, section.solid?))).collect();
     let alike = |all: &Vec<(f64, Solid)>| {
         all.windows(2).all(|pair| pair[0].1.is_of_one_kind_with(&pair[1].1))
     };
     match solids.filter(alike) {
-        Some(solids) => SectionProfile::Dimensions(solids),
+        Some(solids) => SectionVariation::Dimensions(solids),
         None => {
-            let section = |section: &SectionHandle| -> Section { section.profile.at(0.0) };
-            SectionProfile::Numbers(all.iter().map(|(place, of)| (*place, section(of))).collect())
+            let section = |section: &SectionHandle| -> Section { section.variation.at(0.0) };
+            SectionVariation::Numbers(all.iter().map(|(place, of)| (*place, section(of))).collect())
         }
     }
 }
@@ -89,7 +89,7 @@ fn place(call: &Call, index: usize, given: Dynamic) -> Result<(f64, SectionHandl
         let [place, section] = <[Dynamic; 2]>::try_from(pair).ok()?;
         let place = place.as_float().or_else(|_| place.as_int().map(|whole| whole as f64)).ok()?;
         let section = section.try_cast::<SectionHandle>()?;
-        matches!(section.profile, SectionProfile::Uniform(_)).then_some((place, section))
+        matches!(section.variation, SectionVariation::Uniform(_)).then_some((place, section))
     };
     read(given).ok_or_else(|| {
         let told = format!("place {} is not a part of the length and a section", index + 1);

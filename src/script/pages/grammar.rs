@@ -1,6 +1,7 @@
 //! A TextMate grammar for editors, from the same keywords and rows as the colours of the prompt.
 //!
-//! Its rules are those of the scanner ([`scan`](crate::script::source::scanner::scan)) as regular expressions of Oniguruma. Members stand apart: an editor does not know what a
+//! Its rules are those of the scanner ([`scan`](crate::script::source::scanner::scan)) as regular expressions of Oniguruma. Members stand apart: an editor
+//! does not know what a
 //! value is, so every name behind a dot that is called is a member.
 
 use std::collections::BTreeSet;

@@ -60,7 +60,7 @@ pub fn power_name(chain: u8) -> String {
     format!("{OWN}^{chain}")
 }
 
-/// The reader of a text: what is remembered of the text that is being read.
+/// What the engine's hook for tokens remembers of the text that is being read.
 #[derive(Clone, Default)]
 pub struct Reader {
     nesting: Rc<RefCell<Nesting>>,

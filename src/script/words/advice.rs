@@ -6,7 +6,7 @@ use crate::beams::BeamError;
 use crate::loads::LoadError;
 use crate::model::{Approach, ModelError, SliderError, Turning};
 use crate::simulation::{ArchiveError, SimulationError};
-use crate::statics::StaticsError;
+use crate::statics::{Miss, StaticsError};
 
 /// What to do about an error, or about the first of its causes that there is advice on.
 pub fn on(error: &(dyn Error + 'static)) -> Option<String> {
@@ -66,8 +66,12 @@ fn on_statics(error: &StaticsError) -> Option<String> {
         StaticsError::NoLoad { .. } => {
             "loads are taken as they are at one time: choose it with the option time".into()
         }
-        StaticsError::Slider { .. } => AT_REST.into(),
         StaticsError::Driven { .. } => "leave out control: arc_length()".into(),
+        StaticsError::Loose { reason, .. } | StaticsError::Lost { reason, .. }
+            if matches!(**reason, Miss::Leaves { .. }) =>
+        {
+            "with ends: \"stop\" it leans on the end; what has left has no rest".into()
+        }
         StaticsError::Loose { .. } => {
             format!("hold it with scene.clamp(…) or scene.hinge(…), or {AT_REST}")
         }

@@ -16,7 +16,7 @@ pub struct Raised {
 }
 
 impl Raised {
-    /// An error of the engine, and the words for it in a line.
+    /// Wraps an error of a script function with the words for it in one line.
     pub fn new(words: String, error: Box<EvalAltResult>) -> Self {
         Self { words, error: RefCell::new(Some(error)) }
     }

@@ -32,7 +32,8 @@ fn arc() -> Curve {
     Curve::arc(Vec2::new(0.0, 0.0), 1.0, 0.3, 2.2).unwrap()
 }
 
-/// `g` by dense algebra, with the start held: what the end of the string moves under a unit load at ξ is the exact response at ξ to it, less the one at ξ itself.
+/// `g` by dense algebra, with the start held: what the end of the string moves under a unit load at ξ is the exact response at ξ to it, less the one at ξ
+/// itself.
 fn dense(mesh: &Mesh, points: &[Vec2], places: &[f64]) -> Vec<f64> {
     let (basis, count) = (mesh.basis(), points.len());
     let mut stiffness = DMatrix::zeros(count, count);

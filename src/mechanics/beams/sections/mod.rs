@@ -1,13 +1,13 @@
 //! Which section each quadrature point of a beam has: that of the beam, or one of its own.
 
-mod between_points;
-mod inertia;
-mod of_points;
+mod interpolated;
+mod mass_integrals;
 mod on_axis;
+mod per_point;
 
-pub(super) use between_points::Blend;
-use between_points::Blended;
-pub(super) use inertia::Entry;
-use inertia::Weighed;
-pub(super) use of_points::{Own, Same, Sections};
-pub(super) use on_axis::ProfileOnAxis;
+use interpolated::Interpolated;
+pub(super) use interpolated::Interpolation;
+pub(super) use mass_integrals::MassIntegral;
+use mass_integrals::SectionIntegral;
+pub(super) use on_axis::SectionsOnAxis;
+pub(super) use per_point::{PerPoint, Sections, Uniform};

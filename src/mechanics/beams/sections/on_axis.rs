@@ -1,14 +1,14 @@
 //! The section at any parameter of an axis.
 
-use crate::beams::{BeamError, Mesh, Section, SectionProfile};
+use crate::beams::{BeamError, Mesh, Section, SectionVariation};
 use crate::geometry::{GaussRule, Span, Vec2};
 
 /// Points by which arc lengths within a span are measured.
 const POINTS: usize = 8;
 
-/// A profile along the axis that control points draw on a mesh.
-pub(in crate::beams) struct ProfileOnAxis<'a> {
-    profile: &'a SectionProfile,
+/// The sections of a beam along the axis that control points draw on a mesh.
+pub(in crate::beams) struct SectionsOnAxis<'a> {
+    variation: &'a SectionVariation,
     mesh: &'a Mesh,
     control_points: &'a [Vec2],
     rule: GaussRule,
@@ -17,17 +17,17 @@ pub(in crate::beams) struct ProfileOnAxis<'a> {
     length: f64,
 }
 
-impl<'a> ProfileOnAxis<'a> {
-    /// The profile along an axis.
+impl<'a> SectionsOnAxis<'a> {
+    /// The sections along an axis.
     pub(in crate::beams) fn new(
-        profile: &'a SectionProfile,
+        variation: &'a SectionVariation,
         mesh: &'a Mesh,
         control_points: &'a [Vec2],
     ) -> Result<Self, BeamError> {
         let rule = GaussRule::new(POINTS)?;
         let mut along =
-            Self { profile, mesh, control_points, rule, starts: Vec::new(), length: 0.0 };
-        if let SectionProfile::Uniform(_) = profile {
+            Self { variation, mesh, control_points, rule, starts: Vec::new(), length: 0.0 };
+        if let SectionVariation::Uniform(_) = variation {
             return Ok(along);
         }
         for span in mesh.basis().spans() {
@@ -47,8 +47,8 @@ impl<'a> ProfileOnAxis<'a> {
 
     /// The section at a parameter in a span, by the number of that.
     pub(in crate::beams) fn at(&self, index: usize, span: &Span, xi: f64) -> Section {
-        match self.profile {
-            SectionProfile::Uniform(section) => *section,
+        match self.variation {
+            SectionVariation::Uniform(section) => *section,
             tapered => tapered.at((self.starts[index] + self.within(span, xi)) / self.length),
         }
     }

@@ -112,6 +112,11 @@ impl Contact<'_> {
         WayVector { value, by_way: self.sum(self.passage.slope(), 1.0) }
     }
 
+    /// The sum `Σ ∂D_i/∂ξ1 x_i1` on the master at the end of the step: half of its second derivative, for a way of length zero [length].
+    pub(super) fn end_bend(&self) -> Vec2 {
+        self.sum(self.passage.change(), 1.0)
+    }
+
     /// The mean place `Σ B̄_i x̄_i` of way and step on the master [length].
     pub fn mean_point(&self) -> WayVector {
         let value = self.sum(self.passage.mean(), 0.5);

@@ -12,6 +12,7 @@ mod kinked;
 mod law;
 mod relaxed;
 mod released;
+mod resting;
 mod rule;
 
 pub use conserving::Conserving;
@@ -23,4 +24,5 @@ pub use kinked::Kinked;
 pub use law::SlidingLaw;
 pub use relaxed::Relaxed;
 pub use released::Released;
+pub use resting::{Leaning, Resting};
 pub use rule::{RuleClaims, RuleEntry, SLIDING_RULES, SlidingRule};

@@ -1,7 +1,7 @@
 //! The parts of a scene put together.
 
 use super::numbering::{LinkPlace, Numbering};
-use crate::beams::{BodyDynamics, Mesh, Place, RigidPoints, SectionProfile, Station, discretise};
+use crate::beams::{BodyDynamics, Mesh, Place, RigidPoints, SectionVariation, Station, discretise};
 use crate::elementary::square;
 use crate::geometry::{GeometryError, Vec2, interpolate};
 use crate::joints::{CONTACT_UNKNOWNS, Partner};
@@ -55,7 +55,7 @@ impl Model {
         let motion =
             Motion::new(rates, square(STRAIN_ROUNDINGS) * f64::EPSILON * scene.rounding_energy());
         let mut model = Self::new(bodies, elements, links, sliders, supports, unknowns, motion);
-        model.check_levers(scene)?;
+        model.check_rigid_links(scene)?;
         if !scene.sliders.is_empty() {
             model.check_determined(scene)?;
         }
@@ -207,7 +207,7 @@ impl Site for Assembly<'_> {
         &self.meshes[beam]
     }
 
-    fn profile(&self, beam: usize) -> &SectionProfile {
+    fn variation(&self, beam: usize) -> &SectionVariation {
         &self.scene.beams[beam].section
     }
 

@@ -1,12 +1,13 @@
 //! From a scene to a model: meshes with nodes where joints are, numbers, elements, sliders and start velocities.
 
 mod assemble;
-mod classes;
+mod initial_numbering;
 mod numbering;
 mod redundancy;
 mod rigid_links;
 mod sliders;
 mod start_rates;
+mod tied_components;
 
 use assemble::Assembly;
 use numbering::Numbering;

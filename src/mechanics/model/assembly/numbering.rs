@@ -1,6 +1,7 @@
 //! The numbers of the unknowns that are left where movements are tied to each other or to the ground.
 
-use super::classes::{Classes, GROUND, Order};
+use super::initial_numbering::InitialNumbering;
+use super::tied_components::{GROUND, TiedComponents};
 use crate::beams::{BodyDynamics, Place, Station};
 use crate::joints::Component;
 use crate::linalg::reverse_cuthill_mckee;
@@ -40,33 +41,34 @@ impl Numbering {
         border: usize,
         place: impl Fn(&Station) -> Result<Place, ModelError>,
     ) -> Result<Self, ModelError> {
-        let mut classes = Classes::new(scene, bodies, &place)?;
-        let order = Order::of(scene, &mut classes)?;
-        let groups = order.coupled(scene, bodies, &mut classes, &place)?;
-        let ordering = reverse_cuthill_mckee(order.unknowns, &groups);
-        let unknowns = order.unknowns;
+        let mut tied = TiedComponents::new(scene, bodies, &place)?;
+        let initial = InitialNumbering::new(scene, &mut tied)?;
+        let groups = initial.coupled(scene, bodies, &mut tied, &place)?;
+        let ordering = reverse_cuthill_mckee(initial.unknowns, &groups);
+        let unknowns = initial.unknowns;
 
-        let links = order.forces.iter().zip(&classes.links).map(|(force, &(body, point))| {
+        let links = initial.forces.iter().zip(&tied.links).map(|(force, &(body, point))| {
             LinkPlace { body, point, force: force.map(|at| ordering.position[at]) }
         });
         let links = links.collect();
-        let prescribed = classes.prescribed.len();
+        let prescribed = tied.prescribed.len();
         let mut supported = prescribed;
-        let mut degree = |classes: &mut Classes, at: usize| match classes.ties.root(at) {
+        let mut degree_of_freedom = |tied: &mut TiedComponents, at: usize| match tied.ties.root(at)
+        {
             GROUND => {
                 supported += 1;
                 unknowns + border + supported - 1
             }
-            root => match classes.prescribed.iter().position(|other| *other == root) {
+            root => match tied.prescribed.iter().position(|other| *other == root) {
                 Some(movement) => unknowns + border + movement,
-                None => ordering.position[order.number[root]],
+                None => ordering.position[initial.number[root]],
             },
         };
         let mut degrees_of_freedom = Vec::with_capacity(bodies.len());
         for (index, body) in bodies.iter().enumerate() {
             let points = (0..body.control_points().len()).map(|point| {
-                let first = classes.component((index, point), Component::X);
-                [0, 1, 2].map(|component| degree(&mut classes, first + component))
+                let first = tied.component((index, point), Component::X);
+                [0, 1, 2].map(|component| degree_of_freedom(&mut tied, first + component))
             });
             degrees_of_freedom.push(points.collect());
         }

@@ -13,7 +13,7 @@ impl Model {
     ///
     /// All movements get a mass of one. Then the forces by which rigid links close small gaps are about as large as these, times the square of
     /// the number of bodies in a chain at most, if they are determined.
-    pub(super) fn check_levers(&self, scene: &Scene) -> Result<(), ModelError> {
+    pub(super) fn check_rigid_links(&self, scene: &Scene) -> Result<(), ModelError> {
         if self.links().count() == 0 {
             return Ok(());
         }

@@ -27,10 +27,12 @@ impl Tracker {
         self.rotation = self.rotation.turned(rotations, increment).normalised();
     }
 
+    /// Appends the angle that is followed to a state.
     pub fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.angle, self.rotation.cos, self.rotation.sin]);
     }
 
+    /// Takes the angle that is followed back from a state.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.angle = next();
         self.rotation = Rotation { cos: next(), sin: next() };

@@ -11,9 +11,9 @@ use crate::geometry::{Vec2, perpendicular};
 /// A force over a speed, `c s + k |s| s`: of a point, or per length of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct SpeedLaw {
-    /// `c` [force·time/length; of a line force·time/length²].
+    /// The coefficient `c` of the part that is linear in the speed [force·time/length; of a line force·time/length²].
     pub linear: f64,
-    /// `k` [force·time²/length²; of a line force·time²/length³].
+    /// The coefficient `k` of the part that is quadratic in the speed [force·time²/length²; of a line force·time²/length³].
     pub quadratic: f64,
 }
 
@@ -34,9 +34,9 @@ pub enum DragLaw {
     Point(SpeedLaw),
     /// Across and along a line.
     Line {
-        /// Across it.
+        /// The force across the line, over the speed across it.
         normal: SpeedLaw,
-        /// SpeedLaw it.
+        /// The force along the line, over the speed along it.
         tangent: SpeedLaw,
     },
 }
@@ -46,7 +46,7 @@ pub enum DragLaw {
 pub struct Resisted {
     /// `G` [force, or force/length].
     pub force: Vec2,
-    /// `∂G/∂v`, column by column.
+    /// The derivative `∂G/∂v` of the force by the velocity, column by column.
     pub by_velocity: [Vec2; 2],
     /// The derivative of `G` by the angle of the line.
     pub by_turn: Vec2,

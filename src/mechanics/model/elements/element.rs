@@ -4,14 +4,15 @@ use serde::{Deserialize, Serialize};
 
 use super::point_mass::Lump;
 use super::{Drag, ForceElement, MaterialDamping, PointMass, Resistance, Spring};
-use crate::beams::{BodyDynamics, Mesh, Place, SectionProfile, Station};
+use crate::beams::{BodyDynamics, Mesh, Place, SectionVariation, Station};
 use crate::geometry::GeometryError;
 use crate::loads::{Load, Schedule};
 use crate::model::ModelError;
 
 /// An element of a scene: something with mass on a body, or something that puts forces on bodies.
 ///
-/// A further kind is a variant, and a file in `model/elements` with its [`Description`] and what it is built into: a [`ForceElement`], or a [`Resistance`](super::Resistance).
+/// A further kind is a variant, and a file in `model/elements` with its [`Description`] and what it is built into: a [`ForceElement`], or a
+/// [`Resistance`](super::Resistance).
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum Element {
     /// The element is a mass at a station.
@@ -131,7 +132,7 @@ pub trait Site {
     fn mesh(&self, beam: usize) -> &Mesh;
 
     /// The sections along a beam, by its index.
-    fn profile(&self, beam: usize) -> &SectionProfile;
+    fn variation(&self, beam: usize) -> &SectionVariation;
 
     /// A body at its start, by its index: beams come first, then particles, then rigid bodies.
     fn body(&self, index: usize) -> &dyn BodyDynamics;

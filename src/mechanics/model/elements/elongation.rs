@@ -44,13 +44,13 @@ pub struct Elongation {
     terminals: Vec<Terminal>,
     /// The movements in the iterate, a number for each coordinate.
     moved: Vec<f64>,
-    /// `Δq` [length, rad].
+    /// The change `Δq` of what is measured in the step [length, rad].
     pub change: f64,
     /// The secant `g` with `Σ g u = Δq`; at the end of a step the derivative there [-].
     pub secant: Vec<f64>,
-    /// `∂Δq/∂u` [-].
+    /// The derivative `∂Δq/∂u` by the movements [-].
     pub slope: Vec<f64>,
-    /// `∂g/∂u`, row by row [1/length, 1/rad].
+    /// The derivative `∂g/∂u` of the secant by the movements, row by row [1/length, 1/rad].
     pub bend: Vec<f64>,
 }
 

@@ -5,9 +5,9 @@ use crate::geometry::larger;
 /// A force that is an unknown of its own.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct HiddenForce {
-    /// Of the iterate.
+    /// The force of the iterate.
     pub force: f64,
-    /// Of the last step.
+    /// The force of the last step.
     pub last: f64,
     /// What the configuration asks for, less the force.
     pub mismatch: f64,

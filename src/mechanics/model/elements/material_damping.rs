@@ -42,7 +42,7 @@ impl Description for MaterialDamping {
         let wrong = |source| ModelError::Beam { beam: self.name.clone(), source };
         let (relaxation, points) = (self.relaxation, body.control_points());
         let dashpots =
-            Dashpots::new(mesh, points, site.profile(self.beam), relaxation).map_err(wrong)?;
+            Dashpots::new(mesh, points, site.variation(self.beam), relaxation).map_err(wrong)?;
         Ok(Assembled::Resistance(Box::new(DampedMaterial {
             name: format!("damping of beam '{}'", self.name),
             beam: self.beam,

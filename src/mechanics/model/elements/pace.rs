@@ -55,10 +55,12 @@ impl Pace {
         }
     }
 
+    /// Appends the rates at the start of a step to a state.
     pub fn save(&self, state: &mut Vec<f64>) {
         state.push(self.before);
     }
 
+    /// Takes the rates at the start of a step back from a state.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.before = next();
     }

@@ -1,6 +1,7 @@
 //! Supported movements that are prescribed: their increments in a step, and what the drives give by that.
 //!
-//! Let `v` be the rates, of which those of prescribed movements are derivatives of the prescribed functions, and `ε = Δx - Δt v̄` by how much a prescribed increment
+//! Let `v` be the rates, of which those of prescribed movements are derivatives of the prescribed functions, and `ε = Δx - Δt v̄` by how much a prescribed
+//! increment
 //! differs from its mean rate (of third order in `Δt`; zero for what is unknown). By the proofs of the energy–momentum step
 //!
 //! ```text
@@ -15,7 +16,7 @@ use super::Exchange;
 use super::supports::Support;
 use crate::beams::RotationIncrement;
 use crate::geometry::{Vec2, cross, larger};
-use crate::integrators::{Interval, Prescribed};
+use crate::integrators::{Interval, PrescribedKinematics};
 use crate::joints::Component;
 use crate::loads::{LoadError, MotionAtStart, PrescribedMotion, Side};
 use crate::model::bodies::Body;
@@ -79,7 +80,7 @@ pub struct PrescribedMovements {
     first: usize,
     /// Entries of constraints in what is prescribed.
     constraints: usize,
-    prescribed: Prescribed,
+    prescribed: PrescribedKinematics,
     /// The largest turn of the step [rad].
     turn: f64,
     /// Room for rates of everything.
@@ -98,7 +99,7 @@ impl PrescribedMovements {
         constraints: usize,
     ) -> Result<(Self, Vec<f64>), (String, LoadError)> {
         let drives: Vec<Driven> = drives.map(|name| Driven { name, work: 0.0 }).collect();
-        let mut prescribed = Prescribed::new(constraints, movements.len());
+        let mut prescribed = PrescribedKinematics::new(constraints, movements.len());
         let mut present = vec![Present::default(); movements.len()];
         for (at, movement) in movements.iter().enumerate() {
             let MotionAtStart { rate, acceleration } = movement
@@ -127,7 +128,7 @@ impl PrescribedMovements {
     }
 
     /// What they do in the present step.
-    pub fn in_step(&self) -> &Prescribed {
+    pub fn in_step(&self) -> &PrescribedKinematics {
         &self.prescribed
     }
 
@@ -307,6 +308,7 @@ impl PrescribedMovements {
         }
     }
 
+    /// Appends the state of the prescribed movements at the start of a step.
     pub fn save(&self, state: &mut Vec<f64>) {
         state.extend(
             self.present.iter().flat_map(|now| [now.acceleration, now.reaction, now.placed]),
@@ -314,6 +316,7 @@ impl PrescribedMovements {
         state.extend(self.drives.iter().map(|drive| drive.work));
     }
 
+    /// Takes the state of the prescribed movements back, in the order in which it was appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         for present in &mut self.present {
             (present.acceleration, present.reaction) = (next(), next());

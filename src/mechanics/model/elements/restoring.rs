@@ -29,9 +29,9 @@ pub enum RestoringLaw {
 /// The mean force of a step: the discrete gradient of the stored energy (Gonzalez 1996), with its derivative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeanForce {
-    /// `G = ΔU/Δq`, or `U'` where nothing changes [force, force·length].
+    /// The mean force `G = ΔU/Δq` of a step, or `U'` where nothing changes [force, force·length].
     pub force: f64,
-    /// `∂G/∂q₁` [force/length, force·length/rad].
+    /// The derivative `∂G/∂q₁` of that force by the coordinate at the end of the step [force/length, force·length/rad].
     pub slope: f64,
 }
 

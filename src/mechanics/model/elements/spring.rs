@@ -61,7 +61,7 @@ impl Spring {
         }
     }
 
-    /// Those of them that are on bodies.
+    /// The anchors of the spring that are stations of bodies.
     pub fn stations(&self) -> impl Iterator<Item = &Station> {
         self.anchors().iter().filter_map(|anchor| match anchor {
             Anchor::Station(station) => Some(station),

@@ -47,17 +47,17 @@ impl Supports {
         self.prescribed.supports().chain(&self.held)
     }
 
-    /// Those that do not move.
+    /// The supports that hold still.
     pub fn held(&self) -> impl Iterator<Item = &Support> {
         self.held.iter()
     }
 
-    /// Those that move as is prescribed.
+    /// The supports whose motion is prescribed.
     pub fn prescribed(&self) -> &PrescribedMovements {
         &self.prescribed
     }
 
-    /// Those that move as is prescribed, to be moved.
+    /// The supports whose motion is prescribed, to be moved.
     pub fn prescribed_mut(&mut self) -> &mut PrescribedMovements {
         &mut self.prescribed
     }
@@ -102,7 +102,8 @@ impl Supports {
         sum
     }
 
-    /// The force [force] and the moment [force·length] on some nodes, bodies and control points, and against the rotation of bodies that turn as a whole, with the reactions of a residual; none
+    /// The force [force] and the moment [force·length] on some nodes, bodies and control points, and against the rotation of bodies that turn as a whole,
+    /// with the reactions of a residual; none
     /// where nothing is held.
     pub fn force_on(
         &self,

@@ -1,6 +1,6 @@
 //! What a scene uses, and what it therefore leaves out.
 
-use crate::beams::{PointCounts, SectionProfile};
+use crate::beams::{PointCounts, SectionVariation};
 use crate::geometry::Vec2;
 use crate::integrators::{Constraints, INTEGRATORS, Mechanism, Method};
 use crate::joints::{Component, Joint, Partner, SLIDING_RULES, StartVelocities};
@@ -119,8 +119,8 @@ impl Model {
                 "{mesh}, {points} control points; points for Γ {force}, κ {moment}, mass {inertia}"
             );
             let taper = match beam.section {
-                SectionProfile::Uniform(_) => "",
-                SectionProfile::Numbers(_) | SectionProfile::Dimensions(_) => {
+                SectionVariation::Uniform(_) => "",
+                SectionVariation::Numbers(_) | SectionVariation::Dimensions(_) => {
                     "; a taper: each point has a section of its own"
                 }
             };

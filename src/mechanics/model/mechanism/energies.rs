@@ -5,20 +5,20 @@ use super::Model;
 /// The energy of a body with what stands on it, by kind [energy].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BodyEnergy {
-    /// That of its motion, and of point masses on it.
+    /// The energy of the motion of the body, and of point masses on it.
     pub kinetic: f64,
-    /// `½ ∫ EA Γ1² dX`
+    /// The energy of stretching, `½ ∫ EA Γ1² dX`.
     pub axial: f64,
-    /// `½ ∫ GA Γ2² dX`, with that of kinks under sliders.
+    /// The energy of shear, `½ ∫ GA Γ2² dX`, with that of kinks under sliders.
     pub shear: f64,
-    /// `½ ∫ EI κ² dX`
+    /// The energy of bending, `½ ∫ EI κ² dX`.
     pub bending: f64,
-    /// Of gravity, zero at the origin.
+    /// The potential energy in gravity, zero at the origin.
     pub potential: f64,
 }
 
 impl BodyEnergy {
-    /// Of stretching, shear and bending together.
+    /// The energy of stretching, shear and bending together.
     pub fn strain(&self) -> f64 {
         self.axial + self.shear + self.bending
     }

@@ -109,7 +109,12 @@ impl Model {
         // What points of rigid bodies move beside these is changed by the same factor: then rigid links do no work either.
         let mut change = vec![0.0; self.unknowns()];
         if self.links.count() > 0 {
-            self.links.set_slip(&self.bodies, &self.motion.rates, factor, &mut change);
+            self.links.set_velocity_violation(
+                &self.bodies,
+                &self.motion.rates,
+                factor,
+                &mut change,
+            );
             inertia.solve(&mut change);
         }
         let mut response = BandedMatrix::zeros(count, count.saturating_sub(1));

@@ -1,6 +1,6 @@
 //! The inertia of all that moves.
 
-use super::Model;
+use super::{Model, OrderAtRest};
 use crate::integrators::Inertia;
 use crate::linalg::{BandedMatrix, SymmetricSparse};
 
@@ -19,15 +19,17 @@ impl Inertia for Model {
 
 impl Model {
     /// Gives the entries of the inertia matrix to `add`: row, column and value; several of one place add up.
-    fn inertia_entries(&self, add: &mut impl FnMut(usize, usize, f64)) {
+    pub(super) fn inertia_entries(&self, add: &mut impl FnMut(usize, usize, f64)) {
         self.bodies.iter().for_each(|body| body.inertia_entries(1.0, add));
         self.elements.inertia_entries(&self.bodies, 1.0, self.unknowns.count(), add);
     }
 
-    /// The inertia matrix of the model's unknown movements, by rows [mass, mass·length, mass·length²].
-    pub fn sparse_inertia(&self) -> SymmetricSparse {
-        SymmetricSparse::new(self.unknowns.count(), |add| {
-            self.inertia_entries(&mut |row, column, value| add(row, column, value));
+    /// The inertia matrix of the model's small movements in such an order, by rows [mass, mass·length, mass·length²].
+    pub fn sparse_inertia(&self, order: &OrderAtRest) -> SymmetricSparse {
+        SymmetricSparse::new(order.count(), |add| {
+            self.inertia_entries(&mut |row, column, value| {
+                add(order.place(row), order.place(column), value);
+            });
         })
     }
 

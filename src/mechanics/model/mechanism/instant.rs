@@ -115,7 +115,12 @@ impl Model {
         let mut accelerations: Vec<f64> =
             residual[..self.unknowns()].iter().map(|force| -force).collect();
         let prescribed = self.supports.prescribed().accelerations();
-        self.links.set_carried(&self.bodies, &self.motion.rates, &prescribed, &mut accelerations);
+        self.links.set_acceleration_bias(
+            &self.bodies,
+            &self.motion.rates,
+            &prescribed,
+            &mut accelerations,
+        );
         let mut inertia = self.banded_inertia();
         let inertia = inertia.factorise()?;
         inertia.solve(&mut accelerations);

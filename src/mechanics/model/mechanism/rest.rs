@@ -7,8 +7,9 @@ use super::Model;
 use crate::beams::{Place, RotationIncrement};
 use crate::geometry::{Vec2, larger};
 use crate::integrators::Stage;
-use crate::linalg::BandedMatrix;
+use crate::linalg::BorderedMatrix;
 use crate::model::rigid_links::ArmRule;
+use crate::model::sliders::TrackEnd;
 
 /// The largest of the forces that meet in a model at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -29,18 +30,28 @@ impl Model {
         self.links.begin_movement();
     }
 
-    /// Adds the internal forces of the model minus `load_factor` times the loads, with the section forces as they are.
+    /// Guesses the unknowns of a movement between two places at rest, contacts behind movements: nothing moves.
+    pub fn stay(&self, unknowns: &mut [f64]) {
+        unknowns.fill(0.0);
+        self.sliders.stay(&mut unknowns[self.unknowns.count()..]);
+    }
+
+    /// Adds the internal forces of the model minus `load_factor` times the loads, with the section forces as they are, and behind them the equations of
+    /// contacts; the unknowns are movements, and contacts behind them.
     pub fn add_static_forces(
         &mut self,
-        movements: &[f64],
+        unknowns: &[f64],
         load_factor: f64,
         out: &mut [f64],
     ) -> StaticForces {
+        let count = self.unknowns.count();
+        let (movements, contacts) = unknowns.split_at(count);
         let movements = &*self.supports.prescribed().at_rest(movements, load_factor);
         let summary = self.add_internal_forces(Stage::End, movements, 1.0, out);
         let (force, moment) = self.subtract_static_loads(movements, load_factor, out);
+        let contact = self.sliders.add_at_rest(&self.bodies, count, movements, contacts, out);
         StaticForces {
-            force: larger(summary.force, load_factor.abs() * force),
+            force: larger(larger(summary.force, load_factor.abs() * force), contact),
             moment: larger(summary.moment, load_factor.abs() * moment),
             strain_mismatch: summary.strain_mismatch,
         }
@@ -49,18 +60,40 @@ impl Model {
     /// Adds the condensed internal forces of the model minus `load_factor` times the loads, and their derivative by the movements.
     pub fn add_linearised_static_forces(
         &mut self,
-        movements: &[f64],
+        unknowns: &[f64],
         load_factor: f64,
         out: &mut [f64],
-        tangent: &mut BandedMatrix,
+        tangent: &mut BorderedMatrix,
     ) {
+        let count = self.unknowns.count();
+        let (movements, contacts) = unknowns.split_at(count);
         let movements = &*self.supports.prescribed().at_rest(movements, load_factor);
-        self.add_linearised(Stage::End, movements, (1.0, load_factor), out, tangent);
+        let share = (1.0, load_factor);
+        self.add_linearised(Stage::End, movements, share, out, tangent.band_mut());
+        let Self { sliders, bodies, .. } = self;
+        let border = tangent.border_mut();
+        sliders.add_linearised_at_rest(bodies, count, movements, contacts, out, border);
     }
 
-    /// The largest distance of a point of a rigid body from its place by the forces of the model, relative to its movements and its arm [-].
-    pub fn lever_violation(&self, residual: &[f64]) -> f64 {
-        self.links.violation(residual)
+    /// The largest violation of an equation of a rigid link or a contact by a residual, forces being compared with one, lengths with what moves [-].
+    pub fn violation_at_rest(&self, residual: &[f64], force: f64) -> f64 {
+        let equations = &residual[self.unknowns.count()..];
+        let relative = |off: f64| if off == 0.0 { 0.0 } else { off / force };
+        larger(self.sliders.violation(equations, relative), self.links.violation(residual))
+    }
+
+    /// Lets sliders lean on stops that a movement would pass, and leave stops that would have to pull; whether any did.
+    ///
+    /// # Errors
+    /// When a slider would leave its master: its index, and the end.
+    pub fn settle_on_stops(
+        &mut self,
+        unknowns: &[f64],
+        load_factor: f64,
+    ) -> Result<bool, (usize, TrackEnd)> {
+        let (movements, contacts) = unknowns.split_at(self.unknowns.count());
+        let movements = &*self.supports.prescribed().at_rest(movements, load_factor);
+        self.sliders.settle_on_stops(&self.bodies, movements, contacts)
     }
 
     /// Subtracts `load_factor` times the loads and the weight of the model; gives the largest force and moment of a whole load on a
@@ -74,8 +107,10 @@ impl Model {
         self.subtract_loads(Stage::End, movements, load_factor, out)
     }
 
-    /// Moves the model by some movements of its unknowns [length, rad] to where prescribed motions are under a part of the load, and leaves it at rest there.
-    pub fn move_by(&mut self, movements: &[f64], load_factor: f64) {
+    /// Moves the model by movements [length, rad], behind which stand the unknowns of contacts, to where prescribed motions are under a part of the
+    /// load, and leaves it at rest there.
+    pub fn move_by(&mut self, unknowns: &[f64], load_factor: f64) {
+        let (movements, contacts) = unknowns.split_at(self.unknowns.count());
         let movements = self.supports.prescribed().at_rest(movements, load_factor);
         self.bodies.gather(&movements);
         let arms = ArmRule { rotations: RotationIncrement::Angle, share: 1.0 };
@@ -83,6 +118,7 @@ impl Model {
         self.supports.prescribed_mut().place(load_factor);
         self.elements.advance(&self.bodies, RotationIncrement::Angle);
         self.bodies.advance(RotationIncrement::Angle);
+        self.sliders.rest(contacts);
         self.motion.rates.fill(0.0);
     }
 

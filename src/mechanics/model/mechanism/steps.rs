@@ -5,7 +5,7 @@ use crate::beams::{Collocation, ForceSummary};
 use crate::geometry::larger;
 use crate::integrators::{
     Accelerated, Cause, Checkpoint, Constraints, Forces, Interval, Mechanism, Overshoot,
-    Prescribed, Solution, Stage, StepError,
+    PrescribedKinematics, Solution, Stage, StepError,
 };
 use crate::linalg::{BandedMatrix, Border, BorderShape};
 use crate::model::elements::{Exchange, Iterate, collocation};
@@ -217,7 +217,7 @@ impl Mechanism for Model {
         self.motion.expected_rates()
     }
 
-    fn prescribed(&self) -> &Prescribed {
+    fn prescribed(&self) -> &PrescribedKinematics {
         self.supports.prescribed().in_step()
     }
 

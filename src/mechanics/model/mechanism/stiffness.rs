@@ -3,7 +3,7 @@
 //! Rotations are increments of the angle itself, for which the stiffness is the Hessian of the strain energy. Loads of fixed direction
 //! have none; those that turn with a section are left out.
 
-use super::Model;
+use super::{Model, OrderAtRest};
 use crate::beams::SpanAtRest;
 use crate::elementary::square;
 use crate::geometry::larger;
@@ -16,9 +16,14 @@ use crate::model::rigid_links::RigidLink;
 const RIGID: f64 = 1e8;
 
 impl Model {
-    /// Gives every span of every body, and every spring, as at rest: the unknowns of its components, and its rows. Those of supported components stand
-    /// behind the unknowns of all.
-    pub fn each_span_at_rest(&self, take: &mut dyn FnMut(&[usize], &SpanAtRest)) {
+    /// Gives every span of every body, and every spring, as at rest: the places of the unknowns of its components, and its rows. Those of supported
+    /// components stand behind the unknowns of all.
+    pub fn each_span_at_rest(
+        &self,
+        order: &OrderAtRest,
+        take: &mut dyn FnMut(&[usize], &SpanAtRest),
+    ) {
+        let take = &mut in_order(order, take);
         for body in self.bodies.iter() {
             let order = body.dynamics.order();
             body.dynamics.each_span_at_rest(&mut |span| {
@@ -36,49 +41,57 @@ impl Model {
     }
 
     /// How far from the diagonal the stiffness of a configuration has entries, where rigid links couple points and bodies without forces between them.
-    pub fn half_bandwidth_at_rest(&self) -> usize {
-        let of_lever = |link: &RigidLink| {
+    pub(super) fn half_bandwidth_at_rest(&self) -> usize {
+        let of_link = |link: &RigidLink| {
             let degrees = &self.bodies[link.body].degrees_of_freedom;
             let ([x, y, rotation], [point_x, point_y, _]) = (degrees[0], degrees[link.point]);
             let free = [x, y, rotation, point_x, point_y];
             let free = free.into_iter().filter(|at| *at < self.unknowns.count());
             free.clone().max().unwrap_or(0) - free.min().unwrap_or(0)
         };
-        self.links.iter().map(of_lever).fold(self.unknowns.half_bandwidth(), usize::max)
+        self.links.iter().map(of_link).fold(self.unknowns.half_bandwidth(), usize::max)
     }
 
-    /// Gives every rigid link as at rest, so stiff that nothing is seen of what gives way: `RIGID` times the largest `stiffness` of a
-    /// movement of the model [force/length, force·length].
-    pub fn each_lever_at_rest(
+    /// Gives every rigid link and every contact as at rest, so stiff that nothing is seen of what gives way: `RIGID` times the largest `stiffness` of a
+    /// movement of the model, asked for by its place [force/length, force·length].
+    pub fn each_tie_at_rest(
         &self,
+        order: &OrderAtRest,
         stiffness: impl Fn(usize) -> f64,
         take: &mut dyn FnMut(&[usize], &SpanAtRest),
     ) {
+        let stiffness = |unknown: usize| stiffness(order.place(unknown));
+        let take = &mut in_order(order, take);
         let kinds = self.unknowns.kinds().iter().enumerate();
         let of_movements = kinds.map(|(at, kind)| match kind {
             UnknownKind::Position => stiffness(at),
             UnknownKind::Rotation | UnknownKind::Force => 0.0,
         });
-        let of_levers = self.links.iter().map(|link| {
+        let of_links = self.links.iter().map(|link| {
             let own = self.links.iter().filter(|other| other.body == link.body);
             let size = own.map(|other| other.arm().norm()).fold(0.0, larger);
             let [.., rotation] = self.bodies[link.body].degrees_of_freedom[0];
             let moment = if rotation < self.unknowns.count() { stiffness(rotation) } else { 0.0 };
             larger(moment / square(size), link.force().norm() / size)
         });
-        let largest = of_movements.chain(of_levers).fold(0.0, larger);
+        let largest = of_movements.chain(of_links).fold(0.0, larger);
         let rigid = if largest > 0.0 { RIGID * largest } else { 1.0 };
         self.links.each_at_rest(&self.bodies, rigid, take);
+        self.sliders.each_at_rest(&self.bodies, self.unknowns.count(), rigid, take);
     }
 
-    /// How many movements with inertia fewer the model has than its inertia matrix: the rigid links hold them to each other.
-    pub fn held_by_levers(&self, inertia: &SymmetricSparse) -> usize {
+    /// How many movements with inertia fewer the model has than its inertia matrix: rigid links and contacts hold them to each other.
+    pub fn held_by_ties(&self, order: &OrderAtRest, inertia: &SymmetricSparse) -> usize {
+        self.held_by_links(order, inertia) + self.sliders.movements_held()
+    }
+
+    fn held_by_links(&self, order: &OrderAtRest, inertia: &SymmetricSparse) -> usize {
         if self.links.count() == 0 {
             return 0;
         }
         let kinds = self.unknowns.kinds().iter().enumerate();
         let is_light = |(at, kind): &(usize, &UnknownKind)| {
-            **kind != UnknownKind::Force && inertia.diagonal(*at) == 0.0
+            **kind != UnknownKind::Force && inertia.diagonal(order.place(*at)) == 0.0
         };
         (2 * self.links.count()).saturating_sub(kinds.filter(is_light).count())
     }
@@ -97,15 +110,39 @@ impl Model {
     /// In how many ways a movement from here would release energy if loads keep their directions: the negative eigenvalues of the
     /// stiffness.
     pub fn falls(&self) -> usize {
-        let nothing = SymmetricSparse::new(self.unknowns.count(), |_| {});
-        let mut stiffness =
-            PreciseBand::zeros(self.unknowns.count(), self.half_bandwidth_at_rest());
-        self.each_span_at_rest(&mut |degrees, span| add_resistance(&mut stiffness, degrees, span));
-        let own: Vec<f64> = (0..stiffness.size()).map(|at| stiffness.diagonal(at).abs()).collect();
-        self.each_lever_at_rest(|at| own[at], &mut |degrees, span| {
+        self.falls_against(0.0)
+    }
+
+    /// In how many ways that would be so against what resists every movement by such a multiple of its inertia [1/time²].
+    pub fn falls_against(&self, rate: f64) -> usize {
+        let order = self.order_at_rest();
+        let inertia = match rate > 0.0 {
+            true => self.sparse_inertia(&order),
+            false => SymmetricSparse::new(order.count(), |_| {}),
+        };
+        let mut stiffness = PreciseBand::zeros(order.count(), order.half_bandwidth());
+        self.each_span_at_rest(&order, &mut |degrees, span| {
             add_resistance(&mut stiffness, degrees, span);
         });
-        stiffness.pivots(0.0, &nothing).map_or(0, |pivots| pivots.negative)
+        let own: Vec<f64> = (0..stiffness.size()).map(|at| stiffness.diagonal(at).abs()).collect();
+        self.each_tie_at_rest(&order, |at| own[at], &mut |degrees, span| {
+            add_resistance(&mut stiffness, degrees, span);
+        });
+        stiffness.pivots(rate, &inertia).map_or(0, |pivots| pivots.negative)
+    }
+}
+
+/// Gives the places of unknowns where unknowns are told.
+fn in_order<'t>(
+    order: &'t OrderAtRest,
+    take: &'t mut dyn FnMut(&[usize], &SpanAtRest),
+) -> impl FnMut(&[usize], &SpanAtRest) {
+    move |unknowns, span| match order.is_given() {
+        true => take(unknowns, span),
+        false => {
+            let places: Vec<usize> = unknowns.iter().map(|at| order.place(*at)).collect();
+            take(&places, span);
+        }
     }
 }
 

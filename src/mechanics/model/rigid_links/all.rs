@@ -72,19 +72,32 @@ impl RigidLinks {
         self.all.iter().for_each(|link| link.add_coupling(bodies, unknowns, matrix));
     }
 
-    /// Puts the accelerations by which arms turn, and what given accelerations make of them, where the equations of the rigid links stand.
-    pub fn set_carried(&self, bodies: &Bodies, rates: &[f64], given: &[f64], out: &mut [f64]) {
+    /// Puts the centripetal accelerations of points, and what prescribed accelerations add to them, where the equations of the rigid links stand.
+    pub fn set_acceleration_bias(
+        &self,
+        bodies: &Bodies,
+        rates: &[f64],
+        prescribed: &[f64],
+        out: &mut [f64],
+    ) {
         for link in &self.all {
-            let carried = link.centripetal(bodies, rates) - link.slip(bodies, given);
-            [out[link.unknowns[0]], out[link.unknowns[1]]] = [carried.x, carried.y];
+            let bias =
+                link.centripetal(bodies, rates) - link.velocity_violation(bodies, prescribed);
+            [out[link.unknowns[0]], out[link.unknowns[1]]] = [bias.x, bias.y];
         }
     }
 
-    /// Puts a multiple of the velocities of points beside their bodies where the equations of the rigid links stand.
-    pub fn set_slip(&self, bodies: &Bodies, rates: &[f64], factor: f64, out: &mut [f64]) {
+    /// Puts a multiple of the velocities of points relative to their places in bodies where the equations of the rigid links stand.
+    pub fn set_velocity_violation(
+        &self,
+        bodies: &Bodies,
+        rates: &[f64],
+        factor: f64,
+        out: &mut [f64],
+    ) {
         for link in &self.all {
-            let slip = link.slip(bodies, rates) * factor;
-            [out[link.unknowns[0]], out[link.unknowns[1]]] = [slip.x, slip.y];
+            let violation = link.velocity_violation(bodies, rates) * factor;
+            [out[link.unknowns[0]], out[link.unknowns[1]]] = [violation.x, violation.y];
         }
     }
 

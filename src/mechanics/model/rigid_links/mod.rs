@@ -1,4 +1,4 @@
-//! RigidLinks: what holds the points of rigid bodies to their centres.
+//! Rigid links: what holds the points of rigid bodies to their centres.
 
 mod all;
 mod rigid_link;

@@ -34,8 +34,9 @@ pub struct ArmRule {
 /// A point of a rigid body that is off its centre of mass.
 #[derive(Debug, Clone)]
 pub struct RigidLink {
-    /// The body, and the control point that is held to its first one.
+    /// The number of the body.
     pub body: usize,
+    /// The control point of the body that is held to its first one, the centre of mass.
     pub point: usize,
     /// The unknowns of the force.
     pub unknowns: [usize; 2],
@@ -54,7 +55,7 @@ struct Iterated {
     /// `a0`, `a1` and the arm of the force [length].
     start: Vec2,
     end: Vec2,
-    acting: Vec2,
+    force_arm: Vec2,
     /// `λ` [force].
     force: Vec2,
     /// How much of the force one of its unknowns is.
@@ -92,7 +93,7 @@ impl RigidLink {
     fn iterated(
         &self,
         bodies: &Bodies,
-        acting: ForceUnknowns,
+        unknown: ForceUnknowns,
         ArmRule { rotations, share: at }: ArmRule,
         values: &[f64],
     ) -> Iterated {
@@ -102,24 +103,32 @@ impl RigidLink {
         let end = self.rotation.turned(rotations, increment).to_space(self.arm);
         let found = Vec2::new(values[self.unknowns[0]], values[self.unknowns[1]]);
         let rate = rotations.rate(increment);
-        let (force, share) = match acting {
+        let (force, share) = match unknown {
             ForceUnknowns::Step(duration) => (found / duration, 1.0 / duration),
             ForceUnknowns::AtRest => (self.force + found, 1.0),
         };
-        Iterated { start, end, acting: start + (end - start) * at, force, share, rate, increment }
+        Iterated {
+            start,
+            end,
+            force_arm: start + (end - start) * at,
+            force,
+            share,
+            rate,
+            increment,
+        }
     }
 
     /// Adds the force of an iterate to a residual, and in the place of its unknowns by how much the point is off its place.
     pub fn add(
         &mut self,
         bodies: &Bodies,
-        acting: ForceUnknowns,
+        unknown: ForceUnknowns,
         arms: ArmRule,
         values: &[f64],
         out: &mut [f64],
     ) -> ForceSummary {
-        let now = self.iterated(bodies, acting, arms, values);
-        self.transmit(bodies, now.force, now.acting, out);
+        let now = self.iterated(bodies, unknown, arms, values);
+        self.transmit(bodies, now.force, now.force_arm, out);
         let ([x, y, _], [point_x, point_y, _]) = self.degrees(bodies);
         let value = |at: usize| values.get(at).copied().unwrap_or(0.0);
         let (centre, point) =
@@ -142,16 +151,16 @@ impl RigidLink {
     pub fn add_tangent(
         &self,
         bodies: &Bodies,
-        acting: ForceUnknowns,
+        unknown: ForceUnknowns,
         arms: ArmRule,
         values: &[f64],
         movements: usize,
         tangent: &mut BandedMatrix,
     ) {
-        let now = self.iterated(bodies, acting, arms, values);
-        let force_arm = perpendicular(now.acting) * now.share;
+        let now = self.iterated(bodies, unknown, arms, values);
+        let turned_arm = perpendicular(now.force_arm) * now.share;
         let place_arm = perpendicular(now.end) * now.rate;
-        self.couple(bodies, now.share, force_arm, place_arm, movements, tangent);
+        self.couple(bodies, now.share, turned_arm, place_arm, movements, tangent);
         let ([.., rotation], _) = self.degrees(bodies);
         if rotation < movements {
             tangent.add(rotation, rotation, arms.share * now.rate * now.end.dot(&now.force));
@@ -210,16 +219,17 @@ impl RigidLink {
         ((points[self.point] - points[0]) - self.arm()).norm()
     }
 
-    /// How fast the arm turns towards the centre at some rates [length/time²].
+    /// The centripetal acceleration `-ω² a` of the point about the centre of mass, at some rates [length/time²].
     pub fn centripetal(&self, bodies: &Bodies, rates: &[f64]) -> Vec2 {
         let ([.., rotation], _) = self.degrees(bodies);
         let spin = rates.get(rotation).copied().unwrap_or(0.0);
         self.arm() * (-spin * spin)
     }
 
-    /// How fast the point moves beside its place: as the velocities at the ends of steps are made, that is of second order and alternates [length/time]; so for
+    /// The velocity of the point relative to its place in the frame of the body: as the velocities at the ends of steps are made, that is of second order and
+    /// alternates [length/time]; so for
     /// accelerations, the turn of the arm set aside.
-    pub fn slip(&self, bodies: &Bodies, rates: &[f64]) -> Vec2 {
+    pub fn velocity_violation(&self, bodies: &Bodies, rates: &[f64]) -> Vec2 {
         let body = &bodies[self.body];
         let ([.., rotation], _) = self.degrees(bodies);
         let spin = rates.get(rotation).copied().unwrap_or(0.0);
@@ -231,16 +241,17 @@ impl RigidLink {
     pub fn advance(
         &mut self,
         bodies: &Bodies,
-        acting: ForceUnknowns,
+        unknown: ForceUnknowns,
         arms: ArmRule,
         values: &[f64],
     ) {
-        let now = self.iterated(bodies, acting, arms, values);
+        let now = self.iterated(bodies, unknown, arms, values);
         self.force = now.force;
         self.rotation = self.rotation.turned(arms.rotations, now.increment).normalised();
     }
 
-    /// Gives how the rigid link resists small movements, were it as stiff as that [force/length]: the point is held to its place, and its force turns with the body.
+    /// Gives how the rigid link resists small movements, were it as stiff as that [force/length]: the point is held to its place, and its force turns with
+    /// the body.
     pub fn at_rest(
         &self,
         bodies: &Bodies,
@@ -267,10 +278,12 @@ impl RigidLink {
         self.unknowns.iter().for_each(|at| take(&[*at], &own));
     }
 
+    /// Appends the state of the rigid link at the start of a step.
     pub fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.rotation.cos, self.rotation.sin, self.force.x, self.force.y]);
     }
 
+    /// Takes the state of the rigid link back, in the order in which it was appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.rotation = Rotation { cos: next(), sin: next() };
         self.force = Vec2::new(next(), next());

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::beams::{Mesh, Rotation, SectionProfile, Station};
+use crate::beams::{Mesh, Rotation, SectionVariation, Station};
 use crate::geometry::{Curve, Vec2};
 
 /// How a beam moves when the scene starts: a rigid motion.
@@ -32,7 +32,7 @@ pub struct BeamDefinition {
     /// The mesh of the beam: basis and quadrature.
     pub mesh: Mesh,
     /// The sections along the beam: stiffness and inertia.
-    pub section: SectionProfile,
+    pub section: SectionVariation,
     /// How the beam moves at the start.
     pub motion: StartMotion,
 }

@@ -67,7 +67,7 @@ impl Scene {
 
     /// The speed of the fastest axial wave in the scene's beams; zero where there are no beams [length/time].
     pub(in crate::model) fn fastest_wave(&self) -> f64 {
-        let sections = self.beams.iter().flat_map(|beam| beam.section.given());
+        let sections = self.beams.iter().flat_map(|beam| beam.section.places());
         let squares = sections.map(|section| section.axial_stiffness / section.mass_per_length);
         squares.fold(0.0, f64::max).sqrt()
     }

@@ -3,10 +3,11 @@
 use std::ops::{Deref, DerefMut};
 
 use super::track::LANDED;
-use super::{SliderState, Sliding, TrackLimit};
+use super::{SliderState, Sliding, TrackEnd, TrackLimit};
+use crate::beams::SpanAtRest;
 use crate::geometry::{Vec2, larger};
 use crate::integrators::{Ending, Interval, Overshoot};
-use crate::joints::CONTACT_UNKNOWNS;
+use crate::joints::{CONTACT_UNKNOWNS, EndAction};
 use crate::linalg::{Border, BorderShape};
 use crate::model::bodies::Body;
 use crate::model::words::{ModelError, SliderError};
@@ -89,6 +90,88 @@ impl Sliders {
     ) {
         for slider in self.iter_mut() {
             slider.add_linearised(bodies, movements, increments, unknowns, out, border);
+        }
+    }
+
+    /// Guesses the unknowns of all contacts for a movement between two places at rest: nothing changes.
+    pub fn stay(&self, unknowns: &mut [f64]) {
+        self.iter().for_each(|slider| slider.stay(unknowns));
+    }
+
+    /// Adds the forces and the equations of all contacts at rest to a residual; gives the largest force of a contact [force].
+    pub fn add_at_rest(
+        &mut self,
+        bodies: &[Body],
+        count: usize,
+        movements: &[f64],
+        unknowns: &[f64],
+        out: &mut [f64],
+    ) -> f64 {
+        self.iter_mut().fold(0.0, |largest, slider| {
+            larger(largest, slider.add_at_rest(bodies, count, movements, unknowns, out))
+        })
+    }
+
+    /// Adds the forces and the equations of all contacts at rest to a residual, and their derivatives to the tangent.
+    pub fn add_linearised_at_rest(
+        &mut self,
+        bodies: &[Body],
+        count: usize,
+        movements: &[f64],
+        unknowns: &[f64],
+        out: &mut [f64],
+        border: &mut Border,
+    ) {
+        for slider in self.iter_mut() {
+            slider.add_linearised_at_rest(bodies, count, movements, unknowns, out, border);
+        }
+    }
+
+    /// Lets sliders lean on stops that a movement with these unknowns passes, and leave stops that would have to pull; whether any did. What must leave
+    /// its master has no rest: its index and the end.
+    pub fn settle_on_stops(
+        &mut self,
+        bodies: &[Body],
+        movements: &[f64],
+        unknowns: &[f64],
+    ) -> Result<bool, (usize, TrackEnd)> {
+        let mut changed = false;
+        for (index, slider) in self.iter_mut().enumerate() {
+            if let Some(end) = slider.passes(unknowns) {
+                if slider.ends == EndAction::Release {
+                    return Err((index, end));
+                }
+                slider.hold(end);
+                changed = true;
+            } else if slider.is_pulled(bodies, movements, unknowns) {
+                slider.state = SliderState::Sliding;
+                changed = true;
+            }
+        }
+        Ok(changed)
+    }
+
+    /// Leaves all sliders where a movement between two places at rest has led them; the bodies are there already.
+    pub fn rest(&mut self, unknowns: &[f64]) {
+        self.iter_mut().for_each(|slider| slider.rest(unknowns));
+    }
+
+    /// How many movements all contacts take from slaves and masters.
+    pub fn movements_held(&self) -> usize {
+        self.iter().map(Sliding::movements_held).sum()
+    }
+
+    /// Gives how all contacts resist small movements, were they as stiff as that where nothing gives way [force/length]; the unknowns of their
+    /// places on masters stand behind so many.
+    pub fn each_at_rest(
+        &self,
+        bodies: &[Body],
+        count: usize,
+        rigid: f64,
+        take: &mut dyn FnMut(&[usize], &SpanAtRest),
+    ) {
+        for (index, slider) in self.iter().enumerate() {
+            slider.at_rest(bodies, count + index, rigid, take);
         }
     }
 

@@ -42,26 +42,30 @@ impl Connection {
         of_master.iter().zip(on_master).for_each(|(at, force)| add(*at, force));
     }
 
-    /// Adds the contact forces on slave and master to a residual, and behind the movements the values of the contact's equations.
+    /// Adds the contact forces on slave and master to a residual, those on control points of the master as given, and behind the movements the values
+    /// of the contact's equations.
     pub fn add_values(
         &self,
         bodies: &[Body],
         contact: &Contact<'_>,
+        master_forces: impl Iterator<Item = Vec2>,
         equations: &[Equation; CONTACT_UNKNOWNS],
         movements: usize,
         out: &mut [f64],
     ) {
-        let on_master = contact.master_forces().map(|force| -force);
+        let on_master = master_forces.map(|force| -force);
         self.add_forces(bodies, contact.unknowns.force, contact.first(), on_master, out);
         let rows = &mut out[movements..][self.places()];
         rows.iter_mut().zip(equations).for_each(|(row, equation)| *row += equation.value);
     }
 
-    /// Adds the derivatives of what [`add_values`](Self::add_values) adds; supported movements have none.
+    /// Adds the derivatives of what [`add_values`](Self::add_values) adds, with those of the forces on control points of the master; supported movements
+    /// have none.
     pub fn add_derivatives(
         &self,
         bodies: &[Body],
         contact: &Contact<'_>,
+        master_force_slopes: impl Iterator<Item = (f64, f64, Vec2)>,
         equations: &[Equation; CONTACT_UNKNOWNS],
         movements: usize,
         border: &mut Border,
@@ -78,7 +82,7 @@ impl Connection {
         };
         column(x, force_x, 1.0);
         column(y, force_y, 1.0);
-        for (&[x, y, _], slopes) in of_master.iter().zip(contact.master_force_slopes()) {
+        for (&[x, y, _], slopes) in of_master.iter().zip(master_force_slopes) {
             let (by_force, by_couple, by_way) = slopes;
             column(x, force_x, -by_force);
             column(y, force_y, -by_force);

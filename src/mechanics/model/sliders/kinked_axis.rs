@@ -35,7 +35,7 @@ impl KinkedAxis {
         }
     }
 
-    /// The kink along the way of a step.
+    /// The kink of the axis of the master in a step in which the slave moves along a passage.
     pub fn along(&self, passage: &Passage) -> Kink {
         Kink { along: passage.along(&self.length), compliance: self.compliance, before: self.force }
     }
@@ -80,6 +80,15 @@ impl KinkedAxis {
         let [length, slope, bend] = self.here;
         let force = self.force * self.compliance;
         (force * slope, 0.5 * length * bend * force.norm_squared())
+    }
+
+    /// The compliance `g/GA` [length/force], the derivative of [`offset`](Self::offset) by `ξ` [length], and the second one of the energy for a
+    /// given force, `½ g'' |p|²/GA` [energy].
+    pub fn at_rest(&self) -> (f64, Vec2, f64) {
+        let [length, slope, bend] = self.here;
+        let force = self.force * self.compliance;
+        let compliance = if self.gives() { length * self.compliance } else { 0.0 };
+        (compliance, force * slope, 0.5 * bend * force.dot(&self.force))
     }
 
     /// The energy of the kink, `½ g |p|²/GA` [energy].

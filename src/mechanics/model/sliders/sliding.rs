@@ -11,6 +11,7 @@ use crate::joints::{
 use crate::linalg::Border;
 use crate::model::bodies::Body;
 
+mod at_rest;
 mod kinematics;
 
 /// A slider of a model with its contact: where it is, and what acts there.
@@ -247,6 +248,16 @@ impl Sliding {
     fn take(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) -> Contact<'_> {
         let unknowns = self.read(unknowns);
         self.passage.go(self.parameter, self.parameter + unknowns.way);
+        self.contact(bodies, increments, unknowns)
+    }
+
+    /// The contact in an iterate of the way of the passage.
+    fn contact(
+        &mut self,
+        bodies: &[Body],
+        increments: &[f64],
+        unknowns: ContactUnknowns,
+    ) -> Contact<'_> {
         let Connection { master, slave: (body, point), .. } = self.connection;
         let (slave, master) = (&bodies[body], &bodies[master]);
         let (origin, cut_off) = slave.precise_point(point);
@@ -276,7 +287,8 @@ impl Sliding {
         let (law, connection) = (self.law(), self.connection);
         let contact = self.take(bodies, increments, unknowns);
         let equations = law.equations(&contact);
-        connection.add_values(bodies, &contact, &equations, movements, out);
+        let forces = contact.master_forces();
+        connection.add_values(bodies, &contact, forces, &equations, movements, out);
         let force = contact.unknowns.force.norm();
         let chord = contact.tangent().value.norm() / contact.length;
         (self.size, self.chord) = (contact.length + contact.slave_moved.norm(), chord);
@@ -297,8 +309,10 @@ impl Sliding {
         let (law, connection) = (self.law(), self.connection);
         let contact = self.take(bodies, increments, unknowns);
         let equations = law.equations(&contact);
-        connection.add_values(bodies, &contact, &equations, movements, out);
-        connection.add_derivatives(bodies, &contact, &equations, movements, border);
+        let forces = contact.master_forces();
+        connection.add_values(bodies, &contact, forces, &equations, movements, out);
+        let slopes = contact.master_force_slopes();
+        connection.add_derivatives(bodies, &contact, slopes, &equations, movements, border);
     }
 
     /// The largest violations of the contact's equations: of lengths relative to the lengths met [-], and of forces [force].

@@ -63,7 +63,8 @@ impl Simulation {
     /// The lowest period of the scene as drawn; none where something slides, nothing vibrates, or the scene is large [time].
     fn lowest_period(&self) -> Option<f64> {
         self.drawn.lowest_period(|| {
-            if self.model.unknowns() > MOST_UNKNOWNS {
+            let slides = self.model.slider_names().next().is_some();
+            if slides || self.model.unknowns() > MOST_UNKNOWNS {
                 return None;
             }
             // Where modes are refused the note tells no period: it is about the steps, and not about the modes.

@@ -48,7 +48,7 @@ pub fn of_beam(scene: &Scene, index: usize) -> Details {
     let (start, end) = axis.domain();
     let ends = axis.point(start).ok().zip(axis.point(end).ok());
     let ends = ends.map(|(start, end)| line("ends", format!("{} … {}", pair(start), pair(end))));
-    let (tapers, section) = (section.given().len() > 1, section.mean());
+    let (tapers, section) = (section.places().len() > 1, section.mean());
     let [ea, ga, ei] =
         [section.axial_stiffness, section.shear_stiffness, section.bending_stiffness];
     let stiffness = format!("EA {}, GA {}, EI {}", number(ea), number(ga), number(ei));

@@ -140,7 +140,7 @@ pub fn labels(options: &Options, count: usize) -> Result<Option<Vec<String>>, Wr
     labels.map(Some).ok_or_else(|| wrong(told(), "for example labels: [\"first\", \"second\"]"))
 }
 
-/// Arrays of numbers: one, or an array of them. What is not finite is a gap.
+/// The argument of a name as curves: an array of numbers is one, an array of such arrays several; what is not finite is a gap.
 pub fn curves(call: &Call, name: &str, at: usize) -> Result<Vec<Vec<f64>>, ScriptError> {
     let given = call.array(name)?;
     let is_many = !given.is_empty() && given.iter().all(Dynamic::is_array);

@@ -16,6 +16,12 @@ impl Sliding {
         slope_of(self.here.slope(), self.window(bodies))
     }
 
+    /// The second derivative of the place on the master by the parameter, `Σ B_i''(ξ) x_i` [length].
+    pub(super) fn bend(&self, bodies: &[Body]) -> Vec2 {
+        // A way of length zero changes its divided differences by half the second derivatives.
+        slope_of(self.here.change(), self.window(bodies)) * 2.0
+    }
+
     /// The control points of the master from the first one on that has a function where the slider is.
     fn window<'a>(&self, bodies: &'a [Body]) -> &'a [Vec2] {
         &bodies[self.connection.master].dynamics.control_points()[self.here.first()..]

@@ -3,7 +3,7 @@
 use crate::beams::Section;
 
 /// The section at a place between points, by shares that add up to one.
-pub(in crate::beams) trait Blend: Default {
+pub(in crate::beams) trait Interpolation: Default {
     /// Adds a share of the section of a point.
     fn add(&mut self, section: &Section, share: f64);
 
@@ -11,7 +11,7 @@ pub(in crate::beams) trait Blend: Default {
     fn section<'a>(&'a self, uniform: &'a Section) -> &'a Section;
 }
 
-impl Blend for () {
+impl Interpolation for () {
     fn add(&mut self, _section: &Section, _share: f64) {}
 
     fn section<'a>(&'a self, uniform: &'a Section) -> &'a Section {
@@ -21,9 +21,9 @@ impl Blend for () {
 
 /// The sum of shares of sections.
 #[derive(Debug, Default)]
-pub(in crate::beams) struct Blended(Section);
+pub(in crate::beams) struct Interpolated(Section);
 
-impl Blend for Blended {
+impl Interpolation for Interpolated {
     fn add(&mut self, section: &Section, share: f64) {
         self.0 = self.0.plus(section, share);
     }

@@ -13,7 +13,7 @@ const POINTS: usize = 3;
 
 /// What a beam is made of along its axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum SectionProfile {
+pub enum SectionVariation {
     /// The section is the same everywhere.
     Uniform(Section),
     /// Stiffness and inertia are linear between the sections at some places, which are parts of the length [-]: rising from 0 to 1.
@@ -22,14 +22,14 @@ pub enum SectionProfile {
     Dimensions(Vec<(f64, Solid)>),
 }
 
-impl From<Section> for SectionProfile {
+impl From<Section> for SectionVariation {
     fn from(section: Section) -> Self {
         Self::Uniform(section)
     }
 }
 
-impl SectionProfile {
-    /// Checks the sections and their places, and hands the profile on.
+impl SectionVariation {
+    /// Checks the sections and their places, and hands them on.
     ///
     /// # Errors
     /// When a number of a section is out of its range, or places do not rise from 0 to 1.
@@ -101,16 +101,16 @@ impl SectionProfile {
 
     /// The largest of each number, wherever it is.
     pub fn largest(&self) -> Section {
-        self.given().into_iter().reduce(|a, b| a.each(&b, larger)).unwrap_or_default()
+        self.places().into_iter().reduce(|a, b| a.each(&b, larger)).unwrap_or_default()
     }
 
     /// How fast the fastest wave of stretching runs, `√(EA/ρA)` [length/time]: between places it is no faster.
     pub fn axial_wave_speed(&self) -> f64 {
-        self.given().iter().map(Section::axial_wave_speed).fold(0.0, larger)
+        self.places().iter().map(Section::axial_wave_speed).fold(0.0, larger)
     }
 
-    /// The sections at the places of a taper.
-    pub fn given(&self) -> Vec<Section> {
+    /// The sections at the places of a taper; the one section of a uniform beam.
+    pub fn places(&self) -> Vec<Section> {
         match self {
             Self::Uniform(section) => vec![*section],
             Self::Numbers(all) => all.iter().map(|(_, section)| *section).collect(),
@@ -141,21 +141,21 @@ mod tests {
         }
     }
 
-    fn wedge() -> SectionProfile {
+    fn wedge() -> SectionVariation {
         let solid = |height: f64| Solid {
             young: 2.0,
             poisson: 0.3,
             density: 3.0,
             shape: Shape::Rectangle { width: 0.5, height },
         };
-        SectionProfile::Dimensions(vec![(0.0, solid(1.0)), (0.25, solid(0.8)), (1.0, solid(0.2))])
+        SectionVariation::Dimensions(vec![(0.0, solid(1.0)), (0.25, solid(0.8)), (1.0, solid(0.2))])
     }
 
     #[test]
     fn numbers_are_linear_between_places_and_heights_are_where_those_are() {
         let thin = Section { bending_stiffness: 2.0, ..thick() };
-        let profile = SectionProfile::Numbers(vec![(0.0, thick()), (0.5, thin), (1.0, thin)]);
-        let bending = |part: f64| profile.at(part).bending_stiffness;
+        let variation = SectionVariation::Numbers(vec![(0.0, thick()), (0.5, thin), (1.0, thin)]);
+        let bending = |part: f64| variation.at(part).bending_stiffness;
         assert_eq!([0.0, 0.25, 0.5, 0.7, 1.0].map(bending), [8.0, 5.0, 2.0, 2.0, 2.0]);
         assert!((wedge().at(0.625).bending_stiffness - 2.0 * 0.5 * 0.125 / 12.0).abs() < 1e-15);
     }
@@ -168,13 +168,13 @@ mod tests {
         let cubes = 0.25 * (1.0 - 0.8_f64.powi(4)) / (4.0 * 0.2)
             + 0.75 * (0.8_f64.powi(4) - 0.2_f64.powi(4)) / (4.0 * 0.6);
         assert!((mean.bending_stiffness - cubes / 12.0).abs() < 1e-14);
-        assert_eq!(SectionProfile::from(thick()).mean(), thick());
+        assert_eq!(SectionVariation::from(thick()).mean(), thick());
     }
 
     #[test]
     fn places_rise_from_zero_to_one() {
         let of = |places: &[f64]| {
-            SectionProfile::Numbers(places.iter().map(|place| (*place, thick())).collect())
+            SectionVariation::Numbers(places.iter().map(|place| (*place, thick())).collect())
                 .validated()
         };
         assert!(of(&[0.0, 0.3, 1.0]).is_ok() && wedge().validated().is_ok());

@@ -6,18 +6,20 @@ use crate::beams::Section;
 use crate::beams::dynamics::Movement;
 
 /// An integral of a product of two functions along a beam.
-pub(in crate::beams) trait Entry: Copy + Default + Debug + Send + Sync {
+pub(in crate::beams) trait MassIntegral:
+    Copy + Default + Debug + Send + Sync
+{
     /// Adds a product times its weight [length], where the beam has a section.
     fn add(&mut self, product: f64, section: &Section);
 
-    /// That of the product itself [length].
+    /// The integral of the product alone, without inertia [length].
     fn length(self) -> f64;
 
     /// A factor times the inertia that belongs to it.
     fn inertia(self, factor: f64, uniform: &Section) -> Movement;
 }
 
-impl Entry for f64 {
+impl MassIntegral for f64 {
     fn add(&mut self, product: f64, _section: &Section) {
         *self += product;
     }
@@ -36,13 +38,13 @@ impl Entry for f64 {
 
 /// Length, mass and rotary inertia of a product of two functions.
 #[derive(Debug, Clone, Copy, Default)]
-pub(in crate::beams) struct Weighed {
+pub(in crate::beams) struct SectionIntegral {
     length: f64,
     mass: f64,
     rotary: f64,
 }
 
-impl Entry for Weighed {
+impl MassIntegral for SectionIntegral {
     fn add(&mut self, product: f64, section: &Section) {
         self.length += product;
         self.mass += product * section.mass_per_length;

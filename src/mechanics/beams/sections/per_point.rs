@@ -2,16 +2,16 @@
 
 use std::fmt::Debug;
 
-use super::{Blend, Blended, Entry, Weighed};
+use super::{Interpolated, Interpolation, MassIntegral, SectionIntegral};
 use crate::beams::Section;
 
 /// The sections of the quadrature points of a span, a type for each way in which they are known: the points of a uniform beam share one and
 /// nothing is looked up.
 pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
     /// What is summed up of a product of two functions: the length, and the inertia where that is not proportional to it.
-    type Entry: Entry;
+    type MassIntegral: MassIntegral;
     /// The section at a place between points.
-    type Blend: Blend;
+    type Interpolation: Interpolation;
 
     /// The sections at the points for `Γ` and at those for `κ`.
     fn new(at_force: Vec<Section>, at_moment: Vec<Section>) -> Self;
@@ -28,11 +28,11 @@ pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
 
 /// All points have the section of the beam.
 #[derive(Debug, Clone)]
-pub(in crate::beams) struct Same;
+pub(in crate::beams) struct Uniform;
 
-impl Sections for Same {
-    type Entry = f64;
-    type Blend = ();
+impl Sections for Uniform {
+    type MassIntegral = f64;
+    type Interpolation = ();
 
     fn new(_at_force: Vec<Section>, _at_moment: Vec<Section>) -> Self {
         Self
@@ -55,14 +55,14 @@ impl Sections for Same {
 
 /// Each point has its own.
 #[derive(Debug, Clone)]
-pub(in crate::beams) struct Own {
+pub(in crate::beams) struct PerPoint {
     at_force: Vec<Section>,
     at_moment: Vec<Section>,
 }
 
-impl Sections for Own {
-    type Entry = Weighed;
-    type Blend = Blended;
+impl Sections for PerPoint {
+    type MassIntegral = SectionIntegral;
+    type Interpolation = Interpolated;
 
     fn new(at_force: Vec<Section>, at_moment: Vec<Section>) -> Self {
         Self { at_force, at_moment }

@@ -1,0 +1,88 @@
+//! Sliders at rest: without inertia, and in no step.
+//!
+//! The contact of a movement from one place at rest to another is that of a way of length zero at its end, `ξ1`, on the master as it is there.
+
+use super::contact::AXES;
+use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
+use crate::geometry::Vec2;
+
+/// The law of a slider at rest without friction, which makes the potential energy `λ·(x_s - Σ B_i(ξ) x_i) - ½ g(ξ) |λ|²/GA` of its contact stationary:
+///
+/// ```text
+/// x_s = Σ B_i(ξ) x_i + g(ξ) λ/GA          λ·x'(ξ) + ½ g'(ξ) |λ|²/GA = 0          η = 0
+/// ```
+///
+/// Where there is no [`Kink`](super::Kink), `g = 0`. Derived in docs/theory.md, section 14.
+#[derive(Debug, Clone, Copy)]
+pub struct Resting;
+
+/// The law of a slider that leans on the stop at an end of its master: `x_s = Σ B_i(ξ) x_i` at that end, with its kink.
+#[derive(Debug, Clone, Copy)]
+pub struct Leaning {
+    /// The way `Δξ` to the end [-].
+    pub way: f64,
+}
+
+impl SlidingLaw for Resting {
+    fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
+        let [gap_x, gap_y] = closed_at_rest(contact);
+        let [couple_x, couple_y] = contact.no_couple();
+        [gap_x, gap_y, couple_x, couple_y, not_driven(contact)]
+    }
+}
+
+impl SlidingLaw for Leaning {
+    fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
+        let [gap_x, gap_y] = closed_at_rest(contact);
+        let [couple_x, couple_y] = contact.no_couple();
+        let mut arrived = contact.no_way();
+        arrived.value -= contact.length * self.way;
+        [gap_x, gap_y, couple_x, couple_y, arrived]
+    }
+}
+
+/// `x_s = Σ B_i(ξ) x_i + g(ξ) λ/GA`
+fn closed_at_rest(contact: &Contact<'_>) -> [Equation; 2] {
+    let mut equations = contact.closed();
+    if let Some(kink) = contact.kink {
+        let offset = contact.unknowns.force * kink.compliance;
+        for (equation, axis) in equations.iter_mut().zip(AXES) {
+            equation.value -= kink.along.end * offset.dot(&axis);
+            equation.by_unknowns.force -= axis * (kink.compliance * kink.along.end);
+            equation.by_unknowns.way -= kink.along.slope * offset.dot(&axis);
+        }
+    }
+    equations
+}
+
+/// `(λ·x'(ξ) + ½ g'(ξ) |λ|²/GA)/ℓ = 0`: no displacement of the slave along the master does work.
+fn not_driven(contact: &Contact<'_>) -> Equation {
+    let (force, scale) = (contact.unknowns.force, 1.0 / contact.length);
+    let tangent = contact.end_point().by_way;
+    let mut equation =
+        contact.frictionless(super::WayVector { value: tangent, by_way: contact.end_bend() * 2.0 });
+    equation.by_difference = force * scale;
+    if let Some(kink) = contact.kink {
+        let half = 0.5 * kink.compliance * scale;
+        equation.value += half * kink.along.slope * force.norm_squared();
+        equation.by_unknowns.force += force * (2.0 * half * kink.along.slope);
+        // A way of length zero has half the second derivative for the change of its slope.
+        equation.by_unknowns.way += 2.0 * half * kink.along.change * force.norm_squared();
+    }
+    equation
+}
+
+impl Contact<'_> {
+    /// The contact forces `B_i(ξ) λ` on the control points of the master at rest [force], in order.
+    pub fn master_forces_at_rest(&self) -> impl Iterator<Item = Vec2> + '_ {
+        self.passage.end().iter().map(|value| self.unknowns.force * *value)
+    }
+
+    /// The derivatives of the contact forces `B_i(ξ) λ` on the control points of the master at rest, in order: by `λ` and by `η` a factor each, by `Δξ` a
+    /// force.
+    pub fn master_force_slopes_at_rest(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
+        let force = self.unknowns.force;
+        let weights = self.passage.end().iter().zip(self.passage.slope());
+        weights.map(move |(value, slope)| (*value, 0.0, force * *slope))
+    }
+}

@@ -1,0 +1,166 @@
+//! A band and its border eliminated together, so that the band alone may be singular: what only contacts hold has no stiffness of its own.
+//!
+//! The rows of a border that couple little find a place among those of the band that keeps the whole narrow (reverse Cuthill–McKee), and rows are
+//! exchanged as in any banded matrix. Rows and columns are scaled first, as forces and lengths meet here (Ruiz, A scaling algorithm to equilibrate
+//! both rows and columns norms in matrices, RAL-TR-2001-034).
+
+use super::ordering::reverse_cuthill_mckee;
+use super::{BandedLu, BandedMatrix, LinearError};
+
+/// How often rows and columns are scaled.
+const SCALINGS: usize = 4;
+
+/// An entry of a matrix: row, column, value.
+type Entry = (usize, usize, f64);
+
+/// A square sparse matrix that is eliminated in an order of its own, but for its last rows and columns, which are full.
+#[derive(Debug, Clone)]
+pub(super) struct Together {
+    /// The number of rows that are not full.
+    size: usize,
+    band: BandedMatrix,
+    /// Where each of them stands in the band.
+    position: Vec<usize>,
+    scales: Scales,
+    /// The columns that are full; after factorising, solved with the band.
+    columns: Vec<Vec<f64>>,
+    /// The entries of the rows that are full, numbered from the first of these.
+    rows: Vec<Entry>,
+    /// What the band leaves of the corner of full rows and columns.
+    complement: BandedMatrix,
+}
+
+/// What rows and columns are multiplied with.
+#[derive(Debug, Clone, Default)]
+struct Scales {
+    rows: Vec<f64>,
+    columns: Vec<f64>,
+}
+
+/// The factors of a [`Together`].
+#[derive(Debug)]
+pub(super) struct TogetherLu<'a> {
+    others: Ordered<'a>,
+    columns: &'a [Vec<f64>],
+    rows: &'a [Entry],
+    complement: BandedLu<'a>,
+}
+
+/// The factors of the rows that are not full.
+#[derive(Debug)]
+struct Ordered<'a> {
+    band: BandedLu<'a>,
+    position: &'a [usize],
+    scales: &'a Scales,
+}
+
+impl Together {
+    /// A matrix of `size` rows, of which the last `full` couple with all others.
+    pub(super) fn new(size: usize, full: usize) -> Self {
+        Self {
+            size: size - full,
+            band: BandedMatrix::zeros(0, 0),
+            position: Vec::new(),
+            scales: Scales::default(),
+            columns: vec![vec![0.0; size - full]; full],
+            rows: Vec::new(),
+            complement: BandedMatrix::zeros(full, full.saturating_sub(1)),
+        }
+    }
+
+    /// The factors of the matrix with these entries, of which those of one place add up.
+    ///
+    /// # Errors
+    /// When a column has no non-zero or no finite pivot.
+    pub(super) fn factorise(&mut self, entries: &[Entry]) -> Result<TogetherLu<'_>, LinearError> {
+        let size = self.size;
+        self.columns.iter_mut().for_each(|column| column.fill(0.0));
+        self.rows.clear();
+        self.complement.clear();
+        let mut others = Vec::with_capacity(entries.len());
+        for &(row, column, value) in entries {
+            match (row.checked_sub(size), column.checked_sub(size)) {
+                (None, None) => others.push((row, column, value)),
+                (None, Some(full)) => self.columns[full][row] += value,
+                (Some(full), None) => self.rows.push((full, column, value)),
+                (Some(row), Some(column)) => self.complement.add(row, column, value),
+            }
+        }
+        self.order(&others);
+        let Self { band, position, scales, columns, rows, complement, .. } = self;
+        let others = Ordered { band: band.factorise()?, position, scales };
+        columns.iter_mut().for_each(|column| others.solve(column));
+        for (row, at, value) in &*rows {
+            for (column, solved) in columns.iter().enumerate() {
+                complement.add(*row, column, -value * solved[*at]);
+            }
+        }
+        let complement = complement.factorise().map_err(|error| error.behind(size))?;
+        Ok(TogetherLu { others, columns, rows, complement })
+    }
+
+    /// Puts the entries of rows that are not full into a narrow band.
+    fn order(&mut self, entries: &[Entry]) {
+        let scales = Scales::of(self.size, entries);
+        let pairs = entries.iter().filter(|(row, column, _)| row != column);
+        let groups: Vec<Vec<usize>> = pairs.map(|(row, column, _)| vec![*row, *column]).collect();
+        let order = reverse_cuthill_mckee(self.size, &groups);
+        self.band = BandedMatrix::zeros(self.size, order.half_bandwidth);
+        for (row, column, value) in entries {
+            let value = value * scales.rows[*row] * scales.columns[*column];
+            self.band.add(order.position[*row], order.position[*column], value);
+        }
+        (self.position, self.scales) = (order.position, scales);
+    }
+}
+
+impl TogetherLu<'_> {
+    /// Replaces a right-hand side by the solution.
+    pub(super) fn solve(&self, x: &mut [f64]) {
+        let (x, z) = x.split_at_mut(x.len() - self.columns.len());
+        self.others.solve(x);
+        for (row, column, value) in self.rows {
+            z[*row] -= value * x[*column];
+        }
+        self.complement.solve(z);
+        for (solved, z) in self.columns.iter().zip(z) {
+            x.iter_mut().zip(solved).for_each(|(x, solved)| *x -= solved * *z);
+        }
+    }
+}
+
+impl Ordered<'_> {
+    fn solve(&self, x: &mut [f64]) {
+        let mut ordered = vec![0.0; x.len()];
+        for ((value, scale), at) in x.iter().zip(&self.scales.rows).zip(self.position) {
+            ordered[*at] = value * scale;
+        }
+        self.band.solve(&mut ordered);
+        for ((value, scale), at) in x.iter_mut().zip(&self.scales.columns).zip(self.position) {
+            *value = ordered[*at] * scale;
+        }
+    }
+}
+
+impl Scales {
+    /// What makes the largest entries of rows and columns about one.
+    fn of(size: usize, entries: &[Entry]) -> Self {
+        let (mut rows, mut columns) = (vec![1.0; size], vec![1.0; size]);
+        for _ in 0..SCALINGS {
+            let (mut of_row, mut of_column) = (vec![0.0_f64; size], vec![0.0_f64; size]);
+            for (row, column, value) in entries {
+                let value = (value * rows[*row] * columns[*column]).abs();
+                of_row[*row] = of_row[*row].max(value);
+                of_column[*column] = of_column[*column].max(value);
+            }
+            let scale = |(scale, largest): (&mut f64, &f64)| {
+                if *largest > 0.0 && largest.is_finite() {
+                    *scale /= largest.sqrt();
+                }
+            };
+            rows.iter_mut().zip(&of_row).for_each(scale);
+            columns.iter_mut().zip(&of_column).for_each(scale);
+        }
+        Self { rows, columns }
+    }
+}

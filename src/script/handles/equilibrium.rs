@@ -1,0 +1,83 @@
+//! Equilibria that scripts hold.
+
+use std::cell::{Ref, RefCell, RefMut};
+use std::rc::Rc;
+
+use super::scene::SceneHandle;
+use super::station::StationHandle;
+use crate::beams::Place;
+use crate::output::significant;
+use crate::script::rows::kind::{Details, Scripted};
+use crate::script::words::error::ScriptError;
+use crate::statics::Equilibrium;
+
+/// A handle on an equilibrium that a script holds; clones are the same one.
+#[derive(Clone)]
+pub struct EquilibriumHandle(Rc<Held>);
+
+struct Held {
+    scene: SceneHandle,
+    rest: RefCell<Equilibrium>,
+}
+
+impl EquilibriumHandle {
+    /// A handle on an equilibrium of a scene.
+    pub fn new(scene: SceneHandle, rest: Equilibrium) -> Self {
+        Self(Rc::new(Held { scene, rest: RefCell::new(rest) }))
+    }
+
+    /// The scene that it is of.
+    pub fn scene(&self) -> &SceneHandle {
+        &self.0.scene
+    }
+
+    /// The equilibrium of the handle, to look at it.
+    pub fn rest(&self) -> Ref<'_, Equilibrium> {
+        self.0.rest.borrow()
+    }
+
+    /// The equilibrium of the handle, to ask it what it has to solve for.
+    pub fn rest_mut(&self) -> RefMut<'_, Equilibrium> {
+        self.0.rest.borrow_mut()
+    }
+
+    /// The place of a station of the equilibrium's scene.
+    pub fn place(&self, station: &StationHandle) -> Result<Place, ScriptError> {
+        let rest = self.rest();
+        station.within(&self.0.scene, rest.scene(), rest.model().meshes())
+    }
+}
+
+impl Scripted for EquilibriumHandle {
+    const NAME: &'static str = "equilibrium";
+    const DOC: &'static str = "A scene at rest under its loads, and the path that led there.";
+
+    fn show(&self) -> String {
+        let rest = self.rest();
+        let points = rest.path().points();
+        format!(
+            "equilibrium of '{}' at load factor {}, {} points, strain energy {}",
+            rest.scene().name,
+            significant(rest.path().load_factor(), 6),
+            points.len(),
+            significant(points.last().map_or(0.0, |point| point.strain_energy), 6),
+        )
+    }
+
+    fn details(&self) -> Details {
+        let rest = self.rest();
+        let limits = rest.path().limit_points();
+        let shown = |value: &f64| significant(*value, 6);
+        let line = |label: &str, value: String| (label.to_owned(), value);
+        let most = rest.path().points().iter().map(|point| point.iterations).max();
+        let mut details = vec![
+            line("taken at", format!("t = {}", significant(rest.loading().time, 6))),
+            line("Newton iterations", format!("at most {} a step", most.unwrap_or(0))),
+        ];
+        if !limits.is_empty() {
+            let limits: Vec<String> = limits.iter().map(shown).collect();
+            details.push(line("limit points", limits.join(", ")));
+        }
+        details
+    }
+}
