@@ -48,7 +48,8 @@ impl Case {
     /// The case for another thread or another day; none when a load of it has a function of a script. Columns
     /// that a script fills are left out.
     pub fn to_bytes(&self) -> Option<Vec<u8>> {
-        let is_data = self.scene.schedules().all(|(_, schedule)| schedule.can_be_stored());
+        let is_data = self.scene.schedules().all(|(_, schedule)| schedule.can_be_stored())
+            && self.scene.release_times().count() == self.scene.releases.len();
         let mut case = Cow::Borrowed(self);
         if !self.scene.sensors.iter().all(Sensor::can_be_stored) {
             case.to_mut().scene.sensors.retain(Sensor::can_be_stored);
@@ -84,7 +85,8 @@ impl Case {
     pub fn is_one_step_from_stop_to_stop(&self, dt: f64) -> bool {
         let end = self.stops.last().copied().unwrap_or(0.0);
         let breaks = self.scene.schedules().flat_map(|(_, schedule)| schedule.breaks());
-        let mut times: Vec<f64> = breaks.filter(|time| *time > 0.0 && *time < end).collect();
+        let cuts = breaks.chain(self.scene.release_times());
+        let mut times: Vec<f64> = cuts.filter(|time| *time > 0.0 && *time < end).collect();
         times.extend_from_slice(&self.stops);
         times.sort_by(f64::total_cmp);
         let starts = std::iter::once(&0.0).chain(&times);

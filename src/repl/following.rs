@@ -141,7 +141,10 @@ impl Visits {
     fn go_on(&mut self) -> Result<bool, Trouble> {
         self.context.proceed().map_err(Trouble::Refused)?;
         match &mut self.way {
-            Way::Back(steps) => Ok(steps.next().is_some_and(|to| self.revisit.go_back_to(to))),
+            Way::Back(steps) => match steps.next() {
+                Some(to) => self.revisit.go_back_to(to).map_err(Trouble::Refused),
+                None => Ok(false),
+            },
             Way::Again { next, rows, every } => loop {
                 let row = *next;
                 if row >= *rows {

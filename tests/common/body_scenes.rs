@@ -165,5 +165,12 @@ pub fn chain(bodies: usize) -> Scene {
 
 /// Every scene without sliders on a mesh.
 pub fn all(mesh: &Mesh) -> Vec<Scene> {
-    vec![pendulum(0.2, 0.8, 2.0), double_pendulum(), dumbbell(mesh), crank_rocker(mesh), chain(5)]
+    vec![
+        pendulum(0.2, 0.8, 2.0),
+        double_pendulum(),
+        dumbbell(mesh),
+        crank_rocker(mesh),
+        chain(5),
+        super::release_scenes::bracket(mesh),
+    ]
 }

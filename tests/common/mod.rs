@@ -9,6 +9,7 @@ pub mod notepad;
 pub mod probe;
 pub mod rails;
 pub mod reference;
+pub mod release_scenes;
 pub mod scenes;
 pub mod sliding;
 pub mod sliding_scenes;

@@ -411,5 +411,6 @@ pub fn all(mesh: &Mesh) -> Vec<Scene> {
         flywheels(mesh),
         driven(mesh),
         tapered(mesh),
+        super::release_scenes::chain(mesh),
     ]
 }

@@ -130,6 +130,88 @@ pub fn pinned_cross(mesh: &Mesh, rule: SlidingRule) -> Scene {
     scene
 }
 
+/// Eight sliders of all kinds, more than a border is for: beads, a pin through two beams, an eyelet, and an arm.
+pub fn crowd(mesh: &Mesh, rule: SlidingRule) -> Scene {
+    let mut scene = Scene::new("crowd");
+    let end = at(3.0, 1.0);
+    let rail = add_beam(&mut scene, line(at(0.0, 0.0), end), mesh, paper_section(300.0));
+    scene.beams[rail].motion =
+        StartMotion { velocity: at(0.2, -0.3), spin: 0.7, about: Some(end * 0.5) };
+    for (along, mass, speed) in
+        [(0.1, 0.1, 1.0), (0.25, 0.04, -0.5), (0.4, 0.2, 0.7), (0.85, 0.3, -0.6)]
+    {
+        bead(&mut scene, rail, along, mass, speed, rule);
+    }
+    let (cross, other) = (end * 0.6, at(-0.5, 1.5));
+    let other = line(cross - other * 0.4, cross + other * 0.6);
+    let other = add_beam(&mut scene, other, mesh, paper_section(300.0));
+    let pin = particle(&mut scene, cross, 0.05);
+    slide(&mut scene, pin, rail, 0.6, rule);
+    slide(&mut scene, pin, other, 0.4, rule);
+    let axis = &scene.beams[other].axis;
+    let eye = axis.point(axis.parameter_at(0.8 * axis.length()).unwrap()).unwrap();
+    let eye = particle(&mut scene, eye, 1.0);
+    scene.join(JointKind::Hinge, eye, Partner::Ground).unwrap();
+    slide(&mut scene, eye, other, 0.8, rule);
+    let foot = end * 0.7;
+    let arm = add_beam(&mut scene, line(foot, foot + at(0.6, -0.9)), mesh, paper_section(300.0));
+    let foot = scene.station(arm, 0.0).unwrap();
+    slide(&mut scene, foot, rail, 0.7, rule);
+    scene
+}
+
+/// A rope that is drawn through as many points held by the ground, in a field of gravity.
+pub fn eyelets(spans: usize, eyelets: usize) -> Scene {
+    let mut scene = Scene::new("eyelets");
+    let mesh = Mesh::bspline(spans, 3, 2).unwrap();
+    let rope = line(at(0.0, 0.0), at(3.0, 0.0));
+    let rope = add_beam(&mut scene, rope, &mesh, paper_section(300.0));
+    scene.beams[rope].motion = StartMotion { velocity: at(1.0, 0.0), spin: 0.0, about: None };
+    scene.gravity = at(0.0, -9.81);
+    for eyelet in 0..eyelets {
+        let along = 0.8 * (eyelet as f64 + 0.5) / eyelets as f64;
+        let eye = particle(&mut scene, at(3.0 * along, 0.0), 1.0);
+        scene.join(JointKind::Hinge, eye, Partner::Ground).unwrap();
+        slide(&mut scene, eye, rope, along, SlidingRule::Kinked);
+    }
+    scene
+}
+
+/// Links in zigzag, each of which hangs in a ring that slides on the link before it and on itself, in a field of gravity.
+pub fn chain(links: usize) -> Scene {
+    let mut scene = Scene::new("chain");
+    let mesh = Mesh::bspline(4, 3, 2).unwrap();
+    for link in 0..links {
+        let up = if link % 2 == 0 { 0.5 } else { -0.5 };
+        let from = at(0.8 * link as f64, if up > 0.0 { 0.0 } else { 0.5 });
+        add_beam(&mut scene, line(from, from + at(1.0, up)), &mesh, paper_section(300.0));
+    }
+    hinge_start(&mut scene, 0);
+    for link in 1..links {
+        let start = scene.beams[link].axis.point(0.1).unwrap();
+        let ring = particle(&mut scene, start, 0.05);
+        slide(&mut scene, ring, link - 1, 0.9, SlidingRule::Kinked);
+        slide(&mut scene, ring, link, 0.1, SlidingRule::Kinked);
+    }
+    scene.gravity = at(0.0, -9.81);
+    scene
+}
+
+/// A free beam that turns with so many beads, which pass each other.
+pub fn necklace(spans: usize, beads: usize) -> Scene {
+    let mut scene = Scene::new("necklace");
+    let mesh = Mesh::bspline(spans, 3, 2).unwrap();
+    let rail = line(at(0.0, 0.0), at(3.0, 1.0));
+    let rail = add_beam(&mut scene, rail, &mesh, paper_section(300.0));
+    scene.beams[rail].motion = StartMotion { velocity: at(0.2, -0.3), spin: 0.7, about: None };
+    for number in 0..beads {
+        let along = 0.1 + 0.8 * (number as f64 + 0.5) / beads as f64;
+        let speed = (7.0 * number as f64).sin();
+        bead(&mut scene, rail, along, 0.3 / beads as f64, speed, SlidingRule::Kinked);
+    }
+    scene
+}
+
 /// Every scene, with a rule for all sliders.
 pub fn all(mesh: &Mesh, rule: SlidingRule) -> Vec<Scene> {
     let mut scenes = vec![
@@ -142,6 +224,7 @@ pub fn all(mesh: &Mesh, rule: SlidingRule) -> Vec<Scene> {
         bead_on_an_arc(mesh, rule),
         eyelet(mesh, rule),
         pinned_cross(mesh, rule),
+        crowd(mesh, rule),
     ];
     for slider in scenes.iter_mut().flat_map(|scene| &mut scene.sliders) {
         slider.ends = EndAction::Bounce;

@@ -18,6 +18,7 @@ mod literature;
 mod meshes;
 mod notes;
 mod orders;
+mod releases;
 mod rigid_links;
 mod same_bits;
 mod saving;

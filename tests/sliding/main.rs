@@ -8,5 +8,6 @@ mod ends;
 mod invariants;
 mod kinks;
 mod long_ways;
+mod many;
 mod orders;
 mod relaxed;

@@ -1,7 +1,9 @@
 //! Basis functions along a way between two parameters, for a point that slides along a beam.
 
+use std::sync::Arc;
+
 use super::piecewise::AlongWay;
-use super::{Basis, GaussRule, PiecewisePolynomial, Span};
+use super::{Basis, BasisValues, GaussRule, PiecewisePolynomial, Span};
 
 /// The basis functions `B_i` along a way from the parameter ξ₀ to ξ₁, as a point needs them that
 /// slides along `Σ B_i(ξ) x_i` during a time step: above all the quotients
@@ -17,13 +19,11 @@ use super::{Basis, GaussRule, PiecewisePolynomial, Span};
 /// domain the polynomials of the end spans are continued.
 #[derive(Debug, Clone)]
 pub struct Passage {
-    basis: Basis,
-    spans: Vec<Span>,
-    /// For each span, the number of breaks up to its start at which slopes jump.
-    kinks: Vec<usize>,
-    /// Points and weights on `[0, 1]`, exact for polynomials of one degree less than the basis.
-    rule: Vec<(f64, f64)>,
+    /// Shared with its copies, of which there is one for each point on the same beam.
+    line: Arc<Line>,
     way: Way,
+    /// The functions at the start of the way, in the span of its departure: one way after another starts there.
+    departing: Option<(f64, usize, BasisValues)>,
     first: usize,
     length: usize,
     start: Vec<f64>,
@@ -32,6 +32,17 @@ pub struct Passage {
     slope: Vec<f64>,
     difference: Vec<f64>,
     change: Vec<f64>,
+}
+
+/// Along what ways lead.
+#[derive(Debug)]
+struct Line {
+    basis: Basis,
+    spans: Vec<Span>,
+    /// For each span, the number of breaks up to its start at which slopes jump.
+    kinks: Vec<usize>,
+    /// Points and weights on `[0, 1]`, exact for polynomials of one degree less than the basis.
+    rule: Vec<(f64, f64)>,
 }
 
 /// Where a way starts and ends, and the indices of the spans in which it does.
@@ -61,11 +72,11 @@ impl Passage {
         let (start, _) = basis.domain();
         let spans = basis.spans();
         let kinks = kinks(&spans, basis.degree());
+        let rule = GaussRule::legendre(basis.degree().div_ceil(2)).iter_on(0.0, 1.0).collect();
         let mut passage = Self {
-            spans,
-            kinks,
-            rule: GaussRule::legendre(basis.degree().div_ceil(2)).iter_on(0.0, 1.0).collect(),
+            line: Arc::new(Line { basis, spans, kinks, rule }),
             way: Way { from: start, to: start, departure: 0, arrival: 0 },
+            departing: None,
             first: 0,
             length: 0,
             start: room.clone(),
@@ -74,7 +85,6 @@ impl Passage {
             slope: room.clone(),
             difference: room.clone(),
             change: room,
-            basis,
         };
         passage.go(start, start);
         passage
@@ -85,12 +95,16 @@ impl Passage {
     ///
     /// If either is not finite, all numbers are NaN, and the window is that of the span of `from`.
     pub fn go(&mut self, from: f64, to: f64) {
+        let is_there = self.length > 0 && (self.way.from, self.way.to) == (from, to);
+        if is_there {
+            return;
+        }
         let finite = from.is_finite() && to.is_finite();
         let way = self.way(from, if finite { to } else { from });
         self.way = Way { from, to, ..way };
         let (low, high) = way.lowest_and_highest();
-        self.first = self.spans[low].first;
-        self.length = self.spans[high].first + self.basis.degree() + 1 - self.first;
+        self.first = self.line.spans[low].first;
+        self.length = self.line.spans[high].first + self.line.basis.degree() + 1 - self.first;
         if finite {
             self.fill(0.0);
             self.add_ends(way);
@@ -102,7 +116,7 @@ impl Passage {
 
     /// The basis along which the way leads.
     pub fn basis(&self) -> &Basis {
-        &self.basis
+        &self.line.basis
     }
 
     /// The index of the first basis function of the window of the way.
@@ -154,7 +168,7 @@ impl Passage {
         let [end, slope, _] = function.in_span(way.arrival, way.to);
         let (mut difference, mut change) = (0.0, 0.0);
         let (low, high) = way.lowest_and_highest();
-        for (index, span) in (low..).zip(&self.spans[low..=high]) {
+        for (index, span) in (low..).zip(&self.line.spans[low..=high]) {
             let piece = way.piece(index, span);
             for &(t, weight) in function.rule() {
                 let xi = piece.enter + t * (piece.leave - piece.enter);
@@ -163,7 +177,7 @@ impl Passage {
                 change += weight * piece.share * (piece.before + t * piece.share) * bend;
             }
         }
-        if self.kinks[way.departure] != self.kinks[way.arrival] {
+        if self.line.kinks[way.departure] != self.line.kinks[way.arrival] {
             change = (slope - difference) / (way.to - way.from);
         }
         AlongWay { start, end, slope, difference, change }
@@ -182,19 +196,20 @@ impl Passage {
         let part = |span: &Span| {
             (to.min(span.end) - from.max(span.start)).max(0.0) / (span.end - span.start)
         };
-        self.spans[departure..=arrival].iter().map(part).sum()
+        self.line.spans[departure..=arrival].iter().map(part).sum()
     }
 
     /// The way with its spans found.
     fn way(&self, from: f64, to: f64) -> Way {
-        let last = self.spans.len() - 1;
+        let spans = &self.line.spans;
+        let last = spans.len() - 1;
         let (departure, arrival) = if to < from {
-            let departure = self.spans.partition_point(|span| span.end < from).min(last);
-            let arrival = self.spans.partition_point(|span| span.end <= to);
+            let departure = spans.partition_point(|span| span.end < from).min(last);
+            let arrival = spans.partition_point(|span| span.end <= to);
             (departure, arrival.min(departure))
         } else {
-            let departure = self.spans.partition_point(|span| span.start <= from).max(1) - 1;
-            let arrival = self.spans.partition_point(|span| span.start < to).max(1) - 1;
+            let departure = spans.partition_point(|span| span.start <= from).max(1) - 1;
+            let arrival = spans.partition_point(|span| span.start < to).max(1) - 1;
             (departure, arrival.max(departure))
         };
         Way { from, to, departure, arrival }
@@ -215,9 +230,16 @@ impl Passage {
 
     /// What the functions are at the ends, added to zeros.
     fn add_ends(&mut self, way: Way) {
-        let values = self.basis.evaluate_in(&self.spans[way.departure], way.from);
+        let Line { basis, spans, .. } = &*self.line;
+        let values = match &self.departing {
+            Some((from, span, values)) if (*from, *span) == (way.from, way.departure) => values,
+            _ => {
+                let values = basis.evaluate_in(&spans[way.departure], way.from);
+                &self.departing.insert((way.from, way.departure, values)).2
+            }
+        };
         add(&mut self.start, values.first - self.first, 1.0, values.values());
-        let values = self.basis.evaluate_in(&self.spans[way.arrival], way.to);
+        let values = basis.evaluate_in(&spans[way.arrival], way.to);
         add(&mut self.end, values.first - self.first, 1.0, values.values());
         add(&mut self.slope, values.first - self.first, 1.0, values.slopes());
         add(&mut self.mean, 0, 0.5, &self.start[..self.length]);
@@ -227,14 +249,15 @@ impl Passage {
     /// The integrals over the way, added to zeros: `D = ∫ B'(ξ₀ + s Δξ) ds` over `0 < s < 1` and its
     /// derivative `∫ s B''(ξ₀ + s Δξ) ds`, unless `B'` jumps on the way.
     fn add_quotients(&mut self, way: Way) {
-        let smooth = self.kinks[way.departure] == self.kinks[way.arrival];
+        let Line { basis, spans, kinks, rule } = &*self.line;
+        let smooth = kinks[way.departure] == kinks[way.arrival];
         let (low, high) = way.lowest_and_highest();
-        for (index, span) in self.spans[low..=high].iter().enumerate() {
+        for (index, span) in spans[low..=high].iter().enumerate() {
             let piece = way.piece(low + index, span);
             let skip = span.first - self.first;
-            for &(t, weight) in &self.rule {
+            for &(t, weight) in rule {
                 let xi = piece.enter + t * (piece.leave - piece.enter);
-                let values = self.basis.evaluate_in(span, xi);
+                let values = basis.evaluate_in(span, xi);
                 let weight = weight * piece.share;
                 add(&mut self.difference, skip, weight, values.slopes());
                 if smooth {

@@ -124,8 +124,13 @@ impl StepSolver {
         let (movements, all) = (mechanism.unknowns(), mechanism.degrees_of_freedom());
         let border = mechanism.constraint_shape();
         let moving = movements + mechanism.prescribed().width();
+        let half_bandwidth = mechanism.half_bandwidth();
+        let tangent = match mechanism.constraint_blocks() {
+            None => BorderedMatrix::zeros(movements, half_bandwidth, border),
+            Some(blocks) => BorderedMatrix::with_blocks(movements, half_bandwidth, blocks.clone()),
+        };
         Self {
-            newton: Newton::new(movements, mechanism.half_bandwidth(), border, tolerance),
+            newton: Newton::of(tangent, tolerance),
             coasting: vec![0.0; movements],
             unknowns: vec![0.0; movements + border.width],
             increments: vec![0.0; moving],

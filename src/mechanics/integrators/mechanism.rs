@@ -1,7 +1,7 @@
 //! What an integrator may ask of the mechanical system that it advances.
 
 use super::{Interval, PrescribedKinematics, StepError};
-use crate::linalg::{BandedMatrix, Border, BorderShape};
+use crate::linalg::{BandedMatrix, BlockLayout, Border, BorderShape};
 
 /// The place in a step where forces are taken. Increments are counted from the start of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,6 +74,11 @@ pub trait Forces {
 pub trait Constraints {
     /// How many unknowns the constraints of the mechanism add, and how many entries their equations may have.
     fn constraint_shape(&self) -> BorderShape;
+
+    /// The blocks that the unknowns of the constraints form, where these are better eliminated one by one than together; each has five.
+    fn constraint_blocks(&self) -> Option<&BlockLayout> {
+        None
+    }
 
     /// Guesses the unknowns of the constraints for a step over the interval.
     fn predict_constraints(&mut self, interval: Interval, unknowns: &mut [f64]);

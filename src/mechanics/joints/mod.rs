@@ -1,10 +1,12 @@
 //! Joints: which movements are tied, to what, and where; and the laws of joints that slide.
 
 mod joint;
+mod release;
 mod slider;
 mod sliding;
 
 pub use joint::{Component, Components, Joint, JointKind, Partner};
+pub use release::{Hold, Release, Trigger};
 pub use slider::{EndAction, Slider, StartVelocities};
 pub use sliding::{
     CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Held, Kink, Kinked,

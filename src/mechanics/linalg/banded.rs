@@ -43,7 +43,7 @@ pub struct BandedLu<'a> {
 }
 
 impl Storage {
-    fn zeros(size: usize, half_bandwidth: usize) -> Self {
+    pub(super) fn zeros(size: usize, half_bandwidth: usize) -> Self {
         let reach = half_bandwidth.max(SMALLEST_REACH);
         let mut storage = Self {
             size,
@@ -56,6 +56,17 @@ impl Storage {
         storage.rows = vec![0.0; (size + PANEL + reach) * storage.stride()];
         storage.end_with_the_identity();
         storage
+    }
+
+    /// Makes room for the rows of another matrix, all zero; takes more memory only where there never were as many.
+    pub(super) fn remake(&mut self, size: usize, half_bandwidth: usize) {
+        (self.size, self.reach) = (size, half_bandwidth.max(SMALLEST_REACH));
+        self.pivots.resize(size, 0);
+        self.last_columns.resize(size, 0);
+        self.multipliers.resize(self.reach, [0.0; PANEL]);
+        self.rows.clear();
+        self.rows.resize((size + PANEL + self.reach) * self.stride(), 0.0);
+        self.end_with_the_identity();
     }
 
     /// The place of the diagonal entry among the stored entries of a row.
@@ -125,6 +136,14 @@ impl BandedMatrix {
         } else {
             self.storage.rows[row * self.storage.stride() + column + self.storage.centre() - row]
         }
+    }
+
+    /// The first column of a row in the band, and the entries of the row from there on.
+    pub(super) fn row(&self, row: usize) -> (usize, &[f64]) {
+        let first = row.saturating_sub(self.half_bandwidth);
+        let last = (row + self.half_bandwidth).min(self.size - 1);
+        let at = row * self.storage.stride() + first + self.storage.centre() - row;
+        (first, &self.storage.rows[at..=at + last - first])
     }
 
     /// Replaces the entries of the matrix by its factors `P A = L U`.

@@ -1,15 +1,12 @@
-//! A banded matrix with a few full columns and rows at its end, factorised by blocks.
+//! A banded matrix with more columns and rows at its end: a border, which couples whatever it likes.
 //!
-//! ```text
-//! [ A  B ] [x]   [f]        Z = A⁻¹ B      y = A⁻¹ f
-//! [ C  D ] [z] = [g]        (D - C Z) z = g - C y      x = y - Z z
-//! ```
-//!
-//! The band keeps its width whatever the border couples (Govaerts & Pryce, Block elimination with one iterative
-//! refinement solves bordered linear systems accurately, BIT 30 (1990) 490–507; refining is the business of the caller).
+//! A border of few unknowns is one of full columns, which leaves the band as it is. One of many blocks that each touch but a few unknowns
+//! of the band is eliminated there, in work that grows with their number only.
 
+use super::full_border::FullLu;
+use super::local_border::LocalLu;
 use super::together::{Together, TogetherLu};
-use super::{BandedLu, BandedMatrix, LinearError};
+use super::{BandedLu, BandedMatrix, BlockLayout, FullBorder, LinearError, LocalBorder};
 
 /// A square matrix that is banded but for its last rows and columns, the border.
 #[derive(Debug, Clone)]
@@ -20,7 +17,7 @@ pub struct BorderedMatrix {
     together: Option<Together>,
 }
 
-/// The size of the border of a [`BorderedMatrix`]: its last rows and columns, which are full.
+/// The size of the border of a [`BorderedMatrix`]: its last rows and columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct BorderShape {
     /// The number of rows of the border, and of its columns.
@@ -29,26 +26,13 @@ pub struct BorderShape {
     pub row_entries: usize,
 }
 
-/// Columns of the border are kept and solved in strips of so many, a number that the compiler knows: that of the unknowns of
-/// a sliding contact, for which borders are.
-const STRIP: usize = 5;
-
-/// Some columns of `B`; after factorising, of `Z`.
-#[derive(Debug, Clone)]
-struct Strip {
-    rows: Vec<[f64; STRIP]>,
-    /// The first row with an entry.
-    first_row: Option<usize>,
-}
-
 /// The border of a [`BorderedMatrix`]: its last columns `B`, its last rows `C` and their common corner `D`.
 #[derive(Debug, Clone)]
-pub struct Border {
-    width: usize,
-    strips: Vec<Strip>,
-    /// `C`: (row of the border, column, value); entries of one place add up.
-    rows: Vec<(usize, usize, f64)>,
-    corner: BandedMatrix,
+pub enum Border {
+    /// Full columns and rows.
+    Full(FullBorder),
+    /// Blocks of five unknowns, each of which touches few unknowns of the band and no other block.
+    Local(LocalBorder),
 }
 
 /// The factors of a [`BorderedMatrix`], kept in its storage.
@@ -58,129 +42,99 @@ pub struct BorderedLu<'a>(Factors<'a>);
 #[derive(Debug)]
 enum Factors<'a> {
     Band(BandedLu<'a>),
-    Blocks(BandedLu<'a>, FactorisedBorder<'a>),
+    Full(FullLu<'a>),
     Together(TogetherLu<'a>),
-}
-
-#[derive(Debug)]
-struct FactorisedBorder<'a> {
-    width: usize,
-    /// `Z`
-    solved: &'a [Strip],
-    /// `C`
-    rows: &'a [(usize, usize, f64)],
-    complement: BandedLu<'a>,
-}
-
-impl Strip {
-    fn zeros(size: usize) -> Self {
-        Self { rows: vec![[0.0; STRIP]; size], first_row: None }
-    }
-
-    fn clear(&mut self) {
-        self.rows.fill([0.0; STRIP]);
-        self.first_row = None;
-    }
-
-    fn add(&mut self, row: usize, column: usize, value: f64) {
-        self.rows[row][column] += value;
-        self.first_row = Some(self.first_row.map_or(row, |first| first.min(row)));
-    }
+    Local(LocalLu<'a>),
 }
 
 impl Border {
-    fn zeros(size: usize, BorderShape { width, row_entries }: BorderShape) -> Self {
-        Self {
-            width,
-            strips: vec![Strip::zeros(size); width.div_ceil(STRIP)],
-            rows: Vec::with_capacity(row_entries),
-            corner: BandedMatrix::zeros(width, width.saturating_sub(1)),
+    /// The number of rows of the border, which is that of its columns.
+    pub fn width(&self) -> usize {
+        match self {
+            Self::Full(border) => border.width(),
+            Self::Local(border) => border.width(),
         }
     }
 
-    /// The number of rows of the border, which is that of its columns.
-    pub fn width(&self) -> usize {
-        self.width
-    }
-
     fn clear(&mut self) {
-        self.strips.iter_mut().for_each(Strip::clear);
-        self.rows.clear();
-        self.corner.clear();
+        match self {
+            Self::Full(border) => border.clear(),
+            Self::Local(border) => border.clear(),
+        }
     }
 
     /// Adds `value` to the part `B` of the border, at a row of the band and a column of the border.
     pub fn add_to_column(&mut self, row: usize, border_column: usize, value: f64) {
-        self.strips[border_column / STRIP].add(row, border_column % STRIP, value);
+        match self {
+            Self::Full(border) => border.add_to_column(row, border_column, value),
+            Self::Local(border) => {
+                let (block, column) = border.block_mut(border_column);
+                block.add_to_column(row, column, value);
+            }
+        }
     }
 
     /// Adds `value` to the part `C` of the border, at a row of the border and a column of the band.
     pub fn add_to_row(&mut self, border_row: usize, column: usize, value: f64) {
-        self.rows.push((border_row, column, value));
-    }
-
-    /// Adds `value` to the corner `D` of the border, at a row and a column of the border.
-    pub fn add_to_corner(&mut self, border_row: usize, border_column: usize, value: f64) {
-        self.corner.add(border_row, border_column, value);
-    }
-
-    /// Makes `Z` of `B` and `D - C Z` of `D`.
-    fn eliminate(&mut self, band: &BandedLu<'_>) {
-        for strip in &mut self.strips {
-            if let Some(first) = strip.first_row {
-                band.solve_strip(&mut strip.rows, first);
+        match self {
+            Self::Full(border) => border.add_to_row(border_row, column, value),
+            Self::Local(border) => {
+                let (block, row) = border.block_mut(border_row);
+                block.add_to_row(row, column, value);
             }
         }
-        for &(row, column, value) in &self.rows {
-            let solved = self.strips.iter().flat_map(|strip| strip.rows[column]);
-            for (border_column, z) in solved.take(self.width).enumerate() {
-                self.corner.add(row, border_column, -value * z);
+    }
+
+    /// Adds `value` to the corner `D` of the border, at a row and a column of the border, in a border of blocks of the same block.
+    pub fn add_to_corner(&mut self, border_row: usize, border_column: usize, value: f64) {
+        match self {
+            Self::Full(border) => border.add_to_corner(border_row, border_column, value),
+            Self::Local(border) => {
+                let (block, row) = border.block_mut(border_row);
+                block.add_to_corner(row, LocalBorder::column_in(border_row, border_column), value);
             }
+        }
+    }
+
+    fn get(&self, row: Result<usize, usize>, column: Result<usize, usize>) -> f64 {
+        match (self, row, column) {
+            (_, Ok(_), Ok(_)) => 0.0,
+            (Self::Full(border), Ok(row), Err(column)) => border.in_column(row, column),
+            (Self::Full(border), Err(row), Ok(column)) => border.in_row(row, column),
+            (Self::Full(border), Err(row), Err(column)) => border.in_corner(row, column),
+            (Self::Local(border), row, column) => border.get(row, column),
         }
     }
 }
 
 impl BorderedMatrix {
-    /// The zero matrix: `size` rows with entries up to `half_bandwidth` places off the diagonal, and a border.
+    /// The zero matrix: `size` rows with entries up to `half_bandwidth` places off the diagonal, and a border of full columns.
     pub fn zeros(size: usize, half_bandwidth: usize, border: BorderShape) -> Self {
         Self {
             band: BandedMatrix::zeros(size, half_bandwidth),
-            border: Border::zeros(size, border),
+            border: Border::Full(FullBorder::zeros(size, border)),
             together: None,
         }
     }
 
-    /// The same matrix, to be eliminated with the border among the rows of the band, which alone may be singular; the last `full` rows and columns,
-    /// which couple with all others, are a border still.
+    /// The zero matrix: `size` rows with entries up to `half_bandwidth` places off the diagonal, and a border of blocks.
+    pub fn with_blocks(size: usize, half_bandwidth: usize, layout: BlockLayout) -> Self {
+        Self {
+            band: BandedMatrix::zeros(size, half_bandwidth),
+            border: Border::Local(LocalBorder::zeros(size, half_bandwidth, layout)),
+            together: None,
+        }
+    }
+
+    /// The same matrix, if its border is one of full columns, to be eliminated with the border among the rows of the band, which alone may
+    /// be singular; the last `full` rows and columns, which couple with all others, are a border still.
     pub fn together(self, full: usize) -> Self {
         Self { together: Some(Together::new(self.size(), full)), ..self }
     }
 
-    /// All entries of the matrix that are not zero: row, column, value; those of one place add up.
-    fn entries(&self) -> Vec<(usize, usize, f64)> {
-        let (band, n, Border { width, strips, rows, corner }) =
-            (&self.band, self.band.size(), &self.border);
-        let reach = band.half_bandwidth();
-        let in_band = (0..n).flat_map(|row| {
-            let columns = row.saturating_sub(reach)..(row + reach + 1).min(n);
-            columns.map(move |column| (row, column, band.get(row, column)))
-        });
-        let in_columns = (0..*width).flat_map(|column| {
-            let rows = strips[column / STRIP].rows.iter().enumerate();
-            rows.map(move |(row, entries)| (row, n + column, entries[column % STRIP]))
-        });
-        let in_rows = rows.iter().map(|&(row, column, value)| (n + row, column, value));
-        let in_corner = (0..width * width).map(|at| {
-            let (row, column) = (at / width, at % width);
-            (n + row, n + column, corner.get(row, column))
-        });
-        let all = in_band.chain(in_columns).chain(in_rows).chain(in_corner);
-        all.filter(|(.., value)| *value != 0.0).collect()
-    }
-
     /// The number of rows of the matrix, those of the border included.
     pub fn size(&self) -> usize {
-        self.band.size() + self.border.width
+        self.band.size() + self.border.width()
     }
 
     /// The banded part `A` of a bordered matrix, to be read.
@@ -206,17 +160,10 @@ impl BorderedMatrix {
 
     /// The entry of the matrix at `(row, column)`; zero outside band and border.
     pub fn get(&self, row: usize, column: usize) -> f64 {
-        let (n, Border { strips, rows, corner, .. }) = (self.band.size(), &self.border);
-        match (row.checked_sub(n), column.checked_sub(n)) {
-            (None, None) => self.band.get(row, column),
-            (None, Some(border_column)) => {
-                strips[border_column / STRIP].rows[row][border_column % STRIP]
-            }
-            (Some(border_row), None) => {
-                let here = |(r, c, _): &&(usize, usize, f64)| (*r, *c) == (border_row, column);
-                rows.iter().filter(here).map(|(.., value)| value).sum()
-            }
-            (Some(border_row), Some(border_column)) => corner.get(border_row, border_column),
+        let place = |at: usize| at.checked_sub(self.band.size()).map_or(Ok(at), Err);
+        match (place(row), place(column)) {
+            (Ok(row), Ok(column)) => self.band.get(row, column),
+            (row, column) => self.border.get(row, column),
         }
     }
 
@@ -225,48 +172,30 @@ impl BorderedMatrix {
     /// # Errors
     /// When a column has no non-zero or no finite pivot; the entries are then lost.
     pub fn factorise(&mut self) -> Result<BorderedLu<'_>, LinearError> {
-        let entries = self.together.as_ref().map(|_| self.entries());
         let Self { band, border, together } = self;
-        if let (Some(together), Some(entries)) = (together, entries) {
-            return together.factorise(&entries).map(Factors::Together).map(BorderedLu);
-        }
         let size = band.size();
-        let band = band.factorise()?;
-        if border.width == 0 {
-            return Ok(BorderedLu(Factors::Band(band)));
-        }
-        border.eliminate(&band);
-        let Border { width, strips, rows, corner } = border;
-        let complement = corner.factorise().map_err(|error| error.behind(size))?;
-        let border = FactorisedBorder { width: *width, solved: strips, rows, complement };
-        Ok(BorderedLu(Factors::Blocks(band, border)))
+        let factors = match (border, together) {
+            (Border::Local(border), _) => Factors::Local(border.factorise(band)?),
+            (Border::Full(border), Some(together)) => {
+                Factors::Together(together.factorise(&border.entries_with(band))?)
+            }
+            (Border::Full(border), None) if border.width() == 0 => Factors::Band(band.factorise()?),
+            (Border::Full(border), None) => {
+                Factors::Full(border.factorise(band.factorise()?, size)?)
+            }
+        };
+        Ok(BorderedLu(factors))
     }
 }
 
 impl BorderedLu<'_> {
     /// Replaces the right-hand side `x`, one number a row, those of the border last, by the solution of `A x = b`.
-    pub fn solve(&self, x: &mut [f64]) {
-        match &self.0 {
-            Factors::Band(band) => band.solve(x),
-            Factors::Blocks(band, border) => border.solve(band, x),
-            Factors::Together(together) => together.solve(x),
-        }
-    }
-}
-
-impl FactorisedBorder<'_> {
-    /// Solves for the unknowns of the band without the border, for the border, and then for both.
-    fn solve(&self, band: &BandedLu<'_>, x: &mut [f64]) {
-        let (x, z) = x.split_at_mut(x.len() - self.width);
-        band.solve(x);
-        for &(row, column, value) in self.rows {
-            z[row] -= value * x[column];
-        }
-        self.complement.solve(z);
-        for (strip, z) in self.solved.iter().zip(z.chunks(STRIP)) {
-            for (x, solved) in x.iter_mut().zip(&strip.rows) {
-                *x -= solved.iter().zip(z).map(|(solved, z)| solved * z).sum::<f64>();
-            }
+    pub fn solve(&mut self, x: &mut [f64]) {
+        match &mut self.0 {
+            Factors::Band(factors) => factors.solve(x),
+            Factors::Full(factors) => factors.solve(x),
+            Factors::Together(factors) => factors.solve(x),
+            Factors::Local(factors) => factors.solve(x),
         }
     }
 }

@@ -4,6 +4,9 @@
 //! finds out (threshold pivoting: Duff, Erisman & Reid, Direct Methods for Sparse Matrices, 2nd ed., section 5.2). The rows
 //! below are then updated once for the whole panel, and nothing fills in. Where a multiplier is large, the columns of the
 //! panel are eliminated one by one with partial pivoting.
+//!
+//! Where the entries of a matrix end at a profile of their own, column by column, rows and columns beyond it are left out: row exchanges
+//! and fill-in stay inside a profile that never falls.
 
 use pulp::{Simd, WithSimd};
 
@@ -40,6 +43,19 @@ impl WithSimd for Elimination<'_> {
     }
 }
 
+/// The same where the entries of a matrix end at a profile: for each index the last row with an entry in the column, which is the last column with
+/// one in the row. It never falls, and goes on for a panel behind the last row.
+pub(super) struct ProfileElimination<'a>(pub(super) &'a mut Storage, pub(super) &'a [usize]);
+
+impl WithSimd for ProfileElimination<'_> {
+    type Output = Result<(), LinearError>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        eliminate_in_profile(simd, self.0, self.1)
+    }
+}
+
 /// `reach` is that of the storage.
 #[inline(always)]
 fn eliminate<S: Simd>(simd: S, storage: &mut Storage, reach: usize) -> Result<(), LinearError> {
@@ -50,9 +66,10 @@ fn eliminate<S: Simd>(simd: S, storage: &mut Storage, reach: usize) -> Result<()
         let width = filled.max(next - 1 + reach) + 1 - next;
         let is_eliminated = if width == reach {
             // Behind the last column with an entry there are zeros.
-            eliminate_panel(simd, storage, first, reach, reach.next_multiple_of(LANES))
+            let width = reach.next_multiple_of(LANES);
+            eliminate_panel(simd, storage, first, [reach, reach], width)
         } else {
-            eliminate_panel(simd, storage, first, reach, width)
+            eliminate_panel(simd, storage, first, [reach, reach], width)
         };
         let columns = first..next.min(storage.size);
         if is_eliminated {
@@ -63,26 +80,63 @@ fn eliminate<S: Simd>(simd: S, storage: &mut Storage, reach: usize) -> Result<()
             }
         } else {
             for column in columns {
-                filled = eliminate_column(storage, column, reach, filled)?;
+                filled = eliminate_column(storage, column, filled, |index| index + reach)?;
             }
         }
     }
     Ok(())
 }
 
-/// Eliminates the columns of a panel from `reach` rows below it, in so many columns behind it; false, with nothing changed,
-/// when rows should be exchanged.
+#[inline(always)]
+fn eliminate_in_profile<S: Simd>(
+    simd: S,
+    storage: &mut Storage,
+    ends: &[usize],
+) -> Result<(), LinearError> {
+    let reach = storage.reach;
+    let mut filled = 0;
+    for first in (0..storage.size).step_by(PANEL) {
+        let next = first + PANEL;
+        let below = ends[next - 1] + 1 - next;
+        let width = filled.max(ends[next - 1]) + 1 - next;
+        // Zeros stand behind the last column, and below the last row, with an entry; those of cubic beams and of a point that slides from one
+        // span to the next are known to the compiler.
+        let is_eliminated = match below.max(width) {
+            ..=9 if reach > 10 => eliminate_panel(simd, storage, first, [reach, 9], 12),
+            ..=11 if reach > 10 => eliminate_panel(simd, storage, first, [reach, 11], 12),
+            12 => eliminate_panel(simd, storage, first, [reach, 12], 12),
+            _ => {
+                let whole = width.next_multiple_of(LANES);
+                let width = if whole < 2 * reach { whole } else { width };
+                eliminate_panel(simd, storage, first, [reach, below], width)
+            }
+        };
+        for column in first..next.min(storage.size) {
+            if is_eliminated {
+                filled = filled.max(ends[column]);
+                storage.pivots[column] = column;
+                storage.last_columns[column] = filled;
+            } else {
+                filled = eliminate_column(storage, column, filled, |index| ends[index])?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Eliminates the columns of a panel from so many rows below it, in so many columns behind it; false, with nothing changed,
+/// when rows should be exchanged. The first of the `reach`es is that of the storage.
 #[inline(always)]
 fn eliminate_panel<S: Simd>(
     simd: S,
     storage: &mut Storage,
     first: usize,
-    reach: usize,
+    [reach, below]: [usize; 2],
     width: usize,
 ) -> bool {
     let (stride, centre) = (3 * reach + PANEL, reach + PANEL - 1);
-    let rows = &mut storage.rows[first * stride..][..(PANEL + reach) * stride];
-    let (panel, below) = rows.split_at_mut(PANEL * stride);
+    let rows = &mut storage.rows[first * stride..][..(PANEL + below) * stride];
+    let (panel, rows_below) = rows.split_at_mut(PANEL * stride);
     let (row0, rest) = panel.split_at_mut(stride);
     let (row1, row2) = rest.split_at_mut(stride);
     let (row0, row1, row2) =
@@ -101,8 +155,9 @@ fn eliminate_panel<S: Simd>(
     let is_small = |multiplier: f64| multiplier.abs() <= LARGEST_MULTIPLIER;
     let mut is_stable = is_small(l10) & is_small(l20) & is_small(l21);
     is_stable &= u00.is_finite() & u11.is_finite() & u22.is_finite();
-    let multipliers = &mut storage.multipliers[..reach];
-    for (index, (row, found)) in below.chunks_exact(stride).zip(&mut *multipliers).enumerate() {
+    let multipliers = &mut storage.multipliers[..below];
+    for (index, (row, found)) in rows_below.chunks_exact(stride).zip(&mut *multipliers).enumerate()
+    {
         let entries = &row[reach - 1 - index..][..PANEL];
         let l0 = entries[0] * inverse0;
         let l1 = (entries[1] - l0 * u01) * inverse1;
@@ -121,7 +176,7 @@ fn eliminate_panel<S: Simd>(
         (&row0[PANEL..][..width], &mut row1[PANEL..][..width], &mut row2[PANEL..][..width]);
     subtract(simd, [l10], [row0], row1);
     subtract(simd, [l20, l21], [row0, row1], row2);
-    for (index, (row, found)) in below.chunks_exact_mut(stride).zip(multipliers).enumerate() {
+    for (index, (row, found)) in rows_below.chunks_exact_mut(stride).zip(multipliers).enumerate() {
         let (head, tail) = row[reach - 1 - index..][..PANEL + width].split_at_mut(PANEL);
         head.copy_from_slice(found);
         subtract(simd, *found, [row0, row1, row2], tail);
@@ -152,17 +207,18 @@ fn subtract<S: Simd, const COUNT: usize>(
     }
 }
 
-/// Eliminates one column with the largest of its entries as pivot; returns the last column in which a row has an entry now.
+/// Eliminates one column with the largest of its entries as pivot; returns the last column in which a row has an entry now. Entries of a column, and
+/// of a row, end where `end` has it.
 fn eliminate_column(
     storage: &mut Storage,
     column: usize,
-    reach: usize,
     filled: usize,
+    end: impl Fn(usize) -> usize,
 ) -> Result<usize, LinearError> {
-    let (size, stride) = (storage.size, storage.stride());
+    let (size, stride, reach) = (storage.size, storage.stride(), storage.reach);
     let rows = &mut storage.rows;
-    let last_row = (column + reach).min(size - 1);
-    let diagonal = column * stride + storage.reach + PANEL - 1;
+    let last_row = end(column).min(size - 1);
+    let diagonal = column * stride + reach + PANEL - 1;
     let (mut pivot_row, mut magnitude) = (column, rows[diagonal].abs());
     // One row down, the entry of the same column lies `stride - 1` further on.
     for row in column + 1..=last_row {
@@ -177,7 +233,7 @@ fn eliminate_column(
     if !magnitude.is_finite() {
         return Err(LinearError::NotFinite { unknown: column, size });
     }
-    let filled = filled.max(pivot_row + reach);
+    let filled = filled.max(end(pivot_row));
     let width = filled + 1 - column;
     storage.pivots[column] = pivot_row;
     storage.last_columns[column] = filled;

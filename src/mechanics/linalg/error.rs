@@ -24,6 +24,20 @@ pub enum LinearError {
 }
 
 impl LinearError {
+    /// The column of which the error tells.
+    pub(super) fn unknown(self) -> usize {
+        let (Self::Singular { unknown, .. } | Self::NotFinite { unknown, .. }) = self;
+        unknown
+    }
+
+    /// The same error, told of another column of a matrix with so many rows.
+    pub(super) fn at(self, unknown: usize, size: usize) -> Self {
+        match self {
+            Self::Singular { .. } => Self::Singular { unknown, size },
+            Self::NotFinite { .. } => Self::NotFinite { unknown, size },
+        }
+    }
+
     /// The same error, told of a matrix in which this one is a block that stands behind `rows` other rows.
     pub(super) fn behind(self, rows: usize) -> Self {
         match self {

@@ -1,13 +1,18 @@
 //! Matrices of one step: banded storage with a pivoted LU, a border for what reaches further, and the ordering that
 //! keeps the band narrow. For vibration: symmetric matrices, some of them with 32 digits.
 
+mod arrangement;
 mod band_rows;
 mod banded;
+mod block;
 mod bordered;
 mod elimination;
 mod error;
+mod full_border;
+mod local_border;
 mod ordering;
 mod precise_band;
+mod profile;
 mod sparse;
 mod strips;
 mod substitution;
@@ -19,6 +24,8 @@ pub use band_rows::BandRows;
 pub use banded::{BandedLu, BandedMatrix};
 pub use bordered::{Border, BorderShape, BorderedLu, BorderedMatrix};
 pub use error::LinearError;
+pub use full_border::FullBorder;
+pub use local_border::{BlockLayout, LocalBorder};
 pub use ordering::{Ordering, reverse_cuthill_mckee};
 pub use precise_band::PreciseBand;
 pub use sparse::SymmetricSparse;

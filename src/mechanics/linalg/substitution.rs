@@ -20,11 +20,28 @@ impl WithSimd for Substitution<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { factors, x } = self;
         match factors.reach {
-            5 => substitute(factors, 5, x),
-            8 => substitute(factors, 8, x),
-            11 => substitute(factors, 11, x),
-            reach => substitute(factors, reach, x),
+            5 => substitute(factors, 5, x, |column| column + 5),
+            8 => substitute(factors, 8, x, |column| column + 8),
+            11 => substitute(factors, 11, x, |column| column + 11),
+            reach => substitute(factors, reach, x, |column| column + reach),
         }
+    }
+}
+
+/// The same with the factors of a matrix whose entries end at a profile.
+pub(super) struct ProfileSubstitution<'a> {
+    pub(super) factors: &'a Storage,
+    pub(super) ends: &'a [usize],
+    pub(super) x: &'a mut [f64],
+}
+
+impl WithSimd for ProfileSubstitution<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { factors, ends, x } = self;
+        substitute(factors, factors.reach, x, |column| ends[column]);
     }
 }
 
@@ -44,9 +61,9 @@ impl<const W: usize> WithSimd for StripSubstitution<'_, W> {
     }
 }
 
-/// `reach` is that of the factors.
+/// `reach` is that of the factors; the multipliers of a column end in the row that `end` tells.
 #[inline(always)]
-fn substitute(factors: &Storage, reach: usize, x: &mut [f64]) {
+fn substitute(factors: &Storage, reach: usize, x: &mut [f64], end: impl Fn(usize) -> usize) {
     let (size, stride, centre) = (factors.size, 3 * reach + PANEL, reach + PANEL - 1);
     let rows = factors.rows.as_slice();
     for first in (0..size).step_by(PANEL) {
@@ -57,23 +74,25 @@ fn substitute(factors: &Storage, reach: usize, x: &mut [f64]) {
                 x.swap(column, factors.pivots[column]);
                 let value = x[column];
                 let multipliers = rows[column * stride + centre..].iter().step_by(stride - 1);
+                let below = end(column) - column;
                 for (entry, multiplier) in
-                    x[column + 1..].iter_mut().take(reach).zip(multipliers.skip(1))
+                    x[column + 1..].iter_mut().take(below).zip(multipliers.skip(1))
                 {
                     *entry -= multiplier * value;
                 }
             }
             continue;
         }
-        let panel = &rows[first * stride..][..(PANEL + reach) * stride];
+        let below = end(first + PANEL - 1) + 1 - (first + PANEL);
+        let panel = &rows[first * stride..][..(PANEL + below) * stride];
         let (row1, row2) = (&panel[stride + centre - 1..], &panel[2 * stride + centre - 2..]);
         let (known, unknown) = x[first..].split_at_mut(PANEL);
         let x0 = known[0];
         let x1 = known[1] - row1[0] * x0;
         let x2 = known[2] - row2[0] * x0 - row2[1] * x1;
         (known[1], known[2]) = (x1, x2);
-        let below = panel[PANEL * stride..].chunks_exact(stride);
-        for (index, (row, entry)) in below.zip(unknown.iter_mut().take(reach)).enumerate() {
+        let rows_below = panel[PANEL * stride..].chunks_exact(stride);
+        for (index, (row, entry)) in rows_below.zip(unknown.iter_mut().take(below)).enumerate() {
             let multipliers = &row[reach - 1 - index..][..PANEL];
             *entry = *entry - multipliers[0] * x0 - multipliers[1] * x1 - multipliers[2] * x2;
         }

@@ -83,7 +83,7 @@ pub enum LoadError {
     #[error(transparent)]
     Function(FunctionError),
     /// A value of a schedule that is not finite.
-    #[error("the schedule is {value} at t = {time}, but a load must be finite")]
+    #[error("the schedule is {value} at t = {time}, but it must be finite")]
     NotFinite {
         /// The time at which the schedule has no finite value [time].
         time: f64,

@@ -5,6 +5,7 @@ mod energies;
 mod impact;
 mod inertia;
 mod instant;
+mod letting_go;
 mod measures;
 mod order_at_rest;
 mod rest;
@@ -14,6 +15,7 @@ mod stiffness;
 
 pub use energies::BodyEnergy;
 pub use instant::Instant;
+pub(in crate::model) use letting_go::Numbers;
 pub use measures::{Energy, Measures};
 pub use order_at_rest::OrderAtRest;
 pub use rest::StaticForces;

@@ -125,13 +125,13 @@ impl Newton {
             self.tangent.clear();
             residual.fill(0.0);
             equations.linearise(u, residual, &mut self.tangent);
-            let factors = match self.tangent.factorise() {
+            let mut factors = match self.tangent.factorise() {
                 Ok(factors) => factors,
                 Err(source) => {
                     return Err(NewtonError::Linear { source, history: self.history.clone() });
                 }
             };
-            let mut imbalance = correct(equations, &factors, &mut self.correction, u, residual);
+            let mut imbalance = correct(equations, &mut factors, &mut self.correction, u, residual);
             let mut factor = 0.0;
             for left in (0..MOST_CORRECTIONS).rev() {
                 if !self.tolerance.is_worth_correcting(&imbalance, factor, left + 1) {
@@ -139,7 +139,7 @@ impl Newton {
                 }
                 let before = imbalance.largest();
                 equations.condense(residual);
-                imbalance = correct(equations, &factors, &mut self.correction, u, residual);
+                imbalance = correct(equations, &mut factors, &mut self.correction, u, residual);
                 factor = imbalance.largest() / before;
                 corrections += 1;
             }
@@ -160,7 +160,7 @@ impl Newton {
 /// Corrects `u` and the hidden unknowns for a condensed residual; leaves the residual and the imbalance after it.
 fn correct(
     equations: &mut impl Equations,
-    factors: &BorderedLu<'_>,
+    factors: &mut BorderedLu<'_>,
     correction: &mut Vec<f64>,
     u: &mut [f64],
     residual: &mut [f64],

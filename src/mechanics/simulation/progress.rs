@@ -1,10 +1,11 @@
 //! What a run has done so far: its work, its last step, and arrivals of sliders.
 
+use std::rc::Rc;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Arrival, ArrivalKind, Sample};
+use super::{Arrival, ArrivalKind, LetGo, Sample};
 use crate::integrators::Interval;
 use crate::newton::NewtonReport;
 
@@ -49,12 +50,14 @@ impl StepTaken {
     }
 }
 
-/// What a run has done so far: its work, its last step, its arrivals.
+/// What a run has done so far: its work, its last step, its arrivals, its releases.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Progress {
     pub(super) counts: WorkCounts,
     pub(super) last_step: StepTaken,
     pub(super) arrivals: Vec<Arrival>,
+    /// In the order in which it let go; shared with the states to go back to.
+    pub(super) let_go: Rc<[LetGo]>,
 }
 
 impl Progress {

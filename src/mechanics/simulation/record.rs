@@ -35,6 +35,15 @@ impl Record {
         Ok(record)
     }
 
+    /// Finds what sensors read in a model again, of which something has let go or has not.
+    ///
+    /// # Errors
+    /// When a sensor has nothing to read, which it had before.
+    pub(super) fn look_again(&mut self, scene: &Scene, model: &Model) -> Result<(), ModelError> {
+        self.sensing = Sensing::of(scene, model)?;
+        Ok(())
+    }
+
     /// Makes room in the record for so many steps.
     pub(super) fn reserve(&mut self, steps: usize) {
         let rows = self.recording.rows_of(steps);

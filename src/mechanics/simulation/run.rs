@@ -6,6 +6,7 @@ mod content;
 mod explain;
 mod frames;
 mod landing;
+mod letting_go;
 mod looking_inside;
 mod noting;
 mod recording;
@@ -86,7 +87,8 @@ impl Simulation {
         settings.method.check()?;
         model.divide(cores());
         let integrator = settings.method.build(&mut model, settings.tolerance);
-        let cuts = scene.schedules().flat_map(|(_, schedule)| schedule.breaks()).collect();
+        let breaks = scene.schedules().flat_map(|(_, schedule)| schedule.breaks());
+        let cuts = breaks.chain(scene.release_times()).collect();
         let (grid, adaptive) = match settings.dt {
             StepSize::Fixed(dt) => (TimeGrid::new(0.0, dt, cuts), None),
             StepSize::Adaptive(control) => {
@@ -237,6 +239,7 @@ impl Simulation {
             let next = if rows < MOST_PRETENDED { self.next_stop(end) } else { end };
             let dt = next - self.time();
             self.model.pass_time_to(next);
+            self.let_go_due()?;
             self.clock.grid.reach(next);
             self.progress.count_pretended(dt);
             self.keep_present();
@@ -244,6 +247,7 @@ impl Simulation {
         }
         if rows > 0 {
             self.pretend_arrivals();
+            self.pretend_releases()?;
         }
         Ok(())
     }
@@ -254,6 +258,9 @@ impl Simulation {
         monitor: &mut dyn Monitor,
     ) -> Result<(), SimulationError> {
         let begun = Instant::now();
+        if !self.scene.releases.is_empty() {
+            self.let_go_due()?;
+        }
         let stepped = match self.adaptive.take() {
             None => self.step_on_grid(limit, monitor),
             Some(mut adaptive) => {

@@ -1,11 +1,12 @@
 //! States that a simulation can go back to, as many as a limit of memory has room for.
 
 use std::collections::VecDeque;
+use std::rc::Rc;
 
-use super::WorkCounts;
 use super::controller::Pace;
 use super::halving::Halving;
 use super::progress::StepTaken;
+use super::{LetGo, WorkCounts};
 use crate::model::ModelState;
 
 /// A snapshot: what a simulation needs to be where it was, bit for bit.
@@ -18,6 +19,8 @@ pub(super) struct Snapshot {
     pub(super) rows: usize,
     pub(super) last_step: StepTaken,
     pub(super) arrivals: usize,
+    /// What had let go.
+    pub(super) let_go: Rc<[LetGo]>,
     pub(super) counts: WorkCounts,
     /// The number of grid points that were passed.
     pub(super) passed: u64,
@@ -152,6 +155,7 @@ mod tests {
             rows: 1,
             last_step: StepTaken::default(),
             arrivals: 0,
+            let_go: Rc::default(),
             counts: WorkCounts { steps, ..WorkCounts::default() },
             passed: 0,
             under_way: None,

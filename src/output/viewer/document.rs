@@ -147,7 +147,7 @@ fn packed_spring(spring: &Spring) -> Value {
         Anchor::Ground((x, y)) => json!({ "x": x, "y": y }),
     };
     let anchors = spring.anchors.iter().map(anchor).collect::<Vec<_>>();
-    json!({ "kind": spring.symbol.name(), "name": spring.name, "anchors": anchors })
+    json!({ "kind": spring.symbol.name(), "name": spring.name, "anchors": anchors, "until": spring.until })
 }
 
 /// A beam by its first point and its shape, which beams of the same mesh share.

@@ -68,7 +68,7 @@ pub struct Sign {
     pub at: Place,
     /// The direction in which it points [rad].
     pub angle: f64,
-    /// When it is gone: a slider that has left its beam.
+    /// When it is gone: a slider that has left its beam, a joint that has let go.
     pub until: Option<f64>,
 }
 
@@ -90,6 +90,8 @@ pub struct Spring {
     pub name: String,
     /// Where it is attached, in order.
     pub anchors: Vec<Anchor>,
+    /// When it is gone: one that has let go.
+    pub until: Option<f64>,
 }
 
 /// A load over time.

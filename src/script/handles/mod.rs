@@ -4,6 +4,7 @@ pub mod beam;
 pub mod equilibrium;
 pub mod events;
 pub mod history;
+pub mod joint;
 pub mod notes;
 pub mod report;
 pub mod rigid_body;

@@ -9,7 +9,7 @@ use crate::model::Scene;
 use crate::script::looks::details;
 use crate::script::rows::kind::{Details, Scripted};
 use crate::script::rows::stored::StoredFunction;
-use crate::script::words::error::ScriptError;
+use crate::script::words::error::{Place, ScriptError};
 
 /// A handle on a scene that a script holds.
 #[derive(Clone)]
@@ -19,6 +19,17 @@ pub struct SceneHandle {
     functions: Rc<RefCell<Vec<Rc<StoredFunction>>>>,
     /// Functions that loads and drives are told by at the start of every step.
     controllers: Rc<RefCell<Vec<Rc<Controller>>>>,
+    /// Functions that say when something lets go, with the index of its release.
+    conditions: Rc<RefCell<Vec<Condition>>>,
+}
+
+/// A function of the simulation that says whether something lets go.
+#[derive(Clone)]
+pub struct Condition {
+    /// The function of a script, called with the simulation.
+    pub function: Rc<StoredFunction>,
+    /// The index of the release in the scene.
+    pub release: usize,
 }
 
 /// A function of time and simulation whose value holds for a step.
@@ -33,7 +44,12 @@ impl SceneHandle {
     /// A new handle on a scene.
     pub fn new(scene: Scene) -> Self {
         let scene = Rc::new(RefCell::new(scene));
-        Self { scene, functions: Rc::default(), controllers: Rc::default() }
+        Self {
+            scene,
+            functions: Rc::default(),
+            controllers: Rc::default(),
+            conditions: Rc::default(),
+        }
     }
 
     /// The scene of the handle, to look at or to change it.
@@ -57,6 +73,31 @@ impl SceneHandle {
         let controller = Controller { function, value: Rc::clone(&value) };
         self.controllers.borrow_mut().push(Rc::new(controller));
         value
+    }
+
+    /// Keeps a function that says when the release that was described last happens.
+    pub fn keep_condition(&self, function: StoredFunction) {
+        let release = self.scene.borrow().releases.len() - 1;
+        let condition = Condition { function: Rc::new(function), release };
+        self.conditions.borrow_mut().push(condition);
+    }
+
+    /// The functions that say when something lets go.
+    pub fn conditions(&self) -> Vec<Condition> {
+        self.conditions.borrow().clone()
+    }
+
+    /// Refuses a scene of which functions are asked between steps: a study runs it without its script.
+    ///
+    /// # Errors
+    /// When a load or a drive has a controller, or a release a condition.
+    pub fn expect_unasked(&self) -> Result<(), ScriptError> {
+        if self.controllers.borrow().is_empty() && self.conditions.borrow().is_empty() {
+            return Ok(());
+        }
+        let told = "functions of the simulation, |t, q| … of a controller or when: |q| … of a release, are asked between steps, which a study does not do";
+        let hint = "give functions of time, |t| …, and the time of a release, or step the scene in a loop of your own";
+        Err(ScriptError::new(told).hint(hint).at(Place::Key("scene".into())))
     }
 
     /// The functions that are asked at the start of every step.

@@ -103,6 +103,7 @@ impl SimulationHandle {
             sensing: Sensing::new(
                 scene.functions(simulation.outside_columns()),
                 scene.controllers(),
+                scene.conditions(),
             ),
             name,
             scene,

@@ -8,7 +8,7 @@ pub use fields::{FIELDS, Inside};
 use super::symbols::{of_sliders, of_spring_kind, of_supports};
 use crate::beams::{self, Station};
 use crate::geometry::{Vec2, perpendicular};
-use crate::joints::Joint;
+use crate::joints::{Hold, Joint};
 use crate::loads::{Frame, Load, LoadKind, Side};
 use crate::model;
 use crate::output::Symbol;
@@ -160,24 +160,23 @@ fn bodies(simulation: &Simulation, shown: &Shown) -> Result<Vec<Body>, ScriptErr
 
 fn signs(simulation: &Simulation, shown: &Shown) -> Result<Vec<Sign>, ScriptError> {
     let scene = simulation.scene();
-    let releases = (0..scene.sliders.len()).map(|slider| simulation.release_of(slider));
-    let held = of_supports(scene).map(|sign| (sign, None));
-    held.chain(of_sliders(scene).zip(releases))
-        .map(|(sign, until)| {
+    of_supports(scene)
+        .chain(of_sliders(scene))
+        .map(|sign| {
             let place = simulation.place(&sign.at)?;
             Ok(Sign {
                 symbol: sign.symbol,
                 name: sign.name.to_owned(),
                 at: shown.place(&place),
                 angle: sign.pointing.angle(place.tangent_angle),
-                until,
+                until: sign.hold.and_then(|hold| simulation.release_of(hold)),
             })
         })
         .collect()
 }
 
 fn springs(simulation: &Simulation, shown: &Shown) -> Result<Vec<Spring>, ScriptError> {
-    let spring = |spring: &model::Spring| {
+    let spring = |(index, spring): (usize, &model::Spring)| {
         let anchor = |anchor: &model::Anchor| {
             Ok(match anchor {
                 model::Anchor::Station(at) => Anchor::Moving(shown.station(simulation, at)?),
@@ -185,9 +184,11 @@ fn springs(simulation: &Simulation, shown: &Shown) -> Result<Vec<Spring>, Script
             })
         };
         let anchors = spring.anchors().iter().map(anchor).collect::<Result<_, ScriptError>>()?;
-        Ok(Spring { symbol: of_spring_kind(spring), name: spring.name.clone(), anchors })
+        let until = simulation.release_of(Hold::Spring(index));
+        let (symbol, name) = (of_spring_kind(spring), spring.name.clone());
+        Ok(Spring { symbol, name, anchors, until })
     };
-    simulation.scene().springs().map(spring).collect()
+    simulation.scene().springs().enumerate().map(spring).collect()
 }
 
 fn trails(

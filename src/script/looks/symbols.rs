@@ -3,7 +3,7 @@
 use crate::beams::Station;
 use crate::elementary::atan2;
 use crate::geometry::Vec2;
-use crate::joints::{Component, Components, Joint, JointKind, Partner};
+use crate::joints::{Component, Components, Hold, Joint, JointKind, Partner};
 use crate::loads::{Frame, Load, LoadKind, Schedule, Side};
 use crate::model::{Anchor, Drive, Model, ModelError, Scene, Spring, SpringKind};
 use crate::output::{PlacedSymbol, Symbol};
@@ -25,6 +25,8 @@ pub struct Sign<'a> {
     pub at: Station,
     /// Where it points.
     pub pointing: Pointing,
+    /// What it is of those that may let go.
+    pub hold: Option<Hold>,
 }
 
 /// Where a symbol points.
@@ -62,17 +64,17 @@ pub struct SceneAt<'a> {
     pub scene: &'a Scene,
     /// The time.
     pub time: f64,
-    /// Sliders that have left their masters, by their index.
-    pub released: Vec<usize>,
+    /// What has let go.
+    pub released: Vec<Hold>,
 }
 
 impl<'a> SceneAt<'a> {
     /// That of a simulation.
     pub fn of(simulation: &'a Simulation, time: f64) -> Self {
         let scene = simulation.scene();
-        let is_gone =
-            |slider: &usize| simulation.release_of(*slider).is_some_and(|release| release < time);
-        Self { scene, time, released: (0..scene.sliders.len()).filter(is_gone).collect() }
+        let holds = scene.holds().into_iter().map(|(_, hold)| hold);
+        let is_gone = |hold: &Hold| simulation.release_of(*hold).is_some_and(|at| at < time);
+        Self { scene, time, released: holds.filter(is_gone).collect() }
     }
 
     /// That of an equilibrium, under all of its loads.
@@ -99,13 +101,15 @@ pub fn symbols(
     places: impl FnOnce(&[Station]) -> Result<Vec<Vec2>, ModelError>,
 ) -> Result<Vec<PlacedSymbol>, ModelError> {
     let SceneAt { scene, time, .. } = *at;
-    let holding = |(index, _): &(usize, _)| !at.released.contains(index);
-    let sliders = of_sliders(scene).enumerate().filter(holding).map(|(_, sign)| sign);
-    let unplaced: Vec<Sign> =
-        of_supports(scene).chain(sliders).chain(of_loads(scene, time)).collect();
+    let is_there = |sign: &Sign| sign.hold.is_none_or(|hold| !at.released.contains(&hold));
+    let held = of_supports(scene).chain(of_sliders(scene)).filter(is_there);
+    let unplaced: Vec<Sign> = held.chain(of_loads(scene, time)).collect();
     // For each its place, and one before and one behind it on its beam; then those of springs.
     let around = unplaced.iter().flat_map(|symbol| around(scene, &symbol.at));
-    let of_springs = scene.springs().flat_map(|spring| spring.stations()).copied();
+    let springs = scene.springs().enumerate();
+    let springs = springs.filter(|(index, _)| !at.released.contains(&Hold::Spring(*index)));
+    let springs = springs.map(|(_, spring)| spring);
+    let of_springs = springs.clone().flat_map(|spring| spring.stations()).copied();
     let found = places(&around.chain(of_springs).collect::<Vec<_>>())?;
     let (found, of_springs) = found.split_at(3 * unplaced.len());
     let placed = unplaced.iter().zip(found.chunks_exact(3)).map(|(symbol, found)| {
@@ -114,7 +118,7 @@ pub fn symbols(
         PlacedSymbol { symbol: symbol.symbol, at: plain(found[0]), direction: plain(direction) }
     });
     let mut ends = of_springs.iter().copied();
-    Ok(placed.chain(scene.springs().flat_map(|spring| of_spring(spring, &mut ends))).collect())
+    Ok(placed.chain(springs.flat_map(|spring| of_spring(spring, &mut ends))).collect())
 }
 
 /// The symbols of a spring, whose stations come next among the places found: a tendon has one for each part of its way.
@@ -163,13 +167,15 @@ pub fn of_spring_kind(spring: &Spring) -> Symbol {
 
 /// The signs of joints and supports, and of what gives motions.
 pub fn of_supports(scene: &Scene) -> impl Iterator<Item = Sign<'_>> {
-    let joints = scene.joints.iter().map(|joint| of_joint(scene, joint));
+    let joints = scene.joints.iter().enumerate();
+    let joints = joints.map(|(index, joint)| of_joint(scene, joint, Hold::Joint(index)));
     joints.chain(scene.drives.iter().flat_map(|drive| of_drive(scene, drive)))
 }
 
 /// The signs of all sliders, in their order.
 pub fn of_sliders(scene: &Scene) -> impl Iterator<Item = Sign<'_>> {
-    scene.sliders.iter().map(|slider| Sign {
+    scene.sliders.iter().enumerate().map(|(index, slider)| Sign {
+        hold: Some(Hold::Slider(index)),
         symbol: Symbol::Slider,
         name: &slider.name,
         at: slider.slave,
@@ -177,7 +183,7 @@ pub fn of_sliders(scene: &Scene) -> impl Iterator<Item = Sign<'_>> {
     })
 }
 
-fn of_joint<'a>(scene: &Scene, joint: &'a Joint) -> Sign<'a> {
+fn of_joint<'a>(scene: &Scene, joint: &'a Joint, hold: Hold) -> Sign<'a> {
     let at = joint.station;
     let (symbol, pointing) = match (joint.kind, joint.partner) {
         (JointKind::Hinge, Partner::Ground) => of_held(scene, &at, Components::Position),
@@ -186,7 +192,7 @@ fn of_joint<'a>(scene: &Scene, joint: &'a Joint) -> Sign<'a> {
         (JointKind::Hinge, Partner::Station(_)) => (Symbol::Joint, away(scene, &at)),
         (JointKind::Rigid, Partner::Station(_)) => (Symbol::RigidJoint, away(scene, &at)),
     };
-    Sign { symbol, name: &joint.name, at, pointing }
+    Sign { symbol, name: &joint.name, at, pointing, hold: Some(hold) }
 }
 
 /// The symbol of what the ground holds at a station, and where that points.
@@ -216,7 +222,8 @@ fn of_drive<'a>(scene: &Scene, drive: &'a Drive) -> Vec<Sign<'a>> {
             |motion| !matches!(motion.schedule(), Schedule::Constant(to) if *to == 0.0),
         )
     };
-    let sign = |(symbol, pointing)| Sign { symbol, name: &drive.name, at: drive.station, pointing };
+    let (name, at) = (drive.name.as_str(), drive.station);
+    let sign = |(symbol, pointing)| Sign { symbol, name, at, pointing, hold: None };
     let along = [(Component::X, Vec2::x()), (Component::Y, Vec2::y())];
     let carried = along.into_iter().filter(|(component, _)| is_moved(*component));
     let mut signs: Vec<Sign> =
@@ -242,11 +249,11 @@ fn of_loads(scene: &Scene, time: f64) -> impl Iterator<Item = Sign<'_>> {
             _ if factor == 0.0 => Vec::new(),
             LoadKind::Force { station, force, frame } => {
                 let pointing = pointing(force * factor, frame);
-                vec![Sign { symbol: Symbol::Force, name, at: station, pointing }]
+                vec![Sign { symbol: Symbol::Force, name, at: station, pointing, hold: None }]
             }
             LoadKind::Moment { station, moment } => {
                 let pointing = Pointing::To(Vec2::x() * (moment * factor));
-                vec![Sign { symbol: Symbol::Moment, name, at: station, pointing }]
+                vec![Sign { symbol: Symbol::Moment, name, at: station, pointing, hold: None }]
             }
             LoadKind::Line { beam, force, frame } => {
                 let length = scene.beams[beam].axis.length();
@@ -255,6 +262,7 @@ fn of_loads(scene: &Scene, time: f64) -> impl Iterator<Item = Sign<'_>> {
                     name,
                     at: Station::on_beam(beam, length * (index as f64 + 0.5) / ARROWS as f64),
                     pointing: pointing(force * factor, frame),
+                    hold: None,
                 };
                 (0..ARROWS).map(arrow).collect()
             }

@@ -2,7 +2,7 @@
 
 use rhai::{Dynamic, ImmutableString};
 
-use super::scenes::{SCENE, STATION};
+use super::scenes::{JOINT, SCENE, STATION, newest_joint};
 use super::schedules::{SCHEDULE_KINDS, controlled_schedule_of, schedule_of};
 use crate::geometry::Vec2;
 use crate::joints::{Component, Components, JointKind, Partner};
@@ -13,6 +13,7 @@ use crate::script::handles::station::here;
 use crate::script::rows::call::Call;
 use crate::script::rows::options::Options;
 use crate::script::rows::parameter::{Parameter, boolean, either, object, options, point, text};
+use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, method};
 use crate::script::words::error::{Place, ScriptError};
 
@@ -28,6 +29,7 @@ pub const TABLE: Table = Table {
     constants: &[],
     rows: &[
         method(SCENE, "support", &[AT, options("options", SUPPORT_KEYS)], support)
+            .returns(Returns::object(JOINT))
             .summary("Holds some of the movements of a station on the ground: x, y, angle, or all across a direction.")
             .doc("A roller on a floor is #{ y: true }; along: [1, 0] says the same by the direction in which it stays free. \
                   What holds everything is scene.clamp, what holds the position scene.hinge.")
@@ -102,7 +104,7 @@ fn support(call: &mut Call) -> Result<Dynamic, ScriptError> {
             .at(Place::Argument(1)));
     };
     scene.borrow_mut().join(JointKind::Support(held), station, Partner::Ground)?;
-    Ok(Dynamic::UNIT)
+    newest_joint(call)
 }
 
 /// The component that is held where a station stays free along a direction.

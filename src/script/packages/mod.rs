@@ -24,6 +24,7 @@ pub mod pictures;
 mod precision_studies;
 mod reading_options;
 mod recording;
+mod releases;
 mod saving;
 mod scenes;
 mod schedules;
@@ -75,6 +76,7 @@ pub const TABLES: &[&Table] = &[
     &time_travel::TABLE,
     &saving::TABLE,
     &sliding::TABLE,
+    &releases::TABLE,
     &histories::TABLE,
     &statistics::TABLE,
     &explaining::TABLE,

@@ -13,6 +13,7 @@ use crate::model::{
     BeamDefinition, ModelError, ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity,
 };
 use crate::script::handles::beam::BeamHandle;
+use crate::script::handles::joint::JointHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::section::SectionHandle;
 use crate::script::handles::station::{StationHandle, here};
@@ -31,7 +32,7 @@ use crate::script::words::numbers::format_number;
 pub const TABLE: Table = Table {
     name: "scenes",
     doc: "A scene is a description: beams, particles, joints, masses and loads. scene.start(…) makes a simulation of it.",
-    types: &[SCENE, BEAM, STATION],
+    types: &[SCENE, BEAM, STATION, JOINT],
     setup: ROD,
     constants: &[],
     rows: &[
@@ -92,15 +93,18 @@ pub const TABLE: Table = Table {
             .summary("Its name.")
             .example("check(new_scene(\"pendulum\").name == \"pendulum\");"),
         method(SCENE, "clamp", &[AT], |call| join(call, JointKind::Rigid))
+            .returns(Returns::object(JOINT))
             .summary("Holds position and angle of a station.")
             .doc("Inside a beam the mesh becomes only C0 there, so that the shear force can jump.")
             .example("scene.clamp(rod.start);")
             .see(&["hinge", "rigid"]),
         method(SCENE, "hinge", &[AT, OTHER], |call| join(call, JointKind::Hinge))
+            .returns(Returns::object(JOINT))
             .summary("Holds the position of a station, or joins two stations that stay free to turn against each other.")
             .example("scene.hinge(rod.start);")
-            .see(&["clamp", "rigid"]),
+            .see(&["clamp", "rigid", "release"]),
         method(SCENE, "rigid", &[AT, object("other", STATION)], |call| join(call, JointKind::Rigid))
+            .returns(Returns::object(JOINT))
             .summary("Joins two stations in position and angle, as drawn.")
             .example(
                 "let arm = scene.beam(#{ axis: line([2, 0], [2, 1]), basis: bspline(4), section: s });\n\
@@ -164,6 +168,8 @@ pub const SCENE: Type = Type::of::<SceneHandle>();
 pub const BEAM: Type = Type::of::<BeamHandle>();
 /// The station type of the language, for rows of other domains.
 pub const STATION: Type = Type::of::<StationHandle>();
+/// The joint type of the language, for rows of other domains.
+pub const JOINT: Type = Type::of::<JointHandle>();
 
 /// Spans of a beam whose basis is not given.
 const SPANS: usize = 16;
@@ -264,5 +270,12 @@ fn join(call: &mut Call, kind: JointKind) -> Result<Dynamic, ScriptError> {
     let partner =
         if call.has("other") { Partner::Station(here(call, "other")?.0) } else { Partner::Ground };
     scene.borrow_mut().join(kind, station, partner)?;
-    Ok(Dynamic::UNIT)
+    newest_joint(call)
+}
+
+/// The joint that was added last to the scene whose method is called.
+pub(super) fn newest_joint(call: &Call) -> Result<Dynamic, ScriptError> {
+    let scene = call.receiver::<SceneHandle>()?;
+    let index = scene.scene().borrow().joints.len() - 1;
+    Ok(Dynamic::from(JointHandle { scene, index }))
 }

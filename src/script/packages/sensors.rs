@@ -3,7 +3,7 @@
 use rhai::{Array, Dynamic, FnPtr, Map};
 
 use super::equilibria::EQUILIBRIUM;
-use super::scenes::{BEAM, SCENE, STATION};
+use super::scenes::{BEAM, JOINT, SCENE, STATION};
 use super::simulations::SIMULATION;
 use super::sliding::{SLIDER, SliderHandle};
 use super::statistics::map;
@@ -13,12 +13,13 @@ use crate::geometry::Vec2;
 use crate::model::{Instant, ModelError, Scene, SectionSample};
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::equilibrium::EquilibriumHandle;
+use crate::script::handles::joint::JointHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::rows::call::Call;
-use crate::script::rows::kind::Scripted;
-use crate::script::rows::parameter::{Parameter, callback, number, object, text};
+use crate::script::rows::kind::{Kind, Scripted};
+use crate::script::rows::parameter::{Parameter, callback, either, number, object, text};
 use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Table, method};
 use crate::script::words::error::{Place, ScriptError};
@@ -110,10 +111,11 @@ pub const TABLE: Table = Table {
         )
         .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\nlet given = sim.reaction(rod.start);\ncheck(norm(given.force) > 1 && given.moment == 0);")
         .see(&["joint_force", "section_forces", "record"]),
-        method(SIMULATION, "joint_force", &[text("joint").doc("hinge1, clamp1 or rigid1: its kind, and the how-manieth of that")], joint_force)
+        method(SIMULATION, "joint_force", &[WHICH], joint_force)
             .returns(Returns::MAP)
             .summary("What a joint gives to the station that was named first: force, a vector, and moment.")
-            .doc("At the present moment, by the equations of motion, of second order in the step size as those of `reaction`. A joint with the ground is a support.")
+            .doc("At the present moment, by the equations of motion, of second order in the step size as those of `reaction`. A joint with the ground is a support. It is what scene.hinge gave, or its name: its kind, and \
+                  the how-manieth of that. One that has let go gives nothing.")
             .example("let sim = scene.start(#{ dt: 0.01 });\ncheck(sim.joint_force(\"hinge1\").force == sim.reaction(rod.start).force);")
             .see(&["reaction"]),
         method(SIMULATION, "present_contact_force", &[object("slider", SLIDER)], |call| {
@@ -190,6 +192,7 @@ const HANGING: &str = "let scene = new_scene(\"example\");\n\
     scene.gravity([0, -9.81]);";
 
 const AT: Parameter = object("station", STATION);
+const WHICH: Parameter = either("joint", &[Kind::Object(JOINT), Kind::Text]);
 const S: Parameter = number("s")
     .unit("length")
     .doc("arc length from the start, as drawn; along the beam if not given")
@@ -220,9 +223,16 @@ fn record(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 fn joint_force(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let (handle, name) = (call.receiver::<SimulationHandle>()?, call.text("joint")?);
+    let handle = call.receiver::<SimulationHandle>()?;
+    let name = match call.get_if::<JointHandle>("joint") {
+        Some(joint) => {
+            handle.scene().expect_same(&joint.scene, "joint")?;
+            joint.name()
+        }
+        None => call.text("joint")?.into(),
+    };
     let names = handle.simulation().scene().joint_names();
-    let found = names.iter().position(|other| *other == name.as_str());
+    let found = names.iter().position(|other| *other == name);
     let joint =
         found.ok_or_else(|| unknown(call, &name, "joint", names.iter().map(String::as_str)))?;
     let (now, joint): (Instant, _) = handle.look(|simulation| {

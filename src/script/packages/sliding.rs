@@ -183,6 +183,11 @@ impl SliderHandle {
         self.scene.scene().borrow().sliders[self.index].name.clone()
     }
 
+    /// Its index in a scene, if it is one of it.
+    pub(super) fn within(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
+        scene.expect_same(&self.scene, "slider").map(|()| self.index)
+    }
+
     /// Its index in a simulation, if that is one of its scene.
     pub(super) fn on(&self, handle: &SimulationHandle) -> Result<usize, ScriptError> {
         self.among(handle.scene(), handle.simulation().scene())

@@ -101,7 +101,7 @@ pub const TABLE: Table = Table {
 };
 
 /// The spring type.
-const SPRING: Type = Type::of::<SpringHandle>();
+pub(super) const SPRING: Type = Type::of::<SpringHandle>();
 
 const WHICH: Parameter = object("spring", SPRING);
 const PLACE: &[Kind] = &[Kind::Object(STATION), Kind::Point];
@@ -164,6 +164,11 @@ pub(super) struct SpringHandle {
 }
 
 impl SpringHandle {
+    /// Its index in a scene, if it is one of it.
+    pub(super) fn within(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
+        scene.expect_same(&self.scene, "spring").map(|()| self.index)
+    }
+
     fn described<T>(&self, ask: impl FnOnce(&Spring) -> T) -> Option<T> {
         self.scene.scene().borrow().springs().nth(self.index).map(ask)
     }

@@ -49,6 +49,7 @@ pub fn case(
             .hint("its last expression is the scene, or a map: #{ scene: scene, dt: 0.1, end: 5 }")
             .at(Place::Key("scene".into()))
     })?;
+    scene.expect_unasked()?;
     let missing = |name: &str| {
         call.error(format!("no '{name}' is given")).hint(format!(
             "as an option of the study, among its values, or in what the function gives: #{{ scene: scene, {name}: 0.1 }}"

@@ -64,7 +64,11 @@ pub fn cases(call: &Call, options: &CostOptions, way: Way) -> Result<Vec<CostCas
                 .at(Place::Key("scene".into()))
         })
     };
-    let fresh = || handle().map(|handle| handle.scene().borrow().clone());
+    let fresh = || {
+        let handle = handle()?;
+        handle.expect_unasked()?;
+        Ok::<_, ScriptError>(handle.scene().borrow().clone())
+    };
     let mut cases = Vec::new();
     for name in PLAIN {
         cases.push(way.case(name, fresh()?));

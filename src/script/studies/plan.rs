@@ -274,6 +274,7 @@ fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<Subject, ScriptE
         Some(map) => map.get("scene").and_then(|scene| scene.clone().try_cast()),
     };
     let handle = handle.ok_or_else(refused)?;
+    handle.expect_unasked()?;
     if let Some(unknown) =
         map.iter().flat_map(Map::keys).find(|key| !["scene", "stations"].contains(&key.as_str()))
     {

@@ -129,6 +129,9 @@ fn on_archive(error: &ArchiveError) -> Option<String> {
         ArchiveError::Function { .. } => {
             "use hold_for, ramp, pulse, smooth_pulse, sine or table, or sums and products of them"
         }
+        ArchiveError::Release { .. } => {
+            "save the simulation when that has let go, or say the time: #{ at: 0.5 }"
+        }
         ArchiveError::Sensor { .. } => "record ready quantities such as \"rod.end.x\"",
         ArchiveError::Foreign => "files of simulations are those that sim.save(…) has written",
         ArchiveError::Content { .. } => {

@@ -1,6 +1,6 @@
 //! The rule that keeps energy, both momenta and the gap.
 
-use super::contact::AXES;
+use super::contact::{AXES, WayVector};
 use super::{CONTACT_UNKNOWNS, Contact, ContactUnknowns, Equation, SlidingLaw, Unit};
 use crate::elementary::square;
 use crate::geometry::{cross, perpendicular};
@@ -20,14 +20,14 @@ pub struct Conserving;
 impl SlidingLaw for Conserving {
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
         let [gap_x, gap_y] = contact.closed();
-        let [couple_x, couple_y] = balanced_moment(contact);
-        [gap_x, gap_y, couple_x, couple_y, kept_energy(contact)]
+        let (tangent, swing) = (contact.tangent(), contact.swing());
+        let [couple_x, couple_y] = balanced_moment(contact, tangent, swing);
+        [gap_x, gap_y, couple_x, couple_y, kept_energy(contact, tangent, swing)]
     }
 }
 
 /// `(|τ|² η + (d × λ) Jτ)/ℓ² = 0`: `d × λ + τ × η = 0` with the smallest `η`.
-fn balanced_moment(contact: &Contact<'_>) -> [Equation; 2] {
-    let (tangent, swing) = (contact.tangent(), contact.swing());
+fn balanced_moment(contact: &Contact<'_>, tangent: WayVector, swing: WayVector) -> [Equation; 2] {
     let ContactUnknowns { force, couple, .. } = contact.unknowns;
     let scale = 1.0 / square(contact.length);
     let (square, moment) = (tangent.value.norm_squared(), cross(swing.value, force));
@@ -48,10 +48,10 @@ fn balanced_moment(contact: &Contact<'_>) -> [Equation; 2] {
 }
 
 /// `(λ·τ + 4 η·d)/ℓ = 0`: the contact does no work.
-fn kept_energy(contact: &Contact<'_>) -> Equation {
+fn kept_energy(contact: &Contact<'_>, tangent: WayVector, swing: WayVector) -> Equation {
     let ContactUnknowns { force, couple, .. } = contact.unknowns;
-    let (swing, scale) = (contact.swing(), 1.0 / contact.length);
-    let mut equation = contact.frictionless(contact.tangent());
+    let scale = 1.0 / contact.length;
+    let mut equation = contact.frictionless(tangent);
     equation.value += 4.0 * couple.dot(&swing.value) * scale;
     equation.by_difference = (force * 0.5 + couple) * scale;
     equation.by_unknowns.couple = swing.value * (4.0 * scale);

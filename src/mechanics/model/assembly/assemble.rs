@@ -4,9 +4,9 @@ use super::numbering::{LinkPlace, Numbering};
 use crate::beams::{BodyDynamics, Mesh, Place, RigidPoints, SectionVariation, Station, discretise};
 use crate::elementary::square;
 use crate::geometry::{GeometryError, Vec2, interpolate};
-use crate::joints::{CONTACT_UNKNOWNS, Partner};
+use crate::joints::{CONTACT_UNKNOWNS, Hold, Joint, Partner, Slider};
 use crate::model::bodies::{Bodies, Body, Tracker};
-use crate::model::elements::{Elements, Site, Weight};
+use crate::model::elements::{Elements, PrescribedMovements, Site, Supports, Weight};
 use crate::model::motion::Motion;
 use crate::model::rigid_links::{RigidLink, RigidLinks};
 use crate::model::scene::same_place;
@@ -36,13 +36,21 @@ impl Model {
         }
         let assembly = Assembly::new(scene)?;
         let border = CONTACT_UNKNOWNS * scene.sliders.len();
+        let own: Vec<&dyn BodyDynamics> = assembly.bodies.iter().map(|body| &**body).collect();
         let numbering =
-            Numbering::new(scene, &assembly.bodies, border, |station| assembly.place(station))?;
-        let sliders = Sliders::new(assembly.sliders(&numbering)?);
+            Numbering::new(scene, &[], &own, border, |station| assembly.place(station))?;
+        let sliders = assembly.sliders(&numbering)?;
+        let blocks = numbering.contact_blocks(&sliders);
+        let sliders = Sliders::new(sliders, blocks);
         let elements = assembly.elements()?;
         let links = assembly.links(&numbering);
-        let (trackers, joined) = (assembly.trackers()?, assembly.joined()?);
-        let (supports, prescribed, unknowns) = numbering.supports_and_unknowns(scene, border)?;
+        let trackers = assembly.trackers()?;
+        let joined = joined(scene, &[], &assembly.meshes)?;
+        let (movements, held, unknowns) = numbering.supports_and_unknowns(scene, &[], border);
+        let (movements, prescribed) =
+            PrescribedMovements::new(movements, scene.drives.iter(), unknowns.count(), border)
+                .map_err(|(drive, source)| ModelError::DriveValue { drive, source })?;
+        let supports = Supports::new(movements, held);
         let mut rates = assembly.start_rates(&numbering, border, &prescribed)?;
         rates.extend(prescribed);
         let mass = assembly.mass();
@@ -112,13 +120,26 @@ impl<'a> Assembly<'a> {
         let mut points =
             beams.chain(particles).chain(rigid).collect::<Result<Vec<_>, ModelError>>()?;
         // A slave may be on a master that slides itself: its own place is right once that of its master is.
+        let place = |slider: &Slider| {
+            Ok((
+                self.place_at(slider.master, self.slider_parameter(slider)?)?,
+                self.nodes_at(&slider.slave)?,
+            ))
+        };
+        let places =
+            self.scene.sliders.iter().map(place).collect::<Result<Vec<_>, ModelError>>()?;
         for _ in &self.scene.sliders {
-            for slider in &self.scene.sliders {
-                let place = self.place_at(slider.master, self.slider_parameter(slider)?)?;
+            let mut is_settled = true;
+            for (slider, (place, nodes)) in self.scene.sliders.iter().zip(&places) {
                 let target = place.interpolate(&points[slider.master]);
-                for node in self.nodes_at(&slider.slave)? {
-                    points[node.body][node.nearest_control_point()] = target;
+                for node in nodes {
+                    let point = &mut points[node.body][node.nearest_control_point()];
+                    is_settled &= *point == target;
+                    *point = target;
                 }
+            }
+            if is_settled {
+                break;
             }
         }
         Ok(points)
@@ -140,16 +161,6 @@ impl<'a> Assembly<'a> {
             }
         }
         stations.iter().map(|station| self.place(station)).collect()
-    }
-
-    fn joined(&self) -> Result<Vec<(Place, Place)>, ModelError> {
-        let pair = |joint: &crate::joints::Joint| match &joint.partner {
-            Partner::Ground => None,
-            Partner::Station(other) => {
-                Some(self.place(&joint.station).and_then(|place| Ok((place, self.place(other)?))))
-            }
-        };
-        self.scene.joints.iter().filter_map(pair).collect()
     }
 
     /// Starts and ends of all beams, then the stations of the scene, then the rigid bodies.
@@ -218,6 +229,22 @@ impl Site for Assembly<'_> {
     fn wrong(&self, beam: usize, error: GeometryError) -> ModelError {
         ModelError::geometry(&self.scene.beams[beam].name)(error)
     }
+}
+
+/// The places that joints of a scene hold together which were not released, on meshes of its beams.
+pub fn joined(
+    scene: &Scene,
+    released: &[Hold],
+    meshes: &[Mesh],
+) -> Result<Vec<(Place, Place)>, ModelError> {
+    let pair = |(at, joint): (usize, &Joint)| match &joint.partner {
+        Partner::Station(other) if !released.contains(&Hold::Joint(at)) => {
+            let place = scene.place(&joint.station, meshes);
+            Some(place.and_then(|place| Ok((place, scene.place(other, meshes)?))))
+        }
+        _ => None,
+    };
+    scene.joints.iter().enumerate().filter_map(pair).collect()
 }
 
 fn mesh_with_nodes<'s>(

@@ -51,7 +51,7 @@ impl InitialNumbering {
     pub fn coupled(
         &self,
         scene: &Scene,
-        bodies: &[Box<dyn BodyDynamics>],
+        bodies: &[&dyn BodyDynamics],
         tied: &mut TiedComponents,
         place: &impl Fn(&Station) -> Result<Place, ModelError>,
     ) -> Result<Vec<Vec<usize>>, ModelError> {
@@ -90,7 +90,7 @@ impl InitialNumbering {
     }
 
     /// The unknowns of control points of bodies, in rising order.
-    fn numbers(
+    pub fn numbers(
         &self,
         points: impl Iterator<Item = (usize, usize)>,
         tied: &mut TiedComponents,

@@ -1,7 +1,9 @@
 //! From a scene to a model: meshes with nodes where joints are, numbers, elements, sliders and start velocities.
 
 mod assemble;
+mod contact_blocks;
 mod initial_numbering;
+mod letting_go;
 mod numbering;
 mod redundancy;
 mod rigid_links;

@@ -3,10 +3,10 @@
 use super::initial_numbering::InitialNumbering;
 use super::tied_components::{GROUND, TiedComponents};
 use crate::beams::{BodyDynamics, Place, Station};
-use crate::joints::Component;
+use crate::joints::{Component, Hold};
 use crate::linalg::reverse_cuthill_mckee;
 use crate::model::ModelError;
-use crate::model::elements::{PrescribedMovement, PrescribedMovements, Support, Supports};
+use crate::model::elements::{PrescribedMovement, Support};
 use crate::model::motion::{UnknownKind, Unknowns};
 use crate::model::scene::Scene;
 
@@ -26,6 +26,8 @@ pub struct Numbering {
     /// The two unknowns of the force of each rigid link, among those of the movements that it couples.
     pub links: Vec<LinkPlace>,
     pub unknowns: usize,
+    /// The unknowns that are coupled with each other.
+    pub groups: Vec<Vec<usize>>,
     /// Of the supported ones, those that are prescribed stand first.
     prescribed: usize,
     supported: usize,
@@ -34,16 +36,17 @@ pub struct Numbering {
 
 impl Numbering {
     /// Numbers the movements of bodies; `place` finds the stations of joints on their meshes. Constraints with `border`
-    /// unknowns stand between the unknown and the supported movements.
+    /// unknowns stand between the unknown and the supported movements. Joints and drives that were `released` tie nothing.
     pub fn new(
         scene: &Scene,
-        bodies: &[Box<dyn BodyDynamics>],
+        released: &[Hold],
+        bodies: &[&dyn BodyDynamics],
         border: usize,
         place: impl Fn(&Station) -> Result<Place, ModelError>,
     ) -> Result<Self, ModelError> {
-        let mut tied = TiedComponents::new(scene, bodies, &place)?;
+        let mut tied = TiedComponents::new(scene, released, bodies, &place)?;
         let initial = InitialNumbering::new(scene, &mut tied)?;
-        let groups = initial.coupled(scene, bodies, &mut tied, &place)?;
+        let mut groups = initial.coupled(scene, bodies, &mut tied, &place)?;
         let ordering = reverse_cuthill_mckee(initial.unknowns, &groups);
         let unknowns = initial.unknowns;
 
@@ -72,17 +75,34 @@ impl Numbering {
             });
             degrees_of_freedom.push(points.collect());
         }
-        let half_bandwidth = ordering.half_bandwidth;
-        Ok(Self { degrees_of_freedom, links, unknowns, prescribed, supported, half_bandwidth })
+        // What acts at a point couples its movements, which stand side by side whatever else is coupled.
+        for (index, body) in bodies.iter().enumerate().filter(|(_, body)| body.order() == 1) {
+            for point in 0..body.control_points().len() {
+                groups.push(initial.numbers([(index, point)].into_iter(), &mut tied));
+            }
+        }
+        for member in groups.iter_mut().flatten() {
+            *member = ordering.position[*member];
+        }
+        Ok(Self {
+            degrees_of_freedom,
+            links,
+            unknowns,
+            groups,
+            prescribed,
+            supported,
+            half_bandwidth: ordering.half_bandwidth,
+        })
     }
 
-    /// The supports in the order of their degrees of freedom, the rates at which those begin that are prescribed, and the unknowns; constraints with `border`
-    /// unknowns stand between.
+    /// The supports in the order of their degrees of freedom, those that move as is prescribed and those that do not move, and the unknowns; constraints
+    /// with `border` unknowns stand between.
     pub fn supports_and_unknowns(
         &self,
         scene: &Scene,
+        released: &[Hold],
         border: usize,
-    ) -> Result<(Supports, Vec<f64>, Unknowns), ModelError> {
+    ) -> (Vec<PrescribedMovement>, Vec<Support>, Unknowns) {
         let mut kinds = vec![UnknownKind::Position; self.unknowns];
         let mut supports =
             vec![Support { body: 0, point: 0, component: Component::X }; self.supported];
@@ -103,16 +123,12 @@ impl Numbering {
             kinds[at] = UnknownKind::Force;
         }
         let held = supports.split_off(self.prescribed);
-        let motions = scene.drives.iter().enumerate();
-        let motions = motions.flat_map(|(drive, of)| of.motions().map(move |(_, at)| (drive, at)));
+        let drives = scene.drives.iter().enumerate();
+        let drives = drives.filter(|(drive, _)| !released.contains(&Hold::Drive(*drive)));
+        let motions = drives.flat_map(|(drive, of)| of.motions().map(move |(_, at)| (drive, at)));
         let movements = supports.into_iter().zip(motions).map(|(support, (drive, motion))| {
             PrescribedMovement { support, drive, motion: motion.clone() }
         });
-        let drives = scene.drives.iter().map(|drive| drive.name.clone());
-        let (movements, rates) =
-            PrescribedMovements::new(movements.collect(), drives, self.unknowns, border)
-                .map_err(|(drive, source)| ModelError::DriveValue { drive, source })?;
-        let unknowns = Unknowns::new(kinds, self.half_bandwidth);
-        Ok((Supports::new(movements, held), rates, unknowns))
+        (movements.collect(), held, Unknowns::new(kinds, self.half_bandwidth, released))
     }
 }

@@ -20,6 +20,7 @@ impl Assembly<'_> {
     pub fn sliders(&self, numbering: &Numbering) -> Result<Vec<Sliding>, ModelError> {
         let mut sliders: Vec<Sliding> = Vec::new();
         let mut kink_lengths = vec![None; self.scene.beams.len()];
+        let mut passages: Vec<Option<Passage>> = vec![None; self.scene.beams.len()];
         for (index, slider) in self.scene.sliders.iter().enumerate() {
             let place = self.place(&slider.slave)?;
             let slave = (place.body, place.nearest_control_point());
@@ -41,8 +42,9 @@ impl Assembly<'_> {
                 (&self.scene.beams[slider.master], self.mesh(slider.master).basis());
             let track = Track::new(beam.axis.clone(), basis.domain());
             let bars = (bar(beam), self.scene.beams.get(slave.0).map(bar));
-            let (passage, parameter) =
-                (Passage::new(basis.clone()), self.slider_parameter(slider)?);
+            let parameter = self.slider_parameter(slider)?;
+            let passage = &mut passages[slider.master];
+            let passage = passage.get_or_insert_with(|| Passage::new(basis.clone())).clone();
             let axis = self.kinked_axis(slider, &mut kink_lengths)?;
             sliders.push(Sliding::new(slider, connection, passage, parameter, track, bars, axis));
         }

@@ -1,7 +1,7 @@
 //! Components of control points that move as one: the classes of the relation "tied".
 
 use crate::beams::{BodyDynamics, Place, Station};
-use crate::joints::{Component, Partner};
+use crate::joints::{Component, Hold, Partner};
 use crate::model::ModelError;
 use crate::model::scene::{Scene, Ties};
 
@@ -20,10 +20,11 @@ pub struct TiedComponents {
 }
 
 impl TiedComponents {
-    /// Ties what moves as one in a scene; `place` finds stations on the meshes of its bodies.
+    /// Ties what moves as one in a scene; `place` finds stations on the meshes of its bodies. Joints and drives that were `released` tie nothing.
     pub fn new(
         scene: &Scene,
-        bodies: &[Box<dyn BodyDynamics>],
+        released: &[Hold],
+        bodies: &[&dyn BodyDynamics],
         place: &impl Fn(&Station) -> Result<Place, ModelError>,
     ) -> Result<Self, ModelError> {
         let mut offsets = vec![GROUND + 1];
@@ -34,7 +35,9 @@ impl TiedComponents {
         let mut classes = Self { ties, offsets, links: Vec::new(), prescribed: Vec::new() };
         classes.tie_particles(scene);
         classes.tie_rigid_bodies(scene);
-        for joint in &scene.joints {
+        let holds = |hold: Hold| !released.contains(&hold);
+        let joints = scene.joints.iter().enumerate();
+        for (_, joint) in joints.filter(|(at, _)| holds(Hold::Joint(*at))) {
             // Stations of joints are breaks of the mesh, where a control point lies on the axis.
             let from = place(&joint.station)?;
             let to = match &joint.partner {
@@ -46,7 +49,8 @@ impl TiedComponents {
                 classes.ties.tie(classes.at(&from, component), to);
             }
         }
-        for drive in &scene.drives {
+        let drives = scene.drives.iter().enumerate();
+        for (_, drive) in drives.filter(|(at, _)| holds(Hold::Drive(*at))) {
             let place = place(&drive.station)?;
             for (component, _) in drive.motions() {
                 let at = classes.at(&place, component);

@@ -49,6 +49,19 @@ impl Bodies {
         Self { all, meshes, trackers, joined, mass }
     }
 
+    /// Gives the movements of all bodies other numbers, of which so many are unknown, and tells which places joints hold together.
+    pub fn renumber(
+        &mut self,
+        numbers: Vec<Vec<[usize; 3]>>,
+        unknowns: usize,
+        joined: Vec<(Place, Place)>,
+    ) {
+        for (body, own) in self.all.iter_mut().zip(numbers) {
+            body.renumber(own, unknowns);
+        }
+        self.joined = joined;
+    }
+
     /// The meshes of the beams, with breaks where joints are.
     pub fn meshes(&self) -> &[Mesh] {
         &self.meshes

@@ -29,25 +29,36 @@ impl Body {
         degrees_of_freedom: Vec<[usize; 3]>,
         unknowns: usize,
     ) -> Self {
-        let order = dynamics.order();
+        let zeros = vec![[0.0; 3]; degrees_of_freedom.len()];
+        let mut body = Self {
+            dynamics,
+            degrees_of_freedom: Vec::new(),
+            consecutive: Vec::new(),
+            unknowns,
+            parts: Vec::new(),
+            moved: zeros.clone(),
+            forces: zeros,
+        };
+        body.renumber(degrees_of_freedom, unknowns);
+        body
+    }
+
+    /// Gives the movements of the body's control points other places among the degrees of freedom, of which so many are unknown.
+    pub fn renumber(&mut self, degrees_of_freedom: Vec<[usize; 3]>, unknowns: usize) {
+        let order = self.dynamics.order();
         let is_consecutive = |first: usize| {
             let span = degrees_of_freedom[first..first + order].as_flattened();
             let steps = span.windows(2).all(|pair| pair[1] == pair[0] + 1);
             (steps && span.iter().all(|&at| at < unknowns)).then(|| span[0])
         };
         let mut consecutive = vec![None; degrees_of_freedom.len()];
-        for first in dynamics.span_starts() {
+        for first in self.dynamics.span_starts() {
             consecutive[first] = is_consecutive(first);
         }
-        let zeros = vec![[0.0; 3]; degrees_of_freedom.len()];
-        Self {
-            dynamics,
-            degrees_of_freedom,
-            consecutive,
-            unknowns,
-            parts: Vec::new(),
-            moved: zeros.clone(),
-            forces: zeros,
+        (self.degrees_of_freedom, self.unknowns) = (degrees_of_freedom, unknowns);
+        self.consecutive = consecutive;
+        if !self.parts.is_empty() {
+            self.divide(self.parts.len() + 1);
         }
     }
 

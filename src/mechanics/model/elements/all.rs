@@ -56,6 +56,23 @@ impl Elements {
         self.resistances.iter().map(|resistance| &**resistance)
     }
 
+    /// Springs, dampers and tendons, in the order of the scene.
+    fn springs_mut(&mut self) -> impl Iterator<Item = &mut Box<dyn Resistance>> {
+        self.resistances.iter_mut().filter(|resistance| resistance.stretched().is_some())
+    }
+
+    /// Lets go of a spring, by its index.
+    pub fn let_go(&mut self, spring: usize) {
+        self.springs_mut().nth(spring).into_iter().for_each(|spring| spring.let_go());
+    }
+
+    /// Makes these springs ones that have let go, by their indices, and all others ones that have not, to be given a state of such ones.
+    pub fn detach_only(&mut self, is_released: impl Fn(usize) -> bool) {
+        for (at, spring) in self.springs_mut().enumerate() {
+            if is_released(at) { spring.detach() } else { spring.attach() }
+        }
+    }
+
     /// Prepares all elements for a step.
     ///
     /// # Errors

@@ -44,6 +44,11 @@ impl Drive {
         self.motions[component as usize].is_some()
     }
 
+    /// Which of x, y and the angle are prescribed.
+    pub fn prescribed(&self) -> [bool; 3] {
+        Component::ALL.map(|component| self.drives(component))
+    }
+
     /// The components that are prescribed, with what they do.
     pub fn motions(&self) -> impl Iterator<Item = (Component, &PrescribedMotion)> {
         let all = Component::ALL.into_iter().zip(&self.motions);

@@ -12,8 +12,8 @@
 
 use std::borrow::Cow;
 
-use super::Exchange;
 use super::supports::Support;
+use super::{Drive, Exchange};
 use crate::beams::RotationIncrement;
 use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Interval, PrescribedKinematics};
@@ -34,6 +34,8 @@ pub struct PrescribedMovement {
 /// A drive, and what it has given so far.
 struct Driven {
     name: String,
+    /// Which of x, y and the angle it prescribes, or did before it let go.
+    prescribed: [bool; 3],
     /// Since the start [energy].
     work: f64,
 }
@@ -88,17 +90,22 @@ pub struct PrescribedMovements {
 }
 
 impl PrescribedMovements {
-    /// The prescribed movements of drives, whose names are told, behind some unknown movements and unknowns of constraints.
+    /// The prescribed movements of drives behind some unknown movements and unknowns of constraints.
     ///
     /// # Errors
     /// When a function has no value at the start: the name of its drive, and why.
-    pub fn new(
+    pub fn new<'d>(
         movements: Vec<PrescribedMovement>,
-        drives: impl Iterator<Item = String>,
+        drives: impl Iterator<Item = &'d Drive>,
         unknowns: usize,
         constraints: usize,
     ) -> Result<(Self, Vec<f64>), (String, LoadError)> {
-        let drives: Vec<Driven> = drives.map(|name| Driven { name, work: 0.0 }).collect();
+        let driven = |drive: &Drive| Driven {
+            name: drive.name.clone(),
+            prescribed: drive.prescribed(),
+            work: 0.0,
+        };
+        let drives: Vec<Driven> = drives.map(driven).collect();
         let mut prescribed = PrescribedKinematics::new(constraints, movements.len());
         let mut present = vec![Present::default(); movements.len()];
         for (at, movement) in movements.iter().enumerate() {
@@ -115,6 +122,23 @@ impl PrescribedMovements {
         let all =
             Self { movements, present, drives, first, constraints, prescribed, turn: 0.0, room };
         Ok((all, rates))
+    }
+
+    /// The same drives with such prescribed movements, those that are left where some let go, behind so many unknown movements. What is known of those
+    /// that stay is kept.
+    pub fn with(self, movements: Vec<PrescribedMovement>, unknowns: usize) -> Self {
+        let known = |wanted: &PrescribedMovement| {
+            let mut all = self.movements.iter().zip(&self.present);
+            let is_wanted = |own: &PrescribedMovement| {
+                own.drive == wanted.drive && own.support.component == wanted.support.component
+            };
+            all.find(|(own, _)| is_wanted(own)).map_or_else(Present::default, |(_, now)| *now)
+        };
+        let present = movements.iter().map(known).collect();
+        let prescribed = PrescribedKinematics::new(self.constraints, movements.len());
+        let room = vec![0.0; if movements.is_empty() { 0 } else { unknowns + prescribed.width() }];
+        let first = unknowns + self.constraints;
+        Self { movements, present, first, prescribed, room, ..self }
     }
 
     /// The number of movements that are prescribed.
@@ -142,13 +166,13 @@ impl PrescribedMovements {
         self.drives.iter().enumerate().map(|(index, drive)| {
             let own = self.movements.iter().zip(&self.present);
             let own = own.filter(|(movement, _)| movement.drive == index);
-            let (mut force, mut moment, mut prescribed) = (Vec2::zeros(), 0.0, [false; 3]);
+            let (mut force, mut moment) = (Vec2::zeros(), 0.0);
             for (movement, present) in own {
-                prescribed[movement.support.component as usize] = true;
                 let (by, turning) = movement.support.reaction(present.reaction);
                 (force, moment) = (force + by, moment + turning);
             }
-            DriveState { name: &drive.name, prescribed, work: drive.work, force, moment }
+            let Driven { name, prescribed, work } = drive;
+            DriveState { name, prescribed: *prescribed, work: *work, force, moment }
         })
     }
 

@@ -86,6 +86,15 @@ pub trait Resistance {
     /// Gives how it resists small movements at rest: degrees of freedom, and its rows.
     fn at_rest(&self, _bodies: &[Body], _take: &mut dyn FnMut(&[usize], &SpanAtRest)) {}
 
+    /// Lets go at the start of a step: it acts no longer, and what it stores counts as dissipated. What cannot let go does not.
+    fn let_go(&mut self) {}
+
+    /// Makes it one that has let go, to be given a state of such a one.
+    fn detach(&mut self) {}
+
+    /// Makes it one that has not let go, to be given a state of such a one.
+    fn attach(&mut self) {}
+
     /// Appends the state at the start of a step.
     fn save(&self, state: &mut Vec<f64>);
 

@@ -29,6 +29,8 @@ pub struct SpringDamper {
     law: Option<RestoringLaw>,
     /// `c` [force·time/length, force·length·time/rad].
     damping: f64,
+    /// Law and damping that it had before it let go: one that has let go has neither.
+    released: Option<(Option<RestoringLaw>, f64)>,
     spring: HiddenForce,
     damper: HiddenForce,
     /// `Δt`; infinite in movements that take no time [time].
@@ -59,6 +61,7 @@ impl SpringDamper {
             grounds,
             law,
             damping,
+            released: None,
             spring: HiddenForce::default(),
             damper: HiddenForce::default(),
             duration: f64::INFINITY,
@@ -345,6 +348,25 @@ impl Resistance for SpringDamper {
         take(&degrees, &rows);
     }
 
+    /// As a spring that snaps: what it stored rings out in itself.
+    fn let_go(&mut self) {
+        self.dissipated += self.stored();
+        self.detach();
+    }
+
+    fn detach(&mut self) {
+        if self.released.is_none() {
+            self.released = Some((self.law.take(), std::mem::take(&mut self.damping)));
+            (self.spring, self.damper) = (HiddenForce::default(), HiddenForce::default());
+        }
+    }
+
+    fn attach(&mut self) {
+        if let Some(own) = self.released.take() {
+            (self.law, self.damping) = own;
+        }
+    }
+
     fn save(&self, state: &mut Vec<f64>) {
         self.elongation.save(state);
         state.extend([self.spring.last, self.damper.last, self.last.0, self.last.1]);
@@ -359,6 +381,9 @@ impl Resistance for SpringDamper {
     }
 
     fn explain(&self) -> String {
+        if self.released.is_some() {
+            return "has let go: no force".to_owned();
+        }
         let law = self.law.as_ref().map(RestoringLaw::describe);
         let damper = (self.damping > 0.0).then(|| format!("damping {}", self.damping));
         let parts: Vec<String> = law.into_iter().chain(damper).collect();

@@ -3,7 +3,7 @@
 use crate::beams::{PointCounts, SectionVariation};
 use crate::geometry::Vec2;
 use crate::integrators::{Constraints, INTEGRATORS, Mechanism, Method};
-use crate::joints::{Component, Joint, Partner, SLIDING_RULES, StartVelocities};
+use crate::joints::{Component, Hold, Joint, Partner, SLIDING_RULES, StartVelocities, Trigger};
 use crate::model::elements::{ForceElement, Resistance};
 use crate::model::words::{MOST, in_words, plural};
 use crate::model::{BeamDefinition, Drive, Model, ModelError, Scene};
@@ -69,6 +69,7 @@ impl Model {
         parts.extend(self.explain_loads(methods));
         parts.extend(self.explain_springs());
         parts.extend([self.explain_angles(), explain_start(scene)]);
+        parts.extend(explain_releases(scene));
         parts
     }
 
@@ -81,6 +82,9 @@ impl Model {
         };
         let how = match self.constraint_shape().width {
             0 => how,
+            width if self.constraint_blocks().is_some() => {
+                format!("{how}; {width} of contacts, eliminated where they are")
+            }
             width => format!("{how}; {width} of contacts, in the border"),
         };
         Part::used("unknowns", how)
@@ -142,9 +146,16 @@ impl Model {
         parts
     }
 
+    /// The joints that have not let go.
+    fn holding<'s>(&'s self, scene: &'s Scene) -> impl Iterator<Item = &'s Joint> {
+        let unknowns = self.unknown_movements();
+        let joints = scene.joints.iter().enumerate();
+        joints.filter(|(at, _)| !unknowns.are_free_of(Hold::Joint(*at))).map(|(_, joint)| joint)
+    }
+
     fn explain_joints(&self, scene: &Scene) -> Part {
         let between = |joint: &&Joint| joint.partner != Partner::Ground;
-        let kinds = counted(scene.joints.iter().filter(between));
+        let kinds = counted(self.holding(scene).filter(between));
         if kinds.is_empty() {
             return Part::left_out("joints", "no movement is shared");
         }
@@ -159,7 +170,7 @@ impl Model {
 
     fn explain_supports(&self, scene: &Scene) -> Part {
         let on_ground = |joint: &&Joint| joint.partner == Partner::Ground;
-        let kinds = counted(scene.joints.iter().filter(on_ground));
+        let kinds = counted(self.holding(scene).filter(on_ground));
         if kinds.is_empty() {
             return Part::left_out("supports", "everything is free: no reactions");
         }
@@ -187,7 +198,15 @@ impl Model {
             (count > 0).then(|| format!("{count} {}", entry.name))
         });
         let rules = used.collect::<Vec<_>>().join(", ");
-        let how = format!("{rules}: a border of {width} columns; ends of their beams are watched");
+        let solved = match self.constraint_blocks() {
+            None => format!("a border of {width} columns"),
+            Some(blocks) => {
+                let free = blocks.own.iter().filter(|own| !own.is_empty()).count();
+                let all = blocks.own.len();
+                format!("{all} blocks beside the band, {free} with their slaves")
+            }
+        };
+        let how = format!("{rules}: {solved}; ends of their beams are watched");
         Part::used("sliders", how)
     }
 
@@ -253,6 +272,21 @@ fn explain_drive(scene: &Scene, drive: &Drive) -> Part {
     let how =
         format!("{} of {place}: given and no unknown, exact in place{calls}", names.join(", "));
     Part::used(format!("{} '{}'", drive.kind.name(), drive.name), how)
+}
+
+/// What lets go in the course of a run; nothing where nothing does.
+fn explain_releases(scene: &Scene) -> Option<Part> {
+    let told = scene.releases.iter().map(|release| {
+        let name = scene.name_of_hold(release.hold);
+        match release.trigger {
+            Trigger::Time(time) => format!("'{name}' at t = {time}"),
+            Trigger::Outside => {
+                format!("'{name}' when a function says so, asked before every step")
+            }
+        }
+    });
+    let told: Vec<String> = told.collect();
+    (!told.is_empty()).then(|| Part::used("releases", told.join("; ")))
 }
 
 fn explain_start(scene: &Scene) -> Part {

@@ -5,7 +5,7 @@
 //! joints that hold a place twice, so that no other joint leads from one side to the other.
 
 use crate::geometry::Vec2;
-use crate::joints::{Component, Joint, JointKind, Partner};
+use crate::joints::{Component, Hold, Joint, JointKind, Partner};
 use crate::model::{Instant, Model, ModelError, Scene};
 
 /// A node of a body, or the ground.
@@ -39,7 +39,7 @@ impl Transmission {
 }
 
 impl Model {
-    /// What a joint holds together, by its index in the scene.
+    /// What a joint holds together, by its index in the scene; nothing after it has let go.
     ///
     /// # Errors
     /// When a station is off its beam, which it was not when the scene was described.
@@ -55,20 +55,24 @@ impl Model {
             };
             Ok((node(&joint.station)?, other))
         };
+        let unknowns = self.unknown_movements();
+        let has_let_go = |hold: Hold| unknowns.are_free_of(hold);
         let all = scene.joints.iter().map(|joint| Ok((joint.kind, ends(joint)?)));
         let all = all.collect::<Result<Vec<_>, ModelError>>()?;
         // A rigid body turns as a whole.
         let links = self.links().iter();
         let turning = links.map(|link| (Some((link.body, 0)), Some((link.body, link.point))));
         let turning: Vec<(Node, Node)> = turning.collect();
-        let drives = scene.drives.iter().map(|drive| {
+        let drives = scene.drives.iter().enumerate();
+        let drives = drives.filter(|(at, _)| !has_let_go(Hold::Drive(*at)));
+        let drives = drives.map(|(_, drive)| {
             let place = scene.place(&drive.station, self.meshes())?;
             Ok((drive, Some((place.body, place.nearest_control_point()))))
         });
         let drives = drives.collect::<Result<Vec<_>, ModelError>>()?;
         let side = |component: Component| {
-            let tied = |(_, (kind, _)): &(usize, &(JointKind, (Node, Node)))| {
-                kind.components().contains(&component)
+            let tied = |(at, (kind, _)): &(usize, &(JointKind, (Node, Node)))| {
+                kind.components().contains(&component) && !has_let_go(Hold::Joint(*at))
             };
             let joints = all.iter().enumerate().filter(|(at, _)| *at != joint).filter(tied);
             let driven = drives.iter().filter(|(drive, _)| drive.drives(component));
@@ -86,7 +90,8 @@ impl Model {
             };
             Side { nodes: side.into_iter().flatten().collect(), sign }
         };
-        let ties = |component| all[joint].0.components().contains(&component);
+        let is_held = !has_let_go(Hold::Joint(joint));
+        let ties = |component| is_held && all[joint].0.components().contains(&component);
         let sides = Component::ALL.map(|component| ties(component).then(|| side(component)));
         Ok(Transmission { sides })
     }

@@ -23,6 +23,16 @@ pub(super) struct Answer {
     pub(super) forces: Vec<f64>,
     /// `M⁻¹ Gᵀ`, of the unknowns.
     pub(super) rates: Vec<f64>,
+    /// Where `Gᵀ` has entries.
+    touched: Vec<usize>,
+}
+
+impl Answer {
+    /// The velocity that rates are in the direction of the impulse: `G v`.
+    pub(super) fn velocity(&self, rates: &[f64]) -> f64 {
+        let of_rates = self.touched.iter().filter(|at| **at < rates.len());
+        of_rates.map(|&at| rates[at] * self.forces[at]).sum()
+    }
 }
 
 impl Model {
@@ -95,7 +105,8 @@ impl Model {
             self.sliders[*slider].transmit(&self.bodies, *unit, &mut forces);
             let mut rates = forces[..self.unknowns()].to_vec();
             inertia.solve(&mut rates);
-            Answer { forces, rates }
+            let touched = (0..forces.len()).filter(|&at| forces[at] != 0.0).collect();
+            Answer { forces, rates, touched }
         };
         directions.iter().map(answer).collect()
     }
@@ -118,19 +129,19 @@ impl Model {
             inertia.solve(&mut change);
         }
         let mut response = BandedMatrix::zeros(count, count.saturating_sub(1));
-        for (row, Answer { forces, .. }) in answers.iter().enumerate() {
+        for (row, answer) in answers.iter().enumerate() {
             for (column, Answer { rates, .. }) in answers.iter().enumerate() {
-                response.add(row, column, product(rates, forces));
+                response.add(row, column, answer.velocity(rates));
             }
         }
         let wanted = |answer: &Answer| {
-            factor * product(&self.motion.rates, &answer.forces) - product(&change, &answer.forces)
+            factor * answer.velocity(&self.motion.rates) - answer.velocity(&change)
         };
         let mut impulses: Vec<f64> = answers.iter().map(wanted).collect();
         response.factorise()?.solve(&mut impulses);
 
         let mut residual = vec![0.0; self.degrees_of_freedom()];
-        for (impulse, Answer { forces, rates }) in impulses.iter().zip(&answers) {
+        for (impulse, Answer { forces, rates, .. }) in impulses.iter().zip(&answers) {
             change.iter_mut().zip(rates).for_each(|(change, rate)| *change += impulse * rate);
             residual.iter_mut().zip(forces).for_each(|(out, force)| *out -= impulse * force);
         }
@@ -153,12 +164,7 @@ impl Model {
     pub(in crate::model) fn response_across(&self) -> Result<Vec<Vec<f64>>, LinearError> {
         let mut inertia = self.banded_inertia();
         let answers = self.answers(&inertia.factorise()?, &self.across());
-        let row = |rates| answers.iter().map(|other| product(rates, &other.forces)).collect();
+        let row = |rates: &[f64]| answers.iter().map(|other| other.velocity(rates)).collect();
         Ok(answers.iter().map(|answer| row(&answer.rates)).collect())
     }
-}
-
-/// Of as many entries as the shorter one has.
-fn product(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -132,11 +132,10 @@ impl Model {
         if count == 0 {
             return Ok((accelerations, contacts));
         }
-        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let mut response = BandedMatrix::zeros(count, count - 1);
         for (row, answer) in answers.iter().enumerate() {
             for (column, other) in answers.iter().enumerate() {
-                response.add(row, column, product(&other.rates, &answer.forces));
+                response.add(row, column, answer.velocity(&other.rates));
             }
         }
         let wanted = answers.iter().zip(&directions).map(|(answer, (slider, unit))| {
@@ -145,7 +144,7 @@ impl Model {
                 SliderState::Sliding => slider.carried(&self.bodies, &self.motion.rates).dot(unit),
                 SliderState::Held(_) | SliderState::Released => 0.0,
             };
-            carried - product(&accelerations, &answer.forces)
+            carried - answer.velocity(&accelerations)
         });
         let mut forces: Vec<f64> = wanted.collect();
         response.factorise()?.solve(&mut forces);

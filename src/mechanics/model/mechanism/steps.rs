@@ -7,7 +7,7 @@ use crate::integrators::{
     Accelerated, Cause, Checkpoint, Constraints, Forces, Interval, Mechanism, Overshoot,
     PrescribedKinematics, Solution, Stage, StepError,
 };
-use crate::linalg::{BandedMatrix, Border, BorderShape};
+use crate::linalg::{BandedMatrix, BlockLayout, Border, BorderShape};
 use crate::model::elements::{Exchange, Iterate, collocation};
 use crate::model::rigid_links::ArmRule;
 
@@ -159,6 +159,10 @@ impl Forces for Model {
 impl Constraints for Model {
     fn constraint_shape(&self) -> BorderShape {
         self.sliders.border()
+    }
+
+    fn constraint_blocks(&self) -> Option<&BlockLayout> {
+        self.sliders.blocks()
     }
 
     fn predict_constraints(&mut self, interval: Interval, unknowns: &mut [f64]) {

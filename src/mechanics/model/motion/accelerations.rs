@@ -13,6 +13,13 @@ impl Accelerations {
         *self = Self { values: vec![0.0; unknowns], are_known: false };
     }
 
+    /// Takes room for those of so many unknowns, if they are kept; they are not known any more.
+    pub fn resize(&mut self, unknowns: usize) {
+        if !self.values.is_empty() {
+            self.keep(unknowns);
+        }
+    }
+
     pub fn known(&self) -> Option<&[f64]> {
         self.are_known.then_some(&self.values)
     }

@@ -32,6 +32,13 @@ impl Motion {
         self.forecast = Forecast::new(&self.rates, inertia);
     }
 
+    /// Goes on with the same motion in rates of other unknowns, in the norm of the diagonal of their inertia: nothing jumps but accelerations.
+    pub fn renumber(&mut self, rates: Vec<f64>, inertia: Vec<f64>) {
+        self.accelerations.resize(inertia.len());
+        self.rates = rates;
+        self.begin(inertia);
+    }
+
     /// The rates with which the movements of the next step may be guessed [length/time, 1/time].
     pub fn expected_rates(&self) -> &[f64] {
         self.forecast.rates(&self.rates)

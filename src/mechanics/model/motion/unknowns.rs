@@ -1,6 +1,7 @@
 //! The unknowns of a model: movements, and forces of rigid links among them.
 
 use crate::geometry::larger;
+use crate::joints::Hold;
 
 /// What an unknown is, and with it the equation of the same number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,12 +18,14 @@ pub enum UnknownKind {
 pub struct Unknowns {
     kinds: Vec<UnknownKind>,
     half_bandwidth: usize,
+    /// What has let go, so that its movements are unknowns of their own.
+    released: Vec<Hold>,
 }
 
 impl Unknowns {
-    /// The unknowns of a model of these kinds, with the half-bandwidth of the matrices of a step.
-    pub fn new(kinds: Vec<UnknownKind>, half_bandwidth: usize) -> Self {
-        Self { kinds, half_bandwidth }
+    /// The unknowns of a model of these kinds, with the half-bandwidth of the matrices of a step, where these joints and drives have let go.
+    pub fn new(kinds: Vec<UnknownKind>, half_bandwidth: usize, released: &[Hold]) -> Self {
+        Self { kinds, half_bandwidth, released: released.to_vec() }
     }
 
     /// The number of unknowns of the model.
@@ -33,6 +36,11 @@ impl Unknowns {
     /// The half-bandwidth of the matrices of a step: how far from the diagonal they have entries.
     pub fn half_bandwidth(&self) -> usize {
         self.half_bandwidth
+    }
+
+    /// Whether a joint or a drive has let go.
+    pub fn are_free_of(&self, hold: Hold) -> bool {
+        self.released.contains(&hold)
     }
 
     /// What the unknowns are, one entry for each.

@@ -19,6 +19,11 @@ impl RigidLinks {
         Self { all, acting: ForceUnknowns::AtRest }
     }
 
+    /// Gives the forces of all rigid links other unknowns, in their order.
+    pub fn renumber(&mut self, unknowns: impl Iterator<Item = [usize; 2]>) {
+        self.all.iter_mut().zip(unknowns).for_each(|(link, own)| link.unknowns = own);
+    }
+
     /// The number of rigid links.
     pub fn count(&self) -> usize {
         self.all.len()

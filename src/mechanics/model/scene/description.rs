@@ -7,7 +7,7 @@ use super::ties::check_ties;
 use super::{BeamDefinition, ParticleDefinition, RigidBodyDefinition, Sensor, StationVelocity};
 use crate::beams::{BodyIndex, Mesh, Place, Station};
 use crate::geometry::Vec2;
-use crate::joints::{Joint, JointKind, Partner, Slider};
+use crate::joints::{Joint, JointKind, Partner, Release, Slider};
 use crate::loads::{Load, Schedule};
 use crate::model::ModelError;
 use crate::model::elements::{Drive, Element, MaterialDamping, PointMass, Setting, Spring};
@@ -33,6 +33,8 @@ pub struct Scene {
     pub sliders: Vec<Slider>,
     /// The motions that are given to stations, in the order in which they were added.
     pub drives: Vec<Drive>,
+    /// What lets go in the course of a run, in the order in which it was said.
+    pub releases: Vec<Release>,
     /// The start velocities of single nodes.
     pub velocities: Vec<StationVelocity>,
     /// Masses, loads and springs, in the order in which they were added.
@@ -128,6 +130,7 @@ impl Scene {
             joints: Vec::new(),
             sliders: Vec::new(),
             drives: Vec::new(),
+            releases: Vec::new(),
             velocities: Vec::new(),
             elements: Vec::new(),
             gravity: Vec2::zeros(),

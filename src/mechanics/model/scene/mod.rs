@@ -5,6 +5,7 @@ mod description;
 mod drives;
 mod likeness;
 mod loads;
+mod releases;
 mod resisting;
 mod rigid_bodies;
 mod sensors;

@@ -6,7 +6,7 @@ use super::ties::check_ties;
 use super::{BeamDefinition, ParticleDefinition, RigidBodyDefinition, Scene, StationVelocity};
 use crate::beams::Station;
 use crate::geometry::Vec2;
-use crate::joints::{Joint, Partner, Slider};
+use crate::joints::{Joint, Partner, Release, Slider};
 use crate::model::ModelError;
 use crate::model::elements::{Drive, Element, Setting};
 use crate::model::words::finite;
@@ -28,6 +28,7 @@ pub struct StoredScene {
     joints: Vec<Joint>,
     sliders: Vec<Slider>,
     drives: Vec<Drive>,
+    releases: Vec<Release>,
     velocities: Vec<StationVelocity>,
     elements: Vec<Element>,
     gravity: Vec2,
@@ -90,6 +91,9 @@ impl TryFrom<StoredScene> for Scene {
         }
         for drive in stored.drives {
             scene.add_drive(drive)?;
+        }
+        for release in stored.releases {
+            scene.add_release(release)?;
         }
         for velocity in &stored.velocities {
             scene.check_station("a start velocity", &velocity.station)?;

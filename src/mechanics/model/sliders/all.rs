@@ -8,7 +8,7 @@ use crate::beams::SpanAtRest;
 use crate::geometry::{Vec2, larger};
 use crate::integrators::{Ending, Interval, Overshoot};
 use crate::joints::{CONTACT_UNKNOWNS, EndAction};
-use crate::linalg::{Border, BorderShape};
+use crate::linalg::{BlockLayout, Border, BorderShape};
 use crate::model::bodies::Body;
 use crate::model::words::{ModelError, SliderError};
 
@@ -16,6 +16,8 @@ use crate::model::words::{ModelError, SliderError};
 #[derive(Default)]
 pub struct Sliders {
     all: Vec<Sliding>,
+    /// Their contacts, where they are eliminated one by one.
+    blocks: Option<BlockLayout>,
     /// The limit at which the next step is to end.
     aim: Option<TrackLimit>,
 }
@@ -35,9 +37,14 @@ impl DerefMut for Sliders {
 }
 
 impl Sliders {
-    /// The sliders of a model, given in the order of the scene.
-    pub fn new(all: Vec<Sliding>) -> Self {
-        Self { all, aim: None }
+    /// The sliders of a model, given in the order of the scene, with their contacts as blocks if these are eliminated one by one.
+    pub fn new(all: Vec<Sliding>, blocks: Option<BlockLayout>) -> Self {
+        Self { all, blocks, aim: None }
+    }
+
+    /// The contacts as blocks of unknowns, if they are eliminated one by one.
+    pub fn blocks(&self) -> Option<&BlockLayout> {
+        self.blocks.as_ref()
     }
 
     /// Makes steps end at a limit, or lets them go where they lead again.

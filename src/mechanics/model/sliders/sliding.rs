@@ -96,6 +96,12 @@ impl Sliding {
         CONTACT_UNKNOWNS * 2 * (1 + self.passage.basis().functions())
     }
 
+    /// The most entries that they have in a step in which the slider passes no more than two spans of its master.
+    pub fn usual_entries(&self) -> usize {
+        let basis = self.passage.basis();
+        CONTACT_UNKNOWNS * 2 * (1 + (basis.degree() + 3).min(basis.functions()))
+    }
+
     /// Puts the slider at a parameter of its master.
     fn stand_at(&mut self, parameter: f64) {
         self.parameter = parameter;

@@ -176,6 +176,12 @@ pub enum ModelError {
         /// Why it has none.
         source: LoadError,
     },
+    /// Something that would let go a second time.
+    #[error("'{name}' lets go already; it can do so once: remove one of the two releases")]
+    ReleasedTwice {
+        /// What lets go already.
+        name: String,
+    },
     /// A scene in which everything is held: nothing moves.
     #[error("the scene '{scene}' has nothing that can move: every unknown is held by a support")]
     NothingMoves {

@@ -17,6 +17,12 @@ pub enum ArchiveError {
         /// The column.
         column: String,
     },
+    /// Something of which a function of a script says when it lets go.
+    #[error("a function says when '{name}' lets go, and functions cannot be stored")]
+    Release {
+        /// What is still to let go.
+        name: String,
+    },
     /// Something else.
     #[error("this is no simulation: it does not begin as stored simulations do")]
     Foreign,

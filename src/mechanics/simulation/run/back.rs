@@ -1,5 +1,7 @@
 //! Going back to states that were, and copies that go their own way.
 
+use std::rc::Rc;
+
 use super::Simulation;
 use crate::model::ModelState;
 use crate::simulation::clock::Clock;
@@ -94,22 +96,27 @@ impl Simulation {
             return Ok(());
         }
         let snapshots = std::mem::take(&mut self.snapshots);
-        let found = snapshots.find(steps).map(|snapshot| self.stand_at(snapshot)).is_some();
+        let found = snapshots.find(steps).map(|snapshot| self.stand_at(snapshot));
         self.snapshots = snapshots;
-        if !found {
+        let Some(stood) = found else {
             let target = match self.has_all_rows() {
                 true => format!("t = {}", self.record.history.samples()[steps].measures.time),
                 false => format!("where it was {back} steps ago"),
             };
             return Err(self.forgotten(target, steps));
-        }
+        };
+        stood?;
         self.snapshots.truncate(steps);
         self.show_present();
         Ok(())
     }
 
     /// Takes a state that the simulation has been in, or a copy of it has; rows of the history that came later are gone.
-    pub(super) fn stand_at(&mut self, snapshot: &Snapshot) {
+    ///
+    /// # Errors
+    /// When the scene cannot be built, which it could before.
+    pub(super) fn stand_at(&mut self, snapshot: &Snapshot) -> Result<(), SimulationError> {
+        self.stand_released(&snapshot.let_go)?;
         self.model.restore(&snapshot.state);
         self.clock.grid.go_back(snapshot.passed);
         self.progress.last_step = snapshot.last_step;
@@ -118,6 +125,7 @@ impl Simulation {
         self.progress.counts = WorkCounts { wall: self.progress.counts.wall, ..snapshot.counts };
         self.clock.under_way = snapshot.under_way;
         self.clock.pace = snapshot.pace;
+        Ok(())
     }
 
     /// The error of a state that is not kept: in words, and the fewest steps that may have led there.
@@ -157,6 +165,7 @@ impl Simulation {
             rows: self.record.rows_kept,
             last_step: self.progress.last_step,
             arrivals: self.progress.arrivals.len(),
+            let_go: Rc::clone(&self.progress.let_go),
             counts: self.progress.counts,
             passed: self.clock.grid.passed(),
             under_way: self.clock.under_way,
@@ -180,6 +189,7 @@ impl Simulation {
     /// When the scene cannot be built, which it could before.
     pub(super) fn fork_without_snapshots(&self) -> Result<Self, SimulationError> {
         let mut fork = Self::start(self.scene.clone(), self.settings)?;
+        fork.stand_released(&self.progress.let_go)?;
         fork.model.restore(&self.model.state());
         fork.clock = Clock { goal: f64::INFINITY, ..self.clock.clone() };
         fork.progress = self.progress.clone();

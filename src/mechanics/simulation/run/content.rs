@@ -1,6 +1,7 @@
 //! What is stored of a simulation, and how it is made of that again.
 
 use std::borrow::Cow;
+use std::rc::Rc;
 
 use serde::{Deserialize, Serialize};
 
@@ -11,7 +12,7 @@ use crate::simulation::archive::{ArchiveError, unwrap, wrap};
 use crate::simulation::controller::Pace;
 use crate::simulation::halving::Halving;
 use crate::simulation::progress::StepTaken;
-use crate::simulation::{Arrival, Recording, Sample, Settings, WorkCounts};
+use crate::simulation::{Arrival, LetGo, Recording, Sample, Settings, WorkCounts};
 
 /// Counts beyond this, and grid points beyond it, cannot have been counted.
 const MOST_COUNTED: usize = 1 << 52;
@@ -35,6 +36,7 @@ struct Content<'a> {
     times: Cow<'a, [f64]>,
     numbers: Cow<'a, [f64]>,
     arrivals: Cow<'a, [Arrival]>,
+    let_go: Cow<'a, [LetGo]>,
     counts: WorkCounts,
     cuts: Cow<'a, [f64]>,
     /// The parts of a [`Halving`].
@@ -50,7 +52,7 @@ impl Simulation {
     /// The simulation as a file that [`from_bytes`](Self::from_bytes) reads, under a name. Snapshots are not in it.
     ///
     /// # Errors
-    /// When a load has a function from outside as its schedule.
+    /// When a load has a function from outside as its schedule, or somebody outside is still to say when something lets go.
     pub fn to_bytes(&self, name: &str) -> Result<Vec<u8>, ArchiveError> {
         let mut schedules = self.scene.schedules();
         if let Some((load, _)) = schedules.find(|(_, schedule)| !schedule.can_be_stored()) {
@@ -58,6 +60,11 @@ impl Simulation {
         }
         if let Some(sensor) = self.scene.sensors.iter().find(|sensor| !sensor.can_be_stored()) {
             return Err(ArchiveError::Sensor { column: sensor.name.clone() });
+        }
+        let waiting = (0..self.scene.releases.len()).find(|at| self.waits_for_release(*at));
+        if let Some(release) = waiting {
+            let name = self.scene.name_of_hold(self.scene.releases[release].hold);
+            return Err(ArchiveError::Release { name });
         }
         let content = Content {
             name: name.into(),
@@ -72,6 +79,7 @@ impl Simulation {
             times: self.record.trajectory.times().into(),
             numbers: self.record.trajectory.numbers().into(),
             arrivals: self.progress.arrivals.as_slice().into(),
+            let_go: self.let_go().into(),
             counts: self.progress.counts,
             cuts: self.clock.grid.cuts().into(),
             under_way: self.clock.under_way.map(Halving::to_parts),
@@ -133,11 +141,21 @@ impl Content<'_> {
         if !self.arrivals.iter().all(is_arrival) {
             return Err(refused("a slider arrived that is not there"));
         }
+        let is_release = |(at, gone): (usize, &LetGo)| {
+            let earlier = &self.let_go[..at];
+            gone.release < self.scene.releases.len()
+                && gone.time.is_finite()
+                && earlier.iter().all(|other| other.release != gone.release)
+        };
+        if !self.let_go.iter().enumerate().all(is_release) {
+            return Err(refused("something has let go that is not there"));
+        }
         Ok(())
     }
 
     fn into_simulation(self) -> Result<(String, Simulation), ArchiveError> {
         let mut simulation = Simulation::start(self.scene.into_owned(), self.settings)?;
+        simulation.stand_released(&Rc::from(&*self.let_go))?;
         let restored = simulation.model.restore_checked(&self.state);
         restored.map_err(|error| refused(&error.to_string()))?;
         let now = simulation.time();

@@ -27,16 +27,18 @@ impl Simulation {
 
     /// Takes the state in which another simulation, of which this is a copy that has not gone on, was after fewer steps than this
     /// one is now. Gives whether that state is kept.
-    pub fn revisit(&mut self, of: &Self, steps: usize) -> bool {
+    ///
+    /// # Errors
+    /// When the scene cannot be built, which it could before.
+    pub fn revisit(&mut self, of: &Self, steps: usize) -> Result<bool, SimulationError> {
         if steps == self.progress.counts.steps {
-            return true;
+            return Ok(true);
         }
         let found = of.snapshots.find(steps).filter(|_| steps < self.progress.counts.steps);
-        found.inspect(|snapshot| {
-            self.stand_at(snapshot);
-            self.show_present();
-        });
-        found.is_some()
+        let Some(snapshot) = found else { return Ok(false) };
+        self.stand_at(snapshot)?;
+        self.show_present();
+        Ok(true)
     }
 
     /// A copy of the simulation at the present, without states of its own to go back to.
@@ -54,10 +56,10 @@ impl Simulation {
     pub fn copy_at_start(&self) -> Result<Self, SimulationError> {
         let mut copy = self.fork_without_snapshots()?;
         match self.snapshots.find(0) {
-            Some(first) => copy.stand_at(first),
+            Some(first) => copy.stand_at(first)?,
             None => {
                 let start = Self::start(self.scene.clone(), self.settings)?;
-                copy.stand_at(&start.snapshot(start.model.state()));
+                copy.stand_at(&start.snapshot(start.model.state()))?;
             }
         }
         copy.show_present();

@@ -3,8 +3,9 @@
 use super::Simulation;
 use crate::beams::{Place, Station};
 use crate::geometry::Vec2;
+use crate::joints::Hold;
 use crate::model::ModelError;
-use crate::simulation::{Arrival, ArrivalKind, Configuration, Outline};
+use crate::simulation::{Arrival, ArrivalKind, Configuration, LetGo, Outline};
 use crate::vibration::{Modes, VibrationError};
 
 impl Simulation {
@@ -70,12 +71,14 @@ impl Simulation {
         Ok(Some(Outline::draw(self.outlines()?, self.record.trajectory.times()[index], &bodies)))
     }
 
-    /// When a slider left its master at an end, if it has [time].
-    pub fn release_of(&self, slider: usize) -> Option<f64> {
+    /// When something let go, or a slider left its master at an end, if it has [time].
+    pub fn release_of(&self, hold: Hold) -> Option<f64> {
         let is_release = |arrival: &&Arrival| {
-            arrival.limit.slider == slider && arrival.kind == ArrivalKind::Released
+            Hold::Slider(arrival.limit.slider) == hold && arrival.kind == ArrivalKind::Released
         };
-        self.arrivals().iter().find(is_release).map(|arrival| arrival.time)
+        let left = self.arrivals().iter().find(is_release).map(|arrival| arrival.time);
+        let is_it = |gone: &&LetGo| self.scene.releases[gone.release].hold == hold;
+        left.or_else(|| self.let_go().iter().find(is_it).map(|gone| gone.time))
     }
 
     /// The points where stations are at present [length].

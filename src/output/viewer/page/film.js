@@ -42,6 +42,9 @@ class Film {
   /** Supports, joints, drives and sliders: what has left its beam is none any more. */
   held(frame) { return this.symbols.filter(({ until }) => until === null || this.times[frame] <= until); }
 
+  /** Springs, dampers and tendons that have not let go. */
+  holding(frame) { return this.springs.filter(({ until }) => until === null || this.times[frame] <= until); }
+
   /** The centre line of a beam. */
   line(beam, frame) { return beam.shape.line.map((place) => this.at(place, frame, beam.first)); }
 

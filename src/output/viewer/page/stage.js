@@ -77,7 +77,7 @@ class Stage {
     for (const body of film.bodies) {
       drawBody(sheet, body.outline.map((at) => place(film.at(at, frame))), body.points.map(({ at }) => place(film.at(at, frame))), place(film.at(body.at, frame)), theme);
     }
-    if (switches.symbols) for (const spring of film.springs) drawSpring(sheet, spring, film.way(spring, frame).map(place), theme);
+    if (switches.symbols) for (const spring of film.holding(frame)) drawSpring(sheet, spring, film.way(spring, frame).map(place), theme);
     film.beams.forEach((beam, index) => {
       const line = film.line(beam, frame).map(place);
       if (shading) this.drawShaded(line, film.along(film.fields[shading.field], beam, frame), shading, theme);

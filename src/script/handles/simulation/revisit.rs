@@ -59,8 +59,11 @@ impl Revisit {
     }
 
     /// Takes the copy back to a state that is kept; gives whether it is.
-    pub fn go_back_to(&self, steps: usize) -> bool {
-        self.handle.0.simulation.borrow_mut().revisit(&self.original(), steps)
+    ///
+    /// # Errors
+    /// When the scene cannot be built, which it could before.
+    pub fn go_back_to(&self, steps: usize) -> Result<bool, ScriptError> {
+        Ok(self.handle.0.simulation.borrow_mut().revisit(&self.original(), steps)?)
     }
 
     /// Takes the copy on to a row of the original's history; gives whether all is there as it was.

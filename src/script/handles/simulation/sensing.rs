@@ -6,7 +6,7 @@ use std::rc::Rc;
 use rhai::Dynamic;
 
 use super::{SimulationHandle, Watch, explain};
-use crate::script::handles::scene::Controller;
+use crate::script::handles::scene::{Condition, Controller};
 use crate::script::rows::call::Call;
 use crate::script::rows::stored::StoredFunction;
 use crate::script::words::error::ScriptError;
@@ -20,6 +20,8 @@ pub(super) struct Sensing {
     looked: Cell<Option<usize>>,
     /// What loads and drives ask at the start of every step.
     controllers: Vec<Rc<Controller>>,
+    /// What says, before every step, whether something lets go.
+    conditions: Vec<Condition>,
     is_looking: Cell<bool>,
 }
 
@@ -27,8 +29,10 @@ impl Sensing {
     pub(super) fn new(
         functions: Vec<Rc<StoredFunction>>,
         controllers: Vec<Rc<Controller>>,
+        conditions: Vec<Condition>,
     ) -> Self {
-        Self { functions, looked: Cell::new(None), controllers, is_looking: Cell::new(false) }
+        let (looked, is_looking) = (Cell::new(None), Cell::new(false));
+        Self { functions, looked, controllers, conditions, is_looking }
     }
 
     /// Refuses to move what functions look at.
@@ -76,11 +80,39 @@ impl SimulationHandle {
         Ok(())
     }
 
-    /// Asks the functions that control loads and drives for their values in the step that begins.
+    /// Lets go what conditions ask for, before the step that begins.
+    ///
+    /// # Errors
+    /// Those of the functions; also when one gives neither true nor false.
+    fn let_go(&self) -> Result<(), ScriptError> {
+        let Sensing { conditions, is_looking, .. } = &self.0.sensing;
+        for Condition { function, release } in conditions {
+            if !self.simulation().waits_for_release(*release) {
+                continue;
+            }
+            is_looking.set(true);
+            let called = function.call([Dynamic::from(self.clone())]);
+            is_looking.set(false);
+            let value = called.map_err(ScriptError::Engine)?;
+            let is_true = value.as_bool().map_err(|_| {
+                let engine = function.context().engine();
+                let got = engine.map(|engine| describe(&engine, &value)).unwrap_or_default();
+                ScriptError::new(format!("{} must give true or false, got {got}", function.role()))
+                    .hint("compare something: |q| norm(q.joint_force(pin).force) > 10")
+            })?;
+            if is_true {
+                self.0.simulation.borrow_mut().release(*release)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Lets go what is to let go, and asks the functions that control loads and drives for their values in the step that begins.
     ///
     /// # Errors
     /// Those of the functions; also when one gives no finite number.
     pub(super) fn command(&self) -> Result<(), ScriptError> {
+        self.let_go()?;
         let Sensing { controllers, is_looking, .. } = &self.0.sensing;
         for controller in controllers {
             let function = &controller.function;
@@ -103,7 +135,9 @@ impl SimulationHandle {
 
     /// Whether functions want to be asked before every step.
     pub(super) fn is_controlled(&self) -> bool {
-        !self.0.sensing.controllers.is_empty()
+        let Sensing { controllers, conditions, .. } = &self.0.sensing;
+        let waits = |condition: &Condition| self.simulation().waits_for_release(condition.release);
+        !controllers.is_empty() || conditions.iter().any(waits)
     }
 
     /// Runs to a time; where functions fill columns, with a pause after every step that is recorded, and before every step where functions control

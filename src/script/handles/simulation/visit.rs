@@ -45,7 +45,7 @@ impl SimulationHandle {
     fn visit_kept(&self, steps: &[usize], look: Look) -> Result<Visited, ScriptError> {
         let revisit = Revisit::at_present(self)?;
         for (index, steps) in steps.iter().enumerate().rev() {
-            if !revisit.go_back_to(*steps) {
+            if !revisit.go_back_to(*steps)? {
                 return Err(ScriptError::bug(format!("the state after {steps} steps is lost")));
             }
             look(index, &self.simulation())?;

@@ -1,0 +1,178 @@
+//! The cost of a step with many sliders, in milliseconds, beside that of the same scene without them: beads on a flying beam, a rope
+//! through eyelets, and a chain whose links hang in rings that slide on them.
+//!
+//! `cargo bench --bench sliders` prints the tables of docs/studies.md.
+#![allow(clippy::unwrap_used)]
+
+use std::time::{Duration, Instant};
+
+use withy::beams::{Mesh, Section, Station};
+use withy::geometry::{Curve, Vec2};
+use withy::integrators::{Interval, Mechanism, Method};
+use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
+use withy::loads::{Frame, LoadKind, Schedule};
+use withy::model::{BeamDefinition, Model, ParticleDefinition, Scene, StartMotion};
+use withy::newton::Tolerance;
+
+/// Every figure is measured for about this long.
+const PATIENCE: Duration = Duration::from_millis(600);
+const FEWEST_REPEATS: usize = 5;
+/// Steps of a run, which then begins anew: nothing comes to an end of its beam.
+const RUN: usize = 12;
+
+fn add_beam(scene: &mut Scene, from: Vec2, to: Vec2, spans: usize, section: Section) -> usize {
+    let beam = BeamDefinition {
+        name: format!("beam{}", scene.beams.len()),
+        axis: Curve::line(from, to).unwrap(),
+        mesh: Mesh::bspline(spans, 3, 2).unwrap(),
+        section: section.into(),
+        motion: StartMotion::default(),
+    };
+    scene.add_beam(beam).unwrap()
+}
+
+/// A particle that slides on a beam.
+fn add_bead(scene: &mut Scene, master: usize, arc_length: f64, mass: f64) -> Station {
+    let position = scene.drawn_at(&Station::on_beam(master, arc_length)).unwrap();
+    let name = format!("bead{}", scene.particles.len());
+    let bead = scene.add_particle(ParticleDefinition { name, position }, mass).unwrap();
+    slide(scene, bead, master, arc_length);
+    bead
+}
+
+fn slide(scene: &mut Scene, slave: Station, master: usize, arc_length: f64) {
+    let slider = Slider {
+        name: format!("slider{}", scene.sliders.len()),
+        slave,
+        master,
+        arc_length,
+        rule: SlidingRule::Kinked,
+        ends: EndAction::Bounce,
+        velocities: StartVelocities::Check,
+    };
+    scene.add_slider(slider).unwrap();
+}
+
+/// A beam of so many spans, thrown by a force and a moment at its end, with as many beads, each a tenth as heavy as a span.
+fn beads(spans: usize, beads: usize) -> Scene {
+    let mut scene = Scene::new("beads");
+    let length = 10.0 / 14.0 * spans as f64;
+    let section = Section {
+        axial_stiffness: 1e4,
+        shear_stiffness: 1e4,
+        bending_stiffness: 100.0,
+        mass_per_length: 1.0,
+        rotary_inertia: 10.0,
+    };
+    let rod = add_beam(&mut scene, Vec2::zeros(), Vec2::new(0.6, -0.8) * length, spans, section);
+    let station = scene.station(rod, length).unwrap();
+    let push = Schedule::hold_for(2.5).unwrap();
+    let force = LoadKind::Force { station, force: Vec2::new(8.0, 0.0), frame: Frame::Dead };
+    scene.add_load(force, push.clone());
+    scene.add_load(LoadKind::Moment { station, moment: -80.0 }, push);
+    for bead in 0..beads {
+        // Away from the ends.
+        let along = 0.1 + 0.8 * (bead as f64 + 0.5) / beads as f64;
+        add_bead(&mut scene, rod, length * along, 0.07);
+    }
+    scene
+}
+
+/// A rope of so many spans that is drawn through as many points held by the ground.
+fn eyelets(spans: usize, eyelets: usize) -> Scene {
+    let mut scene = Scene::new("eyelets");
+    let length = spans as f64;
+    let section = Section {
+        axial_stiffness: 1e4,
+        shear_stiffness: 1e4,
+        bending_stiffness: 10.0,
+        mass_per_length: 1.0,
+        rotary_inertia: 0.1,
+    };
+    let rope = add_beam(&mut scene, Vec2::zeros(), Vec2::new(length, 0.0), spans, section);
+    scene.beams[rope].motion =
+        StartMotion { velocity: Vec2::new(3.0, 0.0), ..StartMotion::default() };
+    scene.gravity = Vec2::new(0.0, -9.81);
+    for eyelet in 0..eyelets {
+        let arc_length = (length - 8.0) * (eyelet as f64 + 0.5) / eyelets as f64;
+        let eye = add_bead(&mut scene, rope, arc_length, 1.0);
+        scene.join(JointKind::Hinge, eye, Partner::Ground).unwrap();
+    }
+    scene
+}
+
+/// Links of four spans in a row, each of which hangs in a ring that slides on the link before it and on itself.
+fn chain(links: usize) -> Scene {
+    let mut scene = Scene::new("chain");
+    let section = Section {
+        axial_stiffness: 1e5,
+        shear_stiffness: 1e5,
+        bending_stiffness: 100.0,
+        mass_per_length: 1.0,
+        rotary_inertia: 0.01,
+    };
+    for link in 0..links {
+        // In zigzag, so that a ring is where two links cross.
+        let from = Vec2::new(0.8 * link as f64, if link % 2 == 0 { 0.0 } else { 0.5 });
+        let to = from + Vec2::new(1.0, if link % 2 == 0 { 0.5 } else { -0.5 });
+        add_beam(&mut scene, from, to, 4, section);
+    }
+    let first = scene.station(0, 0.0).unwrap();
+    scene.join(JointKind::Hinge, first, Partner::Ground).unwrap();
+    for link in 1..links {
+        let length = scene.beams[link].axis.length();
+        let ring = add_bead(&mut scene, link - 1, 0.9 * length, 0.05);
+        slide(&mut scene, ring, link, 0.1 * length);
+    }
+    scene.gravity = Vec2::new(0.0, -9.81);
+    scene
+}
+
+/// The unknowns, the least time of a step and its mean Newton iterations.
+fn cost(scene: &Scene, dt: f64) -> (usize, Duration, f64) {
+    let mut model = Model::assemble(scene).unwrap();
+    let mut integrator = Method::EnergyMomentum.build(&mut model, Tolerance::default());
+    let start = model.state();
+    let (mut steps, mut iterations, mut least) = (0, 0, Duration::MAX);
+    let begun = Instant::now();
+    while steps < FEWEST_REPEATS || begun.elapsed() < PATIENCE {
+        let step = steps % RUN;
+        if step == 0 {
+            model.restore(&start);
+        }
+        let interval = Interval::between(step as f64 * dt, (step + 1) as f64 * dt);
+        let before = Instant::now();
+        iterations += integrator.step(&mut model, interval).unwrap().iterations;
+        // The first steps are those of an arrangement that is too regular.
+        if step > 2 {
+            least = least.min(before.elapsed());
+        }
+        steps += 1;
+    }
+    (model.unknowns(), least, iterations as f64 / steps as f64)
+}
+
+fn print(title: &str, rows: impl Iterator<Item = (String, Scene)>, dt: f64) {
+    println!("\n{title}, dt = {dt}\n");
+    println!("{:>16} {:>10} {:>12} {:>12}", "", "unknowns", "ms a step", "iterations");
+    for (name, scene) in rows {
+        let (unknowns, time, iterations) = cost(&scene, dt);
+        println!("{name:>16} {unknowns:>10} {:>12.3} {iterations:>12.2}", time.as_secs_f64() * 1e3);
+    }
+}
+
+fn main() {
+    for (spans, counts) in [
+        (10, [0, 1, 3, 4, 10, 30, 60, 100].as_slice()),
+        (400, &[0, 1, 3, 4, 10, 30, 100, 300, 1000]),
+    ] {
+        let rows = counts.iter().map(|&count| (format!("{count} beads"), beads(spans, count)));
+        print(&format!("A beam of {spans} spans with beads"), rows, 0.02);
+    }
+    let rows = [0, 1, 3, 4, 10, 30, 100].into_iter();
+    let rows = rows.map(|count| (format!("{count} eyelets"), eyelets(400, count)));
+    print("A rope of 400 spans through eyelets", rows, 0.01);
+    let rows = [2, 3, 10, 50, 100, 200].into_iter();
+    let rows = rows.map(|count| (format!("{count} links"), chain(count)));
+    print("A chain of links of 4 spans", rows, 0.005);
+}

@@ -1,0 +1,296 @@
+//! One block of a local border: a few unknowns beside a band, with the few unknowns of the band that they touch, eliminated by themselves.
+//!
+//! The block is a small dense matrix, as the front of a multifrontal method is (Duff & Reid 1983, The multifrontal solution of indefinite sparse
+//! symmetric linear equations, ACM Trans. Math. Softw. 9, 302–325): its own unknowns are eliminated with complete pivoting, and what that does to the unknowns that it touches is added to
+//! the band. Own unknowns that touch the band only through what they hold (the force of a contact whose slave is held) have no pivot yet: they are *delayed*, and stand in the band beside
+//! what they touch.
+
+use super::{BandedMatrix, LinearError};
+
+/// The number of unknowns that a block adds to those of the band: those of a sliding contact.
+pub(super) const BLOCK: usize = 5;
+
+/// How many unknowns of a block may be delayed, at most.
+pub(super) const MOST_DELAYED: usize = 2;
+
+/// A pivot that would add more than so many times the largest diagonal entry of the band there, is none.
+const LARGEST_FILL: f64 = 100.0;
+
+/// Marks an unknown of the band that a block does not touch.
+pub(super) const NOWHERE: usize = usize::MAX;
+
+/// The entries of a block, and what elimination makes of them.
+#[derive(Debug, Clone)]
+pub(super) struct Block {
+    /// Unknowns of the band that nothing but this block couples with others: they are eliminated with it.
+    pub(super) own: Vec<usize>,
+    /// `B`: row of the band, column of the block; `C`: row of the block, column of the band; `D`.
+    columns: Vec<(usize, usize, f64)>,
+    rows: Vec<(usize, usize, f64)>,
+    corner: [[f64; BLOCK]; BLOCK],
+    /// The unknowns of the band that the block touches, besides its own.
+    pub(super) touched: Vec<usize>,
+    /// Rows of the dense matrix: own unknowns, those of the block, those that are touched; after elimination factors, and what is left.
+    front: Vec<f64>,
+    /// Which of its own rows, and which of its own columns, has come to a place.
+    row_at: Vec<usize>,
+    column_at: Vec<usize>,
+    /// How many pivots were found; the rest is delayed.
+    pub(super) pivots: usize,
+    /// What the equations of delayed unknowns are multiplied by, to be like those of the band.
+    pub(super) scale: f64,
+}
+
+impl Block {
+    /// A block without entries, with room for such numbers of them.
+    pub(super) fn new(own: Vec<usize>, entries: usize) -> Self {
+        let touched = entries / BLOCK;
+        let size = own.len() + BLOCK;
+        Self {
+            columns: Vec::with_capacity(entries),
+            rows: Vec::with_capacity(entries),
+            corner: [[0.0; BLOCK]; BLOCK],
+            touched: Vec::with_capacity(touched),
+            front: Vec::with_capacity((size + touched) * (size + touched)),
+            row_at: Vec::with_capacity(size),
+            column_at: Vec::with_capacity(size),
+            pivots: 0,
+            scale: 1.0,
+            own,
+        }
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.columns.clear();
+        self.rows.clear();
+        self.corner = [[0.0; BLOCK]; BLOCK];
+    }
+
+    pub(super) fn add_to_column(&mut self, row: usize, column: usize, value: f64) {
+        self.columns.push((row, column, value));
+    }
+
+    pub(super) fn add_to_row(&mut self, row: usize, column: usize, value: f64) {
+        self.rows.push((row, column, value));
+    }
+
+    pub(super) fn add_to_corner(&mut self, row: usize, column: usize, value: f64) {
+        self.corner[row][column] += value;
+    }
+
+    /// The entry in a row of the band and a column of the block.
+    pub(super) fn in_column(&self, row: usize, column: usize) -> f64 {
+        let here = |entry: &&(usize, usize, f64)| (entry.0, entry.1) == (row, column);
+        self.columns.iter().filter(here).map(|(.., value)| value).sum()
+    }
+
+    /// The entry in a row of the block and a column of the band.
+    pub(super) fn in_row(&self, row: usize, column: usize) -> f64 {
+        let here = |entry: &&(usize, usize, f64)| (entry.0, entry.1) == (row, column);
+        self.rows.iter().filter(here).map(|(.., value)| value).sum()
+    }
+
+    pub(super) fn in_corner(&self, row: usize, column: usize) -> f64 {
+        self.corner[row][column]
+    }
+
+    /// The number of unknowns that may be eliminated in the block.
+    pub(super) fn candidates(&self) -> usize {
+        self.own.len() + BLOCK
+    }
+
+    /// Whether unknowns of the block may be delayed: nothing of its own can take its forces.
+    pub(super) fn may_delay(&self) -> bool {
+        self.own.is_empty()
+    }
+
+    /// How many unknowns are delayed.
+    pub(super) fn delayed(&self) -> usize {
+        self.candidates() - self.pivots
+    }
+
+    fn size(&self) -> usize {
+        self.candidates() + self.touched.len()
+    }
+
+    /// Eliminates the own unknowns of the block; `places` is nowhere for all unknowns of the band, and is so again.
+    ///
+    /// # Errors
+    /// When there is no pivot, told of the block alone.
+    pub(super) fn eliminate(
+        &mut self,
+        band: &BandedMatrix,
+        places: &mut [usize],
+    ) -> Result<(), LinearError> {
+        self.gather(band, places);
+        let largest = self.touched.iter().map(|&at| band.get(at, at).abs()).fold(0.0, f64::max);
+        self.scale = if largest > 0.0 { largest } else { 1.0 };
+        let candidates = self.candidates();
+        let fewest = candidates - if self.may_delay() { MOST_DELAYED } else { 0 };
+        self.row_at.clear();
+        self.row_at.extend(0..candidates);
+        self.column_at.clear();
+        self.column_at.extend(0..candidates);
+        self.pivots = 0;
+        for at in 0..candidates {
+            let (row, column, magnitude) = self.largest_from(at);
+            if !magnitude.is_finite() {
+                return Err(LinearError::NotFinite { unknown: at, size: candidates });
+            }
+            if at >= fewest && self.fill(row, column) > LARGEST_FILL * largest * magnitude {
+                break;
+            }
+            if magnitude == 0.0 {
+                return Err(LinearError::Singular { unknown: at, size: candidates });
+            }
+            self.exchange(at, row, column);
+            self.eliminate_one(at);
+            self.pivots += 1;
+        }
+        Ok(())
+    }
+
+    /// Finds which unknowns are touched, and fills the dense matrix.
+    fn gather(&mut self, band: &BandedMatrix, places: &mut [usize]) {
+        let (own, candidates) = (self.own.len(), self.candidates());
+        for (place, &at) in self.own.iter().enumerate() {
+            places[at] = place;
+        }
+        self.touched.clear();
+        let of_band = self.columns.iter().map(|entry| entry.0);
+        for at in of_band.chain(self.rows.iter().map(|entry| entry.1)) {
+            if places[at] == NOWHERE {
+                places[at] = candidates + self.touched.len();
+                self.touched.push(at);
+            }
+        }
+        let size = self.size();
+        self.front.clear();
+        self.front.resize(size * size, 0.0);
+        for &(row, column, value) in &self.columns {
+            self.front[places[row] * size + own + column] += value;
+        }
+        for &(row, column, value) in &self.rows {
+            self.front[(own + row) * size + places[column]] += value;
+        }
+        for (row, values) in self.corner.iter().enumerate() {
+            self.front[(own + row) * size + own..][..BLOCK].copy_from_slice(values);
+        }
+        for (row, &at) in self.own.iter().enumerate() {
+            for (column, &other) in self.own.iter().enumerate() {
+                self.front[row * size + column] += band.get(at, other);
+            }
+        }
+        self.own.iter().chain(&self.touched).for_each(|&at| places[at] = NOWHERE);
+    }
+
+    /// The largest entry among candidates from a place on; not a number if one is not.
+    fn largest_from(&self, first: usize) -> (usize, usize, f64) {
+        let (size, candidates) = (self.size(), self.candidates());
+        let mut found = (first, first, 0.0);
+        for row in first..candidates {
+            let entries = &self.front[row * size..][first..candidates];
+            for (column, entry) in (first..).zip(entries) {
+                let magnitude = entry.abs();
+                if magnitude > found.2 || magnitude.is_nan() {
+                    found = (row, column, magnitude);
+                }
+            }
+            if found.2.is_nan() {
+                break;
+            }
+        }
+        found
+    }
+
+    /// What a pivot of one in a row and a column would add to what is touched, at most.
+    fn fill(&self, row: usize, column: usize) -> f64 {
+        let (size, candidates) = (self.size(), self.candidates());
+        let of_row = self.front[row * size..][candidates..size].iter().map(|entry| entry.abs());
+        let of_column = (candidates..size).map(|touched| self.front[touched * size + column].abs());
+        of_row.fold(0.0, f64::max) * of_column.fold(0.0, f64::max)
+    }
+
+    fn exchange(&mut self, at: usize, row: usize, column: usize) {
+        let size = self.size();
+        if row != at {
+            let (before, behind) = self.front.split_at_mut(row * size);
+            before[at * size..][..size].swap_with_slice(&mut behind[..size]);
+            self.row_at.swap(at, row);
+        }
+        if column != at {
+            self.front.chunks_exact_mut(size).for_each(|row| row.swap(at, column));
+            self.column_at.swap(at, column);
+        }
+    }
+
+    fn eliminate_one(&mut self, at: usize) {
+        let size = self.size();
+        let (above, below) = self.front.split_at_mut((at + 1) * size);
+        let row = &mut above[at * size + at..];
+        let inverse = 1.0 / row[0];
+        row[0] = inverse;
+        for other in below.chunks_exact_mut(size) {
+            let other = &mut other[at..];
+            if other[0] == 0.0 {
+                continue;
+            }
+            let multiplier = other[0] * inverse;
+            other[0] = multiplier;
+            for (entry, above) in other[1..].iter_mut().zip(&row[1..]) {
+                *entry -= multiplier * above;
+            }
+        }
+    }
+
+    /// What elimination has left: entries by the places of row and column among the delayed unknowns and, behind them, those that are touched.
+    pub(super) fn left(&self) -> impl Iterator<Item = (usize, &[f64])> {
+        let (size, first) = (self.size(), self.pivots);
+        let rows = self.front.chunks_exact(size).skip(first);
+        rows.map(move |row| &row[first..]).enumerate()
+    }
+
+    /// Eliminates a right-hand side: `own` has its entries of own unknowns and of the block, in the order of the pivots; `subtract` is told what to take
+    /// from what is touched, by its number.
+    pub(super) fn substitute(&self, own: &mut [f64], mut subtract: impl FnMut(usize, f64)) {
+        let rows = self.front.chunks_exact(self.size());
+        for (at, row) in rows.enumerate() {
+            let count = at.min(self.pivots);
+            let sum = row[..count].iter().zip(&*own).fold(0.0, |sum, (l, y)| sum + l * y);
+            match own.get_mut(at) {
+                Some(own) => *own -= sum,
+                None => subtract(at - self.candidates(), sum),
+            }
+        }
+    }
+
+    /// Solves for the eliminated unknowns, which stand first, when those behind them are known: delayed ones, and what is touched.
+    pub(super) fn back_substitute(&self, all: &mut [f64]) {
+        let size = self.size();
+        for at in (0..self.pivots).rev() {
+            let row = &self.front[at * size + at..][..size - at];
+            let known = row[1..].iter().zip(&all[at + 1..]);
+            let rest = known.fold(all[at], |rest, (entry, x)| rest - entry * x);
+            all[at] = rest * row[0];
+        }
+    }
+
+    /// The entries of a vector in the order of the pivots' rows: first of the own unknowns, then of the block.
+    pub(super) fn by_rows<'a>(
+        &'a self,
+        own: impl Fn(usize) -> f64 + 'a,
+        block: &'a [f64],
+    ) -> impl Iterator<Item = f64> + 'a {
+        self.row_at.iter().map(move |&at| match at.checked_sub(self.own.len()) {
+            None => own(self.own[at]),
+            Some(at) => block[at],
+        })
+    }
+
+    /// The unknown that stands at each place of the columns: of the band, or of the block.
+    pub(super) fn unknowns(&self) -> impl Iterator<Item = Result<usize, usize>> + '_ {
+        self.column_at
+            .iter()
+            .map(|&at| at.checked_sub(self.own.len()).map_or_else(|| Ok(self.own[at]), Err))
+    }
+}

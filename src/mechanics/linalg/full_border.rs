@@ -1,0 +1,172 @@
+//! The border of a banded matrix as full columns and rows, eliminated by blocks.
+//!
+//! ```text
+//! [ A  B ] [x]   [f]        Z = A⁻¹ B      y = A⁻¹ f
+//! [ C  D ] [z] = [g]        (D - C Z) z = g - C y      x = y - Z z
+//! ```
+//!
+//! The band keeps its width whatever the border couples (Govaerts & Pryce, Block elimination with one iterative
+//! refinement solves bordered linear systems accurately, BIT 30 (1990) 490–507; refining is the business of the caller).
+
+use super::{BandedLu, BandedMatrix, BorderShape, LinearError};
+
+/// Columns of the border are kept and solved in strips of so many, a number that the compiler knows: that of the unknowns of
+/// a sliding contact, for which borders are.
+const STRIP: usize = 5;
+
+/// Some columns of `B`; after factorising, of `Z`.
+#[derive(Debug, Clone)]
+struct Strip {
+    rows: Vec<[f64; STRIP]>,
+    /// The first row with an entry.
+    first_row: Option<usize>,
+}
+
+/// A border of full columns `B` and rows `C` with their common corner `D`.
+#[derive(Debug, Clone)]
+pub struct FullBorder {
+    width: usize,
+    strips: Vec<Strip>,
+    /// `C`: (row of the border, column, value); entries of one place add up.
+    rows: Vec<(usize, usize, f64)>,
+    corner: BandedMatrix,
+}
+
+/// The factors of a matrix with a [`FullBorder`].
+#[derive(Debug)]
+pub(super) struct FullLu<'a> {
+    width: usize,
+    band: BandedLu<'a>,
+    /// `Z`
+    solved: &'a [Strip],
+    /// `C`
+    rows: &'a [(usize, usize, f64)],
+    complement: BandedLu<'a>,
+}
+
+impl Strip {
+    fn zeros(size: usize) -> Self {
+        Self { rows: vec![[0.0; STRIP]; size], first_row: None }
+    }
+
+    fn clear(&mut self) {
+        self.rows.fill([0.0; STRIP]);
+        self.first_row = None;
+    }
+
+    fn add(&mut self, row: usize, column: usize, value: f64) {
+        self.rows[row][column] += value;
+        self.first_row = Some(self.first_row.map_or(row, |first| first.min(row)));
+    }
+}
+
+impl FullBorder {
+    pub(super) fn zeros(size: usize, BorderShape { width, row_entries }: BorderShape) -> Self {
+        Self {
+            width,
+            strips: vec![Strip::zeros(size); width.div_ceil(STRIP)],
+            rows: Vec::with_capacity(row_entries),
+            corner: BandedMatrix::zeros(width, width.saturating_sub(1)),
+        }
+    }
+
+    pub(super) fn width(&self) -> usize {
+        self.width
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.strips.iter_mut().for_each(Strip::clear);
+        self.rows.clear();
+        self.corner.clear();
+    }
+
+    pub(super) fn add_to_column(&mut self, row: usize, border_column: usize, value: f64) {
+        self.strips[border_column / STRIP].add(row, border_column % STRIP, value);
+    }
+
+    pub(super) fn add_to_row(&mut self, border_row: usize, column: usize, value: f64) {
+        self.rows.push((border_row, column, value));
+    }
+
+    pub(super) fn add_to_corner(&mut self, border_row: usize, border_column: usize, value: f64) {
+        self.corner.add(border_row, border_column, value);
+    }
+
+    pub(super) fn in_column(&self, row: usize, border_column: usize) -> f64 {
+        self.strips[border_column / STRIP].rows[row][border_column % STRIP]
+    }
+
+    pub(super) fn in_row(&self, border_row: usize, column: usize) -> f64 {
+        let here = |(r, c, _): &&(usize, usize, f64)| (*r, *c) == (border_row, column);
+        self.rows.iter().filter(here).map(|(.., value)| value).sum()
+    }
+
+    pub(super) fn in_corner(&self, border_row: usize, border_column: usize) -> f64 {
+        self.corner.get(border_row, border_column)
+    }
+
+    /// All entries of a matrix with this border and a band that are not zero: row, column, value; those of one place add up.
+    pub(super) fn entries_with(&self, band: &BandedMatrix) -> Vec<(usize, usize, f64)> {
+        let (Self { width, strips, rows, corner }, n) = (self, band.size());
+        let reach = band.half_bandwidth();
+        let in_band = (0..n).flat_map(|row| {
+            let columns = row.saturating_sub(reach)..(row + reach + 1).min(n);
+            columns.map(move |column| (row, column, band.get(row, column)))
+        });
+        let in_columns = (0..*width).flat_map(|column| {
+            let rows = strips[column / STRIP].rows.iter().enumerate();
+            rows.map(move |(row, entries)| (row, n + column, entries[column % STRIP]))
+        });
+        let in_rows = rows.iter().map(|&(row, column, value)| (n + row, column, value));
+        let in_corner = (0..width * width).map(|at| {
+            let (row, column) = (at / width, at % width);
+            (n + row, n + column, corner.get(row, column))
+        });
+        let all = in_band.chain(in_columns).chain(in_rows).chain(in_corner);
+        all.filter(|(.., value)| *value != 0.0).collect()
+    }
+
+    /// The factors of a matrix with this border, and a band of which these are the factors.
+    pub(super) fn factorise<'a>(
+        &'a mut self,
+        band: BandedLu<'a>,
+        size: usize,
+    ) -> Result<FullLu<'a>, LinearError> {
+        self.eliminate(&band);
+        let Self { width, strips, rows, corner } = self;
+        let complement = corner.factorise().map_err(|error| error.behind(size))?;
+        Ok(FullLu { width: *width, band, solved: strips, rows, complement })
+    }
+
+    /// Makes `Z` of `B` and `D - C Z` of `D`.
+    fn eliminate(&mut self, band: &BandedLu<'_>) {
+        for strip in &mut self.strips {
+            if let Some(first) = strip.first_row {
+                band.solve_strip(&mut strip.rows, first);
+            }
+        }
+        for &(row, column, value) in &self.rows {
+            let solved = self.strips.iter().flat_map(|strip| strip.rows[column]);
+            for (border_column, z) in solved.take(self.width).enumerate() {
+                self.corner.add(row, border_column, -value * z);
+            }
+        }
+    }
+}
+
+impl FullLu<'_> {
+    /// Replaces the right-hand side `x`, one number a row, those of the border last, by the solution.
+    pub(super) fn solve(&self, x: &mut [f64]) {
+        let (x, z) = x.split_at_mut(x.len() - self.width);
+        self.band.solve(x);
+        for &(row, column, value) in self.rows {
+            z[row] -= value * x[column];
+        }
+        self.complement.solve(z);
+        for (strip, z) in self.solved.iter().zip(z.chunks(STRIP)) {
+            for (x, solved) in x.iter_mut().zip(&strip.rows) {
+                *x -= solved.iter().zip(z).map(|(solved, z)| solved * z).sum::<f64>();
+            }
+        }
+    }
+}

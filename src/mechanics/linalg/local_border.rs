@@ -1,0 +1,337 @@
+//! A border of many blocks each of which touches but a few unknowns of the band, eliminated where they touch it.
+//!
+//! ```text
+//! [ A    B1   B2  … ]
+//! [ C1   D1         ]        each block by itself:  A + Σ (what is left of block k, on what it touches)
+//! [ C2        D2    ]
+//! [ …             … ]
+//! ```
+//!
+//! The work grows with the number of blocks as with that of the unknowns, wherever they are: they may wander along the band.
+
+use std::sync::Arc;
+
+use super::arrangement::Arrangement;
+use super::block::{BLOCK, Block, NOWHERE};
+use super::profile::{ProfileLu, ProfileMatrix};
+use super::{BandedMatrix, LinearError};
+
+/// How much further than the band entries may reach before more memory is taken.
+const SPARE_REACH: usize = 16;
+
+/// What is known of the blocks of a border, and of the band beside them, whatever their entries.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct BlockLayout {
+    /// For each block the unknowns of the band that nothing but this block couples with others: they are eliminated with it.
+    pub own: Vec<Vec<usize>>,
+    /// Which unknowns of the band are coupled with each other.
+    pub groups: Arc<[Vec<usize>]>,
+    /// How many entries a block may have before more memory is taken.
+    pub block_entries: usize,
+}
+
+/// A border of blocks of five unknowns, with the order in which what they leave is eliminated.
+#[derive(Debug, Clone)]
+pub struct LocalBorder {
+    blocks: Vec<Block>,
+    arrangement: Arrangement,
+    /// The band and what the blocks leave on it, in the order of the arrangement.
+    matrix: ProfileMatrix,
+    /// For each unknown of the band its place in a block, nowhere but for a moment.
+    places: Vec<usize>,
+    right: Vec<f64>,
+    /// What the right-hand side becomes in the blocks.
+    own: Vec<f64>,
+    /// All unknowns of one block, with those that it touches.
+    all: Vec<f64>,
+}
+
+/// The factors of a matrix with a [`LocalBorder`].
+#[derive(Debug)]
+pub(super) struct LocalLu<'a> {
+    blocks: &'a [Block],
+    arrangement: &'a Arrangement,
+    factors: ProfileLu<'a>,
+    right: &'a mut Vec<f64>,
+    own: &'a mut Vec<f64>,
+    all: &'a mut Vec<f64>,
+}
+
+impl LocalBorder {
+    /// A border without entries beside a band of so many unknowns.
+    pub(super) fn zeros(size: usize, half_bandwidth: usize, layout: BlockLayout) -> Self {
+        let entries = layout.block_entries;
+        let blocks: Vec<_> =
+            layout.own.iter().map(|own| Block::new(own.clone(), entries)).collect();
+        let candidates = blocks.iter().map(Block::candidates).sum();
+        let capacity = size + BLOCK * blocks.len();
+        Self {
+            arrangement: Arrangement::new(size, layout),
+            matrix: ProfileMatrix::with_capacity(capacity, half_bandwidth + SPARE_REACH),
+            blocks,
+            places: vec![NOWHERE; size],
+            right: Vec::with_capacity(capacity),
+            own: Vec::with_capacity(candidates),
+            all: Vec::with_capacity(BLOCK + entries),
+        }
+    }
+
+    pub(super) fn width(&self) -> usize {
+        BLOCK * self.blocks.len()
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.blocks.iter_mut().for_each(Block::clear);
+    }
+
+    pub(super) fn block_mut(&mut self, border_index: usize) -> (&mut Block, usize) {
+        (&mut self.blocks[border_index / BLOCK], border_index % BLOCK)
+    }
+
+    /// The column of a block in which an entry of one of its rows stands.
+    pub(super) fn column_in(border_row: usize, border_column: usize) -> usize {
+        debug_assert_eq!(border_row / BLOCK, border_column / BLOCK, "blocks are not coupled");
+        border_column % BLOCK
+    }
+
+    /// The entry at a row and a column of the band, or of the border where these are errors.
+    pub(super) fn get(&self, row: Result<usize, usize>, column: Result<usize, usize>) -> f64 {
+        let block = |at: usize| (&self.blocks[at / BLOCK], at % BLOCK);
+        match (row, column) {
+            (Ok(_), Ok(_)) => 0.0,
+            (Ok(row), Err(column)) => block(column).0.in_column(row, column % BLOCK),
+            (Err(row), Ok(column)) => block(row).0.in_row(row % BLOCK, column),
+            (Err(row), Err(column)) if row / BLOCK != column / BLOCK => 0.0,
+            (Err(row), Err(column)) => block(row).0.in_corner(row % BLOCK, column % BLOCK),
+        }
+    }
+
+    /// Eliminates the blocks, and then band and what they leave.
+    pub(super) fn factorise(&mut self, band: &BandedMatrix) -> Result<LocalLu<'_>, LinearError> {
+        let size = band.size() + self.width();
+        for (index, block) in self.blocks.iter_mut().enumerate() {
+            let unknown = band.size() + BLOCK * index;
+            block.eliminate(band, &mut self.places).map_err(|error| error.at(unknown, size))?;
+        }
+        self.arrangement.fit(&self.blocks);
+        self.matrix.remake(&self.arrangement.ends, band.half_bandwidth());
+        self.copy(band);
+        for (block, &delayed) in self.blocks.iter().zip(&self.arrangement.delayed) {
+            add_what_is_left(block, delayed, &self.arrangement.position, &mut self.matrix);
+        }
+        let Self { blocks, arrangement, matrix, right, own, all, .. } = self;
+        let factors = matrix.factorise().map_err(|error| {
+            let is_there = |place: &usize| *place == error.unknown();
+            let of_band = arrangement.position.iter().position(is_there);
+            error.at(of_band.unwrap_or(band.size()), size)
+        })?;
+        Ok(LocalLu { blocks, arrangement, factors, right, own, all })
+    }
+
+    /// Copies the band, in the order of the arrangement.
+    fn copy(&mut self, band: &BandedMatrix) {
+        let Arrangement { position, runs_to, .. } = &self.arrangement;
+        for (row, &place) in position.iter().enumerate().filter(|(_, place)| **place != NOWHERE) {
+            let (first, entries) = band.row(row);
+            if position[first] != NOWHERE && runs_to[first] >= first + entries.len() - 1 {
+                self.matrix.copy_to_row(place, position[first], entries);
+                continue;
+            }
+            for (&column, &value) in position[first..].iter().zip(entries) {
+                if value != 0.0 {
+                    self.matrix.add(place, column, value);
+                }
+            }
+        }
+    }
+}
+
+/// The place of what elimination of a block has left, by its number there: delayed unknowns first.
+fn place_of(block: &Block, delayed: usize, position: &[usize], left: usize) -> usize {
+    left.checked_sub(block.delayed())
+        .map_or_else(|| delayed + left, |touched| position[block.touched[touched]])
+}
+
+fn add_what_is_left(block: &Block, delayed: usize, position: &[usize], matrix: &mut ProfileMatrix) {
+    let count = block.delayed();
+    for (number, entries) in block.left() {
+        let scale = if number < count { block.scale } else { 1.0 };
+        let row = place_of(block, delayed, position, number);
+        for (other, &value) in entries.iter().enumerate() {
+            if value != 0.0 {
+                matrix.add(row, place_of(block, delayed, position, other), scale * value);
+            }
+        }
+    }
+    // Where fewer are delayed than may be, nothing is asked.
+    if delayed != NOWHERE {
+        for place in delayed + count..delayed + super::block::MOST_DELAYED {
+            matrix.add(place, place, 1.0);
+        }
+    }
+}
+
+impl LocalLu<'_> {
+    /// Replaces the right-hand side `x`, those of the border last, by the solution.
+    pub(super) fn solve(&mut self, x: &mut [f64]) {
+        let Arrangement { position, delayed, .. } = self.arrangement;
+        let (x, z) = x.split_at_mut(position.len());
+        self.right.clear();
+        self.right.resize(self.arrangement.size(), 0.0);
+        for (&place, &value) in position.iter().zip(&*x) {
+            if place != NOWHERE {
+                self.right[place] = value;
+            }
+        }
+        self.own.clear();
+        for ((block, &delayed), z) in self.blocks.iter().zip(delayed).zip(z.chunks_exact(BLOCK)) {
+            let first = self.own.len();
+            self.own.extend(block.by_rows(|at| x[at], z));
+            let right = &mut *self.right;
+            let own = &mut self.own[first..];
+            block.substitute(own, |touched, value| {
+                right[position[block.touched[touched]]] -= value;
+            });
+            for (left, value) in own[block.pivots..].iter().enumerate() {
+                right[delayed + left] += block.scale * value;
+            }
+        }
+        self.factors.solve(self.right);
+        for (&place, value) in position.iter().zip(&mut *x) {
+            if place != NOWHERE {
+                *value = self.right[place];
+            }
+        }
+        let mut first = 0;
+        for ((block, &delayed), z) in self.blocks.iter().zip(delayed).zip(z.chunks_exact_mut(BLOCK))
+        {
+            self.all.clear();
+            self.all.extend(&self.own[first..first + block.pivots]);
+            first += block.candidates();
+            self.all.extend((0..block.delayed()).map(|left| self.right[delayed + left]));
+            self.all.extend(block.touched.iter().map(|&at| self.right[position[at]]));
+            block.back_substitute(self.all);
+            for (unknown, &value) in block.unknowns().zip(&**self.all) {
+                match unknown {
+                    Ok(of_band) => x[of_band] = value,
+                    Err(of_block) => z[of_block] = value,
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Border, BorderedMatrix};
+    use super::*;
+    use nalgebra::{DMatrix, DVector};
+    use proptest::prelude::*;
+
+    /// What a block touches: the first of some unknowns that follow each other, how many, and one far away.
+    type Touch = (usize, usize, Option<usize>);
+
+    const OWN: usize = 2;
+
+    fn layout(size: usize, reach: usize, own: &[bool]) -> (BlockLayout, usize) {
+        let mut next = size;
+        let mut own_of = |is_own: &bool| {
+            let own: Vec<usize> = (next..next + if *is_own { OWN } else { 0 }).collect();
+            next += own.len();
+            own
+        };
+        let own: Vec<Vec<usize>> = own.iter().map(&mut own_of).collect();
+        let of_band = (0..size).map(|first| (first..=(first + reach).min(size - 1)).collect());
+        let groups: Vec<Vec<usize>> =
+            of_band.chain(own.iter().filter(|own| !own.is_empty()).cloned()).collect();
+        (BlockLayout { own, groups: groups.into(), block_entries: 10 }, next)
+    }
+
+    /// Entries like those of a band with contacts: forces do not depend on each other.
+    fn fill(
+        matrix: &mut BorderedMatrix,
+        layout: &BlockLayout,
+        touches: &[Touch],
+        mut next: impl FnMut() -> f64,
+    ) {
+        let all = matrix.band().size();
+        matrix.clear();
+        let groups = layout.groups.clone();
+        for group in &*groups {
+            for (i, j) in group.iter().flat_map(|i| group.iter().map(move |j| (*i, *j))) {
+                let diagonal = if i == j { 3.0 } else { 0.0 };
+                matrix.band_mut().add(i, j, 0.3 * next() + diagonal);
+            }
+        }
+        let size = all - layout.own.iter().map(Vec::len).sum::<usize>();
+        for (block, (own, &(first, count, far))) in layout.own.iter().zip(touches).enumerate() {
+            let near = (first..first + count).chain(far).map(|at| at % size);
+            for at in near.chain(own.iter().copied()) {
+                for unknown in 0..BLOCK {
+                    matrix.border_mut().add_to_column(at, BLOCK * block + unknown, next());
+                    matrix.border_mut().add_to_row(BLOCK * block + unknown, at, next());
+                }
+            }
+            for (row, column) in (0..BLOCK * BLOCK).map(|at| (at / BLOCK, at % BLOCK)) {
+                let value = if row < 2 && column < 2 { 0.0 } else { 2.0 * next() };
+                let (row, column) = (BLOCK * block + row, BLOCK * block + column);
+                matrix.border_mut().add_to_corner(row, column, value);
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_solution_with_many_blocks_is_the_dense_one_wherever_they_go(
+            size in 12_usize..50, reach in 0_usize..5, own in prop::collection::vec(any::<bool>(), 1..8),
+            touches in prop::collection::vec((0_usize..50, 1_usize..7, prop::option::of(0_usize..50)), 16),
+            entries in prop::collection::vec(-1.0..1.0_f64, 997),
+        ) {
+            let (layout, all) = layout(size, reach, &own);
+            let reach = reach.max(OWN - 1);
+            let mut matrix = BorderedMatrix::with_blocks(all, reach, layout.clone());
+            let mut entries = entries.into_iter().cycle();
+            for touches in [&touches[..8], &touches[8..], &touches[..8]] {
+                fill(&mut matrix, &layout, touches, || entries.next().unwrap());
+                let dense = DMatrix::from_fn(matrix.size(), matrix.size(), |i, j| matrix.get(i, j));
+                prop_assume!(dense.clone().svd(false, false).singular_values.min() > 1e-2);
+                let right = DVector::from_fn(matrix.size(), |i, _| (i as f64 + 1.0).sin());
+                let mut x = right.as_slice().to_vec();
+                matrix.factorise().unwrap().solve(&mut x);
+                let error = dense * DVector::from_vec(x) - right;
+                prop_assert!(error.amax() < 1e-8, "residual {}", error.amax());
+            }
+        }
+    }
+
+    #[test]
+    fn what_blocks_touch_far_apart_is_brought_together() {
+        let (size, own) = (300, [false; 30]);
+        let (layout, all) = layout(size, 2, &own);
+        let mut matrix = BorderedMatrix::with_blocks(all, 2, layout.clone());
+        // As if two beams of 150 unknowns crossed each other at every place.
+        let touches: Vec<Touch> =
+            (0..30).map(|block| (5 * block, 3, Some(150 + 5 * block))).collect();
+        let mut value = 0.3_f64;
+        fill(&mut matrix, &layout, &touches, || {
+            value = (value * 7.3).sin();
+            value
+        });
+        matrix.factorise().unwrap();
+        let Border::Local(border) = matrix.border_mut() else { panic!() };
+        let ends = &border.arrangement.ends;
+        let reach = ends.iter().enumerate().map(|(at, end)| end - at).max().unwrap();
+        assert!(reach < 30, "{reach}");
+    }
+
+    #[test]
+    fn a_block_that_determines_nothing_is_named_by_its_unknown() {
+        let layout = BlockLayout { own: vec![vec![]], groups: [].into(), block_entries: 1 };
+        let mut matrix = BorderedMatrix::with_blocks(2, 0, layout);
+        matrix.band_mut().add(0, 0, 1.0);
+        matrix.band_mut().add(1, 1, 1.0);
+        (0..4).for_each(|unknown| matrix.border_mut().add_to_corner(unknown, unknown, 1.0));
+        let error = matrix.factorise().unwrap_err();
+        assert_eq!(error, LinearError::Singular { unknown: 2, size: 7 });
+    }
+}

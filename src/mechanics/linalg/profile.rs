@@ -1,0 +1,130 @@
+//! A matrix whose entries end at a profile of their own in each row and column, with its pivoted LU.
+//!
+//! The profile is made anew with the entries, in the same memory: so what is coupled may wander. See [`BandedMatrix`](super::BandedMatrix) for
+//! how its rows are stored and eliminated.
+
+use pulp::Arch;
+
+use super::LinearError;
+use super::banded::Storage;
+use super::elimination::{PANEL, ProfileElimination};
+use super::substitution::ProfileSubstitution;
+
+/// A square matrix with a profile: for each index the last row with an entry in the column, and the last column with one in the row.
+#[derive(Debug, Clone)]
+pub(super) struct ProfileMatrix {
+    storage: Storage,
+    /// For each index; it never falls, and goes on for a panel behind the last row.
+    ends: Vec<usize>,
+}
+
+/// The factors `P A = L U` of a [`ProfileMatrix`], kept in its storage.
+#[derive(Debug)]
+pub(super) struct ProfileLu<'a> {
+    factors: &'a Storage,
+    ends: &'a [usize],
+}
+
+impl ProfileMatrix {
+    /// A matrix without rows, with room for so many, and for entries so far off the diagonal.
+    pub(super) fn with_capacity(size: usize, half_bandwidth: usize) -> Self {
+        let ends = Vec::with_capacity(size + PANEL);
+        Self { storage: Storage::zeros(size, half_bandwidth), ends }
+    }
+
+    /// Makes the matrix one of zeros with the least profile that covers the given ends and never falls; entries so far off the diagonal can be added
+    /// as long as they are zero.
+    pub(super) fn remake(&mut self, ends: &[usize], half_bandwidth: usize) {
+        self.ends.clear();
+        let (mut furthest, mut reach) = (0, half_bandwidth);
+        for (index, &end) in ends.iter().enumerate() {
+            furthest = furthest.max(end).max(index);
+            reach = reach.max(furthest - index);
+            self.ends.push(furthest);
+        }
+        self.ends.extend(ends.len()..ends.len() + PANEL);
+        self.storage.remake(ends.len(), reach);
+    }
+
+    /// Adds `value` to the entry at `(row, column)` of the matrix, which must lie in the profile.
+    #[inline]
+    pub(super) fn add(&mut self, row: usize, column: usize, value: f64) {
+        debug_assert!(self.ends[row.min(column)] >= row.max(column), "({row}, {column})");
+        let at = row * self.storage.stride() + column + self.storage.centre() - row;
+        self.storage.rows[at] += value;
+    }
+
+    /// Copies entries of a row to the columns from `first` on; beyond the profile these must be zero.
+    #[inline]
+    pub(super) fn copy_to_row(&mut self, row: usize, first: usize, values: &[f64]) {
+        let at = row * self.storage.stride() + first + self.storage.centre() - row;
+        self.storage.rows[at..at + values.len()].copy_from_slice(values);
+    }
+
+    /// Replaces the entries of the matrix by its factors.
+    ///
+    /// # Errors
+    /// When a column has no non-zero or no finite pivot; the entries are then lost.
+    pub(super) fn factorise(&mut self) -> Result<ProfileLu<'_>, LinearError> {
+        Arch::new().dispatch(ProfileElimination(&mut self.storage, &self.ends))?;
+        Ok(ProfileLu { factors: &self.storage, ends: &self.ends })
+    }
+}
+
+impl ProfileLu<'_> {
+    /// Replaces the right-hand side `x`, one number a row, by the solution of `A x = b`.
+    pub(super) fn solve(&self, x: &mut [f64]) {
+        Arch::new().dispatch(ProfileSubstitution { factors: self.factors, ends: self.ends, x });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{DMatrix, DVector};
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn the_solution_in_a_profile_is_the_dense_one_again_and_again(
+            reaches in prop::collection::vec(0_usize..15, 1..60), entries in prop::collection::vec(-1.0..1.0_f64, 2000),
+            diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
+        ) {
+            let mut matrix = ProfileMatrix::with_capacity(1, 0);
+            // The second time in another profile.
+            for shift in [0, 7] {
+                let size = reaches.len();
+                let ends: Vec<usize> =
+                    (0..size).map(|i| (i + reaches[(i + shift) % size]).min(size - 1)).collect();
+                matrix.remake(&ends, 0);
+                let mut dense: DMatrix<f64> = DMatrix::zeros(size, size);
+                let mut entry = entries.iter().skip(shift).cycle();
+                for i in 0..size {
+                    for j in 0..size {
+                        let value = *entry.next().unwrap() + if i == j { diagonal } else { 0.0 };
+                        if ends[i.min(j)] >= i.max(j) {
+                            matrix.add(i, j, value);
+                            dense[(i, j)] += value;
+                        }
+                    }
+                }
+                let right = DVector::from_fn(size, |i, _| (i as f64 + 1.0).sin());
+                prop_assume!(dense.clone().svd(false, false).singular_values.min() > 1e-2);
+                let mut x = right.as_slice().to_vec();
+                matrix.factorise().unwrap().solve(&mut x);
+                let error: DVector<f64> = dense * DVector::from_vec(x) - right;
+                prop_assert!(error.amax() < 1e-9, "residual {}", error.amax());
+            }
+        }
+    }
+
+    #[test]
+    fn a_zero_column_is_named() {
+        let mut matrix = ProfileMatrix::with_capacity(3, 1);
+        matrix.remake(&[1, 1, 2], 0);
+        matrix.add(0, 0, 1.0);
+        matrix.add(2, 2, 1.0);
+        let error = matrix.factorise().unwrap_err();
+        assert_eq!(error, LinearError::Singular { unknown: 1, size: 3 });
+    }
+}

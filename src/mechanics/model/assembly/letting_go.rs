@@ -1,0 +1,64 @@
+//! What lets go of a model on its way.
+
+use super::Numbering;
+use super::assemble::joined;
+use crate::beams::BodyDynamics;
+use crate::integrators::Constraints;
+use crate::joints::Hold;
+use crate::model::mechanism::Numbers;
+use crate::model::{Model, ModelError, Scene};
+
+impl Model {
+    /// Lets something go at the present moment that the scene of this model holds; `released` has let go before. Places and rates go on; what a spring
+    /// stores counts as dissipated. Methods need new work space for what follows.
+    ///
+    /// # Errors
+    /// When a station is off its beam, which it was not when the scene was described.
+    pub fn let_go(
+        &mut self,
+        scene: &Scene,
+        released: &[Hold],
+        hold: Hold,
+    ) -> Result<(), ModelError> {
+        match hold {
+            Hold::Slider(slider) => self.release(slider),
+            Hold::Spring(spring) => self.let_go_of_spring(spring),
+            Hold::Joint(_) | Hold::Drive(_) => {
+                let all: Vec<Hold> = released.iter().copied().chain([hold]).collect();
+                let numbers = self.numbers(scene, &all)?;
+                self.renumber(numbers);
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes the model one in which exactly these have let go, to be given a state of such a one.
+    ///
+    /// # Errors
+    /// When a station is off its beam, which it was not when the scene was described.
+    pub fn stand_released(&mut self, scene: &Scene, released: &[Hold]) -> Result<(), ModelError> {
+        let numbers = self.numbers(scene, released)?;
+        self.renumber(numbers);
+        self.detach_springs(released);
+        Ok(())
+    }
+
+    /// Numbers for all movements where these have let go.
+    fn numbers(&self, scene: &Scene, released: &[Hold]) -> Result<Numbers, ModelError> {
+        let border = self.constraint_shape().width;
+        let meshes = self.meshes();
+        let bodies: Vec<&dyn BodyDynamics> =
+            self.bodies().iter().map(|body| &*body.dynamics).collect();
+        let place = |station: &_| scene.place(station, meshes);
+        let numbering = Numbering::new(scene, released, &bodies, border, place)?;
+        let (prescribed, held, unknowns) = numbering.supports_and_unknowns(scene, released, border);
+        Ok(Numbers {
+            joined: joined(scene, released, meshes)?,
+            links: numbering.links.iter().map(|link| link.force).collect(),
+            degrees_of_freedom: numbering.degrees_of_freedom,
+            prescribed,
+            held,
+            unknowns,
+        })
+    }
+}

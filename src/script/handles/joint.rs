@@ -1,0 +1,39 @@
+//! A joint of a scene that a script holds.
+
+use super::scene::SceneHandle;
+use crate::script::rows::kind::{Details, Scripted};
+
+/// A handle on a joint of a scene.
+#[derive(Clone)]
+pub struct JointHandle {
+    /// The scene that the joint is in.
+    pub scene: SceneHandle,
+    /// The index of the joint in its scene, from 0.
+    pub index: usize,
+}
+
+impl JointHandle {
+    /// What the joint is called in columns and messages: its kind, and the how-manieth of that.
+    pub fn name(&self) -> String {
+        let names = self.scene.scene().borrow().joint_names();
+        names.into_iter().nth(self.index).unwrap_or_default()
+    }
+}
+
+impl Scripted for JointHandle {
+    const NAME: &'static str = "joint";
+    const DOC: &'static str = "A hinge, a rigid joint, a clamp or a support of a scene.";
+
+    fn show(&self) -> String {
+        let name = self.name();
+        let scene = self.scene.scene().borrow();
+        scene
+            .joints
+            .get(self.index)
+            .map_or_else(String::new, |joint| format!("{name}: {}", joint.name))
+    }
+
+    fn details(&self) -> Details {
+        Vec::new()
+    }
+}

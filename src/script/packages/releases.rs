@@ -1,0 +1,143 @@
+//! What lets go in the course of a run: joints, sliders, springs, drives.
+
+use rhai::{Array, Dynamic, Map};
+
+use super::scenes::{JOINT, SCENE};
+use super::simulations::SIMULATION;
+use super::sliding::{SLIDER, SliderHandle};
+use super::springs::{SPRING, SpringHandle};
+use crate::joints::{Hold, Release, Trigger};
+use crate::model::ModelError;
+use crate::script::handles::joint::JointHandle;
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::rows::call::Call;
+use crate::script::rows::key_sets::{KeySet, KeySets};
+use crate::script::rows::kind::Kind;
+use crate::script::rows::parameter::{Parameter, callback, either, number, options};
+use crate::script::rows::returns::{Returns, ValueKind};
+use crate::script::rows::table::{Table, method, property};
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::suggest::nearest;
+
+/// The domain of releases.
+pub const TABLE: Table = Table {
+    name: "releases",
+    doc: "A joint, a slider, a spring or a drive lets go in the course of a run. Places and velocities go on as they are, so that energy and momenta of the \
+          bodies stay to the last bit; accelerations jump. What a spring stores when it lets go counts as dissipated, as when it snaps. At rest, in \
+          scene.equilibrium and scene.modes, everything still holds.",
+    types: &[],
+    setup: super::scenes::ROD,
+    constants: &[],
+    rows: &[
+        method(SCENE, "release", &[WHAT, options("options", RELEASE_KEYS)], release)
+            .summary("Lets a joint, a slider, a spring or a drive go: at a time, or when a condition turns true.")
+            .doc("What it is about is what scene.hinge, scene.clamp, scene.rigid, scene.support, scene.slider or scene.spring gave, or its name: \"hinge1\", \"motor1\". \
+                  A step ends at the time `at`, and the next one is without it. A condition `when` is a function of the simulation, |q| …, that is asked before \
+                  every step and not within one: it lets go at the end of the first step at which the condition is true, which shorter steps find more exactly. In the state at that \
+                  end it still holds; going back there and going on lets go again.")
+            .example("let latch = scene.clamp(rod.start);\nlet pin = scene.hinge(rod.end);\n\
+                      scene.release(pin, #{ at: 0.25 });\n\
+                      scene.release(latch, #{ when: |q| q.position(rod.end).y < -0.001 });\n\
+                      scene.gravity([0, -10]);\n\
+                      let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.5);\n\
+                      check(sim.releases[0].t == 0.25 && sim.releases.len == 2);\n\
+                      check(sim.history.drift(\"energy\") < 1e-10);")
+            .see(&["joint_force", "hinge", "releases"]),
+        property(SIMULATION, "releases", releases)
+            .returns(Returns::array_of(&ValueKind::Map).note(" #{ t, name }"))
+            .summary("What has let go so far, by scene.release, and when.")
+            .example("let pin = scene.hinge(rod.start);\nscene.release(pin, #{ at: 0.1 });\n\
+                      let sim = scene.start(#{ dt: 0.05 });\nsim.run_to(0.2);\nprint(sim.releases);")
+            .see(&["release", "events"]),
+    ],
+};
+
+const WHAT: Parameter =
+    either("what", &[Kind::Object(JOINT), Kind::Object(SLIDER), Kind::Object(SPRING), Kind::Text]);
+const RELEASE_KEYS: &[Parameter] = &[
+    number("at").unit("time").doc("when it lets go, after the start").optional(),
+    callback("when").doc("the condition, |q| …: whether it lets go now").optional(),
+];
+
+/// How it is said when something lets go.
+#[derive(Clone, Copy)]
+enum Said {
+    At,
+    When,
+}
+
+const SAID: KeySets<Said> = KeySets {
+    told: "give at, a time, or when, a condition |q| …",
+    besides: &[],
+    sets: &[
+        KeySet { meaning: Said::At, told: "a time", keys: &["at"], chosen_by: None },
+        KeySet { meaning: Said::When, told: "a condition", keys: &["when"], chosen_by: None },
+    ],
+};
+
+fn release(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let handle = call.receiver::<SceneHandle>()?;
+    let hold = hold(call, &handle)?;
+    let options = call.options("options")?;
+    let (trigger, condition) = match SAID.choose("release", &options)? {
+        Said::At => (Trigger::Time(options.number("at")?), None),
+        Said::When => {
+            let function = options.callback("when")?;
+            let shape = "when: |q| q.t > 0.5, q being the simulation";
+            call.expect_arguments(&function, 1, shape)?;
+            (Trigger::Outside, Some(function))
+        }
+    };
+    handle.shared().borrow_mut().add_release(Release { hold, trigger }).map_err(|error| {
+        let place = match error {
+            ModelError::Value { .. } => Place::Key("at".into()),
+            _ => Place::Argument(0),
+        };
+        ScriptError::from(error).at(place)
+    })?;
+    if let Some(function) = condition {
+        handle.keep_condition(call.store(function, "the condition of a release"));
+    }
+    Ok(Dynamic::UNIT)
+}
+
+/// What is to let go: it is given itself, or by its name.
+fn hold(call: &Call, handle: &SceneHandle) -> Result<Hold, ScriptError> {
+    if let Some(joint) = call.get_if::<JointHandle>("what") {
+        handle.expect_same(&joint.scene, "joint")?;
+        return Ok(Hold::Joint(joint.index));
+    }
+    if let Some(slider) = call.get_if::<SliderHandle>("what") {
+        return Ok(Hold::Slider(slider.within(handle)?));
+    }
+    if let Some(spring) = call.get_if::<SpringHandle>("what") {
+        return Ok(Hold::Spring(spring.within(handle)?));
+    }
+    let (name, holds) = (call.text("what")?, handle.scene().borrow().holds());
+    if let Some((_, hold)) = holds.iter().find(|(known, _)| *known == name.as_str()) {
+        return Ok(*hold);
+    }
+    let hint = match nearest(&name, holds.iter().map(|(known, _)| known.as_str())) {
+        Some(meant) => format!("did you mean \"{meant}\"?"),
+        None if holds.is_empty() => "the scene has nothing that could let go".to_owned(),
+        None => {
+            let all: Vec<&str> = holds.iter().map(|(known, _)| known.as_str()).collect();
+            format!("there are: {}", all.join(", "))
+        }
+    };
+    let told = format!("there is no joint, slider, spring or drive '{name}'");
+    Err(call.error(told).hint(hint).at(Place::Argument(0)))
+}
+
+fn releases(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let handle = call.receiver::<SimulationHandle>()?;
+    let simulation = handle.simulation();
+    let scene = simulation.scene();
+    let told = simulation.let_go().iter().map(|gone| {
+        let name = scene.name_of_hold(scene.releases[gone.release].hold);
+        let entries = [("t", Dynamic::from(gone.time)), ("name", name.into())];
+        Dynamic::from(entries.into_iter().map(|(key, value)| (key.into(), value)).collect::<Map>())
+    });
+    Ok(told.collect::<Array>().into())
+}

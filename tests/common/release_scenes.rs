@@ -1,0 +1,88 @@
+//! Scenes of which something lets go in the course of a run.
+
+use super::at;
+use super::body_scenes::{add_body, hinge, point};
+use super::scenes::{add_beam, drive, end_of, line, rod, spring, start_of};
+use withy::beams::Mesh;
+use withy::joints::{
+    Component, EndAction, Hold, JointKind, Partner, Release, Slider, SlidingRule, StartVelocities,
+    Trigger,
+};
+use withy::loads::{PrescribedMotion, Schedule};
+use withy::model::{Anchor, ParticleDefinition, RestoringLaw, Scene, SpringKind};
+
+/// Lets something go at a time.
+pub fn release(scene: &mut Scene, hold: Hold, time: f64) {
+    scene.add_release(Release { hold, trigger: Trigger::Time(time) }).unwrap();
+}
+
+/// A chain that is turned at its foot, with a bead at its end on a spring: the motor, the rigid joint, the spring, the bead and the foot let go one after
+/// another, between points of the time grid and on them.
+pub fn chain(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("a chain that lets go");
+    let one = add_beam(&mut scene, line(at(0.0, 0.0), at(1.0, 0.5)), mesh, rod());
+    let two = add_beam(&mut scene, line(at(1.0, 0.5), at(2.0, 0.0)), mesh, rod());
+    let (foot, middle) = (start_of(&mut scene, one), end_of(&mut scene, one));
+    let (next, tip) = (start_of(&mut scene, two), end_of(&mut scene, two));
+    let bead = ParticleDefinition { name: "bead".to_owned(), position: at(2.0, 0.0) };
+    let bead = scene.add_particle(bead, 0.7).unwrap();
+    scene.join(JointKind::Hinge, foot, Partner::Ground).unwrap();
+    scene.join(JointKind::Rigid, middle, Partner::Station(next)).unwrap();
+    scene.join(JointKind::Hinge, tip, Partner::Station(bead)).unwrap();
+    let turn = Schedule::Sine { amplitude: 0.3, rate: 4.0, phase: 0.0 };
+    drive(&mut scene, foot, &[(Component::Rotation, PrescribedMotion::Place(turn))]);
+    let ends = vec![Anchor::Ground(at(2.5, 1.0)), Anchor::Station(bead)];
+    let law = RestoringLaw::Linear { stiffness: 60.0, natural: 0.4 };
+    spring(&mut scene, SpringKind::Way(ends), law, 0.8);
+    scene.gravity = at(0.0, -3.0);
+    let holds = [Hold::Drive(0), Hold::Joint(1), Hold::Spring(0), Hold::Joint(2), Hold::Joint(0)];
+    for (hold, time) in holds.into_iter().zip([0.1, 0.17, 0.25, 0.33, 0.4]) {
+        release(&mut scene, hold, time);
+    }
+    scene
+}
+
+/// A wheel on a bracket: the bracket lets go of the ground, then the wheel of the bracket.
+pub fn bracket(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("a bracket that lets go");
+    let points = [at(-0.5, 0.0), at(0.5, 0.2)];
+    let bracket = add_body(&mut scene, at(0.5, 0.0), 0.3, (1.0, 0.2), &points);
+    let beam_start = scene.drawn_at(&point(bracket, 2)).unwrap();
+    let beam = add_beam(&mut scene, line(beam_start, beam_start + at(1.0, 0.3)), mesh, rod());
+    let start = start_of(&mut scene, beam);
+    hinge(&mut scene, point(bracket, 1), None);
+    scene.join(JointKind::Rigid, start, Partner::Station(point(bracket, 2))).unwrap();
+    scene.gravity = at(0.0, -9.81);
+    release(&mut scene, Hold::Joint(0), 0.2);
+    release(&mut scene, Hold::Joint(1), 0.31);
+    scene
+}
+
+/// A bead that slides on a falling rod whose hinge lets go, and which the bead leaves in its middle.
+pub fn bead(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("a bead that lets go");
+    let beam = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 0.0)), mesh, rod());
+    let start = start_of(&mut scene, beam);
+    let particle = ParticleDefinition { name: "bead".to_owned(), position: at(1.0, 0.0) };
+    let slave = scene.add_particle(particle, 0.5).unwrap();
+    scene.join(JointKind::Hinge, start, Partner::Ground).unwrap();
+    let slider = Slider {
+        name: "slider1".to_owned(),
+        slave,
+        master: beam,
+        arc_length: 1.0,
+        rule: SlidingRule::Conserving,
+        ends: EndAction::Stop,
+        velocities: StartVelocities::Check,
+    };
+    scene.add_slider(slider).unwrap();
+    scene.gravity = at(1.0, -9.81);
+    release(&mut scene, Hold::Joint(0), 0.15);
+    release(&mut scene, Hold::Slider(0), 0.32);
+    scene
+}
+
+/// All of them.
+pub fn all(mesh: &Mesh) -> Vec<Scene> {
+    vec![chain(mesh), bracket(mesh), bead(mesh)]
+}
