@@ -104,7 +104,7 @@ fn eliminate_in_profile<S: Simd>(
         let is_eliminated = match below.max(width) {
             ..=9 if reach > 10 => eliminate_panel(simd, storage, first, [reach, 9], 12),
             ..=11 if reach > 10 => eliminate_panel(simd, storage, first, [reach, 11], 12),
-            12 => eliminate_panel(simd, storage, first, [reach, 12], 12),
+            12 if reach > 11 => eliminate_panel(simd, storage, first, [reach, 12], 12),
             _ => {
                 let whole = width.next_multiple_of(LANES);
                 let width = if whole < 2 * reach { whole } else { width };

@@ -54,6 +54,7 @@ impl Model {
         let (prescribed, held, unknowns) = numbering.supports_and_unknowns(scene, released, border);
         Ok(Numbers {
             joined: joined(scene, released, meshes)?,
+            contacts: numbering.contact_blocks(self.sliders()),
             links: numbering.links.iter().map(|link| link.force).collect(),
             degrees_of_freedom: numbering.degrees_of_freedom,
             prescribed,

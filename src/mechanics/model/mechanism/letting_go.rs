@@ -6,6 +6,7 @@ use super::Model;
 use crate::beams::Place;
 use crate::integrators::Mechanism;
 use crate::joints::Hold;
+use crate::linalg::BlockLayout;
 use crate::model::elements::{PrescribedMovement, Support, Supports};
 use crate::model::motion::{Step, Unknowns};
 
@@ -23,14 +24,18 @@ pub struct Numbers {
     pub unknowns: Unknowns,
     /// The places that joints hold together.
     pub joined: Vec<(Place, Place)>,
+    /// The contacts of sliders, where they are eliminated one by one.
+    pub contacts: Option<BlockLayout>,
 }
 
 impl Model {
     /// Numbers all movements anew; the state of motion stays.
     pub(in crate::model) fn renumber(&mut self, numbers: Numbers) {
         let moving = self.bodies.by_control_point(&self.motion.rates);
-        let Numbers { degrees_of_freedom, links, prescribed, held, unknowns, joined } = numbers;
+        let Numbers { degrees_of_freedom, links, prescribed, held, unknowns, joined, contacts } =
+            numbers;
         let count = unknowns.count();
+        self.sliders.renumber(contacts);
         self.unknowns = unknowns;
         self.bodies.renumber(degrees_of_freedom, count, joined);
         self.links.renumber(links.into_iter());

@@ -42,6 +42,11 @@ impl Sliders {
         Self { all, blocks, aim: None }
     }
 
+    /// Takes the blocks that the contacts are with other numbers of the movements.
+    pub fn renumber(&mut self, blocks: Option<BlockLayout>) {
+        self.blocks = blocks;
+    }
+
     /// The contacts as blocks of unknowns, if they are eliminated one by one.
     pub fn blocks(&self) -> Option<&BlockLayout> {
         self.blocks.as_ref()
