@@ -121,6 +121,38 @@ fn a_damper_that_turns_is_met_with_the_order_of_the_method() {
 }
 
 #[test]
+fn springs_that_can_do_nothing_are_refused() {
+    let mut scene = Scene::new("idle");
+    let mesh = Mesh::bspline(4, 3, 2).unwrap();
+    let axis = scenes::line(at(0.0, 0.0), at(2.0, 0.0));
+    let rod = scenes::add_beam(&mut scene, axis, &mesh, scenes::spaghetti_section(1e4, 100.0));
+    let [start, end] = [0.0, 2.0].map(|s| Anchor::Station(scene.station(rod, s).unwrap()));
+    let ground = |x: f64| Anchor::Ground(at(x, 0.0));
+    let spring = |kind: SpringKind| {
+        let (name, law) = ("idle".to_owned(), linear(1.0, 1.0));
+        Spring { name, kind, law, origin: Origin::Zero, damping: 0.0 }
+    };
+    for (kind, why) in [
+        (SpringKind::Way(vec![end, end]), "which is the same place"),
+        (SpringKind::Way(vec![ground(0.0), ground(1.0)]), "where nothing moves"),
+        (SpringKind::Way(vec![ground(0.0), end, end]), "which is the same place"),
+        (SpringKind::Torsion([end, end]), "which is the same place"),
+        (SpringKind::Torsion([ground(0.0), ground(1.0)]), "where nothing moves"),
+    ] {
+        let error = scene.add_spring(spring(kind)).unwrap_err().to_string();
+        assert!(
+            error.contains(why) && error.contains(" from ") && error.contains(" to "),
+            "{error}"
+        );
+    }
+    assert_eq!(scene.springs().count(), 0);
+    // A rope over pulleys on the ground, and one that goes on to where it came from, do something.
+    scene.add_spring(spring(SpringKind::Way(vec![ground(0.0), ground(1.0), end]))).unwrap();
+    let there_and_back = SpringKind::Way(vec![end, start, end]);
+    scene.add_spring(Spring { name: "back".to_owned(), ..spring(there_and_back) }).unwrap();
+}
+
+#[test]
 fn what_dampers_take_is_in_the_ledger_and_grows() {
     for entry in INTEGRATORS {
         let simulation = simulate(oscillator(18.0, 0.9, 0.3), entry.method, 0.11, 20.0);
