@@ -10,7 +10,7 @@ use super::{
     number::significant,
     page::Panel,
     plane::{Limits, View},
-    symbol::PlacedSymbol,
+    scenery::Scenery,
 };
 use crate::elementary::hypot;
 
@@ -29,7 +29,7 @@ pub struct FieldPicture {
     captions: Vec<String>,
     label: String,
     beams: Vec<Vec<(Point, f64)>>,
-    symbols: Vec<PlacedSymbol>,
+    scenery: Scenery,
     limits: Limits,
 }
 
@@ -51,9 +51,9 @@ impl FieldPicture {
         self
     }
 
-    /// Draws symbols of supports, joints, sliders and loads over all.
-    pub fn symbols(mut self, symbols: impl IntoIterator<Item = PlacedSymbol>) -> Self {
-        self.symbols.extend(symbols);
+    /// Draws rigid bodies, supports, joints, sliders and loads over all.
+    pub fn scenery(mut self, scenery: Scenery) -> Self {
+        self.scenery = scenery;
         self
     }
 
@@ -88,7 +88,7 @@ impl FieldPicture {
 
     fn view(&self) -> View {
         let points = self.beams.iter().flatten().map(|(at, _)| *at);
-        PlacedSymbol::view(&self.symbols, points, &self.limits)
+        self.scenery.view(points, &self.limits)
     }
 
     fn bar(&self) -> ColourBar {
@@ -174,7 +174,7 @@ impl Panel for FieldPicture {
                 Self::draw_beam(canvas, piece, seen);
             }
         }
-        self.symbols.iter().for_each(|symbol| symbol.draw(canvas, &frame, plot));
+        self.scenery.draw(canvas, &frame, plot);
         self.draw_largest(canvas, &frame, plot);
     }
 }

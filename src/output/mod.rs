@@ -1,7 +1,7 @@
 //! Tables, files and pictures from plain data. Nothing here knows what a simulation is.
 //!
 //! ```text
-//! chart, heat_map, bars, motion, strips, field → page → plane, symbol → frame, hatching, legend, colour_bar → axis, curve, stroke, marker → canvas → figure
+//! chart, heat_map, bars, motion, strips, field → page → scenery → plane, symbol → frame, hatching, legend, colour_bar → axis, curve, stroke, marker → canvas → figure
 //! → svg, png → files
 //! chart, heat_map → terminal → axis, curve
 //! motion → animation → figure
@@ -43,6 +43,7 @@ mod parquet;
 mod plane;
 mod png;
 mod records;
+mod scenery;
 mod strips;
 mod stroke;
 mod svg;
@@ -77,6 +78,7 @@ pub use number::{format_number, scientific, significant};
 pub use page::{Page, Panel};
 pub use plane::Limits;
 pub use records::CsvRecords;
+pub use scenery::Scenery;
 pub use strips::{Side, Strip, StripPicture};
 pub use stroke::Stroke;
 pub use symbol::{PlacedSymbol, Symbol};

@@ -14,6 +14,7 @@ use super::{
 };
 
 const LINE: f64 = 2.0;
+const OUTLINE: f64 = 1.6;
 const TRACE: f64 = 1.4;
 const MARK: f64 = 2.4;
 const PARTICLE: f64 = 4.5;
@@ -29,6 +30,8 @@ pub struct Snapshot {
     pub marks: Vec<Point>,
     /// The bodies without extent in the snapshot, drawn as larger dots.
     pub particles: Vec<Point>,
+    /// The outlines of rigid bodies in the snapshot.
+    pub bodies: Vec<Vec<Point>>,
 }
 
 /// A motion picture: snapshots of a motion in the plane. One unit of x is as long on the paper as one unit of y.
@@ -132,7 +135,8 @@ impl MotionPicture {
 
     fn points(&self) -> impl Iterator<Item = Point> + Clone {
         let snapshots = self.snapshots.iter().flat_map(|snapshot| {
-            snapshot.lines.iter().flatten().chain(&snapshot.marks).chain(&snapshot.particles)
+            let lines = snapshot.lines.iter().chain(&snapshot.bodies).flatten();
+            lines.chain(&snapshot.marks).chain(&snapshot.particles)
         });
         let traces = self.traces.iter().flat_map(|(_, points)| points);
         snapshots.chain(traces).copied().filter(|(x, y)| x.is_finite() && y.is_finite())
@@ -205,12 +209,15 @@ impl MotionPicture {
         snapshot: &Snapshot,
         part: f64,
     ) {
+        let shade = if self.beam_count() > 1 { tint(INK, part) } else { self.colour(0, part) };
+        for run in snapshot.bodies.iter().flat_map(|body| frame.curve(plot, body)) {
+            canvas.line(run, OUTLINE, shade);
+        }
         for (index, line) in snapshot.lines.iter().enumerate() {
             for run in frame.curve(plot, line) {
                 self.stroke(index).draw(canvas, &run, LINE, self.colour(index, part));
             }
         }
-        let shade = if self.beam_count() > 1 { tint(INK, part) } else { self.colour(0, part) };
         for (places, radius) in [(&snapshot.marks, MARK), (&snapshot.particles, PARTICLE)] {
             for place in frame_marks(frame, plot, places) {
                 canvas.disc(place, radius, shade);
@@ -313,7 +320,8 @@ mod tests {
             for &time in &times {
                 let lines = vec![points.clone(); points.len() % 3];
                 let (marks, particles) = (points.clone(), points.clone());
-                picture = picture.snapshot(Snapshot { time, lines, marks, particles });
+                let bodies = lines.clone();
+                picture = picture.snapshot(Snapshot { time, lines, marks, particles, bodies });
             }
             let figure = picture.figure().unwrap();
             figure.to_png().unwrap();

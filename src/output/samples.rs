@@ -100,6 +100,7 @@ fn two_beams() -> MotionPicture {
             lines: vec![vec![(0.0, 0.0), elbow], vec![elbow, tip]],
             marks: vec![(0.0, 0.0), elbow],
             particles: vec![tip],
+            bodies: Vec::new(),
         }
     };
     let times = (0..=6).map(|i| 0.25 * f64::from(i));

@@ -8,7 +8,7 @@ use super::{
     number::significant,
     page::Panel,
     plane::{Limits, View},
-    symbol::PlacedSymbol,
+    scenery::Scenery,
 };
 use crate::elementary::hypot;
 
@@ -50,7 +50,7 @@ pub struct StripPicture {
     captions: Vec<String>,
     strips: Vec<Strip>,
     side: Side,
-    symbols: Vec<PlacedSymbol>,
+    scenery: Scenery,
     limits: Limits,
 }
 
@@ -86,9 +86,9 @@ impl StripPicture {
         self
     }
 
-    /// Draws symbols of supports, joints, sliders and loads over all.
-    pub fn symbols(mut self, symbols: impl IntoIterator<Item = PlacedSymbol>) -> Self {
-        self.symbols.extend(symbols);
+    /// Draws rigid bodies, supports, joints, sliders and loads over all.
+    pub fn scenery(mut self, scenery: Scenery) -> Self {
+        self.scenery = scenery;
         self
     }
 
@@ -147,7 +147,7 @@ impl StripPicture {
         let runs = self.strips.iter().flat_map(|strip| self.runs(strip));
         let tips: Vec<Point> = runs.flatten().map(|ordinate| ordinate.tip).collect();
         let points: Vec<Point> = lines.chain(tips).collect();
-        PlacedSymbol::view(&self.symbols, points.into_iter(), &self.limits)
+        self.scenery.view(points.into_iter(), &self.limits)
     }
 
     fn frame(&self, width: f64, height: f64) -> Frame {
@@ -163,31 +163,29 @@ impl StripPicture {
         }
     }
 
-    fn draw_run(canvas: &mut Canvas, frame: &Frame, plot: &Area, run: &[Ordinate]) {
-        let line = |canvas: &mut Canvas, ends: [Point; 2], width, colour| {
-            frame
-                .curve(plot, &ends)
-                .into_iter()
-                .for_each(|piece| canvas.line(piece, width, colour));
+    /// Draws a run in the colour of its beam: ordinates, and their tips.
+    fn draw_run(
+        canvas: &mut Canvas,
+        frame: &Frame,
+        plot: &Area,
+        (run, colour): (&[Ordinate], Colour),
+    ) {
+        let line = |canvas: &mut Canvas, points: &[Point], width, colour| {
+            let pieces = frame.curve(plot, points).into_iter();
+            pieces.for_each(|piece| canvas.line(piece, width, colour));
         };
         for pair in run.windows(2) {
             let (a, b) = (frame.place(plot, pair[0].foot), frame.place(plot, pair[1].foot));
             let count = (hypot(b.0 - a.0, b.1 - a.1) / APART).ceil().clamp(1.0, 100.0) as usize;
             for index in 0..count {
                 let at = between(&pair[0], &pair[1], index as f64 / count as f64);
-                line(canvas, [at.foot, at.tip], ORDINATE, tint(colour(at.value), 0.45));
+                line(canvas, &[at.foot, at.tip], ORDINATE, tint(colour, 0.45));
             }
         }
-        for pair in run.windows(2) {
-            let (a, b) = (&pair[0], &pair[1]);
-            let crossing = (a.value * b.value < 0.0).then(|| a.value / (a.value - b.value));
-            let middle = crossing.map_or(*b, |part| between(a, b, part));
-            line(canvas, [a.tip, middle.tip], EDGE, colour(a.value + 1e-9 * b.value));
-            line(canvas, [middle.tip, b.tip], EDGE, colour(b.value));
-        }
-        for end in run.first().into_iter().chain(run.last()) {
-            line(canvas, [end.foot, end.tip], EDGE, colour(end.value));
-        }
+        let ends = [run.first(), run.last()].map(|end| end.map(|end| end.foot));
+        let tips = run.iter().map(|at| at.tip);
+        let edge: Vec<Point> = ends[0].into_iter().chain(tips).chain(ends[1]).collect();
+        line(canvas, &edge, EDGE, colour);
     }
 
     /// Places along the beams on paper, so close that nothing written passes between them.
@@ -250,11 +248,6 @@ impl StripPicture {
     }
 }
 
-/// Positive and negative values have each a colour.
-fn colour(value: f64) -> Colour {
-    hue(usize::from(value < 0.0))
-}
-
 fn between(a: &Ordinate, b: &Ordinate, part: f64) -> Ordinate {
     let mix = |a: f64, b: f64| a + part * (b - a);
     let point = |a: Point, b: Point| (mix(a.0, b.0), mix(a.1, b.1));
@@ -292,15 +285,17 @@ impl Panel for StripPicture {
         }
         let runs: Vec<Vec<Vec<Ordinate>>> =
             self.strips.iter().map(|strip| self.runs(strip)).collect();
-        for run in runs.iter().flatten() {
-            Self::draw_run(canvas, &frame, plot, run);
+        for (index, runs) in runs.iter().enumerate() {
+            for run in runs {
+                Self::draw_run(canvas, &frame, plot, (run, hue(index)));
+            }
         }
         for strip in &self.strips {
             for run in frame.curve(plot, &strip.line) {
                 canvas.line(run, BEAM, INK);
             }
         }
-        self.symbols.iter().for_each(|symbol| symbol.draw(canvas, &frame, plot));
+        self.scenery.draw(canvas, &frame, plot);
         let on_beams = self.on_beams(&frame, plot);
         let mut taken = Vec::new();
         for runs in &runs {

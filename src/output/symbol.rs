@@ -1,37 +1,22 @@
 //! Symbols of mechanics: supports, joints, sliders and loads, of the same size in every picture.
 
+mod spot;
+
+use spot::Spot;
+
 use super::{
     canvas::{Area, Canvas, Point},
-    colour::{INK, WHITE},
+    colour::INK,
     curve,
     frame::Frame,
     link::{LINK, Link},
-    marker::Marker,
     plane::{Limits, View},
 };
-use std::f64::consts::PI;
 
-use crate::elementary::{cos, hypot, sin};
+use crate::elementary::hypot;
 
-/// Widths of lines.
-const LINE: f64 = 1.5;
-const THIN: f64 = 1.0;
-/// Half the breadth of a support, the height of its triangle, and the length of its hatching.
-const SUPPORT: f64 = 11.0;
-const TRIANGLE: f64 = 12.0;
-const HATCH: f64 = 5.0;
-/// Radii of a joint and of a slider.
-const JOINT: f64 = 4.0;
-const SLIDER: f64 = 6.5;
-/// The length of an arrow, of one of many and of a head, and its distance from the place where it acts.
-const ARROW: f64 = 34.0;
-const SHORT: f64 = 18.0;
-const HEAD: f64 = 8.0;
-const APART: f64 = 4.0;
 /// Paper around a symbol, so that nothing of it is cut.
 const ROOM: f64 = 20.0;
-/// The radius of the arrow of a moment.
-const TURN: f64 = 15.0;
 
 /// A thing of a mechanism that has a symbol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,6 +25,16 @@ pub enum Symbol {
     Hinge,
     /// A support that holds position and angle; its direction is that of the beam that leaves it.
     Clamp,
+    /// A support that holds one component of the position, along its direction, away from the ground.
+    Roller,
+    /// A support that holds one component of the position and the angle, likewise.
+    Guided,
+    /// A support that holds the angle alone.
+    HeldAngle,
+    /// What turns a section as a function of time.
+    Motor,
+    /// What moves a place along a direction as a function of time.
+    Carriage,
     /// A joint between beams that turns.
     Joint,
     /// A joint between beams that does not.
@@ -62,6 +57,31 @@ pub enum Symbol {
     TorsionSpring,
 }
 
+impl Symbol {
+    /// Its name in the data of pages.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Hinge => "hinge",
+            Self::Clamp => "clamp",
+            Self::Roller => "roller",
+            Self::Guided => "guided",
+            Self::HeldAngle => "held_angle",
+            Self::Motor => "motor",
+            Self::Carriage => "carriage",
+            Self::Joint => "joint",
+            Self::RigidJoint => "rigid_joint",
+            Self::Slider => "slider",
+            Self::Force => "force",
+            Self::LineForce => "line_force",
+            Self::Moment => "moment",
+            Self::Spring => "spring",
+            Self::Damper => "damper",
+            Self::Tendon => "tendon",
+            Self::TorsionSpring => "torsion_spring",
+        }
+    }
+}
+
 /// A symbol at a place, in the reader's units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacedSymbol {
@@ -71,14 +91,6 @@ pub struct PlacedSymbol {
     pub at: Point,
     /// Where it points; of any length, zero for what has no direction. Springs, dampers and tendons end there.
     pub direction: Point,
-}
-
-/// The paper around a symbol: its place and its direction in pixels.
-struct Spot<'a> {
-    canvas: &'a mut Canvas,
-    plot: &'a Area,
-    at: Point,
-    ahead: Point,
 }
 
 impl PlacedSymbol {
@@ -100,12 +112,15 @@ impl PlacedSymbol {
         points: impl Iterator<Item = Point> + Clone,
         limits: &Limits,
     ) -> View {
-        use Symbol::{Clamp, Hinge, Moment, Slider, TorsionSpring};
+        use Symbol::{
+            Carriage, Clamp, Guided, HeldAngle, Hinge, Moment, Motor, Roller, Slider, TorsionSpring,
+        };
         let bare = View::of(points.clone(), limits);
         let links = symbols.iter().filter_map(Self::link);
         let ends = links.filter(|[at, end]| bare.shows(*at) || bare.shows(*end)).flatten();
         let is_about = |placed: &&Self| {
-            matches!(placed.symbol, Hinge | Clamp | Slider | Moment | TorsionSpring)
+            let is_held = matches!(placed.symbol, Hinge | Clamp | Roller | Guided | HeldAngle);
+            is_held || matches!(placed.symbol, Motor | Carriage | Slider | Moment | TorsionSpring)
         };
         let about = symbols.iter().filter(is_about).map(|placed| placed.at);
         let about = about.filter(|at| bare.shows(*at));
@@ -133,109 +148,7 @@ impl PlacedSymbol {
         let (x, y) = self.direction;
         let length = hypot(x, y);
         let ahead = if length > 0.0 { (x / length, -y / length) } else { (1.0, 0.0) };
-        let mut spot = Spot { canvas, plot, at, ahead };
-        match self.symbol {
-            Symbol::Hinge => spot.hinge(),
-            Symbol::Clamp => spot.clamp(),
-            Symbol::Joint => spot.ring(),
-            Symbol::RigidJoint => Marker::Square.draw(spot.canvas, at, JOINT, INK),
-            Symbol::Slider => Marker::Diamond.draw(spot.canvas, at, SLIDER, INK),
-            Symbol::Force => spot.arrow(ARROW, LINE),
-            Symbol::LineForce => spot.arrow(SHORT, THIN),
-            Symbol::Moment => spot.turn(),
-            Symbol::TorsionSpring => spot.spiral(),
-            Symbol::Spring | Symbol::Damper | Symbol::Tendon => {}
-        }
-    }
-}
-
-impl Spot<'_> {
-    /// The place so far ahead and so far to the left.
-    fn at(&self, ahead: f64, left: f64) -> Point {
-        let (x, y) = self.ahead;
-        (self.at.0 + ahead * x + left * y, self.at.1 + ahead * y - left * x)
-    }
-
-    fn line(&mut self, points: &[Point], width: f64) {
-        for piece in curve::pieces(points.iter().copied(), self.plot) {
-            self.canvas.line(piece, width, INK);
-        }
-    }
-
-    fn ring(&mut self) {
-        self.canvas.disc(self.at, JOINT, INK);
-        self.canvas.disc(self.at, JOINT - LINE, WHITE);
-    }
-
-    /// A line with slanted strokes behind it, from `from` to `to`.
-    fn ground(&mut self, from: Point, to: Point, behind: Point) {
-        self.line(&[from, to], LINE);
-        for index in 0..=4 {
-            let part = 0.1 + 0.2 * f64::from(index);
-            let foot = (from.0 + part * (to.0 - from.0), from.1 + part * (to.1 - from.1));
-            let slant = ((to.0 - from.0) * 0.15, (to.1 - from.1) * 0.15);
-            let end = (foot.0 + HATCH * behind.0 - slant.0, foot.1 + HATCH * behind.1 - slant.1);
-            self.line(&[foot, end], THIN);
-        }
-    }
-
-    fn hinge(&mut self) {
-        let (x, y) = self.at;
-        let (left, right) = ((x - 0.6 * SUPPORT, y + TRIANGLE), (x + 0.6 * SUPPORT, y + TRIANGLE));
-        self.line(&[(x, y), left, right, (x, y)], LINE);
-        let (left, right) = ((x - SUPPORT, y + TRIANGLE), (x + SUPPORT, y + TRIANGLE));
-        self.ground(left, right, (0.0, 1.0));
-        self.ring();
-    }
-
-    fn clamp(&mut self) {
-        let (from, to) = (self.at(0.0, -SUPPORT), self.at(0.0, SUPPORT));
-        self.ground(from, to, (-self.ahead.0, -self.ahead.1));
-    }
-
-    fn head(&mut self, tip: Point, ahead: Point, width: f64) {
-        let wing = |side: f64| {
-            let (x, y) = (ahead.0 - 0.5 * side * ahead.1, ahead.1 + 0.5 * side * ahead.0);
-            (tip.0 - HEAD * x, tip.1 - HEAD * y)
-        };
-        self.line(&[wing(1.0), tip, wing(-1.0)], width);
-    }
-
-    /// An arrow that ends at the place; where there is no paper for that, one that begins there.
-    fn arrow(&mut self, length: f64, width: f64) {
-        let (tail, tip) = (self.at(-APART - length, 0.0), self.at(-APART, 0.0));
-        let is_on_paper = (self.plot.left..=self.plot.right).contains(&tail.0)
-            && (self.plot.top..=self.plot.bottom).contains(&tail.1);
-        let (tail, tip) = match is_on_paper {
-            true => (tail, tip),
-            false => (self.at(APART, 0.0), self.at(APART + length, 0.0)),
-        };
-        self.line(&[tail, tip], width);
-        self.head(tip, self.ahead, width);
-    }
-
-    /// Two turns and a half about the place.
-    fn spiral(&mut self) {
-        let point = |index: u32| {
-            let (angle, radius) =
-                (5.0 * PI * f64::from(index) / 48.0, 3.0 + f64::from(index) / 4.8);
-            (self.at.0 + radius * cos(angle), self.at.1 - radius * sin(angle))
-        };
-        let spiral: Vec<Point> = (0..=48).map(point).collect();
-        self.line(&spiral, THIN);
-    }
-
-    /// Most of a circle, with a head.
-    fn turn(&mut self) {
-        let side = if self.ahead.0 < 0.0 { -1.0 } else { 1.0 };
-        // From below the place to its upper side; clockwise it is the mirror image.
-        let angle = |index: f64| -2.0 + 4.4 * index / 24.0;
-        let around =
-            |angle: f64| (self.at.0 + side * TURN * cos(angle), self.at.1 - TURN * sin(angle));
-        let arc: Vec<Point> = (0..=24).map(|index| around(angle(f64::from(index)))).collect();
-        let (end, tip) = (angle(24.0), around(angle(24.0)));
-        self.line(&arc, LINE);
-        self.head(tip, (-side * sin(end), -cos(end)), LINE);
+        Spot { canvas, plot, at, ahead }.draw(self.symbol);
     }
 }
 
@@ -257,10 +170,12 @@ mod tests {
     #[test]
     fn symbols_are_drawn_where_their_place_is_seen() {
         use Symbol::{
-            Clamp, Force, Hinge, Joint, LineForce, Moment, RigidJoint, Slider, TorsionSpring,
+            Carriage, Clamp, Force, Guided, HeldAngle, Hinge, Joint, LineForce, Moment, Motor,
+            RigidJoint, Roller, Slider, TorsionSpring,
         };
-        let bodies = [Hinge, Clamp, Joint, RigidJoint, Slider, TorsionSpring];
-        for symbol in bodies.into_iter().chain([Force, LineForce, Moment]) {
+        let bodies = [Hinge, Clamp, Roller, Guided, HeldAngle, Motor, Carriage, Joint];
+        let others = [RigidJoint, Slider, TorsionSpring];
+        for symbol in bodies.into_iter().chain(others).chain([Force, LineForce, Moment]) {
             assert!(!drawn(symbol, (0.5, 0.5), (1.0, 0.0)).shapes().is_empty(), "{symbol:?}");
             assert!(drawn(symbol, (1.5, 0.5), (1.0, 0.0)).shapes().is_empty(), "{symbol:?}");
         }

@@ -226,3 +226,47 @@ fn the_present_moment_knows_the_forces_of_rates() {
         assert!((mean - found).abs() < 1e-3 * largest, "{mean} {found} {largest}");
     }
 }
+
+/// What a damped section transmits is what its strains and their rates ask for: it balances the clamp, which knows of neither.
+#[test]
+fn sections_transmit_what_is_viscous_too() {
+    let omega = frequency(1.875_104_068_711_961);
+    let mut scene = slender(0.6 / omega);
+    let start = scene.station(0, 0.0).unwrap();
+    scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
+    push(&mut scene, LENGTH, 1e-2, f64::MAX);
+    let mut simulation = simulate(scene, Method::EnergyDecaying { chi: 1.0 }, 0.002, 0.05);
+    let mut viscous = 0.0_f64;
+    for _ in 0..20 {
+        let next = simulation.time() + 0.02;
+        crate::common::run(&mut simulation, next).unwrap();
+        let section = simulation.section_forces(&start).unwrap();
+        let now = simulation.instant().unwrap();
+        let model = simulation.model();
+        let (_, given) = model.transmission(simulation.scene(), 0).unwrap().read(&now);
+        let of_strain = BENDING * section.curvature;
+        assert!(
+            (given + section.moment).abs() < 5e-3 * 1e-2 * LENGTH,
+            "{given} {}",
+            section.moment
+        );
+        viscous = viscous.max((section.moment - of_strain).abs() / given.abs());
+        let along = simulation.section_forces_along(0).unwrap();
+        assert!((along[0].forces.moment - section.moment).abs() < 1e-12 * section.moment.abs());
+    }
+    println!("up to {viscous} of the moment at the clamp is viscous");
+    assert!(viscous > 0.2);
+}
+
+#[test]
+fn a_beam_that_turns_as_a_whole_has_no_viscous_forces() {
+    let mut scene = slender(0.1);
+    scene.beams[0].motion = StartMotion { velocity: at(3.0, 1.0), spin: 2.0, about: None };
+    let simulation = simulate(scene, Method::EnergyMomentum, 0.01, 0.0);
+    for sample in simulation.section_forces_along(0).unwrap() {
+        // EA γ of a rate of rounding: 1e6 · 0.1 · 1e-16 · some.
+        let forces = sample.forces;
+        let largest = forces.axial.abs().max(forces.shear.abs()).max(forces.moment.abs());
+        assert!(largest < 1e-8, "{forces:?}");
+    }
+}

@@ -78,7 +78,9 @@ fn energies_of_all_bodies_are_that_of_the_scene() {
 #[test]
 fn forces_and_accelerations_are_those_of_a_very_short_step() {
     let short = 1e-6;
-    for scene in scenes::all(&smooth(5)) {
+    // Nothing may let go in the short step: what gave a reaction before it would be gone after it.
+    let lets_go = |scene: &Scene| scene.release_times().any(|time| time == 0.4);
+    for scene in scenes::all(&smooth(5)).into_iter().filter(|scene| !lets_go(scene)) {
         let station = Station::on_beam(0, scene.beams[0].axis.length());
         let name = scene.name.clone();
         let held: Vec<Station> = scene

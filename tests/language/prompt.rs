@@ -151,6 +151,14 @@ fn a_vector_makes_two_curves_and_commas_separate_more() {
         ["energy", "sim.position(rod.end).x", "sim.position(rod.end).y", "2 * sim.t"]
     );
     // Names of columns need no commas, as ever.
+    assert_eq!(prompt.ask(":plot kinetic strain #{ y_log: true }").lines().count(), 2);
+    let labelled =
+        prompt.ask(":plot kinetic, 2 * sim.t, #{ labels: [\"one\", \"two\"], title: \"both\" }");
+    assert_eq!(labelled.lines().count(), 2, "{labelled}");
+    let told = prompt.refusal(":plot energy, #{ y_lag: true }");
+    assert!(told.contains("unknown option 'y_lag'") && told.contains("y_log"), "{told}");
+    let told = prompt.refusal(":plot energy #{ y_limits: [2, 1] }");
+    assert!(told.contains(":plot: 'y_limits' must be [low, high], got [2, 1]"), "{told}");
     assert_eq!(prompt.ask(":plot kinetic strain").lines().count(), 2);
     assert_eq!(prompt.ask(":plot \"kinetic\", strain").lines().count(), 2);
     assert_eq!(prompt.ask(":plot").lines().count(), 3);
@@ -436,8 +444,8 @@ fn names_of_the_session_are_explained_with_their_values() {
         ("shapes::rectangle?", &["sections::rectangle("]),
         ("EA?", &["An option of"]),
         ("sqrt?", &["sqrt("]),
-        (":plot?", &[":plot [CURVE, …]", "separated by commas"]),
-        ("plot?", &[":plot [CURVE, …]", "plot_motion"]),
+        (":plot?", &[":plot [CURVES, OPTIONS]", "separated by commas"]),
+        ("plot?", &[":plot [CURVES, OPTIONS]", "plot_motion"]),
         ("?:time", &[":time INPUT"]),
         ("let?", &["let"]),
     ] {

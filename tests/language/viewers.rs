@@ -254,6 +254,53 @@ fn springs_are_drawn_between_their_ends_and_a_slider_until_it_has_left() {
 }
 
 #[test]
+fn rigid_bodies_have_outlines_and_what_drives_has_signs() {
+    let script = "
+        let wheel = scene.body(#{ name: \"wheel\", at: [5, 0], mass: 1, inertia: 1, angle: 0.3,
+                                  points: #{ e: [1, 0], n: [0, 1], w: [-1, 0] } });
+        let arm = scene.body(#{ name: \"arm\", at: [8, 0], mass: 1, inertia: 1, points: #{ eye: [0.5, 0] } });
+        let bob = scene.body(#{ name: \"bob\", at: [9, 0], mass: 1, inertia: 1 });
+        scene.hinge(wheel.centre);
+        scene.motor(wheel.centre, #{ angle: |t| t * t });
+        scene.move(arm.centre, #{ x: |t| 0.1 * t * t, y: 0, angle: 0 });
+        scene.support(bob.centre, #{ y: true });
+        let run = scene.start(#{ dt: 0.02 });
+        run.run_to(0.5);
+        let p = run.position(wheel.point(\"n\"));
+        print(`${p.x} ${p.y}`);
+        write_viewer(run, \"page.html\", #{ fields: [] });";
+    let (printed, page) = written(script, "page.html");
+    let data = data(&page);
+    let film = &data["films"][0];
+    let kinds: Vec<&str> = film["symbols"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|one| one["kind"].as_str().unwrap())
+        .collect();
+    assert_eq!(kinds, ["hinge", "joint", "hinge", "roller", "motor", "carriage", "slider"]);
+    let bodies = film["bodies"].as_array().unwrap();
+    let outlines: Vec<usize> =
+        bodies.iter().map(|body| body["outline"].as_array().unwrap().len()).collect();
+    assert_eq!(outlines, [4, 2, 0], "closed, a line from the centre, none");
+    let names: Vec<&str> = bodies[0]["points"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|at| at["name"].as_str().unwrap())
+        .collect();
+    assert_eq!(names, ["wheel.e", "wheel.n", "wheel.w"]);
+    // A place of a body is one of the points that were sent: there, in the last frame, it is where the solver has it.
+    let place = bodies[0]["points"][1]["at"].as_array().unwrap();
+    let first = place[0].as_u64().unwrap() as usize;
+    let known: Vec<f64> = printed.trim().split(' ').map(|number| number.parse().unwrap()).collect();
+    for (axis, known) in ["x", "y"].into_iter().zip(known) {
+        let shown = *series(&film[axis])[first].last().unwrap();
+        assert!((shown - known).abs() < 1e-3, "{axis}: {shown} {known}");
+    }
+}
+
+#[test]
 fn signs_and_loads_are_there() {
     let (_, page) = written("sim.run_to(1);\nwrite_viewer(sim, \"page.html\");", "page.html");
     let data = data(&page);
@@ -262,7 +309,7 @@ fn signs_and_loads_are_there() {
         let all = film[name].as_array().unwrap().iter();
         all.map(|one| one["kind"].as_str().unwrap().to_owned()).collect()
     };
-    assert_eq!(kinds("symbols"), ["support", "hinge", "slider"]);
+    assert_eq!(kinds("symbols"), ["hinge", "joint", "slider"]);
     let loads = series(&film["arrows"]["values"]);
     let at = |time: f64| loads[1][(time / 0.02) as usize];
     assert_eq!((loads.len(), at(0.2)), (2, 0.0));

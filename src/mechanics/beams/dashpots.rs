@@ -13,7 +13,7 @@ use super::dynamics::{ForceSummary, Movement};
 use super::force_dashpot::ForceDashpot;
 use super::moment_dashpot::MomentDashpot;
 use super::sections::SectionsOnAxis;
-use super::{BeamError, Mesh, RotationIncrement, Section, SectionVariation};
+use super::{BeamError, Mesh, RotationIncrement, Section, SectionPlace, SectionVariation};
 use crate::geometry::{Vec2, larger};
 
 /// The relaxation times of a Kelvin–Voigt material: a section resists with `C (Γ + τ Γ̇)` and `EI (κ + τ κ̇)` [time].
@@ -254,6 +254,27 @@ impl Dashpots {
             }
         }
         power
+    }
+
+    /// What such rates of the control points let the dashpots transmit at a place at the start of the step, by the weights with which the
+    /// quadrature points that they stand beside add up there: a force in space [force] and a moment [force·length].
+    pub fn transmitted(&self, place: &SectionPlace, rates: &[Movement]) -> (Vec2, f64) {
+        let of_span = |span: usize| {
+            let span = &self.spans[span];
+            (span, &rates[span.first..span.first + self.order])
+        };
+        let (mut force, mut moment) = (Vec2::zeros(), 0.0);
+        for share in &place.force_shares {
+            let (span, rates) = of_span(share.span);
+            let (at_point, couple) = span.forces[share.point].transmitted(rates);
+            force += at_point * share.of_force;
+            moment += couple * share.of_couple;
+        }
+        for share in &place.moment_shares {
+            let (span, rates) = of_span(share.span);
+            moment += span.moments[share.point].transmitted(rates) * share.of_moment;
+        }
+        (force, moment)
     }
 
     /// Appends the state of the dashpots at the start of a step to `state`.

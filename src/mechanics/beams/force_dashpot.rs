@@ -215,14 +215,25 @@ impl ForceDashpot {
         self.functions.weight * self.force.dot(&change)
     }
 
+    /// `Γ̇` of rates of the control points, at the start of the step.
+    fn rate(&self, rates: &[Movement]) -> Vec2 {
+        let (gradient, spin, _) = self.functions.interpolate(rates);
+        self.rotation.to_section(gradient - perpendicular(self.gradient) * spin)
+    }
+
+    /// The force in space that such rates ask for at the start of the step [force], and its `w x' × n` [force·length].
+    pub(super) fn transmitted(&self, rates: &[Movement]) -> (Vec2, f64) {
+        let force = self.rotation.to_space(self.damping.component_mul(&self.rate(rates)));
+        (force, self.functions.weight * cross(self.gradient, force))
+    }
+
     pub(super) fn resist(
         &self,
         rates: &[Movement],
         first: usize,
         give: &mut dyn FnMut(usize, Movement),
     ) -> f64 {
-        let (gradient, spin, _) = self.functions.interpolate(rates);
-        let rate = self.rotation.to_section(gradient - perpendicular(self.gradient) * spin);
+        let rate = self.rate(rates);
         let force = self.damping.component_mul(&rate);
         self.distribute((self.rotation, self.gradient), force, first, give);
         self.functions.weight * force.dot(&rate)

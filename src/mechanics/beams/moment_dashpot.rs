@@ -155,6 +155,11 @@ impl MomentDashpot {
         self.functions.weight * self.moment * change
     }
 
+    /// The moment that such rates ask for [force·length].
+    pub(super) fn transmitted(&self, rates: &[Movement]) -> f64 {
+        self.damping * self.functions.interpolate(rates).2
+    }
+
     pub(super) fn resist(
         &self,
         rates: &[Movement],

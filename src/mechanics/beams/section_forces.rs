@@ -30,7 +30,8 @@ const NO_WEIGHT: f64 = 1e-14;
 
 /// What a cross section transmits, and how it is strained by that.
 ///
-/// In the frame of the section, whose first axis is its normal: these are forces of the part of the beam that follows on the part before.
+/// In the frame of the section, whose first axis is its normal: these are forces of the part of the beam that follows on the part before. Where
+/// the material is damped they are more than the strains alone ask for.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SectionForces {
     /// The normal of the section in the plane, of length one; zero on a particle, which has no section [-].
@@ -41,11 +42,11 @@ pub struct SectionForces {
     pub shear: f64,
     /// The bending moment `M`, positive counter-clockwise [force·length].
     pub moment: f64,
-    /// The axial strain `Γ1 = N/EA` [-].
+    /// The axial strain `Γ1`: `N/EA` but for damping [-].
     pub axial_strain: f64,
-    /// The shear strain `Γ2 = Q/GA` [-].
+    /// The shear strain `Γ2`: `Q/GA` but for damping [-].
     pub shear_strain: f64,
-    /// The curvature `κ = M/EI`, the change of the axis' curvature since drawn [1/length].
+    /// The curvature `κ`: `M/EI` but for damping; the change of the axis' curvature since drawn [1/length].
     pub curvature: f64,
 }
 
@@ -63,6 +64,22 @@ impl SectionForces {
             shear_strain: shear / section.shear_stiffness,
             curvature: moment / section.bending_stiffness,
         }
+    }
+
+    /// With a force in space [force] and a moment [force·length] that are transmitted besides those of the strains, which stay.
+    pub fn with_viscous(self, (force, moment): (Vec2, f64)) -> Self {
+        Self {
+            axial: self.axial + self.normal.dot(&force),
+            shear: self.shear + cross(self.normal, force),
+            moment: self.moment + moment,
+            ..self
+        }
+    }
+
+    /// The energy that the strains store, per length as drawn: `(N Γ1 + Q Γ2 + M κ)/2`, where nothing viscous has been added [energy/length].
+    pub fn strain_energy(&self) -> f64 {
+        let Self { axial, shear, moment, axial_strain, shear_strain, curvature, .. } = *self;
+        0.5 * (axial * axial_strain + shear * shear_strain + moment * curvature)
     }
 }
 

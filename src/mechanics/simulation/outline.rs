@@ -25,8 +25,10 @@ pub struct Outline {
 pub struct Configuration {
     /// The time of the configuration [time].
     pub time: f64,
-    /// A line of points for each beam, and then for each rigid body with points [length].
+    /// A line of points for each beam [length].
     pub lines: Vec<Vec<Vec2>>,
+    /// A line of points around each rigid body that has points [length].
+    pub bodies: Vec<Vec<Vec2>>,
     /// The knots or nodes of all beams [length].
     pub marks: Vec<Vec2>,
     /// The places of the particles, then of the centres of rigid bodies [length].
@@ -111,13 +113,16 @@ impl Outline {
         &self.marks
     }
 
-    /// The configuration as drawn from the control points of all bodies [length]: one beam after another, then rigid bodies and particles.
+    /// The configuration as drawn from the control points of all bodies [length]: one beam after another, then particles, then rigid bodies.
     pub fn draw(outlines: &[Self], time: f64, control_points: &[&[Vec2]]) -> Configuration {
         let at = |place: &Place| place.interpolate(control_points[place.body]);
-        let beams = outlines.iter().filter(|outline| outline.is_of_beam()).count();
+        let beams = outlines.partition_point(Self::is_of_beam);
+        let mut lines: Vec<Vec<Vec2>> =
+            outlines.iter().map(|outline| outline.line.iter().map(at).collect()).collect();
         Configuration {
             time,
-            lines: outlines.iter().map(|outline| outline.line.iter().map(at).collect()).collect(),
+            bodies: lines.split_off(beams),
+            lines,
             marks: outlines.iter().flat_map(|outline| outline.marks.iter().map(at)).collect(),
             particles: control_points[beams..]
                 .iter()

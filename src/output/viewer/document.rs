@@ -2,14 +2,13 @@
 
 use serde_json::{Value, json};
 
-use super::film::{
-    Anchor, Arrow, ArrowKind, Beam, Column, Field, Film, Place, Spring, SpringKind, SymbolKind,
-};
+use super::film::{Anchor, Arrow, Beam, Body, Column, Field, Film, Place, Sign, Spring};
 use super::packing::{FINEST, Scale, pack};
 use super::thinning::rows_to_keep;
 use crate::output::OutputError;
 use crate::output::canvas::Point;
 use crate::output::colour::{Colour, HUE_COUNT, hue};
+use crate::output::symbol::Symbol;
 
 const TEMPLATE: &str = include_str!("page/template.html");
 const STYLE: &str = include_str!("page/style.css");
@@ -104,16 +103,6 @@ fn packed_film(film: &Film) -> Result<Value, OutputError> {
     let beams: Vec<Value> = film.beams.iter().map(|beam| packed_beam(beam, &mut shapes)).collect();
     let particle =
         |particle: &super::Particle| json!({ "name": particle.name, "at": place(&particle.at, 0) });
-    let symbol = |symbol: &super::Symbol| {
-        let kind = match symbol.kind {
-            SymbolKind::Support => "support",
-            SymbolKind::Clamp => "clamp",
-            SymbolKind::Hinge => "hinge",
-            SymbolKind::Rigid => "rigid",
-            SymbolKind::Slider => "slider",
-        };
-        json!({ "kind": kind, "name": symbol.name, "at": place(&symbol.at, 0), "angle": symbol.angle, "until": symbol.until })
-    };
     let trail = |trail: &super::Trail| json!({ "name": trail.name, "at": place(&trail.at, 0) });
     let (x, y) = packed_points(film)?;
     Ok(json!({
@@ -124,7 +113,8 @@ fn packed_film(film: &Film) -> Result<Value, OutputError> {
         "shapes": shapes,
         "beams": beams,
         "particles": film.particles.iter().map(particle).collect::<Vec<_>>(),
-        "symbols": film.symbols.iter().map(symbol).collect::<Vec<_>>(),
+        "bodies": film.bodies.iter().map(packed_body).collect::<Vec<_>>(),
+        "symbols": film.signs.iter().map(packed_sign).collect::<Vec<_>>(),
         "springs": film.springs.iter().map(packed_spring).collect::<Vec<_>>(),
         "trails": film.trails.iter().map(trail).collect::<Vec<_>>(),
         "arrows": packed_arrows(&film.arrows, film.times.len())?,
@@ -133,20 +123,31 @@ fn packed_film(film: &Film) -> Result<Value, OutputError> {
     }))
 }
 
+/// A rigid body: its places.
+fn packed_body(body: &Body) -> Value {
+    let point = |(name, at): &(String, Place)| json!({ "name": name, "at": place(at, 0) });
+    json!({
+        "name": body.name,
+        "at": place(&body.centre, 0),
+        "points": body.points.iter().map(point).collect::<Vec<_>>(),
+        "outline": body.outline.iter().map(|at| place(at, 0)).collect::<Vec<_>>(),
+    })
+}
+
+fn packed_sign(sign: &Sign) -> Value {
+    json!({
+        "kind": sign.symbol.name(), "name": sign.name, "at": place(&sign.at, 0), "angle": sign.angle, "until": sign.until,
+    })
+}
+
 /// A spring: its places, those on the ground as points without weights.
 fn packed_spring(spring: &Spring) -> Value {
-    let kind = match spring.kind {
-        SpringKind::Spring => "spring",
-        SpringKind::Damper => "damper",
-        SpringKind::Tendon => "tendon",
-        SpringKind::Torsion => "torsion",
-    };
     let anchor = |anchor: &Anchor| match anchor {
         Anchor::Moving(at) => place(at, 0),
         Anchor::Ground((x, y)) => json!({ "x": x, "y": y }),
     };
     let anchors = spring.anchors.iter().map(anchor).collect::<Vec<_>>();
-    json!({ "kind": kind, "name": spring.name, "anchors": anchors, "until": spring.until })
+    json!({ "kind": spring.symbol.name(), "name": spring.name, "anchors": anchors, "until": spring.until })
 }
 
 /// A beam by its first point and its shape, which beams of the same mesh share.
@@ -187,25 +188,18 @@ fn packed_points(film: &Film) -> Result<(Value, Value), OutputError> {
 
 /// The loads, those of a kind relative to the largest of them.
 fn packed_arrows(arrows: &[Arrow], frames: usize) -> Result<Value, OutputError> {
-    let largest = |kind: ArrowKind| {
-        let of_kind = arrows.iter().filter(|arrow| arrow.kind == kind);
+    let largest = |kind: Symbol| {
+        let of_kind = arrows.iter().filter(|arrow| arrow.symbol == kind);
         let sizes = of_kind.flat_map(|arrow| &arrow.values).map(|(x, y)| x.abs().max(y.abs()));
         sizes.filter(|size| size.is_finite()).fold(f64::MIN_POSITIVE, f64::max)
     };
-    let sizes = arrows.iter().map(|arrow| largest(arrow.kind)).collect::<Vec<_>>();
+    let sizes = arrows.iter().map(|arrow| largest(arrow.symbol)).collect::<Vec<_>>();
     let value = |number: usize, frame: usize| {
         let (x, y) = arrows[number / 2].values[frame];
         [x, y][number % 2] / sizes[number / 2]
     };
     let scale = Scale { origin: -1.0, step: 2.0 / f64::from(LOAD_STEPS - 1) };
-    let arrow = |arrow: &Arrow| {
-        let kind = match arrow.kind {
-            ArrowKind::Force => "force",
-            ArrowKind::Line => "line",
-            ArrowKind::Moment => "moment",
-        };
-        json!({ "kind": kind, "name": arrow.name, "at": place(&arrow.at, 0) })
-    };
+    let arrow = |arrow: &Arrow| json!({ "kind": arrow.symbol.name(), "name": arrow.name, "at": place(&arrow.at, 0) });
     Ok(json!({
         "all": arrows.iter().map(arrow).collect::<Vec<_>>(),
         "values": pack(scale, (2 * arrows.len(), frames), value)?,

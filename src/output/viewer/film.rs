@@ -1,6 +1,7 @@
 //! What a viewer shows, as plain data.
 
 use crate::output::canvas::Point;
+use crate::output::symbol::Symbol;
 
 /// A place of a body: a combination of points of the film, such as control points.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -43,31 +44,29 @@ pub struct Particle {
     pub at: Place,
 }
 
-/// What is held or joined, and how.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SymbolKind {
-    /// A support that holds a position.
-    Support,
-    /// A support that holds position and angle.
-    Clamp,
-    /// Two bodies share a place.
-    Hinge,
-    /// Two bodies share place and angle.
-    Rigid,
-    /// A place that slides along a beam.
-    Slider,
+/// A rigid body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// Its name.
+    pub name: String,
+    /// Where its centre of mass is.
+    pub centre: Place,
+    /// Its points, with their names.
+    pub points: Vec<(String, Place)>,
+    /// Its outline: closed where it ends where it begins, a line otherwise; nothing where it has no points.
+    pub outline: Vec<Place>,
 }
 
-/// A sign at a place.
+/// A symbol at a place: what holds, joins, slides or drives.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Symbol {
+pub struct Sign {
     /// What it means.
-    pub kind: SymbolKind,
+    pub symbol: Symbol,
     /// What it is called.
     pub name: String,
     /// Where it is.
     pub at: Place,
-    /// The direction of the beam there as drawn [rad].
+    /// The direction in which it points [rad].
     pub angle: f64,
     /// When it is gone: a slider that has left its beam, a joint that has let go.
     pub until: Option<f64>,
@@ -82,24 +81,11 @@ pub enum Anchor {
     Ground(Point),
 }
 
-/// How a spring is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SpringKind {
-    /// A zigzag.
-    Spring,
-    /// A piston in a cylinder.
-    Damper,
-    /// A line: what goes over several places.
-    Tendon,
-    /// A spiral about its last place that moves.
-    Torsion,
-}
-
 /// A spring or what acts like one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spring {
     /// How it is drawn.
-    pub kind: SpringKind,
+    pub symbol: Symbol,
     /// What it is called.
     pub name: String,
     /// Where it is attached, in order.
@@ -108,22 +94,11 @@ pub struct Spring {
     pub until: Option<f64>,
 }
 
-/// What an arrow stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ArrowKind {
-    /// A force.
-    Force,
-    /// A force per length.
-    Line,
-    /// A moment, counter-clockwise: the first component counts.
-    Moment,
-}
-
 /// A load over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arrow {
-    /// What it stands for.
-    pub kind: ArrowKind,
+    /// What it stands for; of a moment, counter-clockwise, the first component counts.
+    pub symbol: Symbol,
     /// What it is called.
     pub name: String,
     /// Where it acts.
@@ -176,8 +151,10 @@ pub struct Film {
     pub beams: Vec<Beam>,
     /// Bodies without extent.
     pub particles: Vec<Particle>,
-    /// Supports, joints, sliders.
-    pub symbols: Vec<Symbol>,
+    /// Rigid bodies.
+    pub bodies: Vec<Body>,
+    /// Supports, joints, sliders, drives.
+    pub signs: Vec<Sign>,
     /// Springs, dampers, tendons.
     pub springs: Vec<Spring>,
     /// Loads.

@@ -14,6 +14,5 @@ mod thinning;
 
 pub use document::Viewer;
 pub use film::{
-    Anchor, Arrow, ArrowKind, Beam, Column, Field, Film, Particle, Place, Spring, SpringKind,
-    Symbol, SymbolKind, Trail,
+    Anchor, Arrow, Beam, Body, Column, Field, Film, Particle, Place, Sign, Spring, Trail,
 };

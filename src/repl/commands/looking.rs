@@ -119,8 +119,14 @@ pub fn show(shell: &mut Shell, operand: &str) -> Outcome {
     };
     let options = match options {
         "" => None,
-        text => match options_of(shell, text, time) {
-            Ok(map) => Some(map),
+        text => match options_of(shell, text, ":show #{ trace: [rod.end] }") {
+            Ok(mut map) => {
+                // A time before the options is that of the last snapshot.
+                if let Some(time) = time {
+                    map.insert("to".into(), time.into());
+                }
+                Some(map)
+            }
             Err(outcome) => return outcome,
         },
     };
@@ -152,21 +158,13 @@ pub fn show(shell: &mut Shell, operand: &str) -> Outcome {
     })
 }
 
-/// The map of options that is typed; a time before it is that of the last snapshot.
-fn options_of(shell: &mut Shell, text: &str, time: Option<f64>) -> Result<Map, Outcome> {
+/// The map of options that is typed, for example as in `example`.
+pub(super) fn options_of(shell: &mut Shell, text: &str, example: &str) -> Result<Map, Outcome> {
     match shell.session_mut().peek(text) {
-        Reply::Value(value) => match value.try_cast::<Map>() {
-            Some(mut map) => {
-                if let Some(time) = time {
-                    map.insert("to".into(), time.into());
-                }
-                Ok(map)
-            }
-            None => {
-                let told = Diagnostic::general(format!("'{text}' is no map of options"));
-                Err(shell.refuse(&told.with_hint("for example :show #{ trace: [rod.end] }")))
-            }
-        },
+        Reply::Value(value) => value.try_cast::<Map>().ok_or_else(|| {
+            let told = Diagnostic::general(format!("'{text}' is no map of options"));
+            shell.refuse(&told.with_hint(format!("for example {example}")))
+        }),
         failed => Err(shell.tell(failed)),
     }
 }

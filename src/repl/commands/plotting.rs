@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::looking::draw;
-use crate::output::{LineChart, Series};
+use rhai::Map;
+
+use super::looking::{draw, options_of};
 use crate::repl::curves::{Curve, Over, Shape, parts, shape, summary};
 use crate::repl::following::{Followed, follow, moves};
 use crate::repl::session::Reply;
@@ -11,6 +12,7 @@ use crate::repl::shell::{Outcome, Screen, Shell, no_simulation};
 use crate::script::diagnose::Diagnostic;
 use crate::script::handles::simulation::{Revisit, SimulationHandle};
 use crate::script::looks::sight;
+use crate::script::packages::pictures::curves::typed_chart;
 use crate::script::source::scanner::{Kind, scan};
 use crate::script::words::error::ScriptError;
 use crate::script::words::nouns::with_article;
@@ -19,26 +21,54 @@ use crate::simulation::History;
 /// What is drawn when nothing is named.
 const ENERGIES: [&str; 3] = ["kinetic", "strain", "energy"];
 
+/// How options are written.
+const PLOT_EXAMPLE: &str = ":plot energy, #{ y_log: true }";
+
 /// What was found about a part of what is to be drawn.
 enum Part {
     Columns(Vec<String>),
     Expression(String),
 }
 
-/// The command `:plot [curves]`: draws columns of the history, or curves of expressions.
+/// The command `:plot [curves] [options]`: draws columns of the history, or curves of expressions.
 pub fn plot(shell: &mut Shell, operand: &str) -> Outcome {
+    let (operand, options) = with_options(operand);
+    let options = match options.map(|text| options_of(shell, text, PLOT_EXAMPLE)).transpose() {
+        Ok(options) => options,
+        Err(outcome) => return outcome,
+    };
     let found: Vec<Part> = parts(operand).into_iter().map(|part| read(shell, part)).collect();
     let mut columns = Vec::new();
     for part in &found {
         match part {
             Part::Columns(names) => columns.extend(names.iter().cloned()),
-            Part::Expression(_) => return plot_expressions(shell, found),
+            Part::Expression(_) => return plot_curves(shell, found, options),
         }
     }
     if columns.is_empty() {
         columns = ENERGIES.map(str::to_owned).to_vec();
     }
-    plot_columns(shell, &columns)
+    match options {
+        Some(_) => plot_curves(shell, vec![Part::Columns(columns)], options),
+        None => plot_columns(shell, &columns),
+    }
+}
+
+/// What is to be drawn, and the map of options behind it, with or without a comma between.
+fn with_options(operand: &str) -> (&str, Option<&str>) {
+    let mut depth = 0;
+    for token in scan(operand) {
+        match token.of(operand) {
+            "#{" if depth == 0 => {
+                let (curves, options) = operand.split_at(token.start);
+                return (curves.trim_end().trim_end_matches(','), Some(options));
+            }
+            "(" | "[" | "{" | "#{" => depth += 1,
+            ")" | "]" | "}" => depth -= 1,
+            _ => {}
+        }
+    }
+    (operand, None)
 }
 
 fn plot_columns(shell: &mut Shell, columns: &[String]) -> Outcome {
@@ -106,7 +136,7 @@ fn read(shell: &Shell, part: &str) -> Part {
     }
 }
 
-fn plot_expressions(shell: &mut Shell, found: Vec<Part>) -> Outcome {
+fn plot_curves(shell: &mut Shell, found: Vec<Part>, options: Option<Map>) -> Outcome {
     let mut curves = Vec::new();
     let mut said = BTreeSet::new();
     for part in found {
@@ -133,6 +163,12 @@ fn plot_expressions(shell: &mut Shell, found: Vec<Part>) -> Outcome {
         return shell.refuse(&Diagnostic::general(told).with_hint("plot them one after the other"));
     }
     let is_one_state = |curve: &Curve| curve.over == Over::Time && curve.points.len() == 1;
+    let drawn = curves.iter().map(|curve| (curve.name.clone(), curve.points.clone())).collect();
+    let engine = shell.session().engine();
+    let chart = match typed_chart(engine, &options.unwrap_or_default(), first.label(), drawn) {
+        Ok(chart) => chart,
+        Err(error) => return shell.refuse_native(error),
+    };
     match shell.screen() {
         Screen::Terminal(_) if curves.iter().any(is_one_state) => {
             curves.iter().for_each(|curve| shell.print(&summary(curve)));
@@ -140,14 +176,7 @@ fn plot_expressions(shell: &mut Shell, found: Vec<Part>) -> Outcome {
         Screen::Pipe => {
             curves.iter().for_each(|curve| shell.print(&summary(curve)));
         }
-        Screen::Terminal(style) => {
-            let names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).collect();
-            let mut chart = LineChart::new(names.join(", ")).x_label(first.label());
-            for curve in curves {
-                chart = chart.series(Series::new(curve.name, curve.points));
-            }
-            shell.print(chart.text(&style).trim_end());
-        }
+        Screen::Terminal(style) => shell.print(chart.text(&style).trim_end()),
     }
     said.iter().for_each(|words| shell.note(words));
     note_one_state(shell);

@@ -89,14 +89,15 @@ pub const COMMANDS: &[Command] = &[
     Command {
         name: ":plot",
         operand: Operand::Curves,
-        placeholder: "[CURVE, …]",
+        placeholder: "[CURVES, OPTIONS]",
         summary: "draws columns of the history, or any expression, over time; the energies unless given",
         doc: "Curves are separated by commas. Each is a column, such as `energy`, or an expression. One that is a number or a vector, such as \
               `sim.position(rod.end).x`, is evaluated in every state in which the simulation was: the one that it names, or else the last. \
               The states are those that are kept to go back to; where some are forgotten the run is made again in a copy, \
               without functions set by sim.at, and it is said whether it is the same run. The simulation itself stays where it is. \
               An array of numbers is drawn over its index, a pair of arrays [x, y] and an array of points as they are. \
-              `:plot drift` shows how well the invariants are kept. Pictures for files are drawn by plot and plot_history.",
+              `:plot drift` shows how well the invariants are kept. Options are those of plot, behind the curves: \
+              `:plot kinetic, strain, #{ y_log: true, x_limits: [0, 1] }`. Pictures for files are drawn by plot and plot_history.",
         body: plotting::plot,
     },
     Command {

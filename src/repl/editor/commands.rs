@@ -28,6 +28,9 @@ pub fn complete_command(text: &str, surroundings: &Surroundings) -> (usize, Vec<
             let (offset, found) = complete_path(operand, &surroundings.folder, Files::Any);
             (start + offset, found)
         }
+        Some(Operand::Curves) if options_at(operand).is_some() => {
+            in_call("plot([], [], \"\", ", operand, start, surroundings)
+        }
         Some(Operand::Curves) => {
             let last = operand.rfind([' ', ',']).map_or(0, |gap| gap + 1);
             let columns = surroundings.columns.iter().map(|column| Candidate::word(column, ""));
@@ -50,18 +53,31 @@ pub fn complete_command(text: &str, surroundings: &Surroundings) -> (usize, Vec<
         Some(Operand::OneOf(words)) => {
             (start, fitting(operand, words.iter().map(|word| Candidate::word(word, ""))))
         }
-        Some(Operand::OptionsOf(call)) => {
-            let Some(map) = operand.find("#{") else {
-                let (offset, found) = complete(operand, operand.len(), surroundings);
-                return (start + offset, found);
-            };
-            // As if they were typed in that call.
-            let typed = format!("{call}{}", &operand[map..]);
-            let (offset, found) = complete(&typed, typed.len(), surroundings);
-            (start + map + offset.saturating_sub(call.len()), found)
-        }
+        Some(Operand::OptionsOf(call)) => in_call(call, operand, start, surroundings),
         Some(Operand::Nothing | Operand::Number) | None => (text.len(), Vec::new()),
     }
+}
+
+/// Where a map of options begins that stands alone, or behind a blank or a comma.
+fn options_at(operand: &str) -> Option<usize> {
+    let at = operand.find("#{")?;
+    (at == 0 || operand[..at].ends_with([' ', ','])).then_some(at)
+}
+
+/// Completes a map of options as if it were typed in a call, which is cut off before it; without one, an expression.
+fn in_call(
+    call: &str,
+    operand: &str,
+    start: usize,
+    surroundings: &Surroundings,
+) -> (usize, Vec<Candidate>) {
+    let Some(map) = options_at(operand) else {
+        let (offset, found) = complete(operand, operand.len(), surroundings);
+        return (start + offset, found);
+    };
+    let typed = format!("{call}{}", &operand[map..]);
+    let (offset, found) = complete(&typed, typed.len(), surroundings);
+    (start + map + offset.saturating_sub(call.len()), found)
 }
 
 /// The command with this name, or the only one that begins so.
@@ -114,6 +130,8 @@ mod tests {
         let (start, names) = found(":look 2, #{ mag");
         assert_eq!(start, 12);
         assert!(names.len() == 1 && names[0].starts_with("magnify"), "{names:?}");
+        let (start, names) = found(":plot kinetic, #{ y_lo");
+        assert_eq!((start, names[0].starts_with("y_log")), (18, true), "{names:?}");
         let (_, names) = found(":look #{ trace: [rod.e");
         assert!(names.iter().any(|name| name.starts_with("end")), "{names:?}");
     }

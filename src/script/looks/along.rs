@@ -1,11 +1,11 @@
 //! Pictures of what is inside of beams: strips, charts and colours, from the same description.
 
 use super::quantities::Quantity;
-use super::symbols::{SceneAt, symbols};
+use super::symbols::SceneAt;
 use crate::geometry::Vec2;
 use crate::model::{BeamPlaces, BeamSample, Model, ModelError};
 use crate::output::{
-    FieldPicture, LineChart, PlacedSymbol, Point, Series, Strip, StripPicture, Style, significant,
+    FieldPicture, LineChart, Point, Scenery, Series, Strip, StripPicture, Style, significant,
 };
 use crate::simulation::{Outline, Simulation};
 use crate::statics::Equilibrium;
@@ -20,7 +20,7 @@ pub struct Inside {
     /// When it is, in words; may be empty.
     pub when: String,
     beams: Vec<Beam>,
-    symbols: Vec<PlacedSymbol>,
+    scenery: Scenery,
 }
 
 struct Beam {
@@ -45,37 +45,38 @@ impl Inside {
     /// # Errors
     /// When an axis has a point without a tangent.
     pub fn of_equilibrium(rest: &Equilibrium, beams: &[usize]) -> Result<Self, ModelError> {
-        let at = SceneAt { scene: rest.scene(), time: 0.0, released: Vec::new() };
-        Self::of_model(&at, rest.model(), beams)
+        Self::of_model(&SceneAt::at_rest(rest), rest.model(), beams)
     }
 
     fn of_model(at: &SceneAt, model: &Model, beams: &[usize]) -> Result<Self, ModelError> {
         let SceneAt { scene, time, .. } = *at;
         let outlines = Outline::of_scene(scene, model.meshes())?;
         let points: Vec<&[Vec2]> = model.control_points().collect();
-        let lines = Outline::draw(&outlines, time, &points).lines;
+        let drawn = Outline::draw(&outlines, time, &points);
         let is_wanted = |index: &usize| beams.is_empty() || beams.contains(index);
         let beam = |index: usize| {
             let places = model.places_along(scene, index, BeamPlaces::WITHIN_A_SPAN)?;
             Ok(Beam {
                 name: scene.beams[index].name.clone(),
-                line: lines[index].iter().map(plain).collect(),
+                line: drawn.lines[index].iter().map(plain).collect(),
                 along: model.sample_along(&places),
             })
         };
         let beams = (0..scene.beams.len()).filter(is_wanted).map(beam);
-        let place = |station: &_| Ok(model.position(&scene.place(station, model.meshes())?));
         Ok(Self {
             title: scene.name.clone(),
             when: String::new(),
             beams: beams.collect::<Result<_, ModelError>>()?,
-            symbols: symbols(at, |stations| stations.iter().map(place).collect())?,
+            scenery: Scenery {
+                bodies: drawn.bodies.iter().map(|body| body.iter().map(plain).collect()).collect(),
+                symbols: at.symbols(model)?,
+            },
         })
     }
 
     /// Leaves symbols of supports and loads out.
     pub fn without_symbols(mut self) -> Self {
-        self.symbols.clear();
+        self.scenery.symbols.clear();
         self
     }
 
@@ -103,7 +104,7 @@ impl Inside {
         let picture = StripPicture::new(self.heading(quantity))
             .caption(format!("{}; {caption}", quantity.label()))
             .side(quantity.side)
-            .symbols(self.symbols.iter().copied());
+            .scenery(self.scenery.clone());
         self.beams.iter().map(of_beam).fold(picture, StripPicture::strip)
     }
 
@@ -128,7 +129,7 @@ impl Inside {
             _ => format!("[{}]", quantity.dimension),
         };
         let picture =
-            FieldPicture::new(self.heading(quantity), label).symbols(self.symbols.iter().copied());
+            FieldPicture::new(self.heading(quantity), label).scenery(self.scenery.clone());
         self.beams.iter().fold(picture, |picture, beam| {
             let value = |at: &BeamSample| (plain(&at.position), (quantity.of)(at).abs());
             picture.beam(beam.along.iter().map(value).collect())

@@ -5,14 +5,15 @@ mod fields;
 use fields::fields;
 pub use fields::{FIELDS, Inside};
 
+use super::symbols::{of_sliders, of_spring_kind, of_supports};
 use crate::beams::{self, Station};
 use crate::geometry::{Vec2, perpendicular};
-use crate::joints::{Hold, Joint, JointKind, Partner};
+use crate::joints::{Hold, Joint};
 use crate::loads::{Frame, Load, LoadKind, Side};
 use crate::model;
+use crate::output::Symbol;
 use crate::output::viewer::{
-    Anchor, Arrow, ArrowKind, Beam, Column, Field, Film, Particle, Place, Spring, SpringKind,
-    Symbol, SymbolKind, Trail,
+    Anchor, Arrow, Beam, Body, Column, Field, Film, Particle, Place, Sign, Spring, Trail,
 };
 use crate::script::words::error::ScriptError;
 use crate::simulation::{Axes, AxisStation, Outline, Simulation};
@@ -59,7 +60,8 @@ pub fn film(simulation: &Simulation, wishes: Wishes) -> Result<Film, ScriptError
         points: shown.frames.iter().map(|bodies| plain(bodies.iter().flatten())).collect(),
         beams: beams(simulation, &shown)?,
         particles: particles(simulation, &shown)?,
-        symbols: symbols(simulation, &shown)?,
+        bodies: bodies(simulation, &shown)?,
+        signs: signs(simulation, &shown)?,
         springs: springs(simulation, &shown)?,
         arrows: arrows(simulation, &shown)?,
         trails: trails(simulation, &shown, wishes.trails)?,
@@ -132,52 +134,49 @@ fn particles(simulation: &Simulation, shown: &Shown) -> Result<Vec<Particle>, Sc
         let at = shown.station(simulation, &Station::on_particle(index))?;
         Ok(Particle { name: particle.name.clone(), at })
     };
-    // The centres of rigid bodies, and their points.
-    let rigid = simulation.scene().rigid_bodies.iter().enumerate().flat_map(|(index, body)| {
-        let centre = std::iter::once((body.name.clone(), 0));
-        let points =
-            body.links().map(|at| (format!("{}.{}", body.name, body.points[at - 1].0), at));
-        centre.chain(points).map(move |(name, point)| (name, Station::on_rigid_body(index, point)))
-    });
-    let point = |(name, station): (String, Station)| {
-        Ok(Particle { name, at: shown.station(simulation, &station)? })
-    };
-    particles.map(particle).chain(rigid.map(point)).collect()
+    particles.map(particle).collect()
 }
 
-fn symbols(simulation: &Simulation, shown: &Shown) -> Result<Vec<Symbol>, ScriptError> {
+fn bodies(simulation: &Simulation, shown: &Shown) -> Result<Vec<Body>, ScriptError> {
     let scene = simulation.scene();
-    let of_joint = |(index, joint): (usize, &Joint)| {
-        let kind = match (joint.kind, joint.partner) {
-            (JointKind::Hinge, Partner::Ground) | (JointKind::Support(_), _) => SymbolKind::Support,
-            (JointKind::Rigid, Partner::Ground) => SymbolKind::Clamp,
-            (JointKind::Hinge, Partner::Station(_)) => SymbolKind::Hinge,
-            (JointKind::Rigid, Partner::Station(_)) => SymbolKind::Rigid,
-        };
-        let place = simulation.place(&joint.station)?;
-        // The hatching of a wall is behind the beam: it points from the wall along the beam.
-        let is_end = joint.station.arc_length > 0.5 * scene.length_at(&joint.station);
-        let angle = place.tangent_angle + if is_end { std::f64::consts::PI } else { 0.0 };
-        let until = simulation.release_of(Hold::Joint(index));
-        Ok(Symbol { kind, name: joint.name.clone(), at: shown.place(&place), angle, until })
+    // Those that have points have outlines, behind those of the beams.
+    let mut outlines = simulation.outlines()?.iter().skip(scene.beams.len());
+    let body = |(index, body): (usize, &model::RigidBodyDefinition)| {
+        let place = |point: usize| shown.station(simulation, &Station::on_rigid_body(index, point));
+        let point =
+            |at: usize| Ok((format!("{}.{}", body.name, body.points[at - 1].0), place(at)?));
+        let points: Vec<_> = body.links().map(point).collect::<Result<_, ScriptError>>()?;
+        let outline = if points.is_empty() { None } else { outlines.next() };
+        let outline = outline.into_iter().flat_map(Outline::line);
+        Ok(Body {
+            name: body.name.clone(),
+            centre: place(0)?,
+            points,
+            outline: outline.map(|at| shown.place(at)).collect(),
+        })
     };
-    let of_slider = |(index, slider): (usize, &crate::joints::Slider)| {
-        let at = shown.station(simulation, &slider.slave)?;
-        let (name, until) = (slider.name.clone(), simulation.release_of(Hold::Slider(index)));
-        Ok(Symbol { kind: SymbolKind::Slider, name, at, angle: 0.0, until })
-    };
-    let of_sliders = scene.sliders.iter().enumerate().map(of_slider);
-    scene.joints.iter().enumerate().map(of_joint).chain(of_sliders).collect()
+    scene.rigid_bodies.iter().enumerate().map(body).collect()
+}
+
+fn signs(simulation: &Simulation, shown: &Shown) -> Result<Vec<Sign>, ScriptError> {
+    let scene = simulation.scene();
+    of_supports(scene)
+        .chain(of_sliders(scene))
+        .map(|sign| {
+            let place = simulation.place(&sign.at)?;
+            Ok(Sign {
+                symbol: sign.symbol,
+                name: sign.name.to_owned(),
+                at: shown.place(&place),
+                angle: sign.pointing.angle(place.tangent_angle),
+                until: sign.hold.and_then(|hold| simulation.release_of(hold)),
+            })
+        })
+        .collect()
 }
 
 fn springs(simulation: &Simulation, shown: &Shown) -> Result<Vec<Spring>, ScriptError> {
     let spring = |(index, spring): (usize, &model::Spring)| {
-        let kind = match (&spring.kind, &spring.law) {
-            (model::SpringKind::Torsion(_), _) => SpringKind::Torsion,
-            (model::SpringKind::Way(way), _) if way.len() > 2 => SpringKind::Tendon,
-            (model::SpringKind::Way(_), None) => SpringKind::Damper,
-            (model::SpringKind::Way(_), Some(_)) => SpringKind::Spring,
-        };
         let anchor = |anchor: &model::Anchor| {
             Ok(match anchor {
                 model::Anchor::Station(at) => Anchor::Moving(shown.station(simulation, at)?),
@@ -186,7 +185,8 @@ fn springs(simulation: &Simulation, shown: &Shown) -> Result<Vec<Spring>, Script
         };
         let anchors = spring.anchors().iter().map(anchor).collect::<Result<_, ScriptError>>()?;
         let until = simulation.release_of(Hold::Spring(index));
-        Ok(Spring { kind, name: spring.name.clone(), anchors, until })
+        let (symbol, name) = (of_spring_kind(spring), spring.name.clone());
+        Ok(Spring { symbol, name, anchors, until })
     };
     simulation.scene().springs().enumerate().map(spring).collect()
 }
@@ -229,24 +229,24 @@ fn arrows(simulation: &Simulation, shown: &Shown) -> Result<Vec<Arrow>, ScriptEr
     let mut arrows = Vec::new();
     for load in simulation.scene().loads() {
         let factors = factors(load, simulation, shown)?;
-        let mut add = |kind, at: &beams::Place, force: &dyn Fn(&[Vec<Vec2>]) -> Vec2| {
+        let mut add = |symbol, at: &beams::Place, force: &dyn Fn(&[Vec<Vec2>]) -> Vec2| {
             let values = shown.frames.iter().zip(&factors).map(|(bodies, factor)| {
                 let value = force(bodies) * *factor;
                 (value.x, value.y)
             });
             let (name, values) = (load.name.clone(), values.collect());
-            arrows.push(Arrow { kind, name, at: shown.place(at), values });
+            arrows.push(Arrow { symbol, name, at: shown.place(at), values });
         };
         match load.kind {
             LoadKind::Force { station, force, frame } => {
                 let (at, axis) = (simulation.place(&station)?, axes.at(&station)?);
-                add(ArrowKind::Force, &at, &|bodies| {
+                add(Symbol::Force, &at, &|bodies| {
                     turned(force, frame, axis.as_ref(), &bodies[at.body])
                 });
             }
             LoadKind::Moment { station, moment } => {
                 let at = simulation.place(&station)?;
-                add(ArrowKind::Moment, &at, &|_| Vec2::new(moment, 0.0));
+                add(Symbol::Moment, &at, &|_| Vec2::new(moment, 0.0));
             }
             LoadKind::Line { beam, force, frame } => {
                 let (line, stations) = (simulation.outlines()?[beam].line(), &stations[beam]);
@@ -256,7 +256,7 @@ fn arrows(simulation: &Simulation, shown: &Shown) -> Result<Vec<Arrow>, ScriptEr
                     .collect();
                 chosen.dedup();
                 for station in chosen {
-                    add(ArrowKind::Line, &line[station * every], &|bodies| {
+                    add(Symbol::LineForce, &line[station * every], &|bodies| {
                         turned(force, frame, Some(&stations[station]), &bodies[beam])
                     });
                 }

@@ -154,8 +154,8 @@ impl Motion {
         let count = self.snapshots.len();
         for (index, snapshot) in self.snapshots.into_iter().enumerate() {
             let is_last = index + 1 == count;
-            let Snapshot { time, lines, particles, .. } = snapshot;
-            for line in lines {
+            let Snapshot { time, lines, particles, bodies, .. } = snapshot;
+            for line in lines.into_iter().chain(bodies) {
                 picture = if is_last { picture.line(line) } else { picture.ghost(line) };
             }
             if is_last {
@@ -180,8 +180,8 @@ pub fn marked(picture: ConfigurationPicture, symbols: &[PlacedSymbol]) -> Config
 /// The sign of a symbol at a terminal.
 fn mark(placed: &PlacedSymbol) -> Option<Mark> {
     match placed.symbol {
-        Symbol::Hinge => Some(Mark::Hinge),
-        Symbol::Clamp => Some(Mark::Clamp),
+        Symbol::Hinge | Symbol::Roller => Some(Mark::Hinge),
+        Symbol::Clamp | Symbol::Guided | Symbol::Carriage => Some(Mark::Clamp),
         Symbol::Slider => Some(Mark::Slider),
         Symbol::Joint | Symbol::RigidJoint => Some(Mark::Joint),
         // Springs are lines, loads are not drawn.
@@ -233,14 +233,18 @@ pub fn snapshot(configuration: &Configuration) -> Snapshot {
         lines: configuration.lines.iter().map(plain_line).collect(),
         marks: configuration.marks.iter().map(plain).collect(),
         particles: configuration.particles.iter().map(plain).collect(),
+        bodies: configuration.bodies.iter().map(plain_line).collect(),
     }
 }
 
 fn magnified(start: &Configuration, now: &Configuration, lens: Lens) -> Snapshot {
-    let lines = start.lines.iter().zip(&now.lines);
+    let all = |start: &[Vec<Vec2>], now: &[Vec<Vec2>]| {
+        start.iter().zip(now).map(|(start, now)| lens.all(start, now)).collect()
+    };
     Snapshot {
         time: now.time,
-        lines: lines.map(|(start, now)| lens.all(start, now)).collect(),
+        lines: all(&start.lines, &now.lines),
+        bodies: all(&start.bodies, &now.bodies),
         marks: lens.all(&start.marks, &now.marks),
         particles: lens.all(&start.particles, &now.particles),
     }

@@ -34,7 +34,7 @@ const QUANTITIES: [Quantity; 8] = [
         side: Side::Right,
         ..quantity("curvature", "change of curvature", "1/length", |at| at.forces.curvature)
     },
-    quantity("strain_energy", "strain energy per length", "energy/length", |at| at.strain_energy()),
+    quantity("strain_energy", "strain energy per length", "energy/length", |at| at.strain_energy),
     quantity("speed", "speed", "length/time", |at| at.velocity.norm()),
 ];
 

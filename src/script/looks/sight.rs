@@ -94,9 +94,11 @@ pub fn configuration_picture(
     let Some(shown) = shown else { return Ok(picture.text(style)) };
     if let Some(start) = simulation.configuration_near(0.0)?.filter(|start| start.time < shown.time)
     {
-        picture = start.lines.iter().fold(picture, |picture, line| picture.ghost(plain(line)));
+        let lines = start.lines.iter().chain(&start.bodies);
+        picture = lines.fold(picture, |picture, line| picture.ghost(plain(line)));
     }
-    picture = shown.lines.iter().fold(picture, |picture, line| picture.line(plain(line)));
+    let lines = shown.lines.iter().chain(&shown.bodies);
+    picture = lines.fold(picture, |picture, line| picture.line(plain(line)));
     picture = shown
         .particles
         .iter()

@@ -1,31 +1,61 @@
 //! The symbols of a scene: supports, joints, sliders and loads where they are at some time.
 
 use crate::beams::Station;
+use crate::elementary::atan2;
 use crate::geometry::Vec2;
-use crate::joints::{Hold, JointKind, Partner};
-use crate::loads::{Frame, Load, LoadKind, Side};
-use crate::model::{Anchor, ModelError, Scene, Spring, SpringKind};
+use crate::joints::{Component, Components, Hold, Joint, JointKind, Partner};
+use crate::loads::{Frame, Load, LoadKind, Schedule, Side};
+use crate::model::{Anchor, Drive, Model, ModelError, Scene, Spring, SpringKind};
 use crate::output::{PlacedSymbol, Symbol};
 use crate::simulation::Simulation;
+use crate::statics::Equilibrium;
 
 /// The arrows of a load that is spread along a beam.
 const ARROWS: usize = 5;
 /// The direction of a beam is looked for so far around a place, as a part of its length.
 const AROUND: f64 = 1e-3;
 
-/// A symbol that has not been placed yet.
-struct Unplaced {
-    symbol: Symbol,
-    at: Station,
-    pointing: Pointing,
+/// A symbol at a station, wherever that is.
+pub struct Sign<'a> {
+    /// What it is.
+    pub symbol: Symbol,
+    /// The name of what it stands for.
+    pub name: &'a str,
+    /// The station.
+    pub at: Station,
+    /// Where it points.
+    pub pointing: Pointing,
+    /// What it is of those that may let go.
+    pub hold: Option<Hold>,
 }
 
 /// Where a symbol points.
-enum Pointing {
+pub enum Pointing {
     /// In space.
     To(Vec2),
     /// With the beam: components along it and to its left.
     WithBeam(Vec2),
+}
+
+impl Pointing {
+    /// The direction where the beam runs along another one.
+    fn direction(&self, along: Vec2) -> Vec2 {
+        match self {
+            Self::To(direction) => *direction,
+            Self::WithBeam(part) => {
+                let along = if along.norm() > 0.0 { along.normalize() } else { Vec2::x() };
+                along * part.x + Vec2::new(-along.y, along.x) * part.y
+            }
+        }
+    }
+
+    /// The angle of the direction where the beam runs at some angle [rad].
+    pub fn angle(&self, along: f64) -> f64 {
+        match self {
+            Self::To(direction) => atan2(direction.y, direction.x),
+            Self::WithBeam(part) => along + atan2(part.y, part.x),
+        }
+    }
 }
 
 /// A scene at a time.
@@ -46,6 +76,20 @@ impl<'a> SceneAt<'a> {
         let is_gone = |hold: &Hold| simulation.release_of(*hold).is_some_and(|at| at < time);
         Self { scene, time, released: holds.filter(is_gone).collect() }
     }
+
+    /// That of an equilibrium, under all of its loads.
+    pub fn at_rest(rest: &'a Equilibrium) -> Self {
+        Self { scene: rest.scene(), time: 0.0, released: Vec::new() }
+    }
+
+    /// The symbols where a model of the scene is at present.
+    ///
+    /// # Errors
+    /// When a station lies outside its beam.
+    pub fn symbols(&self, model: &Model) -> Result<Vec<PlacedSymbol>, ModelError> {
+        let place = |at: &_| Ok(model.position(&self.scene.place(at, model.meshes())?));
+        symbols(self, |stations| stations.iter().map(place).collect())
+    }
 }
 
 /// The symbols of a scene at a time. `places` finds stations; loads that are zero then have none.
@@ -57,8 +101,9 @@ pub fn symbols(
     places: impl FnOnce(&[Station]) -> Result<Vec<Vec2>, ModelError>,
 ) -> Result<Vec<PlacedSymbol>, ModelError> {
     let SceneAt { scene, time, .. } = *at;
-    let unplaced: Vec<Unplaced> =
-        of_joints(at).chain(of_sliders(at)).chain(of_loads(scene, time)).collect();
+    let is_there = |sign: &Sign| sign.hold.is_none_or(|hold| !at.released.contains(&hold));
+    let held = of_supports(scene).chain(of_sliders(scene)).filter(is_there);
+    let unplaced: Vec<Sign> = held.chain(of_loads(scene, time)).collect();
     // For each its place, and one before and one behind it on its beam; then those of springs.
     let around = unplaced.iter().flat_map(|symbol| around(scene, &symbol.at));
     let springs = scene.springs().enumerate();
@@ -68,14 +113,7 @@ pub fn symbols(
     let found = places(&around.chain(of_springs).collect::<Vec<_>>())?;
     let (found, of_springs) = found.split_at(3 * unplaced.len());
     let placed = unplaced.iter().zip(found.chunks_exact(3)).map(|(symbol, found)| {
-        let along = found[2] - found[1];
-        let direction = match symbol.pointing {
-            Pointing::To(direction) => direction,
-            Pointing::WithBeam(part) => {
-                let along = if along.norm() > 0.0 { along.normalize() } else { Vec2::x() };
-                along * part.x + Vec2::new(-along.y, along.x) * part.y
-            }
-        };
+        let direction = symbol.pointing.direction(found[2] - found[1]);
         let plain = |vector: Vec2| (vector.x, vector.y);
         PlacedSymbol { symbol: symbol.symbol, at: plain(found[0]), direction: plain(direction) }
     });
@@ -96,19 +134,12 @@ fn of_spring(spring: &Spring, found: &mut impl Iterator<Item = Vec2>) -> Vec<Pla
         at: plain(at),
         direction: plain(direction),
     };
+    let symbol = of_spring_kind(spring);
     if let SpringKind::Torsion(anchors) = &spring.kind {
         let moving = anchors.iter().rposition(|anchor| matches!(anchor, Anchor::Station(_)));
         let at = moving.and_then(|index| way.get(index));
-        return at
-            .map(|at| placed(Symbol::TorsionSpring, *at, Vec2::zeros()))
-            .into_iter()
-            .collect();
+        return at.map(|at| placed(symbol, *at, Vec2::zeros())).into_iter().collect();
     }
-    let symbol = match spring.law {
-        _ if way.len() > 2 => Symbol::Tendon,
-        None => Symbol::Damper,
-        Some(_) => Symbol::Spring,
-    };
     let parts = way.windows(2).map(|part| placed(symbol, part[0], part[1] - part[0]));
     let on_ground = spring.anchors().iter().filter_map(|anchor| match anchor {
         Anchor::Ground(at) => Some(placed(Symbol::Joint, *at, Vec2::zeros())),
@@ -124,55 +155,114 @@ fn around(scene: &Scene, at: &Station) -> [Station; 3] {
     [*at, moved(-AROUND), moved(AROUND)]
 }
 
-fn of_joints<'a>(at: &'a SceneAt) -> impl Iterator<Item = Unplaced> + 'a {
-    let scene = at.scene;
-    let holding = |(index, _): &(usize, _)| !at.released.contains(&Hold::Joint(*index));
-    scene.joints.iter().enumerate().filter(holding).map(|(_, joint)| {
-        let symbol = match (joint.kind, joint.partner) {
-            (JointKind::Hinge, Partner::Ground) | (JointKind::Support(_), _) => Symbol::Hinge,
-            (JointKind::Rigid, Partner::Ground) => Symbol::Clamp,
-            (JointKind::Hinge, Partner::Station(_)) => Symbol::Joint,
-            (JointKind::Rigid, Partner::Station(_)) => Symbol::RigidJoint,
-        };
-        let length = joint.station.beam().map(|beam| scene.beams[beam].axis.length());
-        // Away from a support that stands at the end of a beam the beam runs backwards.
-        let leaves = if length == Some(joint.station.arc_length) { -Vec2::x() } else { Vec2::x() };
-        Unplaced { symbol, at: joint.station, pointing: Pointing::WithBeam(leaves) }
-    })
+/// The symbol of a spring, a damper or a tendon.
+pub fn of_spring_kind(spring: &Spring) -> Symbol {
+    match (&spring.kind, &spring.law) {
+        (SpringKind::Torsion(_), _) => Symbol::TorsionSpring,
+        (SpringKind::Way(way), _) if way.len() > 2 => Symbol::Tendon,
+        (SpringKind::Way(_), None) => Symbol::Damper,
+        (SpringKind::Way(_), Some(_)) => Symbol::Spring,
+    }
 }
 
-fn of_sliders<'a>(at: &'a SceneAt) -> impl Iterator<Item = Unplaced> + 'a {
-    let holding = |(index, _): &(usize, _)| !at.released.contains(&Hold::Slider(*index));
-    at.scene.sliders.iter().enumerate().filter(holding).map(|(_, slider)| Unplaced {
+/// The signs of joints and supports, and of what gives motions.
+pub fn of_supports(scene: &Scene) -> impl Iterator<Item = Sign<'_>> {
+    let joints = scene.joints.iter().enumerate();
+    let joints = joints.map(|(index, joint)| of_joint(scene, joint, Hold::Joint(index)));
+    joints.chain(scene.drives.iter().flat_map(|drive| of_drive(scene, drive)))
+}
+
+/// The signs of all sliders, in their order.
+pub fn of_sliders(scene: &Scene) -> impl Iterator<Item = Sign<'_>> {
+    scene.sliders.iter().enumerate().map(|(index, slider)| Sign {
+        hold: Some(Hold::Slider(index)),
         symbol: Symbol::Slider,
+        name: &slider.name,
         at: slider.slave,
         pointing: Pointing::To(Vec2::zeros()),
     })
 }
 
-fn of_loads(scene: &Scene, time: f64) -> impl Iterator<Item = Unplaced> + '_ {
+fn of_joint<'a>(scene: &Scene, joint: &'a Joint, hold: Hold) -> Sign<'a> {
+    let at = joint.station;
+    let (symbol, pointing) = match (joint.kind, joint.partner) {
+        (JointKind::Hinge, Partner::Ground) => of_held(scene, &at, Components::Position),
+        (JointKind::Rigid, Partner::Ground) => of_held(scene, &at, Components::All),
+        (JointKind::Support(components), _) => of_held(scene, &at, components),
+        (JointKind::Hinge, Partner::Station(_)) => (Symbol::Joint, away(scene, &at)),
+        (JointKind::Rigid, Partner::Station(_)) => (Symbol::RigidJoint, away(scene, &at)),
+    };
+    Sign { symbol, name: &joint.name, at, pointing, hold: Some(hold) }
+}
+
+/// The symbol of what the ground holds at a station, and where that points.
+fn of_held(scene: &Scene, at: &Station, held: Components) -> (Symbol, Pointing) {
+    match held {
+        Components::X => (Symbol::Roller, Pointing::To(Vec2::x())),
+        Components::Y => (Symbol::Roller, Pointing::To(Vec2::y())),
+        Components::XRotation => (Symbol::Guided, Pointing::To(Vec2::x())),
+        Components::YRotation => (Symbol::Guided, Pointing::To(Vec2::y())),
+        Components::Rotation => (Symbol::HeldAngle, Pointing::To(Vec2::x())),
+        Components::Position => (Symbol::Hinge, Pointing::To(Vec2::y())),
+        Components::All => (Symbol::Clamp, away(scene, at)),
+    }
+}
+
+/// Away from a support that stands at the end of a beam, the beam runs backwards.
+fn away(scene: &Scene, at: &Station) -> Pointing {
+    let is_end = at.beam().is_some() && at.arc_length > 0.5 * scene.length_at(at);
+    Pointing::WithBeam(if is_end { -Vec2::x() } else { Vec2::x() })
+}
+
+/// The signs of a drive: what moves, or else what is held.
+fn of_drive<'a>(scene: &Scene, drive: &'a Drive) -> Vec<Sign<'a>> {
+    let is_moved = |component: Component| {
+        let motion = drive.motions[component as usize].as_ref();
+        motion.is_some_and(
+            |motion| !matches!(motion.schedule(), Schedule::Constant(to) if *to == 0.0),
+        )
+    };
+    let (name, at) = (drive.name.as_str(), drive.station);
+    let sign = |(symbol, pointing)| Sign { symbol, name, at, pointing, hold: None };
+    let along = [(Component::X, Vec2::x()), (Component::Y, Vec2::y())];
+    let carried = along.into_iter().filter(|(component, _)| is_moved(*component));
+    let mut signs: Vec<Sign> =
+        carried.map(|(_, direction)| sign((Symbol::Carriage, Pointing::To(direction)))).collect();
+    if signs.is_empty() {
+        let held = Components::among(|component| drive.drives(component) && !is_moved(component));
+        signs.extend(held.map(|held| sign(of_held(scene, &drive.station, held))));
+    }
+    if is_moved(Component::Rotation) {
+        signs.push(sign((Symbol::Motor, Pointing::To(Vec2::x()))));
+    }
+    signs
+}
+
+fn of_loads(scene: &Scene, time: f64) -> impl Iterator<Item = Sign<'_>> {
     let pointing = |force: Vec2, frame: Frame| match frame {
         Frame::Dead => Pointing::To(force),
         Frame::Follower => Pointing::WithBeam(force),
     };
     scene.loads().flat_map(move |load| {
-        let factor = factor(load, time);
+        let (factor, name) = (factor(load, time), load.name.as_str());
         let symbols = match load.kind {
             _ if factor == 0.0 => Vec::new(),
             LoadKind::Force { station, force, frame } => {
                 let pointing = pointing(force * factor, frame);
-                vec![Unplaced { symbol: Symbol::Force, at: station, pointing }]
+                vec![Sign { symbol: Symbol::Force, name, at: station, pointing, hold: None }]
             }
             LoadKind::Moment { station, moment } => {
                 let pointing = Pointing::To(Vec2::x() * (moment * factor));
-                vec![Unplaced { symbol: Symbol::Moment, at: station, pointing }]
+                vec![Sign { symbol: Symbol::Moment, name, at: station, pointing, hold: None }]
             }
             LoadKind::Line { beam, force, frame } => {
                 let length = scene.beams[beam].axis.length();
-                let arrow = |index: usize| Unplaced {
+                let arrow = |index: usize| Sign {
                     symbol: Symbol::LineForce,
+                    name,
                     at: Station::on_beam(beam, length * (index as f64 + 0.5) / ARROWS as f64),
                     pointing: pointing(force * factor, frame),
+                    hold: None,
                 };
                 (0..ARROWS).map(arrow).collect()
             }

@@ -3,7 +3,7 @@
 use rhai::Dynamic;
 
 use super::pictures::files::FILE;
-use super::pictures::options::{X_LIMITS, Y_LIMITS, limits};
+use super::pictures::options::{SYMBOLS, X_LIMITS, Y_LIMITS, limits, symbols};
 use super::pictures::subjects::{MOVING, plain, simulations, stations};
 use super::simulations::SPINNING;
 use super::viewers::span;
@@ -18,9 +18,7 @@ use crate::script::looks::motion::{Shown, has_room_for_dots, placed, snapshot};
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Scripted;
 use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{
-    Parameter, Presence, array, boolean, number, options, text, whole,
-};
+use crate::script::rows::parameter::{Parameter, Presence, array, number, options, text, whole};
 use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
 
@@ -56,11 +54,7 @@ const ANIMATION: &[Parameter] = &[
         .doc("pixels; 640, or 960 for several simulations, unless given")
         .optional(),
     array("trace").doc("stations whose paths are drawn as they come about").optional(),
-    boolean("symbols")
-        .doc(
-            "whether supports, joints, sliders, springs and loads are drawn; they are unless given",
-        )
-        .optional(),
+    SYMBOLS,
     X_LIMITS,
     Y_LIMITS,
 ];
@@ -123,10 +117,7 @@ fn write_animation(call: &mut Call) -> Result<Dynamic, ScriptError> {
         stations(call, &options.array("trace").unwrap_or_default(), Place::Key("trace".into()))?;
     let title = options.text("title").map(|title| title.to_string());
     let title = title.unwrap_or_else(|_| simulations[0].name().to_owned());
-    let shown = match options.boolean("symbols") {
-        Ok(false) => Shown::No,
-        _ => Shown::Yes,
-    };
+    let shown = symbols(&options);
     let limits = limits(&options).map_err(|wrong| wrong.in_call(call))?;
     let reels = simulations.iter().map(|of| {
         call.proceed()?;

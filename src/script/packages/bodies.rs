@@ -2,9 +2,9 @@
 
 use rhai::{Dynamic, Map};
 
-use super::scenes::{SCENE, START_ABOUT, START_SPIN, START_VELOCITY, STATION};
+use super::scenes::{SCENE, START_ABOUT, START_SPIN, START_VELOCITY, STATION, start_motion};
 use crate::geometry::Vec2;
-use crate::model::{ModelError, RigidBodyDefinition, StartMotion};
+use crate::model::{ModelError, RigidBodyDefinition};
 use crate::script::handles::rigid_body::RigidBodyHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::rows::accept::as_point;
@@ -92,17 +92,12 @@ fn body(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let options = call.options("options")?;
     let named = options.text_if_given("name")?;
-    let given = |key: &str| options.has(key).then(|| options.point(key)).transpose();
     let definition = RigidBodyDefinition {
         name: named.unwrap_or_else(|| scene.scene().borrow().free_name("body")),
         position: options.point("at")?,
         angle: options.number("angle")?,
         points: points_of(&options)?,
-        motion: StartMotion {
-            velocity: given("velocity")?.unwrap_or_default(),
-            spin: options.number_if_given("spin").unwrap_or(0.0),
-            about: given("about")?,
-        },
+        motion: start_motion(&options)?,
     };
     let (mass, inertia) = (options.number("mass")?, options.number("inertia")?);
     let added = scene.scene().borrow_mut().add_rigid_body(definition, mass, inertia);

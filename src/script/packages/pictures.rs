@@ -33,8 +33,8 @@ pub const TABLE: Table = Table {
         function("plot_motion", &[MOVING, FILE, options("options", MOTION).optional()], plot_motion)
             .summary("Draws snapshots of the motion in one picture, axes equal, with supports, joints, sliders, springs and loads.")
             .doc(
-                "Knots or nodes are dots, particles larger ones. The last snapshot is the present unless `to` is given, and symbols are those of that time: a support is a triangle, or a wall \
-                 where it clamps, a joint a ring, or a square where it is rigid, a slider a diamond, a spring a zigzag, a damper a piston, a load an arrow, as long as it acts. At the prompt `:show` takes the same options.",
+                "Knots or nodes are dots, particles larger ones, rigid bodies the lines around their points. The last snapshot is the present unless `to` is given, and symbols are those of that time: a support is a triangle, on rollers where it leaves a direction free, or a wall \
+                 where it clamps, a motor a circle with arrows, what scene.move moves a square with arrows, a joint a ring, or a square where it is rigid, a slider a diamond, a spring a zigzag, a damper a piston, a load an arrow, as long as it acts. At the prompt `:show` takes the same options.",
             )
             .example("sim.run_to(2);\nplot_motion(sim, \"spin.svg\", #{ every: 0.5, trace: [rod.end] });\nplot_motion(sim, \"large.svg\", #{ magnify: 10, every: 1, x_limits: [-1, 3] });")
             .see(&["plot", "plot_history", "plot_along", "plot_field"]),

@@ -19,6 +19,7 @@ use crate::script::handles::section::SectionHandle;
 use crate::script::handles::station::{StationHandle, here};
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Type;
+use crate::script::rows::options::Options;
 use crate::script::rows::parameter::{
     Parameter, Presence, either, name, number, object, options, point, text,
 };
@@ -201,6 +202,16 @@ const PARTICLE_KEYS: &[Parameter] = &[
     point("velocity").unit("length/time").doc("at the start; at rest unless given").optional(),
 ];
 
+/// The motion at the start that options give.
+pub(super) fn start_motion(options: &Options) -> Result<StartMotion, ScriptError> {
+    let given = |key: &str| options.has(key).then(|| options.point(key)).transpose();
+    Ok(StartMotion {
+        velocity: given("velocity")?.unwrap_or_default(),
+        spin: options.number_if_given("spin").unwrap_or(0.0),
+        about: given("about")?,
+    })
+}
+
 fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let options = call.options("options")?;
@@ -209,15 +220,7 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
         Some(mesh) => mesh,
         None => Mesh::bspline(SPANS, 3, 2)?,
     };
-    let motion = StartMotion {
-        velocity: if options.has("velocity") {
-            options.point("velocity")?
-        } else {
-            StartMotion::default().velocity
-        },
-        spin: options.number_if_given("spin").unwrap_or(0.0),
-        about: if options.has("about") { Some(options.point("about")?) } else { None },
-    };
+    let motion = start_motion(&options)?;
     let SectionHandle { variation, relaxation, .. } = options.get("section")?;
     let definition = BeamDefinition {
         name: named.unwrap_or_else(|| scene.scene().borrow().free_name("beam")),

@@ -63,7 +63,7 @@ pub const TABLE: Table = Table {
         .summary("Axial force, shear force and moment of a beam: at an arc length, or along all of it.")
         .doc(
             "The map holds N (positive in tension), Q (positive to the left of the axis) and M (positive counter-clockwise) [force, force, force·length], which the part of the beam that follows puts on \
-             the part before, in the frame of the section; and axial_strain, shear_strain and curvature, by the law of the material. Along a beam there is one for each knot and three between, with \
+             the part before, in the frame of the section; and axial_strain, shear_strain and curvature. Forces follow from strains by the law of the material; where that is damped (Kelvin–Voigt), what the present rates of strain add is in N, Q and M. Along a beam there is one for each knot and three between, with \
              its arc length s; where a joint cuts the beam there are two of one s. They balance loads and inertia up to the ends of a beam, with errors that fall with the length of a \
              span to the power of the degree (N, Q), and to that of two or more (M). Of linear elements each has one value.",
         )
@@ -105,13 +105,16 @@ pub const TABLE: Table = Table {
         })
         .returns(Returns::MAP)
         .summary("What the support at a station gives at the present moment: force, a vector, and moment.")
-        .doc("By the equations of motion, with loads as they are just after the present.")
+        .doc(
+            "By the equations of motion, with loads as they are just after the present: the configuration and the rates at the end of a step are of second order in the step size \
+             with every method, and so is this. What loads, weight and supports gave together over a step, in the mean, is the change of the columns impulse_x and impulse_y over its length.",
+        )
         .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\nlet given = sim.reaction(rod.start);\ncheck(norm(given.force) > 1 && given.moment == 0);")
         .see(&["joint_force", "section_forces", "record"]),
         method(SIMULATION, "joint_force", &[WHICH], joint_force)
             .returns(Returns::MAP)
             .summary("What a joint gives to the station that was named first: force, a vector, and moment.")
-            .doc("At the present moment, by the equations of motion. A joint with the ground is a support. It is what scene.hinge gave, or its name: its kind, and \
+            .doc("At the present moment, by the equations of motion, of second order in the step size as those of `reaction`. A joint with the ground is a support. It is what scene.hinge gave, or its name: its kind, and \
                   the how-manieth of that. One that has let go gives nothing.")
             .example("let sim = scene.start(#{ dt: 0.01 });\ncheck(sim.joint_force(\"hinge1\").force == sim.reaction(rod.start).force);")
             .see(&["reaction"]),
@@ -158,7 +161,7 @@ pub const TABLE: Table = Table {
         .summary("The angular velocity of the section at a station, counter-clockwise.")
         .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.1);\ncheck(sim.spin(rod.end) < 0);")
         .see(&["angle", "acceleration"]),
-        method(SIMULATION, "energies", &[object("beam", BEAM)], |call| {
+        method(SIMULATION, "energy", &[object("beam", BEAM)], |call| {
             let (beam, handle) = (call.get::<BeamHandle>("beam")?, call.receiver::<SimulationHandle>()?);
             let index = beam.own(handle.scene())?;
             known(call, handle.simulation().scene(), index, &beam)?;
@@ -175,8 +178,8 @@ pub const TABLE: Table = Table {
         })
         .returns(Returns::MAP.unit("energy"))
         .summary("The energy of a beam and of what stands on it, by kind: with what springs store, those of all bodies add up to that of the scene.")
-        .doc("The map holds energy, kinetic, strain, axial, shear, bending and potential.")
-        .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.1);\ncheck_close(sim.energies(rod).energy, sim.energy, 1e-12);")
+        .doc("The map holds energy, kinetic, strain, axial, shear, bending and potential. Without a beam, sim.energy is that of the scene.")
+        .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.1);\ncheck_close(sim.energy(rod).energy, sim.energy, 1e-12);")
         .see(&["record"]),
     ],
 };

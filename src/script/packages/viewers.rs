@@ -24,7 +24,8 @@ use crate::script::words::suggest::nearest;
 /// Viewers.
 pub const TABLE: Table = Table {
     name: "viewers",
-    doc: "A viewer is one HTML file that plays simulations in any browser, without network and without withy: to look at, to send, to keep.",
+    doc: "A viewer is one HTML file that plays simulations in any browser, without network and without withy: to look at, to send, to keep. \
+          `withy view FILE` makes one of a saved simulation, or of those that a script leaves in its variables, and opens it; `:view` does at the prompt.",
     types: &[],
     setup: SPINNING,
     constants: &[],

@@ -279,7 +279,10 @@ impl StabilityMap {
     pub fn page(&self) -> Page {
         let maps = self.heat_maps(Self::in_lines);
         let page = Page::grid(ABREAST.min(maps.len()));
-        maps.into_iter().fold(page.title(&self.plan.name), Page::panel)
+        // A lone map has the name of the study itself.
+        let is_lone = matches!(self.plan.maps.labels.as_slice(), [label] if label.is_empty());
+        let page = if is_lone { page } else { page.title(&self.plan.name) };
+        maps.into_iter().fold(page, Page::panel)
     }
 
     /// The maps of the study as text, and why cells did not come to their end.

@@ -6,7 +6,10 @@ use super::element::{Assembled, Description, Setting, Site};
 use super::pace::Pace;
 use super::resistance::Resistance;
 use super::{Exchange, Iterate, collocation};
-use crate::beams::{Dashpots, ForceSummary, Movement, Relaxation, RotationIncrement, Station};
+use crate::beams::{
+    Dashpots, ForceSummary, Movement, Relaxation, RotationIncrement, SectionPlace, Station,
+};
+use crate::geometry::Vec2;
 use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
 use crate::model::ModelError;
@@ -155,6 +158,18 @@ impl Resistance for DampedMaterial {
 
     fn dissipated(&self) -> f64 {
         self.dissipated
+    }
+
+    fn transmitted(
+        &self,
+        bodies: &[Body],
+        (beam, place): (usize, &SectionPlace),
+        rates: &[f64],
+    ) -> Option<(Vec2, f64)> {
+        (beam == self.beam).then(|| {
+            let rates: Vec<Movement> = bodies[beam].by_control_point(rates).collect();
+            self.dashpots.transmitted(place, &rates)
+        })
     }
 
     fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {

@@ -1,7 +1,8 @@
 //! What an element that resists movements offers to the steps of a model: a spring, a damper.
 
 use super::{Exchange, Iterate};
-use crate::beams::{ForceSummary, Movement, SpanAtRest};
+use crate::beams::{ForceSummary, Movement, SectionPlace, SpanAtRest};
+use crate::geometry::Vec2;
 use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
 use crate::model::bodies::Body;
@@ -62,6 +63,17 @@ pub trait Resistance {
 
     /// What it measures and its force, where it has one of each: a spring.
     fn stretched(&self) -> Option<Stretched> {
+        None
+    }
+
+    /// What it lets a beam, by its index, transmit at one of its places, besides what strains ask for, at such rates of the unknowns and at the start of
+    /// the step: a force in space [force] and a moment [force·length]. None where it is no damping of that beam.
+    fn transmitted(
+        &self,
+        _bodies: &[Body],
+        (_beam, _place): (usize, &SectionPlace),
+        _rates: &[f64],
+    ) -> Option<(Vec2, f64)> {
         None
     }
 

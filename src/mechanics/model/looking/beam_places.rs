@@ -27,17 +27,10 @@ pub struct BeamSample {
     pub velocity: Vec2,
     /// The angle of the section; unwrapped, as that at the start of the beam is followed [rad].
     pub angle: f64,
-    /// What is transmitted there.
+    /// What is transmitted there, by strains and, where the material is damped, by their rates.
     pub forces: SectionForces,
-}
-
-impl BeamSample {
-    /// The energy that the strains there store, per length as drawn: `(N Γ1 + Q Γ2 + M κ)/2` [energy/length].
-    pub fn strain_energy(&self) -> f64 {
-        let SectionForces { axial, shear, moment, axial_strain, shear_strain, curvature, .. } =
-            self.forces;
-        0.5 * (axial * axial_strain + shear * shear_strain + moment * curvature)
-    }
+    /// The energy that the strains there store, per length as drawn [energy/length].
+    pub strain_energy: f64,
 }
 
 impl BeamPlaces {
@@ -91,7 +84,8 @@ impl Model {
         let dynamics = &self.bodies()[along.beam].dynamics;
         let mut angle = self.end_angles(along.beam).0;
         let sample = |(arc_length, place, section): &(f64, Place, SectionPlace)| {
-            let forces = dynamics.section_forces(section);
+            let of_strains = dynamics.section_forces(section);
+            let forces = self.with_damping(of_strains, along.beam, section);
             angle = nearest_turn(atan2(forces.normal.y, forces.normal.x), angle);
             BeamSample {
                 arc_length: *arc_length,
@@ -99,6 +93,7 @@ impl Model {
                 velocity: self.velocity(place),
                 angle,
                 forces,
+                strain_energy: of_strains.strain_energy(),
             }
         };
         along.places.iter().map(sample).collect()

@@ -2,6 +2,7 @@
 
 use super::beam_places::{BeamPlaces, BeamSample};
 use crate::beams::{BodyIndex, SectionForces, SectionPlace, SectionPoints, Station};
+use crate::integrators::Mechanism;
 use crate::model::{Model, ModelError, Scene};
 
 /// A station of a beam, found among the quadrature points once, to be asked often.
@@ -47,8 +48,26 @@ impl Model {
     ///
     /// In a step of the energy-momentum method the balance has those of its middle, which are the mean of those at its ends: where a stiff beam rings
     /// from step to step, the mean of two neighbouring steps does not.
+    ///
+    /// A material that is damped adds what the present rates ask for; strains are those there are, whatever the rates.
     pub fn section_forces(&self, at: &CrossSection) -> SectionForces {
-        self.bodies()[at.body].dynamics.section_forces(&at.place)
+        let of_strains = self.bodies()[at.body].dynamics.section_forces(&at.place);
+        self.with_damping(of_strains, at.body, &at.place)
+    }
+
+    /// Section forces of strains with those of the damping of the material.
+    pub(super) fn with_damping(
+        &self,
+        of_strains: SectionForces,
+        beam: usize,
+        place: &SectionPlace,
+    ) -> SectionForces {
+        let bodies = self.bodies();
+        let viscous = self
+            .elements()
+            .resistances()
+            .filter_map(|resistance| resistance.transmitted(bodies, (beam, place), self.rates()));
+        viscous.fold(of_strains, SectionForces::with_viscous)
     }
 
     /// The section forces along a beam, from its start to its end: at the knots and at three places between. Where a joint cuts the beam there are two

@@ -33,7 +33,7 @@ impl Simulation {
         self.model.control_points().map(of_body).collect()
     }
 
-    /// The outlines of the beams, in their order.
+    /// The outlines of the beams, in their order, and then of the rigid bodies that have points.
     ///
     /// # Errors
     /// When an axis has a point without a tangent.

@@ -34,7 +34,7 @@ class Chart {
     sheet.begin(theme.paper);
     let [low, high] = ranges.get(this.unit);
     // Rounding is not blown up to the height of the chart.
-    const least = 1e-9 * Math.max(Math.abs(low), Math.abs(high)) || 1e-300;
+    const least = 1e-9 * Math.max(Math.abs(low), Math.abs(high)) || 1;
     if (high - low < least) [low, high] = [low - least, high + least];
     const spare = 0.06 * (high - low);
     [low, high] = [low - spare, high + spare];

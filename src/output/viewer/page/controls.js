@@ -18,7 +18,7 @@ const ACTIONS = [
   { keys: ["c"], label: "c", words: "the next colouring", run: nextColour },
   { keys: ["t"], switch: "trails", words: "trails" },
   { keys: ["k"], switch: "knots", words: "knots or nodes" },
-  { keys: ["s"], switch: "symbols", words: "supports, joints, sliders" },
+  { keys: ["s"], switch: "symbols", words: "supports, joints, springs, drives, sliders" },
   { keys: ["l"], switch: "loads", words: "loads" },
   { keys: [..."123456789"], label: "1 … 9", words: "show or hide a simulation, where there are several", run: (viewer, key) => toggleCase(viewer, Number(key) - 1) },
   { keys: ["m"], name: "more", label: "m", words: "more or fewer buttons, on a narrow screen", run: () => byId("bar").classList.toggle("open") },
@@ -243,12 +243,13 @@ async function start() {
       for (const chart of panel.charts) connectChart(viewer, chart, changed);
     }
     describeKeys(viewer);
-    const resized = once(() => {
+    // Before the next picture of the screen, so that no canvas is ever stretched.
+    const resized = new ResizeObserver(() => {
       // Who has moved the view keeps it, also where a telephone hides its bars.
       if (viewer.view.isFitted) viewer.fit();
-      refresh(viewer);
+      viewer.draw();
     });
-    addEventListener("resize", resized);
+    for (const { stage, charts } of viewer.panels) for (const { sheet } of [stage, ...charts]) resized.observe(sheet.canvas);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
       viewer.theme = new Theme();
       changed();

@@ -39,7 +39,7 @@ class Film {
   /** Where a spring is attached: at places that move, and at points of the ground. */
   way(spring, frame) { return spring.anchors.map((anchor) => (Array.isArray(anchor) ? this.at(anchor, frame) : [anchor.x, anchor.y])); }
 
-  /** Supports, joints and sliders: what has left its beam is none any more. */
+  /** Supports, joints, drives and sliders: what has left its beam is none any more. */
   held(frame) { return this.symbols.filter(({ until }) => until === null || this.times[frame] <= until); }
 
   /** Springs, dampers and tendons that have not let go. */
@@ -71,7 +71,8 @@ class Film {
   box(frame) {
     const box = new Box();
     for (const beam of this.beams) for (const point of this.line(beam, frame)) box.add(point);
-    for (const { at } of [...this.particles, ...this.symbols]) box.add(this.at(at, frame));
+    for (const { at } of [...this.particles, ...this.symbols, ...this.bodies]) box.add(this.at(at, frame));
+    for (const { outline } of this.bodies) for (const at of outline) box.add(this.at(at, frame));
     for (const spring of this.springs) for (const point of this.way(spring, frame)) box.add(point);
     return box;
   }

@@ -74,6 +74,9 @@ class Stage {
         sheet.line(film.path(at).slice(0, frame + 1).map(place), colour, 1.4);
       });
     }
+    for (const body of film.bodies) {
+      drawBody(sheet, body.outline.map((at) => place(film.at(at, frame))), body.points.map(({ at }) => place(film.at(at, frame))), place(film.at(body.at, frame)), theme);
+    }
     if (switches.symbols) for (const spring of film.holding(frame)) drawSpring(sheet, spring, film.way(spring, frame).map(place), theme);
     film.beams.forEach((beam, index) => {
       const line = film.line(beam, frame).map(place);
@@ -97,7 +100,7 @@ class Stage {
     const { sheet } = this;
     const { width, height } = sheet;
     const [[left, top], [right, bottom]] = [view.toPlane([0, 0], sheet), view.toPlane([width, height], sheet)];
-    const marks = [ticks(left, right, width / 90), ticks(bottom, top, height / 90)];
+    const marks = [ticks(left, right, width / 60), ticks(bottom, top, height / 60)];
     for (const { at } of marks[0]) {
       const [x] = view.toScreen([at, 0], sheet);
       sheet.line([[x, 0], [x, height]], theme.grid, 1);
@@ -142,19 +145,66 @@ function around([x, y], angle, points) {
   return points.map(([along, left]) => [x + along * cos - left * sin, y - along * sin - left * cos]);
 }
 
+/** A rigid body: its outline, its points, and a disc in quarters at its centre of mass. */
+function drawBody(sheet, outline, points, centre, theme) {
+  if (points.length > 2) sheet.shape(outline, theme.grid, theme.ink, 2);
+  else if (outline.length > 0) sheet.line(outline, theme.ink, 3);
+  for (const point of points) sheet.disc(point, 2.6, theme.ink);
+  sheet.disc(centre, 5, theme.paper, theme.ink);
+  const quarter = (from) => Array.from({ length: 9 }, (_, index) => [5, from + (Math.PI * index) / 16]);
+  for (const from of [0, Math.PI]) {
+    const arc = quarter(from).map(([radius, angle]) => [radius * Math.cos(angle), radius * Math.sin(angle)]);
+    sheet.shape(around(centre, 0, [[0, 0], ...arc]), theme.ink, theme.ink, 0.5);
+  }
+}
+
+/** What holds, joins, slides or drives. Behind a support, away from what it holds, is the ground. */
 function drawSymbol(sheet, { kind, angle }, at, theme) {
+  const up = Math.PI / 2;
+  const ground = (behind, from) => {
+    sheet.line(around(at, behind, [[-from, -12], [-from, 12]]), theme.ink, 1.5);
+    for (const side of [-9, -3, 3, 9]) sheet.line(around(at, behind, [[-from, side], [-from - 5, side - 4]]), theme.ink, 1);
+  };
+  const rollers = (from) => {
+    for (const centre of around(at, angle, [[-from - 2.5, -5], [-from - 2.5, 5]])) sheet.disc(centre, 2.5, theme.paper, theme.ink);
+    ground(angle, from + 5.5);
+  };
+  const triangle = (behind) => sheet.shape(around(at, behind, [[0, 0], [-13, -8], [-13, 8]]), theme.paper, theme.ink);
+  const square = (half, fill) => sheet.shape(around(at, 0, [[-half, -half], [half, -half], [half, half], [-half, half]]), fill, theme.ink);
+  const head = (tip, direction) => sheet.line(around(tip, direction, [[-6, 3.5], [0, 0], [-6, -3.5]]), theme.ink, 1.5);
   const draw = {
-    support() {
-      sheet.shape(around(at, 0, [[0, 0], [-8, -13], [8, -13]]), theme.paper, theme.ink);
-      sheet.line(around(at, 0, [[-12, -13], [12, -13]]), theme.ink, 1.5);
-      for (const x of [-9, -3, 3, 9]) sheet.line(around(at, 0, [[x, -13], [x - 4, -18]]), theme.ink, 1);
+    hinge() {
+      triangle(up);
+      ground(up, 13);
     },
     clamp() {
       sheet.line(around(at, angle, [[0, -12], [0, 12]]), theme.ink, 2.5);
       for (const y of [-9, -3, 3, 9]) sheet.line(around(at, angle, [[0, y], [-6, y - 4]]), theme.ink, 1);
     },
-    hinge() { sheet.disc(at, 4, theme.paper, theme.ink); },
-    rigid() { sheet.shape(around(at, angle, [[-3, -3], [3, -3], [3, 3], [-3, 3]]), theme.ink, theme.ink); },
+    roller() {
+      triangle(angle);
+      rollers(13);
+    },
+    guided() {
+      sheet.line(around(at, angle, [[-4, -11], [-4, 11]]), theme.ink, 2);
+      rollers(4);
+      square(3, theme.ink);
+    },
+    held_angle() { square(6, theme.paper); },
+    motor() {
+      const circle = Array.from({ length: 49 }, (_, index) => (Math.PI * index) / 24);
+      sheet.line(circle.flatMap((turn) => around(at, turn, [[11, 0]])), theme.ink, 1.2);
+      for (const turn of [0.9, 0.9 + Math.PI]) head(around(at, turn, [[11, 0]])[0], turn + up);
+    },
+    carriage() {
+      sheet.line(around(at, 0, [[-7, -7], [7, -7], [7, 7], [-7, 7], [-7, -7]]), theme.ink, 1.5);
+      for (const direction of [angle, angle + Math.PI]) {
+        sheet.line(around(at, direction, [[7, 0], [19, 0]]), theme.ink, 1.5);
+        head(around(at, direction, [[19, 0]])[0], direction);
+      }
+    },
+    joint() { sheet.disc(at, 4, theme.paper, theme.ink); },
+    rigid_joint() { sheet.shape(around(at, angle, [[-3, -3], [3, -3], [3, 3], [-3, 3]]), theme.ink, theme.ink); },
     slider() { sheet.shape(around(at, 0, [[-7, 0], [0, -7], [7, 0], [0, 7]]), theme.paper, theme.ink); },
   };
   draw[kind]();
@@ -177,14 +227,14 @@ function drawSpring(sheet, { kind, anchors }, way, theme) {
       lines([[middle, 4], [middle, -4]], [[middle, 0], [length, 0]]);
     },
     tendon() { sheet.line(way, theme.ink, 1.2); },
-    torsion() {
+    torsion_spring() {
       const at = way[anchors.findLastIndex(Array.isArray)] ?? to;
       const turn = Array.from({ length: 49 }, (_, index) => [(5 * Math.PI * index) / 48, 3 + (10 * index) / 48]);
       sheet.line(turn.flatMap(([angle, radius]) => around(at, angle, [[radius, 0]])), theme.ink, 1.2);
     },
   };
   draw[kind]();
-  if (kind !== "torsion") anchors.forEach((anchor, index) => Array.isArray(anchor) || drawSymbol(sheet, { kind: "hinge", angle: 0 }, way[index], theme));
+  if (kind !== "torsion_spring") anchors.forEach((anchor, index) => Array.isArray(anchor) || drawSymbol(sheet, { kind: "joint", angle: 0 }, way[index], theme));
 }
 
 /** A load relative to the largest of its kind: an arrow that leaves its place, or one around it. */
@@ -202,7 +252,7 @@ function drawLoad(sheet, kind, at, [fx, fy], theme) {
   }
   const size = Math.hypot(fx, fy);
   if (size < 1e-3) return;
-  const [length, angle] = [(kind === "line" ? 26 : 52) * size, Math.atan2(fy, fx)];
-  sheet.line(around(at, angle, [[0, 0], [length, 0]]), colour, kind === "line" ? 1.2 : 1.8);
-  head(around(at, angle, [[length, 0]])[0], angle, kind === "line" ? 6 : 9);
+  const [length, angle] = [(kind === "line_force" ? 26 : 52) * size, Math.atan2(fy, fx)];
+  sheet.line(around(at, angle, [[0, 0], [length, 0]]), colour, kind === "line_force" ? 1.2 : 1.8);
+  head(around(at, angle, [[length, 0]])[0], angle, kind === "line_force" ? 6 : 9);
 }

@@ -112,7 +112,8 @@ class Viewer {
       film.line(beam, frame).forEach((point, at) => look(beam.name, point, field ? `, ${field.name} ${shown(values[at])}` : ""));
     }
     found.distance += 2;
-    for (const { name, at } of [...film.particles, ...film.held(frame), ...film.arrows]) look(name, film.at(at, frame));
+    const ofBodies = film.bodies.flatMap((body) => [body, ...body.points]);
+    for (const { name, at } of [...film.particles, ...ofBodies, ...film.held(frame), ...film.arrows]) look(name, film.at(at, frame));
     for (const spring of film.holding(frame)) film.way(spring, frame).forEach((point) => look(spring.name, point));
     return found.words;
   }

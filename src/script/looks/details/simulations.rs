@@ -97,7 +97,7 @@ pub fn of_history(history: &History) -> Details {
     let extra: Vec<String> =
         history.columns().skip(fixed.len()).map(|(name, of)| format!("{name} [{of}]")).collect();
     if !extra.is_empty() {
-        details.push(line("of sliders", listed(extra.into_iter())));
+        details.push(line("of parts, sensors", listed(extra.into_iter())));
     }
     details
 }

@@ -3,20 +3,21 @@
 use rhai::{Array, Dynamic};
 
 use super::files::{FILE, write_picture};
-use super::options::{X_LIMITS, Y_LIMITS, limits};
+use super::options::{SYMBOLS, X_LIMITS, Y_LIMITS, limits, symbols};
 use crate::output::Page;
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::equilibrium::EquilibriumHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::looks::along::Inside;
+use crate::script::looks::motion::Shown;
 use crate::script::looks::quantities::{NAMES, Quantity};
 use crate::script::packages::equilibria::EQUILIBRIUM;
 use crate::script::packages::simulations::{SIMULATION, SPINNING};
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Kind;
 use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{Parameter, array, boolean, choice, either, options, text};
+use crate::script::rows::parameter::{Parameter, array, choice, either, options, text};
 use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::suggest::nearest;
@@ -57,9 +58,6 @@ const QUANTITIES: Parameter = either("quantity", &[Kind::Choice(NAMES), Kind::Ar
 const QUANTITY: Parameter = choice("quantity", NAMES);
 const BEAMS: Parameter = array("beams").doc("those that are drawn, all unless given").optional();
 const TITLE: Parameter = text("title").doc("the name of the simulation unless given").optional();
-const SYMBOLS: Parameter = boolean("symbols")
-    .doc("whether supports, joints, sliders, springs and loads are drawn; they are unless given")
-    .optional();
 const ALONG: &[Parameter] = &[TITLE, BEAMS, SYMBOLS];
 const FIELD: &[Parameter] = &[TITLE, BEAMS, SYMBOLS, X_LIMITS, Y_LIMITS];
 
@@ -130,9 +128,9 @@ fn inside(call: &Call, options: &Options) -> Result<Inside, ScriptError> {
     if let Some(title) = options.text_if_given("title")? {
         inside.title = title.to_string();
     }
-    Ok(match options.boolean("symbols") {
-        Ok(false) => inside.without_symbols(),
-        _ => inside,
+    Ok(match symbols(options) {
+        Shown::No => inside.without_symbols(),
+        Shown::Yes => inside,
     })
 }
 

@@ -1,14 +1,15 @@
 //! Pictures of a script's own numbers.
 
-use rhai::Dynamic;
+use rhai::{Dynamic, Map};
 
 use super::files::{FILE, write_picture};
 use super::options::{
-    LABELS, MARKERS, TITLE, X_LABEL, X_LIMITS, X_LOG, Y_LABEL, Y_LIMITS, Y_LOG, curves, dressed,
-    labels, marked,
+    LABELS, MARKERS, TITLE, Wrong, X_LABEL, X_LIMITS, X_LOG, Y_LABEL, Y_LIMITS, Y_LOG, curves,
+    dressed, labels, marked,
 };
-use crate::output::{LineChart, Series};
+use crate::output::{LineChart, Point, Series};
 use crate::script::rows::call::Call;
+use crate::script::rows::options::Options;
 use crate::script::rows::parameter::{Parameter, array, options};
 use crate::script::rows::table::{Table, function};
 use crate::script::words::error::{Place, ScriptError};
@@ -65,10 +66,9 @@ fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let hint = "give one x for all curves, or one for each";
         return Err(call.error(told).hint(hint).at(Place::Argument(0)));
     }
-    let names = labels(call, &options, y.len())?;
     let title = options.text_if_given("title")?.unwrap_or_default();
-    let mut chart = LineChart::new(title.as_str());
     let count = y.len();
+    let mut curves = Vec::new();
     for (index, y) in y.into_iter().enumerate() {
         let x = &x[index.min(x.len() - 1)];
         if x.len() != y.len() {
@@ -77,13 +77,40 @@ fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
             let hint = "they belong together pair by pair";
             return Err(call.error(told).hint(hint).at(Place::Argument(1)));
         }
-        let name = match (&names, count) {
-            (Some(names), _) => names[index].clone(),
-            (None, 1) => String::new(),
-            (None, _) => format!("curve {}", index + 1),
-        };
-        let points = x.iter().copied().zip(y).collect();
-        chart = chart.series(marked(&options, index, Series::new(name, points)));
+        let name = if count == 1 { String::new() } else { format!("curve {}", index + 1) };
+        curves.push((name, x.iter().copied().zip(y).collect()));
     }
-    write_picture(call, &dressed(call, &options, chart)?)
+    let chart = chart(&options, LineChart::new(title.as_str()), curves);
+    write_picture(call, &chart.map_err(|wrong| wrong.in_call(call))?)
+}
+
+/// A chart of curves by their names, which labels replace where they are given.
+fn chart(
+    options: &Options,
+    chart: LineChart,
+    curves: Vec<(String, Vec<Point>)>,
+) -> Result<LineChart, Wrong> {
+    let labels = labels(options, curves.len())?;
+    let named = curves.into_iter().enumerate().map(|(index, (name, points))| {
+        let label = labels.as_ref().map(|labels| labels[index].clone());
+        marked(options, index, Series::new(label.unwrap_or(name), points))
+    });
+    dressed(options, named.fold(chart, LineChart::series))
+}
+
+/// The chart of curves that the prompt draws over something, with options that were typed there, those of `plot`.
+///
+/// # Errors
+/// When an option is unknown or wrong.
+pub fn typed_chart(
+    engine: &rhai::Engine,
+    map: &Map,
+    over: &str,
+    curves: Vec<(String, Vec<Point>)>,
+) -> Result<LineChart, ScriptError> {
+    let options = Options::read(engine, ":plot", OPTIONS, map)?;
+    let names = || curves.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ");
+    let title = options.text_if_given("title")?.map_or_else(names, |title| title.to_string());
+    let bare = LineChart::new(title).x_label(over);
+    chart(&options, bare, curves).map_err(|wrong| wrong.in_command(":plot"))
 }

@@ -76,7 +76,7 @@ pub fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
     let dress = |chart: LineChart| {
         let chart = chart.y_scale(scale).each(|at, series| marked(&options, at, series));
-        dressed(call, &options, chart)
+        dressed(&options, chart).map_err(|wrong| wrong.in_call(call))
     };
     write_charts(call, charts.into_iter().map(dress).collect::<Result<_, _>>()?)
 }

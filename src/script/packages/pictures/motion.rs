@@ -3,12 +3,12 @@
 use rhai::{Dynamic, Map};
 
 use super::files::write_picture;
-use super::options::{X_LIMITS, Y_LIMITS, limits};
+use super::options::{SYMBOLS, X_LIMITS, Y_LIMITS, limits, symbols};
 use super::subjects::{simulations, stations};
 use crate::output::{Limits, MotionPicture, Style};
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
-use crate::script::looks::motion::{Motion, Shown, Times, Wanted};
+use crate::script::looks::motion::{Motion, Times, Wanted};
 use crate::script::packages::recording::expect_near;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Scripted;
@@ -33,11 +33,7 @@ pub const MOTION: &[Parameter] = &[
     boolean("dots")
         .doc("whether knots or nodes are marked; unless given, up to 40 spans in all")
         .optional(),
-    boolean("symbols")
-        .doc(
-            "whether supports, joints, sliders, springs and loads are drawn; they are unless given",
-        )
-        .optional(),
+    SYMBOLS,
     X_LIMITS,
     Y_LIMITS,
     text("title").doc("the name of the simulation unless given").optional(),
@@ -119,10 +115,7 @@ fn wanted(
         traces: traced.iter().map(trace).collect::<Result<_, ScriptError>>()?,
         magnify: given("magnify"),
         dots: options.boolean("dots").ok(),
-        symbols: match options.boolean("symbols") {
-            Ok(false) => Shown::No,
-            _ => Shown::Yes,
-        },
+        symbols: symbols(options),
         limits,
     })
 }

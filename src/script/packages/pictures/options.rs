@@ -3,6 +3,7 @@
 use rhai::{Array, Dynamic};
 
 use crate::output::{Limits, LineChart, Marker, Scale, Series, Stroke, significant};
+use crate::script::looks::motion::Shown;
 use crate::script::rows::call::Call;
 use crate::script::rows::options::Options;
 use crate::script::rows::parameter::{Parameter, array, boolean, choice, numbers, text};
@@ -35,6 +36,11 @@ pub const MARKERS: Parameter = choice("markers", &["on_lines", "alone"])
 pub const LABELS: Parameter =
     array("labels").doc("the name of each curve, a text or a number, for the legend").optional();
 
+/// Whether a picture has symbols.
+pub const SYMBOLS: Parameter = boolean("symbols")
+    .doc("whether supports, joints, sliders, springs and loads are drawn; they are unless given")
+    .optional();
+
 /// Digits of a number that is a label.
 const DIGITS: usize = 6;
 
@@ -57,6 +63,14 @@ impl Wrong {
     }
 }
 
+/// Whether symbols are shown.
+pub fn symbols(options: &Options) -> Shown {
+    match options.boolean("symbols") {
+        Ok(false) => Shown::No,
+        _ => Shown::Yes,
+    }
+}
+
 /// The ends of axes.
 pub fn limits(options: &Options) -> Result<Limits, Wrong> {
     let ends = |name: &str| match options.numbers(name).ok().as_deref() {
@@ -72,29 +86,22 @@ pub fn limits(options: &Options) -> Result<Limits, Wrong> {
 }
 
 /// The chart with the labels, scales and limits of its options; what is not given stays as it is.
-pub fn dressed(
-    call: &Call,
-    options: &Options,
-    mut chart: LineChart,
-) -> Result<LineChart, ScriptError> {
-    let limits = limits(options).map_err(|wrong| wrong.in_call(call))?;
+pub fn dressed(options: &Options, mut chart: LineChart) -> Result<LineChart, Wrong> {
+    let limits = limits(options)?;
     let is_asked = |name: &str| options.boolean(name).unwrap_or(false);
     for (axis, ends) in [("x", limits.x), ("y", limits.y)] {
         if let Some((low, _)) = ends.filter(|(low, _)| *low <= 0.0)
             && is_asked(&format!("{axis}_log"))
         {
-            let low = format_number(low);
-            let told = format!("a logarithmic axis cannot begin at {low}");
-            return Err(call
-                .error(told)
-                .hint("give limits above zero")
-                .at(Place::Key(format!("{axis}_limits"))));
+            let told = format!("a logarithmic axis cannot begin at {}", format_number(low));
+            let key = format!("{axis}_limits");
+            return Err(Wrong { key, told, hint: "give limits above zero" });
         }
     }
-    if let Some(label) = options.text_if_given("x_label")? {
+    if let Ok(label) = options.text("x_label") {
         chart = chart.x_label(label.as_str());
     }
-    if let Some(label) = options.text_if_given("y_label")? {
+    if let Ok(label) = options.text("y_label") {
         chart = chart.y_label(label.as_str());
     }
     if is_asked("x_log") {
@@ -116,25 +123,21 @@ pub fn marked(options: &Options, index: usize, series: Series) -> Series {
 }
 
 /// The names of so many curves, where they are given.
-pub fn labels(
-    call: &Call,
-    options: &Options,
-    count: usize,
-) -> Result<Option<Vec<String>>, ScriptError> {
+pub fn labels(options: &Options, count: usize) -> Result<Option<Vec<String>>, Wrong> {
     let Ok(given) = options.array("labels") else { return Ok(None) };
-    let at = || Place::Key("labels".into());
+    let wrong = |told: String, hint| Wrong { key: "labels".to_owned(), told, hint };
     if given.len() != count {
         let plural = if count == 1 { "" } else { "s" };
         let told = format!("there are {count} curve{plural} and {} labels", given.len());
-        return Err(call.error(told).hint("give a label for each curve").at(at()));
+        return Err(wrong(told, "give a label for each curve"));
     }
     let label = |value: &Dynamic| {
         let number = as_number(value).map(|number| significant(number, DIGITS));
         value.clone().into_string().ok().or(number)
     };
     let labels: Option<Vec<String>> = given.iter().map(label).collect();
-    let wrong = || call.error("the labels must be texts or numbers").at(at());
-    labels.map(Some).ok_or_else(wrong)
+    let told = || "the labels must be texts or numbers".to_owned();
+    labels.map(Some).ok_or_else(|| wrong(told(), "for example labels: [\"first\", \"second\"]"))
 }
 
 /// The argument of a name as curves: an array of numbers is one, an array of such arrays several; what is not finite is a gap.

@@ -9,6 +9,7 @@ use crate::output::{CsvTable, LineChart, MotionPicture, Page, Series, Snapshot, 
 use crate::script::handles::equilibrium::EquilibriumHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::looks::motion::snapshot;
+use crate::script::looks::symbols::SceneAt;
 use crate::script::packages::equilibria::{BENT, EQUILIBRIUM};
 use crate::script::packages::modes::{MODES, ModesHandle};
 use crate::script::packages::scenes::STATION;
@@ -31,7 +32,7 @@ pub const TABLE: Table = Table {
     rows: &[
         function("plot_equilibrium", &[REST, FILE, options("options", SHAPES).optional()], plot_equilibrium)
             .summary("Draws configurations along the path of equilibria over each other.")
-            .doc("Of a long path some are left out, the same number between each two that are drawn.")
+            .doc("Symbols of supports, joints, springs and loads stand where the last one has them. Of a long path some are left out, the same number between each two that are drawn.")
             .example("let rest = scene.equilibrium();\nplot_equilibrium(rest, \"bent.svg\", #{ trace: [rod.end] });")
             .see(&["equilibrium", "plot_load_path", "plot_motion"]),
         function("plot_load_path", &[REST, object("station", STATION), FILE], plot_load_path)
@@ -78,6 +79,7 @@ fn plot_equilibrium(call: &mut Call) -> Result<Dynamic, ScriptError> {
     if !grows {
         picture = picture.time_label("point of the path");
     }
+    picture = picture.symbols(SceneAt::at_rest(&rest).symbols(rest.model())?);
     let outlines = Outline::of_scene(scene, rest.model().meshes())?;
     let configurations = rest.along_path(|model| {
         let points: Vec<&[Vec2]> = model.control_points().collect();
@@ -153,10 +155,11 @@ fn plot_modes(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let at_rest = draw(modes.points());
     let size = modes.size() * options.number("amplitude")?;
-    // One line of all beams, with gaps between them.
+    // One line of all beams and bodies, with gaps between them.
     let gap = (f64::NAN, f64::NAN);
+    let lines = at_rest.lines.iter().chain(&at_rest.bodies);
     let at_rest: Vec<(f64, f64)> =
-        at_rest.lines.iter().flat_map(|line| line.iter().map(plain).chain([gap])).collect();
+        lines.flat_map(|line| line.iter().map(plain).chain([gap])).collect();
     let pictures = modes.all().iter().enumerate().map(|(number, mode)| {
         let omega = significant(mode.angular_frequency(), 5);
         MotionPicture::new(format!("mode {number}: ω = {omega}"))

@@ -46,6 +46,11 @@ pub fn find(catalog: &Catalog, name: &str) -> Vec<Subject> {
     if !found.is_empty() {
         return found;
     }
+    // One viewer is no function, and viewers are a heading.
+    let singular = |table: &&'static Table| table.name.strip_suffix('s') == Some(name);
+    if let Some(table) = catalog.tables().find(singular) {
+        return vec![Subject::Table(table)];
+    }
     let Some((owner, member)) = name.rsplit_once('.') else { return found };
     let members: Vec<_> =
         named(catalog, member).into_iter().filter(|subject| is_member(*subject)).collect();

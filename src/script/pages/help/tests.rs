@@ -84,6 +84,7 @@ fn domains_and_words_of_the_language_have_pages() {
     assert!(shown("while").starts_with("The language: loops\n"), "{}", shown("while"));
     assert!(shown("**").starts_with("The language: operators\n"), "{}", shown("**"));
     assert!(shown("").starts_with("Help\n"), "{}", shown(""));
+    assert_eq!(shown("viewer"), shown("viewers"), "a heading, also of one");
 }
 
 #[test]
