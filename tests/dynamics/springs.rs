@@ -116,7 +116,8 @@ fn a_damper_that_turns_is_met_with_the_order_of_the_method() {
             let expected = f64::from(entry.claims.order);
             let found = orders(&errors);
             println!("{} {start:?} {stiffness:?}: {errors:.1?} {found:.2?}", entry.name);
-            assert!((found[1] - expected).abs() < 0.3, "{}: {errors:?} {found:?}", entry.name);
+            // Without strain nothing decays, and the method of first order is of second.
+            assert!(found[1] > expected - 0.3, "{}: {errors:?} {found:?}", entry.name);
         }
     }
 }
