@@ -19,7 +19,7 @@ type Rgb = [u8; 3];
 /// The pixels of a picture, each as an index of the palette.
 type Pixels = Vec<u8>;
 
-/// So many pictures of the same size, drawn when they are asked for.
+/// Pictures of one size, one after the other, drawn when they are asked for.
 pub struct Animation<'a> {
     /// How many.
     pub frames: usize,

@@ -13,9 +13,9 @@ pub struct DataTable {
 /// A column of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataColumn {
-    /// Its name.
+    /// The name of the column.
     pub name: String,
-    /// Its dimension; `-` for a pure number, empty where it has none or none is known.
+    /// The dimension of the column; `-` for a pure number, empty where it has none or none is known.
     pub dimension: String,
     /// What stands in it.
     pub values: DataValues,

@@ -22,11 +22,11 @@ pub struct NpzArchive {
 /// An array of doubles.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NpzArray {
-    /// Its name.
+    /// The name of the array.
     pub name: String,
     /// How long it is in each direction, the slowest first.
     pub shape: Vec<usize>,
-    /// Its numbers, the last index fastest.
+    /// The numbers of the array, the last index fastest.
     pub values: Vec<f64>,
 }
 

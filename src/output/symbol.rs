@@ -58,7 +58,7 @@ pub enum Symbol {
 }
 
 impl Symbol {
-    /// Its name in the data of pages.
+    /// The name of the symbol in the data of pages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Hinge => "hinge",
@@ -87,9 +87,9 @@ impl Symbol {
 pub struct PlacedSymbol {
     /// What it is.
     pub symbol: Symbol,
-    /// Where it is.
+    /// The place of the symbol.
     pub at: Point,
-    /// Where it points; of any length, zero for what has no direction. Springs, dampers and tendons end there.
+    /// The direction in which the symbol points; of any length, zero for what has no direction. Springs, dampers and tendons end there.
     pub direction: Point,
 }
 

@@ -24,18 +24,18 @@ pub struct VtkGrid {
 /// A body: a line through its points, or a dot where there is only one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VtkCell {
-    /// Its name, which a comment of the file tells.
+    /// The name of the grid, which a comment of the file tells.
     pub name: String,
-    /// Its points in the plane.
+    /// The points of the grid in the plane.
     pub points: Vec<Point>,
 }
 
 /// A quantity at each point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VtkField {
-    /// Its name.
+    /// The name of the array.
     pub name: String,
-    /// Its values.
+    /// The values of the array.
     pub values: VtkValues,
 }
 

@@ -18,7 +18,7 @@ pub enum PrescribedMotion {
 pub struct MotionInStep {
     /// How far it leads in the step [length, rad].
     pub moved: f64,
-    /// Its rate at the end, from inside the step [length/time, rad/time].
+    /// The rate of the motion at the end of the step, from inside the step [length/time, rad/time].
     pub rate: f64,
     /// The derivative of the rate at the start and at the end, from inside the step [length/time², rad/time²].
     pub accelerations: [f64; 2],
@@ -27,7 +27,7 @@ pub struct MotionInStep {
 /// How a motion begins.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionAtStart {
-    /// Its rate just after the start [length/time, rad/time].
+    /// The rate of the motion just after the start [length/time, rad/time].
     pub rate: f64,
     /// The derivative of that [length/time², rad/time²].
     pub acceleration: f64,

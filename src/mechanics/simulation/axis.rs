@@ -23,7 +23,7 @@ pub struct AxisStation {
 }
 
 impl<'a> Axes<'a> {
-    /// Those of a scene.
+    /// The axes of the beams of a scene, as drawn.
     ///
     /// # Errors
     /// When the scene cannot be built.

@@ -73,7 +73,7 @@ fn six_digits(number: f64) -> f64 {
 }
 
 impl Series {
-    /// Its strongest vibrations, at most so many, the strongest first.
+    /// The strongest vibrations of the column, at most so many, the strongest first.
     ///
     /// Two that are nearer to each other than about four periods over all rows are not told apart, and slower ones than that are not seen.
     ///

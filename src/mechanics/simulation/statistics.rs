@@ -31,7 +31,7 @@ pub struct Summary {
 }
 
 impl Series {
-    /// Its extremes, means and integral; none of nothing. What is not a number makes all of them none.
+    /// The extremes, means and integral of the column; none of nothing. What is not a number makes all of them none.
     pub fn summary(&self) -> Option<Summary> {
         let first = (*self.values.first()?, *self.times.first()?);
         let rows = || self.values.iter().copied().zip(self.times.iter().copied());

@@ -25,7 +25,7 @@ impl Place {
 /// A beam.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Beam {
-    /// Its name.
+    /// The name of the beam.
     pub name: String,
     /// The centre line of the beam, from its start to its end.
     pub line: Vec<Place>,
@@ -38,7 +38,7 @@ pub struct Beam {
 /// A body without extent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Particle {
-    /// Its name.
+    /// The name of the particle.
     pub name: String,
     /// The place of the particle.
     pub at: Place,
@@ -47,13 +47,13 @@ pub struct Particle {
 /// A rigid body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
-    /// Its name.
+    /// The name of the body.
     pub name: String,
     /// Where its centre of mass is.
     pub centre: Place,
-    /// Its points, with their names.
+    /// The points of the body, with their names.
     pub points: Vec<(String, Place)>,
-    /// Its outline: closed where it ends where it begins, a line otherwise; nothing where it has no points.
+    /// The outline of the body: closed where it ends where it begins, a line otherwise; nothing where it has no points.
     pub outline: Vec<Place>,
 }
 
@@ -64,7 +64,7 @@ pub struct Sign {
     pub symbol: Symbol,
     /// What it is called.
     pub name: String,
-    /// Where it is.
+    /// The place of the symbol.
     pub at: Place,
     /// The direction in which it points [rad].
     pub angle: f64,
@@ -88,7 +88,7 @@ pub struct Spring {
     pub symbol: Symbol,
     /// What it is called.
     pub name: String,
-    /// Where it is attached, in order.
+    /// The places where the spring is attached, in order.
     pub anchors: Vec<Anchor>,
     /// When it is gone: one that has let go.
     pub until: Option<f64>,
@@ -101,9 +101,9 @@ pub struct Arrow {
     pub symbol: Symbol,
     /// What it is called.
     pub name: String,
-    /// Where it acts.
+    /// The place where the load acts.
     pub at: Place,
-    /// Its value in each frame.
+    /// The value of the load in each frame.
     pub values: Vec<Point>,
 }
 
@@ -112,29 +112,29 @@ pub struct Arrow {
 pub struct Trail {
     /// What it is called.
     pub name: String,
-    /// Where it is.
+    /// The place of the trail.
     pub at: Place,
 }
 
 /// A quantity along all beams, by which they are coloured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
-    /// Its name.
+    /// The name of the field.
     pub name: String,
-    /// Its unit or dimension; empty for a pure number.
+    /// The unit or dimension of the field; empty for a pure number.
     pub unit: String,
-    /// Its values in each frame: at the stations of the first beam, then of the next one. What is not finite is not coloured.
+    /// The values of the field in each frame: at the stations of the first beam, then of the next one. What is not finite is not coloured.
     pub values: Vec<Vec<f64>>,
 }
 
 /// A quantity over time, drawn below the motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
-    /// Its name.
+    /// The name of the column.
     pub name: String,
-    /// Its unit or dimension; those that have the same are drawn together.
+    /// The unit or dimension of the column; those that have the same are drawn together.
     pub unit: String,
-    /// Its values in each row.
+    /// The values of the column in each row.
     pub values: Vec<f64>,
 }
 

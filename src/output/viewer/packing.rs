@@ -53,7 +53,7 @@ impl Scale {
     }
 }
 
-/// So many numbers over so many frames, given by number and frame, as the page reads them.
+/// Packs some numbers over some frames, given by number and frame, as the page reads them.
 ///
 /// # Errors
 /// When they cannot be deflated, which would be a mistake of ours.

@@ -36,7 +36,7 @@ pub struct Condition {
 pub struct Controller {
     /// The function of a script, called with the time and the simulation.
     pub function: StoredFunction,
-    /// Its value for the present step.
+    /// The value of the controller for the present step.
     pub value: Rc<Cell<f64>>,
 }
 

@@ -37,7 +37,7 @@ pub struct Wishes<'a> {
     pub columns: &'a [String],
     /// Quantities along beams, of [`FIELDS`].
     pub fields: &'a [&'a str],
-    /// Those of them that states tell.
+    /// The fields that states tell.
     pub inside: Vec<Field>,
 }
 

@@ -17,7 +17,7 @@ pub struct Grids {
 const OF_A_PARTICLE: f64 = 0.0;
 
 impl Grids {
-    /// Those of the beams of a simulation.
+    /// The grids of the beams of a simulation.
     ///
     /// # Errors
     /// When an axis has a point without a tangent.

@@ -5,15 +5,15 @@ use crate::output::Side;
 
 /// A quantity along a beam.
 pub struct Quantity {
-    /// Its name in scripts.
+    /// The name of the quantity in scripts.
     pub name: &'static str,
     /// What it is called in titles.
     pub words: &'static str,
     /// How axes write it.
     pub sign: &'static str,
-    /// Its dimension.
+    /// The dimension of the quantity.
     pub dimension: &'static str,
-    /// Its value.
+    /// The value of the quantity at a sample of a beam.
     pub of: fn(&BeamSample) -> f64,
     /// The side of a beam on which strips stand where it is positive.
     pub side: Side,

@@ -23,7 +23,7 @@ pub struct Sign<'a> {
     pub name: &'a str,
     /// The station.
     pub at: Station,
-    /// Where it points.
+    /// The direction in which the symbol points.
     pub pointing: Pointing,
     /// What it is of those that may let go.
     pub hold: Option<Hold>,
@@ -69,7 +69,7 @@ pub struct SceneAt<'a> {
 }
 
 impl<'a> SceneAt<'a> {
-    /// That of a simulation.
+    /// The scene of a simulation at a time, without what has let go by then.
     pub fn of(simulation: &'a Simulation, time: f64) -> Self {
         let scene = simulation.scene();
         let holds = scene.holds().into_iter().map(|(_, hold)| hold);
@@ -77,7 +77,7 @@ impl<'a> SceneAt<'a> {
         Self { scene, time, released: holds.filter(is_gone).collect() }
     }
 
-    /// That of an equilibrium, under all of its loads.
+    /// The scene of an equilibrium, under all of its loads.
     pub fn at_rest(rest: &'a Equilibrium) -> Self {
         Self { scene: rest.scene(), time: 0.0, released: Vec::new() }
     }

@@ -17,7 +17,7 @@ const INTEGRATOR: Type = Type::of::<Method>();
 const FINEST_RUN: Type = Type::of::<FinestRun>();
 
 option_set! {
-    /// Of `study_stability`.
+    /// The options of `study_stability`.
     pub struct StabilityOptions {
         /// The name of the study and of its files.
         name: String = name("name").doc("of the study and its files"),
@@ -53,7 +53,7 @@ option_set! {
 }
 
 option_set! {
-    /// Of `study_cost`.
+    /// The options of `study_cost`.
     pub struct CostOptions {
         /// The name of the study and of its files.
         name: String = name("name").doc("of the study and its files"),
@@ -78,7 +78,7 @@ option_set! {
 }
 
 option_set! {
-    /// Of all studies of errors.
+    /// The options of all studies of errors.
     pub struct ErrorOptions {
         /// The name of the study and of its files.
         name: String = name("name").doc("of the study and of its files"),
@@ -117,7 +117,7 @@ option_set! {
 }
 
 option_set! {
-    /// Of `study_work_precision`, besides those of all studies of errors.
+    /// The options of `study_work_precision`, besides those of all studies of errors.
     pub struct TimedOptions {
         /// The name of a table.
         rivals: Option<String> =
@@ -133,7 +133,7 @@ option_set! {
 pub const PRECISION_KEYS: &[Parameter] = &both::<12>(ErrorOptions::KEYS, TimedOptions::KEYS);
 
 option_set! {
-    /// Of `finest_run`.
+    /// The options of `finest_run`.
     pub struct FinestOptions {
         /// What the function of the study makes the scene of.
         mesh: Option<Dynamic> = anything("mesh").doc("what `scene` is called with").optional(),

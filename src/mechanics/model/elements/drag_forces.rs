@@ -28,7 +28,7 @@ pub struct DragPoint {
     pub slope: Vec<f64>,
     /// The length that it stands for [length]; 1 of a point.
     pub weight: f64,
-    /// Its velocity in the step before [length/time].
+    /// The velocity of the point in the step before [length/time].
     pub last_velocity: Vec2,
 }
 

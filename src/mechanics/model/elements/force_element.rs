@@ -34,9 +34,9 @@ pub struct Iterate<'a> {
 /// What a load with a name has given.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LoadAccount {
-    /// Its work since the start [energy].
+    /// The work of the load since the start [energy].
     pub work: f64,
-    /// Its size in the last step: force, moment, or force per length, mean over the step.
+    /// The size of the load in the last step: force, moment, or force per length, mean over the step.
     pub value: f64,
 }
 

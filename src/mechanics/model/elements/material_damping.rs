@@ -22,7 +22,7 @@ pub struct MaterialDamping {
     pub name: String,
     /// The beam, by its index.
     pub beam: usize,
-    /// Its relaxation times.
+    /// The relaxation times of the material.
     pub relaxation: Relaxation,
 }
 

@@ -23,7 +23,7 @@ use crate::model::bodies::Body;
 
 /// A supported movement that is prescribed.
 pub struct PrescribedMovement {
-    /// Where it is.
+    /// The support whose movement is prescribed.
     pub support: Support,
     /// The number of its drive.
     pub drive: usize,
@@ -60,11 +60,11 @@ struct Present {
 /// What a drive has given.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DriveState<'a> {
-    /// Its name.
+    /// The name of the drive.
     pub name: &'a str,
     /// Which of x, y and the angle it gives.
     pub prescribed: [bool; 3],
-    /// Its work since the start [energy].
+    /// The work of the drive since the start [energy].
     pub work: f64,
     /// The force on the station, mean of the last step [force].
     pub force: Vec2,

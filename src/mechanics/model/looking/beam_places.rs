@@ -21,7 +21,7 @@ pub struct BeamPlaces {
 pub struct BeamSample {
     /// From the start of the beam as drawn [length].
     pub arc_length: f64,
-    /// Where it is [length].
+    /// The place of the sample in the plane [length].
     pub position: Vec2,
     /// How fast it moves [length/time].
     pub velocity: Vec2,
@@ -37,7 +37,7 @@ impl BeamPlaces {
     /// Places between two knots that tell what section forces do there.
     pub const WITHIN_A_SPAN: usize = 3;
 
-    /// Of two places with the same arc length, at a joint that cuts the beam, that of the part behind alone.
+    /// Leaves, of two places with the same arc length at a joint that cuts the beam, that of the part behind alone.
     pub fn one_at_each_arc_length(mut self) -> Self {
         let mut behind = self.arc_lengths().skip(1).collect::<Vec<_>>().into_iter();
         self.places.retain(|(arc_length, ..)| behind.next() != Some(*arc_length));

@@ -8,7 +8,7 @@ use crate::model::elements::{Resistance, Stretched};
 pub struct SpringState {
     /// What it measures: the length of its way [length], or of a torsion spring the angle [rad].
     pub elongation: f64,
-    /// Its force, positive where it pulls, or its moment; the mean of the last step [force, force·length].
+    /// The force of the spring, positive where it pulls, or its moment; the mean of the last step [force, force·length].
     pub force: f64,
     /// The energy that it stores [energy].
     pub stored: f64,

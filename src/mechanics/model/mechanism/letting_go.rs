@@ -12,9 +12,9 @@ use crate::model::motion::{Step, Unknowns};
 
 /// Numbers for all movements of a model, and what follows from them.
 pub struct Numbers {
-    /// Of each component of each control point of each body.
+    /// The degree of freedom of each component of each control point of each body.
     pub degrees_of_freedom: Vec<Vec<[usize; 3]>>,
-    /// Of the forces of rigid links.
+    /// The unknowns of the forces of rigid links.
     pub links: Vec<[usize; 2]>,
     /// The movements that are prescribed, in the order of their numbers.
     pub prescribed: Vec<PrescribedMovement>,

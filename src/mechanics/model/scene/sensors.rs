@@ -36,7 +36,7 @@ pub enum Probe {
 pub struct Quantity {
     /// In names of sensors.
     pub name: &'static str,
-    /// Its dimension.
+    /// The dimension of what is sensed.
     pub dimension: &'static str,
     /// What is read.
     pub value: Value,
