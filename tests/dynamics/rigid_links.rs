@@ -8,7 +8,10 @@ use withy::beams::{Mesh, Station};
 use withy::geometry::{Vec2, cross};
 use withy::integrators::{EnergyClaim, INTEGRATORS, Mechanism, Method, Stage};
 use withy::joints::{EndAction, JointKind, Partner, SlidingRule};
-use withy::model::{Model, ModelError, PointMass, Scene, StationVelocity};
+use withy::model::{
+    Anchor, Model, ModelError, Origin, PointMass, RestoringLaw, Scene, Spring, SpringKind,
+    StationVelocity,
+};
 use withy::simulation::{Invariant, Simulation};
 
 fn smooth(spans: usize) -> Mesh {
@@ -213,6 +216,39 @@ fn start_velocities_must_fit_the_joints() {
     let mut model = Model::assemble(&scene).unwrap();
     let energy = model.measure().energy.kinetic;
     assert!((energy - 0.5 * (0.2 + 0.64) * 4.0).abs() < 1e-14, "{energy}");
+}
+
+#[test]
+fn a_pendulum_upside_down_grows_from_the_start_and_looking_at_that_changes_nothing() {
+    // (I + m l²) λ² = m g l - k, the spring being too soft by as much as I + m l².
+    let (inertia, arm) = (0.5, 1.5);
+    let mut scene = body_scenes::pendulum(inertia, arm, std::f64::consts::PI);
+    let stiffness = 9.81 * arm - (inertia + arm * arm);
+    let station = scene.point_of_body(0, "a").unwrap();
+    let spring = Spring {
+        name: "soft".to_owned(),
+        kind: SpringKind::Torsion([Anchor::Ground(at(0.0, 0.0)), Anchor::Station(station)]),
+        law: Some(RestoringLaw::Linear { stiffness, natural: 0.0 }),
+        origin: Origin::AsBuilt,
+        damping: 0.0,
+    };
+    scene.add_spring(spring).unwrap();
+    scene.rigid_bodies[0].motion.spin = 1e-3;
+    scene.rigid_bodies[0].motion.about = Some(Vec2::zeros());
+    let mut simulation =
+        Simulation::start(scene.clone(), settings(Method::EnergyMomentum, 0.01)).unwrap();
+    let growth = |simulation: &mut Simulation| {
+        simulation.modes(1, &mut || true).unwrap().all()[0].growth_rate()
+    };
+    let at_start = growth(&mut simulation);
+    assert!((at_start - 1.0).abs() < 1e-5, "{at_start}");
+    run(&mut simulation, 0.05).unwrap();
+    let later = growth(&mut simulation);
+    assert!((later - 1.0).abs() < 1e-5, "{later}");
+    run(&mut simulation, 0.1).unwrap();
+    let mut unseen = simulate(scene, Method::EnergyMomentum, 0.01, 0.05);
+    run(&mut unseen, 0.1).unwrap();
+    assert!(simulation.model().control_points().eq(unseen.model().control_points()));
 }
 
 #[test]

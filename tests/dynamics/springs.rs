@@ -63,6 +63,95 @@ fn a_damped_oscillator_is_met_with_the_order_of_the_method() {
     }
 }
 
+/// A particle at (1, 0) on a damper to the origin, with or without a spring beside it.
+fn turning(velocity: (f64, f64), law: Option<RestoringLaw>) -> Scene {
+    let mut scene = Scene::new("turning");
+    let bead = ParticleDefinition { name: "bead".to_owned(), position: at(1.0, 0.0) };
+    let bead = scene.add_particle(bead, 1.0).unwrap();
+    scene.particles[0].motion =
+        StartMotion { velocity: at(velocity.0, velocity.1), spin: 0.0, about: None };
+    add(&mut scene, vec![Anchor::Ground(at(0.0, 0.0)), Anchor::Station(bead)], law, 1.0);
+    scene
+}
+
+/// Where the particle of [`turning`] is at t = 1, by the classical Runge–Kutta method.
+fn turned((u, v): (f64, f64), stiffness: f64) -> [f64; 2] {
+    let rate = |[x, y, u, v]: [f64; 4]| {
+        let length = (x * x + y * y).sqrt();
+        let force = stiffness * (length - NATURAL) + (x * u + y * v) / length;
+        [u, v, -force * x / length, -force * y / length]
+    };
+    let (dt, mut state) = (1e-3, [1.0, 0.0, u, v]);
+    let ahead = |state: [f64; 4], rate: [f64; 4], by: f64| {
+        std::array::from_fn(|at| state[at] + by * rate[at])
+    };
+    for _ in 0..1000 {
+        let first = rate(state);
+        let second = rate(ahead(state, first, 0.5 * dt));
+        let third = rate(ahead(state, second, 0.5 * dt));
+        let fourth = rate(ahead(state, third, dt));
+        for at in 0..4 {
+            state[at] += dt / 6.0 * (first[at] + 2.0 * (second[at] + third[at]) + fourth[at]);
+        }
+    }
+    [state[0], state[1]]
+}
+
+#[test]
+fn a_damper_that_turns_is_met_with_the_order_of_the_method() {
+    let starts = [((0.0, 1.0), None), ((0.7, 1.0), None), ((0.7, 1.0), Some(20.0))];
+    for entry in INTEGRATORS {
+        for (start, stiffness) in starts {
+            let exact = turned(start, stiffness.unwrap_or(0.0));
+            let errors: Vec<f64> = [0.04, 0.02, 0.01]
+                .into_iter()
+                .map(|dt| {
+                    let law = stiffness.and_then(|stiffness| linear(stiffness, NATURAL));
+                    let simulation = simulate(turning(start, law), entry.method, dt, 1.0);
+                    let found = simulation.model().control_points().next().unwrap()[0];
+                    (found - at(exact[0], exact[1])).norm()
+                })
+                .collect();
+            let expected = f64::from(entry.claims.order);
+            let found = orders(&errors);
+            println!("{} {start:?} {stiffness:?}: {errors:.1?} {found:.2?}", entry.name);
+            assert!((found[1] - expected).abs() < 0.3, "{}: {errors:?} {found:?}", entry.name);
+        }
+    }
+}
+
+#[test]
+fn springs_that_can_do_nothing_are_refused() {
+    let mut scene = Scene::new("idle");
+    let mesh = Mesh::bspline(4, 3, 2).unwrap();
+    let axis = scenes::line(at(0.0, 0.0), at(2.0, 0.0));
+    let rod = scenes::add_beam(&mut scene, axis, &mesh, scenes::spaghetti_section(1e4, 100.0));
+    let [start, end] = [0.0, 2.0].map(|s| Anchor::Station(scene.station(rod, s).unwrap()));
+    let ground = |x: f64| Anchor::Ground(at(x, 0.0));
+    let spring = |kind: SpringKind| {
+        let (name, law) = ("idle".to_owned(), linear(1.0, 1.0));
+        Spring { name, kind, law, origin: Origin::Zero, damping: 0.0 }
+    };
+    for (kind, why) in [
+        (SpringKind::Way(vec![end, end]), "which is the same place"),
+        (SpringKind::Way(vec![ground(0.0), ground(1.0)]), "where nothing moves"),
+        (SpringKind::Way(vec![ground(0.0), end, end]), "which is the same place"),
+        (SpringKind::Torsion([end, end]), "which is the same place"),
+        (SpringKind::Torsion([ground(0.0), ground(1.0)]), "where nothing moves"),
+    ] {
+        let error = scene.add_spring(spring(kind)).unwrap_err().to_string();
+        assert!(
+            error.contains(why) && error.contains(" from ") && error.contains(" to "),
+            "{error}"
+        );
+    }
+    assert_eq!(scene.springs().count(), 0);
+    // A rope over pulleys on the ground, and one that goes on to where it came from, do something.
+    scene.add_spring(spring(SpringKind::Way(vec![ground(0.0), ground(1.0), end]))).unwrap();
+    let there_and_back = SpringKind::Way(vec![end, start, end]);
+    scene.add_spring(Spring { name: "back".to_owned(), ..spring(there_and_back) }).unwrap();
+}
+
 #[test]
 fn what_dampers_take_is_in_the_ledger_and_grows() {
     for entry in INTEGRATORS {

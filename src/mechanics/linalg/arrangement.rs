@@ -84,11 +84,8 @@ impl Arrangement {
         for &at in self.layout.own.iter().flatten() {
             self.position[at] = NOWHERE;
         }
-        let mut next = 0;
-        for position in self.position.iter_mut().filter(|position| **position != NOWHERE) {
-            *position = next;
-            next += 1;
-        }
+        let others = self.position.iter_mut().filter(|position| **position != NOWHERE);
+        others.enumerate().for_each(|(place, position)| *position = place);
     }
 
     /// Puts the unknowns of the band, which are in its own order, into one that is narrow with what blocks touch.

@@ -32,7 +32,7 @@ pub enum Border {
     /// Full columns and rows.
     Full(FullBorder),
     /// Blocks of five unknowns, each of which touches few unknowns of the band and no other block.
-    Local(LocalBorder),
+    Local(Box<LocalBorder>),
 }
 
 /// The factors of a [`BorderedMatrix`], kept in its storage.
@@ -121,7 +121,7 @@ impl BorderedMatrix {
     pub fn with_blocks(size: usize, half_bandwidth: usize, layout: BlockLayout) -> Self {
         Self {
             band: BandedMatrix::zeros(size, half_bandwidth),
-            border: Border::Local(LocalBorder::zeros(size, half_bandwidth, layout)),
+            border: Border::Local(Box::new(LocalBorder::zeros(size, half_bandwidth, layout))),
             together: None,
         }
     }

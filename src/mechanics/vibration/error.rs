@@ -44,6 +44,9 @@ pub enum VibrationError {
         "rounding hides how many modes there are below those that were found; take a coarser mesh, or make the largest stiffness or the smallest inertia less extreme"
     )]
     Uncounted,
+    /// Forces of the present moment that were not found.
+    #[error("{0}")]
+    NoForces(String),
     /// A search for modes that was stopped from outside.
     #[error("stopped while modes were looked for")]
     Interrupted,

@@ -138,7 +138,7 @@ impl SimulationHandle {
         count: usize,
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<Modes, VibrationError> {
-        self.0.simulation.borrow().modes(count, goes_on)
+        self.0.simulation.borrow_mut().modes(count, goes_on)
     }
 
     /// Changes the memory that the simulation may take for states to go back to [bytes].

@@ -42,7 +42,8 @@ pub const TABLE: Table = Table {
         .doc(
             "Each comes with a residual; what cannot be had with one below 1e-6 is refused. With up to 240 unknowns all modes are found at \
              once, with more only the lowest, by the block method of Lanczos (Grimes, Lewis & Simon 1994), and a count of the negative pivots \
-             shows that none is missing. Sliders slide in them, under the contact forces that they have. About another configuration: rest.modes(n) of an equilibrium, sim.modes(n) of a simulation.",
+             shows that none is missing. Sliders slide in them, under the contact forces that they have. Loads and weight are left out, since nothing has given way to them yet: what they \
+             change, as of a pendulum upside down, is in scene.equilibrium().modes(n). About another configuration: rest.modes(n) of an equilibrium, sim.modes(n) of a simulation.",
         )
         .example("let modes = scene.modes(3);\nprint(modes);\ncheck_close(modes.angular_frequencies[0], 0.35160 * 2.5^2, 0.01);")
         .see(&["plot_modes", "equilibrium"]),
@@ -55,6 +56,8 @@ pub const TABLE: Table = Table {
         })
         .returns(Returns::object(MODES))
         .summary("Those about the present configuration of a simulation, as if it stood still there.")
+        .doc("They are under the section forces that beams have, none in one that is at ease at the start, and under the forces that hold the points of rigid \
+              bodies at this moment, by which a pendulum upside down grows from the start.")
         .example("let sim = scene.start(#{ dt: 0.1 });\nlet drawn = scene.modes(1).angular_frequencies;\ncheck(sim.modes(1).angular_frequencies == drawn);"),
         told("angular_frequencies", Returns::NUMBERS.unit("rad/time"), |call| list(call, Mode::angular_frequency))
             .summary("ω of each mode; 0 where nothing vibrates.")

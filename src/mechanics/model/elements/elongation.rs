@@ -52,6 +52,10 @@ pub struct Elongation {
     pub slope: Vec<f64>,
     /// The derivative `∂g/∂u` of the secant by the movements, row by row [1/length, 1/rad].
     pub bend: Vec<f64>,
+    /// What has to be added to the secant for the direction at the time of the step that [`balance`](Self::balance) took last [-].
+    pub lag: Vec<f64>,
+    /// The derivative of the lag by the movements, row by row [1/length].
+    pub lag_bend: Vec<f64>,
 }
 
 impl Elongation {
@@ -76,6 +80,8 @@ impl Elongation {
             secant: vec![0.0; coordinates],
             slope: vec![0.0; coordinates],
             bend: vec![0.0; coordinates * coordinates],
+            lag: vec![0.0; coordinates],
+            lag_bend: vec![0.0; coordinates * coordinates],
         }
     }
 
@@ -111,6 +117,35 @@ impl Elongation {
         self.gather(|place| at.bodies[place.body].at(place, at.increments));
         let collocation = collocation(at.stage);
         self.compare(collocation.rotations);
+    }
+
+    /// Finds the lag in the iterate that was taken last, at the end of a step: the direction of the way such a share of the step after its start, less
+    /// the secant. There is none where no share is told, and none of angles, whose directions do not change.
+    pub fn balance(&mut self, share: Option<f64>) {
+        let Self { measure, moved, lag, lag_bend, .. } = self;
+        [&mut *lag, lag_bend].into_iter().for_each(|all| all.fill(0.0));
+        let (Measure::Way(parts), Some(share)) = (measure, share) else { return };
+        let width = moved.len();
+        for (part, start) in parts.iter().enumerate() {
+            let ends = [2 * part, 2 * part + 2];
+            let [from, to] = ends.map(|at| Vec2::new(moved[at], moved[at + 1]));
+            let at_end = Part::new(*start, to - from, RotationIncrement::Angle);
+            let within = Part::new(*start, (to - from) * share, RotationIncrement::Angle);
+            for (row, sign) in ends.into_iter().zip([-1.0, 1.0]) {
+                for component in 0..2 {
+                    lag[row + component] +=
+                        sign * (within.secant[component] - at_end.secant[component]);
+                    for (column, other) in ends.into_iter().zip([-1.0, 1.0]) {
+                        let at = (row + component) * width + column;
+                        for by in 0..2 {
+                            let bend =
+                                share * within.bend(component, by) - at_end.bend(component, by);
+                            lag_bend[at + by] += sign * other * bend;
+                        }
+                    }
+                }
+            }
+        }
     }
 
     /// The product of a slope and a correction of the increments: a change of `q`, to first order [length, rad].

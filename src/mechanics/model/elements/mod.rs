@@ -22,6 +22,7 @@ mod resistance;
 mod restoring;
 mod sampling;
 mod spring;
+mod spring_at_rest;
 mod spring_damper;
 mod supports;
 mod weight;

@@ -89,6 +89,7 @@ impl Description for Spring {
                 return refused("place on the ground", *wrong, "a finite number [length]");
             }
         }
+        self.expect_movement(setting)?;
         if !(self.damping.is_finite() && self.damping >= 0.0) {
             return refused("damping", self.damping, "zero or a positive finite number");
         }
@@ -174,6 +175,30 @@ impl Description for Spring {
 }
 
 impl Spring {
+    /// Refuses one whose ends cannot move against each other: neighbours that are one station, or nothing but ground.
+    fn expect_movement(&self, setting: &dyn Setting) -> Result<(), ModelError> {
+        let idle = |[from, to]: [&Anchor; 2], why| {
+            let [from, to] = [from, to].map(|anchor| match anchor {
+                Anchor::Station(station) => setting.describe(station),
+                Anchor::Ground(at) => format!("the ground at [{}, {}]", at.x, at.y),
+            });
+            Err(ModelError::IdleSpring { spring: self.object(), from, to, why })
+        };
+        if self.stations().next().is_none()
+            && let [from, .., to] = self.anchors()
+        {
+            return idle([from, to], "where nothing moves");
+        }
+        for pair in self.anchors().windows(2) {
+            if let [Anchor::Station(one), Anchor::Station(other)] = pair
+                && one == other
+            {
+                return idle([&pair[0], &pair[1]], "which is the same place");
+            }
+        }
+        Ok(())
+    }
+
     /// What it is, and its name.
     pub fn object(&self) -> String {
         match (&self.kind, &self.law) {

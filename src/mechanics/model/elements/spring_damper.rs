@@ -2,13 +2,14 @@
 //!
 //! ```text
 //! energy–momentum      F = ΔU/Δq + c Δq/Δt  along the secant: F Δq = ΔU + D, opposite at both ends
-//! forces at the ends   U'(q₀) and U'(q₁), and the damper c q̇ once a step where the method balances it
+//! forces at the ends   U'(q₀) and U'(q₁), and the damper c q̇ once a step where the method balances it, its direction that at this time
 //! ```
 
 use super::elongation::Elongation;
 use super::hidden_force::{HiddenForce, Target};
 use super::resistance::{Resistance, Stretched};
 use super::restoring::RestoringLaw;
+use super::spring_at_rest::law_at_rest;
 use super::{Exchange, Iterate, collocation};
 use crate::beams::{ForceSummary, Movement, RotationIncrement, SpanAtRest};
 use crate::elementary::square;
@@ -22,8 +23,8 @@ use crate::model::bodies::Body;
 pub struct SpringDamper {
     name: String,
     elongation: Elongation,
-    /// Secant and slope of the last linearisation, whose directions corrections take.
-    linearised: (Vec<f64>, Vec<f64>),
+    /// Secant, slope and lag of the last linearisation, whose directions corrections take.
+    linearised: [Vec<f64>; 3],
     /// Where each terminal that is the ground is [length].
     grounds: Vec<Option<Vec2>>,
     law: Option<RestoringLaw>,
@@ -57,7 +58,7 @@ impl SpringDamper {
         let mut new = Self {
             name,
             elongation,
-            linearised: (vec![0.0; coordinates], vec![0.0; coordinates]),
+            linearised: [(); 3].map(|()| vec![0.0; coordinates]),
             grounds,
             law,
             damping,
@@ -124,6 +125,15 @@ impl SpringDamper {
         }
     }
 
+    /// Takes an iterate, and where a damper counts at a time of its own its direction there.
+    fn take(&mut self, at: Iterate<'_>) {
+        self.elongation.take(at);
+        if self.damping > 0.0 {
+            let share = (at.stage == Stage::End).then_some(at.weight);
+            self.elongation.balance(share);
+        }
+    }
+
     /// The largest length or angle that rounding of the elongation is relative to.
     fn extent(&self) -> f64 {
         let after = (self.elongation.value() + self.elongation.change).abs();
@@ -149,10 +159,15 @@ impl SpringDamper {
         }
     }
 
-    fn note(&mut self, stage: Stage, force: f64) {
-        let Self { elongation, carried, current, .. } = self;
+    /// Notes a force along the secant, and that of the damper along the lag.
+    fn note(&mut self, stage: Stage, force: f64, damper: f64) {
+        let Self { elongation: Elongation { secant, lag, .. }, carried, current, .. } = self;
         let noted = if stage == Stage::Start { carried } else { current };
-        noted.iter_mut().zip(&elongation.secant).for_each(|(noted, g)| *noted = g * force);
+        let directions = secant.iter().zip(lag);
+        noted
+            .iter_mut()
+            .zip(directions)
+            .for_each(|(noted, (g, l))| *noted = g * force + *l * damper);
     }
 
     fn summary(&self, mismatch: f64) -> ForceSummary {
@@ -182,11 +197,11 @@ impl Resistance for SpringDamper {
     }
 
     fn add_forces(&mut self, at: Iterate<'_>, out: &mut [f64]) -> ForceSummary {
-        self.elongation.take(at);
+        self.take(at);
         self.rotations = collocation(at.stage).rotations;
         if at.stage == Stage::Start {
             let force = at.weight * self.restoring(at.stage).force;
-            self.note(at.stage, force);
+            self.note(at.stage, force, 0.0);
             self.scatter(at.bodies, &self.elongation.secant, force, out);
             return self.summary(0.0);
         }
@@ -195,8 +210,9 @@ impl Resistance for SpringDamper {
         let mismatch =
             larger(self.spring.compare(restoring, extent), self.damper.compare(damping, extent));
         let force = self.weighted(at, self.spring.force, self.damper.force);
-        self.note(at.stage, force);
+        self.note(at.stage, force, self.damper.force);
         self.scatter(at.bodies, &self.elongation.secant, force, out);
+        self.scatter(at.bodies, &self.elongation.lag, self.damper.force, out);
         self.summary(mismatch)
     }
 
@@ -207,26 +223,30 @@ impl Resistance for SpringDamper {
         unknowns: usize,
         tangent: &mut BandedMatrix,
     ) {
-        self.elongation.take(at);
+        self.take(at);
         let (restoring, damping) = (self.restoring(at.stage), self.damping(at));
         self.spring.linearise(restoring);
         self.damper.linearise(damping);
-        let Self { elongation, linearised: (secant, slope), .. } = self;
+        let Self { elongation, linearised: [secant, slope, lag], .. } = self;
         secant.copy_from_slice(&elongation.secant);
         slope.copy_from_slice(&elongation.slope);
+        lag.copy_from_slice(&elongation.lag);
         let force = self.weighted(at, restoring.force, damping.force);
         self.scatter(at.bodies, &self.elongation.secant, force, out);
+        self.scatter(at.bodies, &self.elongation.lag, damping.force, out);
         // The geometric terms with the force of the iterate.
         let stiffness = self.weighted(at, restoring.stiffness, damping.stiffness);
         let force = self.weighted(at, self.spring.force, self.damper.force);
-        let Elongation { secant, slope, bend, .. } = &self.elongation;
+        let Elongation { secant, slope, bend, lag, lag_bend, .. } = &self.elongation;
         let width = secant.len();
         for (row, to) in self.elongation.coordinates().enumerate() {
             let Some((to, component)) = to else { continue };
             for (column, from) in self.elongation.coordinates().enumerate() {
                 let Some((from, by)) = from else { continue };
-                let value =
-                    stiffness * secant[row] * slope[column] + force * bend[row * width + column];
+                let entry = row * width + column;
+                let value = stiffness * secant[row] * slope[column] + force * bend[entry];
+                let lagging = damping.stiffness * lag[row] * slope[column];
+                let value = value + (lagging + self.damper.force * lag_bend[entry]);
                 for (a, share_a) in to.weights() {
                     let row = at.bodies[to.body].degrees_of_freedom[a][component];
                     for (b, share_b) in from.weights() {
@@ -242,11 +262,13 @@ impl Resistance for SpringDamper {
 
     fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]) {
         let force = weight * self.spring.mismatch + self.damper.mismatch;
-        self.scatter(bodies, &self.linearised.0, force, out);
+        let [secant, _, lag] = &self.linearised;
+        self.scatter(bodies, secant, force, out);
+        self.scatter(bodies, lag, self.damper.mismatch, out);
     }
 
     fn correct(&mut self, bodies: &[Body], correction: &[f64]) {
-        let change = self.elongation.along(&self.linearised.1, bodies, correction);
+        let change = self.elongation.along(&self.linearised[1], bodies, correction);
         self.spring.correct(change);
         self.damper.correct(change);
     }
@@ -307,45 +329,10 @@ impl Resistance for SpringDamper {
     }
 
     fn at_rest(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanAtRest)) {
-        let Some(law) = &self.law else { return };
-        let mut elongation = self.elongation.clone();
-        elongation.rest();
-        let (value, mut degrees) = (elongation.value(), Vec::new());
-        let by_degree = |row: &[f64]| {
-            let mut found = Vec::new();
-            for (coordinate, by) in elongation.coordinates().zip(row) {
-                let Some((place, component)) = coordinate else { continue };
-                let body = &bodies[place.body].degrees_of_freedom;
-                found.extend(place.weights().map(|(at, share)| (body[at][component], share * by)));
-            }
-            found
-        };
-        degrees.extend(by_degree(&elongation.slope).into_iter().map(|(degree, _)| degree));
-        degrees.sort_unstable();
-        degrees.dedup();
-        let dense = |row: &[f64]| {
-            let mut dense = vec![0.0; degrees.len()];
-            for (degree, value) in by_degree(row) {
-                if let Ok(at) = degrees.binary_search(&degree) {
-                    dense[at] += value;
-                }
-            }
-            dense
-        };
-        let mut rows = SpanAtRest::default();
-        let stiffness = law.slope(value);
-        if stiffness != 0.0 {
-            rows.strains.extend(dense(&elongation.slope));
-            rows.stiffness.push(stiffness);
+        if let Some(law) = &self.law {
+            let (degrees, rows) = law_at_rest(law, &self.elongation, bodies);
+            take(&degrees, &rows);
         }
-        let force = law.force(value);
-        for (length, row) in elongation.turned() {
-            let normal = dense(&row);
-            rows.twists.extend(normal.iter().map(|n| 0.5 * force / length * n));
-            rows.twists.extend(normal);
-            rows.doubts.push(0.0);
-        }
-        take(&degrees, &rows);
     }
 
     /// As a spring that snaps: what it stored rings out in itself.

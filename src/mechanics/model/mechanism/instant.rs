@@ -110,6 +110,27 @@ impl Model {
         Ok(Instant { given: given.collect(), accelerations, residual, contacts })
     }
 
+    /// Looks at the model while its rigid links have the forces of the present moment, and not those of the last step, which are none before the first one.
+    ///
+    /// # Errors
+    /// Those of [`instant`](Self::instant), of a model with rigid links.
+    pub fn with_present_link_forces<T>(
+        &mut self,
+        look: impl FnOnce(&Self) -> T,
+    ) -> Result<T, ModelError> {
+        if self.links.count() == 0 {
+            return Ok(look(self));
+        }
+        let now = self.instant()?;
+        let force = |at: usize| now.accelerations[at];
+        let forces = self.links.iter().map(|link| Vec2::from(link.unknowns.map(force)));
+        let mut forces: Vec<Vec2> = forces.collect();
+        self.links.exchange_forces(&mut forces);
+        let seen = look(self);
+        self.links.exchange_forces(&mut forces);
+        Ok(seen)
+    }
+
     /// Accelerations that answer to `M a + residual = Gᵀ λ`, and the forces on the masters.
     fn answer(&self, residual: &[f64]) -> Result<(Vec<f64>, Vec<Vec2>), LinearError> {
         let mut accelerations: Vec<f64> =

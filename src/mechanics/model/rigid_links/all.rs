@@ -127,6 +127,11 @@ impl RigidLinks {
         }
     }
 
+    /// Exchanges the forces of all rigid links for others, in their order [force].
+    pub fn exchange_forces(&mut self, others: &mut [Vec2]) {
+        self.all.iter_mut().zip(others).for_each(|(link, other)| link.exchange_force(other));
+    }
+
     /// The largest distance of a point from its place by a residual, relative to its movements and its arm [-].
     pub fn violation(&self, residual: &[f64]) -> f64 {
         self.all.iter().fold(0.0, |most, link| larger(most, link.violation(residual)))

@@ -84,6 +84,11 @@ impl RigidLink {
         self.force
     }
 
+    /// Exchanges the force for another [force].
+    pub fn exchange_force(&mut self, other: &mut Vec2) {
+        std::mem::swap(&mut self.force, other);
+    }
+
     /// The unknowns of the centre and the point: x, y, and the rotation of the body.
     fn degrees(&self, bodies: &Bodies) -> ([usize; 3], [usize; 3]) {
         let of_body = &bodies[self.body].degrees_of_freedom;

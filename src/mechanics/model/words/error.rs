@@ -104,6 +104,20 @@ pub enum ModelError {
         /// The beam or particle that would be tied to itself, in words.
         body: String,
     },
+    /// A spring that can do nothing.
+    #[error(
+        "{spring}: it would act from {from} to {to}, {why}, and can do nothing; give one of both another place"
+    )]
+    IdleSpring {
+        /// The spring that can do nothing, in words.
+        spring: String,
+        /// Where it would begin, in words.
+        from: String,
+        /// Where it would end, in words.
+        to: String,
+        /// Why it can do nothing.
+        why: &'static str,
+    },
     /// A joint whose partners do not meet.
     #[error(
         "{joint}: its stations at {from} and {to} are {gap} apart; they must lie at the same place when the scene starts: move one of them"

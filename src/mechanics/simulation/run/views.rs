@@ -17,16 +17,19 @@ impl Simulation {
         self.scene.place(station, self.model.meshes())
     }
 
-    /// The lowest natural modes of the present configuration, taken as one at rest.
+    /// The lowest natural modes of the present configuration, taken as one at rest, under the section forces that it has and the forces that hold points of
+    /// rigid bodies at the present moment.
     ///
     /// # Errors
-    /// When there are not so many, something slides or turns with the beam, or it is stopped.
+    /// When there are not so many, a load turns with the beam, these forces are not determined, or it is stopped.
     pub fn modes(
-        &self,
+        &mut self,
         count: usize,
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<Modes, VibrationError> {
-        Modes::of(&self.model, count, goes_on)
+        self.model
+            .with_present_link_forces(|model| Modes::of(model, count, goes_on))
+            .map_err(|error| VibrationError::NoForces(error.to_string()))?
     }
 
     /// The points where a place was, with the times, at all configurations of the trajectory.

@@ -1,0 +1,53 @@
+//! How springs resist small movements from rest.
+
+use super::elongation::Elongation;
+use super::restoring::RestoringLaw;
+use crate::beams::SpanAtRest;
+use crate::model::bodies::Body;
+
+/// The degrees of freedom of a spring with a law along an elongation, in their order, and how it resists their movements: by the slope of its law, and by its
+/// force, which turns with every part of its way.
+pub fn law_at_rest(
+    law: &RestoringLaw,
+    elongation: &Elongation,
+    bodies: &[Body],
+) -> (Vec<usize>, SpanAtRest) {
+    let mut elongation = elongation.clone();
+    elongation.rest();
+    let (value, mut degrees) = (elongation.value(), Vec::new());
+    let by_degree = |row: &[f64]| {
+        let mut found = Vec::new();
+        for (coordinate, by) in elongation.coordinates().zip(row) {
+            let Some((place, component)) = coordinate else { continue };
+            let body = &bodies[place.body].degrees_of_freedom;
+            found.extend(place.weights().map(|(at, share)| (body[at][component], share * by)));
+        }
+        found
+    };
+    degrees.extend(by_degree(&elongation.slope).into_iter().map(|(degree, _)| degree));
+    degrees.sort_unstable();
+    degrees.dedup();
+    let dense = |row: &[f64]| {
+        let mut dense = vec![0.0; degrees.len()];
+        for (degree, value) in by_degree(row) {
+            if let Ok(at) = degrees.binary_search(&degree) {
+                dense[at] += value;
+            }
+        }
+        dense
+    };
+    let mut rows = SpanAtRest::default();
+    let stiffness = law.slope(value);
+    if stiffness != 0.0 {
+        rows.strains.extend(dense(&elongation.slope));
+        rows.stiffness.push(stiffness);
+    }
+    let force = law.force(value);
+    for (length, row) in elongation.turned() {
+        let normal = dense(&row);
+        rows.twists.extend(normal.iter().map(|n| 0.5 * force / length * n));
+        rows.twists.extend(normal);
+        rows.doubts.push(0.0);
+    }
+    (degrees, rows)
+}
