@@ -9,6 +9,7 @@ use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
 use withy::joints::{JointKind, Partner};
 use withy::model::{
     Anchor, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind, StartMotion,
+    StationVelocity,
 };
 use withy::simulation::{Invariant, Simulation};
 
@@ -68,8 +69,8 @@ fn turning(velocity: (f64, f64), law: Option<RestoringLaw>) -> Scene {
     let mut scene = Scene::new("turning");
     let bead = ParticleDefinition { name: "bead".to_owned(), position: at(1.0, 0.0) };
     let bead = scene.add_particle(bead, 1.0).unwrap();
-    scene.particles[0].motion =
-        StartMotion { velocity: at(velocity.0, velocity.1), spin: 0.0, about: None };
+    let velocity = at(velocity.0, velocity.1);
+    scene.velocities.push(StationVelocity { station: bead, velocity, spin: None });
     add(&mut scene, vec![Anchor::Ground(at(0.0, 0.0)), Anchor::Station(bead)], law, 1.0);
     scene
 }
