@@ -9,7 +9,7 @@ use crate::geometry::{Vec2, larger};
 use crate::integrators::Stage;
 use crate::linalg::BorderedMatrix;
 use crate::model::rigid_links::ArmRule;
-use crate::model::sliders::TrackEnd;
+use crate::model::sliders::{AtRest, TrackEnd};
 
 /// The largest of the forces that meet in a model at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -49,7 +49,7 @@ impl Model {
         let movements = &*self.supports.prescribed().at_rest(movements, load_factor);
         let summary = self.add_internal_forces(Stage::End, movements, 1.0, out);
         let (force, moment) = self.subtract_static_loads(movements, load_factor, out);
-        let contact = self.sliders.add_at_rest(&self.bodies, count, movements, contacts, out);
+        let contact = self.sliders.add::<AtRest>(&self.bodies, count, movements, contacts, out);
         StaticForces {
             force: larger(larger(summary.force, load_factor.abs() * force), contact),
             moment: larger(summary.moment, load_factor.abs() * moment),
@@ -72,7 +72,7 @@ impl Model {
         self.add_linearised(Stage::End, movements, share, out, tangent.band_mut());
         let Self { sliders, bodies, .. } = self;
         let border = tangent.border_mut();
-        sliders.add_linearised_at_rest(bodies, count, movements, contacts, out, border);
+        sliders.add_linearised::<AtRest>(bodies, count, movements, contacts, out, border);
     }
 
     /// The largest violation of an equation of a rigid link or a contact by a residual, forces being compared with one, lengths with what moves [-].

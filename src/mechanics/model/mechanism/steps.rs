@@ -10,6 +10,7 @@ use crate::integrators::{
 use crate::linalg::{BandedMatrix, BlockLayout, Border, BorderShape};
 use crate::model::elements::{Exchange, Iterate, collocation};
 use crate::model::rigid_links::ArmRule;
+use crate::model::sliders::InStep;
 
 /// Where a method that balances the forces of a stage, with such a share of them after the start of the step, takes the arms of rigid links: at the time
 /// of that balance, as otherwise it would be of first order.
@@ -171,7 +172,8 @@ impl Constraints for Model {
 
     fn add_constraints(&mut self, increments: &[f64], unknowns: &[f64], out: &mut [f64]) {
         let movements = self.unknowns.count();
-        self.step.contact = self.sliders.add(&self.bodies, movements, increments, unknowns, out);
+        self.step.contact =
+            self.sliders.add::<InStep>(&self.bodies, movements, increments, unknowns, out);
     }
 
     fn add_linearised_constraints(
@@ -182,7 +184,14 @@ impl Constraints for Model {
         border: &mut Border,
     ) {
         let movements = self.unknowns.count();
-        self.sliders.add_linearised(&self.bodies, movements, increments, unknowns, out, border);
+        self.sliders.add_linearised::<InStep>(
+            &self.bodies,
+            movements,
+            increments,
+            unknowns,
+            out,
+            border,
+        );
     }
 
     fn relative_violation(&self, residual: &[f64]) -> f64 {

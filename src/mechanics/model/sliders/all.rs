@@ -3,7 +3,7 @@
 use std::ops::{Deref, DerefMut};
 
 use super::track::LANDED;
-use super::{SliderState, Sliding, TrackEnd, TrackLimit};
+use super::{Passing, SliderState, Sliding, TrackEnd, TrackLimit};
 use crate::beams::SpanAtRest;
 use crate::geometry::{Vec2, larger};
 use crate::integrators::{Ending, Interval, Overshoot};
@@ -77,7 +77,7 @@ impl Sliders {
     }
 
     /// Adds the forces and the equations of all contacts to a residual; gives the largest force of a contact [force].
-    pub fn add(
+    pub fn add<P: Passing>(
         &mut self,
         bodies: &[Body],
         movements: usize,
@@ -86,12 +86,12 @@ impl Sliders {
         out: &mut [f64],
     ) -> f64 {
         self.iter_mut().fold(0.0, |largest, slider| {
-            larger(largest, slider.add(bodies, movements, increments, unknowns, out))
+            larger(largest, slider.add::<P>(bodies, movements, increments, unknowns, out))
         })
     }
 
     /// Adds the forces and the equations of all contacts to a residual, and their derivatives to the tangent.
-    pub fn add_linearised(
+    pub fn add_linearised<P: Passing>(
         &mut self,
         bodies: &[Body],
         movements: usize,
@@ -101,42 +101,13 @@ impl Sliders {
         border: &mut Border,
     ) {
         for slider in self.iter_mut() {
-            slider.add_linearised(bodies, movements, increments, unknowns, out, border);
+            slider.add_linearised::<P>(bodies, movements, increments, unknowns, out, border);
         }
     }
 
     /// Guesses the unknowns of all contacts for a movement between two places at rest: nothing changes.
     pub fn stay(&self, unknowns: &mut [f64]) {
         self.iter().for_each(|slider| slider.stay(unknowns));
-    }
-
-    /// Adds the forces and the equations of all contacts at rest to a residual; gives the largest force of a contact [force].
-    pub fn add_at_rest(
-        &mut self,
-        bodies: &[Body],
-        count: usize,
-        movements: &[f64],
-        unknowns: &[f64],
-        out: &mut [f64],
-    ) -> f64 {
-        self.iter_mut().fold(0.0, |largest, slider| {
-            larger(largest, slider.add_at_rest(bodies, count, movements, unknowns, out))
-        })
-    }
-
-    /// Adds the forces and the equations of all contacts at rest to a residual, and their derivatives to the tangent.
-    pub fn add_linearised_at_rest(
-        &mut self,
-        bodies: &[Body],
-        count: usize,
-        movements: &[f64],
-        unknowns: &[f64],
-        out: &mut [f64],
-        border: &mut Border,
-    ) {
-        for slider in self.iter_mut() {
-            slider.add_linearised_at_rest(bodies, count, movements, unknowns, out, border);
-        }
     }
 
     /// Lets sliders lean on stops that a movement with these unknowns passes, and leave stops that would have to pull; whether any did. What must leave

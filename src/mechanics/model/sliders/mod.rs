@@ -12,5 +12,5 @@ pub use all::Sliders;
 pub use blow::{Bar, Blow};
 pub use connection::Connection;
 pub use kinked_axis::KinkedAxis;
-pub use sliding::Sliding;
+pub use sliding::{AtRest, InStep, Passing, Sliding};
 pub use track::{SliderState, Track, TrackEnd, TrackLimit};

@@ -13,6 +13,9 @@ use crate::model::bodies::Body;
 
 mod at_rest;
 mod kinematics;
+mod passing;
+
+pub use passing::{AtRest, InStep, Passing};
 
 /// A slider of a model with its contact: where it is, and what acts there.
 #[derive(Debug, Clone)]
@@ -282,7 +285,7 @@ impl Sliding {
     }
 
     /// Adds the forces on slave and master to a residual, and behind so many unknown movements the equations of the contact; gives the contact force [force].
-    pub fn add(
+    pub fn add<P: Passing>(
         &mut self,
         bodies: &[Body],
         movements: usize,
@@ -290,20 +293,17 @@ impl Sliding {
         unknowns: &[f64],
         out: &mut [f64],
     ) -> f64 {
-        let (law, connection) = (self.law(), self.connection);
-        let contact = self.take(bodies, increments, unknowns);
-        let equations = law.equations(&contact);
-        let forces = contact.master_forces();
-        connection.add_values(bodies, &contact, forces, &equations, movements, out);
-        let force = contact.unknowns.force.norm();
-        let chord = contact.tangent().value.norm() / contact.length;
+        let connection = self.connection;
+        let (contact, equations) = P::iterate(self, bodies, increments, unknowns);
+        connection.add_values(bodies, &contact, P::forces(&contact), &equations, movements, out);
+        let (force, chord) = (contact.unknowns.force.norm(), P::chord(&contact));
         (self.size, self.chord) = (contact.length + contact.slave_moved.norm(), chord);
         self.units = equations.map(|equation| equation.unit);
         force
     }
 
     /// Adds forces and equations of the contact to a residual, and their derivatives by movements and contact unknowns to the tangent.
-    pub fn add_linearised(
+    pub fn add_linearised<P: Passing>(
         &mut self,
         bodies: &[Body],
         movements: usize,
@@ -312,12 +312,10 @@ impl Sliding {
         out: &mut [f64],
         border: &mut Border,
     ) {
-        let (law, connection) = (self.law(), self.connection);
-        let contact = self.take(bodies, increments, unknowns);
-        let equations = law.equations(&contact);
-        let forces = contact.master_forces();
-        connection.add_values(bodies, &contact, forces, &equations, movements, out);
-        let slopes = contact.master_force_slopes();
+        let connection = self.connection;
+        let (contact, equations) = P::iterate(self, bodies, increments, unknowns);
+        connection.add_values(bodies, &contact, P::forces(&contact), &equations, movements, out);
+        let slopes = P::slopes(&contact);
         connection.add_derivatives(bodies, &contact, slopes, &equations, movements, border);
     }
 

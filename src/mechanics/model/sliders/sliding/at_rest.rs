@@ -1,18 +1,44 @@
 //! A slider at rest: its contact between two equilibria, what it leans on, and how it resists small movements.
 
 use super::Sliding;
+use super::passing::{AtRest, Passing};
 use crate::beams::SpanAtRest;
 use crate::geometry::Vec2;
 use crate::joints::{
     CONTACT_UNKNOWNS, Contact, ContactUnknowns, Equation, Leaning, Released, Resting, SlidingLaw,
 };
-use crate::linalg::Border;
 use crate::model::bodies::Body;
 use crate::model::sliders::track::LANDED;
 use crate::model::sliders::{KinkedAxis, SliderState, TrackEnd};
 
 /// A stop that pulls by less than this part of its contact force does not pull.
 const PULL: f64 = 1e-9;
+
+impl Passing for AtRest {
+    fn iterate<'s>(
+        slider: &'s mut Sliding,
+        bodies: &[Body],
+        increments: &[f64],
+        unknowns: &[f64],
+    ) -> (Contact<'s>, [Equation; CONTACT_UNKNOWNS]) {
+        let (state, way) = (slider.state, slider.way_to_stop());
+        let contact = slider.take_at_rest(bodies, increments, unknowns);
+        let equations = Sliding::equations_at_rest(state, way, &contact);
+        (contact, equations)
+    }
+
+    fn forces<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = Vec2> + 'c {
+        contact.master_forces_at_rest()
+    }
+
+    fn slopes<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = (f64, f64, Vec2)> + 'c {
+        contact.master_force_slopes_at_rest()
+    }
+
+    fn chord(_contact: &Contact<'_>) -> f64 {
+        1.0
+    }
+}
 
 impl Sliding {
     /// Guesses the unknowns of the contact for a movement between two places at rest: nothing changes.
@@ -53,46 +79,6 @@ impl Sliding {
             (_, Some(way)) => Leaning { way }.equations(contact),
             (_, None) => Resting.equations(contact),
         }
-    }
-
-    /// Adds the forces on slave and master at rest to a residual, and behind so many unknown movements the equations of the contact; gives the contact
-    /// force [force].
-    pub fn add_at_rest(
-        &mut self,
-        bodies: &[Body],
-        count: usize,
-        movements: &[f64],
-        unknowns: &[f64],
-        out: &mut [f64],
-    ) -> f64 {
-        let (state, way, connection) = (self.state, self.way_to_stop(), self.connection);
-        let contact = self.take_at_rest(bodies, movements, unknowns);
-        let equations = Self::equations_at_rest(state, way, &contact);
-        let forces = contact.master_forces_at_rest();
-        connection.add_values(bodies, &contact, forces, &equations, count, out);
-        let force = contact.unknowns.force.norm();
-        (self.size, self.chord) = (contact.length + contact.slave_moved.norm(), 1.0);
-        self.units = equations.map(|equation| equation.unit);
-        force
-    }
-
-    /// Adds forces and equations of the contact at rest to a residual, and their derivatives to the tangent.
-    pub fn add_linearised_at_rest(
-        &mut self,
-        bodies: &[Body],
-        count: usize,
-        movements: &[f64],
-        unknowns: &[f64],
-        out: &mut [f64],
-        border: &mut Border,
-    ) {
-        let (state, way, connection) = (self.state, self.way_to_stop(), self.connection);
-        let contact = self.take_at_rest(bodies, movements, unknowns);
-        let equations = Self::equations_at_rest(state, way, &contact);
-        let forces = contact.master_forces_at_rest();
-        connection.add_values(bodies, &contact, forces, &equations, count, out);
-        let slopes = contact.master_force_slopes_at_rest();
-        connection.add_derivatives(bodies, &contact, slopes, &equations, count, border);
     }
 
     /// The end of the master beyond which a movement with these unknowns would lead the slider.
