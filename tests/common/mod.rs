@@ -13,6 +13,7 @@ pub mod release_scenes;
 pub mod scenes;
 pub mod sliding;
 pub mod sliding_scenes;
+pub mod wild_scenes;
 
 use withy::beams::{Mesh, Quadrature};
 use withy::geometry::Vec2;

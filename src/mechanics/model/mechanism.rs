@@ -1,6 +1,7 @@
 //! The model: bodies, elements, rigid links and sliders, their present motion, and what can be done with them.
 
 mod acceleration;
+mod blows;
 mod energies;
 mod impact;
 mod inertia;
@@ -9,10 +10,12 @@ mod letting_go;
 mod measures;
 mod order_at_rest;
 mod rest;
+mod rigidity;
 mod state;
 mod steps;
 mod stiffness;
 
+pub use blows::Arriving;
 pub use energies::BodyEnergy;
 pub use instant::Instant;
 pub(in crate::model) use letting_go::Numbers;
@@ -161,7 +164,9 @@ impl Model {
 
     /// Lets a slider rest against the stop at a limit, until the stop would have to pull.
     pub fn hold(&mut self, limit: TrackLimit) {
-        self.sliders[limit.slider].hold(limit.end);
+        let slider = &mut self.sliders[limit.slider];
+        slider.hold(limit.end);
+        slider.clings = slider.left_at == self.motion.time;
         self.motion.accelerations.forget();
     }
 

@@ -86,7 +86,14 @@ impl Simulation {
                     controller.fail(&mut pace, dt);
                     if is_least {
                         let smallest = controller.smallest;
-                        return Err(SimulationError::Smallest { time: now, dt, smallest, source });
+                        let plight = self.plight();
+                        return Err(SimulationError::Smallest {
+                            time: now,
+                            dt,
+                            smallest,
+                            source: Box::new(source),
+                            plight,
+                        });
                     }
                 }
             }

@@ -19,8 +19,8 @@ const HIDDEN_SHARE: f64 = 0.05;
 /// and that takes less than a step, by so many times [rad].
 const HIDDEN_TURN: f64 = 2.0 * TAU;
 
-/// How many times as long as a blow a step may be.
-const MOST_BLOWS: f64 = 1.0;
+/// Which part of a blow a step may be to resolve it.
+const MOST_BLOWS: f64 = 0.125;
 
 /// The modes about a scene as drawn are looked for where there are no more unknowns than this,
 const MOST_UNKNOWNS: usize = 1200;
