@@ -260,7 +260,7 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let ends = meant(&ENDS, &options.text("ends")?);
     let restitution = options.number_if_given("restitution");
     if restitution.is_some() && ends != EndAction::Bounce {
-        let told = "restitution is of sliders that bounce, with ends: \"bounce\"";
+        let told = "slider: 'restitution' is of sliders that bounce, with ends: \"bounce\"";
         return Err(ScriptError::new(told).at(Place::Key("restitution".into())));
     }
     let restitution = restitution.unwrap_or(1.0);
