@@ -15,6 +15,7 @@ use crate::output::{
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::looks::motion::{Shown, has_room_for_dots, placed, snapshot};
+use crate::script::looks::symbols::uncrowded;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Scripted;
 use crate::script::rows::options::Options;
@@ -178,6 +179,7 @@ fn reel(
         let Some(configuration) = simulation.configuration_near(*time)? else { continue };
         symbols.push(match shown {
             Shown::Yes => placed(&simulation, configuration.time, None)?,
+            Shown::WhereThereIsRoom => uncrowded(placed(&simulation, configuration.time, None)?),
             Shown::No => Vec::new(),
         });
         let mut snapshot = snapshot(&configuration);
