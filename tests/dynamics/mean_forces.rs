@@ -28,7 +28,7 @@ fn listening(mut scene: Scene) -> Scene {
 
 /// Two beams, pushed at the end, held at their start and joined as is said.
 fn two_beams(held: JointKind, joint: JointKind) -> (Scene, Station) {
-    let mut scene = Scene::new(&format!("{held:?}, {joint:?}"));
+    let mut scene = Scene::new(format!("{held:?}, {joint:?}"));
     let first = add_beam(&mut scene, line(at(0.5, 0.2), at(1.5, 0.2)), &mesh(), rod());
     let second = add_beam(&mut scene, line(at(1.5, 0.2), at(2.2, 0.9)), &mesh(), rod());
     let (foot, top) = (start_of(&mut scene, first), end_of(&mut scene, first));
