@@ -3,11 +3,13 @@
 
 use crate::common::body_scenes::{add_body, hinge, point};
 use crate::common::scenes::{add_beam, drive, end_of, line, rod, start_of};
-use crate::common::{at, body_scenes, orders, run, scenes, sci, settings, simulate};
+use crate::common::{
+    at, body_scenes, orders, run, scenes, sci, settings, simulate, sliding_scenes,
+};
 use withy::beams::{Mesh, Station};
 use withy::geometry::{Vec2, cross};
 use withy::integrators::{INTEGRATORS, Method};
-use withy::joints::{Component, Components, JointKind, Partner};
+use withy::joints::{Component, Components, JointKind, Partner, SlidingRule};
 use withy::loads::{Frame, LoadKind, PrescribedMotion, Schedule};
 use withy::model::Scene;
 use withy::simulation::{Simulation, SimulationError, Unwatched};
@@ -205,7 +207,8 @@ fn means_between_rigid_bodies_are_of_second_order_to_the_forces_at_the_ends() {
 
 #[test]
 fn summing_up_changes_no_bit_of_the_motion() {
-    let all = scenes::all(&mesh()).into_iter().chain(body_scenes::all(&mesh()));
+    let sliding = sliding_scenes::all(&mesh(), SlidingRule::Kinked);
+    let all = scenes::all(&mesh()).into_iter().chain(body_scenes::all(&mesh())).chain(sliding);
     for scene in all {
         for entry in INTEGRATORS.iter().filter(|entry| entry.claims.momentum) {
             let rows = |scene: Scene| {
