@@ -142,7 +142,8 @@ pub const TABLE: Table = Table {
         .doc(MEAN)
         .example(
             "scene.record(\"hinge1.mean_fy\");\nlet sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\n\
-             check(sim.mean_joint_force(\"hinge1\").force.y == sim.history.last(\"hinge1.mean_fy\"));",
+             let given = sim.mean_joint_force(\"hinge1\").force;\n\
+             check(given.y == sim.history.last(\"hinge1.mean_fy\"));",
         )
         .see(&["joint_force", "mean_reaction", "record"]),
         method(SIMULATION, "present_contact_force", &[object("slider", SLIDER)], |call| {
