@@ -295,6 +295,7 @@ fn advance_sliders(model: &mut Model, increments: &[f64], random: &mut Random) {
         constraints: &contacts,
         rates: &rates,
         residual: &residual,
+        balanced: &[],
     });
 }
 

@@ -16,6 +16,16 @@ pub enum SimulationError {
     /// The step size of a run is not positive, or its tolerance cannot be kept.
     #[error(transparent)]
     StepSize(#[from] StepSizeError),
+    /// The mean of a step of a method that balances accelerations of its own.
+    #[error(
+        "'{sensor}' is the mean over a step, by which momenta change, and {method} balances accelerations of its own instead: it has none; record the force at the present moment, or take another method"
+    )]
+    NoMean {
+        /// The column that cannot be had.
+        sensor: String,
+        /// The method that has no such mean.
+        method: &'static str,
+    },
     /// An end of a run that has passed.
     #[error("the simulation is at t = {now} and cannot run to t = {end}")]
     End {

@@ -87,12 +87,13 @@ pub const TABLE: Table = Table {
         .returns(Returns::object(VECTOR).unit("force"))
         .summary("The force that a slider put on its beam in the last step, the mean of the step; its station got the opposite.")
         .doc(
-            "Zero before the first step and after a release. On splines and with the conserving rule it is smooth where the motion \
+            "Zero before the first step and after a release. It belongs to the middle of the step; with kinked() it is that at its end, to the order of the method, and with fourth_order() that of the \
+             last of its seven parts, so of first order: present_contact_force has the order of the motion with every rule, and scene.record(\"ring.present_force\") makes a column of it. On splines and with the conserving rule it is smooth where the motion \
              is; where it alternates from step to step (kinks of Lagrange elements, the relaxed rule), averaged(\"ring.force\") of \
              the history is free of that. scripts/contact_force.rhai shows how much.",
         )
         .example("check(norm(sim.contact_force(ring)) == 0);\nsim.step();\ncheck(sim.contact_force(ring).y < 0);")
-        .see(&["slider_position", "averaged"]),
+        .see(&["present_contact_force", "slider_position", "averaged"]),
         method(SIMULATION, "slider_position", &[WHICH], |call| {
             asked(call, |model, slider| model.slider_position(slider).into())
         })

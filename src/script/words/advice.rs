@@ -37,6 +37,9 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
         SimulationError::Ended { .. } => {
             "give the slider the option ends: \"bounce\" or \"release\" to go on, or ask sim.ended before a step".into()
         }
+        SimulationError::NoMean { sensor, .. } => {
+            format!("record \"{}\"", sensor.replace(".mean_", "."))
+        }
         SimulationError::Rattles { .. } => "try ends: \"release\" or \"stop\"".into(),
         SimulationError::FewerSteps { .. } => "sim.rewind(0) leads to the start".into(),
         SimulationError::NotBehind { .. } => {

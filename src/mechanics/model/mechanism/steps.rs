@@ -253,16 +253,17 @@ impl Mechanism for Model {
     }
 
     fn advance(&mut self, solution: &Solution<'_>) {
-        let Solution { increments, constraints, rates, residual } = *solution;
+        let Solution { increments, constraints, rates, residual, .. } = *solution;
+        self.add_impulses_of_step(solution);
         let is_driven = self.supports.prescribed().count() > 0;
         if is_driven {
             self.meet_given(rates);
         }
         self.bodies.gather(increments);
-        self.exchanged += self.exchange_in_step(residual);
+        self.exchanged.total += self.exchange_in_step(residual);
         if is_driven {
             let prescribed = self.exchange_of_drives(rates, residual);
-            self.exchanged += prescribed;
+            self.exchanged.total += prescribed;
         }
         self.elements.advance(&self.bodies, self.step.rotations);
         self.bodies.advance(self.step.rotations);
