@@ -92,10 +92,10 @@ pub enum SimulationError {
         /// The number of parts into which the step with the arrival was divided at last.
         divisions: u64,
     },
-    /// A load has no finite value; no smaller step helps.
+    /// A load has no finite value, or a slider is too fast for its rule; no smaller step helps.
     #[error("{source}")]
     Load {
-        /// The load without a value, the step and the reason.
+        /// The load without a value or the slider, the step and the reason.
         source: StepError,
     },
     /// A slider has reached an end of its master at which the run ends.

@@ -44,8 +44,9 @@ pub const TABLE: Table = Table {
             .doc("With energy_momentum(): keeps energy, linear momentum, angular momentum and the gap to rounding. withy, docs/theory.md, section 10.")
             .see(&["kinked", "exact", "relaxed", "slider"]),
         rule("kinked", |_| Ok(Dynamic::from(SlidingRule::Kinked)))
-            .summary("The conserving rule on the beam as the contact force kinks it: nearer to the truth on coarse meshes of smooth splines.")
-            .doc("With energy_momentum(): keeps energy, linear momentum, angular momentum and the gap to rounding. withy, docs/theory.md, section 10.1.")
+            .summary("The conserving rule on the beam as the contact force kinks it: of second order in the mesh, where conserving() is of first.")
+            .doc("On meshes of smooth splines. With energy_momentum(): keeps energy, linear momentum, angular momentum and the gap to rounding. \
+                  A slider that comes to 0.8 of the speed of the beam's shear waves, sqrt(GA/rho_A), is refused. withy, docs/theory.md, section 10.1.")
             .see(&["conserving", "exact", "relaxed"]),
         rule("exact", |_| Ok(Dynamic::from(SlidingRule::Exact)))
             .summary("For comparison: the slave is exactly on the beam at the end of a step; angular momentum is lost at second order.")

@@ -3,6 +3,7 @@
 use std::error::Error;
 
 use crate::beams::BeamError;
+use crate::integrators::StepError;
 use crate::loads::LoadError;
 use crate::model::{Approach, ModelError, SliderError, Turning};
 use crate::simulation::{ArchiveError, SimulationError};
@@ -27,6 +28,9 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
         SimulationError::End { .. } => "give a later time, or go back with sim.rewind(t)".into(),
         SimulationError::Step { .. } | SimulationError::Smallest { .. } => {
             "the history up to there is kept; try a smaller dt or a finer mesh, and check loads, stiffness, units and what is held".into()
+        }
+        SimulationError::Load { source: StepError::FastAsWaves { .. } } => {
+            "the history up to there is kept; give the slider rule: conserving(), or its master a larger GA".into()
         }
         SimulationError::Load { .. } => "a load needs a finite value at all times".into(),
         SimulationError::Tolerance { .. } => {

@@ -235,12 +235,13 @@ impl Mechanism for Model {
     }
 
     fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), StepError> {
-        let Self { bodies, elements, links, supports, motion, step, unknowns, .. } = self;
+        let Self { bodies, elements, links, sliders, supports, motion, step, unknowns, .. } = self;
         let refused = |(load, error)| StepError::Load { interval, load, source: Cause::new(error) };
         let rotations = collocation(stages.first().copied().unwrap_or(Stage::Midpoint)).rotations;
         let movements = supports.prescribed_mut();
         movements.begin_step(interval, rotations, &motion.rates).map_err(refused)?;
         links.begin_step(interval.duration());
+        sliders.begin_step(bodies, &motion.rates, interval)?;
         elements.begin_step(interval, stages).map_err(refused)?;
         bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
         let knows_accelerations = motion.accelerations.known().is_some();
@@ -265,6 +266,7 @@ impl Mechanism for Model {
             let prescribed = self.exchange_of_drives(rates, residual);
             self.exchanged.total += prescribed;
         }
+        self.sliders.close(&self.bodies, increments, constraints);
         self.elements.advance(&self.bodies, self.step.rotations);
         self.bodies.advance(self.step.rotations);
         let arms = ArmRule { rotations: self.step.rotations, share: 0.5 };
