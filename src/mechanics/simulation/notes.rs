@@ -25,7 +25,7 @@ const ENOUGH: f64 = 20.0;
 pub enum Suspect {
     /// A damper, the damping of a material, or drag, by name.
     Damping(String),
-    /// A controller that is asked once a step, by the name of its load or drive.
+    /// A controller that is asked once a step, by its load or drive in words.
     Controller(String),
 }
 
@@ -34,7 +34,7 @@ impl fmt::Display for Suspect {
         match self {
             Self::Damping(name) => write!(f, "what '{name}' slows down"),
             Self::Controller(name) => {
-                write!(f, "what the controller of '{name}' does, which is asked once a step")
+                write!(f, "what the controller of {name} does, which is asked once a step")
             }
         }
     }
@@ -150,7 +150,7 @@ impl fmt::Display for Note {
                 write!(
                     f,
                     "steps are too long for the motion: {} % of its kinetic energy changes within them as they do not follow, as vibration or {}. A \
-                     step (dt = {}) is {} times what it goes on in ({}); take dt below {}, or the method energy_decaying where that does not matter",
+                     step (dt = {}) is {} times what it goes on in ({}); take dt below {}",
                     short(100.0 * share),
                     others.join(", or "),
                     short(*dt),

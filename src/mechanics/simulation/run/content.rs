@@ -56,12 +56,7 @@ impl Simulation {
     pub fn to_bytes(&self, name: &str) -> Result<Vec<u8>, ArchiveError> {
         let mut schedules = self.scene.schedules();
         if let Some((load, schedule)) = schedules.find(|(_, schedule)| !schedule.can_be_stored()) {
-            let titles = self.scene.loads().filter(|titled| titled.name == load);
-            let title = titles.filter_map(|titled| titled.title.clone()).next();
-            let load = match title {
-                Some(title) => format!("'{title}', the {load},"),
-                None => format!("the {load}"),
-            };
+            let load = self.scene.source_of_schedule(load);
             return Err(ArchiveError::Function { load, function: schedule.describe() });
         }
         if let Some(sensor) = self.scene.sensors.iter().find(|sensor| !sensor.can_be_stored()) {

@@ -104,7 +104,8 @@ impl Simulation {
         let most = most.filter(|_| measures.dissipated > MUCH * (measures.dissipated + left));
         let dampers = most.map(|name| Suspect::Damping(name.to_owned()));
         let sampled = self.scene.schedules().filter(|(_, schedule)| schedule.is_sampled());
-        let controllers = sampled.map(|(name, _)| Suspect::Controller(name.to_owned()));
+        let controllers =
+            sampled.map(|(name, _)| Suspect::Controller(self.scene.source_of_schedule(name)));
         dampers.into_iter().chain(controllers.take(1)).collect()
     }
 
