@@ -1,8 +1,8 @@
 //! Whether a motion that is a function from outside is continuous: what jumps goes a way in no time.
 //!
-//! Functions are known at points only. Near the start they are asked ever closer to it: `√t`, with an infinite rate, lies between what is smooth and what jumps. In a step,
-//! where one of its values is farther from the next than all others are together, the larger half of that way is followed through thirty halvings: a jump stays what it is,
-//! all else gets small.
+//! Functions are known at points only. Near the start they are asked ever closer to it: `√t`, with an infinite rate, lies between what is smooth and
+//! what jumps. In a step, where one of its values is farther from the next than all others are together, the larger half of that way is followed
+//! through thirty halvings: a jump stays what it is, all else gets small.
 
 use super::{LoadError, Schedule, Side};
 use crate::elementary::whole_power;
@@ -53,7 +53,8 @@ fn rounded(number: f64) -> f64 {
     format!("{number:.6e}").parse().unwrap_or(number)
 }
 
-/// Whether a schedule jumps, or has an infinite rate, just after t = 0; none where it has no function, or where its values are too near to each other to tell.
+/// Whether a schedule jumps, or has an infinite rate, just after t = 0; none where it has no function, or where its values are too near to each other
+/// to tell.
 ///
 /// # Errors
 /// When the function fails or a value is not finite.

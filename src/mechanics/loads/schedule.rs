@@ -108,6 +108,12 @@ fn check_positive(schedule: &'static str, name: &'static str, value: f64) -> Res
     check(schedule, name, value, "a positive finite number", value.is_finite() && value > 0.0)
 }
 
+fn check_times(schedule: &'static str, from: f64, to: f64) -> Result<(), LoadError> {
+    check_finite(schedule, "the first time", from)?;
+    let (allowed, fine) = ("a finite time later than the first one", to.is_finite() && to > from);
+    check(schedule, "the last time", to, allowed, fine)
+}
+
 impl Schedule {
     /// The schedule with the same factor [-] at all times.
     ///
@@ -132,14 +138,7 @@ impl Schedule {
     /// # Errors
     /// When the times are not finite, or `to` is not later than `from`.
     pub fn ramp(from: f64, to: f64) -> Result<Self, LoadError> {
-        check_finite("ramp", "the first time", from)?;
-        check(
-            "ramp",
-            "the last time",
-            to,
-            "a finite time later than the first one",
-            to.is_finite() && to > from,
-        )?;
+        check_times("ramp", from, to)?;
         Ok(Self::Table(vec![(from, 0.0), (to, 1.0)]))
     }
 
@@ -148,14 +147,7 @@ impl Schedule {
     /// # Errors
     /// When the times are not finite, or `to` is not later than `from`.
     pub fn pulse(from: f64, to: f64) -> Result<Self, LoadError> {
-        check_finite("pulse", "the first time", from)?;
-        check(
-            "pulse",
-            "the last time",
-            to,
-            "a finite time later than the first one",
-            to.is_finite() && to > from,
-        )?;
+        check_times("pulse", from, to)?;
         Ok(Self::Table(vec![(from, 0.0), (from, 1.0), (to, 1.0), (to, 0.0)]))
     }
 

@@ -8,15 +8,16 @@ use crate::geometry::larger;
 use crate::integrators::{Integrator, Interval};
 use crate::model::{Drive, Model, ModelState, Placement, Scene};
 
-/// How far the second halves may be apart, as a multiple of the length of the scene times a power of the tolerance: as measured, by this number the error that
-/// gathers in the time scale of a motion is about half the tolerance (theory.md, section 13.1).
+/// How far the second halves may be apart, as a multiple of the length of the scene times a power of the tolerance: as measured, by this number the
+/// error that gathers in the time scale of a motion is about half the tolerance (theory.md, section 13.1).
 const SHARE: f64 = 4.0;
 
 /// Steps of which each half asks the controllers as a step of its own.
 ///
-/// Whole step and half steps are compared under the values of the start, which shows the error of the method. Then the run pauses in the middle, controllers
-/// are asked there, and the second half is taken again. A held force is late by half a step in the mean, which moves places by a third power of the step size at first, and in
-/// the long run by the first; of a held rate it is the second power. So the difference between both second halves may be that power of the tolerance.
+/// Whole step and half steps are compared under the values of the start, which shows the error of the method. Then the run pauses in the middle,
+/// controllers are asked there, and the second half is taken again. A held force is late by half a step in the mean, which moves places by a third
+/// power of the step size at first, and in the long run by the first; of a held rate it is the second power. So the difference between both second
+/// halves may be that power of the tolerance.
 pub(super) struct Resampling {
     /// The power of the step size with which places differ [-].
     order: i32,

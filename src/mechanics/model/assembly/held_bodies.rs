@@ -8,7 +8,8 @@ use crate::model::{Model, ModelError, Scene, SpringKind};
 impl Model {
     /// Refuses a rigid body of which a movement meets neither inertia nor anything that holds it: its acceleration would not be determined.
     ///
-    /// What holds is a support, a drive, a shared movement, a mass at a point, or an element at one. For the angle it has to be off the centre, or turn with the body.
+    /// What holds is a support, a drive, a shared movement, a mass at a point, or an element at one. For the angle it has to be off the centre, or turn
+    /// with the body.
     pub(super) fn check_movements_held(&self, scene: &Scene) -> Result<(), ModelError> {
         let inertia = self.diagonal_of_inertia();
         let first = scene.beams.len() + scene.particles.len();

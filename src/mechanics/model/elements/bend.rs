@@ -16,8 +16,9 @@ pub struct Bend {
 }
 
 impl Bend {
-    /// The bend of a function from outside at the start of a step or in it, where the rate of the step before was this one. What smooth steps find there agrees to the fifth power of
-    /// their length; a jump of the rate does not, nor does what is much faster than a step. At times at which a function is said to bend it may.
+    /// The bend of a function from outside at the start of a step or in it, where the rate of the step before was this one. What smooth steps find
+    /// there agrees to the fifth power of their length; a jump of the rate does not, nor does what is much faster than a step. At times at which a
+    /// function is said to bend it may.
     pub fn of(
         motion: &PrescribedMotion,
         interval: Interval,

@@ -45,8 +45,9 @@ impl Model {
         impulses.map(|_| ()).map_err(|_| self.sliders.overdetermined())
     }
 
-    /// Where a drive begins with a rate and points of rigid bodies do not have the velocities of that, they get them, as the nearest that fit; velocities that miss by less than a
-    /// number [length/time] do. It would alternate from step to step without end, as all rates do that do not fit.
+    /// Where a drive begins with a rate and points of rigid bodies do not have the velocities of that, they get them, as the nearest that fit;
+    /// velocities that miss by less than a number [length/time] do. It would alternate from step to step without end, as all rates do that do not
+    /// fit.
     pub(in crate::model) fn fit_links_to_drives(&mut self, negligible: f64) {
         if self.links.count() == 0 || !self.supports.prescribed().begins_with_a_rate() {
             return;
@@ -56,7 +57,8 @@ impl Model {
         if missed.iter().all(|missed| missed.abs() <= negligible) {
             return;
         }
-        // The blow with which a motion begins is before the start: nothing of it is in the sums since then. A matrix that cannot be factorised is found by the first step.
+        // The blow with which a motion begins is before the start: nothing of it is in the sums since then. A matrix that cannot be factorised is found by
+        // the first step.
         let before = self.exchanged;
         if self.strike(&self.across(), -1.0).is_ok() {
             self.exchanged = before;
