@@ -15,6 +15,7 @@ mod drives;
 mod going_back;
 mod invariants;
 mod literature;
+mod mean_forces;
 mod meshes;
 mod notes;
 mod orders;

@@ -6,6 +6,7 @@ mod common;
 mod blows;
 mod consistency;
 mod ends;
+mod forces;
 mod invariants;
 mod kinks;
 mod long_ways;

@@ -1,10 +1,10 @@
 //! The equations of one step, and the work space to solve them: what all integrators here share.
 
 use super::prescribed::BalancedAt;
-use super::{Interval, Mechanism, Solution, Stage, StepError};
+use super::{Culprit, Interval, Mechanism, Solution, Stage, StepError};
 use crate::elementary::square;
 use crate::linalg::BorderedMatrix;
-use crate::newton::{Equations, Imbalance, Newton, NewtonReport, Tolerance};
+use crate::newton::{Equations, Imbalance, Newton, NewtonError, NewtonReport, Tolerance};
 
 /// The largest increment `Δω`, mean rate times step: beyond it a turn cannot be told from one the other way round.
 const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
@@ -62,6 +62,16 @@ impl StepBalance<'_> {
         self.mechanism.add_inertia(self.inertia(), deviation, residual);
     }
 
+    /// What a solve failed at.
+    fn culprit(&mut self, error: &NewtonError, residual: &[f64]) -> Option<Culprit> {
+        if let NewtonError::Linear { source, .. } = error {
+            return Some(Culprit::Unknown(source.unknown()));
+        }
+        let part = error.history().last()?.worst();
+        let Rule { stage, weight, .. } = self.rule;
+        self.mechanism.worst(part, stage, (self.increments, weight), residual)
+    }
+
     /// `ι/Δt²`
     fn inertia(&self) -> f64 {
         self.rule.inertia / square(self.duration)
@@ -117,6 +127,10 @@ pub(super) struct StepSolver {
     carried: Vec<f64>,
     rates: Vec<f64>,
     residual: Vec<f64>,
+    /// The stages of the step at which forces were taken, with their shares.
+    balanced: Vec<(Stage, f64)>,
+    /// Whether the balance is that of the change of the rates.
+    balances_rates: bool,
 }
 
 impl StepSolver {
@@ -137,6 +151,8 @@ impl StepSolver {
             carried: vec![0.0; all],
             rates: vec![0.0; moving],
             residual: vec![0.0; all],
+            balanced: Vec::with_capacity(Stage::ALL.len()),
+            balances_rates: true,
         }
     }
 
@@ -152,12 +168,15 @@ impl StepSolver {
             .for_each(|(d, (expected, rate))| *d = duration * (expected - rate));
         mechanism.predict_constraints(interval, constraints);
         self.carried.fill(0.0);
+        self.balanced.clear();
+        self.balances_rates = true;
     }
 
     /// Carries a share of the forces of a stage at which nothing has moved yet into the balance of the step.
     pub(super) fn carry(&mut self, mechanism: &mut dyn Mechanism, stage: Stage, share: f64) {
         self.increments.fill(0.0);
         mechanism.add_forces(stage, &self.increments, share, &mut self.carried);
+        self.balanced.push((stage, share));
     }
 
     /// Carries the inertia of accelerations times a factor into the balance of the step.
@@ -168,6 +187,7 @@ impl StepSolver {
         accelerations: &[f64],
     ) {
         mechanism.add_inertia(factor, accelerations, &mut self.carried);
+        self.balances_rates = false;
     }
 
     /// Solves the balance of the step for the increments.
@@ -178,6 +198,7 @@ impl StepSolver {
         rule: Rule,
     ) -> Result<NewtonReport, StepError> {
         self.take_prescribed(mechanism, rule.prescribed);
+        self.balanced.push((rule.stage, rule.weight));
         let mut balance = StepBalance {
             mechanism,
             rule,
@@ -187,10 +208,20 @@ impl StepSolver {
             increments: &mut self.increments,
             movements: self.coasting.len(),
         };
-        let report = self
-            .newton
-            .solve(&mut balance, &mut self.unknowns, &mut self.residual)
-            .map_err(|source| StepError::Newton { interval, source, before: 0 })?;
+        let solved = self.newton.solve(&mut balance, &mut self.unknowns, &mut self.residual);
+        let report = match solved {
+            Ok(report) => report,
+            Err(source) => {
+                let culprit = balance.culprit(&source, &self.residual);
+                let source = Box::new(source);
+                return Err(StepError::Newton {
+                    interval,
+                    source,
+                    before: 0,
+                    culprit: culprit.map(Box::new),
+                });
+            }
+        };
         let rotation = balance.mechanism.largest_rotation();
         let is_resolved = rotation < LARGEST_INCREMENT;
         if !is_resolved {
@@ -247,6 +278,7 @@ impl StepSolver {
         let movements = self.coasting.len();
         self.rates[movements..].copy_from_slice(&mechanism.prescribed().rates);
         let Self { increments, rates, residual, .. } = self;
-        mechanism.advance(&Solution { increments, constraints, rates, residual });
+        let balanced = if self.balances_rates { &*self.balanced } else { &[] };
+        mechanism.advance(&Solution { increments, constraints, rates, residual, balanced });
     }
 }

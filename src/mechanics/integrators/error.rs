@@ -45,18 +45,39 @@ impl Error for Cause {
     }
 }
 
+/// What of a mechanism a step fails at.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Culprit {
+    /// The equation, or the matrix, of an unknown, by its number.
+    Unknown(usize),
+    /// A body, by its number among all.
+    Body(usize),
+    /// Something with a name.
+    Named(String),
+}
+
+/// The end of a message about a step that fails at something, if its name is known.
+fn at(culprit: Option<&Culprit>) -> String {
+    match culprit {
+        Some(Culprit::Named(name)) => format!("; it fails at {name}"),
+        _ => String::new(),
+    }
+}
+
 /// A step that was refused; the mechanism is still at its start.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepError {
     /// The equations of the step were not solved.
-    #[error("the step of {:.3e} from t = {} failed: {source}", interval.duration(), interval.start)]
+    #[error("the step of {:.3e} from t = {} failed: {source}{}", interval.duration(), interval.start, at(culprit.as_deref()))]
     Newton {
         /// The interval of the step whose equations were not solved [time].
         interval: Interval,
         /// The solver's reason for finding no solution, with its residual history.
-        source: NewtonError,
+        source: Box<NewtonError>,
         /// The number of Newton iterations that parts of the refused step took before.
         before: usize,
+        /// What the solver failed at, if that is known.
+        culprit: Option<Box<Culprit>>,
     },
     /// The mean rate of a section times the step reaches π: such a turn is not resolved.
     #[error(
@@ -98,6 +119,24 @@ pub enum StepError {
         /// Newton iterations that the refused step took.
         iterations: usize,
     },
+    /// A slider runs along its master nearly as fast as the waves by which the master gives way under it.
+    #[error(
+        "slider '{slider}' runs along its master at {speed:.4}, more than {limit} of the speed {wave:.4} of the master's shear waves, sqrt(GA/rho_A), at \
+         t = {}: kinked() does not know how a beam gives way under so fast a force",
+        interval.start
+    )]
+    FastAsWaves {
+        /// The interval of the step that would have begun so fast [time].
+        interval: Interval,
+        /// The name of the slider.
+        slider: String,
+        /// How fast it runs along the undeformed axis of its master [length/time].
+        speed: f64,
+        /// How fast shear waves are there [length/time].
+        wave: f64,
+        /// The part of that speed up to which a slider may run [-].
+        limit: f64,
+    },
     /// A load has no finite value in the step.
     #[error("{load}: {source} (in the step from t = {} to {})", interval.start, interval.end)]
     Load {
@@ -118,14 +157,16 @@ impl StepError {
             Self::Rotation { iterations, .. }
             | Self::Chord { iterations, .. }
             | Self::Overshoot { iterations, .. } => *iterations,
-            Self::Load { .. } => 0,
+            Self::Load { .. } | Self::FastAsWaves { .. } => 0,
         }
     }
 
     /// The error of a part of a step, told of the whole step, of which earlier parts took `before` Newton iterations.
     pub(super) fn of_whole(self, interval: Interval, before: usize) -> Self {
         match self {
-            Self::Newton { source, .. } => Self::Newton { interval, source, before },
+            Self::Newton { source, culprit, .. } => {
+                Self::Newton { interval, source, before, culprit }
+            }
             Self::Rotation { rotation, iterations, .. } => {
                 Self::Rotation { interval, rotation, iterations: iterations + before }
             }
@@ -136,11 +177,12 @@ impl StepError {
                 Self::Overshoot { interval, overshoot, iterations: iterations + before }
             }
             Self::Load { load, source, .. } => Self::Load { interval, load, source },
+            same @ Self::FastAsWaves { .. } => same,
         }
     }
 
     /// Whether a smaller step may succeed where this one was refused.
     pub fn may_be_cured_by_a_smaller_step(&self) -> bool {
-        !matches!(self, Self::Load { .. })
+        !matches!(self, Self::Load { .. } | Self::FastAsWaves { .. })
     }
 }

@@ -12,16 +12,16 @@ mod sliders;
 mod words;
 
 pub use elements::{
-    Anchor, Drag, Dragged, Drive, DriveKind, DriveState, Element, LoadAccount, MaterialDamping,
-    Origin, PointMass, RestoringLaw, SpeedLaw, Spring, SpringKind,
+    Anchor, Bend, Drag, Dragged, Drive, DriveKind, DriveState, Element, LoadAccount,
+    MaterialDamping, Origin, PointMass, RestoringLaw, ShortBounce, SpeedLaw, Spring, SpringKind,
 };
 pub use looking::{
     BeamPlaces, BeamSample, CrossSection, Distance, Part, Placement, SectionSample, Sensing,
     SpringState, Transmission, Usage,
 };
 pub use mechanism::{
-    Arriving, BodyEnergy, Energy, Instant, Measures, Model, ModelState, OrderAtRest, StaticForces,
-    add_resistance,
+    Arriving, BodyEnergy, Energy, Given, Instant, Measures, Model, ModelState, OrderAtRest,
+    StaticForces, add_resistance,
 };
 pub use motion::{Resolution, UnknownKind};
 pub use scene::{

@@ -3,6 +3,7 @@
 use std::error::Error;
 
 use crate::beams::BeamError;
+use crate::integrators::StepError;
 use crate::loads::LoadError;
 use crate::model::{Approach, ModelError, SliderError, Turning};
 use crate::simulation::{ArchiveError, SimulationError};
@@ -28,7 +29,13 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
         SimulationError::Step { .. } | SimulationError::Smallest { .. } => {
             "the history up to there is kept; try a smaller dt or a finer mesh, and check loads, stiffness, units and what is held".into()
         }
-        SimulationError::Load { .. } => "a load needs a finite value at all times".into(),
+        SimulationError::Load { source: StepError::FastAsWaves { .. } } => {
+            "the history up to there is kept; give the slider rule: conserving(), or its master a larger GA".into()
+        }
+        SimulationError::Load { source } => {
+            let own = cause_of(source).and_then(on_load);
+            own.unwrap_or_else(|| "a load needs a finite value at all times".into())
+        }
         SimulationError::Tolerance { .. } => {
             "the history up to there is kept; give a larger tolerance or a smaller step: adaptive(#{ tolerance: …, smallest: … }); adaptive steps \
              land on jumps of schedules by themselves, but a function that jumps needs its breaks: schedule(|t| …, [t1, t2])"
@@ -36,6 +43,9 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
         }
         SimulationError::Ended { .. } => {
             "give the slider the option ends: \"bounce\" or \"release\" to go on, or ask sim.ended before a step".into()
+        }
+        SimulationError::NoMean { sensor, .. } => {
+            format!("record \"{}\"", sensor.replace(".mean_", "."))
         }
         SimulationError::Rattles { .. } => "try ends: \"release\" or \"stop\"".into(),
         SimulationError::FewerSteps { .. } => "sim.rewind(0) leads to the start".into(),
@@ -94,6 +104,12 @@ fn on_model(error: &ModelError) -> Option<String> {
         ModelError::NoPoint { .. } => {
             "name it in the points of scene.body(…); its centre is body.centre"
         }
+        ModelError::Inertialess { .. } => {
+            "give it one, scene.body(#{ …, inertia: 0.1 }), or hold its angle: scene.support(body.centre, #{ angle: true })"
+        }
+        ModelError::Massless { .. } => {
+            "give it one, scene.body(#{ …, mass: 1 }), or join it to something: scene.hinge(body.centre)"
+        }
         ModelError::PointAlone { .. } => "give velocity and spin to scene.body(#{ … })",
         ModelError::StationOutside { .. } => "use beam.end for its end",
         ModelError::ParticleTurned { by, .. } => match by {
@@ -101,7 +117,9 @@ fn on_model(error: &ModelError) -> Option<String> {
             Turning::RotaryInertia => "leave out the rotary inertia",
             Turning::Load => "only a force of fixed direction can act on it",
             Turning::Spin => "leave out the spin",
-            Turning::Drive => "give x and y alone",
+            Turning::Drive => {
+                "move it along x and y alone; a motor turns a section of a beam, or a body: scene.motor(body.centre, …)"
+            }
             Turning::TorsionSpring => "put a torsion spring between sections of beams",
         },
         _ => return None,
@@ -127,7 +145,8 @@ fn on_slider(error: &SliderError) -> Option<String> {
 fn on_archive(error: &ArchiveError) -> Option<String> {
     let advice = match error {
         ArchiveError::Function { .. } => {
-            "use hold_for, ramp, pulse, smooth_pulse, sine or table, or sums and products of them"
+            "use hold_for, ramp, pulse, smooth_pulse, sine or table, or sums and products of them, and what std/schedules makes of these; in place of a controller springs and \
+             dampers: scene.torsion_spring(…)"
         }
         ArchiveError::Release { .. } => {
             "save the simulation when that has let go, or say the time: #{ at: 0.5 }"
@@ -142,10 +161,22 @@ fn on_archive(error: &ArchiveError) -> Option<String> {
     Some(advice.into())
 }
 
+/// What to write for a motion that jumps.
+const SMOOTH: &str = "let it get there in a time: import \"std/schedules\" as schedules; #{ y: 0.1 * schedules::smooth_step(0, 0.05) }; \
+                      what is to move with a speed from the start begins with it: |t| 3 * t";
+
+/// What is wrong with a load in a step that was refused.
+fn cause_of(error: &StepError) -> Option<&LoadError> {
+    let StepError::Load { source, .. } = error else { return None };
+    source.downcast_ref()
+}
+
 fn on_load(error: &LoadError) -> Option<String> {
     let advice = match error {
         LoadError::ManyParts { .. } => "write it as schedule(|t| …)",
         LoadError::ShortTable { .. } => "write [[t, factor], …]",
+        LoadError::Jump { .. } => SMOOTH,
+        LoadError::InfiniteRate { .. } => SMOOTH,
         _ => return None,
     };
     Some(advice.into())

@@ -2,6 +2,9 @@
 //! [`Element`].
 
 mod all;
+mod bend;
+mod central_spring;
+mod contact_watch;
 mod drag;
 mod drag_forces;
 mod drag_law;
@@ -28,6 +31,8 @@ mod supports;
 mod weight;
 
 pub use all::Elements;
+pub use bend::Bend;
+pub use contact_watch::ShortBounce;
 pub use drag::{Drag, Dragged};
 pub use drag_law::SpeedLaw;
 pub use drive::{Drive, DriveKind};

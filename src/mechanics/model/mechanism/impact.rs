@@ -22,14 +22,16 @@ pub(super) struct Answer {
     pub(super) rates: Vec<f64>,
     /// Where `Gᵀ` has entries.
     touched: Vec<usize>,
+    /// What section forces pass on, where anything is rigid.
+    passed_on: Vec<f64>,
 }
 
 impl Answer {
-    fn of(inertia: &BandedLu<'_>, unknowns: usize, forces: Vec<f64>) -> Self {
+    fn of(inertia: &BandedLu<'_>, unknowns: usize, forces: Vec<f64>, passed_on: Vec<f64>) -> Self {
         let mut rates = forces[..unknowns].to_vec();
         inertia.solve(&mut rates);
         let touched = (0..forces.len()).filter(|&at| forces[at] != 0.0).collect();
-        Self { forces, rates, touched }
+        Self { forces, rates, touched, passed_on }
     }
 
     /// The velocity that rates are in the direction of the impulse: `G v`.
@@ -73,8 +75,9 @@ impl Law {
     }
 }
 
-/// Contacts that meet in one impact, and how velocities answer to their impulses.
+/// Contacts that meet in one impact, in their directions, and how velocities answer to their impulses.
 pub(super) struct Encounter {
+    directions: Vec<Direction>,
     answers: Vec<Answer>,
     /// `G M⁻¹ Gᵀ` [1/mass].
     pub(super) response: Vec<Vec<f64>>,
@@ -96,7 +99,7 @@ pub(super) struct Impulses {
 impl Encounter {
     /// The impulses by a law for each direction.
     pub(super) fn impulses(&self, laws: &[Law]) -> Result<Impulses, LinearError> {
-        let Self { answers, response, before, change } = self;
+        let Self { answers, response, before, change, .. } = self;
         let by_links: Vec<f64> = answers.iter().map(|answer| answer.velocity(change)).collect();
         let lacks = laws.iter().zip(before).zip(&by_links);
         let lacks: Vec<f64> = lacks.map(|((law, w), by_links)| law.lack(*w) + by_links).collect();
@@ -117,14 +120,38 @@ impl Model {
     /// # Errors
     /// When the impulses are not determined.
     pub(in crate::model) fn project_velocities(&mut self) -> Result<(), ModelError> {
+        self.strike_across().map_err(|_| self.sliders.overdetermined())
+    }
+
+    /// Takes away the velocities across all masters, and of points of rigid bodies beside these.
+    fn strike_across(&mut self) -> Result<(), LinearError> {
         let across = self.across();
-        let project = |model: &mut Self| -> Result<(), LinearError> {
-            let encounter = model.encounter(&across, -1.0, None)?;
-            let impulses = encounter.impulses(&vec![Law::Ends; across.len()])?;
-            model.apply(encounter, &impulses.values);
-            Ok(())
-        };
-        project(self).map_err(|_| self.sliders.overdetermined())
+        let encounter = self.encounter(&across, -1.0, None)?;
+        let impulses = encounter.impulses(&vec![Law::Ends; across.len()])?;
+        self.apply(encounter, &impulses.values);
+        Ok(())
+    }
+
+    /// Where a drive begins with a rate and points of rigid bodies do not have the velocities of that, they get them, as the nearest that fit;
+    /// velocities that miss by less than a number [length/time] do. It would alternate from step to step without end, as all rates do that do not
+    /// fit.
+    pub(in crate::model) fn fit_links_to_drives(&mut self, negligible: f64) {
+        if self.links.count() == 0 || !self.supports.prescribed().begins_with_a_rate() {
+            return;
+        }
+        let mut missed = vec![0.0; self.unknowns()];
+        self.links.set_velocity_violation(&self.bodies, &self.motion.rates, 1.0, &mut missed);
+        if missed.iter().all(|missed| missed.abs() <= negligible) {
+            return;
+        }
+        // The blow with which a motion begins is before the start: nothing of it is in the sums since then. A matrix that cannot be factorised is found by
+        // the first step.
+        let before = std::mem::take(&mut self.exchanged);
+        let struck = self.strike_across();
+        self.exchanged = before;
+        if struck.is_ok() {
+            self.supports.prescribed_mut().forget_work();
+        }
     }
 
     /// How fast a slave and its place on the master move in a direction by such rates [length/time].
@@ -162,7 +189,8 @@ impl Model {
 
     pub(super) fn answers(&self, inertia: &BandedLu<'_>, directions: &[Direction]) -> Vec<Answer> {
         let unknowns = self.unknowns();
-        let answer = |at: &Direction| Answer::of(inertia, unknowns, self.transmitted(*at));
+        let answer =
+            |at: &Direction| Answer::of(inertia, unknowns, self.transmitted(*at), Vec::new());
         directions.iter().map(answer).collect()
     }
 
@@ -179,8 +207,8 @@ impl Model {
         let unknowns = self.unknowns();
         let mut answer = |direction: &Direction| {
             let mut forces = self.transmitted(*direction);
-            rigidity.pass_on(self, &factors, &mut forces);
-            Answer::of(inertia, unknowns, forces)
+            let passed_on = rigidity.pass_on(self, &factors, &mut forces);
+            Answer::of(inertia, unknowns, forces, passed_on)
         };
         Ok(directions.iter().map(&mut answer).collect())
     }
@@ -209,27 +237,36 @@ impl Model {
             |answer: &Answer| answers.iter().map(|other| answer.velocity(&other.rates)).collect();
         let response = answers.iter().map(of).collect();
         let before = answers.iter().map(|answer| answer.velocity(rates)).collect();
-        Ok(Encounter { answers, response, before, change })
+        let directions = directions.to_vec();
+        Ok(Encounter { directions, answers, response, before, change })
     }
 
     /// Changes the velocities by the impulses of an encounter.
     pub(super) fn apply(&mut self, encounter: Encounter, impulses: &[f64]) {
-        let Encounter { answers, mut change, .. } = encounter;
+        let Encounter { directions, answers, mut change, .. } = encounter;
+        let mut passed_on = vec![0.0; answers.first().map_or(0, |answer| answer.passed_on.len())];
         let mut residual = vec![0.0; self.degrees_of_freedom()];
         for (impulse, Answer { forces, rates, .. }) in impulses.iter().zip(&answers) {
             change.iter_mut().zip(rates).for_each(|(change, rate)| *change += impulse * rate);
             residual.iter_mut().zip(forces).for_each(|(out, force)| *out -= impulse * force);
         }
+        for (impulse, answer) in impulses.iter().zip(&answers) {
+            let own = passed_on.iter_mut().zip(&answer.passed_on);
+            own.for_each(|(sum, passed)| *sum += impulse * passed);
+        }
         // What is left of `M (v⁺ - v⁻) - Gᵀ P` at supports is their impulse.
         self.add_inertia(1.0, &change, &mut residual);
         self.links.transmit(&self.bodies, &change, &mut residual);
+        let on_slaves = impulses.iter().zip(directions);
+        let on_slaves = on_slaves.map(|(impulse, (slider, unit))| (slider, unit * *impulse));
+        self.add_impulses_of_blow(&change, &passed_on, on_slaves);
         // Impulses of rigid links are no forces that go on.
         self.links.clear(&mut change);
         self.motion.jump(&change);
-        self.exchanged += self.supports.exchange_in_blow(&self.bodies, &residual);
+        self.exchanged.total += self.supports.exchange_in_blow(&self.bodies, &residual);
         if self.supports.prescribed().count() > 0 {
             let movements = self.supports.prescribed_mut();
-            self.exchanged +=
+            self.exchanged.total +=
                 movements.exchange_in_blow(&self.bodies, &residual, &self.motion.rates);
         }
     }

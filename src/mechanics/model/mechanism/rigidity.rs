@@ -50,13 +50,9 @@ impl Rigidity {
     /// What is rigid for a blow on a model in steps of such a length [time].
     pub(super) fn of(model: &Model, dt: f64) -> Self {
         let mut resistances = Vec::new();
-        model.each_span(&mut |degrees, span| {
-            for (&stiffness, row) in span.stiffness.iter().zip(span.strains.chunks(degrees.len())) {
-                if stiffness > 0.0 {
-                    let (degrees, strain) = (degrees.to_vec(), row.to_vec());
-                    resistances.push(Resistance { degrees, strain, stiffness });
-                }
-            }
+        each_resisting(model, |degrees, row, stiffness| {
+            let (degrees, strain) = (degrees.to_vec(), row.to_vec());
+            resistances.push(Resistance { degrees, strain, stiffness });
         });
         let inertia = model.diagonal_of_inertia();
         let mut resistance = vec![0.0; inertia.len()];
@@ -86,7 +82,14 @@ impl Rigidity {
     }
 
     /// Makes of a unit impulse what acts with all that section forces pass on, by the factors of the [`matrix`](Self::matrix).
-    pub(super) fn pass_on(&self, model: &mut Model, factors: &BandedLu<'_>, impulse: &mut [f64]) {
+    ///
+    /// Gives the impulses `n` of the section forces.
+    pub(super) fn pass_on(
+        &self,
+        model: &mut Model,
+        factors: &BandedLu<'_>,
+        impulse: &mut [f64],
+    ) -> Vec<f64> {
         let movements = model.unknowns();
         let (mut passed, mut rates) = (vec![0.0; self.resistances.len()], vec![0.0; movements]);
         for _ in 0..CORRECTIONS {
@@ -104,6 +107,7 @@ impl Rigidity {
             }
         }
         self.add_passed(&passed, -1.0, impulse);
+        passed
     }
 
     /// Adds a multiple of `Bᵀ n`.
@@ -113,4 +117,23 @@ impl Rigidity {
             degrees.iter().zip(strain).for_each(|(at, by)| out[*at] += by * passed);
         }
     }
+}
+
+/// Gives every strain that is resisted: the degrees of freedom that make it, by how much, and its stiffness.
+fn each_resisting(model: &Model, mut take: impl FnMut(&[usize], &[f64], f64)) {
+    model.each_span(&mut |degrees, span| {
+        let rows = span.stiffness.iter().zip(span.strains.chunks(degrees.len()));
+        let resisting = rows.filter(|(stiffness, _)| **stiffness > 0.0);
+        resisting.for_each(|(stiffness, row)| take(degrees, row, *stiffness));
+    });
+}
+
+/// Adds what section forces passed on in a blow, `Bᵀ n`, with the numbers that movements have at present; nothing where nothing was rigid.
+pub(super) fn add_passed_on(model: &Model, passed: &[f64], out: &mut [f64]) {
+    let mut passed = passed.iter();
+    each_resisting(model, |degrees, row, _| {
+        if let Some(passed) = passed.next() {
+            degrees.iter().zip(row).for_each(|(at, by)| out[*at] += by * passed);
+        }
+    });
 }

@@ -24,6 +24,12 @@ impl RigidLinks {
         self.all.iter_mut().zip(unknowns).for_each(|(link, own)| link.unknowns = own);
     }
 
+    /// Exchanges the unknowns of the forces of all rigid links for others, in their order.
+    pub fn exchange_unknowns(&mut self, unknowns: &mut [[usize; 2]]) {
+        let links = self.all.iter_mut().zip(unknowns);
+        links.for_each(|(link, own)| std::mem::swap(&mut link.unknowns, own));
+    }
+
     /// The number of rigid links.
     pub fn count(&self) -> usize {
         self.all.len()

@@ -2,6 +2,7 @@
 
 use super::Scene;
 use crate::beams::Relaxation;
+use crate::geometry::Vec2;
 use crate::joints::Slider;
 use crate::model::ModelError;
 use crate::model::elements::{Drag, Element, MaterialDamping};
@@ -28,6 +29,14 @@ impl Scene {
     /// The sliders that lose energy where they bounce.
     pub fn losing_sliders(&self) -> impl Iterator<Item = &Slider> + Clone {
         self.sliders.iter().filter(|slider| slider.restitution < 1.0)
+    }
+
+    /// The names of what drags in a wind.
+    pub fn blown(&self) -> impl Iterator<Item = &str> + Clone {
+        self.elements.iter().filter_map(|element| match element {
+            Element::Drag(drag) if drag.wind != Vec2::zeros() => Some(&*drag.name),
+            _ => None,
+        })
     }
 
     /// Gives the material of a beam, by its index, relaxation times: Kelvin–Voigt damping.
