@@ -19,7 +19,8 @@ const MOST_ARRIVALS: usize = 1500;
 const MOST_SOLVES: usize = 25_000;
 
 /// What may be said of a scene that no step takes further.
-const WORDS: [&str; 4] = ["is compressed to", "is stretched to", "presses on beam", "hovers at"];
+const WORDS: [&str; 5] =
+    ["is compressed to", "is stretched to", "presses on beam", "hovers at", "of the speed"];
 
 #[derive(Debug, Default, Clone)]
 struct Row {
