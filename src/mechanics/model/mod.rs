@@ -3,17 +3,17 @@
 mod assembly;
 mod bodies;
 mod elements;
+mod links;
 mod looking;
 mod mechanism;
 mod motion;
-mod rigid_links;
 mod scene;
 mod sliders;
 mod words;
 
 pub use elements::{
-    Anchor, Drag, Dragged, Drive, DriveKind, DriveState, Element, LoadAccount, MaterialDamping,
-    Origin, PointMass, RestoringLaw, SpeedLaw, Spring, SpringKind,
+    Anchor, DampingLaw, Drag, Dragged, Drive, DriveKind, DriveState, Element, LoadAccount,
+    MaterialDamping, Origin, PointMass, RestoringLaw, SpeedLaw, Spring, SpringKind,
 };
 pub use looking::{
     BeamPlaces, BeamSample, CrossSection, Distance, Part, Placement, SectionSample, Sensing,

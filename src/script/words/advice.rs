@@ -94,6 +94,9 @@ fn on_model(error: &ModelError) -> Option<String> {
         ModelError::NoPoint { .. } => {
             "name it in the points of scene.body(…); its centre is body.centre"
         }
+        ModelError::StartVelocity { .. } => {
+            "what turns about a place starts with spin: 2, about: [x, y]; what is joined to it with the velocity that it has there"
+        }
         ModelError::PointAlone { .. } => "give velocity and spin to scene.body(#{ … })",
         ModelError::StationOutside { .. } => "use beam.end for its end",
         ModelError::ParticleTurned { by, .. } => match by {

@@ -2,6 +2,7 @@
 //! [`Element`].
 
 mod all;
+mod damping_law;
 mod drag;
 mod drag_forces;
 mod drag_law;
@@ -28,6 +29,7 @@ mod supports;
 mod weight;
 
 pub use all::Elements;
+pub use damping_law::DampingLaw;
 pub use drag::{Drag, Dragged};
 pub use drag_law::SpeedLaw;
 pub use drive::{Drive, DriveKind};

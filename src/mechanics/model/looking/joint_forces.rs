@@ -23,6 +23,8 @@ struct Side {
 pub struct Transmission {
     /// For each component of movement, if the joint ties it.
     sides: [Option<Side>; 3],
+    /// Of an inclined roller: the unknown of its force, and the force on the point where that is one.
+    across: Option<(usize, Vec2)>,
 }
 
 impl Transmission {
@@ -34,7 +36,9 @@ impl Transmission {
                 side.sign * side.nodes.iter().map(|node| now.given(*node)[at]).sum::<f64>()
             })
         };
-        (Vec2::new(sum(Component::X), sum(Component::Y)), sum(Component::Rotation))
+        let force = Vec2::new(sum(Component::X), sum(Component::Y));
+        let across = self.across.map(|(unknown, unit)| unit * now.accelerations()[unknown]);
+        (across.unwrap_or(force), sum(Component::Rotation))
     }
 }
 
@@ -93,7 +97,9 @@ impl Model {
         let is_held = !has_let_go(Hold::Joint(joint));
         let ties = |component| is_held && all[joint].0.components().contains(&component);
         let sides = Component::ALL.map(|component| ties(component).then(|| side(component)));
-        Ok(Transmission { sides })
+        let mut rollers = self.links().rollers().filter(|(_, roller)| roller.joint == joint);
+        let across = rollers.next().map(|(unknown, roller)| (unknown, roller.force_of(1.0)));
+        Ok(Transmission { sides, across })
     }
 }
 

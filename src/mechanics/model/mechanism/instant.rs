@@ -15,6 +15,7 @@ use crate::geometry::Vec2;
 use crate::integrators::{Inertia, Mechanism, Stage};
 use crate::linalg::{BandedMatrix, LinearError};
 use crate::model::elements::{Iterate, collocation};
+use crate::model::links::InclinedRoller;
 use crate::model::{ModelError, SliderState};
 
 /// What acts at the present moment.
@@ -31,7 +32,7 @@ pub struct Instant {
 }
 
 impl Instant {
-    /// The accelerations of the unknown movements [length/time², 1/time²].
+    /// The accelerations of the unknown movements, forces of rigid links and rollers where their unknowns stand [length/time², 1/time²; force].
     pub fn accelerations(&self) -> &[f64] {
         &self.accelerations
     }
@@ -191,7 +192,26 @@ impl Model {
 
     /// What supports give at a place: force [force] and moment [force·length]; none where nothing is held.
     pub fn reaction(&self, now: &Instant, place: &Place) -> Option<(Vec2, f64)> {
+        let force =
+            |unknown: usize, roller: &InclinedRoller| roller.force_of(now.accelerations[unknown]);
+        self.held_by(place, &now.residual, force)
+    }
+
+    /// What supports and inclined rollers give at a place, by the residual of all degrees of freedom and the forces of rollers; none where nothing is held.
+    pub(super) fn held_by(
+        &self,
+        place: &Place,
+        residual: &[f64],
+        of_roller: impl Fn(usize, &InclinedRoller) -> Vec2,
+    ) -> Option<(Vec2, f64)> {
         let nodes = self.bodies.tied_nodes(place)?;
-        self.supports.force_on(&nodes, &self.rigid_bodies_of(&nodes), &now.residual)
+        let held = self.supports.force_on(&nodes, &self.rigid_bodies_of(&nodes), residual);
+        match self.links.force_of_rollers(&nodes, of_roller) {
+            Some(across) => {
+                let (force, moment) = held.unwrap_or_default();
+                Some((force + across, moment))
+            }
+            None => held,
+        }
     }
 }
