@@ -24,7 +24,7 @@ pub fn add_body(
     let names = ('a'..).map(String::from);
     let points = names.zip(points.iter().copied()).collect();
     let motion = StartMotion::default();
-    let body = RigidBodyDefinition { name, position, angle, points, motion };
+    let body = RigidBodyDefinition { name, position, angle, points, outline: Vec::new(), motion };
     scene.add_rigid_body(body, mass, inertia).unwrap()
 }
 

@@ -403,7 +403,14 @@ pub fn flywheels(mesh: &Mesh) -> Scene {
     scene.beams[beam].motion = motion;
     for (end, kind) in ends.into_iter().zip(joints) {
         let (name, position) = (scene.free_name("body"), scene.drawn_at(&end).unwrap());
-        let body = RigidBodyDefinition { name, position, angle: 0.2, points: Vec::new(), motion };
+        let body = RigidBodyDefinition {
+            name,
+            position,
+            angle: 0.2,
+            points: Vec::new(),
+            outline: Vec::new(),
+            motion,
+        };
         let body = scene.add_rigid_body(body, 0.6, 0.15).unwrap();
         scene.join(kind, Station::on_rigid_body(body, 0), Partner::Station(end)).unwrap();
     }

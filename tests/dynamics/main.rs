@@ -16,6 +16,7 @@ mod drives;
 mod going_back;
 mod invariants;
 mod literature;
+mod mean_forces;
 mod meshes;
 mod notes;
 mod orders;

@@ -2,7 +2,9 @@
 
 mod acceleration;
 mod energies;
+mod given;
 mod impact;
+mod impulses;
 mod inertia;
 mod instant;
 mod letting_go;
@@ -14,6 +16,7 @@ mod steps;
 mod stiffness;
 
 pub use energies::BodyEnergy;
+pub use given::Given;
 pub use instant::Instant;
 pub(in crate::model) use letting_go::Numbers;
 pub use measures::{Energy, Measures};
@@ -21,6 +24,8 @@ pub use order_at_rest::OrderAtRest;
 pub use rest::StaticForces;
 pub use state::ModelState;
 pub use stiffness::add_resistance;
+
+use impulses::Exchanged;
 
 use super::bodies::Bodies;
 use super::elements::{Elements, Exchange, Supports};
@@ -38,8 +43,7 @@ pub struct Model {
     supports: Supports,
     unknowns: Unknowns,
     motion: Motion,
-    /// Since the start.
-    exchanged: Exchange,
+    exchanged: Exchanged,
     step: Step,
     /// A state to go back to, for methods whose steps have parts.
     kept: ModelState,
@@ -65,7 +69,7 @@ impl Model {
             supports,
             unknowns,
             motion,
-            exchanged: Exchange::default(),
+            exchanged: Exchanged::default(),
             step: Step::new(degrees_of_freedom),
             kept: ModelState::default(),
         }
@@ -74,7 +78,7 @@ impl Model {
     /// Begins the motion: what supports gave to make velocities fit is not counted, and the first step is guessed from the rates
     /// as they are now.
     pub(super) fn begin(&mut self) {
-        self.exchanged = Exchange::default();
+        self.exchanged.total = Exchange::default();
         let inertia = self.diagonal_of_inertia();
         self.motion.begin(inertia);
     }

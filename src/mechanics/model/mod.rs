@@ -20,7 +20,7 @@ pub use looking::{
     SpringState, Transmission, Usage,
 };
 pub use mechanism::{
-    BodyEnergy, Energy, Instant, Measures, Model, ModelState, OrderAtRest, StaticForces,
+    BodyEnergy, Energy, Given, Instant, Measures, Model, ModelState, OrderAtRest, StaticForces,
     add_resistance,
 };
 pub use motion::{Resolution, UnknownKind};

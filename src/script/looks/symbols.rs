@@ -121,6 +121,18 @@ pub fn symbols(
     Ok(placed.chain(springs.flat_map(|spring| of_spring(spring, &mut ends))).collect())
 }
 
+/// The most symbols of supports, joints and sliders that do not hide what they stand on.
+const MOST_HOLDING: usize = 60;
+
+/// The symbols without those of supports, joints and sliders where there are too many of these.
+pub fn uncrowded(symbols: Vec<PlacedSymbol>) -> Vec<PlacedSymbol> {
+    let holds = |placed: &PlacedSymbol| placed.symbol.holds();
+    match symbols.iter().filter(|placed| holds(placed)).count() > MOST_HOLDING {
+        true => symbols.into_iter().filter(|placed| !holds(placed)).collect(),
+        false => symbols,
+    }
+}
+
 /// The symbols of a spring, whose stations come next among the places found: a tendon has one for each part of its way.
 fn of_spring(spring: &Spring, found: &mut impl Iterator<Item = Vec2>) -> Vec<PlacedSymbol> {
     let place = |anchor: &Anchor| match anchor {

@@ -3,6 +3,7 @@
 use std::error::Error;
 
 use crate::beams::BeamError;
+use crate::integrators::StepError;
 use crate::loads::LoadError;
 use crate::model::{Approach, ModelError, SliderError, Turning};
 use crate::simulation::{ArchiveError, SimulationError};
@@ -28,6 +29,9 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
         SimulationError::Step { .. } | SimulationError::Smallest { .. } => {
             "the history up to there is kept; try a smaller dt or a finer mesh, and check loads, stiffness, units and what is held".into()
         }
+        SimulationError::Load { source: StepError::FastAsWaves { .. } } => {
+            "the history up to there is kept; give the slider rule: conserving(), or its master a larger GA".into()
+        }
         SimulationError::Load { .. } => "a load needs a finite value at all times".into(),
         SimulationError::Tolerance { .. } => {
             "the history up to there is kept; give a larger tolerance or a smaller step: adaptive(#{ tolerance: …, smallest: … }); adaptive steps \
@@ -36,6 +40,9 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
         }
         SimulationError::Ended { .. } => {
             "give the slider the option ends: \"bounce\" or \"release\" to go on, or ask sim.ended before a step".into()
+        }
+        SimulationError::NoMean { sensor, .. } => {
+            format!("record \"{}\"", sensor.replace(".mean_", "."))
         }
         SimulationError::Rattles { .. } => "try ends: \"release\" or \"stop\"".into(),
         SimulationError::FewerSteps { .. } => "sim.rewind(0) leads to the start".into(),

@@ -30,6 +30,19 @@ impl Links {
         self.rollers.iter_mut().zip(rollers).for_each(|(roller, own)| roller.unknown = own);
     }
 
+    /// Exchanges the unknowns of the forces of all rigid links and rollers for others, in their order.
+    pub fn exchange_unknowns(&mut self, rigid: &mut [[usize; 2]], rollers: &mut [Option<usize>]) {
+        let links = self.rigid.iter_mut().zip(rigid);
+        links.for_each(|(link, own)| std::mem::swap(&mut link.unknowns, own));
+        let all = self.rollers.iter_mut().zip(rollers);
+        all.for_each(|(roller, own)| std::mem::swap(&mut roller.unknown, own));
+    }
+
+    /// All inclined rollers, also those that have let go.
+    pub fn all_rollers(&self) -> &[InclinedRoller] {
+        &self.rollers
+    }
+
     /// The number of rigid links.
     pub fn count(&self) -> usize {
         self.rigid.len()
@@ -50,14 +63,15 @@ impl Links {
         2 * self.rigid.len() + self.rollers().count()
     }
 
-    /// The force of the rollers on some nodes, bodies and control points, by the force of each [force]; none where there is no roller.
+    /// The force of the rollers on some nodes, bodies and control points, by the force of each, by its index [force]; none where there is no roller.
     pub fn force_of_rollers(
         &self,
         nodes: &[(usize, usize)],
-        force: impl Fn(usize, &InclinedRoller) -> Vec2,
+        force: impl Fn(usize) -> Vec2,
     ) -> Option<Vec2> {
-        let there = self.rollers().filter(|(_, roller)| nodes.contains(&roller.node));
-        there.map(|(unknown, roller)| force(unknown, roller)).reduce(|sum, force| sum + force)
+        let all = self.rollers.iter().enumerate();
+        let there = all.filter(|(_, at)| at.unknown.is_some() && nodes.contains(&at.node));
+        there.map(|(index, _)| force(index)).reduce(|sum, force| sum + force)
     }
 
     /// Prepares a step of some duration [time].

@@ -151,15 +151,18 @@ impl Model {
         self.links.transmit(&self.bodies, &change, &mut residual);
         for (unknown, roller) in self.links.rollers() {
             let (impulse, place) = (roller.force_of(change[unknown]), roller.place(&self.bodies));
-            self.exchanged += Exchange::of(0.0, impulse, cross(place, impulse));
+            self.exchanged.total += Exchange::of(0.0, impulse, cross(place, impulse));
         }
+        let on_slaves = impulses.iter().zip(directions);
+        let on_slaves = on_slaves.map(|(impulse, (slider, unit))| (*slider, unit * *impulse));
+        self.add_impulses_of_blow(&change, on_slaves);
         // Impulses of rigid links are no forces that go on.
         self.links.clear(&mut change);
         self.motion.jump(&change);
-        self.exchanged += self.supports.exchange_in_blow(&self.bodies, &residual);
+        self.exchanged.total += self.supports.exchange_in_blow(&self.bodies, &residual);
         if self.supports.prescribed().count() > 0 {
             let movements = self.supports.prescribed_mut();
-            self.exchanged +=
+            self.exchanged.total +=
                 movements.exchange_in_blow(&self.bodies, &residual, &self.motion.rates);
         }
         Ok(impulses)

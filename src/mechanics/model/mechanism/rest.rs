@@ -132,6 +132,6 @@ impl Model {
     ///
     /// Where several bodies are tied to the place, the supports hold all of them.
     pub fn support_force(&self, place: &Place, forces: &[f64]) -> Option<(Vec2, f64)> {
-        self.held_by(place, forces, |_, roller| roller.force())
+        self.held_by(place, forces, |roller| self.links.all_rollers()[roller].force())
     }
 }

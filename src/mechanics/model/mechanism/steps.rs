@@ -240,12 +240,13 @@ impl Mechanism for Model {
     }
 
     fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), StepError> {
-        let Self { bodies, elements, links, supports, motion, step, unknowns, .. } = self;
+        let Self { bodies, elements, links, sliders, supports, motion, step, unknowns, .. } = self;
         let refused = |(load, error)| StepError::Load { interval, load, source: Cause::new(error) };
         let rotations = collocation(stages.first().copied().unwrap_or(Stage::Midpoint)).rotations;
         let movements = supports.prescribed_mut();
         movements.begin_step(interval, rotations, &motion.rates).map_err(refused)?;
         links.begin_step(interval.duration());
+        sliders.begin_step(bodies, &motion.rates, interval)?;
         elements.begin_step(interval, stages).map_err(refused)?;
         bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
         let knows_accelerations = motion.accelerations.known().is_some();
@@ -258,17 +259,19 @@ impl Mechanism for Model {
     }
 
     fn advance(&mut self, solution: &Solution<'_>) {
-        let Solution { increments, constraints, rates, residual } = *solution;
+        let Solution { increments, constraints, rates, residual, .. } = *solution;
+        self.add_impulses_of_step(solution);
         let is_driven = self.supports.prescribed().count() > 0;
         if is_driven {
             self.meet_given(rates);
         }
         self.bodies.gather(increments);
-        self.exchanged += self.exchange_in_step(increments, residual);
+        self.exchanged.total += self.exchange_in_step(increments, residual);
         if is_driven {
             let prescribed = self.exchange_of_drives(rates, residual);
-            self.exchanged += prescribed;
+            self.exchanged.total += prescribed;
         }
+        self.sliders.close(&self.bodies, increments, constraints);
         self.elements.advance(&self.bodies, self.step.rotations);
         self.bodies.advance(self.step.rotations);
         let arms = ArmRule { rotations: self.step.rotations, share: 0.5 };

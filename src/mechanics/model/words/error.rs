@@ -44,6 +44,14 @@ pub enum ModelError {
         /// The length of the beam whose station was asked for [length].
         length: f64,
     },
+    /// An outline of a rigid body that cannot be drawn.
+    #[error("the outline of body '{body}' cannot be drawn: {why}")]
+    Outline {
+        /// The name of the rigid body.
+        body: String,
+        /// Why.
+        why: &'static str,
+    },
     /// A point that a rigid body does not have.
     #[error("body '{body}' has no point '{point}'; it has {}", if known.is_empty() { "none but its centre" } else { known })]
     NoPoint {
