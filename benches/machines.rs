@@ -50,6 +50,7 @@ fn bodies(count: usize) -> Scene {
             name: format!("body{number}"),
             position: Vec2::new(number as f64 + 0.5, 0.0),
             angle: 0.0,
+            outline: Vec::new(),
             points: vec![
                 ("left".to_owned(), Vec2::new(-0.5, 0.0)),
                 ("right".to_owned(), Vec2::new(0.5, 0.0)),
