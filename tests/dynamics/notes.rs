@@ -205,6 +205,34 @@ fn a_slider_that_passes_more_than_a_span_in_a_step_is_told() {
     assert_eq!(passing(9.0).notes(), []);
 }
 
+/// A pendulum of a beam, solved as well as a tolerance asks for.
+fn solved_to(tolerance: f64) -> Simulation {
+    let mut scene = Scene::new("pendulum");
+    let soft = Section {
+        axial_stiffness: 1e3,
+        shear_stiffness: 1e3,
+        bending_stiffness: 1.0,
+        mass_per_length: 1.0,
+        rotary_inertia: 1e-3,
+    };
+    let bar = beam(&mut scene, at(1.0, 0.0), 4, soft);
+    scene.join(JointKind::Hinge, Station::on_beam(bar, 0.0), Partner::Ground).unwrap();
+    scene.gravity = at(0.0, -9.81);
+    let mut settings = settings(Method::EnergyMomentum, 0.02);
+    let loose = &mut settings.tolerance;
+    [loose.force, loose.strain, loose.polish] = [tolerance; 3];
+    let mut simulation = Simulation::start(scene, settings).unwrap();
+    simulation.run_to(2.0, &mut Unwatched).unwrap();
+    simulation
+}
+
+#[test]
+fn an_energy_that_is_not_kept_as_promised_is_told() {
+    let told = |notes: Vec<Note>| notes.iter().any(|note| matches!(note, Note::Drift { .. }));
+    assert!(told(solved_to(1e-3).notes()));
+    assert!(!told(solved_to(1e-11).notes()));
+}
+
 #[test]
 fn notes_are_those_of_the_steps_behind_the_present() {
     let mut simulation =

@@ -1,10 +1,10 @@
 //! The equations of one step, and the work space to solve them: what all integrators here share.
 
 use super::prescribed::BalancedAt;
-use super::{Interval, Mechanism, Solution, Stage, StepError};
+use super::{Culprit, Interval, Mechanism, Solution, Stage, StepError};
 use crate::elementary::square;
 use crate::linalg::BorderedMatrix;
-use crate::newton::{Equations, Imbalance, Newton, NewtonReport, Tolerance};
+use crate::newton::{Equations, Imbalance, Newton, NewtonError, NewtonReport, Tolerance};
 
 /// The largest increment `Δω`, mean rate times step: beyond it a turn cannot be told from one the other way round.
 const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
@@ -60,6 +60,16 @@ impl StepBalance<'_> {
         }
         residual.iter_mut().zip(self.carried).for_each(|(r, carried)| *r += carried);
         self.mechanism.add_inertia(self.inertia(), deviation, residual);
+    }
+
+    /// What a solve failed at.
+    fn culprit(&mut self, error: &NewtonError, residual: &[f64]) -> Option<Culprit> {
+        if let NewtonError::Linear { source, .. } = error {
+            return Some(Culprit::Unknown(source.unknown()));
+        }
+        let part = error.history().last()?.worst();
+        let Rule { stage, weight, .. } = self.rule;
+        self.mechanism.worst(part, stage, (self.increments, weight), residual)
     }
 
     /// `ι/Δt²`
@@ -198,10 +208,20 @@ impl StepSolver {
             increments: &mut self.increments,
             movements: self.coasting.len(),
         };
-        let report = self
-            .newton
-            .solve(&mut balance, &mut self.unknowns, &mut self.residual)
-            .map_err(|source| StepError::Newton { interval, source, before: 0 })?;
+        let solved = self.newton.solve(&mut balance, &mut self.unknowns, &mut self.residual);
+        let report = match solved {
+            Ok(report) => report,
+            Err(source) => {
+                let culprit = balance.culprit(&source, &self.residual);
+                let source = Box::new(source);
+                return Err(StepError::Newton {
+                    interval,
+                    source,
+                    before: 0,
+                    culprit: culprit.map(Box::new),
+                });
+            }
+        };
         let rotation = balance.mechanism.largest_rotation();
         let is_resolved = rotation < LARGEST_INCREMENT;
         if !is_resolved {

@@ -45,18 +45,39 @@ impl Error for Cause {
     }
 }
 
+/// What of a mechanism a step fails at.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Culprit {
+    /// The equation, or the matrix, of an unknown, by its number.
+    Unknown(usize),
+    /// A body, by its number among all.
+    Body(usize),
+    /// Something with a name.
+    Named(String),
+}
+
+/// The end of a message about a step that fails at something, if its name is known.
+fn at(culprit: Option<&Culprit>) -> String {
+    match culprit {
+        Some(Culprit::Named(name)) => format!("; it fails at {name}"),
+        _ => String::new(),
+    }
+}
+
 /// A step that was refused; the mechanism is still at its start.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepError {
     /// The equations of the step were not solved.
-    #[error("the step of {:.3e} from t = {} failed: {source}", interval.duration(), interval.start)]
+    #[error("the step of {:.3e} from t = {} failed: {source}{}", interval.duration(), interval.start, at(culprit.as_deref()))]
     Newton {
         /// The interval of the step whose equations were not solved [time].
         interval: Interval,
         /// The solver's reason for finding no solution, with its residual history.
-        source: NewtonError,
+        source: Box<NewtonError>,
         /// The number of Newton iterations that parts of the refused step took before.
         before: usize,
+        /// What the solver failed at, if that is known.
+        culprit: Option<Box<Culprit>>,
     },
     /// The mean rate of a section times the step reaches π: such a turn is not resolved.
     #[error(
@@ -143,7 +164,9 @@ impl StepError {
     /// The error of a part of a step, told of the whole step, of which earlier parts took `before` Newton iterations.
     pub(super) fn of_whole(self, interval: Interval, before: usize) -> Self {
         match self {
-            Self::Newton { source, .. } => Self::Newton { interval, source, before },
+            Self::Newton { source, culprit, .. } => {
+                Self::Newton { interval, source, before, culprit }
+            }
             Self::Rotation { rotation, iterations, .. } => {
                 Self::Rotation { interval, rotation, iterations: iterations + before }
             }

@@ -1,7 +1,8 @@
 //! What an integrator may ask of the mechanical system that it advances.
 
-use super::{Interval, PrescribedKinematics, StepError};
+use super::{Culprit, Interval, PrescribedKinematics, StepError};
 use crate::linalg::{BandedMatrix, BlockLayout, Border, BorderShape};
+use crate::newton::Part;
 
 /// The place in a step where forces are taken. Increments are counted from the start of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,6 +66,18 @@ pub trait Forces {
 
     /// The largest residual of a movement, relative to the forces that balance in this step [-].
     fn relative_imbalance(&self, residual: &[f64]) -> f64;
+
+    /// What is worst in an iterate, of that part of its imbalance which is, and where the residual was this one; `iterate` are the increments and the
+    /// weight of the forces. For messages.
+    fn worst(
+        &mut self,
+        _part: Part,
+        _stage: Stage,
+        _iterate: (&[f64], f64),
+        _residual: &[f64],
+    ) -> Option<Culprit> {
+        None
+    }
 
     /// The largest rotation increment `Δω` that the last forces met at any section [rad].
     fn largest_rotation(&self) -> f64;

@@ -15,7 +15,7 @@ mod trapezoidal;
 
 pub use energy_decaying::EnergyDecaying;
 pub use energy_momentum::EnergyMomentum;
-pub use error::{Cause, StepError};
+pub use error::{Cause, Culprit, StepError};
 pub use fourth_order::FourthOrder;
 pub use generalized_alpha::GeneralizedAlpha;
 pub use integrator::Integrator;

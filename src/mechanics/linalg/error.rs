@@ -24,8 +24,8 @@ pub enum LinearError {
 }
 
 impl LinearError {
-    /// The column of which the error tells.
-    pub(super) fn unknown(self) -> usize {
+    /// The index of the column of which the error tells, from 0.
+    pub fn unknown(self) -> usize {
         let (Self::Singular { unknown, .. } | Self::NotFinite { unknown, .. }) = self;
         unknown
     }

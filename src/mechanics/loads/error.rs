@@ -79,6 +79,22 @@ pub enum LoadError {
     /// The stored terms of a schedule of which some are missing or left over.
     #[error("a stored schedule has terms missing or left over")]
     StoredTerms,
+    /// A motion that jumps.
+    #[error("it jumps at t = {time} from {before} to {after}, and a motion has to be continuous")]
+    Jump {
+        /// The time at which the motion jumps [time].
+        time: f64,
+        /// The value just before the jump [length, rad].
+        before: f64,
+        /// The value just after the jump [length, rad].
+        after: f64,
+    },
+    /// A motion with an infinite rate.
+    #[error("its rate is infinite at t = {time}, as that of √t is at 0")]
+    InfiniteRate {
+        /// The time at which the rate of the motion is infinite [time].
+        time: f64,
+    },
     /// A function that failed.
     #[error(transparent)]
     Function(FunctionError),

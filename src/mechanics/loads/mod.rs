@@ -1,5 +1,6 @@
 //! Loads and how they change with time, and motions that are given.
 
+mod continuity;
 mod error;
 mod load;
 mod prescribed_motion;

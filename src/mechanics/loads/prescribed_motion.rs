@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::continuity::{jump_at_start, jump_between};
 use super::{LoadError, Schedule, Side};
 
 /// A motion that is given: by its place or by its rate.
@@ -18,6 +19,10 @@ pub enum PrescribedMotion {
 pub struct MotionInStep {
     /// How far it leads in the step [length, rad].
     pub moved: f64,
+    /// The rate of the motion at the start of the step, from inside the step [length/time, rad/time].
+    pub first_rate: f64,
+    /// What rounding makes of that [length/time, rad/time].
+    pub rounding: f64,
     /// The rate of the motion at the end of the step, from inside the step [length/time, rad/time].
     pub rate: f64,
     /// The derivative of the rate at the start and at the end, from inside the step [length/time², rad/time²].
@@ -45,6 +50,9 @@ const RATE_AT_END: [f64; 5] = [0.5, 2.0 / (-1.0 - INNER), 2.0, 2.0 / (INNER - 1.
 /// Its second derivative there.
 const BENT_AT_END: [f64; 5] = [5.0, 12.0 * INNER - 20.0, 18.0, -12.0 * INNER - 20.0, 17.0];
 
+/// How many roundings of its values a rate is off by at most, in parts of a step.
+const ROUNDINGS: f64 = 1e3;
+
 /// The beginning of a motion is looked for in spans of time from one unit of time on, each of which is this part of the one before.
 const SHRINKS: f64 = 0.125;
 
@@ -65,15 +73,20 @@ impl PrescribedMotion {
     /// degree four through five of its values in the step, so that no kink at its ends is seen through.
     ///
     /// # Errors
-    /// When the function fails or a value is not finite.
+    /// When the function fails, a value is not finite, or a place jumps or has an infinite rate.
     pub fn over(&self, start: f64, end: f64, duration: f64) -> Result<MotionInStep, LoadError> {
         match self {
             Self::Place(schedule) => {
                 let values = values_in(schedule, start, end)?;
+                if let Some(jump) = jump_between(schedule, &nodes(start, end), &values)? {
+                    return Err(jump.refused());
+                }
                 let scale = 2.0 / duration;
                 let backwards = reversed(values);
                 Ok(MotionInStep {
                     moved: values[4] - values[0],
+                    first_rate: -scale * sum(&RATE_AT_END, &backwards),
+                    rounding: ROUNDINGS * scale.abs() * f64::EPSILON * size_of(&values),
                     rate: scale * sum(&RATE_AT_END, &values),
                     accelerations: [backwards, values]
                         .map(|values| scale * scale * sum(&BENT_AT_END, &values)),
@@ -88,8 +101,27 @@ impl PrescribedMotion {
                     (first + 3.0 * last - 4.0 * middle) / duration,
                 ];
                 let moved = duration * schedule.mean(start, end)?;
-                Ok(MotionInStep { moved, rate: last, accelerations })
+                let jump = jump_between(
+                    schedule,
+                    &[start, 0.5 * (start + end), end],
+                    &[first, middle, last],
+                )?;
+                // A rate that jumps is a motion that bends: it would have begun as it ends.
+                let first_rate = jump.map_or(first, |_| last);
+                let rounding = ROUNDINGS * f64::EPSILON * size_of(&[first, middle, last]);
+                Ok(MotionInStep { moved, first_rate, rounding, rate: last, accelerations })
             }
+        }
+    }
+
+    /// Refuses a motion whose place, or whose rate where that is given, jumps just after the start.
+    ///
+    /// # Errors
+    /// Then; also when the function fails or a value is not finite.
+    pub fn check_start(&self) -> Result<(), LoadError> {
+        match jump_at_start(self.schedule())? {
+            Some(jump) if matches!(self, Self::Place(_)) || jump.is_whole => Err(jump.refused()),
+            _ => Ok(()),
         }
     }
 
@@ -157,14 +189,23 @@ impl PrescribedMotion {
     }
 }
 
-fn values_in(schedule: &Schedule, start: f64, end: f64) -> Result<[f64; 5], LoadError> {
+fn size_of(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |size, value| size.max(value.abs()))
+}
+
+/// The times of a step at which a place is asked for.
+fn nodes(start: f64, end: f64) -> [f64; 5] {
     let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
+    NODES.map(|node| middle + half * node)
+}
+
+fn values_in(schedule: &Schedule, start: f64, end: f64) -> Result<[f64; 5], LoadError> {
     let mut values = [0.0; 5];
-    for (at, (value, node)) in values.iter_mut().zip(NODES).enumerate() {
+    for (at, (value, time)) in values.iter_mut().zip(nodes(start, end)).enumerate() {
         *value = match at {
             0 => schedule.value(start, Side::After)?,
             4 => schedule.value(end, Side::Before)?,
-            _ => schedule.value(middle + half * node, Side::After)?,
+            _ => schedule.value(time, Side::After)?,
         };
     }
     Ok(values)

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use std::cell::Cell;
 use std::f64::consts::PI;
 use std::rc::Rc;
 
@@ -51,6 +52,8 @@ pub enum Schedule {
         /// The times at which the function jumps or bends [time].
         breaks: Vec<f64>,
     },
+    /// What a sampled controller says: a value that somebody outside sets at the start of every step, and that holds for it.
+    Sampled(Rc<Cell<f64>>),
     /// A schedule that is the sum or the product of two others.
     Combined {
         /// Whether the two schedules are added or multiplied.
@@ -105,6 +108,12 @@ fn check_positive(schedule: &'static str, name: &'static str, value: f64) -> Res
     check(schedule, name, value, "a positive finite number", value.is_finite() && value > 0.0)
 }
 
+fn check_times(schedule: &'static str, from: f64, to: f64) -> Result<(), LoadError> {
+    check_finite(schedule, "the first time", from)?;
+    let (allowed, fine) = ("a finite time later than the first one", to.is_finite() && to > from);
+    check(schedule, "the last time", to, allowed, fine)
+}
+
 impl Schedule {
     /// The schedule with the same factor [-] at all times.
     ///
@@ -129,14 +138,7 @@ impl Schedule {
     /// # Errors
     /// When the times are not finite, or `to` is not later than `from`.
     pub fn ramp(from: f64, to: f64) -> Result<Self, LoadError> {
-        check_finite("ramp", "the first time", from)?;
-        check(
-            "ramp",
-            "the last time",
-            to,
-            "a finite time later than the first one",
-            to.is_finite() && to > from,
-        )?;
+        check_times("ramp", from, to)?;
         Ok(Self::Table(vec![(from, 0.0), (to, 1.0)]))
     }
 
@@ -145,14 +147,7 @@ impl Schedule {
     /// # Errors
     /// When the times are not finite, or `to` is not later than `from`.
     pub fn pulse(from: f64, to: f64) -> Result<Self, LoadError> {
-        check_finite("pulse", "the first time", from)?;
-        check(
-            "pulse",
-            "the last time",
-            to,
-            "a finite time later than the first one",
-            to.is_finite() && to > from,
-        )?;
+        check_times("pulse", from, to)?;
         Ok(Self::Table(vec![(from, 0.0), (from, 1.0), (to, 1.0), (to, 0.0)]))
     }
 
@@ -213,9 +208,18 @@ impl Schedule {
     /// The number of functions from outside that the schedule is made of; [`value`](Self::value) calls each of them once.
     pub fn functions(&self) -> usize {
         match self {
-            Self::Function { .. } => 1,
+            Self::Function { .. } | Self::Sampled(_) => 1,
             Self::Combined { parts, .. } => parts.0.functions() + parts.1.functions(),
             _ => 0,
+        }
+    }
+
+    /// Whether a part of the schedule is what a sampled controller says.
+    pub fn is_sampled(&self) -> bool {
+        match self {
+            Self::Sampled(_) => true,
+            Self::Combined { parts, .. } => parts.0.is_sampled() || parts.1.is_sampled(),
+            _ => false,
         }
     }
 
@@ -244,6 +248,7 @@ impl Schedule {
                 let time = if from_before { time.next_down() } else { time };
                 function(time).map_err(LoadError::Function)?
             }
+            Self::Sampled(value) => value.get(),
             Self::Combined { operation, parts, .. } => {
                 let (a, b) = (parts.0.value(time, side)?, parts.1.value(time, side)?);
                 match operation {
@@ -274,7 +279,7 @@ impl Schedule {
     /// The times at which the schedule jumps or bends; steps should end there.
     pub fn breaks(&self) -> Vec<f64> {
         match self {
-            Self::Constant(_) | Self::Sine { .. } => Vec::new(),
+            Self::Constant(_) | Self::Sine { .. } | Self::Sampled(_) => Vec::new(),
             Self::Table(rows) => rows.iter().map(|(time, _)| *time).collect(),
             Self::SmoothPulse { duration } => vec![0.0, *duration],
             Self::Function { breaks, .. } => breaks.clone(),
@@ -285,7 +290,9 @@ impl Schedule {
     /// Whether the schedule may have different values just before and just after a time.
     pub fn may_jump_at(&self, time: f64) -> bool {
         match self {
-            Self::Constant(_) | Self::Sine { .. } | Self::SmoothPulse { .. } => false,
+            Self::Constant(_) | Self::Sine { .. } | Self::SmoothPulse { .. } | Self::Sampled(_) => {
+                false
+            }
             Self::Table(rows) => rows.windows(2).any(|pair| pair[0].0 == time && pair[1].0 == time),
             Self::Function { breaks, .. } => breaks.contains(&time),
             Self::Combined { parts, .. } => parts.0.may_jump_at(time) || parts.1.may_jump_at(time),
@@ -307,6 +314,7 @@ impl Schedule {
             Self::Sine { amplitude, rate, phase } => format!("sine({amplitude}, {rate}, {phase})"),
             Self::SmoothPulse { duration } => format!("smooth_pulse({duration})"),
             Self::Function { .. } => "schedule(|t| …)".to_owned(),
+            Self::Sampled(_) => "controller |t, q| …".to_owned(),
             Self::Combined { size, .. } if *size > 8 => format!("combination of {size} schedules"),
             Self::Combined { operation, parts, .. } => match operation {
                 Operation::Sum => format!("({} + {})", parts.0.describe(), parts.1.describe()),

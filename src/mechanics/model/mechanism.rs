@@ -1,6 +1,7 @@
 //! The model: bodies, elements, rigid links and sliders, their present motion, and what can be done with them.
 
 mod acceleration;
+mod culprit;
 mod energies;
 mod given;
 mod impact;

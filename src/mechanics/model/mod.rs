@@ -12,8 +12,8 @@ mod sliders;
 mod words;
 
 pub use elements::{
-    Anchor, DampingLaw, Drag, Dragged, Drive, DriveKind, DriveState, Element, LoadAccount,
-    MaterialDamping, Origin, PointMass, RestoringLaw, SpeedLaw, Spring, SpringKind,
+    Anchor, Bend, DampingLaw, Drag, Dragged, Drive, DriveKind, DriveState, Element, LoadAccount,
+    MaterialDamping, Origin, PointMass, RestoringLaw, ShortBounce, SpeedLaw, Spring, SpringKind,
 };
 pub use looking::{
     BeamPlaces, BeamSample, CrossSection, Distance, Part, Placement, SectionSample, Sensing,

@@ -19,12 +19,32 @@ impl Imbalance {
         [self.force, self.strain, self.constraint].iter().all(|part| part.is_finite())
     }
 
+    /// Which part of the imbalance is the largest, or no number.
+    pub fn worst(&self) -> Part {
+        let others = [(Part::Strain, self.strain), (Part::Constraint, self.constraint)];
+        let worst = |worst: (Part, f64), other: (Part, f64)| {
+            if other.1 > worst.1 || other.1.is_nan() { other } else { worst }
+        };
+        others.into_iter().fold((Part::Force, self.force), worst).0
+    }
+
     /// The largest part of the imbalance [-]; NaN if one of them is not a number.
     pub fn largest(&self) -> f64 {
         [self.strain, self.constraint].into_iter().fold(self.force, |largest, part| {
             if part > largest || part.is_nan() { part } else { largest }
         })
     }
+}
+
+/// A part of an imbalance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// Forces that are not balanced.
+    Force,
+    /// Strains that do not match.
+    Strain,
+    /// Constraints that are violated.
+    Constraint,
 }
 
 /// Nonlinear equations `R(u) = 0` in which unknowns of the integration points may hide.

@@ -4,6 +4,7 @@ use super::StepControl;
 use super::controller::{Controller, Pace};
 use super::doubling::Doubling;
 use super::first_step::{first_step, length_of};
+use super::resampling::Resampling;
 use crate::elementary::power;
 use crate::integrators::{Interval, Method};
 use crate::model::{Model, Scene};
@@ -21,6 +22,8 @@ const ROUNDINGS: f64 = 64.0;
 pub(super) struct Adaptive {
     pub(super) controller: Controller,
     pub(super) doubling: Doubling,
+    /// Where controllers are asked.
+    pub(super) resampling: Option<Resampling>,
     pub(super) tolerance: f64,
 }
 
@@ -33,10 +36,19 @@ pub(super) struct Plan {
     pub(super) is_least: bool,
 }
 
+/// The order of a method in a scene. What damps vibration by strains is of second order where nothing strains: it damps nothing there.
+fn order_of(method: Method, scene: &Scene) -> u32 {
+    let strains = !scene.beams.is_empty() || scene.springs().next().is_some();
+    match method {
+        Method::EnergyDecaying { .. } if !strains => Method::EnergyMomentum.entry().claims.order,
+        method => method.entry().claims.order,
+    }
+}
+
 impl Adaptive {
     /// The control of steps of varying size for a scene at its start.
     pub(super) fn new(control: &StepControl, method: Method, scene: &Scene, model: &Model) -> Self {
-        let order = method.entry().claims.order;
+        let order = order_of(method, scene);
         let least = control.smallest.unwrap_or(0.0);
         let most = control.largest.unwrap_or(f64::INFINITY);
         let first = control.first.unwrap_or_else(|| first_step(scene, model).clamp(least, most));
@@ -44,8 +56,10 @@ impl Adaptive {
         let smallest = control.smallest.unwrap_or(SMALLEST * first);
         let controller = Controller { order: f64::from(order + 1), first, smallest, largest };
         let allowed = power(control.tolerance, 1.0 + 1.0 / f64::from(order));
-        let doubling = Doubling::new(order, length_of(scene, model), allowed);
-        Self { controller, doubling, tolerance: control.tolerance }
+        let length = length_of(scene, model);
+        let doubling = Doubling::new(order, length, allowed);
+        let resampling = Resampling::of(scene, length, control.tolerance);
+        Self { controller, doubling, resampling, tolerance: control.tolerance }
     }
 
     /// The next step from `now` on, when something stops it at the time `stop` at the latest [time].

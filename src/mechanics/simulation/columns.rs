@@ -117,12 +117,14 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
     let of_springs = scene.springs().flat_map(of_spring);
     let of_drives = scene.drives.iter().flat_map(of_drive);
     let of_loads = scene.loads().flat_map(of_load);
+    let of_wind = scene.blown().map(|name| column(format!("work.{name}"), "energy"));
     of_sliders
         .chain(sums)
         .chain(of_springs)
         .chain(others)
         .chain(of_drives)
         .chain(of_loads)
+        .chain(of_wind)
         .chain(sensors)
         .collect()
 }
@@ -167,4 +169,5 @@ pub(super) fn extra_values(model: &Model) -> impl Iterator<Item = f64> {
         .chain(model.dissipations())
         .chain(of_drives)
         .chain(of_loads)
+        .chain(model.works_of_wind())
 }

@@ -43,28 +43,42 @@ impl Doubling {
         Self { length, allowed, ..Self::default() }
     }
 
-    /// Takes two half steps over an interval, and tells their error.
+    /// Takes two half steps over an interval, and tells their error; the state between them is written down for who asks for it.
     pub(super) fn step(
         &mut self,
         integrator: &mut dyn Integrator,
         model: &mut Model,
         interval: Interval,
+        between: Option<&mut ModelState>,
     ) -> Result<Doubled, Failed> {
         let Interval { start, end, .. } = interval;
         let middle = start + 0.5 * interval.duration();
         model.write_state(&mut self.start);
-        let whole = [interval];
-        let mut report = take(integrator, model, &whole, NewtonReport::default())?;
+        let mut report = take(integrator, model, interval, NewtonReport::default())?;
         model.write_placement(&mut self.whole);
         model.restore(&self.start);
-        let halves = [Interval::between(start, middle), Interval::between(middle, end)];
         report =
-            take(integrator, model, &halves, report).inspect_err(|_| model.restore(&self.start))?;
+            self.take_or_go_back(integrator, model, Interval::between(start, middle), report)?;
+        if let Some(between) = between {
+            model.write_state(between);
+        }
+        report = self.take_or_go_back(integrator, model, Interval::between(middle, end), report)?;
         model.write_placement(&mut self.halves);
         let distance = self.whole.distance(&self.halves);
         let apart = larger(distance.length / self.length, distance.angle);
         let trial = TriedStep { duration: interval.duration(), error: apart / self.allowed };
         Ok(Doubled { report, trial })
+    }
+
+    /// Takes a step after others that were solved; where it fails, the model is back where the first of them began.
+    pub(super) fn take_or_go_back(
+        &self,
+        integrator: &mut dyn Integrator,
+        model: &mut Model,
+        step: Interval,
+        before: NewtonReport,
+    ) -> Result<NewtonReport, Failed> {
+        take(integrator, model, step, before).inspect_err(|_| self.take_back(model))
     }
 
     /// Takes the model back to where the last pair of half steps began.
@@ -73,16 +87,14 @@ impl Doubling {
     }
 }
 
-/// Takes steps one after another, others having been solved before.
+/// Takes a step, others having been solved before.
 fn take(
     integrator: &mut dyn Integrator,
     model: &mut Model,
-    steps: &[Interval],
+    step: Interval,
     before: NewtonReport,
 ) -> Result<NewtonReport, Failed> {
-    steps.iter().try_fold(before, |before, step| {
-        let report = integrator.step(model, *step);
-        let report = report.map_err(|source| Failed { source, before: before.iterations })?;
-        Ok(before.then(report))
-    })
+    let report = integrator.step(model, step);
+    let report = report.map_err(|source| Failed { source, before: before.iterations })?;
+    Ok(before.then(report))
 }

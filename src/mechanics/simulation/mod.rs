@@ -21,6 +21,7 @@ mod outline;
 mod progress;
 mod record;
 mod recording;
+mod resampling;
 mod run;
 mod snapshots;
 mod spectrum;

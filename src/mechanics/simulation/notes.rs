@@ -3,6 +3,8 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
+use crate::model::{Bend, ShortBounce};
+
 /// The largest rotation of a section in a step that is not noted: ten steps a turn [rad].
 pub(super) const LARGEST_ROTATION: f64 = 0.1 * TAU;
 
@@ -12,8 +14,31 @@ pub(super) const MOST_SPANS: f64 = 1.0;
 /// A note is told again where its measure has grown by this factor.
 const WORSE: f64 = 2.0;
 
+/// By how much a step has to be shorter where a bounce took no more than three.
+const BOUNCE: f64 = 5.0;
+
 /// How many steps a period has where nothing is to be told any more.
 const ENOUGH: f64 = 20.0;
+
+/// What may change rates within a step besides vibration.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Suspect {
+    /// A damper, the damping of a material, or drag, by name.
+    Damping(String),
+    /// A controller that is asked once a step, by its load or drive in words.
+    Controller(String),
+}
+
+impl fmt::Display for Suspect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Damping(name) => write!(f, "what '{name}' slows down"),
+            Self::Controller(name) => {
+                write!(f, "what the controller of {name} does, which is asked once a step")
+            }
+        }
+    }
+}
 
 /// Something that steps do not resolve.
 ///
@@ -30,6 +55,8 @@ pub enum Note {
         period: f64,
         /// The lowest period of the scene as drawn, where there is one [time].
         lowest: Option<f64>,
+        /// What else than vibration may change rates within a step.
+        suspects: Vec<Suspect>,
     },
     /// Sections turn far in a step.
     Rotation {
@@ -46,6 +73,29 @@ pub enum Note {
         dt: f64,
         /// The most spans that the slider passes in a step [-].
         spans: f64,
+    },
+    /// The energy is not kept as the method promises.
+    Drift {
+        /// The largest change of the energy, loads accounted for, relative to the largest energy [-].
+        drift: f64,
+        /// The stiffest spring, by name, with its stiffness; none where there is no spring.
+        stiffest: Option<(String, f64)>,
+    },
+    /// A given motion bends within a step.
+    Bend {
+        /// The name of the drive whose motion bends.
+        drive: String,
+        /// The step in which it bends, and the rates before and after it.
+        bend: Bend,
+    },
+    /// A spring that is slack at times was struck for fewer steps than tell anything.
+    Contact {
+        /// The name of the spring.
+        spring: String,
+        /// The step size that is too long for the bounce [time].
+        dt: f64,
+        /// The number of steps of the bounce, and the force in it.
+        bounce: ShortBounce,
     },
     /// A slider bounced off what gives way, and steps are longer than such a blow lasts.
     Bounce {
@@ -66,14 +116,19 @@ impl Note {
             Self::Rotation { angle, .. } => *angle,
             Self::Way { spans, .. } => *spans,
             Self::Bounce { blows, .. } => *blows,
+            Self::Drift { drift, .. } => *drift,
+            Self::Bend { bend, .. } => bend.size(),
+            Self::Contact { bounce, .. } => bounce.force,
         }
     }
 
     /// What it is about, if that is one of several.
     fn about(&self) -> Option<&str> {
         match self {
-            Self::Motion { .. } | Self::Rotation { .. } => None,
+            Self::Motion { .. } | Self::Rotation { .. } | Self::Drift { .. } => None,
             Self::Way { slider, .. } | Self::Bounce { slider, .. } => Some(slider),
+            Self::Bend { drive, .. } => Some(drive),
+            Self::Contact { spring, .. } => Some(spring),
         }
     }
 
@@ -90,7 +145,21 @@ impl Note {
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Motion { dt, share, period, lowest } => {
+            Self::Motion { dt, share, period, suspects, .. } if !suspects.is_empty() => {
+                let others: Vec<String> = suspects.iter().map(Suspect::to_string).collect();
+                write!(
+                    f,
+                    "steps are too long for the motion: {} % of its kinetic energy changes within them as they do not follow, as vibration or {}. A \
+                     step (dt = {}) is {} times what it goes on in ({}); take dt below {}",
+                    short(100.0 * share),
+                    others.join(", or "),
+                    short(*dt),
+                    short(dt / period),
+                    short(*period),
+                    short(period / ENOUGH)
+                )
+            }
+            Self::Motion { dt, share, period, lowest, .. } => {
                 write!(
                     f,
                     "steps are too long for the motion: {} % of its kinetic energy is in vibration that they do not follow. A step \
@@ -135,6 +204,38 @@ impl fmt::Display for Note {
                 short(*spans),
                 short(*dt),
                 short(dt * MOST_SPANS / spans)
+            ),
+            Self::Drift { drift, stiffest } => {
+                write!(
+                    f,
+                    "the energy changes by {} of the largest there was, loads and dampers accounted for, where the method keeps it to rounding: numbers of very \
+                     different size lose digits in a sum.",
+                    short(*drift)
+                )?;
+                match stiffest {
+                    Some((spring, stiffness)) => write!(
+                        f,
+                        " '{spring}' has a stiffness of {}: join what it holds by scene.hinge or scene.rigid, or take less",
+                        short(*stiffness)
+                    ),
+                    None => write!(f, " Compare stiffnesses, masses and units"),
+                }
+            }
+            Self::Bend { drive, bend: Bend { time, rates: [before, after] } } => write!(
+                f,
+                "the motion of '{drive}' bends about t = {}, where its rate goes from {} to {} within a step, which takes it for smooth. Give the \
+                 times at which it bends, schedule(|t| …, [t1, t2]), so that steps end there, or let it bend smoothly, as schedules::smooth_step of std/schedules does",
+                short(*time),
+                short(*before),
+                short(*after)
+            ),
+            Self::Contact { spring, dt, bounce: ShortBounce { steps, force } } => write!(
+                f,
+                "a bounce on '{spring}' took {steps} steps (dt = {}), in which its force went from none to {} and back: how fast what strikes it \
+                 leaves depends on the step; take dt below {}, or a softer law",
+                short(*dt),
+                short(*force),
+                short(dt / BOUNCE)
             ),
             Self::Bounce { slider, dt, blows } => write!(
                 f,

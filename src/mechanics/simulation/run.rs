@@ -2,6 +2,7 @@
 
 mod adapting;
 mod back;
+mod blaming;
 mod content;
 mod explain;
 mod frames;

@@ -1,12 +1,18 @@
 //! Why modes were not found.
 
+/// What may be asked for.
+fn range(available: usize) -> String {
+    match available {
+        0 => ": all of it is held or driven".to_owned(),
+        _ => format!("; ask for 1 to {available}"),
+    }
+}
+
 /// Modes that were not found.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum VibrationError {
     /// No modes or too many were asked for.
-    #[error(
-        "{asked} modes were asked for, but the scene has {available}, one for each movement with inertia; ask for 1 to {available}"
-    )]
+    #[error("{asked} modes were asked for, but the scene has {available}, one for each movement with inertia{}", range(*available))]
     Count {
         /// The number of modes asked for.
         asked: usize,

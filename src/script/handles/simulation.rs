@@ -252,12 +252,7 @@ impl SimulationHandle {
             if !context.meter().allows_a_step() {
                 context.proceed()?;
             }
-            // How many parts the step needs is not known beforehand: it is always finished.
-            self.command()?;
-            let mut watch = Watch::new(context, f64::NEG_INFINITY);
-            let stepped = self.0.simulation.borrow_mut().step(&mut watch);
-            stepped.map_err(|error| explain(error, call.context()))?;
-            self.sense()?;
+            self.step_and_sense(call)?;
             self.fire_due()?;
         }
         Ok(())

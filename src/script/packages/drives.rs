@@ -39,8 +39,8 @@ pub const TABLE: Table = Table {
             .see(&["clamp", "hinge", "move"]),
         method(SCENE, "move", &[AT, options("options", MOVE_KEYS)], drive)
             .summary("Gives the motion of a station: x, y and angle, each a function of time, or some of them.")
-            .doc("They are displacements from the place as drawn, and the turn from the angle as drawn, so that each must be 0 at t = 0 and may not jump; steps end \
-                  where a schedule bends. x_speed and y_speed give a rate in place of x and y, from the place as drawn on: a function of time, or a controller \
+            .doc("They are displacements from the place as drawn, and the turn from the angle as drawn, so that each must be 0 at t = 0 and may not jump, which is refused where it happens; schedules::smooth_step of std/schedules leads to a place in a time. Steps end \
+                  where a schedule bends; a function bends at schedule(|t| …, [times]). x_speed and y_speed give a rate in place of x and y, from the place as drawn on: a function of time, or a controller \
                   |t, q| … that is asked at the start of every step, as the speed of a motor. The node there begins with the rate of the function: where its beam rests, that is a blow. At rest \
                   (scene.equilibrium) they are taken at the option `time` and put on with the loads, by the load factor.")
             .example("scene.move(rod.start, #{ x: 0, y: |t| 0.01 * (1 - cos(40 * t)), angle: 0, name: \"shaker\" });\n\
@@ -54,7 +54,7 @@ pub const TABLE: Table = Table {
         method(SCENE, "motor", &[AT, options("options", MOTOR_KEYS)], motor)
             .summary("Turns a section from the ground: by an angle or at a speed that is given, or with a torque.")
             .doc("angle is the turn since the start, a function of time, and exact at the end of every step. speed is a rate: its integral over a step is taken by \
-                  three Gauss points, exact for polynomials of degree five. torque is a moment, counter-clockwise. speed and torque may be functions |t, q| … of the simulation too: sampled controllers, as in scene.force. The section keeps free to move along x and y \
+                  three Gauss points, exact for polynomials of degree five. torque is a moment, counter-clockwise. speed and torque may be functions |t, q| … of the simulation too: sampled controllers, as in scene.force, where it says when they are asked. The section keeps free to move along x and y \
                   unless something holds it there, so hinge it.")
             .example("scene.hinge(rod.start);\nscene.motor(rod.start, #{ angle: |t| 0.5 * t * t });\n\
                       let sim = scene.start(#{ dt: 0.1 });\nsim.run_to(2);\n\

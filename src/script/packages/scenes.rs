@@ -73,6 +73,10 @@ pub const TABLE: Table = Table {
             .returns(Returns::object(STATION))
             .summary("The station at its end.")
             .example("scene.clamp(rod.end);"),
+        property(BEAM, "middle", |call| station(call, |length| 0.5 * length))
+            .returns(Returns::object(STATION))
+            .summary("The station in the middle of its length, as drawn.")
+            .example("scene.spring(rod.middle, [0, 1], #{ stiffness: 100 });"),
         method(BEAM, "at", &[number("s").unit("length").doc("arc length from the start, as drawn")], |call| {
             let s = call.number("s")?;
             station(call, |_| s)

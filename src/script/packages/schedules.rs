@@ -21,6 +21,7 @@ use crate::script::rows::table::{Table, function, method, operator};
 use crate::script::source::program::Program;
 use crate::script::state::context::Context;
 use crate::script::words::error::ScriptError;
+use crate::script::words::numbers::as_number;
 use crate::script::words::raised::Raised;
 
 /// The domain of schedules: factors of loads over time.
@@ -167,13 +168,18 @@ fn scaled(call: &Call, factor: f64, of: &str) -> Result<Schedule, ScriptError> {
 fn table(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let pair = |(row, value): (usize, Dynamic)| {
         let pair = value.read_lock::<rhai::Array>().and_then(|pair| match pair.as_slice() {
-            [t, factor] => crate::script::words::numbers::as_number(t)
-                .zip(crate::script::words::numbers::as_number(factor)),
+            [t, factor] => as_number(t).zip(as_number(factor)),
             _ => None,
         });
         pair.ok_or_else(|| {
-            let got = call.describe(&value);
-            call.error(format!("row {row} must be [time, factor], got {got}"))
+            let parts = value.read_lock::<rhai::Array>();
+            let wrong = parts.as_ref().filter(|pair| pair.len() == 2).and_then(|pair| {
+                let names = ["time", "factor"].into_iter().zip(pair.iter());
+                let mut wrong = names.filter(|(_, part)| as_number(part).is_none());
+                wrong.next().map(|(name, part)| format!("its {name} is {}", call.describe(part)))
+            });
+            let wrong = wrong.unwrap_or_else(|| format!("got {}", call.describe(&value)));
+            call.error(format!("row {row} must be [time, factor], {wrong}"))
         })
     };
     let rows = call.array("rows")?.into_iter().enumerate().map(pair).collect::<Result<_, _>>()?;
@@ -234,9 +240,8 @@ pub(super) fn controlled_schedule_of(
     let function = arguments.get_if::<FnPtr>(name);
     match function.filter(|function| call.arguments_of(function) == Some(2)) {
         Some(function) => {
-            let value = scene.keep_controller(call.store(function, "the function of a controller"));
-            let function = Rc::new(move |_| Ok(value.get()));
-            Ok(Schedule::Function { function, breaks: Vec::new() })
+            let function = call.store(function, "the function of a controller");
+            Ok(Schedule::Sampled(scene.keep_controller(function)))
         }
         None => schedule_of(call, arguments, name),
     }

@@ -32,8 +32,17 @@ pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
                 .into(),
         ),
         Kind::Options(keys) => {
-            let required = keys.iter().find(|key| key.is_required()).or(keys.first())?;
-            Some(format!("write #{{ {}: … }}", required.name))
+            let required = keys.iter().find(|key| key.is_required());
+            let names = || keys.iter().map(|key| format!("{}: …", key.name));
+            Some(match (required, keys.len()) {
+                (Some(required), _) => format!("write #{{ {}: … }}", required.name),
+                (None, 0) => return None,
+                (None, 1..=4) => format!(
+                    "write #{{ {} }}, or some of these",
+                    names().collect::<Vec<_>>().join(", ")
+                ),
+                (None, _) => format!("write #{{ {} }}", names().next()?),
+            })
         }
         Kind::Object(of) => of_object(of.name(), value, given).map(str::to_owned),
         Kind::Either(kinds) => kinds.iter().find_map(|kind| hint(kind, value, given)),

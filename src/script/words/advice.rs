@@ -32,7 +32,10 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
         SimulationError::Load { source: StepError::FastAsWaves { .. } } => {
             "the history up to there is kept; give the slider rule: conserving(), or its master a larger GA".into()
         }
-        SimulationError::Load { .. } => "a load needs a finite value at all times".into(),
+        SimulationError::Load { source } => {
+            let own = cause_of(source).and_then(on_load);
+            own.unwrap_or_else(|| "a load needs a finite value at all times".into())
+        }
         SimulationError::Tolerance { .. } => {
             "the history up to there is kept; give a larger tolerance or a smaller step: adaptive(#{ tolerance: …, smallest: … }); adaptive steps \
              land on jumps of schedules by themselves, but a function that jumps needs its breaks: schedule(|t| …, [t1, t2])"
@@ -104,6 +107,12 @@ fn on_model(error: &ModelError) -> Option<String> {
         ModelError::StartVelocity { .. } => {
             "what turns about a place starts with spin: 2, about: [x, y]; what is joined to it with the velocity that it has there"
         }
+        ModelError::Inertialess { .. } => {
+            "give it one, scene.body(#{ …, inertia: 0.1 }), or hold its angle: scene.support(body.centre, #{ angle: true })"
+        }
+        ModelError::Massless { .. } => {
+            "give it one, scene.body(#{ …, mass: 1 }), or join it to something: scene.hinge(body.centre)"
+        }
         ModelError::PointAlone { .. } => "give velocity and spin to scene.body(#{ … })",
         ModelError::StationOutside { .. } => "use beam.end for its end",
         ModelError::ParticleTurned { by, .. } => match by {
@@ -111,7 +120,9 @@ fn on_model(error: &ModelError) -> Option<String> {
             Turning::RotaryInertia => "leave out the rotary inertia",
             Turning::Load => "only a force of fixed direction can act on it",
             Turning::Spin => "leave out the spin",
-            Turning::Drive => "give x and y alone",
+            Turning::Drive => {
+                "move it along x and y alone; a motor turns a section of a beam, or a body: scene.motor(body.centre, …)"
+            }
             Turning::TorsionSpring => "put a torsion spring between sections of beams",
         },
         _ => return None,
@@ -137,7 +148,8 @@ fn on_slider(error: &SliderError) -> Option<String> {
 fn on_archive(error: &ArchiveError) -> Option<String> {
     let advice = match error {
         ArchiveError::Function { .. } => {
-            "use hold_for, ramp, pulse, smooth_pulse, sine or table, or sums and products of them"
+            "use hold_for, ramp, pulse, smooth_pulse, sine or table, or sums and products of them, and what std/schedules makes of these; in place of a controller springs and \
+             dampers: scene.torsion_spring(…)"
         }
         ArchiveError::Release { .. } => {
             "save the simulation when that has let go, or say the time: #{ at: 0.5 }"
@@ -152,10 +164,22 @@ fn on_archive(error: &ArchiveError) -> Option<String> {
     Some(advice.into())
 }
 
+/// What to write for a motion that jumps.
+const SMOOTH: &str = "let it get there in a time: import \"std/schedules\" as schedules; #{ y: 0.1 * schedules::smooth_step(0, 0.05) }; \
+                      what is to move with a speed from the start begins with it: |t| 3 * t";
+
+/// What is wrong with a load in a step that was refused.
+fn cause_of(error: &StepError) -> Option<&LoadError> {
+    let StepError::Load { source, .. } = error else { return None };
+    source.downcast_ref()
+}
+
 fn on_load(error: &LoadError) -> Option<String> {
     let advice = match error {
         LoadError::ManyParts { .. } => "write it as schedule(|t| …)",
         LoadError::ShortTable { .. } => "write [[t, factor], …]",
+        LoadError::Jump { .. } => SMOOTH,
+        LoadError::InfiniteRate { .. } => SMOOTH,
         _ => return None,
     };
     Some(advice.into())

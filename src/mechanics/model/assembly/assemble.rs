@@ -63,6 +63,9 @@ impl Model {
         let motion =
             Motion::new(rates, square(STRAIN_ROUNDINGS) * f64::EPSILON * scene.rounding_energy());
         let mut model = Self::new(bodies, elements, links, sliders, supports, unknowns, motion);
+        if !scene.rigid_bodies.is_empty() {
+            model.check_movements_held(scene)?;
+        }
         model.check_links(scene)?;
         if !scene.sliders.is_empty() {
             model.check_determined(scene)?;

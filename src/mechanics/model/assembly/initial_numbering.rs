@@ -53,7 +53,10 @@ impl InitialNumbering {
             }
         }
         match unknowns {
-            0 => Err(ModelError::NothingMoves { scene: scene.name.clone() }),
+            // Where all is driven, forces come out.
+            0 if scene.drives.is_empty() => {
+                Err(ModelError::NothingMoves { scene: scene.name.clone() })
+            }
             _ => Ok(Self { unknowns, number, forces, across }),
         }
     }

@@ -2,6 +2,7 @@
 
 mod assemble;
 mod contact_blocks;
+mod held_bodies;
 mod initial_numbering;
 mod letting_go;
 mod links;

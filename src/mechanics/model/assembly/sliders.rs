@@ -105,7 +105,11 @@ impl Model {
                 StartVelocities::Project => is_projected = true,
             }
         }
-        if is_projected { self.project_velocities() } else { Ok(()) }
+        if is_projected {
+            self.project_velocities()?;
+        }
+        self.fit_links_to_drives(negligible);
+        Ok(())
     }
 
     fn check_start_velocity(&self, slider: usize, negligible: f64) -> Result<(), ModelError> {

@@ -70,6 +70,8 @@ pub struct DragForces {
     wind: Vec2,
     pace: Pace,
     dissipated: f64,
+    /// What the wind has given [energy].
+    wind_work: f64,
     /// `G` at each point in the iterate.
     forces: Vec<Vec2>,
 }
@@ -86,7 +88,16 @@ impl DragForces {
     /// Drag by a law on points of bodies, in a wind [length/time].
     pub fn new(name: String, law: DragLaw, points: Vec<DragPoint>, wind: Vec2) -> Self {
         let forces = vec![Vec2::zeros(); points.len()];
-        Self { name, law, points, wind, pace: Pace::default(), dissipated: 0.0, forces }
+        Self {
+            name,
+            law,
+            points,
+            wind,
+            pace: Pace::default(),
+            dissipated: 0.0,
+            wind_work: 0.0,
+            forces,
+        }
     }
 
     fn rates(&self, at: Iterate<'_>) -> Option<RateCollocation> {
@@ -219,6 +230,7 @@ impl Resistance for DragForces {
             let movement = Self::movement(point, bodies);
             if is_timed {
                 self.dissipated += force.dot(&(movement - self.wind * duration));
+                self.wind_work -= force.dot(&self.wind) * duration;
             }
             point.last_velocity = movement / duration;
         }
@@ -231,6 +243,10 @@ impl Resistance for DragForces {
 
     fn dissipated(&self) -> f64 {
         self.dissipated
+    }
+
+    fn wind_work(&self) -> Option<f64> {
+        (self.wind != Vec2::zeros()).then_some(self.wind_work)
     }
 
     fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
@@ -259,6 +275,7 @@ impl Resistance for DragForces {
         let velocities = self.points.iter().map(|point| point.last_velocity);
         state.extend(velocities.flat_map(|velocity| [velocity.x, velocity.y]));
         state.push(self.dissipated);
+        state.extend(self.wind_work());
     }
 
     fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
@@ -267,6 +284,9 @@ impl Resistance for DragForces {
             point.last_velocity = Vec2::new(next(), next());
         }
         self.dissipated = next();
+        if self.wind != Vec2::zeros() {
+            self.wind_work = next();
+        }
     }
 
     fn explain(&self) -> String {

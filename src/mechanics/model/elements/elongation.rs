@@ -10,7 +10,7 @@
 use super::{Iterate, collocation};
 use crate::beams::{Movement, Place, RotationIncrement};
 use crate::elementary::atan;
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, larger};
 use crate::model::bodies::Body;
 
 /// Rotation increments of two sections that differ by less are taken as one, to second order [rad].
@@ -32,6 +32,8 @@ enum Measure {
     Way(Vec<Vec2>),
     /// The rotation of its section: the angle `q₀` [rad].
     Angle(f64),
+    /// One component of the way between two terminals, by its number, x or y: the difference at the start [length].
+    Component(f64, usize),
 }
 
 /// A length or an angle between terminals at the start of a step, and how it changes in an iterate.
@@ -65,6 +67,12 @@ impl Elongation {
         Self::new(Measure::Way(parts), terminals, 2)
     }
 
+    /// One component, x or y, of the way between two terminals, which are at these places at the start.
+    pub fn component(terminals: [Terminal; 2], [from, to]: [Vec2; 2], component: usize) -> Self {
+        let start = (to - from)[component];
+        Self::new(Measure::Component(start, component), terminals.into(), 2)
+    }
+
     /// The angle from the first terminal to the second one, which is this one at the start [rad].
     pub fn angle(terminals: [Terminal; 2], angle: f64) -> Self {
         Self::new(Measure::Angle(angle), terminals.into(), 1)
@@ -94,14 +102,30 @@ impl Elongation {
     pub fn value(&self) -> f64 {
         match &self.measure {
             Measure::Way(parts) => parts.iter().map(Vec2::norm).sum(),
-            Measure::Angle(angle) => *angle,
+            Measure::Angle(start) | Measure::Component(start, _) => *start,
         }
+    }
+
+    /// What rounding of it is relative to, in an iterate: the largest length or angle that it is a difference of [length, rad].
+    pub fn extent(&self) -> f64 {
+        let after = (self.value() + self.change).abs();
+        match self.measure {
+            Measure::Way(_) => after,
+            Measure::Angle(_) => larger(1.0, after),
+            // It is advanced by movements that may be larger by far.
+            Measure::Component(..) => self.moved.iter().fold(after, |size, by| size.max(by.abs())),
+        }
+    }
+
+    /// Whether it is one component of a way.
+    pub fn is_component(&self) -> bool {
+        matches!(self.measure, Measure::Component(..))
     }
 
     /// Where each coordinate stands: the place, and the component of its movement.
     pub fn coordinates(&self) -> impl Iterator<Item = Option<(&Place, usize)>> {
         let components = match self.measure {
-            Measure::Way(_) => 0..2,
+            Measure::Way(_) | Measure::Component(..) => 0..2,
             Measure::Angle(_) => 2..3,
         };
         self.terminals.iter().flat_map(move |terminal| {
@@ -174,7 +198,7 @@ impl Elongation {
 
     fn gather(&mut self, of_place: impl Fn(&Place) -> [f64; 3]) {
         let (first, count) = match self.measure {
-            Measure::Way(_) => (0, 2),
+            Measure::Way(_) | Measure::Component(..) => (0, 2),
             Measure::Angle(_) => (2, 1),
         };
         for (moved, terminal) in self.moved.chunks_exact_mut(count).zip(&self.terminals) {
@@ -213,6 +237,14 @@ impl Elongation {
                     }
                 }
             }
+            Measure::Component(_, component) => {
+                let [from, to] = [*component, 2 + *component];
+                *change = moved[to] - moved[from];
+                for row in [secant, slope] {
+                    row.fill(0.0);
+                    [row[from], row[to]] = [-1.0, 1.0];
+                }
+            }
             Measure::Angle(_) => {
                 let [a, b] = [moved[0], moved[1]];
                 let turn = RelativeTurn::new(a, b, rotations);
@@ -240,6 +272,9 @@ impl Elongation {
                 for (part, ends) in parts.iter_mut().zip(self.moved.windows(4).step_by(2)) {
                     *part += Vec2::new(ends[2] - ends[0], ends[3] - ends[1]);
                 }
+            }
+            Measure::Component(at, component) => {
+                *at += self.moved[2 + *component] - self.moved[*component];
             }
             Measure::Angle(angle) => {
                 let [a, b] = [self.moved[0], self.moved[1]];
@@ -271,7 +306,7 @@ impl Elongation {
     pub fn save(&self, state: &mut Vec<f64>) {
         match &self.measure {
             Measure::Way(parts) => state.extend(parts.iter().flat_map(|part| [part.x, part.y])),
-            Measure::Angle(angle) => state.push(*angle),
+            Measure::Angle(at) | Measure::Component(at, _) => state.push(*at),
         }
     }
 
@@ -280,7 +315,7 @@ impl Elongation {
             Measure::Way(parts) => {
                 parts.iter_mut().for_each(|part| *part = Vec2::new(next(), next()));
             }
-            Measure::Angle(angle) => *angle = next(),
+            Measure::Angle(at) | Measure::Component(at, _) => *at = next(),
         }
     }
 }

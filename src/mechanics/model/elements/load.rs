@@ -171,7 +171,8 @@ impl AppliedLoad {
     /// How often a step calls functions of scripts.
     fn calls(&self, methods: &[Method]) -> String {
         let functions = self.schedule.functions();
-        if functions == 0 {
+        // A controller is asked once a step, by whoever steps.
+        if functions == 0 || self.schedule.is_sampled() {
             return String::new();
         }
         let of_method = |method: &Method| {

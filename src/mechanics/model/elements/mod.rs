@@ -2,6 +2,9 @@
 //! [`Element`].
 
 mod all;
+mod bend;
+mod central_spring;
+mod contact_watch;
 mod damping_law;
 mod drag;
 mod drag_forces;
@@ -29,6 +32,8 @@ mod supports;
 mod weight;
 
 pub use all::Elements;
+pub use bend::Bend;
+pub use contact_watch::ShortBounce;
 pub use damping_law::DampingLaw;
 pub use drag::{Drag, Dragged};
 pub use drag_law::SpeedLaw;

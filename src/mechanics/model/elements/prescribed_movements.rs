@@ -12,6 +12,7 @@
 
 use std::borrow::Cow;
 
+use super::bend::Bend;
 use super::supports::Support;
 use super::{Drive, Exchange};
 use crate::beams::RotationIncrement;
@@ -45,6 +46,9 @@ struct Driven {
 struct Present {
     /// At the end of the last step [length/time², 1/time²].
     acceleration: f64,
+    /// The sharpest bend within a step so far, and that of the present step.
+    bend: Bend,
+    bend_in_step: Bend,
     /// Mean of the last step [force, force·length].
     reaction: f64,
     /// `M Δv` of the step that is being accepted [force·time, force·length·time].
@@ -156,6 +160,16 @@ impl PrescribedMovements {
         &self.prescribed
     }
 
+    /// Whether something prescribed moves at the start.
+    pub fn begins_with_a_rate(&self) -> bool {
+        self.prescribed.rates.iter().skip(self.constraints).any(|rate| *rate != 0.0)
+    }
+
+    /// Begins the sums of what the drives have given.
+    pub fn forget_work(&mut self) {
+        self.drives.iter_mut().for_each(|drive| drive.work = 0.0);
+    }
+
     /// The largest turn that is prescribed in the present step [rad].
     pub fn turn(&self) -> f64 {
         self.turn
@@ -174,6 +188,13 @@ impl PrescribedMovements {
             let Driven { name, prescribed, work } = drive;
             DriveState { name, prescribed: *prescribed, work: *work, force, moment }
         })
+    }
+
+    /// The drives whose motion bends within a step, each with its sharpest bend.
+    pub fn bends(&self) -> impl Iterator<Item = (&str, Bend)> {
+        let all = self.movements.iter().zip(&self.present);
+        let bent = all.filter(|(_, present)| present.bend.size() > 0.0);
+        bent.map(|(movement, present)| (self.drives[movement.drive].name.as_str(), present.bend))
     }
 
     /// Finds what is prescribed in a step, with the rates at its start.
@@ -202,6 +223,7 @@ impl PrescribedMovements {
             }
             let before = rates[self.first + at];
             self.prescribed.rates[entry] = step.rate;
+            self.present[at].bend_in_step = Bend::of(&movement.motion, interval, before, &step);
             self.prescribed.mean_accelerations[entry] = (step.rate - before) / duration;
             let [start, end] = &mut self.prescribed.accelerations;
             [start[entry], end[entry]] = step.accelerations;
@@ -269,6 +291,9 @@ impl PrescribedMovements {
             sum += Exchange::of(work, force * duration, angular);
             self.drives[movement.drive].work += work;
             present.reaction = reaction;
+            if present.bend_in_step.size() > present.bend.size() {
+                present.bend = present.bend_in_step;
+            }
             present.acceleration = self.prescribed.accelerations[1][self.constraints + at];
         }
         sum
@@ -337,6 +362,8 @@ impl PrescribedMovements {
         state.extend(
             self.present.iter().flat_map(|now| [now.acceleration, now.reaction, now.placed]),
         );
+        let bends = self.present.iter().map(|now| now.bend);
+        state.extend(bends.flat_map(|Bend { time, rates }| [time, rates[0], rates[1]]));
         state.extend(self.drives.iter().map(|drive| drive.work));
     }
 
@@ -345,6 +372,9 @@ impl PrescribedMovements {
         for present in &mut self.present {
             (present.acceleration, present.reaction) = (next(), next());
             present.placed = next();
+        }
+        for present in &mut self.present {
+            present.bend = Bend { time: next(), rates: [next(), next()] };
         }
         self.drives.iter_mut().for_each(|drive| drive.work = next());
     }

@@ -1,6 +1,6 @@
 //! What an element that resists movements offers to the steps of a model: a spring, a damper.
 
-use super::{Exchange, Iterate};
+use super::{Exchange, Iterate, ShortBounce};
 use crate::beams::{ForceSummary, Movement, SectionPlace, SpanAtRest};
 use crate::geometry::Vec2;
 use crate::integrators::Interval;
@@ -14,6 +14,8 @@ pub struct Stretched {
     pub elongation: f64,
     /// The force in it, or the moment, mean of the last step [force, force·length].
     pub force: f64,
+    /// Its stiffness at the start of the step; zero of a damper [force/length, force·length/rad].
+    pub stiffness: f64,
 }
 
 /// An element that resists movements of bodies, with an energy that it stores or with what it dissipates.
@@ -61,8 +63,18 @@ pub trait Resistance {
     /// What it has dissipated since the start of the simulation [energy].
     fn dissipated(&self) -> f64;
 
+    /// What the wind has given by it since the start, where there is wind [energy].
+    fn wind_work(&self) -> Option<f64> {
+        None
+    }
+
     /// What it measures and its force, where it has one of each: a spring.
     fn stretched(&self) -> Option<Stretched> {
+        None
+    }
+
+    /// The bounce on it that lasted so few steps that they do not resolve it; none where all did.
+    fn short_bounce(&self) -> Option<ShortBounce> {
         None
     }
 

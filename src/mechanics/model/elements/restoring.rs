@@ -58,6 +58,16 @@ impl RestoringLaw {
         }
     }
 
+    /// Whether the force is none in a whole segment: slack, or not in touch.
+    pub fn may_be_slack(&self) -> bool {
+        match self {
+            Self::Linear { .. } => false,
+            Self::Table { points } | Self::Sampled { points, .. } => {
+                points.windows(2).any(|pair| pair[0].1 == 0.0 && pair[1].1 == 0.0)
+            }
+        }
+    }
+
     /// The stored energy `U(q)`, zero at ease; where a table has no such place, at its first point [energy].
     pub fn energy(&self, q: f64) -> f64 {
         match self {

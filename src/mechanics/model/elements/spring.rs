@@ -2,12 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::central_spring::CentralSpring;
 use super::damping_law::DampingLaw;
 use super::element::{Assembled, Description, Setting, Site};
 use super::elongation::{Elongation, Terminal};
 use super::restoring::RestoringLaw;
 use super::spring_damper::SpringDamper;
-use crate::beams::Station;
+use crate::beams::{BodyIndex, Station};
 use crate::geometry::Vec2;
 use crate::model::{ModelError, Turning};
 
@@ -113,8 +114,14 @@ impl Description for Spring {
                 }
             }
             Some(RestoringLaw::Table { points } | RestoringLaw::Sampled { points, .. }) => {
-                if points.is_empty() {
-                    return refused("table", 0.0, "at least two points");
+                if points.len() < 2 {
+                    return refused("table", points.len() as f64, "at least two points");
+                }
+                let falls = points.windows(2).position(|pair| pair[1].0 <= pair[0].0);
+                if let Some(before) = falls {
+                    let (index, elongation) = (before + 1, points[before + 1].0);
+                    let (object, before) = (self.object(), points[before].0);
+                    return Err(ModelError::TableOrder { object, index, elongation, before });
                 }
                 self.check_polygon("table", points)?;
             }
@@ -149,6 +156,19 @@ impl Description for Spring {
                     grounds.push(Some(*point));
                 }
             }
+        }
+        if let (Some(RestoringLaw::Linear { stiffness, natural: 0.0 }), Origin::Zero, [from, to]) =
+            (&self.law, self.origin, terminals.as_slice())
+            && matches!(self.kind, SpringKind::Way(_))
+        {
+            return Ok(Assembled::Resistance(Box::new(CentralSpring::new(
+                &self.name,
+                [from.clone(), to.clone()],
+                [at[0], at[1]],
+                &grounds,
+                *stiffness,
+                self.damping.with_rest(),
+            ))));
         }
         let elongation = match (&self.kind, terminals.as_slice()) {
             (SpringKind::Torsion(_), [from, to]) => {
@@ -203,6 +223,19 @@ impl Spring {
             && let [from, .., to] = self.anchors()
         {
             return idle([from, to], "where nothing moves");
+        }
+        let bodies = || {
+            self.anchors().iter().map(|anchor| match anchor {
+                Anchor::Station(Station { body: BodyIndex::Rigid(body, _), .. }) => Some(*body),
+                _ => None,
+            })
+        };
+        let first = bodies().next().flatten();
+        if first.is_some()
+            && bodies().all(|body| body == first)
+            && let [from, .., to] = self.anchors()
+        {
+            return idle([from, to], "which are points of one body");
         }
         for pair in self.anchors().windows(2) {
             if let [Anchor::Station(one), Anchor::Station(other)] = pair

@@ -5,6 +5,7 @@
 //! forces at the ends   U'(q₀) and U'(q₁), and the damper d(q̇) once a step where the method balances it, its direction that at this time
 //! ```
 
+use super::contact_watch::{ContactWatch, ShortBounce};
 use super::damping_law::DampingLaw;
 use super::elongation::Elongation;
 use super::hidden_force::{HiddenForce, Target};
@@ -44,6 +45,8 @@ pub struct SpringDamper {
     carried: Vec<f64>,
     current: Vec<f64>,
     dissipated: f64,
+    /// Of a law that is none at times.
+    contact: ContactWatch,
 }
 
 impl SpringDamper {
@@ -72,6 +75,7 @@ impl SpringDamper {
             carried: vec![0.0; coordinates],
             current: vec![0.0; coordinates],
             dissipated: 0.0,
+            contact: ContactWatch::default(),
         };
         new.spring.last = new.restoring_at_start();
         new
@@ -79,6 +83,12 @@ impl SpringDamper {
 
     fn restoring_at_start(&self) -> f64 {
         self.law.as_ref().map_or(0.0, |law| law.force(self.elongation.value()))
+    }
+
+    /// Whether its force is none in a part of its way. One that has let go is as it was: its state has the same numbers.
+    fn may_be_slack(&self) -> bool {
+        let law = self.released.as_ref().map_or(&self.law, |(law, _)| law);
+        law.as_ref().is_some_and(RestoringLaw::may_be_slack)
     }
 
     /// What the configuration of an iterate asks of the spring.
@@ -94,8 +104,9 @@ impl SpringDamper {
             }
             Stage::DampedMidpoint(chi) => {
                 let mean = law.mean(q, change);
-                // A law that falls would gain what one that rises loses.
+                // A law that falls would gain what one that rises loses; one component alone would turn what it damps.
                 let late = match law {
+                    _ if self.elongation.is_component() => 0.0,
                     RestoringLaw::Linear { stiffness, .. } => 0.5 * chi * stiffness.max(0.0),
                     RestoringLaw::Table { .. } | RestoringLaw::Sampled { .. } => 0.0,
                 };
@@ -149,12 +160,6 @@ impl SpringDamper {
         }
     }
 
-    /// The largest length or angle that rounding of the elongation is relative to.
-    fn extent(&self) -> f64 {
-        let after = (self.elongation.value() + self.elongation.change).abs();
-        if self.elongation.is_angle() { larger(1.0, after) } else { after }
-    }
-
     /// The damper counts once a step, the spring as the method weighs it.
     fn weighted(&self, at: Iterate<'_>, spring: f64, damper: f64) -> f64 {
         match at.stage {
@@ -201,8 +206,7 @@ impl Resistance for SpringDamper {
         self.duration = interval.duration();
         self.spring.force = self.spring.last;
         self.damper.force = self.damper.last;
-        self.carried.fill(0.0);
-        self.current.fill(0.0);
+        [&mut self.carried, &mut self.current].into_iter().for_each(|all| all.fill(0.0));
     }
 
     fn begin_movement(&mut self) {
@@ -220,7 +224,7 @@ impl Resistance for SpringDamper {
             self.scatter(at.bodies, &self.elongation.secant, force, out);
             return self.summary(0.0);
         }
-        let extent = self.extent();
+        let extent = self.elongation.extent();
         let (restoring, damping) = (self.restoring(at.stage), self.damping(at));
         let mismatch =
             larger(self.spring.compare(restoring, extent), self.damper.compare(damping, extent));
@@ -307,11 +311,16 @@ impl Resistance for SpringDamper {
 
     fn advance(&mut self, bodies: &[Body]) {
         self.dissipated += self.damper.force * self.elongation.change;
+        let (was_slack, before) = (self.restoring_at_start() == 0.0, self.last.1);
         self.last = match self.duration.is_finite() {
             true => (self.duration, self.elongation.change / self.duration),
             false => (0.0, 0.0),
         };
         self.elongation.advance(bodies, self.rotations);
+        if self.duration.is_finite() && self.may_be_slack() {
+            let is_slack = self.restoring_at_start() == 0.0;
+            self.contact.add([was_slack, is_slack], [before, self.last.1], self.spring.force);
+        }
         self.spring.last = self.spring.force;
         self.damper.last = self.damper.force;
     }
@@ -325,8 +334,9 @@ impl Resistance for SpringDamper {
     }
 
     fn stretched(&self) -> Option<Stretched> {
-        let force = self.spring.last + self.damper.last;
-        Some(Stretched { elongation: self.elongation.value(), force })
+        let (force, elongation) = (self.spring.last + self.damper.last, self.elongation.value());
+        let stiffness = self.law.as_ref().map_or(0.0, |law| law.slope(elongation));
+        Some(Stretched { elongation, force, stiffness })
     }
 
     fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
@@ -373,6 +383,9 @@ impl Resistance for SpringDamper {
         self.elongation.save(state);
         state.extend([self.spring.last, self.damper.last, self.last.0, self.last.1]);
         state.push(self.dissipated);
+        if self.may_be_slack() {
+            self.contact.save(state);
+        }
     }
 
     fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
@@ -380,6 +393,13 @@ impl Resistance for SpringDamper {
         (self.spring.last, self.damper.last) = (next(), next());
         self.last = (next(), next());
         self.dissipated = next();
+        if self.may_be_slack() {
+            self.contact.restore(next);
+        }
+    }
+
+    fn short_bounce(&self) -> Option<ShortBounce> {
+        self.contact.short_bounce()
     }
 
     fn explain(&self) -> String {

@@ -1,12 +1,17 @@
 //! Looking at drives, and at loads with names: what they give, and their part of the ledger.
 
 use crate::model::Model;
-use crate::model::elements::{DriveState, LoadAccount};
+use crate::model::elements::{Bend, DriveState, LoadAccount};
 
 impl Model {
     /// What the drives have given, in the order of the scene.
     pub fn drives(&self) -> impl Iterator<Item = DriveState<'_>> {
         self.supports().prescribed().states()
+    }
+
+    /// The drives whose motion bends within a step, by name, each with its sharpest bend.
+    pub fn bends(&self) -> impl Iterator<Item = (&str, Bend)> {
+        self.supports().prescribed().bends()
     }
 
     /// What the loads with names have given, in the order of the scene.

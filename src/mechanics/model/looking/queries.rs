@@ -17,6 +17,26 @@ impl Model {
         self.bodies().iter().map(|body| body.dynamics.control_points())
     }
 
+    /// Which body, control point and component, x, y or the angle, an unknown is the movement of, by its number; the first of those that share it.
+    pub fn movement(&self, unknown: usize) -> Option<(usize, usize, usize)> {
+        self.bodies().iter().enumerate().find_map(|(body, one)| {
+            let all = one.degrees_of_freedom.as_flattened();
+            let at = all.iter().position(|degree| *degree == unknown)?;
+            Some((body, at / 3, at % 3))
+        })
+    }
+
+    /// The body and its point whose rigid link an unknown is the force of, by its number.
+    pub fn linked_by(&self, unknown: usize) -> Option<(usize, usize)> {
+        let link = self.links().iter().find(|link| link.unknowns.contains(&unknown))?;
+        Some((link.body, link.point))
+    }
+
+    /// The number of unknowns that are no unknowns of contacts: movements, and forces of rigid links.
+    pub fn unknown_count(&self) -> usize {
+        self.unknown_movements().count()
+    }
+
     /// The point where a place of the model is [length].
     pub fn position(&self, place: &Place) -> Vec2 {
         self.bodies().position(place)

@@ -1,7 +1,7 @@
 //! Looking at springs and dampers: what they measure, their forces, and their part of the ledger.
 
 use crate::model::Model;
-use crate::model::elements::{Resistance, Stretched};
+use crate::model::elements::{Resistance, ShortBounce, Stretched};
 
 /// What a spring or a damper is in, in the present state.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,10 +20,34 @@ impl Model {
     /// The states of all springs and dampers, in the order of the scene.
     pub fn springs(&self) -> impl Iterator<Item = SpringState> {
         self.elements().resistances().filter_map(|spring: &dyn Resistance| {
-            let Stretched { elongation, force } = spring.stretched()?;
+            let Stretched { elongation, force, .. } = spring.stretched()?;
             let (stored, dissipated) = (spring.stored(), spring.dissipated());
             Some(SpringState { elongation, force, stored, dissipated })
         })
+    }
+
+    /// What winds have given since the start, in the order of the scene [energy].
+    pub fn works_of_wind(&self) -> impl Iterator<Item = f64> {
+        self.elements().resistances().filter_map(Resistance::wind_work)
+    }
+
+    /// The springs on which a bounce lasted so few steps that they do not resolve it, by name.
+    pub fn short_bounces(&self) -> impl Iterator<Item = (&str, ShortBounce)> {
+        self.elements().resistances().filter_map(|one| Some((one.name(), one.short_bounce()?)))
+    }
+
+    /// The spring of the largest stiffness at present, by name [force/length, force·length/rad].
+    pub fn stiffest_spring(&self) -> Option<(&str, f64)> {
+        let all = self.elements().resistances();
+        let all = all.filter_map(|one| Some((one.name(), one.stretched()?.stiffness)));
+        all.filter(|(_, stiffness)| *stiffness > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// What has dissipated most, by name.
+    pub fn most_damping(&self) -> Option<&str> {
+        let all = self.elements().resistances().map(|one| (one.dissipated(), one.name()));
+        let (taken, name) = all.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        (taken > 0.0).then_some(name)
     }
 
     /// What else has dissipated since the start, in the order of the scene: damping of materials, drag [energy].

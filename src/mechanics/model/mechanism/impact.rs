@@ -46,6 +46,28 @@ impl Model {
         impulses.map(|_| ()).map_err(|_| self.sliders.overdetermined())
     }
 
+    /// Where a drive begins with a rate and points of rigid bodies do not have the velocities of that, they get them, as the nearest that fit;
+    /// velocities that miss by less than a number [length/time] do. It would alternate from step to step without end, as all rates do that do not
+    /// fit.
+    pub(in crate::model) fn fit_links_to_drives(&mut self, negligible: f64) {
+        if self.links.count() == 0 || !self.supports.prescribed().begins_with_a_rate() {
+            return;
+        }
+        let mut missed = vec![0.0; self.unknowns()];
+        self.links.set_velocity_violation(&self.bodies, &self.motion.rates, 1.0, &mut missed);
+        if missed.iter().all(|missed| missed.abs() <= negligible) {
+            return;
+        }
+        // The blow with which a motion begins is before the start: nothing of it is in the sums since then. A matrix that cannot be factorised is found by
+        // the first step.
+        let before = std::mem::take(&mut self.exchanged);
+        let struck = self.strike(&self.across(), -1.0);
+        self.exchanged = before;
+        if struck.is_ok() {
+            self.supports.prescribed_mut().forget_work();
+        }
+    }
+
     /// A slider bounces off the end of its master, as off an elastic stop: all velocities relative to masters are reversed in
     /// the directions that transmit forces, which keeps the energy (`P·(G v⁺ + G v⁻) = 0`).
     ///

@@ -44,7 +44,7 @@ impl Model {
     }
 
     /// The diagonal of the inertia matrix of the model's unknown movements [mass, mass·length²].
-    pub(super) fn diagonal_of_inertia(&self) -> Vec<f64> {
+    pub(in crate::model) fn diagonal_of_inertia(&self) -> Vec<f64> {
         let mut diagonal = vec![0.0; self.unknowns.count()];
         self.inertia_entries(&mut |row, column, value| {
             if row == column {

@@ -4,13 +4,14 @@ use super::Model;
 use crate::beams::{Collocation, ForceSummary};
 use crate::geometry::{cross, larger};
 use crate::integrators::{
-    Accelerated, Cause, Checkpoint, Constraints, Forces, Interval, Mechanism, Overshoot,
+    Accelerated, Cause, Checkpoint, Constraints, Culprit, Forces, Interval, Mechanism, Overshoot,
     PrescribedKinematics, Solution, Stage, StepError,
 };
 use crate::linalg::{BandedMatrix, BlockLayout, Border, BorderShape};
 use crate::model::elements::{Exchange, Iterate, collocation};
 use crate::model::links::ArmRule;
 use crate::model::sliders::InStep;
+use crate::newton::Part;
 
 /// Where a method that balances the forces of a stage, with such a share of them after the start of the step, takes the arms of rigid links: at the time
 /// of that balance, as otherwise it would be of first order.
@@ -155,6 +156,16 @@ impl Forces for Model {
     fn relative_imbalance(&self, residual: &[f64]) -> f64 {
         let (force, moment) = self.unknowns.largest(residual);
         larger(self.step.relative_force(force), self.step.relative_moment(moment))
+    }
+
+    fn worst(
+        &mut self,
+        part: Part,
+        stage: Stage,
+        iterate: (&[f64], f64),
+        residual: &[f64],
+    ) -> Option<Culprit> {
+        self.worst_of(part, stage, iterate, residual)
     }
 
     fn largest_rotation(&self) -> f64 {

@@ -245,8 +245,14 @@ impl Scene {
     ) -> Result<(), ModelError> {
         let name = format!("{} at {}", kind.describe(&partner), self.describe(&station));
         self.joints.push(Joint { name, kind, station, partner });
-        check_ties(self).inspect_err(|_| {
+        check_ties(self).map_err(|error| {
             self.joints.pop();
+            match error {
+                ModelError::AlreadyDriven { drive, component, place, .. } => {
+                    ModelError::HeldAndDriven { component, place, drive }
+                }
+                error => error,
+            }
         })
     }
 

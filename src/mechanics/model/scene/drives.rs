@@ -44,6 +44,7 @@ impl Scene {
         let refused = |source| ModelError::DriveValue { drive: drive.name.clone(), source };
         let schedule = motion.schedule();
         let value = schedule.value(0.0, Side::After).map_err(refused)?;
+        motion.check_start().map_err(refused)?;
         let PrescribedMotion::Place(_) = motion else { return Ok(()) };
         let size = match component {
             Component::Rotation => 1.0,

@@ -27,6 +27,17 @@ impl Scene {
         self.add_element(Element::Load(Load { name, kind, schedule, title: Some(title) }))
     }
 
+    /// What gives a schedule, in words, by the name under which [`schedules`](Self::schedules) has it: with its title, if it is a load that has one.
+    pub fn source_of_schedule(&self, name: &str) -> String {
+        let titles = self.loads().filter(|load| load.name == name);
+        let title = titles.filter_map(|load| load.title.as_ref()).next();
+        match title {
+            Some(title) => format!("'{title}', the {name},"),
+            None if self.drives.iter().any(|drive| drive.name == name) => format!("'{name}'"),
+            None => format!("the {name}"),
+        }
+    }
+
     fn name_of_load(&self, kind: &LoadKind) -> String {
         match kind {
             LoadKind::Force { station, .. } => format!("force at {}", self.describe(station)),

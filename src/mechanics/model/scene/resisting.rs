@@ -2,6 +2,7 @@
 
 use super::Scene;
 use crate::beams::Relaxation;
+use crate::geometry::Vec2;
 use crate::model::ModelError;
 use crate::model::elements::{Drag, Element, MaterialDamping};
 
@@ -19,6 +20,14 @@ impl Scene {
         self.elements.iter().filter_map(|element| match element {
             Element::Damping(damping) => Some(&*damping.name),
             Element::Drag(drag) => Some(&*drag.name),
+            _ => None,
+        })
+    }
+
+    /// The names of what drags in a wind.
+    pub fn blown(&self) -> impl Iterator<Item = &str> + Clone {
+        self.elements.iter().filter_map(|element| match element {
+            Element::Drag(drag) if drag.wind != Vec2::zeros() => Some(&*drag.name),
             _ => None,
         })
     }

@@ -70,6 +70,22 @@ pub enum ModelError {
         /// The name of a rigid body whose forces are not determined.
         body: String,
     },
+    /// A rigid body without inertia whose angle nothing holds.
+    #[error(
+        "body '{body}' has no inertia, and nothing holds its angle or acts on it beside its centre, so that nothing determines how it turns"
+    )]
+    Inertialess {
+        /// The name of the body that turns against nothing.
+        body: String,
+    },
+    /// A rigid body without mass that nothing holds.
+    #[error(
+        "body '{body}' has no mass, and nothing holds it, so that nothing determines how it moves"
+    )]
+    Massless {
+        /// The name of the body that moves against nothing.
+        body: String,
+    },
     /// A start velocity of a single point of a rigid body.
     #[error("{object}: the points of a body move with it")]
     PointAlone {
@@ -126,6 +142,20 @@ pub enum ModelError {
         /// Why it can do nothing.
         why: &'static str,
     },
+    /// A table of a spring whose elongations do not rise.
+    #[error(
+        "{object}: the elongation at index {index} of its table is {elongation}, and the one before is {before}: they must rise from point to point"
+    )]
+    TableOrder {
+        /// The spring with the table, in words.
+        object: String,
+        /// The index of the point whose elongation does not rise, from 0.
+        index: usize,
+        /// The elongation there [length, rad].
+        elongation: f64,
+        /// The elongation of the point before [length, rad].
+        before: f64,
+    },
     /// A joint whose partners do not meet.
     #[error(
         "{joint}: its stations at {from} and {to} are {gap} apart; they must lie at the same place when the scene starts: move one of them"
@@ -161,6 +191,18 @@ pub enum ModelError {
         rate: f64,
         /// The force that it gives there [force, force·length].
         force: f64,
+    },
+    /// Something that would hold what a drive moves.
+    #[error(
+        "the {component} of {place} is given by '{drive}' already: it cannot be held besides; give or hold each movement once"
+    )]
+    HeldAndDriven {
+        /// The component that is given, in words.
+        component: &'static str,
+        /// The place that is moved, in words.
+        place: String,
+        /// The name of the drive.
+        drive: String,
     },
     /// A motion that is given to what is held, or moved by another drive, already.
     #[error(

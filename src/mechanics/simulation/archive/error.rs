@@ -6,10 +6,12 @@ use crate::simulation::SimulationError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ArchiveError {
     /// A load with a function of a script.
-    #[error("the {load} has a function as its schedule, and functions cannot be stored")]
+    #[error("{load} follows {function}, and functions of a script cannot be stored")]
     Function {
         /// The name of the load that follows a function of a script.
         load: String,
+        /// How the function is written.
+        function: String,
     },
     /// A column that a function of a script fills.
     #[error("the column '{column}' is filled by a function, and functions cannot be stored")]

@@ -7,6 +7,7 @@ use crate::simulation::adaptive::{Adaptive, Plan};
 use crate::simulation::controller::Pace;
 use crate::simulation::doubling::{Doubled, Failed};
 use crate::simulation::halving::Halving;
+use crate::simulation::resampling::Resampling;
 use crate::simulation::{Monitor, SimulationError};
 
 impl Simulation {
@@ -40,11 +41,26 @@ impl Simulation {
             controller.restart(&mut pace);
         }
         loop {
-            let now = self.time();
-            let plan = adaptive.plan(&pace, now, self.clock.grid.next(now, limit));
+            let (plan, tried) = match self.end_step_half_way(adaptive) {
+                Some(ended) => ended,
+                None => {
+                    let now = self.time();
+                    let plan = adaptive.plan(&pace, now, self.clock.grid.next(now, limit));
+                    let tried = self.try_step(adaptive, &plan);
+                    match (tried, &mut adaptive.resampling) {
+                        (Ok(doubled), Some(resampling)) if doubled.trial.error <= 1.0 => {
+                            resampling.wait_half_way(&mut self.model, plan, doubled);
+                            self.clock.pace = Some(pace);
+                            self.ask(monitor)?;
+                            continue;
+                        }
+                        (tried, _) => (plan, tried),
+                    }
+                }
+            };
             let Plan { interval, is_cut, is_least } = plan;
             let dt = interval.duration();
-            match adaptive.doubling.step(&mut *self.integrator, &mut self.model, interval) {
+            match tried {
                 Ok(Doubled { report, trial }) if trial.error <= 1.0 => {
                     let tries = pace.tries;
                     match is_cut {
@@ -62,7 +78,7 @@ impl Simulation {
                     controller.reject(&mut pace, trial);
                     if is_least {
                         return Err(SimulationError::Tolerance {
-                            time: now,
+                            time: interval.start,
                             tolerance: adaptive.tolerance,
                             dt,
                             error: trial.error,
@@ -74,8 +90,8 @@ impl Simulation {
                     self.progress.count_try(before + iterations);
                     // Beyond an end there is nothing to compare; what comes after an arrival is not as what was.
                     self.clock.pace = Some(Pace { error: None, tries: 0, ..pace });
-                    let middle = now + 0.5 * dt;
-                    let half = Halving::new(Interval::between(now, middle));
+                    let start = interval.start;
+                    let half = Halving::new(Interval::between(start, start + 0.5 * dt));
                     return self.cover_uncompared(half, controller.first, monitor);
                 }
                 Err(Failed { source, .. }) if !source.may_be_cured_by_a_smaller_step() => {
@@ -85,13 +101,49 @@ impl Simulation {
                     self.progress.count_failure(before + source.factorisations());
                     controller.fail(&mut pace, dt);
                     if is_least {
-                        let smallest = controller.smallest;
-                        return Err(SimulationError::Smallest { time: now, dt, smallest, source });
+                        let (time, smallest) = (interval.start, controller.smallest);
+                        let source = self.with_name(source);
+                        return Err(SimulationError::Smallest { time, dt, smallest, source });
                     }
                 }
             }
             self.clock.pace = Some(pace);
             self.ask(monitor)?;
+        }
+    }
+
+    /// Takes a step as a whole and in halves.
+    fn try_step(&mut self, adaptive: &mut Adaptive, plan: &Plan) -> Result<Doubled, Failed> {
+        let Adaptive { doubling, resampling, .. } = adaptive;
+        let between = resampling.as_mut().map(Resampling::middle_mut);
+        doubling.step(&mut *self.integrator, &mut self.model, plan.interval, between)
+    }
+
+    /// Takes the second half of a step that waits in its middle, if one does.
+    fn end_step_half_way(
+        &mut self,
+        adaptive: &mut Adaptive,
+    ) -> Option<(Plan, Result<Doubled, Failed>)> {
+        let Adaptive { doubling, resampling, controller, .. } = adaptive;
+        let order = controller.order;
+        resampling.as_mut()?.go_on(doubling, &mut *self.integrator, &mut self.model, order)
+    }
+
+    /// Whether a step of the simulation waits in its middle for those who control loads and drives: who has stopped the run goes on with it, or
+    /// [goes back](Self::go_back_to_start_of_step).
+    pub fn is_half_way(&self) -> bool {
+        let adaptive = self.adaptive.as_ref();
+        adaptive
+            .and_then(|adaptive| adaptive.resampling.as_ref())
+            .is_some_and(Resampling::is_half_way)
+    }
+
+    /// Takes the simulation back to the start of a step that waits in its middle, if one does.
+    pub fn go_back_to_start_of_step(&mut self) {
+        if let Some(adaptive) = &mut self.adaptive
+            && adaptive.resampling.as_mut().is_some_and(Resampling::abandon)
+        {
+            adaptive.doubling.take_back(&mut self.model);
         }
     }
 

@@ -55,8 +55,9 @@ impl Simulation {
     /// When a load has a function from outside as its schedule, or somebody outside is still to say when something lets go.
     pub fn to_bytes(&self, name: &str) -> Result<Vec<u8>, ArchiveError> {
         let mut schedules = self.scene.schedules();
-        if let Some((load, _)) = schedules.find(|(_, schedule)| !schedule.can_be_stored()) {
-            return Err(ArchiveError::Function { load: load.to_owned() });
+        if let Some((load, schedule)) = schedules.find(|(_, schedule)| !schedule.can_be_stored()) {
+            let load = self.scene.source_of_schedule(load);
+            return Err(ArchiveError::Function { load, function: schedule.describe() });
         }
         if let Some(sensor) = self.scene.sensors.iter().find(|sensor| !sensor.can_be_stored()) {
             return Err(ArchiveError::Sensor { column: sensor.name.clone() });

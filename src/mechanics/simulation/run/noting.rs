@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use super::Simulation;
-use crate::integrators::Mechanism;
+use crate::integrators::{EnergyClaim, Mechanism};
 use crate::model::{Model, Part};
-use crate::simulation::Note;
-use crate::simulation::notes::{LARGEST_ROTATION, MOST_SPANS, short};
+use crate::simulation::notes::{LARGEST_ROTATION, MOST_SPANS, Suspect, short};
+use crate::simulation::{Invariant, Note};
 use crate::vibration::{Modes, VibrationError};
 
 /// Steps that leave more than this part of the kinetic energy to vibration that they do not follow are too long: that of a single
@@ -18,6 +18,12 @@ const HIDDEN_SHARE: f64 = 0.05;
 
 /// and that takes less than a step, by so many times [rad].
 const HIDDEN_TURN: f64 = 2.0 * TAU;
+
+/// Rounding of some ten thousand steps makes less of the energy, however stiff a scene is.
+const LARGEST_DRIFT: f64 = 1e-7;
+
+/// The part of all energy that is much of it.
+const MUCH: f64 = 0.3;
 
 /// How many times as long as a blow a step may be.
 const MOST_BLOWS: f64 = 1.0;
@@ -42,7 +48,8 @@ impl Simulation {
         let turn = resolution.angular_frequency() * dt;
         if share > LARGEST_SHARE || (share > HIDDEN_SHARE && turn > HIDDEN_TURN) {
             let period = TAU / resolution.angular_frequency();
-            notes.push(Note::Motion { dt, share, period, lowest: self.lowest_period() });
+            let (lowest, suspects) = (self.lowest_period(), self.suspects());
+            notes.push(Note::Motion { dt, share, period, lowest, suspects });
         }
         if resolution.rotation() > LARGEST_ROTATION {
             notes.push(Note::Rotation { dt, angle: resolution.rotation() });
@@ -57,7 +64,49 @@ impl Simulation {
                 notes.push(Note::Bounce { slider, dt, blows });
             }
         }
+        if let Some(drift) = self.broken_promise() {
+            let stiffest = self.model.stiffest_spring();
+            let stiffest = stiffest.map(|(name, stiffness)| (name.to_owned(), stiffness));
+            notes.push(Note::Drift { drift, stiffest });
+        }
+        let bends = self.model.bends();
+        notes.extend(bends.map(|(drive, bend)| Note::Bend { drive: drive.to_owned(), bend }));
+        let bounces = self.model.short_bounces();
+        let told =
+            |(spring, bounce): (&str, _)| Note::Contact { spring: spring.to_owned(), dt, bounce };
+        notes.extend(bounces.map(told));
         notes
+    }
+
+    /// The drift of the energy, where the method promises none and rounding does not explain it. Sliders have rules with promises of their own.
+    fn broken_promise(&self) -> Option<f64> {
+        let keeps = self.settings.method.entry().claims.energy == EnergyClaim::Kept;
+        let rows = self.history().samples();
+        let (first, last) = (rows.first()?.measures, rows.last()?.measures);
+        if !keeps || !self.scene.sliders.is_empty() {
+            return None;
+        }
+        // All rows are looked at only where the first and the last one are apart by more than they should be.
+        let apart = Invariant::Energy.value(&last) - Invariant::Energy.value(&first);
+        let now = last.energy.kinetic + last.energy.strain + last.energy.stored;
+        if apart.norm() <= LARGEST_DRIFT * now {
+            return None;
+        }
+        let drift = self.history().drift(Invariant::Energy);
+        (drift > LARGEST_DRIFT).then_some(drift)
+    }
+
+    /// What takes a good part of the kinetic energy within a step, or may give it: the strongest damping, and controllers.
+    fn suspects(&self) -> Vec<Suspect> {
+        let measures = self.history().samples().last().map(|row| row.measures).unwrap_or_default();
+        let left = measures.energy.kinetic + measures.energy.strain + measures.energy.stored;
+        let most = self.model.most_damping();
+        let most = most.filter(|_| measures.dissipated > MUCH * (measures.dissipated + left));
+        let dampers = most.map(|name| Suspect::Damping(name.to_owned()));
+        let sampled = self.scene.schedules().filter(|(_, schedule)| schedule.is_sampled());
+        let controllers =
+            sampled.map(|(name, _)| Suspect::Controller(self.scene.source_of_schedule(name)));
+        dampers.into_iter().chain(controllers.take(1)).collect()
     }
 
     /// The lowest period of the scene as drawn; none where something slides, nothing vibrates, or the scene is large [time].

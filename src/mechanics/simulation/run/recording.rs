@@ -38,8 +38,11 @@ impl Simulation {
         self.remember();
     }
 
-    /// Gives the present state of the simulation a row of the history until it is past, unless it has one.
+    /// Gives the present state of the simulation a row of the history until it is past, unless it has one, or is the middle of a step.
     pub(super) fn show_present(&mut self) {
+        if self.is_half_way() {
+            return;
+        }
         self.record.show_present(&mut self.model, self.progress.last_step);
     }
 }

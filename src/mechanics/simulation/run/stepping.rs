@@ -116,6 +116,7 @@ impl Simulation {
             let slider = self.scene.sliders[limit.slider].name.clone();
             return SimulationError::Landing { slider, end: limit.end.name(), time, dt, divisions };
         }
+        let source = self.with_name(source);
         SimulationError::Step { time, dt, divisions, source }
     }
 }

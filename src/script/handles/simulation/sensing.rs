@@ -11,7 +11,7 @@ use crate::script::rows::call::Call;
 use crate::script::rows::stored::StoredFunction;
 use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::{as_number, describe};
-use crate::simulation::Simulation;
+use crate::simulation::{Simulation, StepSize};
 
 /// The functions that fill columns, in the order of the columns.
 pub(super) struct Sensing {
@@ -107,12 +107,14 @@ impl SimulationHandle {
         Ok(())
     }
 
-    /// Lets go what is to let go, and asks the functions that control loads and drives for their values in the step that begins.
+    /// Lets go what is to let go, and asks the functions that control loads and drives for their values in the step, or the half step, that begins.
     ///
     /// # Errors
     /// Those of the functions; also when one gives no finite number.
     pub(super) fn command(&self) -> Result<(), ScriptError> {
-        self.let_go()?;
+        if !self.simulation().is_half_way() {
+            self.let_go()?;
+        }
         let Sensing { controllers, is_looking, .. } = &self.0.sensing;
         for controller in controllers {
             let function = &controller.function;
@@ -133,6 +135,10 @@ impl SimulationHandle {
         Ok(())
     }
 
+    fn varies_steps(&self) -> bool {
+        matches!(self.simulation().settings().dt, StepSize::Adaptive(_))
+    }
+
     /// Whether functions want to be asked before every step.
     pub(super) fn is_controlled(&self) -> bool {
         let Sensing { controllers, conditions, .. } = &self.0.sensing;
@@ -148,6 +154,40 @@ impl SimulationHandle {
         stop: f64,
         slack: f64,
     ) -> Result<(), ScriptError> {
+        let ran = self.run_with_pauses(call, stop, slack);
+        self.end_step_that_waits(ran)
+    }
+
+    /// Takes a step, with pauses where functions that control it are asked.
+    pub(super) fn step_and_sense(&self, call: &Call) -> Result<(), ScriptError> {
+        let stepped = self.step_with_pauses(call);
+        self.end_step_that_waits(stepped)
+    }
+
+    /// After an error or an interrupt the simulation stands at the start of a step and not in its middle.
+    fn end_step_that_waits(&self, ran: Result<(), ScriptError>) -> Result<(), ScriptError> {
+        ran.inspect_err(|_| self.0.simulation.borrow_mut().go_back_to_start_of_step())
+    }
+
+    fn step_with_pauses(&self, call: &Call) -> Result<(), ScriptError> {
+        let steps = self.simulation().counts().steps;
+        loop {
+            self.command()?;
+            // How many parts the step needs is not known beforehand: it is always finished.
+            let mut watch = Watch::new(call.context(), f64::NEG_INFINITY);
+            watch.pauses = self.varies_steps() && self.is_controlled();
+            let stepped = self.0.simulation.borrow_mut().step(&mut watch);
+            let is_taken = stepped.is_ok() || self.simulation().counts().steps > steps;
+            if !watch.is_paused || is_taken {
+                if !watch.is_paused {
+                    stepped.map_err(|error| explain(error, call.context()))?;
+                }
+                return self.sense();
+            }
+        }
+    }
+
+    fn run_with_pauses(&self, call: &Call, stop: f64, slack: f64) -> Result<(), ScriptError> {
         loop {
             self.command()?;
             let mut watch = Watch::new(call.context(), stop - slack);
@@ -158,7 +198,8 @@ impl SimulationHandle {
                 return self.sense();
             }
             let simulation = self.simulation();
-            let is_due = simulation.recording().is_due(simulation.counts().steps);
+            let is_due = !simulation.is_half_way()
+                && simulation.recording().is_due(simulation.counts().steps);
             drop(simulation);
             if is_due {
                 self.sense()?;

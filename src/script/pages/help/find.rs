@@ -46,6 +46,10 @@ pub fn find(catalog: &Catalog, name: &str) -> Vec<Subject> {
     if !found.is_empty() {
         return found;
     }
+    // A module of the standard library by its last name alone.
+    if let Some(page) = page_of(&format!("std/{name}")) {
+        return vec![Subject::Module(page)];
+    }
     // One viewer is no function, and viewers are a heading.
     let singular = |table: &&'static Table| table.name.strip_suffix('s') == Some(name);
     if let Some(table) = catalog.tables().find(singular) {

@@ -1,0 +1,181 @@
+//! Whether a motion that is a function from outside is continuous: what jumps goes a way in no time.
+//!
+//! Functions are known at points only. Near the start they are asked ever closer to it: `√t`, with an infinite rate, lies between what is smooth and
+//! what jumps. In a step, where one of its values is farther from the next than all others are together, the larger half of that way is followed
+//! through thirty halvings: a jump stays what it is, all else gets small.
+
+use super::{LoadError, Schedule, Side};
+use crate::elementary::whole_power;
+
+/// A difference counts from so many roundings of the values on.
+const ROUNDINGS: f64 = 1e3;
+
+/// Close to the start is where `8⁻ⁱ` units of time have passed, for these `i`.
+const CLOSE: [i32; 2] = [12, 13];
+
+/// What is left of a distance from the start at the second of these times: of a jump all, of `√t` 0.35, of what is smooth 0.125.
+const LEFT_OF_A_JUMP_AT_START: f64 = 0.7;
+const LEFT_OF_A_POWER_AT_START: f64 = 0.16;
+
+/// How often the way between two values is halved, before a difference is looked at and after that.
+const HALVINGS: usize = 15;
+
+/// What is left of a difference after the second halvings: of a jump all, of `√t` 6e-3 at most, of what is smooth 3e-5.
+const LEFT_OF_A_JUMP: f64 = 0.5;
+
+/// A difference that is larger than so many times all others in a step together is looked into.
+const OUTSTANDING: f64 = 1.05;
+
+/// A place where a function jumps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Jump {
+    pub(super) time: f64,
+    pub(super) before: f64,
+    pub(super) after: f64,
+    /// Whether it jumps indeed, and is not only infinitely steep.
+    pub(super) is_whole: bool,
+}
+
+impl Jump {
+    /// The error of a place that jumps.
+    pub(super) fn refused(self) -> LoadError {
+        let Self { time, before, after, is_whole } = self;
+        let [time, before, after] = [time, before, after].map(rounded);
+        match is_whole {
+            true => LoadError::Jump { time, before, after },
+            false => LoadError::InfiniteRate { time },
+        }
+    }
+}
+
+/// A number of seven digits, for messages.
+fn rounded(number: f64) -> f64 {
+    format!("{number:.6e}").parse().unwrap_or(number)
+}
+
+/// Whether a schedule jumps, or has an infinite rate, just after t = 0; none where it has no function, or where its values are too near to each other
+/// to tell.
+///
+/// # Errors
+/// When the function fails or a value is not finite.
+pub(super) fn jump_at_start(schedule: &Schedule) -> Result<Option<Jump>, LoadError> {
+    if !may_jump(schedule) {
+        return Ok(None);
+    }
+    let before = schedule.value(0.0, Side::After)?;
+    let [farther, nearer] =
+        CLOSE.map(|power| schedule.value(whole_power(0.125, power), Side::After));
+    let (farther, after) = (farther?, nearer?);
+    let [far, near] = [farther, after].map(|value| (value - before).abs());
+    let noise = ROUNDINGS * f64::EPSILON * (before.abs() + after.abs());
+    let is_whole = near > LEFT_OF_A_JUMP_AT_START * far;
+    let is_steep = near > noise.max(f64::MIN_POSITIVE) && near > LEFT_OF_A_POWER_AT_START * far;
+    Ok(is_steep.then_some(Jump { time: 0.0, before, after, is_whole }))
+}
+
+/// Where a schedule jumps between times of a step at which it has these values; none where nothing looks like that.
+///
+/// # Errors
+/// When the function fails or a value is not finite.
+pub(super) fn jump_between(
+    schedule: &Schedule,
+    times: &[f64],
+    values: &[f64],
+) -> Result<Option<Jump>, LoadError> {
+    if !may_jump(schedule) {
+        return Ok(None);
+    }
+    let ways = || values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    let (all, size) =
+        (ways().sum::<f64>(), values.iter().fold(0.0_f64, |size, value| size.max(value.abs())));
+    let noise = ROUNDINGS * f64::EPSILON * size;
+    let Some((at, largest)) = ways().enumerate().max_by(|a, b| a.1.total_cmp(&b.1)) else {
+        return Ok(None);
+    };
+    if largest <= noise || largest <= OUTSTANDING * (all - largest) {
+        return Ok(None);
+    }
+    let mut ends = [(times[at], values[at]), (times[at + 1], values[at + 1])];
+    halve(schedule, &mut ends)?;
+    let first = (ends[1].1 - ends[0].1).abs();
+    halve(schedule, &mut ends)?;
+    let [(_, before), (time, after)] = ends;
+    let left = (after - before).abs();
+    let jumps = left > noise && left > LEFT_OF_A_JUMP * first;
+    Ok(jumps.then_some(Jump { time, before, after, is_whole: true }))
+}
+
+/// Follows the larger half of a way through some halvings.
+fn halve(schedule: &Schedule, ends: &mut [(f64, f64); 2]) -> Result<(), LoadError> {
+    for _ in 0..HALVINGS {
+        let [(t0, v0), (t1, v1)] = *ends;
+        let middle = 0.5 * (t0 + t1);
+        let value = schedule.value(middle, Side::After)?;
+        let half = usize::from((value - v0).abs() >= (v1 - value).abs());
+        ends[half] = (middle, value);
+    }
+    Ok(())
+}
+
+/// Schedules that are no functions from outside tell where they jump, and what a controller says holds for a step.
+fn may_jump(schedule: &Schedule) -> bool {
+    schedule.functions() > 0 && !schedule.is_sampled()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::rc::Rc;
+
+    use super::*;
+
+    fn of(function: impl Fn(f64) -> f64 + 'static) -> Schedule {
+        Schedule::Function { function: Rc::new(move |t| Ok(function(t))), breaks: Vec::new() }
+    }
+
+    fn at_start(function: impl Fn(f64) -> f64 + 'static) -> Option<bool> {
+        jump_at_start(&of(function)).unwrap().map(|jump| jump.is_whole)
+    }
+
+    fn in_step(function: impl Fn(f64) -> f64 + 'static, from: f64, to: f64) -> Option<Jump> {
+        let schedule = of(function);
+        let times = [0.0, 0.1464, 0.5, 0.8536, 1.0].map(|part| from + part * (to - from));
+        let values = times.map(|time| schedule.value(time, Side::After).unwrap());
+        jump_between(&schedule, &times, &values).unwrap()
+    }
+
+    #[test]
+    fn jumps_at_the_start_are_known_from_what_is_fast() {
+        assert_eq!(at_start(|t| if t > 0.0 { 0.1 } else { 0.0 }), Some(true));
+        assert_eq!(at_start(|t| 1e-3 * t.sqrt()), Some(false));
+        let fine: [fn(f64) -> f64; 6] = [
+            |t| 1e4 * t,
+            |t| (1e6 * t).sin(),
+            |t| 0.01 * (1.0 - (40.0 * t).cos()),
+            |t| t * t,
+            |t| 3.0 + t - 3.0,
+            |t| if t > 1e-3 { 1.0 } else { 0.0 },
+        ];
+        assert!(fine.into_iter().all(|function| at_start(function).is_none()));
+    }
+
+    #[test]
+    fn jumps_in_a_step_are_found_wherever_they_are() {
+        for place in [0.100_001, 0.103, 0.1444, 0.15, 0.1999] {
+            let step = move |t: f64| t + if t > place { 0.5 } else { 0.0 };
+            for (from, to) in [(0.1, 0.2), (0.2, 0.1)] {
+                let found = in_step(step, from, to).unwrap();
+                assert!((found.time - place).abs() < 1e-8 && found.is_whole, "{place}: {found:?}");
+                assert!(((found.after - found.before).abs() - 0.5).abs() < 1e-8);
+            }
+        }
+        let fine: [fn(f64) -> f64; 6] = [
+            |t| (t - 0.19).max(0.0).sqrt(),
+            |t| (t - 0.19).max(0.0),
+            |t| (30.0 * t).sin(),
+            |t| 1e9 + t,
+            |t| (t - 0.1).powi(4),
+            |t| 1e-3 * (1.0 + (1e5 * (t - 0.15)).tanh()),
+        ];
+        assert!(fine.into_iter().all(|function| in_step(function, 0.1, 0.2).is_none()));
+    }
+}

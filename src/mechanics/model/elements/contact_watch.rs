@@ -1,0 +1,70 @@
+//! How long bounces last on a spring that is slack at times: bumpers, ropes.
+
+/// A bounce that takes this many steps or fewer is not resolved: a half of its period is passed in three.
+const FEW: f64 = 3.0;
+
+/// A touch that changes the rate by less than this part of it is no bounce.
+const TURNED: f64 = 0.5;
+
+/// The shortest bounce on a spring so far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShortBounce {
+    /// The number of steps, or of parts of steps, in which the spring was not slack [-].
+    pub steps: f64,
+    /// The largest force in it, mean of a step [force, force·length].
+    pub force: f64,
+}
+
+/// Watches when a spring is slack and when it is not: a part of its state.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ContactWatch {
+    /// The steps since it is not slack; zero while it is.
+    steps: f64,
+    /// The rate of elongation with which that began [length/time, rad/time].
+    entry: f64,
+    /// The largest force since then [force, force·length].
+    force: f64,
+    /// The steps of the shortest bounce, zero where there was none, and the largest force in it.
+    shortest: [f64; 2],
+}
+
+impl ContactWatch {
+    /// Takes in a step with such a rate and force, and the rate of the step before; whether the spring was slack at its start, and is at its end.
+    pub fn add(&mut self, [was_slack, is_slack]: [bool; 2], [before, rate]: [f64; 2], force: f64) {
+        if was_slack && is_slack {
+            return;
+        }
+        if was_slack {
+            let entry = if before == 0.0 { rate } else { before };
+            *self = Self { steps: 0.0, entry, force: 0.0, ..*self };
+        }
+        self.steps += 1.0;
+        self.force = self.force.max(force.abs());
+        if !is_slack {
+            return;
+        }
+        let is_bounce = self.entry != 0.0 && (rate - self.entry).abs() > TURNED * self.entry.abs();
+        let [steps, most] = self.shortest;
+        if is_bounce && self.steps <= FEW && (steps == 0.0 || self.force > most) {
+            self.shortest = [self.steps, self.force];
+        }
+        self.steps = 0.0;
+        self.entry = 0.0;
+    }
+
+    /// The bounce of the largest force among those that steps did not resolve.
+    pub fn short_bounce(&self) -> Option<ShortBounce> {
+        let [steps, force] = self.shortest;
+        (steps > 0.0).then_some(ShortBounce { steps, force })
+    }
+
+    pub fn save(&self, state: &mut Vec<f64>) {
+        state.extend([self.steps, self.entry, self.force]);
+        state.extend(self.shortest);
+    }
+
+    pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        (self.steps, self.entry, self.force) = (next(), next(), next());
+        self.shortest = [next(), next()];
+    }
+}
