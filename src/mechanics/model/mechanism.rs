@@ -30,8 +30,8 @@ use impulses::Exchanged;
 
 use super::bodies::Bodies;
 use super::elements::{Elements, Exchange, Supports};
+use super::links::Links;
 use super::motion::{Motion, Resolution, Step, Unknowns};
-use super::rigid_links::RigidLinks;
 use super::sliders::{Sliders, Sliding, TrackLimit};
 use crate::loads::LoadError;
 
@@ -39,7 +39,7 @@ use crate::loads::LoadError;
 pub struct Model {
     bodies: Bodies,
     elements: Elements,
-    links: RigidLinks,
+    links: Links,
     sliders: Sliders,
     supports: Supports,
     unknowns: Unknowns,
@@ -55,7 +55,7 @@ impl Model {
     pub(super) fn new(
         bodies: Bodies,
         elements: Elements,
-        links: RigidLinks,
+        links: Links,
         sliders: Sliders,
         supports: Supports,
         unknowns: Unknowns,
@@ -99,7 +99,7 @@ impl Model {
         &self.elements
     }
 
-    pub(super) fn links(&self) -> &RigidLinks {
+    pub(super) fn links(&self) -> &Links {
         &self.links
     }
 
