@@ -1,6 +1,6 @@
 //! Axes: from numbers to places along a side of a chart, and to the labels beside it.
 
-use super::number::format_number;
+use super::number::{format_number, significant};
 use crate::elementary::{log10, power, whole_power};
 
 /// How numbers are laid out along an axis of a chart.
@@ -220,6 +220,19 @@ fn typeset(x: f64, decimals: usize) -> String {
 }
 
 /// The text of a power of ten, such as `10⁻¹²`.
+/// A number in a picture, with some significant digits: `−0.25`, `4.09 × 10⁻⁵`.
+pub(super) fn typeset_number(x: f64, digits: usize) -> String {
+    let text = significant(x, digits);
+    let plain = |text: &str| text.replace('-', "−");
+    match text.split_once('e') {
+        Some((mantissa, power)) => match power.parse() {
+            Ok(power) => format!("{} × {}", plain(mantissa), power_of_ten(power)),
+            Err(_) => plain(&text),
+        },
+        None => plain(&text),
+    }
+}
+
 pub(super) fn power_of_ten(power: f64) -> String {
     let digits = format_number(power);
     let raised = digits.chars().map(|c| match c.to_digit(10) {
@@ -251,6 +264,12 @@ mod tests {
             ["0.0", "0.5", "1.0", "1.5", "2.0", "2.5", "3.0"]
         );
         assert_eq!(Axis::between(0.0, 3e-7).ticks(6).1.after("drift"), "drift (×10⁻⁷)");
+    }
+
+    #[test]
+    fn numbers_in_pictures_have_signs_and_powers_as_people_write_them() {
+        let written = [-0.25, 4.0853e-5, -3e9, 0.0].map(|x| typeset_number(x, 3));
+        assert_eq!(written, ["−0.25", "4.09 × 10⁻⁵", "−3 × 10⁹", "0"]);
     }
 
     #[test]

@@ -1,13 +1,13 @@
 //! Beams coloured by a magnitude along them: the larger it is, the darker and the broader is the line.
 
 use super::{
+    axis::typeset_number,
     canvas::{Align, Area, Canvas, Point},
     colour::{INK, WHITE, ramp},
     colour_bar::ColourBar,
     fonts,
     frame::{Frame, Margins},
     marker::Marker,
-    number::significant,
     page::Panel,
     plane::{Limits, View},
     scenery::Scenery,
@@ -110,27 +110,70 @@ impl FieldPicture {
         }
     }
 
-    /// Marks where the largest value is, and writes it beside the mark.
-    fn draw_largest(&self, canvas: &mut Canvas, frame: &Frame, plot: &Area) {
+    /// Marks where the largest value is, and writes it beside the mark, where no beam is, if there is such a place near.
+    fn draw_largest(
+        &self,
+        canvas: &mut Canvas,
+        frame: &Frame,
+        plot: &Area,
+        beams: &[Vec<(Point, f64)>],
+    ) {
         let Some((at, value)) = self.largest().filter(|(_, value)| *value > 0.0) else { return };
         if frame.curve(plot, &[at]).is_empty() {
             return;
         }
         let (x, y) = frame.place(plot, at);
         Marker::Ring.draw(canvas, (x, y), 6.0, INK);
-        let text = significant(value, DIGITS).replace('-', "−");
+        let text = typeset_number(value, DIGITS);
         let width = fonts::width(&text, NUMBER);
-        let left = if x + 18.0 + width > plot.right { x - 14.0 - width } else { x + 14.0 };
-        let baseline = if y - 24.0 < plot.top { y + 24.0 } else { y - 12.0 };
-        let paper = Area {
-            left: left - 2.0,
-            top: baseline - NUMBER,
-            right: left + width + 2.0,
-            bottom: baseline + 3.0,
+        let area = |away: f64, (right, down): (f64, f64)| {
+            let left = x - 0.5 * width + right * (away + 0.5 * width);
+            let top = y - 0.5 * NUMBER + down * (away + 0.2 * NUMBER);
+            Area { left: left - 2.0, top, right: left + width + 2.0, bottom: top + NUMBER + 3.0 }
         };
-        canvas.fill(paper, WHITE);
-        canvas.text(&text, (left, baseline), NUMBER, Align::Start, INK);
+        let away = [14.0, 22.0, 32.0].into_iter();
+        let places = away.flat_map(|away| AROUND.map(|direction| area(away, direction)));
+        let is_seen = |area: &Area| {
+            area.left > plot.left
+                && area.right < plot.right
+                && area.top > plot.top
+                && area.bottom < plot.bottom
+        };
+        let seen: Vec<Area> = places.filter(is_seen).collect();
+        let free = seen.iter().find(|area| !beams.iter().any(|beam| crosses(beam, area)));
+        let Some(paper) = free.or(seen.first()) else { return };
+        canvas.fill(*paper, WHITE);
+        canvas.text(&text, (paper.left + 2.0, paper.bottom - 3.0), NUMBER, Align::Start, INK);
     }
+}
+
+/// Where a number may stand beside its mark: above to the right first.
+const AROUND: [(f64, f64); 8] = [
+    (1.0, -1.0),
+    (-1.0, -1.0),
+    (1.0, 1.0),
+    (-1.0, 1.0),
+    (1.0, 0.0),
+    (-1.0, 0.0),
+    (0.0, -1.0),
+    (0.0, 1.0),
+];
+
+/// Whether a beam on paper comes into a box, its breadth included.
+fn crosses(beam: &[(Point, f64)], area: &Area) -> bool {
+    beam.windows(2).any(|pair| {
+        let (a, b) = (pair[0].0, pair[1].0);
+        let count = (hypot(b.0 - a.0, b.1 - a.1) / PIECE).ceil().clamp(1.0, 500.0);
+        let reach = 0.5 * WIDTHS.1;
+        (0..=count as usize).any(|index| {
+            let part = index as f64 / count;
+            let (x, y) = (a.0 + part * (b.0 - a.0), a.1 + part * (b.1 - a.1));
+            x > area.left - reach
+                && x < area.right + reach
+                && y > area.top - reach
+                && y < area.bottom + reach
+        })
+    })
 }
 
 impl Panel for FieldPicture {
@@ -175,7 +218,7 @@ impl Panel for FieldPicture {
             }
         }
         self.scenery.draw(canvas, &frame, plot);
-        self.draw_largest(canvas, &frame, plot);
+        self.draw_largest(canvas, &frame, plot, &beams);
     }
 }
 

@@ -1,11 +1,11 @@
 //! Diagrams of what beams transmit: values as strips across the beams, in a piece of the plane with equal units.
 
 use super::{
+    axis::typeset_number,
     canvas::{Align, Area, Canvas, Point},
     colour::{Colour, INK, hue, tint},
     fonts,
     frame::{Frame, Margins},
-    number::significant,
     page::Panel,
     plane::{Limits, View},
     scenery::Scenery,
@@ -222,7 +222,7 @@ impl StripPicture {
             if frame.curve(plot, &[at.tip]).is_empty() {
                 continue;
             }
-            let text = significant(at.value, DIGITS).replace('-', "−");
+            let text = typeset_number(at.value, DIGITS);
             let (foot, tip) = (frame.place(plot, at.foot), frame.place(plot, at.tip));
             let length = hypot(tip.0 - foot.0, tip.1 - foot.1).max(1e-9);
             let outwards = ((tip.0 - foot.0) / length, (tip.1 - foot.1) / length);

@@ -52,7 +52,7 @@ impl Stroke {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::colour::INK;
+    use crate::output::colour::{HUE_COUNT, INK, hue};
 
     #[test]
     fn a_dashed_line_is_several() {
@@ -64,5 +64,13 @@ mod tests {
         assert_eq!((count(Stroke::Solid), count(Stroke::Dashed), count(Stroke::Dotted)), (1, 2, 4));
         assert_eq!((count(Stroke::Marked), count(Stroke::Unjoined)), (1, 0));
         assert_eq!(Stroke::of_round(4), Stroke::Dashed);
+    }
+
+    #[test]
+    fn three_times_as_many_beams_as_there_are_colours_are_told_apart() {
+        let looks =
+            |index: usize| format!("{:?} {:?}", hue(index), Stroke::of_round(index / HUE_COUNT));
+        let all: std::collections::BTreeSet<String> = (0..3 * HUE_COUNT).map(looks).collect();
+        assert_eq!(all.len(), 3 * HUE_COUNT);
     }
 }

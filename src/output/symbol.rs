@@ -58,6 +58,12 @@ pub enum Symbol {
 }
 
 impl Symbol {
+    /// Whether it is that of a support, a joint or a slider.
+    pub fn holds(self) -> bool {
+        use Symbol::{Clamp, Guided, HeldAngle, Hinge, Joint, RigidJoint, Roller, Slider};
+        matches!(self, Hinge | Clamp | Roller | Guided | HeldAngle | Joint | RigidJoint | Slider)
+    }
+
     /// The name of the symbol in the data of pages.
     pub fn name(self) -> &'static str {
         match self {

@@ -24,7 +24,7 @@ pub fn add_body(
     let names = ('a'..).map(String::from);
     let points = names.zip(points.iter().copied()).collect();
     let motion = StartMotion::default();
-    let body = RigidBodyDefinition { name, position, angle, points, motion };
+    let body = RigidBodyDefinition { name, position, angle, points, outline: Vec::new(), motion };
     scene.add_rigid_body(body, mass, inertia).unwrap()
 }
 
@@ -163,7 +163,7 @@ pub fn chain(bodies: usize) -> Scene {
     scene
 }
 
-/// Every scene without sliders on a mesh.
+/// Every scene without sliders on a mesh, and one with laws that have corners.
 pub fn all(mesh: &Mesh) -> Vec<Scene> {
     vec![
         pendulum(0.2, 0.8, 2.0),
@@ -172,5 +172,7 @@ pub fn all(mesh: &Mesh) -> Vec<Scene> {
         crank_rocker(mesh),
         chain(5),
         super::release_scenes::bracket(mesh),
+        super::roller_scenes::on_rollers(mesh),
+        super::scenes::absorbed(mesh),
     ]
 }

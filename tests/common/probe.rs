@@ -26,7 +26,13 @@ pub fn advance(model: &mut Model, stage: Stage, increments: &[f64]) {
     let mut residual = vec![0.0; model.degrees_of_freedom()];
     model.add_forces(stage, increments, 1.0, &mut residual);
     let rates = model.rates().to_vec();
-    let solution = Solution { increments, constraints: &[], rates: &rates, residual: &residual };
+    let solution = Solution {
+        increments,
+        constraints: &[],
+        rates: &rates,
+        residual: &residual,
+        balanced: &[],
+    };
     model.advance(&solution);
 }
 

@@ -152,7 +152,7 @@ fn a_body_on_a_torsion_spring_beside_its_centre_swings_as_a_cosine() {
             let ends = [Anchor::Station(point(body, 1)), Anchor::Ground(at(0.0, 0.0))];
             let law = Some(RestoringLaw::Linear { stiffness, natural: 0.3 });
             let (name, kind) = ("hairspring".to_owned(), SpringKind::Torsion(ends));
-            let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0 };
+            let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() };
             scene.add_spring(spring).unwrap();
             let simulation = simulate(scene, entry.method, dt, 2.5);
             // The ground's angle less that of the body wants to be 0.3.
@@ -179,7 +179,7 @@ fn a_rod_let_go_gives_its_hinge_a_quarter_of_its_weight() {
         Simulation::start(scene, crate::common::settings(Method::EnergyMomentum, 0.01)).unwrap();
     let [pivot, tip] = [1, 2].map(|end| simulation.place(&point(body, end)).unwrap());
     let now = simulation.instant().unwrap();
-    let (force, moment) = simulation.model().reaction(&now, &pivot).unwrap();
+    let (force, moment) = simulation.model().reaction(now.given(), &pivot).unwrap();
     assert!((force - at(0.0, 0.25 * mass * GRAVITY)).norm() < 1e-12 && moment == 0.0, "{force}");
     let tip = simulation.model().acceleration(&now, &tip);
     assert!((tip - at(0.0, -1.5 * GRAVITY)).norm() < 1e-12, "{tip}");
@@ -250,7 +250,7 @@ fn driven_wheel() -> Scene {
     let ends = [point(wheel, 1), point(hung, 1)].map(Anchor::Station);
     let law = Some(RestoringLaw::Linear { stiffness: 2.0, natural: 0.0 });
     let (name, kind) = ("spring".to_owned(), SpringKind::Torsion(ends));
-    let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0 };
+    let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() };
     scene.add_spring(spring).unwrap();
     scene
 }
@@ -304,4 +304,25 @@ fn the_band_of_a_chain_does_not_grow_with_its_length_nor_the_work_of_a_body() {
     assert!(ten.0 == 4 && ten.3 == 0, "{ten:?}");
     assert_eq!(work(100), ten);
     assert_eq!(work(200), ten);
+}
+
+/// A polygon of one's own is carried along by the body, whatever its points, and is in its file.
+#[test]
+fn an_outline_turns_with_its_body() {
+    let mut scene = body_scenes::pendulum(0.2, 0.6, 0.8);
+    let corners = [at(0.3, 0.6), at(-0.3, 0.5), at(-0.1, -0.7), at(0.4, -0.2)];
+    scene.rigid_bodies[0].outline = corners.to_vec();
+    let simulation = simulate(scene, Method::default(), 0.01, 1.0);
+    let (centre, angle) = (position(&simulation, &point(0, 0)), angle(&simulation, 0));
+    let drawn = simulation.configuration().unwrap().bodies.remove(0);
+    let expected = corners.iter().chain(&corners[..1]).map(|corner| {
+        let (sin, cos) = angle.sin_cos();
+        centre + at(cos * corner.x - sin * corner.y, sin * corner.x + cos * corner.y)
+    });
+    assert_eq!(drawn.len(), corners.len() + 1);
+    for (drawn, expected) in drawn.iter().zip(expected) {
+        assert!((drawn - expected).norm() < 1e-9, "{drawn} {expected}");
+    }
+    let (_, again) = Simulation::from_bytes(&simulation.to_bytes("swing").unwrap()).unwrap();
+    assert_eq!(again.configuration().unwrap().bodies[0], drawn);
 }

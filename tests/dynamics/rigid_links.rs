@@ -22,7 +22,9 @@ fn smooth(spans: usize) -> Mesh {
 fn the_tangent_is_the_derivative_of_forces_and_places() {
     let mut random = Random(20);
     for (name, mesh) in meshes(4) {
-        for scene in body_scenes::all(&mesh) {
+        // A law with corners has no derivative there.
+        let is_smooth = |scene: &Scene| scene.springs().all(|at| at.damping.corners().is_empty());
+        for scene in body_scenes::all(&mesh).into_iter().filter(is_smooth) {
             let mut model = Model::assemble(&scene).unwrap();
             let increments = random.vector(model.unknowns(), 0.2);
             for stage in [Stage::Midpoint, Stage::DampedMidpoint(0.6), Stage::End] {
@@ -94,7 +96,7 @@ fn joints_give_to_a_body_what_its_accelerations_need() {
     let [centre, held] = [point(fixed, 0), point(fixed, 1)].map(|at| place(&simulation, &at));
     let rigid = simulation.model().transmission(&scene, 1).unwrap();
     let now = simulation.instant().unwrap();
-    let (force, moment) = rigid.read(&now);
+    let (force, moment) = rigid.read(now.given());
     let model = simulation.model();
     let acceleration = model.acceleration(&now, &centre);
     let inertia = (1.2 * acceleration).norm();
@@ -131,7 +133,8 @@ fn a_clamp_at_a_point_gives_the_moment_of_the_body() {
     let now = simulation.instant().unwrap();
     let arm = at(1.0, 0.5) - simulation.model().position(&at_point);
     let expected = (at(0.0, 20.0), 20.0 * arm.x);
-    for (force, moment) in [simulation.model().reaction(&now, &at_point).unwrap(), joint.read(&now)]
+    for (force, moment) in
+        [simulation.model().reaction(now.given(), &at_point).unwrap(), joint.read(now.given())]
     {
         assert!((force - expected.0).norm() < 1e-12 && (moment - expected.1).abs() < 1e-12);
     }
@@ -177,6 +180,7 @@ fn numbers_and_names_that_make_no_body_are_refused() {
         position: Vec2::zeros(),
         angle: 0.0,
         points: points.iter().map(|(name, at)| ((*name).to_owned(), *at)).collect(),
+        outline: Vec::new(),
         motion: withy::model::StartMotion::default(),
     };
     let mut scene = Scene::new("wrong");
@@ -230,7 +234,7 @@ fn a_pendulum_upside_down_grows_from_the_start_and_looking_at_that_changes_nothi
         kind: SpringKind::Torsion([Anchor::Ground(at(0.0, 0.0)), Anchor::Station(station)]),
         law: Some(RestoringLaw::Linear { stiffness, natural: 0.0 }),
         origin: Origin::AsBuilt,
-        damping: 0.0,
+        damping: 0.0.into(),
     };
     scene.add_spring(spring).unwrap();
     scene.rigid_bodies[0].motion.spin = 1e-3;

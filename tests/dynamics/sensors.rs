@@ -15,10 +15,11 @@ fn smooth(spans: usize) -> Mesh {
     Mesh::bspline(spans, 3, 2).unwrap()
 }
 
-/// Records everything that is ready.
+/// Records everything that is ready, but for means of steps, of which the sums are a part of the state and which not all methods have.
 fn with_all_sensors(mut scene: Scene) -> Scene {
     let names = scene.sensor_names();
-    names.iter().for_each(|name| scene.record(name).unwrap());
+    let names = names.iter().filter(|name| !name.contains(".mean_"));
+    names.for_each(|name| scene.record(name).unwrap());
     if let Some(beam) = scene.beams.first() {
         let (name, length) = (beam.name.clone(), beam.axis.length());
         scene.record(&format!("{name}[{}].M", 0.37 * length)).unwrap();
@@ -97,7 +98,7 @@ fn forces_and_accelerations_are_those_of_a_very_short_step() {
             let place = simulation.place(&station).unwrap();
             let model = simulation.model();
             let reaction = held.iter().map(|station| {
-                model.reaction(&now, &simulation.place(station).unwrap()).unwrap().0
+                model.reaction(now.given(), &simulation.place(station).unwrap()).unwrap().0
             });
             let measures = simulation.history().samples().last().unwrap().measures;
             let acceleration = model.acceleration(&now, &place);
@@ -133,7 +134,7 @@ fn joints_give_what_sections_transmit() {
             for (index, joint) in joints.iter().enumerate() {
                 let model = simulation.model();
                 let transmission = model.transmission(simulation.scene(), index).unwrap();
-                let (force, moment) = transmission.read(&now);
+                let (force, moment) = transmission.read(now.given());
                 let section = simulation.section_forces(&joint.station).unwrap();
                 let size = section.axial.hypot(section.shear);
                 worst[0] = worst[0].max((force.norm() - size).abs() / (1.0 + size));
@@ -243,7 +244,7 @@ fn a_bead_accelerates_as_its_contact_force_says() {
 #[test]
 fn sensors_are_stored_by_their_names_and_go_back_with_the_run() {
     let mut scene = scenes::curved_pendulum(&smooth(4));
-    for name in ["beam1.end.x", "beam1[1].M", "beam1.energy", "hinge1.force"] {
+    for name in ["beam1.end.x", "beam1[1].M", "beam1.energy", "hinge1.force", "hinge1.mean_fx"] {
         scene.record(name).unwrap();
     }
     let mut simulation = Simulation::start(scene, settings(Method::default(), 0.02)).unwrap();

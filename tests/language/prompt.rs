@@ -446,6 +446,16 @@ fn names_of_the_session_are_explained_with_their_values() {
         ("sqrt?", &["sqrt("]),
         (":plot?", &[":plot [CURVES, OPTIONS]", "separated by commas"]),
         ("plot?", &[":plot [CURVES, OPTIONS]", "plot_motion"]),
+        (
+            "?plot",
+            &[
+                "The height of a tip over time, and the bending moment at a clamp",
+                "scene.record(\"rod.end.y\")",
+                "plot_history(sim, [\"rod.end.y\"]",
+                "plot_history(sim, [\"rod.start.M\"]",
+                "plot_along(sim, \"M\"",
+            ],
+        ),
         ("?:time", &[":time INPUT"]),
         ("let?", &["let"]),
     ] {

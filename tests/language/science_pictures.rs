@@ -120,6 +120,21 @@ let sim = scene.start(#{ dt: 0.1 });\nsim.run_to(0.2);\nplot_motion(sim, \"it.sv
 }
 
 #[test]
+fn a_hundred_eyelets_do_not_hide_their_rope() {
+    let marks = |count: usize, options: &str| {
+        let svg = picture(&format!(
+            "for n in 1..={count} {{ scene.slider(scene.particle([n / {count}.5, 0], 0.1), rod, #{{ at: n / {count}.5 / 2 }}); }}
+             plot_motion(scene.start(#{{ dt: 0.1 }}), \"it.svg\", #{{ {options} }});"
+        ));
+        svg.matches("<poly").count()
+    };
+    let [all, some, none] = ["symbols: true", "", "symbols: false"].map(|how| marks(100, how));
+    // The load is still there.
+    assert!(none < some && some + 100 < all, "{none} {some} {all}");
+    assert!(marks(20, "") == marks(20, "symbols: true"));
+}
+
+#[test]
 fn magnified_displacements_are_as_many_times_as_large() {
     let axis = |magnify: &str| {
         picture(&format!(

@@ -258,7 +258,8 @@ fn rigid_bodies_have_outlines_and_what_drives_has_signs() {
     let script = "
         let wheel = scene.body(#{ name: \"wheel\", at: [5, 0], mass: 1, inertia: 1, angle: 0.3,
                                   points: #{ e: [1, 0], n: [0, 1], w: [-1, 0] } });
-        let arm = scene.body(#{ name: \"arm\", at: [8, 0], mass: 1, inertia: 1, points: #{ eye: [0.5, 0] } });
+        let arm = scene.body(#{ name: \"arm\", at: [8, 0], mass: 1, inertia: 1, points: #{ eye: [0.5, 0] },
+                                outline: [[0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5]] });
         let bob = scene.body(#{ name: \"bob\", at: [9, 0], mass: 1, inertia: 1 });
         scene.hinge(wheel.centre);
         scene.motor(wheel.centre, #{ angle: |t| t * t });
@@ -283,6 +284,13 @@ fn rigid_bodies_have_outlines_and_what_drives_has_signs() {
     let outlines: Vec<usize> =
         bodies.iter().map(|body| body["outline"].as_array().unwrap().len()).collect();
     assert_eq!(outlines, [4, 2, 0], "closed, a line from the centre, none");
+    let corners = |body: usize| bodies[body]["corners"].to_string();
+    assert_eq!(corners(0), "[]");
+    assert_eq!(
+        corners(1),
+        "[[1.0,1.0],[-1.0,1.0],[-1.0,-1.0],[1.0,1.0]]",
+        "in lengths from its centre to its eye"
+    );
     let names: Vec<&str> = bodies[0]["points"]
         .as_array()
         .unwrap()

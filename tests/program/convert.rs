@@ -56,6 +56,10 @@ fn a_saved_simulation_is_converted_beside_itself_or_into_a_folder() {
             .count(),
         51
     );
+    let output = withy(home, &["convert", "out/run.withy", "--to", "html"]);
+    assert_eq!((output.status.code(), said(&output).as_str()), (Some(0), "wrote out/run.html\n"));
+    let page = fs::read_to_string(home.join("out/run.html")).expect("a page");
+    assert!(page.starts_with("<!doctype html>") && page.contains("<canvas"), "{page}");
     let old = fs::read(home.join("out/run.npz")).expect("an archive");
     withy(home, &["convert", "out/run.withy", "--to", "npz"]);
     assert_eq!(fs::read(home.join("out/run.npz")).expect("an archive"), old, "equal bytes");

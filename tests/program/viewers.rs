@@ -109,6 +109,25 @@ fn asked(browser: &Path, page: &Path, script: &str, options: &[&str]) -> (Value,
     (serde_json::from_str(&found).expect("JSON"), console.join("\n"))
 }
 
+/// As wide as a phone that lies, the page keeps its width, and what is seldom used waits behind a button.
+#[test]
+fn a_narrow_page_is_not_cut() {
+    let Some(browser) = browser() else { return };
+    let folder = folder();
+    let output = withy(folder.path(), &["view", "swing.rhai", "--no-open"]);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let script = "const shown = (name) => getComputedStyle(document.querySelector(name)).display !== 'none';
+         return { wide: document.documentElement.scrollWidth, inner: innerWidth, more: shown('#more'), wrap: shown('footer .wrap') };";
+    let page = folder.path().join("out/swing.html");
+    for size in ["--window-size=500,900", "--window-size=900,450"] {
+        let (found, console) = asked(&browser, &page, script, &[size]);
+        assert_eq!(console, "", "the console is silent");
+        assert!(found["inner"].as_f64().is_some_and(|inner| inner < 1000.0), "{found}");
+        assert!(found["wide"].as_f64() <= found["inner"].as_f64(), "nothing is cut: {found}");
+        assert_eq!((&found["more"], &found["wrap"]), (&true.into(), &false.into()), "{found}");
+    }
+}
+
 #[test]
 fn the_tip_on_the_screen_is_where_the_solver_says() {
     let Some(browser) = browser() else {

@@ -3,13 +3,13 @@
 
 use crate::common::probe::{self, STEP, differences};
 use crate::common::{Random, meshes, sliding_scenes};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use withy::beams::{Mesh, kink_length};
 use withy::geometry::{Curve, Passage, PiecewisePolynomial, Vec2, cross, interpolate};
 use withy::integrators::{Constraints, Mechanism, Stage};
 use withy::joints::{
-    Conserving, Contact, ContactUnknowns, Exact, Held, Kink, Kinked, Relaxed, Released,
-    SLIDING_RULES, SlidingLaw, Unit,
+    Conserving, Contact, ContactUnknowns, Exact, Held, Kink, KinkMotion, Kinked, Relaxed, Released,
+    SLIDING_RULES, SlidingLaw, Unit, jump_of_sliding,
 };
 use withy::linalg::BorderedMatrix;
 use withy::model::{Model, TrackEnd, TrackLimit};
@@ -33,7 +33,7 @@ struct State {
     from: f64,
     length: f64,
     mesh: Mesh,
-    /// Kink length [length], compliance [1/force] and contact force at the start of the step, where the mesh has kink lengths.
+    /// Kink length [length], compliance [1/force] and jump of the tangent (as a force) at the start of the step, where the mesh has kink lengths.
     kink: Option<(PiecewisePolynomial, f64, Vec2)>,
 }
 
@@ -41,6 +41,11 @@ struct State {
 fn kink_of(mesh: &Mesh, length: f64) -> Option<PiecewisePolynomial> {
     let axis = Curve::line(Vec2::zeros(), Vec2::new(length, 0.0)).unwrap();
     kink_length(mesh, &interpolate(&axis, mesh.basis()).unwrap()).unwrap()
+}
+
+/// The arc length along a mesh of a straight axis of that length.
+fn arc_of(mesh: &Mesh, length: f64) -> PiecewisePolynomial {
+    PiecewisePolynomial::integral(&mesh.basis().spans(), 2, |_, xi| length * (1.0 + 0.2 * xi))
 }
 
 impl State {
@@ -58,6 +63,12 @@ impl State {
             along: passage.along(length),
             compliance: *compliance,
             before: *before,
+            motion: KinkMotion {
+                arc: passage.along(&arc_of(&self.mesh, self.length)),
+                speed: 0.28 * self.length,
+                slowness: 0.6 / self.length.powi(2),
+                duration: 1.3,
+            },
         });
         let contact = Contact {
             passage: &passage,
@@ -93,7 +104,7 @@ fn states() -> Vec<State> {
                 unknowns: ContactUnknowns { force: vector(5.0), couple: vector(2.0), way },
                 from,
                 length: 2.5,
-                kink: kink_of(&mesh, 2.5).map(|length| (length, 0.3, vector(5.0))),
+                kink: kink_of(&mesh, 2.5).map(|length| (length, 0.03, vector(5.0))),
                 mesh: mesh.clone(),
             });
         }
@@ -154,7 +165,7 @@ fn the_derivatives_by_the_way_hold_where_it_passes_zero() {
                 *numbers.last_mut().unwrap() = way[0];
                 state.with(&numbers, |contact, _| law.equations(contact).map(|e| e.value).to_vec())
             };
-            let expected = differences(&[state.unknowns.way], 1e-3, &mut only_way);
+            let expected = differences(&[state.unknowns.way], 2e-4, &mut only_way);
             let found = DMatrix::from_column_slice(5, 1, &found);
             assert_close(&format!("{law_name}, {}", state.name), &found, &expected, 1e-8);
         }
@@ -177,7 +188,8 @@ fn balance(state: &State, contact: &Contact<'_>, passage: &Passage) -> (Vec2, f6
 
 #[test]
 fn what_a_contact_does_is_what_its_equations_leave() {
-    for state in states() {
+    for mut state in states() {
+        state.kink = None;
         state.with(&state.numbers(), |contact, passage| {
             let (force, moment, work) = balance(&state, contact, passage);
             let ContactUnknowns { force: lambda, couple: eta, way } = contact.unknowns;
@@ -214,31 +226,6 @@ fn what_a_contact_does_is_what_its_equations_leave() {
                 eta.dot(&tau) * tau.norm_squared(),
             );
 
-            // With the kink: what the slave is off the smooth axis at both ends of the step, and the energy there.
-            let (offsets, energies) = contact.kink.map_or(([Vec2::zeros(); 2], [0.0; 2]), |kink| {
-                let ends =
-                    [(kink.along.start, kink.before), (kink.along.end, contact.force_at_end())];
-                (
-                    ends.map(|(g, p)| p * (g * kink.compliance)),
-                    ends.map(|(g, p)| 0.5 * g * p.norm_squared() * kink.compliance),
-                )
-            });
-            let [x, y, cx, cy, sliding] = Kinked.equations(contact).map(|e| e.value);
-            close("the gap to the kinked axis along x", x, gap.x - offsets[1].x);
-            close("the gap to the kinked axis along y", y, gap.y - offsets[1].y);
-            let kept = way * sliding * length;
-            let stored = energies[1] - energies[0];
-            let on_kink = lambda.dot(&(offsets[1] - offsets[0]));
-            close("energy", kept, way * (4.0 * eta.dot(&d) + lambda.dot(&tau)) + on_kink - stored);
-            let couple = Vec2::new(cx, cy) * length.powi(2);
-            let turned = way * (cross(tau, eta) + cross(d, lambda))
-                + cross(offsets[0] + offsets[1], lambda) * 0.5;
-            close("couple", way * cross(tau, couple) / tau.norm_squared(), turned);
-            close(
-                "no more couple than needed",
-                couple.dot(&tau),
-                eta.dot(&tau) * tau.norm_squared(),
-            );
             close("exact sliding", Exact.equations(contact)[4].value * length, lambda.dot(&tau));
 
             // Without a couple the relaxed rule leaves nothing but its own equations.
@@ -254,6 +241,70 @@ fn what_a_contact_does_is_what_its_equations_leave() {
                     -2.0 * lambda.dot(&mean_gap) - way * sliding * length,
                 );
             }
+        });
+    }
+}
+
+/// Moves the slave, and changes couple and force along the master, until all equations of the kinked law hold.
+fn solve_kinked(state: &mut State) {
+    let start_gap = |state: &State| state.with(&state.numbers(), |contact, _| contact.start_gap());
+    let (length, compliance, before) = state.kink.clone().unwrap();
+    let offset = state
+        .with(&state.numbers(), |_, passage| before * (passage.along(&length).start * compliance));
+    let shift = -offset - start_gap(state);
+    state.before.iter_mut().for_each(|point| *point += shift);
+    for _ in 0..30 {
+        let correction = state.with(&state.numbers(), |contact, _| {
+            let along = contact.tangent().value.normalize();
+            let equations = Kinked.equations(contact);
+            let value = DVector::from_iterator(5, equations.iter().map(|e| e.value));
+            let slope = DMatrix::from_fn(5, 5, |row, column| {
+                let equation = &equations[row];
+                let ContactUnknowns { force, couple, .. } = equation.by_unknowns;
+                let s = equation.by_slave;
+                [s.x, s.y, couple.x, couple.y, force.dot(&along)][column]
+            });
+            let by = slope.lu().solve(&value).unwrap();
+            ([by[0], by[1], by[2], by[3]], along * by[4])
+        });
+        let ([x, y, couple_x, couple_y], force) = correction;
+        state.slave_moved -= Vec2::new(x, y);
+        state.unknowns.couple -= Vec2::new(couple_x, couple_y);
+        state.unknowns.force -= force;
+    }
+}
+
+#[test]
+fn a_contact_on_a_kinked_axis_keeps_momenta_and_energy_with_that_of_the_kink() {
+    for mut state in states().into_iter().filter(|state| state.kink.is_some()) {
+        // A beam of this world: little moves, the kink is small.
+        let count = state.before.len();
+        for (at, point) in state.before.iter_mut().enumerate() {
+            *point = *point * 0.03 + Vec2::new(at as f64 / (count - 1) as f64 * 2.5, 0.0);
+        }
+        state.moved.iter_mut().for_each(|moved| *moved *= 0.2);
+        state.unknowns.force *= 0.05;
+        state.kink.iter_mut().for_each(|(.., before)| *before *= 0.05);
+        solve_kinked(&mut state);
+        state.with(&state.numbers(), |contact, passage| {
+            let largest =
+                Kinked.equations(contact).map(|e| e.value.abs()).into_iter().fold(0.0, f64::max);
+            assert!(largest < 1e-13, "{}: no solution, {largest:.1e}", state.name);
+            let (force, moment, work) = balance(&state, contact, passage);
+            let kink = contact.kink.unwrap();
+            let (jump, speed) = jump_of_sliding(contact).unwrap();
+            let energy = |g: f64, p: Vec2, v: f64| {
+                0.5 * g * p.norm_squared() * kink.compliance * (1.0 + kink.motion.slowness * v * v)
+            };
+            let gained = energy(kink.along.end, jump, speed)
+                - energy(kink.along.start, kink.before, kink.motion.speed);
+            println!(
+                "{}: work {work:.3e}, kink gains {gained:.3e}, v {} to {speed:.3}",
+                state.name, kink.motion.speed
+            );
+            assert!(force.norm() < 1e-14, "{}: force {force:?}", state.name);
+            assert!(moment.abs() < 1e-13, "{}: moment {moment:.1e}", state.name);
+            assert!((work + gained).abs() < 1e-13, "{}: energy {work:e} {gained:e}", state.name);
         });
     }
 }
@@ -295,6 +346,7 @@ fn advance_sliders(model: &mut Model, increments: &[f64], random: &mut Random) {
         constraints: &contacts,
         rates: &rates,
         residual: &residual,
+        balanced: &[],
     });
 }
 

@@ -8,11 +8,11 @@ use crate::common::{
     assert_energy_never_grows, meshes, run, sci, settings, simulate, sliding_scenes,
 };
 use withy::beams::Mesh;
-use withy::integrators::{EnergyClaim, INTEGRATORS, Interval, Method};
+use withy::integrators::{EnergyClaim, INTEGRATORS, Interval, Method, StepError};
 use withy::joints::{RuleClaims, SLIDING_RULES, SlidingRule};
 use withy::model::{Model, Scene, TrackEnd, TrackLimit};
 use withy::newton::Tolerance;
-use withy::simulation::{Invariant, Simulation};
+use withy::simulation::{Invariant, Simulation, SimulationError};
 
 const ROUNDING: f64 = 1e-12;
 
@@ -97,9 +97,17 @@ fn every_rule_keeps_what_it_claims_and_nothing_else() {
             for support in [Support::Free, Support::Hinged] {
                 let scene = free_sliding_mass([&ab, &cm], 1e2, support, entry.rule);
                 let mut flight = start(scene, PAPER_STEP);
-                // The relaxed rule stops where it does.
+                // The relaxed rule stops where it does; the mass gets faster than a kink may be.
                 let ended = run(&mut flight, 1.0);
-                assert!(ended.is_ok() || !entry.claims.gap, "{}: {ended:?}", entry.name);
+                let is_too_fast = matches!(
+                    &ended,
+                    Err(SimulationError::Load { source: StepError::FastAsWaves { .. } })
+                );
+                assert!(
+                    ended.is_ok() || !entry.claims.gap || is_too_fast,
+                    "{}: {ended:?}",
+                    entry.name
+                );
                 let label = format!("{:10} {name:14} {support:6?}", entry.name);
                 let drifts = drifts(&flight);
                 println!("{label} t = {:.3} drift of E, p, L, gap {}", flight.time(), sci(&drifts));

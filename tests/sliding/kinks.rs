@@ -56,9 +56,9 @@ fn on_kinked_axes_contacts_come_nearer_to_the_references() {
             |what: usize| smeared[what].last().unwrap() / kinked[what].last().unwrap();
         let is_slow = !reference.starts_with("P8s");
         let [place, point, _, force] = [0, 1, 2, 3].map(|what| slope(&kinked[what]));
-        assert!(place > 0.9 && point > 1.2 && force > 0.45, "{reference}: {place} {point} {force}");
-        assert!(times_nearer(1) > if is_slow { 8.0 } else { 1.5 }, "{reference}");
-        assert!(times_nearer(2) > 3.0 && times_nearer(3) > 1.2, "{reference}");
+        assert!(place > 1.45 && point > 1.4 && force > 0.5, "{reference}: {place} {point} {force}");
+        assert!(times_nearer(1) > if is_slow { 30.0 } else { 2.5 }, "{reference}");
+        assert!(times_nearer(2) > 8.0 && times_nearer(3) > 1.4, "{reference}");
     }
 }
 
@@ -80,7 +80,7 @@ fn contact_forces_are_told_at_their_own_time_with_the_order_of_the_method() {
                 "{reference:10} {method:?}: force changes by {} order {found:.2}",
                 sci(&changes)
             );
-            assert!((found - order).abs() < 0.2, "{reference}, {method:?}: {found}");
+            assert!(found > order - 0.3, "{reference}, {method:?}: {found}");
         }
     }
 }

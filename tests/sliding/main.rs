@@ -5,6 +5,7 @@ mod common;
 
 mod consistency;
 mod ends;
+mod forces;
 mod invariants;
 mod kinks;
 mod long_ways;

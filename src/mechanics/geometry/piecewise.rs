@@ -1,6 +1,7 @@
 //! Functions that are a polynomial on each span of a basis.
 
 use super::{GaussRule, Span};
+use nalgebra::{DMatrix, DVector};
 
 /// A function of the parameter ξ of a basis that is a polynomial of one degree on each of its spans.
 #[derive(Debug, Clone)]
@@ -41,6 +42,31 @@ impl PiecewisePolynomial {
             count,
             rule: GaussRule::legendre((count / 2).max(1)).iter_on(0.0, 1.0).collect(),
         }
+    }
+
+    /// The integral of a function over the spans, which follow one another, from the start of the first one on; on each span the function is taken for the
+    /// polynomial that it is at so many Gauss points.
+    pub fn integral(spans: &[Span], points: usize, function: impl Fn(&Span, f64) -> f64) -> Self {
+        let rule = GaussRule::legendre(points);
+        let places: Vec<f64> = rule.iter_on(-1.0, 1.0).map(|(t, _)| t).collect();
+        let powers = DMatrix::from_fn(points, points, |row, k| places[row].powi(k as i32));
+        let powers = powers.lu();
+        let mut before = 0.0;
+        let rows = spans.iter().map(|span| {
+            let half = 0.5 * (span.end - span.start);
+            let value = |t: &f64| half * function(span, span.start + half * (1.0 + t));
+            let values = DVector::from_iterator(points, places.iter().map(value));
+            let slopes = powers.solve(&values).unwrap_or(values);
+            let primitive = slopes.iter().enumerate().map(|(k, c)| c / (k + 1) as f64);
+            let mut row: Vec<f64> = std::iter::once(0.0).chain(primitive).collect();
+            let at = |t: f64| row.iter().rev().fold(0.0, |sum, c| sum * t + c);
+            let (start, end) = (at(-1.0), at(1.0));
+            row[0] = before - start;
+            before += end - start;
+            row
+        });
+        let rows: Vec<Vec<f64>> = rows.collect();
+        Self::new(spans, &rows)
     }
 
     /// Points and weights on `[0, 1]` that integrate the derivative of the function on a part of a span exactly.

@@ -127,6 +127,10 @@ pub(super) struct StepSolver {
     carried: Vec<f64>,
     rates: Vec<f64>,
     residual: Vec<f64>,
+    /// The stages of the step at which forces were taken, with their shares.
+    balanced: Vec<(Stage, f64)>,
+    /// Whether the balance is that of the change of the rates.
+    balances_rates: bool,
 }
 
 impl StepSolver {
@@ -147,6 +151,8 @@ impl StepSolver {
             carried: vec![0.0; all],
             rates: vec![0.0; moving],
             residual: vec![0.0; all],
+            balanced: Vec::with_capacity(Stage::ALL.len()),
+            balances_rates: true,
         }
     }
 
@@ -162,12 +168,15 @@ impl StepSolver {
             .for_each(|(d, (expected, rate))| *d = duration * (expected - rate));
         mechanism.predict_constraints(interval, constraints);
         self.carried.fill(0.0);
+        self.balanced.clear();
+        self.balances_rates = true;
     }
 
     /// Carries a share of the forces of a stage at which nothing has moved yet into the balance of the step.
     pub(super) fn carry(&mut self, mechanism: &mut dyn Mechanism, stage: Stage, share: f64) {
         self.increments.fill(0.0);
         mechanism.add_forces(stage, &self.increments, share, &mut self.carried);
+        self.balanced.push((stage, share));
     }
 
     /// Carries the inertia of accelerations times a factor into the balance of the step.
@@ -178,6 +187,7 @@ impl StepSolver {
         accelerations: &[f64],
     ) {
         mechanism.add_inertia(factor, accelerations, &mut self.carried);
+        self.balances_rates = false;
     }
 
     /// Solves the balance of the step for the increments.
@@ -188,6 +198,7 @@ impl StepSolver {
         rule: Rule,
     ) -> Result<NewtonReport, StepError> {
         self.take_prescribed(mechanism, rule.prescribed);
+        self.balanced.push((rule.stage, rule.weight));
         let mut balance = StepBalance {
             mechanism,
             rule,
@@ -267,6 +278,7 @@ impl StepSolver {
         let movements = self.coasting.len();
         self.rates[movements..].copy_from_slice(&mechanism.prescribed().rates);
         let Self { increments, rates, residual, .. } = self;
-        mechanism.advance(&Solution { increments, constraints, rates, residual });
+        let balanced = if self.balances_rates { &*self.balanced } else { &[] };
+        mechanism.advance(&Solution { increments, constraints, rates, residual, balanced });
     }
 }

@@ -197,6 +197,9 @@ pub struct Solution<'a> {
     pub rates: &'a [f64],
     /// What is left of the equations of the step [force, force·length]; reactions at supported degrees of freedom.
     pub residual: &'a [f64],
+    /// The stages at which forces were taken, with their shares [-]: what these did, with constraints and supports, changed the momenta. Empty
+    /// where the method balances accelerations of its own, and not the change of the rates.
+    pub balanced: &'a [(Stage, f64)],
 }
 
 /// A limit of a constraint that is passed within a step.

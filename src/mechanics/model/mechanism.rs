@@ -3,7 +3,9 @@
 mod acceleration;
 mod culprit;
 mod energies;
+mod given;
 mod impact;
+mod impulses;
 mod inertia;
 mod instant;
 mod letting_go;
@@ -15,6 +17,7 @@ mod steps;
 mod stiffness;
 
 pub use energies::BodyEnergy;
+pub use given::Given;
 pub use instant::Instant;
 pub(in crate::model) use letting_go::Numbers;
 pub use measures::{Energy, Measures};
@@ -23,10 +26,12 @@ pub use rest::StaticForces;
 pub use state::ModelState;
 pub use stiffness::add_resistance;
 
+use impulses::Exchanged;
+
 use super::bodies::Bodies;
 use super::elements::{Elements, Exchange, Supports};
+use super::links::Links;
 use super::motion::{Motion, Resolution, Step, Unknowns};
-use super::rigid_links::RigidLinks;
 use super::sliders::{Sliders, Sliding, TrackLimit};
 use crate::loads::LoadError;
 
@@ -34,13 +39,12 @@ use crate::loads::LoadError;
 pub struct Model {
     bodies: Bodies,
     elements: Elements,
-    links: RigidLinks,
+    links: Links,
     sliders: Sliders,
     supports: Supports,
     unknowns: Unknowns,
     motion: Motion,
-    /// Since the start.
-    exchanged: Exchange,
+    exchanged: Exchanged,
     step: Step,
     /// A state to go back to, for methods whose steps have parts.
     kept: ModelState,
@@ -51,7 +55,7 @@ impl Model {
     pub(super) fn new(
         bodies: Bodies,
         elements: Elements,
-        links: RigidLinks,
+        links: Links,
         sliders: Sliders,
         supports: Supports,
         unknowns: Unknowns,
@@ -66,7 +70,7 @@ impl Model {
             supports,
             unknowns,
             motion,
-            exchanged: Exchange::default(),
+            exchanged: Exchanged::default(),
             step: Step::new(degrees_of_freedom),
             kept: ModelState::default(),
         }
@@ -75,7 +79,7 @@ impl Model {
     /// Begins the motion: what supports gave to make velocities fit is not counted, and the first step is guessed from the rates
     /// as they are now.
     pub(super) fn begin(&mut self) {
-        self.exchanged = Exchange::default();
+        self.exchanged.total = Exchange::default();
         let inertia = self.diagonal_of_inertia();
         self.motion.begin(inertia);
     }
@@ -95,7 +99,7 @@ impl Model {
         &self.elements
     }
 
-    pub(super) fn links(&self) -> &RigidLinks {
+    pub(super) fn links(&self) -> &Links {
         &self.links
     }
 

@@ -3,16 +3,16 @@
 mod assembly;
 mod bodies;
 mod elements;
+mod links;
 mod looking;
 mod mechanism;
 mod motion;
-mod rigid_links;
 mod scene;
 mod sliders;
 mod words;
 
 pub use elements::{
-    Anchor, Bend, Drag, Dragged, Drive, DriveKind, DriveState, Element, LoadAccount,
+    Anchor, Bend, DampingLaw, Drag, Dragged, Drive, DriveKind, DriveState, Element, LoadAccount,
     MaterialDamping, Origin, PointMass, RestoringLaw, ShortBounce, SpeedLaw, Spring, SpringKind,
 };
 pub use looking::{
@@ -20,7 +20,7 @@ pub use looking::{
     SpringState, Transmission, Usage,
 };
 pub use mechanism::{
-    BodyEnergy, Energy, Instant, Measures, Model, ModelState, OrderAtRest, StaticForces,
+    BodyEnergy, Energy, Given, Instant, Measures, Model, ModelState, OrderAtRest, StaticForces,
     add_resistance,
 };
 pub use motion::{Resolution, UnknownKind};

@@ -16,6 +16,16 @@ pub enum SimulationError {
     /// The step size of a run is not positive, or its tolerance cannot be kept.
     #[error(transparent)]
     StepSize(#[from] StepSizeError),
+    /// The mean of a step of a method that balances accelerations of its own.
+    #[error(
+        "'{sensor}' is the mean over a step, by which momenta change, and {method} balances accelerations of its own instead: it has none; record the force at the present moment, or take another method"
+    )]
+    NoMean {
+        /// The column that cannot be had.
+        sensor: String,
+        /// The method that has no such mean.
+        method: &'static str,
+    },
     /// An end of a run that has passed.
     #[error("the simulation is at t = {now} and cannot run to t = {end}")]
     End {
@@ -82,10 +92,10 @@ pub enum SimulationError {
         /// The number of parts into which the step with the arrival was divided at last.
         divisions: u64,
     },
-    /// A load has no finite value; no smaller step helps.
+    /// A load has no finite value, or a slider is too fast for its rule; no smaller step helps.
     #[error("{source}")]
     Load {
-        /// The load without a value, the step and the reason.
+        /// The load without a value or the slider, the step and the reason.
         source: StepError,
     },
     /// A slider has reached an end of its master at which the run ends.

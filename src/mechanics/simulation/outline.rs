@@ -2,7 +2,7 @@
 
 use crate::beams::{Mesh, Place};
 use crate::elementary::atan2;
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, cross, perpendicular};
 use crate::model::{BeamDefinition, ModelError, RigidBodyDefinition, Scene};
 
 /// Points along each span of a beam of higher degree.
@@ -18,6 +18,8 @@ fn pieces(degree: usize) -> usize {
 pub struct Outline {
     line: Vec<Place>,
     marks: Vec<Place>,
+    /// Of a rigid body with a polygon of its own: its corners, along and to the left of the line from the centre to one of its points, in lengths of that.
+    corners: Vec<Vec2>,
 }
 
 /// A configuration of a scene as it is drawn, in plain points [length].
@@ -51,6 +53,7 @@ impl Outline {
             Ok(Self {
                 line: Self::parameters(mesh).into_iter().map(place).collect::<Result<_, _>>()?,
                 marks: mesh.basis().breaks().into_iter().map(place).collect::<Result<_, _>>()?,
+                corners: Vec::new(),
             })
         };
         let first = scene.beams.len() + scene.particles.len();
@@ -62,6 +65,9 @@ impl Outline {
 
     /// One point is a line from the centre, two are a line over it, and more go around it.
     fn of_rigid_body(index: usize, body: &RigidBodyDefinition) -> Self {
+        if !body.outline.is_empty() {
+            return Self::polygon(index, body);
+        }
         let mut points: Vec<usize> = body.links().collect();
         let direction = |point: &usize| {
             let place = body.points[point - 1].1;
@@ -74,7 +80,38 @@ impl Outline {
             _ => points.extend(points.first().copied()),
         }
         let place = |point| Place::of_point(index, point, body.angle);
-        Self { line: points.into_iter().map(place).collect(), marks: Vec::new() }
+        let line = points.into_iter().map(place).collect();
+        Self { line, marks: Vec::new(), corners: Vec::new() }
+    }
+
+    /// A polygon is seen by the centre and the point that is farthest from it.
+    fn polygon(index: usize, body: &RigidBodyDefinition) -> Self {
+        let at = |point: &usize| body.points[point - 1].1;
+        let farther = |a: &usize, b: &usize| at(a).norm().total_cmp(&at(b).norm());
+        let point = body.links().max_by(farther).unwrap_or(0);
+        let arm = if point == 0 { Vec2::new(1.0, 0.0) } else { at(&point) };
+        let size = arm.norm_squared();
+        let seen = |corner: &Vec2| Vec2::new(arm.dot(corner), cross(arm, *corner)) / size;
+        let corners = body.outline.iter().chain(body.outline.first()).map(seen).collect();
+        let line = [0, point].map(|point| Place::of_point(index, point, body.angle));
+        Self { line: line.into(), marks: Vec::new(), corners }
+    }
+
+    /// The corners of a rigid body with a polygon of its own, the first one again at the end: along and to the left of the line between the two places of
+    /// its [line](Self::line), in lengths of that.
+    pub fn corners(&self) -> &[Vec2] {
+        &self.corners
+    }
+
+    /// The points of its line in a configuration, or of its polygon.
+    fn points(&self, at: impl Fn(&Place) -> Vec2) -> Vec<Vec2> {
+        let line: Vec<Vec2> = self.line.iter().map(at).collect();
+        let ([centre, point], false) = (line.as_slice(), self.corners.is_empty()) else {
+            return line;
+        };
+        let arm = point - centre;
+        let corner = |corner: &Vec2| centre + arm * corner.x + perpendicular(arm) * corner.y;
+        self.corners.iter().map(corner).collect()
     }
 
     /// Whether it is that of a beam, which has knots.
@@ -117,8 +154,7 @@ impl Outline {
     pub fn draw(outlines: &[Self], time: f64, control_points: &[&[Vec2]]) -> Configuration {
         let at = |place: &Place| place.interpolate(control_points[place.body]);
         let beams = outlines.partition_point(Self::is_of_beam);
-        let mut lines: Vec<Vec<Vec2>> =
-            outlines.iter().map(|outline| outline.line.iter().map(at).collect()).collect();
+        let mut lines: Vec<Vec<Vec2>> = outlines.iter().map(|outline| outline.points(at)).collect();
         Configuration {
             time,
             bodies: lines.split_off(beams),

@@ -31,6 +31,9 @@ impl Record {
             rows_kept: 0,
             sensing: Sensing::of(scene, model)?,
         };
+        if record.sensing.need_mean() {
+            model.sum_up_impulses();
+        }
         record.keep_row(model, StepTaken::default());
         Ok(record)
     }

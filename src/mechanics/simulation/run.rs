@@ -99,6 +99,12 @@ impl Simulation {
             }
         };
         let pace = adaptive.as_ref().map(|adaptive| adaptive.controller.start());
+        if !settings.method.entry().claims.momentum
+            && let Some(sensor) = scene.sensors.iter().find(|sensor| sensor.is_of_step())
+        {
+            let (sensor, method) = (sensor.name.clone(), settings.method.entry().name);
+            return Err(SimulationError::NoMean { sensor, method });
+        }
         Ok(Self {
             record: Record::new(&scene, &mut model)?,
             clock: Clock::new(grid, pace),

@@ -131,6 +131,7 @@ fn packed_body(body: &Body) -> Value {
         "at": place(&body.centre, 0),
         "points": body.points.iter().map(point).collect::<Vec<_>>(),
         "outline": body.outline.iter().map(|at| place(at, 0)).collect::<Vec<_>>(),
+        "corners": body.corners,
     })
 }
 

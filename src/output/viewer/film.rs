@@ -55,6 +55,9 @@ pub struct Body {
     pub points: Vec<(String, Place)>,
     /// The outline of the body: closed where it ends where it begins, a line otherwise; nothing where it has no points.
     pub outline: Vec<Place>,
+    /// Where the body has a polygon of its own, and its outline is the line from its centre to one of its points: the corners, along and to the left of
+    /// that line in its lengths, the first one again at the end.
+    pub corners: Vec<(f64, f64)>,
 }
 
 /// A symbol at a place: what holds, joins, slides or drives.

@@ -1,7 +1,7 @@
 //! Pictures of what is inside of beams: strips, charts and colours, from the same description.
 
 use super::quantities::Quantity;
-use super::symbols::SceneAt;
+use super::symbols::{SceneAt, uncrowded};
 use crate::geometry::Vec2;
 use crate::model::{BeamPlaces, BeamSample, Model, ModelError};
 use crate::output::{
@@ -72,6 +72,12 @@ impl Inside {
                 symbols: at.symbols(model)?,
             },
         })
+    }
+
+    /// Leaves symbols out of which there are so many that they would hide the beams.
+    pub fn with_uncrowded_symbols(mut self) -> Self {
+        self.scenery.symbols = uncrowded(self.scenery.symbols);
+        self
     }
 
     /// Leaves symbols of supports and loads out.

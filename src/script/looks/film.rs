@@ -147,12 +147,14 @@ fn bodies(simulation: &Simulation, shown: &Shown) -> Result<Vec<Body>, ScriptErr
             |at: usize| Ok((format!("{}.{}", body.name, body.points[at - 1].0), place(at)?));
         let points: Vec<_> = body.links().map(point).collect::<Result<_, ScriptError>>()?;
         let outline = if points.is_empty() { None } else { outlines.next() };
+        let corners = outline.map_or(&[][..], Outline::corners);
         let outline = outline.into_iter().flat_map(Outline::line);
         Ok(Body {
             name: body.name.clone(),
             centre: place(0)?,
             points,
             outline: outline.map(|at| shown.place(at)).collect(),
+            corners: plain(corners.iter()),
         })
     };
     scene.rigid_bodies.iter().enumerate().map(body).collect()

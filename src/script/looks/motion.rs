@@ -1,6 +1,6 @@
 //! What a picture of a motion shows, found once for files and for terminals.
 
-use super::symbols::{SceneAt, symbols};
+use super::symbols::{SceneAt, symbols, uncrowded};
 use crate::beams::Place;
 use crate::geometry::Vec2;
 use crate::output::{
@@ -49,6 +49,8 @@ pub struct Wanted {
 pub enum Shown {
     /// It is.
     Yes,
+    /// It is, but for what there is so much of that it would hide the rest.
+    WhereThereIsRoom,
     /// It is not.
     No,
 }
@@ -125,8 +127,11 @@ impl Motion {
         };
         let traces = wanted.traces.iter().map(path).collect();
         let symbols = match (wanted.symbols, snapshots.last()) {
-            (Shown::Yes, Some(last)) => placed(simulation, last.time, wanted.magnify)?,
-            _ => Vec::new(),
+            (Shown::No, _) | (_, None) => Vec::new(),
+            (shown, Some(last)) => {
+                let all = placed(simulation, last.time, wanted.magnify)?;
+                if shown == Shown::Yes { all } else { uncrowded(all) }
+            }
         };
         let beams = simulation.scene().beams.iter().map(|beam| beam.name.clone()).collect();
         let (magnify, limits) = (wanted.magnify, wanted.limits);

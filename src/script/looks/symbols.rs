@@ -2,7 +2,7 @@
 
 use crate::beams::Station;
 use crate::elementary::atan2;
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, perpendicular};
 use crate::joints::{Component, Components, Hold, Joint, JointKind, Partner};
 use crate::loads::{Frame, Load, LoadKind, Schedule, Side};
 use crate::model::{Anchor, Drive, Model, ModelError, Scene, Spring, SpringKind};
@@ -121,6 +121,18 @@ pub fn symbols(
     Ok(placed.chain(springs.flat_map(|spring| of_spring(spring, &mut ends))).collect())
 }
 
+/// The most symbols of supports, joints and sliders that do not hide what they stand on.
+const MOST_HOLDING: usize = 60;
+
+/// The symbols without those of supports, joints and sliders where there are too many of these.
+pub fn uncrowded(symbols: Vec<PlacedSymbol>) -> Vec<PlacedSymbol> {
+    let holds = |placed: &PlacedSymbol| placed.symbol.holds();
+    match symbols.iter().filter(|placed| holds(placed)).count() > MOST_HOLDING {
+        true => symbols.into_iter().filter(|placed| !holds(placed)).collect(),
+        false => symbols,
+    }
+}
+
 /// The symbols of a spring, whose stations come next among the places found: a tendon has one for each part of its way.
 fn of_spring(spring: &Spring, found: &mut impl Iterator<Item = Vec2>) -> Vec<PlacedSymbol> {
     let place = |anchor: &Anchor| match anchor {
@@ -189,6 +201,8 @@ fn of_joint<'a>(scene: &Scene, joint: &'a Joint, hold: Hold) -> Sign<'a> {
         (JointKind::Hinge, Partner::Ground) => of_held(scene, &at, Components::Position),
         (JointKind::Rigid, Partner::Ground) => of_held(scene, &at, Components::All),
         (JointKind::Support(components), _) => of_held(scene, &at, components),
+        (JointKind::InclinedRoller(along), _) => (Symbol::Roller, across(along)),
+        (JointKind::InclinedGuide(along), _) => (Symbol::Guided, across(along)),
         (JointKind::Hinge, Partner::Station(_)) => (Symbol::Joint, away(scene, &at)),
         (JointKind::Rigid, Partner::Station(_)) => (Symbol::RigidJoint, away(scene, &at)),
     };
@@ -206,6 +220,12 @@ fn of_held(scene: &Scene, at: &Station, held: Components) -> (Symbol, Pointing) 
         Components::Position => (Symbol::Hinge, Pointing::To(Vec2::y())),
         Components::All => (Symbol::Clamp, away(scene, at)),
     }
+}
+
+/// Across the line of an inclined roller, upwards: it stands below.
+fn across(along: Vec2) -> Pointing {
+    let across = perpendicular(along);
+    Pointing::To(if across.y < 0.0 { -across } else { across })
 }
 
 /// Away from a support that stands at the end of a beam, the beam runs backwards.

@@ -9,12 +9,13 @@ use super::simulations::SPINNING;
 use super::viewers::span;
 use crate::elementary::whole_power;
 use crate::output::{
-    Animation, Figure, Limits, MotionPicture, OutputError, Page, Panel, PlacedSymbol, Point,
-    Snapshot,
+    Animation, Figure, Limits, Margins, MotionPicture, OutputError, Page, Panel, PlacedSymbol,
+    Point, Snapshot,
 };
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::looks::motion::{Shown, has_room_for_dots, placed, snapshot};
+use crate::script::looks::symbols::uncrowded;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Scripted;
 use crate::script::rows::options::Options;
@@ -61,8 +62,8 @@ const ANIMATION: &[Parameter] = &[
 
 /// Pixels of a picture, alone and of several.
 const WIDTHS: (f64, f64) = (640.0, 960.0);
-/// Least height of a picture in pixels.
-const LEAST_HEIGHT: f64 = 160.0;
+/// The least height of a plot in pixels: what is less has no room for ticks and arrows.
+const LEAST_HEIGHT: f64 = 100.0;
 
 /// A path: points with their times.
 type Path = Vec<(f64, Point)>;
@@ -178,6 +179,7 @@ fn reel(
         let Some(configuration) = simulation.configuration_near(*time)? else { continue };
         symbols.push(match shown {
             Shown::Yes => placed(&simulation, configuration.time, None)?,
+            Shown::WhereThereIsRoom => uncrowded(placed(&simulation, configuration.time, None)?),
             Shown::No => Vec::new(),
         });
         let mut snapshot = snapshot(&configuration);
@@ -209,8 +211,15 @@ fn framed(reels: Vec<Reel>) -> Vec<Reel> {
     reels.into_iter().map(|reel| Reel { base: reel.base.limits(limits), ..reel }).collect()
 }
 
-/// A picture so wide, as high as suits it.
+/// A picture so wide, and so high that its plot has the form that suits it: what is written around it takes as much room in a small one as in a large.
 fn scaled(panel: &dyn Panel, width: f64) -> Result<Figure, OutputError> {
-    let (own, height) = panel.size();
-    panel.figure_of((width, (height * width / own).max(LEAST_HEIGHT)))
+    let plot = |(width, height): (f64, f64)| {
+        let Margins { left, right, top, bottom } = panel.margins(width, height);
+        ((width - left - right, height - top - bottom), top + bottom)
+    };
+    let own = panel.size();
+    let ((own_width, own_height), _) = plot(own);
+    let ((inner, _), around) = plot((width, own.1 * width / own.0));
+    let height = (inner.max(1.0) * own_height / own_width).max(LEAST_HEIGHT);
+    panel.figure_of((width, height + around))
 }

@@ -12,7 +12,7 @@ use crate::script::rows::call::Call;
 use crate::script::rows::kind::Type;
 use crate::script::rows::options::Options;
 use crate::script::rows::parameter::{
-    Parameter, Presence, anything, name, number, options, point, text,
+    Parameter, Presence, anything, name, number, options, point, points, text,
 };
 use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, method, property};
@@ -22,7 +22,7 @@ use crate::script::words::error::{Place, ScriptError};
 pub const TABLE: Table = Table {
     name: "rigid bodies",
     doc: "A rigid body is a centre of mass with mass and inertia, and points that keep their places around it. Its centre and its points are stations: \
-          they take hinges, clamps, rigid joints, springs, loads, masses, sensors, and slide along beams, as places of beams do. Energy and momenta \
+          they take hinges, clamps, rigid joints, springs, loads, masses, sensors, and slide along beams, as places of beams do; where a station is asked for, the body itself stands for its centre. Energy and momenta \
           are kept to rounding with energy_momentum() and fourth_order(), at any step.",
     types: &[BODY],
     setup: "let scene = new_scene(\"example\");\n\
@@ -35,7 +35,7 @@ pub const TABLE: Table = Table {
             .doc(
                 "at is where its centre of mass is, and inertia counts about it; points are counted from it too, in the frame of the body, which is turned by \
                  angle. One of mass and inertia may be zero, if something else holds what then has no inertia. velocity and spin are the motion it starts \
-                 with, about its centre or the point `about`. Bodies are called body1, body2, … unless they get a name.",
+                 with, about its centre or the point `about`. Pictures show it by its points, or as the polygon of `outline`, which needs one point off the centre. Bodies are called body1, body2, … unless they get a name.",
             )
             .example(
                 "let pendulum = scene.body(#{ at: [0, -1], mass: 1, inertia: 0.02, points: #{ pivot: [0, 1], tip: [0, -0.5] } });\n\
@@ -82,6 +82,10 @@ const BODY_KEYS: &[Parameter] = &[
         .or(Presence::Number(0.0))
         .doc("by which its frame is turned at the start"),
     anything("points").doc("a map of points from its centre, in its own frame [length]").optional(),
+    points("outline")
+        .unit("length")
+        .doc("the corners of a polygon as which pictures show it, from its centre, in its own frame; else it is seen by its points")
+        .optional(),
     text("name").optional(),
     START_VELOCITY,
     START_SPIN,
@@ -97,6 +101,7 @@ fn body(call: &mut Call) -> Result<Dynamic, ScriptError> {
         position: options.point("at")?,
         angle: options.number("angle")?,
         points: points_of(&options)?,
+        outline: if options.has("outline") { options.points("outline")? } else { Vec::new() },
         motion: start_motion(&options)?,
     };
     let (mass, inertia) = (options.number("mass")?, options.number("inertia")?);
@@ -106,6 +111,7 @@ fn body(call: &mut Call) -> Result<Dynamic, ScriptError> {
             ModelError::Value { name: "rotary inertia", .. } => "inertia",
             ModelError::Value { .. } => "mass",
             ModelError::Unnamed { kind: "point", .. } => "points",
+            ModelError::Outline { .. } => "outline",
             _ => "name",
         };
         ScriptError::from(error).at(Place::Key(key.into()))

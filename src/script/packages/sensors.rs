@@ -10,7 +10,7 @@ use super::statistics::map;
 use super::vectors::VECTOR;
 use crate::beams::{SectionForces, Station};
 use crate::geometry::Vec2;
-use crate::model::{Instant, ModelError, Scene, SectionSample};
+use crate::model::{Given, ModelError, Scene, SectionSample};
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::equilibrium::EquilibriumHandle;
 use crate::script::handles::joint::JointHandle;
@@ -31,7 +31,7 @@ pub const TABLE: Table = Table {
     doc: "A scene records what it is asked to: scene.record(\"rod.end.x\") makes a column of the history, which is told, drawn, saved and counted like every other. \
           A ready sensor is an object, a place and a quantity. Places of a beam: rod.start, rod.end, rod[0.5] (arc length as drawn); with x, y, vx, vy, speed, ax, ay, angle, spin, \
           N, Q, M, axial_strain, shear_strain, curvature. A particle has x to ay. A beam or a particle as a whole: energy, kinetic, strain, axial, shear, bending, potential. \
-          Joints, counted by kind as they were made (hinge1, hinge2, clamp1, rigid1): force, fx, fy, moment, on the station that was named first. Section forces, accelerations and forces are \
+          Joints, counted by kind as they were made (hinge1, hinge2, clamp1, rigid1): force, fx, fy, moment, on the station that was named first, and mean_force, mean_fx, mean_fy, mean_moment in the mean of the last step. Sliders: present_force, present_force_x, present_force_y, on the beam. Section forces, accelerations and forces are \
           those of the present moment, by the equations of motion, of second order like the motion; where a stiff beam rings from step to step they ring with it, and \
           sim.history.averaged(column) does not. A scene without sensors pays nothing.",
     types: &[],
@@ -95,13 +95,9 @@ pub const TABLE: Table = Table {
             let place = station.on(&handle)?;
             let reaction = handle.look(|simulation| {
                 let now = simulation.instant()?;
-                Ok::<_, ModelError>(simulation.model().reaction(&now, &place))
+                Ok::<_, ModelError>(simulation.model().reaction(now.given(), &place))
             })?;
-            let nothing = || {
-                call.error(format!("nothing holds the scene at {}", station.show()))
-                    .hint("ask where scene.clamp(…) or scene.hinge(…) ties it to the ground")
-            };
-            reaction.map(force_and_moment).ok_or_else(nothing)
+            reaction.map(force_and_moment).ok_or_else(|| holds_nothing(call, &station))
         })
         .returns(Returns::MAP)
         .summary("What the support at a station gives at the present moment: force, a vector, and moment.")
@@ -110,14 +106,46 @@ pub const TABLE: Table = Table {
              with every method, and so is this. What loads, weight and supports gave together over a step, in the mean, is the change of the columns impulse_x and impulse_y over its length.",
         )
         .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\nlet given = sim.reaction(rod.start);\ncheck(norm(given.force) > 1 && given.moment == 0);")
-        .see(&["joint_force", "section_forces", "record"]),
+        .see(&["mean_reaction", "joint_force", "section_forces", "record"]),
         method(SIMULATION, "joint_force", &[WHICH], joint_force)
             .returns(Returns::MAP)
             .summary("What a joint gives to the station that was named first: force, a vector, and moment.")
             .doc("At the present moment, by the equations of motion, of second order in the step size as those of `reaction`. A joint with the ground is a support. It is what scene.hinge gave, or its name: its kind, and \
                   the how-manieth of that. One that has let go gives nothing.")
             .example("let sim = scene.start(#{ dt: 0.01 });\ncheck(sim.joint_force(\"hinge1\").force == sim.reaction(rod.start).force);")
-            .see(&["reaction"]),
+            .see(&["mean_joint_force", "reaction"]),
+        method(SIMULATION, "mean_reaction", &[AT], |call| {
+            let (handle, station) = (call.receiver::<SimulationHandle>()?, call.get::<StationHandle>("station")?);
+            let place = station.on(&handle)?;
+            let given = given_in_step(call, &handle)?;
+            let reaction = handle.simulation().model().reaction(&given, &place);
+            reaction.map(force_and_moment).ok_or_else(|| holds_nothing(call, &station))
+        })
+        .returns(Returns::MAP)
+        .summary("What the support at a station gave in the mean of the last step: force, a vector, and moment.")
+        .doc(MEAN)
+        .example(
+            "scene.record(\"hinge1.mean_force\");\nlet sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\nlet momentum = sim.history.column(\"momentum_y\");\n\
+             let change = (momentum[100] - momentum[99]) / 0.01;\n\
+             check_close(sim.mean_reaction(rod.start).force.y - 2 * 9.81, change, 1e-9);",
+        )
+        .see(&["reaction", "mean_joint_force", "record"]),
+        method(SIMULATION, "mean_joint_force", &[WHICH], |call| {
+            let (handle, joint) = (call.receiver::<SimulationHandle>()?, joint_index(call)?);
+            let given = given_in_step(call, &handle)?;
+            let simulation = handle.simulation();
+            let joint = simulation.model().transmission(simulation.scene(), joint)?;
+            Ok(force_and_moment(joint.read(&given)))
+        })
+        .returns(Returns::MAP)
+        .summary("What a joint gave in the mean of the last step to the station that was named first: force, a vector, and moment.")
+        .doc(MEAN)
+        .example(
+            "scene.record(\"hinge1.mean_fy\");\nlet sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\n\
+             let given = sim.mean_joint_force(\"hinge1\").force;\n\
+             check(given.y == sim.history.last(\"hinge1.mean_fy\"));",
+        )
+        .see(&["joint_force", "mean_reaction", "record"]),
         method(SIMULATION, "present_contact_force", &[object("slider", SLIDER)], |call| {
             let handle = call.receiver::<SimulationHandle>()?;
             let slider = call.get::<SliderHandle>("slider")?.on(&handle)?;
@@ -127,8 +155,8 @@ pub const TABLE: Table = Table {
         .returns(Returns::object(VECTOR).unit("force"))
         .summary("The force of a slider on its master at the present moment.")
         .doc(
-            "By the equations of motion, of second order like the motion. contact_force and the columns NAME.force are those of the steps: \
-             the mean of a step, which belongs to its middle, and may alternate from step to step.",
+            "By the equations of motion, with the order of the motion: second, fourth with fourth_order(). contact_force and the columns NAME.force are those of the steps: \
+             the mean of a step, which belongs to its middle, and may alternate from step to step. As a column: scene.record(\"NAME.present_force\").",
         )
         .example(
             "let bead = scene.slider(scene.particle([1, 0], 0.5), rod, #{ at: 0.5 });\nlet sim = scene.start(#{ dt: 0.001 });\nsim.run_to(0.1);\n\
@@ -191,6 +219,13 @@ const HANGING: &str = "let scene = new_scene(\"example\");\n\
     scene.hinge(rod.start);\n\
     scene.gravity([0, -9.81]);";
 
+/// What the mean of a step is.
+const MEAN: &str = "It is summed up while steps are made, where one of the columns mean_force, mean_fx, mean_fy, mean_moment is recorded, as in \
+    scene.record(\"hinge1.mean_force\"), and then for all joints and supports. With loads, weight and drives, these forces change the momentum over the step, and with \
+    the moments about a place, each force in the middle of its way over the step, the angular momentum: to rounding with energy_momentum() and energy_decaying(), and \
+    the momentum with fourth_order() and trapezoidal() too. It belongs to the middle of the step, to second order, and holds the blows of sliders that bounced. \
+    Zero before the first step. generalized_alpha() has none.";
+
 const AT: Parameter = object("station", STATION);
 const WHICH: Parameter = either("joint", &[Kind::Object(JOINT), Kind::Text]);
 const S: Parameter = number("s")
@@ -223,6 +258,16 @@ fn record(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 fn joint_force(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (handle, joint) = (call.receiver::<SimulationHandle>()?, joint_index(call)?);
+    let (now, joint) = handle.look(|simulation| {
+        let joint = simulation.model().transmission(simulation.scene(), joint)?;
+        Ok::<_, ModelError>((simulation.instant()?, joint))
+    })?;
+    Ok(force_and_moment(joint.read(now.given())))
+}
+
+/// The index of the joint that is asked for among those of the scene.
+fn joint_index(call: &mut Call) -> Result<usize, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let name = match call.get_if::<JointHandle>("joint") {
         Some(joint) => {
@@ -233,13 +278,22 @@ fn joint_force(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let names = handle.simulation().scene().joint_names();
     let found = names.iter().position(|other| *other == name);
-    let joint =
-        found.ok_or_else(|| unknown(call, &name, "joint", names.iter().map(String::as_str)))?;
-    let (now, joint): (Instant, _) = handle.look(|simulation| {
-        let joint = simulation.model().transmission(simulation.scene(), joint)?;
-        Ok::<_, ModelError>((simulation.instant()?, joint))
-    })?;
-    Ok(force_and_moment(joint.read(&now)))
+    found.ok_or_else(|| unknown(call, &name, "joint", names.iter().map(String::as_str)))
+}
+
+/// What joints and supports gave in the mean of the last step, if that is summed up.
+fn given_in_step(call: &Call, handle: &SimulationHandle) -> Result<Given, ScriptError> {
+    handle.simulation().model().given_in_step().ok_or_else(|| {
+        let names = handle.simulation().scene().joint_names();
+        let joint = names.first().map_or("hinge1", String::as_str);
+        call.error("what joints and supports gave over a step was not summed up")
+            .hint(format!("write scene.record(\"{joint}.mean_force\") before scene.start(…)"))
+    })
+}
+
+fn holds_nothing(call: &Call, station: &StationHandle) -> ScriptError {
+    call.error(format!("nothing holds the scene at {}", station.show()))
+        .hint("ask where scene.clamp(…) or scene.hinge(…) ties it to the ground")
 }
 
 fn unknown<'a>(

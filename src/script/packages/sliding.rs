@@ -44,8 +44,9 @@ pub const TABLE: Table = Table {
             .doc("With energy_momentum(): keeps energy, linear momentum, angular momentum and the gap to rounding. withy, docs/theory.md, section 10.")
             .see(&["kinked", "exact", "relaxed", "slider"]),
         rule("kinked", |_| Ok(Dynamic::from(SlidingRule::Kinked)))
-            .summary("The conserving rule on the beam as the contact force kinks it: nearer to the truth on coarse meshes of smooth splines.")
-            .doc("With energy_momentum(): keeps energy, linear momentum, angular momentum and the gap to rounding. withy, docs/theory.md, section 10.1.")
+            .summary("The conserving rule on the beam as the contact force kinks it: of second order in the mesh, where conserving() is of first.")
+            .doc("On meshes of smooth splines. With energy_momentum(): keeps energy, linear momentum, angular momentum and the gap to rounding. \
+                  A slider that comes to 0.8 of the speed of the beam's shear waves, sqrt(GA/rho_A), is refused. withy, docs/theory.md, section 10.1.")
             .see(&["conserving", "exact", "relaxed"]),
         rule("exact", |_| Ok(Dynamic::from(SlidingRule::Exact)))
             .summary("For comparison: the slave is exactly on the beam at the end of a step; angular momentum is lost at second order.")
@@ -87,12 +88,13 @@ pub const TABLE: Table = Table {
         .returns(Returns::object(VECTOR).unit("force"))
         .summary("The force that a slider put on its beam in the last step, the mean of the step; its station got the opposite.")
         .doc(
-            "Zero before the first step and after a release. On splines and with the conserving rule it is smooth where the motion \
+            "Zero before the first step and after a release. It belongs to the middle of the step; with kinked() it is that at its end, to the order of the method, and with fourth_order() that of the \
+             last of its seven parts, so of first order: present_contact_force has the order of the motion with every rule, and scene.record(\"ring.present_force\") makes a column of it. On splines and with the conserving rule it is smooth where the motion \
              is; where it alternates from step to step (kinks of Lagrange elements, the relaxed rule), averaged(\"ring.force\") of \
              the history is free of that. scripts/contact_force.rhai shows how much.",
         )
         .example("check(norm(sim.contact_force(ring)) == 0);\nsim.step();\ncheck(sim.contact_force(ring).y < 0);")
-        .see(&["slider_position", "averaged"]),
+        .see(&["present_contact_force", "slider_position", "averaged"]),
         method(SIMULATION, "slider_position", &[WHICH], |call| {
             asked(call, |model, slider| model.slider_position(slider).into())
         })

@@ -29,6 +29,9 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
         SimulationError::Step { .. } | SimulationError::Smallest { .. } => {
             "the history up to there is kept; try a smaller dt or a finer mesh, and check loads, stiffness, units and what is held".into()
         }
+        SimulationError::Load { source: StepError::FastAsWaves { .. } } => {
+            "the history up to there is kept; give the slider rule: conserving(), or its master a larger GA".into()
+        }
         SimulationError::Load { source } => {
             let own = cause_of(source).and_then(on_load);
             own.unwrap_or_else(|| "a load needs a finite value at all times".into())
@@ -40,6 +43,9 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
         }
         SimulationError::Ended { .. } => {
             "give the slider the option ends: \"bounce\" or \"release\" to go on, or ask sim.ended before a step".into()
+        }
+        SimulationError::NoMean { sensor, .. } => {
+            format!("record \"{}\"", sensor.replace(".mean_", "."))
         }
         SimulationError::Rattles { .. } => "try ends: \"release\" or \"stop\"".into(),
         SimulationError::FewerSteps { .. } => "sim.rewind(0) leads to the start".into(),
@@ -97,6 +103,9 @@ fn on_model(error: &ModelError) -> Option<String> {
         ModelError::NoSection { .. } => "give a station of a beam",
         ModelError::NoPoint { .. } => {
             "name it in the points of scene.body(…); its centre is body.centre"
+        }
+        ModelError::StartVelocity { .. } => {
+            "what turns about a place starts with spin: 2, about: [x, y]; what is joined to it with the velocity that it has there"
         }
         ModelError::Inertialess { .. } => {
             "give it one, scene.body(#{ …, inertia: 0.1 }), or hold its angle: scene.support(body.centre, #{ angle: true })"

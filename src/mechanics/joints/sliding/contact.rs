@@ -11,7 +11,7 @@ pub const CONTACT_UNKNOWNS: usize = 5;
 pub struct ContactUnknowns {
     /// The contact force `λ` on the master; `-λ` acts on the slave [force].
     pub force: Vec2,
-    /// The couple `η` of the contact: with `Δξ D_i η` the forces on the master that balance the angular momentum [force].
+    /// The couple of the contact, `η` or, with a kink, `χ`: with `Δξ D_i η` or `D_i χ` the forces on the master that balance the angular momentum [force].
     pub couple: Vec2,
     /// The way `Δξ` of the slave along the parameter of the master in the step [-].
     pub way: f64,
@@ -50,20 +50,36 @@ pub struct WayVector {
     pub by_way: Vec2,
 }
 
-/// How the contact force kinks the axis of the master where the slave is, beyond what its mesh knows: by `g p/GA` across it.
+/// How the contact force kinks the axis of the master where the slave is, beyond what its mesh knows: by `g a` across it, with the jump `a = p/GA` of the
+/// tangent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kink {
     /// The kink length `g` of the master along the way of the slave [length].
     pub along: AlongWay,
     /// The compliance `1/GA` of the master [1/force].
     pub compliance: f64,
-    /// The contact force `p0` on the master at the start of the step [force].
+    /// The jump of the tangent at the start of the step, as the force `p0 = GA a0` that makes it where the kink does not move [force].
     pub before: Vec2,
+    /// How the kink moves along the master.
+    pub motion: KinkMotion,
+}
+
+/// How a kink moves along its master in a step: with a speed `v` along the undeformed axis it has the kinetic energy `½ ρA g |a|² v²`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KinkMotion {
+    /// The arc length `s` of the undeformed master along the way of the slave [length].
+    pub arc: AlongWay,
+    /// The speed `v0` at the start of the step [length/time].
+    pub speed: f64,
+    /// `ρA/GA`, one over the square of the speed of shear waves [time²/length²].
+    pub slowness: f64,
+    /// The duration `Δt` of the step [time].
+    pub duration: f64,
 }
 
 /// The kinematics of a sliding contact in a step, of which the laws of sliding are made, with places counted from where the slave starts.
 ///
-/// The forces are the same in all laws: the slave gets `-λ`, control point `i` of the master `B̄_i λ - Δξ D_i η`.
+/// The forces are the same in all laws: the slave gets `-λ`, control point `i` of the master `B̄_i λ - Δξ D_i η`, or `B̄_i λ - D_i χ` with a kink.
 #[derive(Debug, Clone, Copy)]
 pub struct Contact<'a> {
     /// The way of the slave along the master.
@@ -140,20 +156,34 @@ impl Contact<'_> {
         self.passage.first()
     }
 
+    /// What the couple of the contact is multiplied by in the forces on the master: the way `Δξ`, with which it grows; or one with a kink, as the offset of the
+    /// slave is an arm of forces along the master on a way of any length.
+    fn couple_share(&self) -> (f64, bool) {
+        if self.kink.is_some() { (1.0, false) } else { (self.unknowns.way, true) }
+    }
+
     /// The contact forces on the control points of the master in the window of the way [force], in order.
     pub fn master_forces(&self) -> impl Iterator<Item = Vec2> + '_ {
-        let ContactUnknowns { force, couple, way } = self.unknowns;
+        let ContactUnknowns { force, couple, .. } = self.unknowns;
+        let (share, _) = self.couple_share();
         let weights = self.passage.mean().iter().zip(self.passage.difference());
-        weights.map(move |(mean, difference)| force * *mean - couple * (way * difference))
+        weights.map(move |(mean, difference)| force * *mean - couple * (share * difference))
     }
 
     /// The derivatives of the contact forces on the control points of the master, in order: by `λ` and by `η` a factor each, by `Δξ` a force.
     pub fn master_force_slopes(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
-        let ContactUnknowns { force, couple, way } = self.unknowns;
-        let by_way = force * 0.5 - couple;
-        let weights =
-            self.passage.mean().iter().zip(self.passage.difference()).zip(self.passage.slope());
-        weights.map(move |((mean, difference), slope)| (*mean, -way * difference, by_way * *slope))
+        let ContactUnknowns { force, couple, .. } = self.unknowns;
+        let (share, grows) = self.couple_share();
+        let weights = self.passage.mean().iter().zip(self.passage.difference());
+        let slopes = self.passage.slope().iter().zip(self.passage.change());
+        weights.zip(slopes).map(move |((mean, difference), (slope, change))| {
+            let by_way = if grows {
+                (force * 0.5 - couple) * *slope
+            } else {
+                force * (0.5 * slope) - couple * *change
+            };
+            (*mean, -share * difference, by_way)
+        })
     }
 
     /// The weights `B_i(ξ1)`, `B̄_i` and `D_i` of the control points of the master in the window of the way [-], in order.
@@ -173,26 +203,6 @@ impl Contact<'_> {
             by_unknowns: ContactUnknowns { way: -point.by_way.dot(&axis), ..NONE },
             ..Equation::new(gap.dot(&axis), Unit::Length)
         })
-    }
-
-    /// The contact force `p1 = 2 λ - p0` on the master at the end of the step [force]; `λ` where nothing is known of forces at ends of steps.
-    pub fn force_at_end(&self) -> Vec2 {
-        let force = self.unknowns.force;
-        self.kink.map_or(force, |kink| force * 2.0 - kink.before)
-    }
-
-    /// The equations of a gap to the kinked axis that is closed at the end of the step: `x_s1 = Σ B_i(ξ1) x_i1 + g1 p1/GA`.
-    pub(super) fn closed_on_kinked_axis(&self) -> [Equation; 2] {
-        let mut equations = self.closed();
-        if let Some(Kink { along, compliance, .. }) = self.kink {
-            let force = self.force_at_end() * compliance;
-            for (equation, axis) in equations.iter_mut().zip(AXES) {
-                equation.value -= along.end * force.dot(&axis);
-                equation.by_unknowns.force -= axis * (2.0 * compliance * along.end);
-                equation.by_unknowns.way -= along.slope * force.dot(&axis);
-            }
-        }
-        equations
     }
 
     /// The equations `η = 0` of a contact without a couple.

@@ -1,58 +1,96 @@
 //! The rule that keeps energy, both momenta and the gap to the kinked axis.
 
-use super::contact::AXES;
-use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, SlidingLaw};
+use super::jet::{ContactJets, Jet, JetVector};
+use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, SlidingLaw, Unit};
 use crate::elementary::square;
-use crate::geometry::{cross, perpendicular};
+use crate::geometry::Vec2;
 
 /// The conserving law of sliding: the gap is closed at the end of every step, and energy, linear and angular momentum are kept, for any
 /// step.
 ///
 /// ```text
-/// x_s1 = Σ B_i(ξ1) x_i1 + g1 p1/GA         |τ|² η + (d × λ - ¼ (Δg/Δξ) (p0 × p1)/GA) Jτ = 0
-/// λ·τ + 4 η·d + ½ (Δg/Δξ) p0·p1/GA = 0        p1 = 2 λ - p0
+/// x_s1 = Σ B_i(ξ1) x_i1 + g1 a1                          |τ|² χ + (r × λ) Jτ = 0          r = Δξ d + ½ (g0 a0 + g1 a1)
+/// ā·w + (Δg/Δξ) (½ a0·a1 + b a0 × a1) = 0                w = τ - 4 b J d                  b = Jτ·d/|τ|²
+/// λ = (GA - ρA v0 v1) ā + (Δπ/Δt) (Δs/Δξ) τ/|τ|²         π = ρA g |a|² v
+/// ½ (v0 + v1) Δt = (Δs/Δξ) τ·u/|τ|²                      u = Δξ τ + Δ(g a) - 4 b J r
 /// ```
 ///
-/// The slave is on the axis as the contact force `p` kinks it, whose energy `½ g |p|²/GA` the mesh misses. Where there is no [`Kink`] it is
-/// the law [`Conserving`]. Derived in docs/theory.md, sections 10 and 10.1.
+/// The slave is on the axis as the contact force kinks it: the tangent jumps by `a` there, and the kink moves along the master with the speed `v`. The mesh misses
+/// its energy, `½ g |a|² (GA + ρA v²)`. The jump at the end of the step follows from `λ` across the master and from the second line; what is left is the balance
+/// of forces along it. Where there is no [`Kink`] it is the law [`Conserving`]. Derived in docs/theory.md, sections 10 and 10.1.
 #[derive(Debug, Clone, Copy)]
 pub struct Kinked;
 
 impl SlidingLaw for Kinked {
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
-        let [_, _, mut couple_x, mut couple_y, mut sliding] = Conserving.equations(contact);
-        let [gap_x, gap_y] = contact.closed_on_kinked_axis();
-        if let Some(kink) = &contact.kink {
-            add_moment(contact, kink, [&mut couple_x, &mut couple_y]);
-            add_work(contact, kink, &mut sliding);
-        }
-        [gap_x, gap_y, couple_x, couple_y, sliding]
+        let Some(kink) = &contact.kink else { return Conserving.equations(contact) };
+        let jets = ContactJets::of(contact);
+        let ContactJets { offset, tangent, force, couple, .. } = jets;
+        let step = KinkInStep::of(&jets, kink);
+        let gap = offset - step.jump * step.length * kink.compliance;
+        let balanced = couple * tangent.dot(&tangent) + tangent.turned() * step.arm.cross(&force);
+        let along = (force - step.mean_force).dot(&tangent) - step.inertia * step.stretch;
+        let [gap_x, gap_y] = gap.vanish(Unit::Length);
+        let [couple_x, couple_y] = (balanced * (1.0 / square(contact.length))).vanish(Unit::Force);
+        [gap_x, gap_y, couple_x, couple_y, (along * (1.0 / contact.length)).vanishes(Unit::Force)]
     }
 }
 
-/// Adds `-¼ (Δg/Δξ) (p0 × p1)/GA · Jτ/ℓ²`: the mean offset `½ (g0 p0 + g1 p1)/GA` of the slave from the axis is no mean of what pushes it.
-fn add_moment(contact: &Contact<'_>, kink: &Kink, equations: [&mut Equation; 2]) {
-    let (tangent, scale) = (contact.tangent(), kink.compliance / square(contact.length));
-    // p0 × p1 = 2 p0 × λ
-    let turn = 0.5 * cross(kink.before, contact.unknowns.force);
-    let (difference, change) = (kink.along.difference, kink.along.change);
-    for (equation, axis) in equations.into_iter().zip(AXES) {
-        let normal = perpendicular(tangent.value).dot(&axis);
-        let by_tangent = perpendicular(axis) * (scale * difference * turn);
-        equation.value -= scale * difference * turn * normal;
-        equation.by_difference += by_tangent * 0.5;
-        equation.by_unknowns.force -=
-            perpendicular(kink.before) * (0.5 * scale * difference * normal);
-        equation.by_unknowns.way +=
-            by_tangent.dot(&tangent.by_way) - scale * change * turn * normal;
+/// A kink in an iterate of a step.
+struct KinkInStep {
+    /// The kink length `g1` at the end of the way [length].
+    length: Jet,
+    /// `Δs/Δξ` [length].
+    stretch: Jet,
+    /// The mean vector `r` from where the contact pushes the master to the slave [length].
+    arm: JetVector,
+    /// The speed `v1` of the kink along the master at the end of the step [length/time].
+    speed: Jet,
+    /// The force `p1 = GA a1` that stands for the jump of the tangent at the end of the step [force].
+    jump: JetVector,
+    /// The mean force `κ ½ (p0 + p1)`, `κ = 1 - ρA v0 v1/GA`, with which the kink pushes [force].
+    mean_force: JetVector,
+    /// What sets the kink in motion, `Δπ/Δt` [force].
+    inertia: Jet,
+}
+
+impl KinkInStep {
+    fn of(jets: &ContactJets, kink: &Kink) -> Self {
+        let &ContactJets { offset, tangent, swing, force, way, .. } = jets;
+        let (along, motion, before) = (&kink.along, &kink.motion, JetVector::constant(kink.before));
+        let length = Jet::along_way(along.end, along.slope);
+        let difference = Jet::along_way(along.difference, along.change);
+        let stretch = Jet::along_way(motion.arc.difference, motion.arc.change);
+        let over_square = tangent.dot(&tangent).inverse();
+
+        let offset_before = JetVector::constant(kink.before * (along.start * kink.compliance));
+        let arm = swing * way + (offset_before + offset) * 0.5;
+        let swung = tangent.turned().dot(&swing) * over_square * 4.0;
+        let moved = tangent * way + offset - offset_before - arm.turned() * swung;
+        let speed = stretch * over_square * tangent.dot(&moved) * (2.0 / motion.duration)
+            - Jet::constant(motion.speed);
+        let softening = Jet::constant(1.0) - speed * (motion.speed * motion.slowness);
+
+        let normal = tangent.turned();
+        let across = force.dot(&normal) * softening.inverse() * 2.0 - before.dot(&normal);
+        let direction = tangent - swing.turned() * swung;
+        let turned = before.turned() * swung * 0.25;
+        let rises = direction * 0.5 + (before * 0.5 + turned) * difference * kink.compliance;
+        let jump =
+            JetVector::with_products([normal, rises], [across, before.dot(&direction) * -0.5]);
+
+        let mass = jump.dot(&jump) * length;
+        let mass_before = along.start * kink.before.norm_squared();
+        let change = mass * speed - Jet::constant(mass_before * motion.speed);
+        let inertia = change * (motion.slowness * kink.compliance / motion.duration);
+        let mean_force = (before + jump) * softening * 0.5;
+        Self { length, stretch, arm, speed, jump, mean_force, inertia }
     }
 }
 
-/// Adds `½ (Δg/Δξ) p0·p1/(GA ℓ)`: with it what the contact takes is what the kink stores.
-fn add_work(contact: &Contact<'_>, kink: &Kink, equation: &mut Equation) {
-    let scale = 0.5 * kink.compliance / contact.length;
-    let product = kink.before.dot(&contact.force_at_end());
-    equation.value += scale * kink.along.difference * product;
-    equation.by_unknowns.force += kink.before * (2.0 * scale * kink.along.difference);
-    equation.by_unknowns.way += scale * kink.along.change * product;
+/// The force `p1 = GA a1` that stands for the jump of the tangent of the master at the end of a step in which the slave slides [force], and the speed `v1` with
+/// which the kink moves along the master then [length/time]; none of a contact without a kink.
+pub fn jump_of_sliding(contact: &Contact<'_>) -> Option<(Vec2, f64)> {
+    let step = KinkInStep::of(&ContactJets::of(contact), contact.kink.as_ref()?);
+    Some((step.jump.value(), step.speed.value))
 }

@@ -58,7 +58,7 @@ const CONSERVING: RuleEntry = RuleEntry {
 const KINKED: RuleEntry = RuleEntry {
     rule: SlidingRule::Kinked,
     name: "kinked",
-    summary: "keeps energy, both momenta and the gap, on the axis as the contact force kinks it: nearer on coarse meshes, forces at their own time",
+    summary: "keeps energy, both momenta and the gap, on the axis as the contact force kinks it: second order in the mesh, forces at their own time",
     claims: RuleClaims { energy: true, angular_momentum: true, gap: true },
     source: "withy, docs/theory.md, section 10.1",
 };

@@ -4,7 +4,7 @@ use super::{Assembly, Numbering};
 use std::sync::Arc;
 
 use crate::beams::{Station, kink_length};
-use crate::geometry::{Passage, PiecewisePolynomial};
+use crate::geometry::{Passage, PiecewisePolynomial, Span};
 use crate::joints::{Slider, SlidingRule, StartVelocities};
 use crate::model::elements::Site;
 use crate::model::sliders::{Bar, Connection, KinkedAxis, Sliding, Track};
@@ -56,7 +56,7 @@ impl Assembly<'_> {
     fn kinked_axis(
         &self,
         slider: &Slider,
-        found: &mut [Option<Option<Arc<PiecewisePolynomial>>>],
+        found: &mut [Option<Option<[Arc<PiecewisePolynomial>; 2]>>],
     ) -> Result<Option<KinkedAxis>, ModelError> {
         let (master, beam) = (slider.master, &self.scene.beams[slider.master]);
         let basis = self.mesh(master).basis();
@@ -69,11 +69,13 @@ impl Assembly<'_> {
             let points = self.bodies[master].control_points();
             let wrap = |source| ModelError::Beam { beam: beam.name.clone(), source };
             let length = kink_length(self.mesh(master), points).map_err(wrap)?;
-            found[master] = Some(length.map(Arc::new));
+            let arc = || {
+                let speed = |span: &Span, xi| basis.evaluate_in(span, xi).combine(1, points).norm();
+                PiecewisePolynomial::integral(&basis.spans(), basis.degree(), speed)
+            };
+            found[master] = Some(length.map(|length| [length, arc()].map(Arc::new)));
         }
-        let axis = |length| {
-            KinkedAxis::new(length, beam.axis.length(), beam.section.mean().shear_stiffness)
-        };
+        let axis = |functions| KinkedAxis::new(functions, beam.axis.length(), &beam.section.mean());
         Ok(found[master].clone().flatten().map(axis))
     }
 

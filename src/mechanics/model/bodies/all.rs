@@ -158,6 +158,12 @@ impl Bodies {
         bodies.map(|(body, own)| std::mem::replace(&mut body.degrees_of_freedom, own)).collect()
     }
 
+    /// Exchanges the numbers of the movements of all control points for others.
+    pub fn exchange_numbers(&mut self, numbers: &mut [Vec<[usize; 3]>]) {
+        let bodies = self.all.iter_mut().zip(numbers);
+        bodies.for_each(|(body, own)| std::mem::swap(&mut body.degrees_of_freedom, own));
+    }
+
     /// The nodes that joints hold together at a place, as indices of bodies and control points; none where the place is no node.
     pub fn tied_nodes(&self, place: &Place) -> Option<Vec<(usize, usize)>> {
         let mut nodes = vec![node_of(place)?];

@@ -6,7 +6,7 @@
 
 use crate::geometry::Vec2;
 use crate::joints::{Component, Hold, Joint, JointKind, Partner};
-use crate::model::{Instant, Model, ModelError, Scene};
+use crate::model::{Given, Model, ModelError, Scene};
 
 /// A node of a body, or the ground.
 type Node = Option<(usize, usize)>;
@@ -23,18 +23,22 @@ struct Side {
 pub struct Transmission {
     /// For each component of movement, if the joint ties it.
     sides: [Option<Side>; 3],
+    /// Of an inclined roller: its index among all.
+    roller: Option<usize>,
 }
 
 impl Transmission {
-    /// Force [force] and moment [force·length] on the first of the two stations of the joint.
-    pub fn read(&self, now: &Instant) -> (Vec2, f64) {
+    /// Force [force] and moment [force·length] on the first of the two stations of the joint, at the moment or in the step of what is given.
+    pub fn read(&self, given: &Given) -> (Vec2, f64) {
         let sum = |component: Component| {
             let at = component as usize;
             self.sides[at].as_ref().map_or(0.0, |side| {
-                side.sign * side.nodes.iter().map(|node| now.given(*node)[at]).sum::<f64>()
+                side.sign * side.nodes.iter().map(|node| given.to(*node)[at]).sum::<f64>()
             })
         };
-        (Vec2::new(sum(Component::X), sum(Component::Y)), sum(Component::Rotation))
+        let force = Vec2::new(sum(Component::X), sum(Component::Y));
+        let across = self.roller.map(|roller| given.by_roller(roller));
+        (across.unwrap_or(force), sum(Component::Rotation))
     }
 }
 
@@ -93,7 +97,8 @@ impl Model {
         let is_held = !has_let_go(Hold::Joint(joint));
         let ties = |component| is_held && all[joint].0.components().contains(&component);
         let sides = Component::ALL.map(|component| ties(component).then(|| side(component)));
-        Ok(Transmission { sides })
+        let roller = self.links().all_rollers().iter().position(|roller| roller.joint == joint);
+        Ok(Transmission { sides, roller })
     }
 }
 

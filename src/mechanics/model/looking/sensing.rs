@@ -4,7 +4,7 @@ use crate::beams::{BodyIndex, Place, Station};
 use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
 use crate::model::{
-    BodyEnergy, CrossSection, Instant, Model, ModelError, Probe, Scene, Transmission, Value,
+    BodyEnergy, CrossSection, Given, Instant, Model, ModelError, Probe, Scene, Transmission, Value,
 };
 
 /// The sensors of a scene, found in its model once.
@@ -13,6 +13,8 @@ pub struct Sensing {
     readings: Vec<Reading>,
     /// Whether one of them needs accelerations or forces.
     needs_instant: bool,
+    /// Whether one of them needs what was given in the mean of a step.
+    needs_mean: bool,
     values: Vec<f64>,
 }
 
@@ -23,6 +25,8 @@ enum Reading {
     Section(CrossSection, Value),
     Body(usize, Value),
     Joint(Transmission, Value),
+    JointInStep(Transmission, Value),
+    Contact(usize, Value),
     Outside,
 }
 
@@ -45,24 +49,44 @@ impl Sensing {
                 Ok(Reading::Body(first + body, quantity.value))
             }
             Probe::Joint(joint, quantity) => {
-                Ok(Reading::Joint(model.transmission(scene, *joint)?, quantity.value))
+                let transmission = model.transmission(scene, *joint)?;
+                Ok(match quantity.value.is_of_step() {
+                    true => Reading::JointInStep(transmission, quantity.value),
+                    false => Reading::Joint(transmission, quantity.value),
+                })
             }
+            Probe::Slider(slider, quantity) => Ok(Reading::Contact(*slider, quantity.value)),
             Probe::Outside => Ok(Reading::Outside),
         });
         let readings = readings.collect::<Result<Vec<_>, ModelError>>()?;
         let needs_instant = readings.iter().any(|reading| {
             use Value::{AccelerationX, AccelerationY};
-            matches!(reading, Reading::Joint(..) | Reading::Place(_, AccelerationX | AccelerationY))
+            let of_moment = |value: &Value| matches!(value, AccelerationX | AccelerationY);
+            match reading {
+                Reading::Joint(..) | Reading::Contact(..) => true,
+                Reading::Place(_, value) => of_moment(value),
+                _ => false,
+            }
         });
-        Ok(Self { values: Vec::with_capacity(readings.len()), readings, needs_instant })
+        let of_step = |reading: &Reading| matches!(reading, Reading::JointInStep(..));
+        let needs_mean = readings.iter().any(of_step);
+        let values = Vec::with_capacity(readings.len());
+        Ok(Self { values, readings, needs_instant, needs_mean })
+    }
+
+    /// Whether they need what joints and supports gave in the mean of a step.
+    pub fn need_mean(&self) -> bool {
+        self.needs_mean
     }
 
     /// Reads all; what cannot be had, and what somebody outside is to fill in, is not a number.
     pub fn read(&mut self, model: &mut Model) -> &[f64] {
         self.values.clear();
         let now = if self.needs_instant { model.instant().ok() } else { None };
+        let mean = if self.needs_mean { model.given_in_step() } else { None };
+        let at = At { now: now.as_ref(), mean: mean.as_ref() };
         for reading in &self.readings {
-            self.values.push(value(reading, model, now.as_ref()).unwrap_or(f64::NAN));
+            self.values.push(value(reading, model, at).unwrap_or(f64::NAN));
         }
         &self.values
     }
@@ -89,9 +113,16 @@ fn at_station(
     })
 }
 
-fn value(reading: &Reading, model: &mut Model, now: Option<&Instant>) -> Option<f64> {
+/// What is known when sensors are read, as far as one of them needs it.
+#[derive(Clone, Copy)]
+struct At<'a> {
+    now: Option<&'a Instant>,
+    mean: Option<&'a Given>,
+}
+
+fn value(reading: &Reading, model: &mut Model, at: At<'_>) -> Option<f64> {
     match reading {
-        Reading::Place(place, value) => at_place(place, *value, model, now),
+        Reading::Place(place, value) => at_place(place, *value, model, at.now),
         Reading::Angle(section) => model.section_angle(*section),
         Reading::Section(section, value) => {
             let forces = model.section_forces(section);
@@ -105,15 +136,9 @@ fn value(reading: &Reading, model: &mut Model, now: Option<&Instant>) -> Option<
             })
         }
         Reading::Body(body, value) => Some(of_energy(&model.energy_of(*body), *value)),
-        Reading::Joint(joint, value) => {
-            let (force, moment) = joint.read(now?);
-            Some(match value {
-                Value::Force => force.norm(),
-                Value::ForceX => force.x,
-                Value::ForceY => force.y,
-                _ => moment,
-            })
-        }
+        Reading::Joint(joint, value) => Some(of_force(joint.read(at.now?.given()), *value)),
+        Reading::Contact(slider, value) => Some(of_force((at.now?.contact(*slider), 0.0), *value)),
+        Reading::JointInStep(joint, value) => Some(of_force(joint.read(at.mean?), *value)),
         Reading::Outside => None,
     }
 }
@@ -130,6 +155,15 @@ fn at_place(place: &Place, value: Value, model: &Model, now: Option<&Instant>) -
         Value::AccelerationY => acceleration()?.y,
         _ => model.spin(place),
     })
+}
+
+fn of_force((force, moment): (Vec2, f64), value: Value) -> f64 {
+    match value {
+        Value::Force | Value::MeanForce => force.norm(),
+        Value::ForceX | Value::MeanForceX => force.x,
+        Value::ForceY | Value::MeanForceY => force.y,
+        _ => moment,
+    }
 }
 
 fn of_energy(energy: &BodyEnergy, value: Value) -> f64 {

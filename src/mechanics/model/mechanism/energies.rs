@@ -38,6 +38,7 @@ impl Model {
         let [axial, shear, bending] = self.bodies[body].dynamics.strain_energies();
         let shear = shear + self.sliders.strain_energy(Some(body));
         let potential = self.elements.potential_of(&self.bodies, body);
-        BodyEnergy { kinetic: 0.5 * (own + carried), axial, shear, bending, potential }
+        let kinetic = 0.5 * (own + carried) + self.sliders.kinetic_energy(Some(body));
+        BodyEnergy { kinetic, axial, shear, bending, potential }
     }
 }

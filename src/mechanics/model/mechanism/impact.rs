@@ -5,10 +5,11 @@
 //! a gap of the relaxed rule costs angular momentum.
 
 use super::Model;
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, cross};
 use crate::integrators::{Inertia, Mechanism};
 use crate::linalg::{BandedLu, BandedMatrix, LinearError};
 use crate::model::ModelError;
+use crate::model::elements::Exchange;
 use crate::model::sliders::Blow;
 
 /// What moves by less than this part of the change of relative velocity is held.
@@ -59,9 +60,10 @@ impl Model {
         }
         // The blow with which a motion begins is before the start: nothing of it is in the sums since then. A matrix that cannot be factorised is found by
         // the first step.
-        let before = self.exchanged;
-        if self.strike(&self.across(), -1.0).is_ok() {
-            self.exchanged = before;
+        let before = std::mem::take(&mut self.exchanged);
+        let struck = self.strike(&self.across(), -1.0);
+        self.exchanged = before;
+        if struck.is_ok() {
             self.supports.prescribed_mut().forget_work();
         }
     }
@@ -140,7 +142,7 @@ impl Model {
         let answers = self.answers(&inertia, directions);
         // What points of rigid bodies move beside these is changed by the same factor: then rigid links do no work either.
         let mut change = vec![0.0; self.unknowns()];
-        if self.links.count() > 0 {
+        if self.links.forces() > 0 {
             self.links.set_velocity_violation(
                 &self.bodies,
                 &self.motion.rates,
@@ -169,13 +171,20 @@ impl Model {
         // What is left of `M (v⁺ - v⁻) - Gᵀ P` at supports is their impulse.
         self.add_inertia(1.0, &change, &mut residual);
         self.links.transmit(&self.bodies, &change, &mut residual);
+        for (unknown, roller) in self.links.rollers() {
+            let (impulse, place) = (roller.force_of(change[unknown]), roller.place(&self.bodies));
+            self.exchanged.total += Exchange::of(0.0, impulse, cross(place, impulse));
+        }
+        let on_slaves = impulses.iter().zip(directions);
+        let on_slaves = on_slaves.map(|(impulse, (slider, unit))| (*slider, unit * *impulse));
+        self.add_impulses_of_blow(&change, on_slaves);
         // Impulses of rigid links are no forces that go on.
         self.links.clear(&mut change);
         self.motion.jump(&change);
-        self.exchanged += self.supports.exchange_in_blow(&self.bodies, &residual);
+        self.exchanged.total += self.supports.exchange_in_blow(&self.bodies, &residual);
         if self.supports.prescribed().count() > 0 {
             let movements = self.supports.prescribed_mut();
-            self.exchanged +=
+            self.exchanged.total +=
                 movements.exchange_in_blow(&self.bodies, &residual, &self.motion.rates);
         }
         Ok(impulses)

@@ -9,12 +9,13 @@
 //! present state alone: the same after going back, in a copy and from a file. Where steps do not resolve a vibration, it rings with it, while the
 //! mean of two neighbouring steps does not.
 
-use super::Model;
-use crate::beams::{Movement, Place};
+use super::{Given, Model};
+use crate::beams::Place;
 use crate::geometry::Vec2;
 use crate::integrators::{Inertia, Mechanism, Stage};
 use crate::linalg::{BandedMatrix, LinearError};
 use crate::model::elements::{Iterate, collocation};
+use crate::model::links::InclinedRoller;
 use crate::model::{ModelError, SliderState};
 
 /// What acts at the present moment.
@@ -22,23 +23,20 @@ use crate::model::{ModelError, SliderState};
 pub struct Instant {
     /// Of the unknown movements [length/time², 1/time²]; forces of rigid links where their unknowns stand.
     accelerations: Vec<f64>,
-    /// What is left at each degree of freedom: what supports give [force, force·length].
-    residual: Vec<f64>,
-    /// What joints and supports give to each control point of each body [force, force·length].
-    given: Vec<Vec<Movement>>,
+    given: Given,
     /// Of each slave on its master [force].
     contacts: Vec<Vec2>,
 }
 
 impl Instant {
-    /// The accelerations of the unknown movements [length/time², 1/time²].
+    /// The accelerations of the unknown movements, forces of rigid links and rollers where their unknowns stand [length/time², 1/time²; force].
     pub fn accelerations(&self) -> &[f64] {
         &self.accelerations
     }
 
-    /// What joints and supports give to a control point of a body.
-    pub fn given(&self, (body, point): (usize, usize)) -> Movement {
-        self.given[body][point]
+    /// What joints and supports give.
+    pub fn given(&self) -> &Given {
+        &self.given
     }
 
     /// The force of a slider on its master [force].
@@ -101,13 +99,10 @@ impl Model {
             slider.transmit(&self.bodies, *force, &mut apart);
         }
         self.bodies.number_as(joined);
-        residual.fill(0.0);
-        degrees.iter().zip(&apart).for_each(|(&at, force)| residual[at] += force);
-        let mut forces = apart.chunks_exact(3).map(|force| [force[0], force[1], force[2]]);
-        let given = self.bodies.iter().map(|body| {
-            forces.by_ref().take(body.degrees_of_freedom.len()).collect::<Vec<Movement>>()
-        });
-        Ok(Instant { given: given.collect(), accelerations, residual, contacts })
+        let multiplier =
+            |roller: &InclinedRoller| roller.unknown.map_or(0.0, |at| accelerations[at]);
+        let across: Vec<f64> = self.links.all_rollers().iter().map(multiplier).collect();
+        Ok(Instant { given: self.given(&apart, &across), accelerations, contacts })
     }
 
     /// Looks at the model while its rigid links have the forces of the present moment, and not those of the last step, which are none before the first one.
@@ -181,17 +176,5 @@ impl Model {
     pub fn acceleration(&self, now: &Instant, place: &Place) -> Vec2 {
         let [x, y, _] = self.bodies[place.body].at(place, &now.accelerations);
         Vec2::new(x, y)
-    }
-
-    /// The rigid bodies among those of some nodes: what holds one in its rotation turns all its points.
-    pub(super) fn rigid_bodies_of(&self, nodes: &[(usize, usize)]) -> Vec<usize> {
-        let is_rigid = |body: &usize| self.links.iter().any(|link| link.body == *body);
-        nodes.iter().map(|(body, _)| *body).filter(is_rigid).collect()
-    }
-
-    /// What supports give at a place: force [force] and moment [force·length]; none where nothing is held.
-    pub fn reaction(&self, now: &Instant, place: &Place) -> Option<(Vec2, f64)> {
-        let nodes = self.bodies.tied_nodes(place)?;
-        self.supports.force_on(&nodes, &self.rigid_bodies_of(&nodes), &now.residual)
     }
 }

@@ -8,7 +8,7 @@ use crate::geometry::{Vec2, larger};
 /// The energy of a model, in parts [energy].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energy {
-    /// The kinetic energy `½ ∫ ρA |ẋ|² + ρI θ̇² dX`, with that of point masses [energy].
+    /// The kinetic energy `½ ∫ ρA |ẋ|² + ρI θ̇² dX`, with that of point masses and of kinks that move with sliders [energy].
     pub kinetic: f64,
     /// The strain energy `½ ∫ Γ·CΓ + EI κ² dX`, with that of kinks under sliders [energy].
     pub strain: f64,
@@ -59,7 +59,7 @@ impl Model {
         let mut momenta = self.bodies.momenta(rates);
         self.elements.add_momenta(&self.bodies, rates, &mut momenta);
         let energy = Energy {
-            kinetic: 0.5 * momenta.twice_kinetic,
+            kinetic: 0.5 * momenta.twice_kinetic + self.sliders.kinetic_energy(None),
             strain: self.bodies.strain_energy() + self.sliders.strain_energy(None),
             potential: self.elements.energy(&self.bodies),
             stored: self.elements.stored(),
@@ -67,14 +67,14 @@ impl Model {
         Measures {
             time: self.motion.time,
             energy,
-            work: self.exchanged.work,
+            work: self.exchanged.total.work,
             dissipated: self.elements.dissipated(),
             momentum: momenta.linear,
-            impulse: self.exchanged.impulse,
+            impulse: self.exchanged.total.impulse,
             angular_momentum: momenta.angular,
-            angular_impulse: self.exchanged.angular_impulse,
-            gross_impulse: self.exchanged.gross_impulse,
-            gross_angular_impulse: self.exchanged.gross_angular_impulse,
+            angular_impulse: self.exchanged.total.angular_impulse,
+            gross_impulse: self.exchanged.total.gross_impulse,
+            gross_angular_impulse: self.exchanged.total.gross_angular_impulse,
             gap: larger(
                 larger(self.bodies.largest_gap(), self.sliders.largest_gap(&self.bodies)),
                 self.links.largest_gap(&self.bodies),

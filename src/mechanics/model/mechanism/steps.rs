@@ -2,14 +2,14 @@
 
 use super::Model;
 use crate::beams::{Collocation, ForceSummary};
-use crate::geometry::larger;
+use crate::geometry::{cross, larger};
 use crate::integrators::{
     Accelerated, Cause, Checkpoint, Constraints, Culprit, Forces, Interval, Mechanism, Overshoot,
     PrescribedKinematics, Solution, Stage, StepError,
 };
 use crate::linalg::{BandedMatrix, BlockLayout, Border, BorderShape};
 use crate::model::elements::{Exchange, Iterate, collocation};
-use crate::model::rigid_links::ArmRule;
+use crate::model::links::ArmRule;
 use crate::model::sliders::InStep;
 use crate::newton::Part;
 
@@ -78,10 +78,15 @@ impl Model {
         self.elements.add_tangent(at, unknowns, tangent);
     }
 
-    fn exchange_in_step(&self, residual: &[f64]) -> Exchange {
+    fn exchange_in_step(&self, increments: &[f64], residual: &[f64]) -> Exchange {
         let duration = self.step.interval.duration();
         let mut sum = self.elements.exchange(&self.bodies, duration);
         sum += self.supports.exchange(&self.bodies, residual, duration);
+        for (unknown, roller) in self.links.rollers() {
+            // In a step the unknown is the impulse.
+            let impulse = roller.force_of(increments[unknown]);
+            sum += Exchange::of(0.0, impulse, cross(roller.mean_place(&self.bodies), impulse));
+        }
         if duration < 0.0 { sum.taken_back() } else { sum }
     }
 
@@ -246,12 +251,13 @@ impl Mechanism for Model {
     }
 
     fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), StepError> {
-        let Self { bodies, elements, links, supports, motion, step, unknowns, .. } = self;
+        let Self { bodies, elements, links, sliders, supports, motion, step, unknowns, .. } = self;
         let refused = |(load, error)| StepError::Load { interval, load, source: Cause::new(error) };
         let rotations = collocation(stages.first().copied().unwrap_or(Stage::Midpoint)).rotations;
         let movements = supports.prescribed_mut();
         movements.begin_step(interval, rotations, &motion.rates).map_err(refused)?;
         links.begin_step(interval.duration());
+        sliders.begin_step(bodies, &motion.rates, interval)?;
         elements.begin_step(interval, stages).map_err(refused)?;
         bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
         let knows_accelerations = motion.accelerations.known().is_some();
@@ -264,17 +270,19 @@ impl Mechanism for Model {
     }
 
     fn advance(&mut self, solution: &Solution<'_>) {
-        let Solution { increments, constraints, rates, residual } = *solution;
+        let Solution { increments, constraints, rates, residual, .. } = *solution;
+        self.add_impulses_of_step(solution);
         let is_driven = self.supports.prescribed().count() > 0;
         if is_driven {
             self.meet_given(rates);
         }
         self.bodies.gather(increments);
-        self.exchanged += self.exchange_in_step(residual);
+        self.exchanged.total += self.exchange_in_step(increments, residual);
         if is_driven {
             let prescribed = self.exchange_of_drives(rates, residual);
-            self.exchanged += prescribed;
+            self.exchanged.total += prescribed;
         }
+        self.sliders.close(&self.bodies, increments, constraints);
         self.elements.advance(&self.bodies, self.step.rotations);
         self.bodies.advance(self.step.rotations);
         let arms = ArmRule { rotations: self.step.rotations, share: 0.5 };

@@ -69,6 +69,8 @@ pub struct RigidBodyDefinition {
     pub angle: f64,
     /// The points of the body with their names, in its own frame, counted from the centre of mass [length].
     pub points: Vec<(String, Vec2)>,
+    /// The corners of the polygon as which pictures show the body, in its own frame, counted from the centre of mass [length]; none to show it by its points.
+    pub outline: Vec<Vec2>,
     /// How the body moves at the start.
     pub motion: StartMotion,
 }
@@ -91,6 +93,18 @@ impl RigidBodyDefinition {
     pub fn links(&self) -> impl Iterator<Item = usize> + '_ {
         let points = self.points.iter().enumerate();
         points.filter(|(_, (_, place))| *place != Vec2::zeros()).map(|(at, _)| at + 1)
+    }
+
+    /// What is wrong with the outline, if something is: a polygon has three corners, and a point off the centre of mass tells pictures how it is turned.
+    pub fn outline_refused(&self) -> Option<&'static str> {
+        match self.outline.len() {
+            0 => None,
+            1 | 2 => Some("a polygon has three corners or more"),
+            _ if self.links().next().is_none() => Some(
+                "pictures see by a point off its centre how it is turned, and it has none; give it one",
+            ),
+            _ => None,
+        }
     }
 
     /// Whether the body moves when the scene starts.

@@ -30,6 +30,7 @@ impl Scene {
             .chain(plain.drives.iter_mut().map(|drive| &mut drive.name))
             .chain(plain.elements.iter_mut().filter_map(Element::name_mut));
         names.for_each(String::clear);
+        plain.rigid_bodies.iter_mut().for_each(|body| body.outline.clear());
         // What stands in one list is of several kinds, between which the order is nobody's choice.
         plain.elements.sort_by_key(Element::kind);
         serde_json::to_value(plain)

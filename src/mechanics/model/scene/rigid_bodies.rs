@@ -12,7 +12,8 @@ impl Scene {
     /// One of both may be zero: what has no inertia against a movement must be held in it by something else.
     ///
     /// # Errors
-    /// When something of that name exists, two points have one name, a number is not finite or negative, or mass and inertia are both zero.
+    /// When something of that name exists, two points have one name, a number is not finite or negative, an outline is no polygon or cannot be turned, or
+    /// mass and inertia are both zero.
     pub fn add_rigid_body(
         &mut self,
         body: RigidBodyDefinition,
@@ -36,6 +37,12 @@ impl Scene {
         finite(&object, "angle", &[body.angle])?;
         finite(&object, "velocity", body.motion.velocity.as_slice())?;
         finite(&object, "spin", &[body.motion.spin])?;
+        for corner in &body.outline {
+            finite(&object, "corner of the outline", corner.as_slice())?;
+        }
+        if let Some(why) = body.outline_refused() {
+            return Err(ModelError::Outline { body: body.name.clone(), why });
+        }
         finite(&object, "about", body.motion.about.as_ref().map_or(&[], |at| at.as_slice()))?;
         for (at, (name, place)) in body.points.iter().enumerate() {
             finite(&object, "point", place.as_slice())?;

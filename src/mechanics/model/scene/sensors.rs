@@ -27,6 +27,8 @@ pub enum Probe {
     Body(BodyIndex, Quantity),
     /// Something of a joint, by its index.
     Joint(usize, Quantity),
+    /// Something of the contact of a slider, by its index.
+    Slider(usize, Quantity),
     /// What somebody outside reads after every row.
     Outside,
 }
@@ -65,6 +67,10 @@ pub enum Value {
     ForceX,
     ForceY,
     Couple,
+    MeanForce,
+    MeanForceX,
+    MeanForceY,
+    MeanCouple,
     Energy,
     Kinetic,
     Strain,
@@ -72,6 +78,13 @@ pub enum Value {
     StrainShear,
     StrainBending,
     Potential,
+}
+
+impl Value {
+    /// Whether it belongs to the last step as a whole, and not to the present moment.
+    pub fn is_of_step(self) -> bool {
+        matches!(self, Self::MeanForce | Self::MeanForceX | Self::MeanForceY | Self::MeanCouple)
+    }
 }
 
 const fn quantity(name: &'static str, dimension: &'static str, value: Value) -> Quantity {
@@ -103,12 +116,23 @@ const OF_PARTICLES: usize = 7;
 /// How many of them a point of a rigid body has.
 const OF_POINTS: usize = 9;
 
-/// What can be read of a joint: what it gives to its first station.
+/// What can be read of a joint: what it gives to its first station, at the present moment and in the mean of the last step.
 pub const OF_JOINTS: &[Quantity] = &[
     quantity("force", "force", Value::Force),
     quantity("fx", "force", Value::ForceX),
     quantity("fy", "force", Value::ForceY),
     quantity("moment", "force·length", Value::Couple),
+    quantity("mean_force", "force", Value::MeanForce),
+    quantity("mean_fx", "force", Value::MeanForceX),
+    quantity("mean_fy", "force", Value::MeanForceY),
+    quantity("mean_moment", "force·length", Value::MeanCouple),
+];
+
+/// What can be read of a slider besides what every history has of it: its force on its master at the present moment.
+pub const OF_SLIDERS: &[Quantity] = &[
+    quantity("present_force", "force", Value::Force),
+    quantity("present_force_x", "force", Value::ForceX),
+    quantity("present_force_y", "force", Value::ForceY),
 ];
 
 /// What can be read of a body as a whole.
@@ -126,11 +150,17 @@ impl Sensor {
     /// The dimension of what it reads.
     pub fn dimension(&self) -> &'static str {
         match &self.probe {
-            Probe::Station(_, quantity) | Probe::Body(_, quantity) | Probe::Joint(_, quantity) => {
-                quantity.dimension
-            }
+            Probe::Station(_, quantity)
+            | Probe::Body(_, quantity)
+            | Probe::Joint(_, quantity)
+            | Probe::Slider(_, quantity) => quantity.dimension,
             Probe::Outside => "-",
         }
+    }
+
+    /// Whether what it reads belongs to the last step as a whole.
+    pub fn is_of_step(&self) -> bool {
+        matches!(&self.probe, Probe::Joint(_, quantity) if quantity.value.is_of_step())
     }
 
     /// Whether it can be stored: its name says all.
@@ -204,7 +234,9 @@ impl Scene {
             of_places.chain(listed(body.name.clone(), OF_BODIES))
         });
         let joints = self.joint_names().into_iter().flat_map(|joint| listed(joint, OF_JOINTS));
-        beams.chain(particles).chain(rigid).chain(joints).collect()
+        let sliders = self.sliders.iter().map(|slider| slider.name.clone());
+        let sliders = sliders.flat_map(|slider| listed(slider, OF_SLIDERS));
+        beams.chain(particles).chain(rigid).chain(joints).chain(sliders).collect()
     }
 
     /// What joints are called in names of sensors, in their order: `hinge1`, `clamp1`, `hinge2`, `rigid1`, `support1`.
@@ -215,7 +247,12 @@ impl Scene {
                 (JointKind::Hinge, _) => ("hinge", 0),
                 (JointKind::Rigid, Partner::Ground) => ("clamp", 1),
                 (JointKind::Rigid, Partner::Station(_)) => ("rigid", 2),
-                (JointKind::Support(_), _) => ("support", 3),
+                (
+                    JointKind::Support(_)
+                    | JointKind::InclinedRoller(_)
+                    | JointKind::InclinedGuide(_),
+                    _,
+                ) => ("support", 3),
             };
             counts[at] += 1;
             format!("{kind}{}", counts[at])
@@ -239,19 +276,21 @@ impl Scene {
         let joints = joints.filter_map(|(at, joint)| Some((of(joint)?, Object::Joint(at))));
         let rigid = self.rigid_bodies.iter().enumerate();
         let rigid = rigid.filter_map(|(at, body)| Some((of(&body.name)?, Object::Rigid(at))));
+        let sliders = self.sliders.iter().enumerate();
+        let sliders =
+            sliders.filter_map(|(at, slider)| Some((of(&slider.name)?, Object::Slider(at))));
         // Names may begin alike; the first of equal ones counts.
-        let all = beams.chain(particles).chain(rigid).chain(joints);
+        let all = beams.chain(particles).chain(rigid).chain(joints).chain(sliders);
         let longest = all.reduce(|best, other| if other.0.0 > best.0.0 { other } else { best });
-        let others = self.sliders.iter().map(|slider| &slider.name);
-        let mut others = others.chain(self.springs().map(|spring| &spring.name));
+        let mut others = self.springs().map(|spring| &spring.name);
         let Some(((_, rest), object)) = longest else {
             if let Some(other) = others.find(|known| of(known).is_some()) {
                 return Err(refused(format!(
-                    "sliders and springs, such as '{other}', have their columns in every history without being recorded"
+                    "springs, such as '{other}', have their columns in every history without being recorded"
                 )));
             }
             return Err(refused(
-                "it must begin with the name of a beam, a particle, a body or a joint (hinge1, clamp1, rigid1) of the scene".to_owned(),
+                "it must begin with the name of a beam, a particle, a body, a slider or a joint (hinge1, clamp1, rigid1) of the scene".to_owned(),
             ));
         };
         let find = |known: &'static [Quantity], rest: &str| {
@@ -263,6 +302,14 @@ impl Scene {
         };
         match object {
             Object::Joint(at) => Ok(Probe::Joint(at, find(OF_JOINTS, rest)?)),
+            Object::Slider(at) => match find(OF_SLIDERS, rest) {
+                Ok(quantity) => Ok(Probe::Slider(at, quantity)),
+                Err(_) => Err(refused(format!(
+                    "place, speed and force of slider '{}' in the last step are in every history without being recorded; more there is of {}",
+                    self.sliders[at].name,
+                    OF_SLIDERS.iter().map(|quantity| quantity.name).collect::<Vec<_>>().join(", ")
+                ))),
+            },
             Object::Particle(at) => match find(OF_BODIES, rest) {
                 Ok(quantity) => Ok(Probe::Body(BodyIndex::Particle(at), quantity)),
                 Err(_) => Ok(Probe::Station(
@@ -331,4 +378,5 @@ enum Object {
     Particle(usize),
     Rigid(usize),
     Joint(usize),
+    Slider(usize),
 }

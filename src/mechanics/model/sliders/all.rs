@@ -6,7 +6,7 @@ use super::track::LANDED;
 use super::{Passing, SliderState, Sliding, TrackEnd, TrackLimit};
 use crate::beams::SpanAtRest;
 use crate::geometry::{Vec2, larger};
-use crate::integrators::{Ending, Interval, Overshoot};
+use crate::integrators::{Ending, Interval, Overshoot, StepError};
 use crate::joints::{CONTACT_UNKNOWNS, EndAction};
 use crate::linalg::{BlockLayout, Border, BorderShape};
 use crate::model::bodies::Body;
@@ -63,6 +63,19 @@ impl Sliders {
             width: CONTACT_UNKNOWNS * self.len(),
             row_entries: self.iter().map(Sliding::row_entries).sum(),
         }
+    }
+
+    /// Begins a step.
+    ///
+    /// # Errors
+    /// When a slider is too fast for its rule.
+    pub fn begin_step(
+        &mut self,
+        bodies: &[Body],
+        rates: &[f64],
+        interval: Interval,
+    ) -> Result<(), StepError> {
+        self.iter_mut().try_for_each(|slider| slider.begin_step(bodies, rates, interval))
     }
 
     /// Guesses the unknowns of all contacts for a step: every slider slides on as it does.
@@ -192,6 +205,11 @@ impl Sliders {
         self.iter().map(Sliding::chord).fold(f64::INFINITY, f64::min)
     }
 
+    /// Looks at all contacts at the end of a step that is accepted; the bodies are at its start still.
+    pub fn close(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) {
+        self.iter_mut().for_each(|slider| slider.close(bodies, increments, unknowns));
+    }
+
     /// Lets all sliders accept a step of such an ending; the bodies are at its end already.
     pub fn advance(&mut self, bodies: &[Body], unknowns: &[f64], ending: Ending) {
         self.iter_mut().for_each(|slider| slider.advance(bodies, unknowns, ending));
@@ -204,9 +222,17 @@ impl Sliders {
 
     /// The energy of the kinks under all contact forces on a body, or on all bodies [energy].
     pub fn strain_energy(&self, of: Option<usize>) -> f64 {
-        let asked =
-            self.iter().filter(|slider| of.is_none_or(|body| slider.connection.master == body));
-        asked.map(Sliding::strain_energy).sum()
+        self.on(of).map(Sliding::strain_energy).sum()
+    }
+
+    /// The energy with which the kinks under all contact forces on a body, or on all bodies, move along [energy].
+    pub fn kinetic_energy(&self, of: Option<usize>) -> f64 {
+        self.on(of).map(Sliding::kinetic_energy).sum()
+    }
+
+    /// The sliders on a body, or all.
+    fn on(&self, body: Option<usize>) -> impl Iterator<Item = &Sliding> {
+        self.iter().filter(move |slider| body.is_none_or(|body| slider.connection.master == body))
     }
 
     /// What each slider does at present, in order.

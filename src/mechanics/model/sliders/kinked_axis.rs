@@ -2,53 +2,129 @@
 
 use std::sync::Arc;
 
+use crate::beams::Section;
 use crate::geometry::{Passage, PiecewisePolynomial, Vec2};
-use crate::joints::Kink;
+use crate::joints::{Kink, KinkMotion};
 
 /// Where the kink length is less than this part of the master, a contact force moves nothing.
 const RIGID: f64 = 1e-14;
+
+/// The largest part of the speed of shear waves with which a kink may move along its master: beyond, little of its stiffness `GA - ρA v²` is left.
+const FASTEST: f64 = 0.8;
 
 /// What a contact force does to the axis of its master: it moves the axis by `g p/GA` where it acts.
 #[derive(Debug, Clone)]
 pub struct KinkedAxis {
     /// The kink length `g(ξ)` of the mesh of the master [length].
     length: Arc<PiecewisePolynomial>,
+    /// The arc length `s(ξ)` of the master [length].
+    arc: Arc<PiecewisePolynomial>,
     /// `1/GA` of the master [1/force].
     compliance: f64,
+    /// `ρA/GA` of the master [time²/length²].
+    slowness: f64,
     /// A kink length that is none [length].
     none: f64,
     /// `g`, its first and its second derivative by `ξ` where the slider is [length].
     here: [f64; 3],
-    /// The contact force `p` on the master at present [force].
-    pub force: Vec2,
+    /// The length of the master for a unit of ξ where the slider is [length].
+    stretch: f64,
+    /// The duration of the step [time].
+    duration: f64,
+    /// The jump of the tangent of the master where the slider is, as the force `p = GA a` that makes it where the kink does not move [force].
+    jump: Vec2,
+    /// The speed `v` of the kink along the master [length/time].
+    speed: f64,
 }
 
 impl KinkedAxis {
-    /// The axis of a master of such a length as drawn and shear stiffness, without a contact force.
-    pub fn new(kink_length: Arc<PiecewisePolynomial>, length: f64, shear_stiffness: f64) -> Self {
+    /// The axis of a master of such a length as drawn, without a contact force, by its kink length, its arc length and its section.
+    pub fn new(
+        [kink_length, arc]: [Arc<PiecewisePolynomial>; 2],
+        length: f64,
+        section: &Section,
+    ) -> Self {
+        let compliance = 1.0 / section.shear_stiffness;
         Self {
             length: kink_length,
-            compliance: 1.0 / shear_stiffness,
+            arc,
+            compliance,
+            slowness: section.mass_per_length * compliance,
             none: RIGID * length,
             here: [0.0; 3],
-            force: Vec2::zeros(),
+            stretch: 0.0,
+            duration: f64::INFINITY,
+            jump: Vec2::zeros(),
+            speed: 0.0,
         }
+    }
+
+    /// Begins a step of such a duration [time], in which a kink without a mass has such a rate `dξ/dt` [1/time].
+    ///
+    /// # Errors
+    /// When the kink moves too fast: its speed and that of shear waves, and which part of that it may have.
+    pub fn begin_step(&mut self, duration: f64, rate: f64) -> Result<(), [f64; 3]> {
+        self.duration = duration;
+        if !self.is_heavy() {
+            self.speed = self.stretch * rate;
+        }
+        let (speed, wave) = (self.speed.abs(), self.slowness.sqrt().recip());
+        if speed > FASTEST * wave { Err([speed, wave, FASTEST]) } else { Ok(()) }
+    }
+
+    /// Whether the kink has a mass, and with it a speed of its own.
+    fn is_heavy(&self) -> bool {
+        self.gives() && self.jump != Vec2::zeros()
     }
 
     /// The kink of the axis of the master in a step in which the slave moves along a passage.
     pub fn along(&self, passage: &Passage) -> Kink {
-        Kink { along: passage.along(&self.length), compliance: self.compliance, before: self.force }
+        let motion = KinkMotion {
+            arc: passage.along(&self.arc),
+            speed: self.speed,
+            slowness: self.slowness,
+            duration: self.duration,
+        };
+        let along = passage.along(&self.length);
+        Kink { along, compliance: self.compliance, before: self.jump, motion }
     }
 
     /// Looks at the place where the passage ends.
     pub fn arrive(&mut self, passage: &Passage) {
         self.here = passage.at_end(&self.length);
+        self.stretch = passage.at_end(&self.arc)[1];
     }
 
-    /// Takes the contact force `p1 = 2 λ - p0` at the end of a step, at which the axis has [arrived](Self::arrive); where the axis does not
-    /// give way, nothing tells it from the mean `λ` of the step [force].
-    pub fn advance(&mut self, mean: Vec2) {
-        self.force = if self.gives() { mean * 2.0 - self.force } else { mean };
+    /// Takes jump, as a force [force], and speed [length/time] at the end of a step with such a mean contact force `λ` [force], at which the axis has
+    /// [arrived](Self::arrive); where the axis does not give way, nothing tells the force from the mean of the step.
+    pub fn advance(&mut self, mean: Vec2, (jump, speed): (Vec2, f64)) {
+        self.jump = if self.gives() { jump } else { mean };
+        self.speed = speed;
+    }
+
+    /// Lets the axis be kinked by a force at rest [force].
+    pub fn rest_under(&mut self, force: Vec2) {
+        (self.jump, self.speed) = (force, 0.0);
+    }
+
+    /// Takes the kink away.
+    pub fn straighten(&mut self) {
+        self.rest_under(Vec2::zeros());
+    }
+
+    /// The state of the kink in numbers: its jump and its speed.
+    pub fn numbers(&self) -> [f64; 3] {
+        [self.jump.x, self.jump.y, self.speed]
+    }
+
+    /// Takes the state of the kink back from its numbers.
+    pub fn take(&mut self, [x, y, speed]: [f64; 3]) {
+        (self.jump, self.speed) = (Vec2::new(x, y), speed);
+    }
+
+    /// The contact force `λ = (GA - ρA v²) a` on the master [force].
+    pub fn force(&self) -> Vec2 {
+        self.jump * (1.0 - self.slowness * self.speed * self.speed)
     }
 
     /// Takes from the contact force what was that of a stop, along the tangent `x'` of the axis [length]: what is left has `p·x' + ½ g' |p|²/GA = 0`,
@@ -60,9 +136,9 @@ impl KinkedAxis {
             return;
         }
         let along = |force: Vec2| tangent * (force.dot(&tangent) / tangent.norm_squared());
-        let across = self.force - along(self.force);
+        let across = self.jump - along(self.jump);
         let pull = 0.5 * self.here[1] * self.compliance * across.norm_squared();
-        self.force = across - tangent * (pull / tangent.norm_squared());
+        self.jump = across - tangent * (pull / tangent.norm_squared());
     }
 
     /// Whether a contact force moves the axis where the slider is.
@@ -72,13 +148,13 @@ impl KinkedAxis {
 
     /// How far the axis is moved, `g p/GA` [length].
     pub fn offset(&self) -> Vec2 {
-        self.force * (self.here[0] * self.compliance)
+        self.jump * (self.here[0] * self.compliance)
     }
 
     /// The derivative of [`offset`](Self::offset) by `ξ`, and half its second one along itself, `½ g g'' |p|²/GA²`.
     pub fn slopes(&self) -> (Vec2, f64) {
         let [length, slope, bend] = self.here;
-        let force = self.force * self.compliance;
+        let force = self.jump * self.compliance;
         (force * slope, 0.5 * length * bend * force.norm_squared())
     }
 
@@ -86,13 +162,18 @@ impl KinkedAxis {
     /// given force, `½ g'' |p|²/GA` [energy].
     pub fn at_rest(&self) -> (f64, Vec2, f64) {
         let [length, slope, bend] = self.here;
-        let force = self.force * self.compliance;
+        let force = self.jump * self.compliance;
         let compliance = if self.gives() { length * self.compliance } else { 0.0 };
-        (compliance, force * slope, 0.5 * bend * force.dot(&self.force))
+        (compliance, force * slope, 0.5 * bend * force.dot(&self.jump))
     }
 
     /// The energy of the kink, `½ g |p|²/GA` [energy].
     pub fn energy(&self) -> f64 {
-        0.5 * self.force.dot(&self.offset())
+        0.5 * self.jump.dot(&self.offset())
+    }
+
+    /// The kinetic energy of the kink on its way, `½ ρA g |a|² v²` [energy].
+    pub fn kinetic_energy(&self) -> f64 {
+        self.slowness * self.speed * self.speed * self.energy()
     }
 }

@@ -3,10 +3,10 @@
 use super::track::LANDED;
 use super::{Bar, Blow, Connection, KinkedAxis, SliderState, Track, TrackEnd};
 use crate::geometry::{Passage, Vec2, larger};
-use crate::integrators::{Ending, Interval};
+use crate::integrators::{Ending, Interval, StepError};
 use crate::joints::{
-    CONTACT_UNKNOWNS, Contact, ContactUnknowns, EndAction, Held, Released, Slider, SlidingLaw,
-    SlidingRule, Unit,
+    CONTACT_UNKNOWNS, Contact, ContactUnknowns, EndAction, Held, Kink, Released, Slider,
+    SlidingLaw, SlidingRule, Unit, jump_of_held, jump_of_sliding,
 };
 use crate::linalg::Border;
 use crate::model::bodies::Body;
@@ -39,6 +39,8 @@ pub struct Sliding {
     bars: (Bar, Option<Bar>),
     /// The axis of the master as the contact force kinks it, where the rule knows of that.
     kinked_axis: Option<KinkedAxis>,
+    /// The jump of that axis at the end of the step, as a force [force], and the speed with which it moves along [length/time].
+    kink_at_end: (Vec2, f64),
     /// The length of the master for a parameter of one [length].
     length: f64,
     /// Where it is at the start of the step.
@@ -83,6 +85,7 @@ impl Sliding {
             track,
             bars,
             kinked_axis,
+            kink_at_end: (Vec2::zeros(), 0.0),
             here: passage.clone(),
             passage,
             before: Vec::with_capacity(functions),
@@ -134,12 +137,12 @@ impl Sliding {
         self.state = SliderState::Released;
         self.unknowns = ContactUnknowns::zeros();
         // At an end of the master there is no kink, and no energy in it.
-        self.kinked_axis.iter_mut().for_each(|axis| axis.force = Vec2::zeros());
+        self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
     }
 
     /// The contact force on the master: where the axis is kinked by it, at present, else the mean of the last step [force].
     pub fn contact_force(&self) -> Vec2 {
-        self.kinked_axis.as_ref().map_or(self.unknowns.force, |axis| axis.force)
+        self.kinked_axis.as_ref().map_or(self.unknowns.force, KinkedAxis::force)
     }
 
     /// Whether the contact force follows from how far the axis of the master is kinked, so that the contact transmits no impulse.
@@ -152,15 +155,20 @@ impl Sliding {
         self.kinked_axis.as_ref().map_or(0.0, KinkedAxis::energy)
     }
 
+    /// The energy with which the kink under the contact force moves along the master [energy].
+    pub fn kinetic_energy(&self) -> f64 {
+        self.kinked_axis.as_ref().map_or(0.0, KinkedAxis::kinetic_energy)
+    }
+
     /// How many numbers a slider saves, the parameter first.
-    pub const SAVED: usize = 5 + CONTACT_UNKNOWNS;
+    pub const SAVED: usize = 6 + CONTACT_UNKNOWNS;
 
     /// Appends the numbers of the slider; its state is no number.
     pub fn save(&self, numbers: &mut Vec<f64>) {
         numbers.extend([self.parameter, self.most_spans, self.blows_in_a_step]);
         numbers.extend(self.unknowns.to_array());
-        let force = self.contact_force();
-        numbers.extend([force.x, force.y]);
+        let kink = self.kinked_axis.as_ref().map_or([0.0; 3], KinkedAxis::numbers);
+        numbers.extend(kink);
     }
 
     /// Takes state and numbers of the slider back, in the order in which these were appended.
@@ -169,8 +177,8 @@ impl Sliding {
         let parameter = next();
         (self.most_spans, self.blows_in_a_step) = (next(), next());
         self.unknowns = ContactUnknowns::of(std::array::from_fn(|_| next()));
-        let force = Vec2::new(next(), next());
-        self.kinked_axis.iter_mut().for_each(|axis| axis.force = force);
+        let kink = std::array::from_fn(|_| next());
+        self.kinked_axis.iter_mut().for_each(|axis| axis.take(kink));
         self.stand_at(parameter);
     }
 
@@ -238,6 +246,31 @@ impl Sliding {
         ContactUnknowns::of(own)
     }
 
+    /// Begins a step.
+    ///
+    /// # Errors
+    /// When the slider is too fast for its rule.
+    pub fn begin_step(
+        &mut self,
+        bodies: &[Body],
+        rates: &[f64],
+        interval: Interval,
+    ) -> Result<(), StepError> {
+        if self.kinked_axis.is_none() {
+            return Ok(());
+        }
+        let rate = self.rate(bodies, rates);
+        let begun =
+            self.kinked_axis.as_mut().map(|axis| axis.begin_step(interval.duration(), rate));
+        begun.unwrap_or(Ok(())).map_err(|[speed, wave, limit]| StepError::FastAsWaves {
+            interval,
+            slider: self.name.clone(),
+            speed,
+            wave,
+            limit,
+        })
+    }
+
     /// Guesses the unknowns of the contact for a step: the slider slides on as it does, and its force stays.
     pub fn predict(
         &self,
@@ -249,7 +282,8 @@ impl Sliding {
         let (start, end) = self.track.domain();
         let ahead = self.parameter + interval.duration() * self.rate(bodies, rates);
         let way = ahead.clamp(start, end) - self.parameter;
-        let guess = ContactUnknowns { way, ..self.unknowns };
+        let force = if self.gives_way() { self.contact_force() } else { self.unknowns.force };
+        let guess = ContactUnknowns { force, way, ..self.unknowns };
         unknowns[self.connection.places()].copy_from_slice(&guess.to_array());
     }
 
@@ -338,6 +372,19 @@ impl Sliding {
         self.track.beyond(self.parameter + self.read(unknowns).way, end)
     }
 
+    /// Looks at the contact at the end of a step that is accepted; the bodies are at its start still.
+    pub fn close(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) {
+        if self.kinked_axis.is_none() {
+            return;
+        }
+        let is_sliding = self.is_sliding();
+        let contact = self.take(bodies, increments, unknowns);
+        let held = |kink: &Kink| (jump_of_held(contact.unknowns.force, kink.before), 0.0);
+        let kink =
+            if is_sliding { jump_of_sliding(&contact) } else { contact.kink.as_ref().map(held) };
+        self.kink_at_end = kink.unwrap_or_default();
+    }
+
     /// Lets the slider accept a step; the bodies are at its end already.
     ///
     /// A stop that had to pull lets go, but not within a step.
@@ -347,8 +394,8 @@ impl Sliding {
         let passed = self.passage.spans_between(before, before + self.unknowns.way);
         self.most_spans = self.most_spans.max(passed);
         self.stand_at(before + self.unknowns.way);
-        let mean = self.unknowns.force;
-        self.kinked_axis.iter_mut().for_each(|axis| axis.advance(mean));
+        let (mean, kink) = (self.unknowns.force, self.kink_at_end);
+        self.kinked_axis.iter_mut().for_each(|axis| axis.advance(mean, kink));
         if let (SliderState::Held(end), Ending::OfStep) = (self.state, ending) {
             let tangent = self.tangent(bodies);
             if self.unknowns.force.dot(&tangent) * end.outward() < 0.0 {

@@ -44,6 +44,14 @@ pub enum ModelError {
         /// The length of the beam whose station was asked for [length].
         length: f64,
     },
+    /// An outline of a rigid body that cannot be drawn.
+    #[error("the outline of body '{body}' cannot be drawn: {why}")]
+    Outline {
+        /// The name of the rigid body.
+        body: String,
+        /// Why.
+        why: &'static str,
+    },
     /// A point that a rigid body does not have.
     #[error("body '{body}' has no point '{point}'; it has {}", if known.is_empty() { "none but its centre" } else { known })]
     NoPoint {
@@ -171,6 +179,18 @@ pub enum ModelError {
         place: String,
         /// What ties the place already, in words.
         how: String,
+    },
+    /// A damper whose law pushes at some rate, or at rest.
+    #[error(
+        "{damper}: at the rate {rate} its damping gives the force {force}, which drives what it should damp; give a force with the sign of the rate, 0 at rest"
+    )]
+    FeedingDamper {
+        /// The damper whose law pushes, in words.
+        damper: String,
+        /// The rate at which it does [length/time, rad/time].
+        rate: f64,
+        /// The force that it gives there [force, force·length].
+        force: f64,
     },
     /// Something that would hold what a drive moves.
     #[error(

@@ -68,7 +68,7 @@ impl Simulation {
                         false => controller.accept(&mut pace, trial),
                     }
                     self.clock.pace = Some(pace);
-                    self.progress.count_step(interval, report, tries);
+                    self.count_step(interval, report, tries);
                     self.keep_present();
                     return self.ask(monitor);
                 }

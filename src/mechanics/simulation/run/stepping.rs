@@ -4,6 +4,7 @@ use super::Simulation;
 use super::landing::MOST_ARRIVALS;
 use crate::integrators::{Interval, StepError};
 use crate::model::TrackLimit;
+use crate::newton::NewtonReport;
 use crate::simulation::halving::Halving;
 use crate::simulation::{Monitor, SimulationError};
 
@@ -57,7 +58,7 @@ impl Simulation {
                     Ok(landing) => {
                         self.clock.under_way = None;
                         if let Some((interval, report)) = landing.step {
-                            self.progress.count_step(interval, report, halving.retries);
+                            self.count_step(interval, report, halving.retries);
                             self.keep_row();
                         }
                         let arrived = self.arrive(&landing);
@@ -73,7 +74,7 @@ impl Simulation {
             }
             match stepped {
                 Ok(report) => {
-                    self.progress.count_step(interval, report, halving.retries);
+                    self.count_step(interval, report, halving.retries);
                     halving.succeed();
                     self.clock.under_way = halving.rest();
                     self.keep_present();
@@ -93,6 +94,12 @@ impl Simulation {
             self.ask(monitor)?;
         }
         Ok(Covered::All)
+    }
+
+    /// Counts a step that succeeded after some failed tries.
+    pub(super) fn count_step(&mut self, interval: Interval, report: NewtonReport, retries: usize) {
+        self.progress.count_step(interval, report, retries);
+        self.model.end_step(interval.duration());
     }
 
     /// Asks the monitor whether the run goes on.

@@ -36,6 +36,15 @@ class Film {
     return [x, y];
   }
 
+  /** The outline of a rigid body: through its places, or a polygon that its centre and one of its points carry along. */
+  outline({ outline, corners }, frame) {
+    const line = outline.map((at) => this.at(at, frame));
+    if (corners.length === 0) return line;
+    const [[x, y], [tipX, tipY]] = line;
+    const [along, up] = [tipX - x, tipY - y];
+    return corners.map(([far, left]) => [x + far * along - left * up, y + far * up + left * along]);
+  }
+
   /** Where a spring is attached: at places that move, and at points of the ground. */
   way(spring, frame) { return spring.anchors.map((anchor) => (Array.isArray(anchor) ? this.at(anchor, frame) : [anchor.x, anchor.y])); }
 
@@ -72,7 +81,7 @@ class Film {
     const box = new Box();
     for (const beam of this.beams) for (const point of this.line(beam, frame)) box.add(point);
     for (const { at } of [...this.particles, ...this.symbols, ...this.bodies]) box.add(this.at(at, frame));
-    for (const { outline } of this.bodies) for (const at of outline) box.add(this.at(at, frame));
+    for (const body of this.bodies) for (const point of this.outline(body, frame)) box.add(point);
     for (const spring of this.springs) for (const point of this.way(spring, frame)) box.add(point);
     return box;
   }

@@ -75,7 +75,7 @@ class Stage {
       });
     }
     for (const body of film.bodies) {
-      drawBody(sheet, body.outline.map((at) => place(film.at(at, frame))), body.points.map(({ at }) => place(film.at(at, frame))), place(film.at(body.at, frame)), theme);
+      drawBody(sheet, film.outline(body, frame).map(place), body.points.map(({ at }) => place(film.at(at, frame))), place(film.at(body.at, frame)), theme);
     }
     if (switches.symbols) for (const spring of film.holding(frame)) drawSpring(sheet, spring, film.way(spring, frame).map(place), theme);
     film.beams.forEach((beam, index) => {
@@ -147,7 +147,7 @@ function around([x, y], angle, points) {
 
 /** A rigid body: its outline, its points, and a disc in quarters at its centre of mass. */
 function drawBody(sheet, outline, points, centre, theme) {
-  if (points.length > 2) sheet.shape(outline, theme.grid, theme.ink, 2);
+  if (outline.length > 3) sheet.shape(outline, theme.grid, theme.ink, 2);
   else if (outline.length > 0) sheet.line(outline, theme.ink, 3);
   for (const point of points) sheet.disc(point, 2.6, theme.ink);
   sheet.disc(centre, 5, theme.paper, theme.ink);

@@ -131,6 +131,7 @@ fn inside(call: &Call, options: &Options) -> Result<Inside, ScriptError> {
     Ok(match symbols(options) {
         Shown::No => inside.without_symbols(),
         Shown::Yes => inside,
+        Shown::WhereThereIsRoom => inside.with_uncrowded_symbols(),
     })
 }
 

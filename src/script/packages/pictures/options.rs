@@ -38,7 +38,9 @@ pub const LABELS: Parameter =
 
 /// Whether a picture has symbols.
 pub const SYMBOLS: Parameter = boolean("symbols")
-    .doc("whether supports, joints, sliders, springs and loads are drawn; they are unless given")
+    .doc(
+        "whether supports, joints, sliders, springs and loads are drawn; they are unless given, but for supports, joints and sliders where there are more than 60",
+    )
     .optional();
 
 /// Digits of a number that is a label.
@@ -67,7 +69,8 @@ impl Wrong {
 pub fn symbols(options: &Options) -> Shown {
     match options.boolean("symbols") {
         Ok(false) => Shown::No,
-        _ => Shown::Yes,
+        Ok(true) => Shown::Yes,
+        Err(_) => Shown::WhereThereIsRoom,
     }
 }
 

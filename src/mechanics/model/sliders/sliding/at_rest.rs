@@ -104,7 +104,7 @@ impl Sliding {
         let place = self.way_to_stop().map_or(found.way, |way| way);
         self.stand_at(self.parameter + place);
         self.unknowns = ContactUnknowns { way: 0.0, ..found };
-        self.kinked_axis.iter_mut().for_each(|axis| axis.force = found.force);
+        self.kinked_axis.iter_mut().for_each(|axis| axis.rest_under(found.force));
     }
 
     /// Whether the slider keeps slave and master from moving apart without giving way, and how many movements that takes from them.

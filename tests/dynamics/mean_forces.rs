@@ -1,0 +1,232 @@
+//! What joints and supports give in the mean of a step: with the loads it is what changes the momenta.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::body_scenes::{add_body, hinge, point};
+use crate::common::scenes::{add_beam, drive, end_of, line, rod, start_of};
+use crate::common::{
+    at, body_scenes, orders, run, scenes, sci, settings, simulate, sliding_scenes,
+};
+use withy::beams::{Mesh, Station};
+use withy::geometry::{Vec2, cross};
+use withy::integrators::{INTEGRATORS, Method};
+use withy::joints::{Component, Components, JointKind, Partner, SlidingRule};
+use withy::loads::{Frame, LoadKind, PrescribedMotion, Schedule};
+use withy::model::Scene;
+use withy::simulation::{Simulation, SimulationError, Unwatched};
+
+const PUSH: Vec2 = Vec2::new(3.0, -5.0);
+
+fn mesh() -> Mesh {
+    Mesh::bspline(4, 3, 2).unwrap()
+}
+
+/// Records the means of all joints.
+fn listening(mut scene: Scene) -> Scene {
+    let names = scene.sensor_names();
+    let of_steps = names.iter().filter(|name| name.contains(".mean_"));
+    of_steps.for_each(|name| scene.record(name).unwrap());
+    scene
+}
+
+/// Two beams, pushed at the end, held at their start and joined as is said.
+fn two_beams(held: JointKind, joint: JointKind) -> (Scene, Station) {
+    let mut scene = Scene::new(format!("{held:?}, {joint:?}"));
+    let first = add_beam(&mut scene, line(at(0.5, 0.2), at(1.5, 0.2)), &mesh(), rod());
+    let second = add_beam(&mut scene, line(at(1.5, 0.2), at(2.2, 0.9)), &mesh(), rod());
+    let (foot, top) = (start_of(&mut scene, first), end_of(&mut scene, first));
+    let (next, tip) = (start_of(&mut scene, second), end_of(&mut scene, second));
+    scene.join(held, foot, Partner::Ground).unwrap();
+    scene.join(joint, top, Partner::Station(next)).unwrap();
+    (scene, tip)
+}
+
+/// A rigid body on a pin, with a beam and another body on pins of its own.
+fn pinned_bodies() -> (Scene, Station) {
+    let mut scene = Scene::new("rigid bodies on pins");
+    let points = [at(-0.5, 0.1), at(0.6, 0.2), at(0.0, -0.4)];
+    let one = add_body(&mut scene, at(1.0, 0.3), 0.2, (2.0, 0.4), &points);
+    hinge(&mut scene, point(one, 1), None);
+    let corner = scene.drawn_at(&point(one, 2)).unwrap();
+    let beam = add_beam(&mut scene, line(corner, corner + at(1.0, 0.1)), &mesh(), rod());
+    let (start, tip) = (start_of(&mut scene, beam), end_of(&mut scene, beam));
+    scene.join(JointKind::Rigid, start, Partner::Station(point(one, 2))).unwrap();
+    let below = scene.drawn_at(&point(one, 3)).unwrap();
+    let two = add_body(&mut scene, below - at(0.0, 0.5), 0.0, (1.0, 0.1), &[at(0.0, 0.5)]);
+    hinge(&mut scene, point(two, 1), Some(point(one, 3)));
+    (scene, tip)
+}
+
+/// A beam whose foot is moved on a given way, a second one on its end, and a roller under that.
+fn driven() -> (Scene, Station) {
+    let (mut scene, tip) = two_beams(JointKind::Support(Components::Rotation), JointKind::Hinge);
+    let foot = scene.joints[0].station;
+    let way = |amplitude| Schedule::Sine { amplitude, rate: 2.0, phase: 0.0 };
+    let given = [
+        (Component::X, PrescribedMotion::Place(way(0.2))),
+        (Component::Y, PrescribedMotion::Rate(way(0.4))),
+    ];
+    drive(&mut scene, foot, &given);
+    scene.name = "driven".into();
+    (scene, tip)
+}
+
+fn pushed() -> Vec<(Scene, Station)> {
+    let roller = JointKind::Support(Components::Y);
+    let mut scenes = vec![
+        two_beams(JointKind::Hinge, JointKind::Hinge),
+        two_beams(JointKind::Rigid, JointKind::Rigid),
+        two_beams(JointKind::Rigid, JointKind::Hinge),
+        two_beams(roller, JointKind::Rigid),
+        pinned_bodies(),
+        driven(),
+    ];
+    for (scene, tip) in &mut scenes {
+        let load = LoadKind::Force { station: *tip, force: PUSH, frame: Frame::Dead };
+        scene.add_load(load, Schedule::constant(1.0).unwrap());
+    }
+    scenes
+}
+
+#[test]
+fn mean_reactions_and_loads_change_the_momenta() {
+    for entry in INTEGRATORS.iter().filter(|entry| entry.claims.momentum) {
+        let mut worst = [0.0_f64; 2];
+        for (scene, tip) in pushed() {
+            let label = format!("{}, {}", scene.name, entry.name);
+            let is_driven = !scene.drives.is_empty();
+            let joints = scene.joints.iter();
+            let held = joints.filter(|joint| joint.partner == Partner::Ground);
+            let held: Vec<Station> = held.map(|joint| joint.station).collect();
+            let scene = listening(scene);
+            let mut simulation = Simulation::start(scene, settings(entry.method, 0.02)).unwrap();
+            let places = held.iter().chain([&tip]);
+            let places: Vec<_> = places.map(|place| simulation.place(place).unwrap()).collect();
+            for step in 0..40 {
+                let before: Vec<Vec2> =
+                    places.iter().map(|place| simulation.model().position(place)).collect();
+                let begun = simulation.history().samples().last().unwrap().measures;
+                simulation.step(&mut Unwatched).unwrap();
+                let ended = simulation.history().samples().last().unwrap().measures;
+                let dt = ended.time - begun.time;
+                let model = simulation.model();
+                let given = model.given_in_step().unwrap();
+                let (mut force, mut moment, mut size) = (Vec2::zeros(), 0.0, 1.0);
+                for (place, before) in places.iter().zip(before) {
+                    let middle = (before + model.position(place)) * 0.5;
+                    let (by, turning) = model.reaction(&given, place).unwrap_or((PUSH, 0.0));
+                    force += by;
+                    moment += cross(middle, by) + turning;
+                    size += by.norm() + turning.abs();
+                }
+                let change = (ended.momentum - begun.momentum) / dt;
+                let off = (change - force).norm() / size;
+                worst[0] = worst[0].max(off);
+                assert!(off < 2e-11, "{label}, step {step}: {change} {force}");
+                // Parts of a step have middles of their own, and what is moved on a given way does not move as its mean velocity says.
+                if entry.claims.angular_momentum
+                    && entry.method != Method::FourthOrder
+                    && !is_driven
+                {
+                    let change = (ended.angular_momentum - begun.angular_momentum) / dt;
+                    let off = (change - moment).abs() / size;
+                    worst[1] = worst[1].max(off);
+                    assert!(off < 2e-11, "{label}, step {step}: {change} {moment}");
+                }
+            }
+        }
+        println!("{:16} Δp/Δt off by {:.1e}, ΔL/Δt by {:.1e}", entry.name, worst[0], worst[1]);
+    }
+}
+
+/// In a very short step all is as at its ends: means are those of the forces at the present moment, also between bodies.
+#[test]
+fn means_of_a_very_short_step_are_the_forces_at_its_ends() {
+    let short = 1e-6;
+    let lets_go = |scene: &Scene| scene.release_times().any(|time| time == 0.4);
+    let mut joints = 0;
+    for scene in scenes::all(&mesh()).into_iter().filter(|scene| !lets_go(scene)) {
+        let name = scene.name.clone();
+        let count = scene.joints.len();
+        let methods = INTEGRATORS.iter().filter(|entry| entry.claims.momentum);
+        for method in methods.map(|entry| entry.method) {
+            let mut simulation = simulate(listening(scene.clone()), method, 0.02, 0.4);
+            let read = |simulation: &mut Simulation| -> Vec<(Vec2, f64)> {
+                let now = simulation.instant().unwrap();
+                let model = simulation.model();
+                let force = |joint| {
+                    model.transmission(simulation.scene(), joint).unwrap().read(now.given())
+                };
+                (0..count).map(force).collect()
+            };
+            let before = read(&mut simulation);
+            run(&mut simulation, 0.4 + short).unwrap();
+            let after = read(&mut simulation);
+            let Some(given) = simulation.model().given_in_step() else { continue };
+            for joint in 0..count {
+                let transmission =
+                    simulation.model().transmission(simulation.scene(), joint).unwrap();
+                let (force, moment) = transmission.read(&given);
+                let ((f0, m0), (f1, m1)) = (before[joint], after[joint]);
+                let scale = 1.0 + f0.norm() + m0.abs();
+                let off = (force - (f0 + f1) * 0.5).norm() + (moment - 0.5 * (m0 + m1)).abs();
+                assert!(
+                    off < 2e-5 * scale,
+                    "{name}, {method:?}, {joint}: {force} {f0} {f1}, {moment} {m0} {m1}"
+                );
+                joints += 1;
+            }
+        }
+    }
+    assert!(joints > 50, "{joints}");
+}
+
+/// Velocities of points of rigid bodies are of second order at the ends of steps, and a step of another size shakes them: here steps are equal.
+#[test]
+fn means_between_rigid_bodies_are_of_second_order_to_the_forces_at_the_ends() {
+    for scene in [body_scenes::pendulum(0.2, 0.6, 0.8), body_scenes::double_pendulum()] {
+        let joint = scene.joints.len() - 1;
+        let errors = [0.01, 0.005, 0.0025].map(|dt| {
+            let scene = listening(scene.clone());
+            let mut simulation = Simulation::start(scene, settings(Method::default(), dt)).unwrap();
+            let joint = simulation.model().transmission(simulation.scene(), joint).unwrap();
+            let mut before = joint.read(simulation.instant().unwrap().given()).0;
+            let mut worst = 0.0_f64;
+            while simulation.time() < 0.5 - 0.1 * dt {
+                simulation.step(&mut Unwatched).unwrap();
+                let after = joint.read(simulation.instant().unwrap().given()).0;
+                let mean = joint.read(&simulation.model().given_in_step().unwrap()).0;
+                worst = worst.max((mean - (before + after) * 0.5).norm());
+                before = after;
+            }
+            worst
+        });
+        println!("{}: {} {:.2?}", scene.name, sci(&errors), orders(&errors));
+        assert!(orders(&errors).iter().all(|order| *order > 1.8), "{}: {errors:?}", scene.name);
+    }
+}
+
+#[test]
+fn summing_up_changes_no_bit_of_the_motion() {
+    let sliding = sliding_scenes::all(&mesh(), SlidingRule::Kinked);
+    let all = scenes::all(&mesh()).into_iter().chain(body_scenes::all(&mesh())).chain(sliding);
+    for scene in all {
+        for entry in INTEGRATORS.iter().filter(|entry| entry.claims.momentum) {
+            let rows = |scene: Scene| {
+                let simulation = simulate(scene, entry.method, 0.02, 0.2);
+                let points: Vec<_> =
+                    simulation.model().control_points().flatten().copied().collect();
+                format!("{:?} {points:?}", simulation.history().samples())
+            };
+            let label = format!("{}, {}", scene.name, entry.name);
+            assert_eq!(rows(scene.clone()), rows(listening(scene.clone())), "{label}");
+        }
+    }
+}
+
+#[test]
+fn a_method_without_such_a_mean_refuses() {
+    let (scene, _) = two_beams(JointKind::Hinge, JointKind::Hinge);
+    let method = Method::GeneralizedAlpha { rho_infinity: 0.8 };
+    let refused = Simulation::start(listening(scene), settings(method, 0.02)).err().unwrap();
+    assert!(matches!(refused, SimulationError::NoMean { .. }), "{refused}");
+}
