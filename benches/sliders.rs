@@ -48,6 +48,7 @@ fn slide(scene: &mut Scene, slave: Station, master: usize, arc_length: f64) {
         arc_length,
         rule: SlidingRule::Kinked,
         ends: EndAction::Bounce,
+        restitution: 1.0,
         velocities: StartVelocities::Check,
     };
     scene.add_slider(slider).unwrap();

@@ -76,6 +76,7 @@ fn beaded_beam(spans: usize, beads: usize) -> Model {
             arc_length,
             rule: SlidingRule::Conserving,
             ends: EndAction::Bounce,
+            restitution: 1.0,
             velocities: StartVelocities::Check,
         };
         scene.add_slider(slider).unwrap();

@@ -96,6 +96,7 @@ fn bead(scene: &mut Scene) -> Result<(), ModelError> {
         arc_length,
         rule: SlidingRule::default(),
         ends: EndAction::Release,
+        restitution: 1.0,
         velocities: StartVelocities::Project,
     };
     scene.add_slider(slider).map(|_| ())

@@ -141,6 +141,7 @@ pub fn carriage(mesh: &Mesh, rule: SlidingRule) -> Scene {
             arc_length,
             rule,
             ends: EndAction::Bounce,
+            restitution: 1.0,
             velocities: StartVelocities::Check,
         };
         scene.add_slider(slider).unwrap();

@@ -200,7 +200,7 @@ impl Constraints for FixedWay<'_> {
         self.model.relative_violation(residual)
     }
 
-    fn check_constraints(&self, _unknowns: &[f64]) -> Result<(), Overshoot> {
+    fn check_constraints(&mut self, _unknowns: &[f64]) -> Result<(), Overshoot> {
         Ok(())
     }
 

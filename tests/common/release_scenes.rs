@@ -73,6 +73,7 @@ pub fn bead(mesh: &Mesh) -> Scene {
         arc_length: 1.0,
         rule: SlidingRule::Conserving,
         ends: EndAction::Stop,
+        restitution: 1.0,
         velocities: StartVelocities::Check,
     };
     scene.add_slider(slider).unwrap();

@@ -34,6 +34,7 @@ pub fn slider(slave: Station, master: usize, arc_length: f64, rule: SlidingRule)
         arc_length,
         rule,
         ends: EndAction::Stop,
+        restitution: 1.0,
         velocities: StartVelocities::Check,
     }
 }

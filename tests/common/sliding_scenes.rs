@@ -55,6 +55,18 @@ pub fn abacus(mesh: &Mesh, rule: SlidingRule) -> Scene {
     scene
 }
 
+/// The same with beads that lose speed where they bounce, two of which reach the end at once.
+pub fn losing_abacus(mesh: &Mesh, rule: SlidingRule) -> Scene {
+    let mut scene = Scene::new("abacus that loses");
+    let rail = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 1.0)), mesh, paper_section(300.0));
+    for (along, mass, speed) in [(0.05, 0.1, -2.0), (0.95, 0.1, 2.0), (0.9, 0.3, 0.5)] {
+        bead(&mut scene, rail, along, mass, speed, rule);
+    }
+    let coefficients = [0.6, 0.6, 0.0];
+    scene.sliders.iter_mut().zip(coefficients).for_each(|(slider, e)| slider.restitution = e);
+    scene
+}
+
 /// A beam slides on a hinged beam, and a bead on the sliding one, in a field of gravity.
 pub fn sliding_beam_with_bead(mesh: &Mesh, rule: SlidingRule) -> Scene {
     let mut scene = Scene::new("bead on a sliding beam");

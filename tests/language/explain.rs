@@ -51,6 +51,7 @@ fn with_bead() -> Scene {
         arc_length: 0.5,
         rule: SlidingRule::Conserving,
         ends: EndAction::Stop,
+        restitution: 1.0,
         velocities: StartVelocities::Check,
     };
     scene.add_slider(slider).unwrap();

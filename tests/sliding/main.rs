@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod blows;
 mod consistency;
 mod ends;
 mod forces;
@@ -12,3 +13,5 @@ mod long_ways;
 mod many;
 mod orders;
 mod relaxed;
+mod together;
+mod wild;

@@ -109,7 +109,7 @@ pub trait Constraints {
     ///
     /// # Errors
     /// When a constraint ends within the step, or not where it should.
-    fn check_constraints(&self, unknowns: &[f64]) -> Result<(), Overshoot>;
+    fn check_constraints(&mut self, unknowns: &[f64]) -> Result<(), Overshoot>;
 
     /// The shortest chord of a way along a constraint in the mean configuration that the last forces met, relative to the length
     /// of that way as it is built [-].

@@ -20,6 +20,8 @@ pub struct Slider {
     pub rule: SlidingRule,
     /// What happens when the slider reaches an end of its master.
     pub ends: EndAction,
+    /// How much of the speed with which the slider strikes an end it has when it leaves, from 0 to 1, where it bounces [-].
+    pub restitution: f64,
     /// What happens to start velocities with which the slider would leave its master.
     pub velocities: StartVelocities,
 }
@@ -30,7 +32,7 @@ pub enum EndAction {
     /// The run ends when the slider reaches the end.
     #[default]
     Stop,
-    /// The slider bounces off an elastic stop at the end; energy and momenta are kept.
+    /// The slider bounces off a stop at the end, by its coefficient of restitution; momenta are kept.
     Bounce,
     /// The slider leaves its master at the end and flies free.
     Release,

@@ -1,6 +1,7 @@
 //! The model: bodies, elements, rigid links and sliders, their present motion, and what can be done with them.
 
 mod acceleration;
+mod blows;
 mod culprit;
 mod energies;
 mod given;
@@ -12,10 +13,12 @@ mod letting_go;
 mod measures;
 mod order_at_rest;
 mod rest;
+mod rigidity;
 mod state;
 mod steps;
 mod stiffness;
 
+pub use blows::Arriving;
 pub use energies::BodyEnergy;
 pub use given::Given;
 pub use instant::Instant;
@@ -166,7 +169,9 @@ impl Model {
 
     /// Lets a slider rest against the stop at a limit, until the stop would have to pull.
     pub fn hold(&mut self, limit: TrackLimit) {
-        self.sliders[limit.slider].hold(limit.end);
+        let slider = &mut self.sliders[limit.slider];
+        slider.hold(limit.end);
+        slider.clings = slider.left_at == self.motion.time;
         self.motion.accelerations.forget();
     }
 

@@ -20,8 +20,8 @@ pub use looking::{
     SpringState, Transmission, Usage,
 };
 pub use mechanism::{
-    BodyEnergy, Energy, Given, Instant, Measures, Model, ModelState, OrderAtRest, StaticForces,
-    add_resistance,
+    Arriving, BodyEnergy, Energy, Given, Instant, Measures, Model, ModelState, OrderAtRest,
+    StaticForces, add_resistance,
 };
 pub use motion::{Resolution, UnknownKind};
 pub use scene::{

@@ -35,7 +35,9 @@ pub enum SimulationError {
         end: f64,
     },
     /// No step of any size was solved.
-    #[error("no step from t = {time} works, down to dt/{divisions} (dt = {dt:e}): {source}")]
+    #[error(
+        "no step from t = {time} works, down to dt/{divisions} (dt = {dt:e}): {source}{plight}"
+    )]
     Step {
         /// The end of the last good step before the one that was not solved [time].
         time: f64,
@@ -44,7 +46,9 @@ pub enum SimulationError {
         /// The number of parts into which the step that was not solved was divided at last.
         divisions: u64,
         /// The reason why the last try of the step failed.
-        source: StepError,
+        source: Box<StepError>,
+        /// What is extreme in the configuration before the step, as the end of a sentence; empty where nothing is.
+        plight: String,
     },
     /// A tolerance asks for steps that are too short.
     #[error(
@@ -64,7 +68,7 @@ pub enum SimulationError {
     },
     /// No step of varying size down to the smallest was solved.
     #[error(
-        "no step from t = {time} works, down to the smallest one, {smallest:e} (dt = {dt:e}): {source}"
+        "no step from t = {time} works, down to the smallest one, {smallest:e} (dt = {dt:e}): {source}{plight}"
     )]
     Smallest {
         /// The end of the last good step before none was solved [time].
@@ -74,11 +78,13 @@ pub enum SimulationError {
         /// The smallest step that the run allows [time].
         smallest: f64,
         /// The reason why the last try of a step failed.
-        source: StepError,
+        source: Box<StepError>,
+        /// What is extreme in the configuration before the step, as the end of a sentence; empty where nothing is.
+        plight: String,
     },
     /// No step that ends with the arrival of a slider was found.
     #[error(
-        "slider '{slider}' arrives at the {end} of its beam soon after t = {time}, but no step that ends there was found, down to dt/{divisions} (dt = {dt:e}); try a smaller dt or a finer mesh"
+        "slider '{slider}' arrives at the {end} of its beam soon after t = {time}, but no step that ends there was found, down to dt/{divisions} (dt = {dt:e}); try a smaller dt or a finer mesh{plight}"
     )]
     Landing {
         /// The name of the slider whose arrival was not found.
@@ -91,6 +97,8 @@ pub enum SimulationError {
         dt: f64,
         /// The number of parts into which the step with the arrival was divided at last.
         divisions: u64,
+        /// What is extreme in the configuration before the step, as the end of a sentence; empty where nothing is.
+        plight: String,
     },
     /// A load has no finite value, or a slider is too fast for its rule; no smaller step helps.
     #[error("{source}")]

@@ -240,11 +240,11 @@ impl fmt::Display for Note {
             Self::Bounce { slider, dt, blows } => write!(
                 f,
                 "slider '{slider}' bounced off a beam that gives way, and a step (dt = {}) is {} times as long as such a blow may last \
-                 ({}): how fast it leaves depends on the step; take dt below {}, or hold the end that it strikes",
+                 ({}): the beam was struck as if it were rigid; take dt below {} to see its waves, or hold the end that is struck",
                 short(*dt),
                 short(*blows),
                 short(dt / blows),
-                short(dt / blows)
+                short(0.125 * dt / blows)
             ),
         }
     }

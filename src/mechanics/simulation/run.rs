@@ -10,6 +10,7 @@ mod landing;
 mod letting_go;
 mod looking_inside;
 mod noting;
+mod plight;
 mod recording;
 mod revisit;
 mod stepping;

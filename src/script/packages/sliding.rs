@@ -64,12 +64,11 @@ pub const TABLE: Table = Table {
                  onto it exactly. Where the beam ends, the run \
                  stops, or the slider bounces off, or is released. A station held by the ground is an eyelet through which the \
                  beam slides. On a curved beam, whose mesh is slightly off the curve, the station is moved onto the line of the mesh, and \
-                 velocities: \"project\" makes start velocities fit that line. A bounce reverses the velocity against the node \
-                 at the end of the beam, and the beam rings on and strikes the slider again until it leaves. That is resolved where \
-                 steps are shorter than such a blow lasts: a wave runs through the beam and back, 2 L √(rho_A/EA), or less for a slider \
-                 that is lighter than the beam. In longer steps energy and momenta are kept, but how fast the slider leaves depends on \
-                 the step, and it may come to rest against the end: sim.notes tells. An end that is held is struck without any of this. Each slider adds \
-                 five full columns to the matrix of a step: hundreds of them get slow. Sliders are called slider1, slider2, … \
+                 velocities: \"project\" makes start velocities fit that line. All that bounces at one \
+                 time does so in one impact. Where steps are shorter than an eighth of a blow, in which a wave runs through the beam and back, \
+                 2 L √(rho_A/EA), or less for a slider that is lighter than the beam, the slider leans on the end until that would have to pull; in steps much \
+                 longer than the blow the beam is struck as if it were rigid, and sim.notes tells. restitution says how much of its speed the slider keeps; \
+                 what is lost is in the column dissipated.NAME. One that bounces again and again within few steps comes to lean on the end, until it is drawn away. Sliders are called slider1, slider2, … \
                  unless they get a name.",
             )
             .example(
@@ -140,8 +139,8 @@ pub const TABLE: Table = Table {
             .returns(Returns::array_of(&ValueKind::Map).note(" #{ t, slider, end, what }"))
             .summary("When sliders reached ends of their beams so far, and what happened there.")
             .doc(
-                "slider is its name; end is \"start\" or \"end\"; what is \"stopped\", \"bounced\", \"rested\" (it stays against the \
-                 end until it is drawn away) or \"released\". A slider may strike a ringing end many times in one arrival.",
+                "slider is its name; end is \"start\" or \"end\"; what is \"stopped\", \"bounced\", \"rested\" (it leans on the \
+                 end until that would have to pull: in a blow that steps resolve, or until it is drawn away) or \"released\".",
             )
             .example("sim.run_to(5);\nfor event in sim.events {\n    print(`${event.slider} ${event.what} at ${event.end}, t = ${event.t}`);\n}")
             .see(&["ended", "slider"]),
@@ -167,6 +166,10 @@ const SLIDER_KEYS: &[Parameter] = &[
     choice("ends", &[ENDS[0].0, ENDS[1].0, ENDS[2].0])
         .doc("what happens where the beam ends: the run stops, the slider bounces off an elastic stop, or it flies free")
         .or(Presence::Text("stop")),
+    number("restitution")
+        .between(0.0, 1.0)
+        .doc("how much of its speed a slider with ends: \"bounce\" keeps where it bounces: 1 unless given, all of it")
+        .optional(),
     choice("velocities", &[VELOCITIES[0].0, VELOCITIES[1].0])
         .doc("start velocities across the beam: an error, or replaced by the nearest that fit")
         .or(Presence::Text("check")),
@@ -256,13 +259,21 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options_or_defaults("options")?;
     let at = options.number_if_given("at");
     let name = options.text_if_given("name")?;
+    let ends = meant(&ENDS, &options.text("ends")?);
+    let restitution = options.number_if_given("restitution");
+    if restitution.is_some() && ends != EndAction::Bounce {
+        let told = "slider: 'restitution' is of sliders that bounce, with ends: \"bounce\"";
+        return Err(ScriptError::new(told).at(Place::Key("restitution".into())));
+    }
+    let restitution = restitution.unwrap_or(1.0);
     let definition = Slider {
         name: name.unwrap_or_else(|| scene.borrow().free_name("slider")),
         slave,
         master,
         arc_length: start(&scene.borrow(), slave, master, at)?,
         rule: options.get_if("rule").unwrap_or_default(),
-        ends: meant(&ENDS, &options.text("ends")?),
+        ends,
+        restitution,
         velocities: meant(&VELOCITIES, &options.text("velocities")?),
     };
     let added = scene.borrow_mut().add_slider(definition);

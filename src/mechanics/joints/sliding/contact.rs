@@ -128,6 +128,11 @@ impl Contact<'_> {
         WayVector { value, by_way: self.sum(self.passage.slope(), 1.0) }
     }
 
+    /// How much the slave pushes outwards at the end of the step, `λ·x'(ξ1)` times the sign of `dξ` with which it reaches an end [force·length].
+    pub fn push(&self, outward: f64) -> f64 {
+        self.unknowns.force.dot(&self.end_point().by_way) * outward
+    }
+
     /// The sum `Σ ∂D_i/∂ξ1 x_i1` on the master at the end of the step: half of its second derivative, for a way of length zero [length].
     pub(super) fn end_bend(&self) -> Vec2 {
         self.sum(self.passage.change(), 1.0)

@@ -66,4 +66,9 @@ impl Model {
     pub fn end_action(&self, slider: usize) -> EndAction {
         self.slider(slider).ends
     }
+
+    /// The coefficient of restitution with which a slider bounces off the ends of its master [-].
+    pub fn restitution(&self, slider: usize) -> f64 {
+        self.slider(slider).restitution
+    }
 }

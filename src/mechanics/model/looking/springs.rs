@@ -50,9 +50,10 @@ impl Model {
         (taken > 0.0).then_some(name)
     }
 
-    /// What else has dissipated since the start, in the order of the scene: damping of materials, drag [energy].
+    /// What else has dissipated since the start, in the order of the scene: damping of materials, drag, blows of sliders that lose by them [energy].
     pub fn dissipations(&self) -> impl Iterator<Item = f64> {
         let others = self.elements().resistances().filter(|other| other.stretched().is_none());
-        others.map(Resistance::dissipated)
+        let losing = self.sliders().iter().filter(|slider| slider.restitution < 1.0);
+        others.map(Resistance::dissipated).chain(losing.map(|slider| slider.lost))
     }
 }

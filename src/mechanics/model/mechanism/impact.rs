@@ -1,38 +1,117 @@
-//! Impulses at sliders: consistent start velocities, and bounces off the ends of a master.
+//! Impulses at sliders: consistent start velocities, and blows at the ends of masters, all that strike at one time together.
 //!
-//! An impulse `P` at a contact changes the velocities by `M (v⁺ - v⁻) = Gᵀ P`, `G v` being the velocity of the slave relative
-//! to its place on the master. Where the contact is closed, linear and angular momentum stay;
-//! a gap of the relaxed rule costs angular momentum.
+//! Impulses `P` at contacts change the velocities by `M (v⁺ - v⁻) = Σ Gᵀ P`, `G v` being the velocity of a slave relative to its place on the
+//! master. Where the contact is closed, linear and angular momentum stay; a gap of the relaxed rule costs angular momentum.
+//! For a blow `G` is what steps follow of that velocity ([`Rigidity`]). What a contact gives to the bodies is `½ P (w⁻ + w⁺)`.
 
 use super::Model;
+use super::rigidity::Rigidity;
 use crate::geometry::{Vec2, cross};
 use crate::integrators::{Inertia, Mechanism};
-use crate::linalg::{BandedLu, BandedMatrix, LinearError};
+use crate::linalg::{BandedLu, LinearError, Pairing, complementary};
 use crate::model::ModelError;
 use crate::model::elements::Exchange;
-use crate::model::sliders::Blow;
-
-/// What moves by less than this part of the change of relative velocity is held.
-const GIVES: f64 = 1e-9;
 
 /// A slider, and the component of its relative velocity on which an impulse acts.
 pub(super) type Direction = (usize, Vec2);
 
 /// What a unit impulse transmits, and how the velocities answer.
 pub(super) struct Answer {
-    /// `Gᵀ`, on all degrees of freedom.
+    /// `Gᵀ`, on all degrees of freedom, with what is passed on within a step.
     pub(super) forces: Vec<f64>,
     /// `M⁻¹ Gᵀ`, of the unknowns.
     pub(super) rates: Vec<f64>,
     /// Where `Gᵀ` has entries.
     touched: Vec<usize>,
+    /// What section forces pass on, where anything is rigid.
+    passed_on: Vec<f64>,
 }
 
 impl Answer {
+    fn of(inertia: &BandedLu<'_>, unknowns: usize, forces: Vec<f64>, passed_on: Vec<f64>) -> Self {
+        let mut rates = forces[..unknowns].to_vec();
+        inertia.solve(&mut rates);
+        let touched = (0..forces.len()).filter(|&at| forces[at] != 0.0).collect();
+        Self { forces, rates, touched, passed_on }
+    }
+
     /// The velocity that rates are in the direction of the impulse: `G v`.
     pub(super) fn velocity(&self, rates: &[f64]) -> f64 {
         let of_rates = self.touched.iter().filter(|at| **at < rates.len());
         of_rates.map(|&at| rates[at] * self.forces[at]).sum()
+    }
+}
+
+/// What an impulse makes of the velocity `w` on which it acts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Law {
+    /// `w⁺ = 0`, by an impulse of either sign.
+    Ends,
+    /// `w⁺ = -w⁻`, by an impulse of either sign: no work is done.
+    Reverses,
+    /// `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0`, with the coefficient of restitution `e`: a stop, which pushes and does not pull (Moreau 1988).
+    Strikes(f64),
+    /// `0 ≤ P ⟂ w⁺ ≥ 0`: what leans on a stop.
+    Leans,
+    /// `0 ≤ P ⟂ w⁺ - c ≥ 0`: a stop that gives back what it stored, by a speed `c` [length/time].
+    Leaves(f64),
+}
+
+impl Law {
+    fn pairing(self) -> Pairing {
+        match self {
+            Self::Ends | Self::Reverses => Pairing::Tied,
+            Self::Strikes(_) | Self::Leans | Self::Leaves(_) => Pairing::Pushing,
+        }
+    }
+
+    /// By how much the velocity after the blow lacks what it must be, without an impulse [length/time].
+    fn lack(self, w: f64) -> f64 {
+        match self {
+            Self::Ends | Self::Leans => w,
+            Self::Reverses => 2.0 * w,
+            Self::Strikes(restitution) => w + restitution * w.min(0.0),
+            Self::Leaves(speed) => w - speed,
+        }
+    }
+}
+
+/// Contacts that meet in one impact, in their directions, and how velocities answer to their impulses.
+pub(super) struct Encounter {
+    directions: Vec<Direction>,
+    answers: Vec<Answer>,
+    /// `G M⁻¹ Gᵀ` [1/mass].
+    pub(super) response: Vec<Vec<f64>>,
+    /// `w⁻` [length/time].
+    before: Vec<f64>,
+    /// What changes without impulses of contacts: where points of rigid bodies move beside these.
+    change: Vec<f64>,
+}
+
+/// The impulses of an impact, one for each direction.
+#[derive(Debug, Clone)]
+pub(super) struct Impulses {
+    /// [mass·length/time]
+    pub(super) values: Vec<f64>,
+    /// What each gives to the bodies, `½ P (w⁻ + w⁺)` [energy].
+    pub(super) works: Vec<f64>,
+}
+
+impl Encounter {
+    /// The impulses by a law for each direction.
+    pub(super) fn impulses(&self, laws: &[Law]) -> Result<Impulses, LinearError> {
+        let Self { answers, response, before, change, .. } = self;
+        let by_links: Vec<f64> = answers.iter().map(|answer| answer.velocity(change)).collect();
+        let lacks = laws.iter().zip(before).zip(&by_links);
+        let lacks: Vec<f64> = lacks.map(|((law, w), by_links)| law.lack(*w) + by_links).collect();
+        let pairings: Vec<Pairing> = laws.iter().map(|law| law.pairing()).collect();
+        let values = complementary(response, &lacks, &pairings)?;
+        let work = |at: usize| {
+            let by_impulses: f64 = response[at].iter().zip(&values).map(|(a, p)| a * p).sum();
+            values[at] * (before[at] + 0.5 * (by_links[at] + by_impulses))
+        };
+        let works = (0..values.len()).map(work).collect();
+        Ok(Impulses { values, works })
     }
 }
 
@@ -42,8 +121,16 @@ impl Model {
     /// # Errors
     /// When the impulses are not determined.
     pub(in crate::model) fn project_velocities(&mut self) -> Result<(), ModelError> {
-        let impulses = self.strike(&self.across(), -1.0);
-        impulses.map(|_| ()).map_err(|_| self.sliders.overdetermined())
+        self.strike_across().map_err(|_| self.sliders.overdetermined())
+    }
+
+    /// Takes away the velocities across all masters, and of points of rigid bodies beside these.
+    fn strike_across(&mut self) -> Result<(), LinearError> {
+        let across = self.across();
+        let encounter = self.encounter(&across, -1.0, None)?;
+        let impulses = encounter.impulses(&vec![Law::Ends; across.len()])?;
+        self.apply(encounter, &impulses.values);
+        Ok(())
     }
 
     /// Where a drive begins with a rate and points of rigid bodies do not have the velocities of that, they get them, as the nearest that fit;
@@ -61,44 +148,16 @@ impl Model {
         // The blow with which a motion begins is before the start: nothing of it is in the sums since then. A matrix that cannot be factorised is found by
         // the first step.
         let before = std::mem::take(&mut self.exchanged);
-        let struck = self.strike(&self.across(), -1.0);
+        let struck = self.strike_across();
         self.exchanged = before;
         if struck.is_ok() {
             self.supports.prescribed_mut().forget_work();
         }
     }
 
-    /// A slider bounces off the end of its master, as off an elastic stop: all velocities relative to masters are reversed in
-    /// the directions that transmit forces, which keeps the energy (`P·(G v⁺ + G v⁻) = 0`).
-    ///
-    /// Tells which masses the two set against the blow: waves run from what gave way.
-    ///
-    /// # Errors
-    /// When the impulse is not determined.
-    pub fn bounce(&mut self, slider: usize) -> Result<Blow, ModelError> {
-        let directions = self.sliders.directions(&self.bodies, slider);
-        // Behind that across the master.
-        let of_blow = directions.iter().rposition(|(other, _)| *other == slider);
-        let along = self.sliders[slider].along(&self.bodies);
-        let before = self.speeds(slider, along);
-        let impulses = self.strike(&directions, -2.0);
-        let impulses = impulses.map_err(|_| self.sliders.overdetermined())?;
-        let after = self.speeds(slider, along);
-        let impulse = of_blow.map_or(0.0, |at| impulses[at].abs());
-        let changes = [(after.0 - before.0).abs(), (after.1 - before.1).abs()];
-        let least = GIVES * (changes[0] + changes[1]);
-        let [slave, master] = changes.map(|change| (change > least).then(|| impulse / change));
-        Ok(Blow { slave, master })
-    }
-
-    /// Notes how many times as long as a slider's blow at an end of its master the steps of `dt` are [time].
-    pub fn note_blow(&mut self, slider: usize, blow: Blow, dt: f64) {
-        self.sliders[slider].note_blow(&self.bodies, blow, dt);
-    }
-
-    /// How fast a slave and its place on the master move in a direction [length/time].
-    fn speeds(&self, slider: usize, unit: Vec2) -> (f64, f64) {
-        let (slider, rates) = (&self.sliders[slider], &self.motion.rates);
+    /// How fast a slave and its place on the master move in a direction by such rates [length/time].
+    pub(super) fn speeds(&self, (slider, unit): Direction, rates: &[f64]) -> (f64, f64) {
+        let slider = &self.sliders[slider];
         let (slave, relative) = (
             slider.slave_velocity(&self.bodies, rates),
             slider.relative_velocity(&self.bodies, rates),
@@ -122,51 +181,79 @@ impl Model {
         self.sliders.iter().map(|slider| slider.across(&self.bodies)).enumerate().collect()
     }
 
+    /// `Gᵀ` of a direction, on all degrees of freedom.
+    fn transmitted(&self, (slider, unit): Direction) -> Vec<f64> {
+        let mut forces = vec![0.0; self.degrees_of_freedom()];
+        self.sliders[slider].transmit(&self.bodies, unit, &mut forces);
+        forces
+    }
+
     pub(super) fn answers(&self, inertia: &BandedLu<'_>, directions: &[Direction]) -> Vec<Answer> {
-        let answer = |(slider, unit): &Direction| {
-            let mut forces = vec![0.0; self.degrees_of_freedom()];
-            self.sliders[*slider].transmit(&self.bodies, *unit, &mut forces);
-            let mut rates = forces[..self.unknowns()].to_vec();
-            inertia.solve(&mut rates);
-            let touched = (0..forces.len()).filter(|&at| forces[at] != 0.0).collect();
-            Answer { forces, rates, touched }
-        };
+        let unknowns = self.unknowns();
+        let answer =
+            |at: &Direction| Answer::of(inertia, unknowns, self.transmitted(*at), Vec::new());
         directions.iter().map(answer).collect()
     }
 
-    /// Changes the components of the relative velocities by `factor` times themselves, by impulses at the sliders, which it tells.
-    fn strike(&mut self, directions: &[Direction], factor: f64) -> Result<Vec<f64>, LinearError> {
-        let count = directions.len();
+    /// How velocities answer to a blow in steps of such a length [time]; what these do not follow is rigid.
+    pub(super) fn answers_within(
+        &mut self,
+        inertia: &BandedLu<'_>,
+        directions: &[Direction],
+        dt: f64,
+    ) -> Result<Vec<Answer>, LinearError> {
+        let rigidity = Rigidity::of(self, dt);
+        let mut matrix = rigidity.matrix(self);
+        let factors = matrix.factorise()?;
+        let unknowns = self.unknowns();
+        let mut answer = |direction: &Direction| {
+            let mut forces = self.transmitted(*direction);
+            let passed_on = rigidity.pass_on(self, &factors, &mut forces);
+            Answer::of(inertia, unknowns, forces, passed_on)
+        };
+        Ok(directions.iter().map(&mut answer).collect())
+    }
+
+    /// The contacts in some directions, met by what steps of length `rigid_within` follow of the motion, or by all of it; what points of rigid bodies move
+    /// beside these is changed by `links` times itself: by -2, and rigid links do no work.
+    pub(super) fn encounter(
+        &mut self,
+        directions: &[Direction],
+        links: f64,
+        rigid_within: Option<f64>,
+    ) -> Result<Encounter, LinearError> {
         let mut inertia = self.banded_inertia();
         let inertia = inertia.factorise()?;
-        let answers = self.answers(&inertia, directions);
-        // What points of rigid bodies move beside these is changed by the same factor: then rigid links do no work either.
+        let answers = match rigid_within {
+            None => self.answers(&inertia, directions),
+            Some(dt) => self.answers_within(&inertia, directions, dt)?,
+        };
         let mut change = vec![0.0; self.unknowns()];
+        let rates = &self.motion.rates;
         if self.links.forces() > 0 {
-            self.links.set_velocity_violation(
-                &self.bodies,
-                &self.motion.rates,
-                factor,
-                &mut change,
-            );
+            self.links.set_velocity_violation(&self.bodies, rates, links, &mut change);
             inertia.solve(&mut change);
         }
-        let mut response = BandedMatrix::zeros(count, count.saturating_sub(1));
-        for (row, answer) in answers.iter().enumerate() {
-            for (column, Answer { rates, .. }) in answers.iter().enumerate() {
-                response.add(row, column, answer.velocity(rates));
-            }
-        }
-        let wanted = |answer: &Answer| {
-            factor * answer.velocity(&self.motion.rates) - answer.velocity(&change)
-        };
-        let mut impulses: Vec<f64> = answers.iter().map(wanted).collect();
-        response.factorise()?.solve(&mut impulses);
+        let of =
+            |answer: &Answer| answers.iter().map(|other| answer.velocity(&other.rates)).collect();
+        let response = answers.iter().map(of).collect();
+        let before = answers.iter().map(|answer| answer.velocity(rates)).collect();
+        let directions = directions.to_vec();
+        Ok(Encounter { directions, answers, response, before, change })
+    }
 
+    /// Changes the velocities by the impulses of an encounter.
+    pub(super) fn apply(&mut self, encounter: Encounter, impulses: &[f64]) {
+        let Encounter { directions, answers, mut change, .. } = encounter;
+        let mut passed_on = vec![0.0; answers.first().map_or(0, |answer| answer.passed_on.len())];
         let mut residual = vec![0.0; self.degrees_of_freedom()];
         for (impulse, Answer { forces, rates, .. }) in impulses.iter().zip(&answers) {
             change.iter_mut().zip(rates).for_each(|(change, rate)| *change += impulse * rate);
             residual.iter_mut().zip(forces).for_each(|(out, force)| *out -= impulse * force);
+        }
+        for (impulse, answer) in impulses.iter().zip(&answers) {
+            let own = passed_on.iter_mut().zip(&answer.passed_on);
+            own.for_each(|(sum, passed)| *sum += impulse * passed);
         }
         // What is left of `M (v⁺ - v⁻) - Gᵀ P` at supports is their impulse.
         self.add_inertia(1.0, &change, &mut residual);
@@ -176,8 +263,8 @@ impl Model {
             self.exchanged.total += Exchange::of(0.0, impulse, cross(place, impulse));
         }
         let on_slaves = impulses.iter().zip(directions);
-        let on_slaves = on_slaves.map(|(impulse, (slider, unit))| (*slider, unit * *impulse));
-        self.add_impulses_of_blow(&change, on_slaves);
+        let on_slaves = on_slaves.map(|(impulse, (slider, unit))| (slider, unit * *impulse));
+        self.add_impulses_of_blow(&change, &passed_on, on_slaves);
         // Impulses of rigid links are no forces that go on.
         self.links.clear(&mut change);
         self.motion.jump(&change);
@@ -187,7 +274,6 @@ impl Model {
             self.exchanged.total +=
                 movements.exchange_in_blow(&self.bodies, &residual, &self.motion.rates);
         }
-        Ok(impulses)
     }
 
     /// The velocities across the masters that unit impulses across them cause: `G M⁻¹ Gᵀ`, a row for each direction [1/mass].

@@ -9,6 +9,7 @@
 //!
 //! Methods that balance accelerations of their own, and not the change of the velocities, have no such mean.
 
+use super::rigidity::add_passed_on;
 use super::{Given, Model};
 use crate::geometry::Vec2;
 use crate::integrators::{Inertia, Solution, Stage};
@@ -151,10 +152,12 @@ impl Model {
         self.exchanged.impulses = Some(impulses);
     }
 
-    /// Adds the impulses of a blow: it changes the rates and acts by impulses of rigid links, which stand among the changes, and on the slaves of sliders.
+    /// Adds the impulses of a blow: it changes the rates and acts by impulses of rigid links, which stand among the changes, by those of section
+    /// forces, and on the slaves of sliders.
     pub(super) fn add_impulses_of_blow(
         &mut self,
         change: &[f64],
+        passed_on: &[f64],
         on_slaves: impl Iterator<Item = (usize, Vec2)>,
     ) {
         let Some(mut impulses) = self.exchanged.impulses.take() else { return };
@@ -163,6 +166,7 @@ impl Model {
         self.bodies.exchange_numbers(&mut impulses.numbers);
         self.add_inertia(1.0, &impulses.values, &mut impulses.left);
         self.links.transmit(&self.bodies, change, &mut impulses.left);
+        add_passed_on(self, passed_on, &mut impulses.left);
         for (slider, impulse) in on_slaves {
             self.sliders[slider].transmit(&self.bodies, -impulse, &mut impulses.left);
         }

@@ -142,7 +142,7 @@ impl Model {
         inertia.solve(&mut accelerations);
         accelerations.extend(prescribed.into_iter().skip(self.unknowns()));
         let mut contacts = vec![Vec2::zeros(); self.sliders.len()];
-        let directions = self.sliders.directions(&self.bodies, usize::MAX);
+        let directions = self.sliders.directions(&self.bodies);
         let answers = self.answers(&inertia, &directions);
         let count = answers.len();
         if count == 0 {

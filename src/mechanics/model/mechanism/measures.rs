@@ -10,7 +10,7 @@ use crate::geometry::{Vec2, larger};
 pub struct Energy {
     /// The kinetic energy `½ ∫ ρA |ẋ|² + ρI θ̇² dX`, with that of point masses and of kinks that move with sliders [energy].
     pub kinetic: f64,
-    /// The strain energy `½ ∫ Γ·CΓ + EI κ² dX`, with that of kinks under sliders [energy].
+    /// The strain energy `½ ∫ Γ·CΓ + EI κ² dX`, with that of kinks under sliders and of stops on which sliders lean [energy].
     pub strain: f64,
     /// The potential energy of gravity, zero at the origin [energy].
     pub potential: f64,
@@ -34,7 +34,7 @@ pub struct Measures {
     pub energy: Energy,
     /// The work `W` of the loads so far [energy].
     pub work: f64,
-    /// `D`: what dampers have dissipated so far [energy].
+    /// `D`: what dampers have dissipated so far, and what was lost in blows [energy].
     pub dissipated: f64,
     /// The linear momentum `p` of the model [mass·length/time].
     pub momentum: Vec2,
@@ -68,7 +68,7 @@ impl Model {
             time: self.motion.time,
             energy,
             work: self.exchanged.total.work,
-            dissipated: self.elements.dissipated(),
+            dissipated: self.elements.dissipated() + self.sliders.lost(),
             momentum: momenta.linear,
             impulse: self.exchanged.total.impulse,
             angular_momentum: momenta.angular,

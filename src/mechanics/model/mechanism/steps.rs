@@ -210,7 +210,7 @@ impl Constraints for Model {
         larger(contacts, self.links.violation(residual))
     }
 
-    fn check_constraints(&self, unknowns: &[f64]) -> Result<(), Overshoot> {
+    fn check_constraints(&mut self, unknowns: &[f64]) -> Result<(), Overshoot> {
         self.sliders.check(unknowns, self.step.interval.ending())
     }
 
@@ -281,7 +281,7 @@ impl Mechanism for Model {
         self.bodies.advance(self.step.rotations);
         let arms = ArmRule { rotations: self.step.rotations, share: 0.5 };
         self.links.advance(&self.bodies, arms, increments);
-        self.sliders.advance(&self.bodies, constraints, self.step.interval.ending());
+        self.sliders.advance(constraints, self.step.interval.ending());
         self.motion.advance(&self.step, increments, rates);
         self.links.write_forces(&mut self.motion.rates);
     }

@@ -23,7 +23,11 @@ impl Model {
         order: &OrderAtRest,
         take: &mut dyn FnMut(&[usize], &SpanAtRest),
     ) {
-        let take = &mut in_order(order, take);
+        self.each_span(&mut in_order(order, take));
+    }
+
+    /// Gives every span of every body, and every spring, as at rest, with the degrees of freedom of its components.
+    pub(super) fn each_span(&self, take: &mut dyn FnMut(&[usize], &SpanAtRest)) {
         for body in self.bodies.iter() {
             let order = body.dynamics.order();
             body.dynamics.each_span_at_rest(&mut |span| {

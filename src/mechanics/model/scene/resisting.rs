@@ -3,6 +3,7 @@
 use super::Scene;
 use crate::beams::Relaxation;
 use crate::geometry::Vec2;
+use crate::joints::Slider;
 use crate::model::ModelError;
 use crate::model::elements::{Drag, Element, MaterialDamping};
 
@@ -17,11 +18,17 @@ impl Scene {
 
     /// The names of what dissipates besides springs and dampers, in the order in which it was added: of a damped material that of the beam.
     pub fn dissipating(&self) -> impl Iterator<Item = &str> + Clone {
-        self.elements.iter().filter_map(|element| match element {
+        let own = self.elements.iter().filter_map(|element| match element {
             Element::Damping(damping) => Some(&*damping.name),
             Element::Drag(drag) => Some(&*drag.name),
             _ => None,
-        })
+        });
+        own.chain(self.losing_sliders().map(|slider| slider.name.as_str()))
+    }
+
+    /// The sliders that lose energy where they bounce.
+    pub fn losing_sliders(&self) -> impl Iterator<Item = &Slider> + Clone {
+        self.sliders.iter().filter(|slider| slider.restitution < 1.0)
     }
 
     /// The names of what drags in a wind.

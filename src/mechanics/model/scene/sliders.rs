@@ -30,6 +30,10 @@ impl Scene {
         if slider.slave.beam() == Some(slider.master) {
             return Err(SliderError::OnItself(parts).into());
         }
+        if !(0.0..=1.0).contains(&slider.restitution) {
+            let (slider, restitution) = (slider.name.clone(), slider.restitution);
+            return Err(SliderError::Restitution { slider, restitution }.into());
+        }
         let is_same = |other: &Slider| {
             other.master == slider.master && same_place(&other.slave, &slider.slave, self)
         };

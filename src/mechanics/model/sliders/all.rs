@@ -183,7 +183,8 @@ impl Sliders {
     ///
     /// # Errors
     /// When a slider passes an end of its master, or does not come to that at which the step is to end.
-    pub fn check(&self, unknowns: &[f64], ending: Ending) -> Result<(), Overshoot> {
+    /// Or when a stop on which a slider leans would have to pull: all of these are noted.
+    pub fn check(&mut self, unknowns: &[f64], ending: Ending) -> Result<(), Overshoot> {
         let mut furthest: Option<Overshoot> = None;
         let aim = self.aim.filter(|_| ending == Ending::OfStep);
         let limits = (0..self.len()).flat_map(TrackLimit::both);
@@ -197,7 +198,14 @@ impl Sliders {
                 furthest = Some(overshoot);
             }
         }
-        furthest.map_or(Ok(()), Err)
+        self.iter_mut().for_each(|slider| slider.note_pull(ending));
+        let pulled = self.iter().position(|slider| slider.is_pulled);
+        let leaves = pulled.and_then(|slider| match self[slider].state {
+            SliderState::Held(end) => Some(TrackLimit { slider, end }),
+            SliderState::Sliding | SliderState::Released => None,
+        });
+        let leaves = leaves.map(|limit| Overshoot { limit: limit.number(), distance: 0.0 });
+        furthest.or(leaves).map_or(Ok(()), Err)
     }
 
     /// The shortest chord of the way of a slider, relative to the length of that way [-].
@@ -211,8 +219,8 @@ impl Sliders {
     }
 
     /// Lets all sliders accept a step of such an ending; the bodies are at its end already.
-    pub fn advance(&mut self, bodies: &[Body], unknowns: &[f64], ending: Ending) {
-        self.iter_mut().for_each(|slider| slider.advance(bodies, unknowns, ending));
+    pub fn advance(&mut self, unknowns: &[f64], ending: Ending) {
+        self.iter_mut().for_each(|slider| slider.advance(unknowns, ending));
     }
 
     /// The largest distance of a slave from its place on the master [length].
@@ -233,6 +241,26 @@ impl Sliders {
     /// The sliders on a body, or all.
     fn on(&self, body: Option<usize>) -> impl Iterator<Item = &Sliding> {
         self.iter().filter(move |slider| body.is_none_or(|body| slider.connection.master == body))
+    }
+
+    /// The directions [-] in which all contacts transmit forces at present, with the number of the slider: across masters that do not give way, and along
+    /// them where sliders are held.
+    pub fn directions(&self, bodies: &[Body]) -> Vec<(usize, Vec2)> {
+        let of_slider = |(at, slider): (usize, &Sliding)| {
+            let (across, along) = (slider.across(bodies), slider.along(bodies));
+            match slider.state {
+                SliderState::Released => vec![],
+                SliderState::Sliding if slider.gives_way() => vec![],
+                SliderState::Sliding => vec![(at, across)],
+                SliderState::Held(_) => vec![(at, across), (at, along)],
+            }
+        };
+        self.iter().enumerate().flat_map(of_slider).collect()
+    }
+
+    /// What was lost in all blows of sliders against stops so far [energy].
+    pub fn lost(&self) -> f64 {
+        self.iter().map(|slider| slider.lost).fold(0.0, |sum, lost| sum + lost)
     }
 
     /// What each slider does at present, in order.
@@ -260,20 +288,5 @@ impl Sliders {
     pub fn overdetermined(&self) -> ModelError {
         let names: Vec<&str> = self.iter().map(|slider| slider.name.as_str()).collect();
         SliderError::Overdetermined { sliders: names.join("', '") }.into()
-    }
-
-    /// The directions [-] in which all contacts transmit impulses, with the number of the slider: across masters that do not give way, and along
-    /// them where sliders are held or `strikes`.
-    pub fn directions(&self, bodies: &[Body], strikes: usize) -> Vec<(usize, Vec2)> {
-        let of_slider = |(at, slider): (usize, &Sliding)| {
-            let (across, along) = (slider.across(bodies), slider.along(bodies));
-            match slider.state {
-                SliderState::Released => vec![],
-                SliderState::Sliding if at != strikes && slider.gives_way() => vec![],
-                SliderState::Sliding if at != strikes => vec![(at, across)],
-                SliderState::Sliding | SliderState::Held(_) => vec![(at, across), (at, along)],
-            }
-        };
-        self.iter().enumerate().flat_map(of_slider).collect()
     }
 }

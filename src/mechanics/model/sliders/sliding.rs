@@ -1,7 +1,7 @@
 //! Sliders of the model: where they are, and what they add to the equations of a step.
 
 use super::track::LANDED;
-use super::{Bar, Blow, Connection, KinkedAxis, SliderState, Track, TrackEnd};
+use super::{Bar, Connection, KinkedAxis, SliderState, Track, TrackEnd};
 use crate::geometry::{Passage, Vec2, larger};
 use crate::integrators::{Ending, Interval, StepError};
 use crate::joints::{
@@ -14,6 +14,8 @@ use crate::model::bodies::Body;
 mod at_rest;
 mod kinematics;
 mod passing;
+mod saved;
+mod stops;
 
 pub use passing::{AtRest, InStep, Passing};
 
@@ -24,7 +26,19 @@ pub struct Sliding {
     pub connection: Connection,
     pub rule: SlidingRule,
     pub ends: EndAction,
+    /// How much of its speed the slider keeps where it bounces [-].
+    pub restitution: f64,
     pub state: SliderState,
+    /// What the stop has stored on which the slider leans [energy].
+    pub stored: f64,
+    /// What was lost in blows against stops so far [energy].
+    pub lost: f64,
+    /// When the slider left a stop last; infinite before it did [time].
+    pub left_at: f64,
+    /// Whether the stop may pull in the step to come: the slider has left it just now, and every step leads back.
+    pub clings: bool,
+    /// Whether the stop would have had to pull in the last step that was tried.
+    pub is_pulled: bool,
     /// The parameter `ξ` of the master at which the slider is [-].
     pub parameter: f64,
     /// The unknowns of the contact that the last step has found: force, couple and way.
@@ -55,7 +69,17 @@ pub struct Sliding {
     size: f64,
     /// How long the chord of the way is in the mean configuration of the iterate, relative to the master for that way.
     chord: f64,
+    /// How much the stop pushes in the iterate, where the slider leans on it, times the tangent [force·length].
+    push: f64,
+    /// The contact force in the iterate [force].
+    pressing: f64,
 }
+
+/// When a slider left a stop that has not yet.
+const NEVER: f64 = f64::MAX;
+
+/// A stop that pulls by less than this part of its contact force does not pull.
+pub(super) const PULL: f64 = 1e-9;
 
 impl Sliding {
     /// A slider at a parameter of the mesh of its master.
@@ -75,7 +99,13 @@ impl Sliding {
             connection,
             rule: slider.rule,
             ends: slider.ends,
+            restitution: slider.restitution,
             state: SliderState::Sliding,
+            stored: 0.0,
+            lost: 0.0,
+            left_at: NEVER,
+            clings: false,
+            is_pulled: false,
             parameter,
             unknowns: ContactUnknowns::zeros(),
             most_spans: 0.0,
@@ -92,6 +122,8 @@ impl Sliding {
             moved: Vec::with_capacity(functions),
             units: [Unit::Force; CONTACT_UNKNOWNS],
             chord: 1.0,
+            push: 0.0,
+            pressing: 0.0,
         };
         new.stand_at(parameter);
         new
@@ -127,14 +159,10 @@ impl Sliding {
         self.state == SliderState::Sliding
     }
 
-    /// Makes the slider rest against the stop at an end of its master.
-    pub fn hold(&mut self, end: TrackEnd) {
-        self.state = SliderState::Held(end);
-    }
-
     /// Lets the slider leave its master.
     pub fn release(&mut self) {
         self.state = SliderState::Released;
+        self.lost += std::mem::take(&mut self.stored);
         self.unknowns = ContactUnknowns::zeros();
         // At an end of the master there is no kink, and no energy in it.
         self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
@@ -150,36 +178,14 @@ impl Sliding {
         self.kinked_axis.as_ref().is_some_and(KinkedAxis::gives)
     }
 
-    /// The energy of the kink under the contact force [energy].
+    /// The energy of the kink under the contact force, and of the stop on which the slider leans [energy].
     pub fn strain_energy(&self) -> f64 {
-        self.kinked_axis.as_ref().map_or(0.0, KinkedAxis::energy)
+        self.kinked_axis.as_ref().map_or(0.0, KinkedAxis::energy) + self.stored
     }
 
     /// The energy with which the kink under the contact force moves along the master [energy].
     pub fn kinetic_energy(&self) -> f64 {
         self.kinked_axis.as_ref().map_or(0.0, KinkedAxis::kinetic_energy)
-    }
-
-    /// How many numbers a slider saves, the parameter first.
-    pub const SAVED: usize = 6 + CONTACT_UNKNOWNS;
-
-    /// Appends the numbers of the slider; its state is no number.
-    pub fn save(&self, numbers: &mut Vec<f64>) {
-        numbers.extend([self.parameter, self.most_spans, self.blows_in_a_step]);
-        numbers.extend(self.unknowns.to_array());
-        let kink = self.kinked_axis.as_ref().map_or([0.0; 3], KinkedAxis::numbers);
-        numbers.extend(kink);
-    }
-
-    /// Takes state and numbers of the slider back, in the order in which these were appended.
-    pub fn restore(&mut self, state: SliderState, next: &mut dyn FnMut() -> f64) {
-        self.state = state;
-        let parameter = next();
-        (self.most_spans, self.blows_in_a_step) = (next(), next());
-        self.unknowns = ContactUnknowns::of(std::array::from_fn(|_| next()));
-        let kink = std::array::from_fn(|_| next());
-        self.kinked_axis.iter_mut().for_each(|axis| axis.take(kink));
-        self.stand_at(parameter);
     }
 
     /// Whether a parameter is one of the slider's master.
@@ -217,27 +223,6 @@ impl Sliding {
     /// How much of its master, as drawn, the slider passes in a unit of time, positive towards the end [length/time].
     pub fn speed(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         self.track.stretch(self.parameter) * self.rate(bodies, rates)
-    }
-
-    /// Notes how many times as long as a blow at the end of the slider's master the steps of `dt` are [time].
-    ///
-    /// A blow on a beam lasts at least until its wave has come back, twice the length over `c` (Saint-Venant 1883), or, on a light
-    /// slave, until that has come to rest, which takes some `m/(c ρA)`. Where nothing gives way, there is no wave to resolve.
-    pub fn note_blow(&mut self, bodies: &[Body], blow: Blow, dt: f64) {
-        let (master, slave) = &self.bars;
-        let on_master = blow.master.is_some().then(|| {
-            // A beam that strikes is no heavier than its waves let it be at once.
-            master.answer_time(1.0, blow.slave.filter(|_| slave.is_none()))
-        });
-        let on_slave = slave.filter(|_| blow.slave.is_some()).map(|slave| {
-            let (body, point) = self.connection.slave;
-            let points = bodies[body].dynamics.control_points();
-            let axis = points[(point + 1).min(points.len() - 1)] - points[point.saturating_sub(1)];
-            let tangent = self.tangent(bodies);
-            slave.answer_time(axis.dot(&tangent) / (axis.norm() * tangent.norm()), None)
-        });
-        let lasts = 2.0 * on_master.into_iter().chain(on_slave).fold(f64::INFINITY, f64::min);
-        self.blows_in_a_step = self.blows_in_a_step.max(dt / lasts);
     }
 
     fn read(&self, unknowns: &[f64]) -> ContactUnknowns {
@@ -327,12 +312,17 @@ impl Sliding {
         unknowns: &[f64],
         out: &mut [f64],
     ) -> f64 {
-        let connection = self.connection;
+        let (connection, state) = (self.connection, self.state);
         let (contact, equations) = P::iterate(self, bodies, increments, unknowns);
         connection.add_values(bodies, &contact, P::forces(&contact), &equations, movements, out);
         let (force, chord) = (contact.unknowns.force.norm(), P::chord(&contact));
+        let push = match state {
+            SliderState::Held(end) => contact.push(end.outward()),
+            SliderState::Sliding | SliderState::Released => 0.0,
+        };
         (self.size, self.chord) = (contact.length + contact.slave_moved.norm(), chord);
         self.units = equations.map(|equation| equation.unit);
+        (self.push, self.pressing) = (push, force);
         force
     }
 
@@ -386,9 +376,7 @@ impl Sliding {
     }
 
     /// Lets the slider accept a step; the bodies are at its end already.
-    ///
-    /// A stop that had to pull lets go, but not within a step.
-    pub fn advance(&mut self, bodies: &[Body], unknowns: &[f64], ending: Ending) {
+    pub fn advance(&mut self, unknowns: &[f64], ending: Ending) {
         self.unknowns = self.read(unknowns);
         let before = self.parameter;
         let passed = self.passage.spans_between(before, before + self.unknowns.way);
@@ -396,12 +384,8 @@ impl Sliding {
         self.stand_at(before + self.unknowns.way);
         let (mean, kink) = (self.unknowns.force, self.kink_at_end);
         self.kinked_axis.iter_mut().for_each(|axis| axis.advance(mean, kink));
-        if let (SliderState::Held(end), Ending::OfStep) = (self.state, ending) {
-            let tangent = self.tangent(bodies);
-            if self.unknowns.force.dot(&tangent) * end.outward() < 0.0 {
-                self.state = SliderState::Sliding;
-                self.kinked_axis.iter_mut().for_each(|axis| axis.leave_stop(tangent));
-            }
+        if ending == Ending::OfStep {
+            self.clings = false;
         }
     }
 }

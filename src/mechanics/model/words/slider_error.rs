@@ -79,6 +79,14 @@ pub enum SliderError {
         _0.slider, _0.slave, _0.beam
     )]
     Tied(SliderParts),
+    /// A coefficient of restitution that is none.
+    #[error("slider '{slider}': a restitution of {restitution} is outside [0, 1]")]
+    Restitution {
+        /// The name of the slider with such a coefficient.
+        slider: String,
+        /// The coefficient of restitution that is none [-].
+        restitution: f64,
+    },
     /// Start velocities with which a slider would leave its master.
     #[error(
         "slider '{slider}': at the start its point moves across its beam with a speed of {speed}"

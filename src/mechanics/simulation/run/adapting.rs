@@ -102,8 +102,14 @@ impl Simulation {
                     controller.fail(&mut pace, dt);
                     if is_least {
                         let (time, smallest) = (interval.start, controller.smallest);
-                        let source = self.with_name(source);
-                        return Err(SimulationError::Smallest { time, dt, smallest, source });
+                        let (source, plight) = (Box::new(self.with_name(source)), self.plight());
+                        return Err(SimulationError::Smallest {
+                            time,
+                            dt,
+                            smallest,
+                            source,
+                            plight,
+                        });
                     }
                 }
             }

@@ -4,7 +4,7 @@ use super::Simulation;
 use crate::elementary::whole_power;
 use crate::integrators::{Interval, Overshoot, StepError};
 use crate::joints::EndAction;
-use crate::model::{SliderState, TrackEnd, TrackLimit};
+use crate::model::{Arriving, SliderState, TrackEnd, TrackLimit};
 use crate::newton::NewtonReport;
 use crate::simulation::{Arrival, ArrivalKind, SimulationError};
 
@@ -18,6 +18,9 @@ const NEAR: f64 = 1e-10;
 /// How often a step is halved to see whether a slider at an end leaves it for a while.
 const PROBES: i32 = 12;
 
+/// A slider that has struck the same end so often within as many steps leans on it.
+const CHATTER: usize = 3;
+
 /// The most arrivals of sliders within one step of the grid; more are an error.
 pub(super) const MOST_ARRIVALS: usize = 10_000;
 
@@ -25,8 +28,18 @@ pub(super) const MOST_ARRIVALS: usize = 10_000;
 pub(super) struct Landing {
     /// The interval of the step and its work; none for a slider that is at the end already and led beyond it by every step.
     pub(super) step: Option<(Interval, NewtonReport)>,
-    /// The end that is reached; none where the step ends just before, because longer ones lead by a jump beyond it.
-    reached: Option<TrackLimit>,
+    /// What comes of the step.
+    event: Event,
+}
+
+/// What ends a step before its time, or keeps it from beginning.
+enum Event {
+    /// A slider reaches a limit.
+    Reaches(TrackLimit),
+    /// The step ends just before that, because longer ones lead by a jump beyond it.
+    Nothing,
+    /// Stops would have to pull.
+    Leaves,
 }
 
 /// What is known of an arrival before it is searched for.
@@ -103,6 +116,9 @@ impl Simulation {
         // Once for each slider that turns out to arrive before the one aimed at.
         loop {
             let limit = TrackLimit::of(overshoot.limit);
+            if let SliderState::Held(_) = self.model.slider_state(limit.slider) {
+                return Ok(Landing { step: None, event: Event::Leaves });
+            }
             self.model.aim_at(Some(limit));
             let mut bracket = match self.prospect(cut, limit, overshoot.distance)? {
                 Prospect::Between(bracket) => bracket,
@@ -113,7 +129,7 @@ impl Simulation {
                     self.model.aim_at(None);
                     let short = Interval::lasting(interval.start, bracket.before.0);
                     let report = self.integrator.step(&mut self.model, short)?;
-                    return Ok(Landing { step: Some((short, report)), reached: None });
+                    return Ok(Landing { step: Some((short, report)), event: Event::Nothing });
                 }
                 if tries.next().is_none() {
                     return Err(StepError::Overshoot { interval, overshoot: first, iterations: 0 });
@@ -122,7 +138,8 @@ impl Simulation {
                 cut = Interval::lasting(interval.start, duration);
                 overshoot = match self.attempt(cut)? {
                     Ok(report) => {
-                        return Ok(Landing { step: Some((cut, report)), reached: Some(limit) });
+                        let event = Event::Reaches(limit);
+                        return Ok(Landing { step: Some((cut, report)), event });
                     }
                     Err(overshoot) => overshoot,
                 };
@@ -143,8 +160,9 @@ impl Simulation {
     ) -> Result<Prospect, StepError> {
         let mut after = (interval.duration(), distance);
         let left = self.model.distance_to(limit);
-        let at_once = Landing { step: None, reached: Some(limit) };
-        if self.model.leads_beyond(limit) && left <= NEAR {
+        let at_once = Landing { step: None, event: Event::Reaches(limit) };
+        let is_near = self.model.leads_beyond(limit) && left <= NEAR;
+        if is_near && (!self.model.is_at(limit) || self.strikes(limit)) {
             return Ok(Prospect::Landed(at_once));
         }
         if !self.model.is_at(limit) {
@@ -159,8 +177,8 @@ impl Simulation {
             let cut = Interval::lasting(interval.start, duration);
             match self.attempt(cut)? {
                 Ok(report) => {
-                    let landing = Landing { step: Some((cut, report)), reached: Some(limit) };
-                    return Ok(Prospect::Landed(landing));
+                    let event = Event::Reaches(limit);
+                    return Ok(Prospect::Landed(Landing { step: Some((cut, report)), event }));
                 }
                 Err(overshoot) if overshoot.limit != limit.number() => {}
                 Err(Overshoot { distance, .. }) if distance < 0.0 => {
@@ -184,31 +202,77 @@ impl Simulation {
         }
     }
 
-    /// Does what is to be done where a slider arrives: the run stops, or the slider bounces, rests or leaves.
+    /// Whether a slider that is at a limit and led beyond it does something there other than to rest: by what steps follow of its motion, it strikes.
+    fn strikes(&mut self, limit: TrackLimit) -> bool {
+        let dt = self.dt();
+        self.model.end_action(limit.slider) != EndAction::Bounce
+            || self.model.approaches(limit, dt).unwrap_or(true)
+    }
+
+    /// Does what is to be done where sliders arrive, all that do at one time together: the run stops, or sliders bounce, rest or leave.
     pub(super) fn arrive(&mut self, landing: &Landing) -> Result<(), SimulationError> {
-        let Some(limit) = landing.reached else { return Ok(()) };
-        let leads_beyond = self.model.leads_beyond(limit);
-        let kind = match self.model.end_action(limit.slider) {
-            EndAction::Stop => ArrivalKind::Stopped,
-            EndAction::Bounce if leads_beyond => {
-                let blow = self.model.bounce(limit.slider)?;
-                let dt = self.dt();
-                self.model.note_blow(limit.slider, blow, dt);
-                ArrivalKind::Bounced
-            }
-            // It only touched the stop, or its velocity has turned round just there.
-            EndAction::Bounce if landing.step.is_some() => ArrivalKind::Bounced,
-            EndAction::Bounce => {
-                self.model.hold(limit);
-                ArrivalKind::Rested
-            }
-            EndAction::Release => {
-                self.model.release(limit.slider);
-                ArrivalKind::Released
-            }
+        let limit = match landing.event {
+            Event::Reaches(limit) => limit,
+            Event::Nothing => return Ok(()),
+            Event::Leaves => return Ok(self.model.leave_stops()?),
         };
-        self.progress.arrivals.push(Arrival { time: self.model.time(), limit, kind });
+        let dt = self.dt();
+        let mut arriving = Arriving::default();
+        let mut arrivals = Vec::new();
+        for limit in self.model.arriving_with(limit) {
+            let strikes = self.model.leads_beyond(limit);
+            let kind = match self.model.end_action(limit.slider) {
+                EndAction::Stop => ArrivalKind::Stopped,
+                EndAction::Release => {
+                    self.model.release(limit.slider);
+                    ArrivalKind::Released
+                }
+                // It only touched the stop, or its velocity has turned round just there.
+                EndAction::Bounce if landing.step.is_some() && !strikes => ArrivalKind::Bounced,
+                EndAction::Bounce if self.leans(limit, landing, dt)? => {
+                    arriving.lean.push(limit);
+                    ArrivalKind::Rested
+                }
+                EndAction::Bounce => {
+                    arriving.strike.push(limit);
+                    ArrivalKind::Bounced
+                }
+            };
+            arrivals.push(Arrival { time: self.model.time(), limit, kind });
+        }
+        if !arriving.is_empty() {
+            self.model.blow(&arriving, dt)?;
+        }
+        // What ends the run is told last.
+        arrivals.sort_by_key(|arrival| arrival.kind == ArrivalKind::Stopped);
+        self.progress.arrivals.extend(arrivals);
         Ok(())
+    }
+
+    /// Whether a slider at a limit comes to lean on its stop, and not to bounce: it does not give any speed back, strikes again and again within few steps, its blow
+    /// is resolved by the steps to come, or every step leads it beyond although it does not approach.
+    fn leans(
+        &mut self,
+        limit: TrackLimit,
+        landing: &Landing,
+        dt: f64,
+    ) -> Result<bool, SimulationError> {
+        if self.model.restitution(limit.slider) == 0.0 || self.chatters(limit, dt) {
+            return Ok(true);
+        }
+        if self.model.resolves_blow(limit, dt)? {
+            return Ok(true);
+        }
+        Ok(landing.step.is_none() && !self.model.approaches(limit, dt)?)
+    }
+
+    /// Whether a slider has struck the same end so often within as many steps that nothing is resolved of its flights between.
+    fn chatters(&self, limit: TrackLimit, dt: f64) -> bool {
+        let own = self.progress.arrivals.iter().rev();
+        let mut last = own.filter(|arrival| arrival.limit.slider == limit.slider).take(CHATTER);
+        let since = self.time() - CHATTER as f64 * dt;
+        let again = |arrival: &Arrival| arrival.limit == limit && arrival.time >= since;
+        last.by_ref().take_while(|arrival| again(arrival)).count() == CHATTER
     }
 
     /// Lets every slider arrive at the end of its master, for a pretended run: scripts may wait for that.

@@ -25,8 +25,8 @@ const LARGEST_DRIFT: f64 = 1e-7;
 /// The part of all energy that is much of it.
 const MUCH: f64 = 0.3;
 
-/// How many times as long as a blow a step may be.
-const MOST_BLOWS: f64 = 1.0;
+/// Which part of a blow a step may be to resolve it.
+const MOST_BLOWS: f64 = 0.125;
 
 /// The modes about a scene as drawn are looked for where there are no more unknowns than this,
 const MOST_UNKNOWNS: usize = 1200;

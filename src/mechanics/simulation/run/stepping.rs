@@ -110,13 +110,14 @@ impl Simulation {
 
     /// The error of steps that failed in every size.
     fn no_step(&self, dt: f64, divisions: u64, source: StepError) -> SimulationError {
-        let time = self.time();
+        let (time, plight) = (self.time(), self.plight());
         if let StepError::Overshoot { overshoot, .. } = &source {
             let limit = TrackLimit::of(overshoot.limit);
             let slider = self.scene.sliders[limit.slider].name.clone();
-            return SimulationError::Landing { slider, end: limit.end.name(), time, dt, divisions };
+            let end = limit.end.name();
+            return SimulationError::Landing { slider, end, time, dt, divisions, plight };
         }
-        let source = self.with_name(source);
-        SimulationError::Step { time, dt, divisions, source }
+        let source = Box::new(self.with_name(source));
+        SimulationError::Step { time, dt, divisions, source, plight }
     }
 }

@@ -122,9 +122,12 @@ pub fn of_slider(scene: &Scene, index: usize) -> Details {
     let master = &scene.beams[slider.master];
     let part = slider.arc_length / master.axis.length();
     let ends = match slider.ends {
-        EndAction::Stop => "the run stops",
-        EndAction::Bounce => "it bounces off",
-        EndAction::Release => "it flies free",
+        EndAction::Stop => "the run stops".to_owned(),
+        EndAction::Bounce if slider.restitution < 1.0 => {
+            format!("it bounces off, with {} of its speed", number(slider.restitution))
+        }
+        EndAction::Bounce => "it bounces off".to_owned(),
+        EndAction::Release => "it flies free".to_owned(),
     };
     let velocities = match slider.velocities {
         StartVelocities::Check => "must fit the beam",

@@ -1,7 +1,7 @@
 //! A slider at rest: its contact between two equilibria, what it leans on, and how it resists small movements.
 
-use super::Sliding;
 use super::passing::{AtRest, Passing};
+use super::{PULL, Sliding};
 use crate::beams::SpanAtRest;
 use crate::geometry::Vec2;
 use crate::joints::{
@@ -10,9 +10,6 @@ use crate::joints::{
 use crate::model::bodies::Body;
 use crate::model::sliders::track::LANDED;
 use crate::model::sliders::{KinkedAxis, SliderState, TrackEnd};
-
-/// A stop that pulls by less than this part of its contact force does not pull.
-const PULL: f64 = 1e-9;
 
 impl Passing for AtRest {
     fn iterate<'s>(
@@ -92,10 +89,7 @@ impl Sliding {
     pub fn is_pulled(&mut self, bodies: &[Body], movements: &[f64], unknowns: &[f64]) -> bool {
         let SliderState::Held(end) = self.state else { return false };
         let contact = self.take_at_rest(bodies, movements, unknowns);
-        let tangent = contact.end_point().by_way;
-        let force = contact.unknowns.force;
-        let push = force.dot(&tangent) / tangent.norm() * end.outward();
-        push < -PULL * force.norm()
+        contact.push(end.outward()) < -PULL * contact.unknowns.force.norm() * contact.length
     }
 
     /// Leaves the slider where a movement between two places at rest has led it; the bodies are there already.

@@ -32,6 +32,13 @@ impl Sliding {
         self.tangent(bodies).normalize()
     }
 
+    /// The direction in which the slider moves along its master where it strikes an end: along the axis as it is kinked there [-].
+    pub fn along_contact(&self, bodies: &[Body]) -> Vec2 {
+        let kink = self.kinked_axis.as_ref().filter(|_| self.is_sliding());
+        let slope = kink.map_or(Vec2::zeros(), |axis| axis.slopes().0);
+        (self.tangent(bodies) + slope).normalize()
+    }
+
     /// The direction across the master where the slider is [-].
     pub fn across(&self, bodies: &[Body]) -> Vec2 {
         perpendicular(self.along(bodies))

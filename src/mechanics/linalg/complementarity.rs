@@ -1,0 +1,129 @@
+//! Small linear complementarity problems with a symmetric matrix: what several contacts give that strike at once.
+
+use super::{BandedMatrix, LinearError};
+
+/// How an unknown and what answers to it belong together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pairing {
+    /// The answer vanishes, whatever the unknown is.
+    Tied,
+    /// Neither unknown nor answer is negative, and one of them vanishes.
+    Pushing,
+}
+
+/// Exchanges of all that is wrong at once are given up after so many that made no progress.
+const PATIENCE: usize = 3;
+
+/// An unknown or an answer that is negative by less than this part of the largest is none.
+const NOTHING: f64 = 1e-13;
+
+/// The unknowns `z` with the answers `w = A z + q` of a linear complementarity problem: `w = 0` where they are tied, `0 ≤ z ⟂ w ≥ 0` where they push.
+///
+/// For a positive definite `A`, given by its rows, there is one solution. It is found by block principal pivoting: which unknowns vanish is guessed, and
+/// all that are wrong are exchanged at once (Júdice & Pires 1994), so that nothing depends on their order; where that goes round in circles, one by one (Murty 1974).
+///
+/// # Errors
+/// When the matrix of the unknowns that do not vanish is singular.
+pub fn complementary(
+    matrix: &[Vec<f64>],
+    q: &[f64],
+    pairings: &[Pairing],
+) -> Result<Vec<f64>, LinearError> {
+    let count = q.len();
+    let pushes = |at: usize| pairings[at] == Pairing::Pushing;
+    let mut acts: Vec<bool> = (0..count).map(|at| !pushes(at) || q[at] < 0.0).collect();
+    let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
+    loop {
+        let acting: Vec<usize> = (0..count).filter(|at| acts[*at]).collect();
+        let mut active = BandedMatrix::zeros(acting.len(), acting.len().saturating_sub(1));
+        for (row, &i) in acting.iter().enumerate() {
+            acting
+                .iter()
+                .enumerate()
+                .for_each(|(column, &j)| active.add(row, column, matrix[i][j]));
+        }
+        let mut own: Vec<f64> = acting.iter().map(|at| -q[*at]).collect();
+        active.factorise()?.solve(&mut own);
+        let mut z = vec![0.0; count];
+        acting.iter().zip(own).for_each(|(at, value)| z[*at] = value);
+
+        let answer = |at: usize| q[at] + matrix[at].iter().zip(&z).map(|(a, z)| a * z).sum::<f64>();
+        let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let (least_z, least_w) = (-NOTHING * largest(&z), -NOTHING * largest(q));
+        let is_wrong = |at: &usize| match acts[*at] {
+            true => z[*at] < least_z,
+            false => answer(*at) < least_w,
+        };
+        let wrong: Vec<usize> = (0..count).filter(|at| pushes(*at)).filter(is_wrong).collect();
+        let Some(&last) = wrong.last() else { return Ok(z) };
+        if wrong.len() < fewest {
+            (fewest, patience) = (wrong.len(), PATIENCE);
+        } else if patience > 0 {
+            patience -= 1;
+        } else {
+            acts[last] = !acts[last];
+            continue;
+        }
+        wrong.iter().for_each(|at| acts[*at] = !acts[*at]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// `B Bᵀ + 0.01`
+    fn definite(size: usize, entries: &[f64]) -> Vec<Vec<f64>> {
+        let rows: Vec<&[f64]> = entries.chunks(size).collect();
+        let product =
+            |i: usize, j: usize| rows[i].iter().zip(rows[j]).map(|(a, b)| a * b).sum::<f64>();
+        let entry = |i: usize, j: usize| product(i, j) + if i == j { 0.01 } else { 0.0 };
+        (0..size).map(|i| (0..size).map(|j| entry(i, j)).collect()).collect()
+    }
+
+    #[test]
+    fn what_is_taken_along_by_another_is_not_pushed() {
+        let matrix = [vec![2.0, 1.9], vec![1.9, 2.0]];
+        let pairings = [Pairing::Pushing; 2];
+        // The first alone gives the second more than it lacks.
+        assert_eq!(complementary(&matrix, &[-2.0, -0.1], &pairings).unwrap(), [1.0, 0.0]);
+        let tied = [Pairing::Pushing, Pairing::Tied];
+        let both = complementary(&matrix, &[-2.0, -0.1], &tied).unwrap();
+        assert!(both[0] > 1.0 && both[1] < 0.0, "{both:?}");
+    }
+
+    proptest! {
+        #[test]
+        fn no_unknown_and_no_answer_is_negative_and_one_of_them_vanishes(
+            entries in prop::collection::vec(-1.0..1.0_f64, 49),
+            q in prop::collection::vec(-1.0..1.0_f64, 7),
+            tied in prop::collection::vec(any::<bool>(), 7),
+        ) {
+            let matrix = definite(7, &entries);
+            let pairing = |tied: &bool| if *tied { Pairing::Tied } else { Pairing::Pushing };
+            let pairings: Vec<Pairing> = tied.iter().map(pairing).collect();
+            let z = complementary(&matrix, &q, &pairings).unwrap();
+            let size = z.iter().fold(1.0_f64, |most, z| most.max(z.abs()));
+            for (at, row) in matrix.iter().enumerate() {
+                let answer = q[at] + row.iter().zip(&z).map(|(a, z)| a * z).sum::<f64>();
+                let nothing = 1e-12 * size;
+                match pairings[at] {
+                    Pairing::Tied => prop_assert!(answer.abs() < nothing),
+                    Pairing::Pushing => {
+                        prop_assert!(z[at] > -nothing && answer > -nothing);
+                        prop_assert!(z[at].abs() < nothing || answer.abs() < nothing);
+                    }
+                }
+            }
+            // The same in the opposite order.
+            let turned: Vec<Vec<f64>> = matrix.iter().rev().map(|row| row.iter().rev().copied().collect()).collect();
+            let q: Vec<f64> = q.into_iter().rev().collect();
+            let pairings: Vec<Pairing> = pairings.into_iter().rev().collect();
+            let other = complementary(&turned, &q, &pairings).unwrap();
+            for (one, other) in z.iter().zip(other.iter().rev()) {
+                prop_assert!((one - other).abs() < 1e-10 * size);
+            }
+        }
+    }
+}

@@ -1,0 +1,246 @@
+//! Blows at the ends of masters: who is struck together, what stops store, and when a slider leaves one.
+//!
+//! A slider that comes to lean on its stop comes to rest against it by an impulse. What that takes from the motion the stop stores, as the
+//! elastic body that it is, and gives it back when the slider leaves; with a coefficient of restitution below one it is lost.
+
+use super::Model;
+use super::impact::{Direction, Impulses, Law};
+use crate::elementary::square;
+use crate::geometry::{Vec2, perpendicular};
+use crate::linalg::LinearError;
+use crate::model::ModelError;
+use crate::model::sliders::{Blow, SliderState, TrackLimit};
+
+/// A slider that is as near to its end as this, as a part of its master, arrives together with one that is there.
+const TOGETHER: f64 = 1e-12;
+
+/// What vibrates faster than in so many steps is rigid for a blow.
+const RIGID: f64 = 4.0;
+
+/// Steps that are no longer than this part of a blow resolve it.
+const RESOLVED: f64 = 0.125;
+
+/// What moves by less than this part of the change of relative velocity is held.
+const GIVES: f64 = 1e-9;
+
+/// A slider that approaches its end with less than this part of the fastest speed of the model does not.
+const APPROACHES: f64 = 1e-12;
+
+/// A direction in which a contact gives an impulse, and by which law.
+#[derive(Debug, Clone, Copy)]
+struct Hit {
+    direction: Direction,
+    law: Law,
+}
+
+/// Who strikes an end of its master, and who comes to lean on it.
+#[derive(Debug, Clone, Default)]
+pub struct Arriving {
+    /// The limits at which sliders strike and bounce.
+    pub strike: Vec<TrackLimit>,
+    /// The limits on which sliders come to lean.
+    pub lean: Vec<TrackLimit>,
+}
+
+impl Arriving {
+    /// Whether nobody does.
+    pub fn is_empty(&self) -> bool {
+        self.strike.is_empty() && self.lean.is_empty()
+    }
+
+    fn law(&self, model: &Model, limit: TrackLimit) -> Option<Law> {
+        let restitution = model.sliders[limit.slider].restitution;
+        let strikes = self.strike.contains(&limit).then_some(Law::Strikes(restitution));
+        strikes.or(self.lean.contains(&limit).then_some(Law::Ends))
+    }
+}
+
+impl Model {
+    /// The limits that sliders reach at the present moment together with one that does, in the order of the scene: as near to them as rounding
+    /// can tell, and led beyond.
+    pub fn arriving_with(&self, limit: TrackLimit) -> Vec<TrackLimit> {
+        let limits = (0..self.sliders.len()).flat_map(TrackLimit::both);
+        let arrives = |other: &TrackLimit| {
+            let slider = &self.sliders[other.slider];
+            let is_there = slider.is_sliding() && slider.distance_to(other.end) <= TOGETHER;
+            *other == limit || (is_there && self.leads_beyond(*other))
+        };
+        limits.filter(arrives).collect()
+    }
+
+    /// Whether a slider approaches an end at which it is, by what steps of such a length follow of the motion.
+    ///
+    /// # Errors
+    /// When the impulse of a blow is not determined.
+    pub fn approaches(&mut self, limit: TrackLimit, dt: f64) -> Result<bool, ModelError> {
+        let direction = (limit.slider, self.inward(limit));
+        let approach = |model: &mut Self| -> Result<f64, LinearError> {
+            let mut inertia = model.banded_inertia();
+            let answers = model.answers_within(&inertia.factorise()?, &[direction], RIGID * dt)?;
+            Ok(answers.iter().map(|answer| answer.velocity(&model.motion.rates)).sum())
+        };
+        let speed = approach(self).map_err(|_| self.sliders.overdetermined())?;
+        Ok(speed < -APPROACHES * self.fastest_speed())
+    }
+
+    /// Whether steps of such a length resolve the blow of a slider at a limit, that lasts as long as its waves run: where something gives way to it
+    /// and is no more than so light. Notes how many times as long as the blow a step is.
+    ///
+    /// # Errors
+    /// When the impulse of a blow is not determined.
+    pub fn resolves_blow(&mut self, limit: TrackLimit, dt: f64) -> Result<bool, ModelError> {
+        let direction = (limit.slider, self.inward(limit));
+        let mut inertia = self.banded_inertia();
+        let inertia = inertia.factorise().map_err(|_| self.sliders.overdetermined())?;
+        let answers = self.answers(&inertia, &[direction]);
+        let [answer] = &answers[..] else { return Ok(false) };
+        let (slave, master) = self.speeds(direction, &answer.rates);
+        let (slave, master) = (slave.abs(), master.abs());
+        let least = GIVES * (slave + master);
+        let [slave, master] = [slave, master].map(|speed| (speed > least).then(|| 1.0 / speed));
+        let lasts = self.sliders[limit.slider].blow_lasts(&self.bodies, Blow { slave, master });
+        self.sliders[limit.slider].note_blow(dt / lasts);
+        Ok(lasts.is_finite() && dt <= RESOLVED * lasts)
+    }
+
+    /// The direction in which the stop at a limit pushes the slave [-].
+    fn inward(&self, limit: TrackLimit) -> Vec2 {
+        self.sliders[limit.slider].along_contact(&self.bodies) * -limit.end.outward()
+    }
+
+    /// All that arrives at the ends of masters at the present moment is struck in one impact, in steps of such a length [time]: `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` at
+    /// stops, with those on which sliders lean already, while all other contacts keep slaves on masters.
+    ///
+    /// # Errors
+    /// When the impulses are not determined.
+    pub fn blow(&mut self, arriving: &Arriving, dt: f64) -> Result<(), ModelError> {
+        let hits = self.hits(|model, limit| arriving.law(model, limit));
+        // What a stop holds it must hold as it is, and not as steps follow it.
+        let rigid_within = arriving.lean.is_empty().then_some(RIGID * dt);
+        let impulses = self.hit(&hits, rigid_within);
+        let impulses = impulses.map_err(|_| self.sliders.overdetermined())?;
+        for (Hit { direction: (slider, _), .. }, work) in hits.iter().zip(&impulses.works) {
+            self.sliders[*slider].give(*work);
+        }
+        for limit in &arriving.lean {
+            self.hold(*limit);
+        }
+        let tolerance = APPROACHES * self.fastest_speed();
+        for (Hit { direction, law }, impulse) in hits.iter().zip(&impulses.values) {
+            let (slave, master) = self.speeds(*direction, &self.motion.rates);
+            let leaves = *law == Law::Leans && *impulse == 0.0 && slave - master > tolerance;
+            let slider = &mut self.sliders[direction.0];
+            slider.is_pulled = leaves && !slider.clings;
+        }
+        self.leave_stops()
+    }
+
+    /// Changes the velocities by impulses in all directions at once.
+    fn hit(&mut self, hits: &[Hit], rigid_within: Option<f64>) -> Result<Impulses, LinearError> {
+        let directions: Vec<Direction> = hits.iter().map(|hit| hit.direction).collect();
+        let laws: Vec<Law> = hits.iter().map(|hit| hit.law).collect();
+        let encounter = self.encounter(&directions, -2.0, rigid_within)?;
+        let impulses = encounter.impulses(&laws)?;
+        self.apply(encounter, &impulses.values);
+        Ok(impulses)
+    }
+
+    /// All sliders whose stops would have had to pull leave these, with what the stops have stored.
+    ///
+    /// # Errors
+    /// When the impulses are not determined.
+    pub fn leave_stops(&mut self) -> Result<(), ModelError> {
+        let leaving = |slider: &usize| self.sliders[*slider].is_pulled_off();
+        let leaving: Vec<usize> = (0..self.sliders.len()).filter(leaving).collect();
+        if leaving.is_empty() {
+            return Ok(());
+        }
+        if leaving.iter().any(|slider| self.sliders[*slider].stored > 0.0) {
+            self.give_back().map_err(|_| self.sliders.overdetermined())?;
+        }
+        let time = self.motion.time;
+        for slider in leaving {
+            self.sliders[slider].leave_stop(&self.bodies, time);
+        }
+        self.motion.accelerations.forget();
+        Ok(())
+    }
+
+    /// Gives sliders that leave what their stops have stored, by speeds in proportion to the roots of that.
+    ///
+    /// The impulses are linear in a scale `s` of these speeds, as long as the same contacts act, and what they give is quadratic.
+    fn give_back(&mut self) -> Result<(), LinearError> {
+        let hits = self.hits(|model, limit| {
+            let slider = &model.sliders[limit.slider];
+            let leaves = slider.is_pulled && slider.state == SliderState::Held(limit.end);
+            leaves.then_some(Law::Leaves(1.0))
+        });
+        let directions: Vec<Direction> = hits.iter().map(|hit| hit.direction).collect();
+        let stored: Vec<f64> = hits
+            .iter()
+            .map(|hit| match hit.law {
+                Law::Leaves(_) => self.sliders[hit.direction.0].stored.max(0.0),
+                _ => 0.0,
+            })
+            .collect();
+        let encounter = self.encounter(&directions, -2.0, None)?;
+        let laws = |scale: f64| -> Vec<Law> {
+            let speed = |at: usize| scale * (2.0 * stored[at] * encounter.response[at][at]).sqrt();
+            let own = hits.iter().enumerate();
+            own.map(|(at, hit)| match hit.law {
+                Law::Leaves(_) => Law::Leaves(speed(at)),
+                law => law,
+            })
+            .collect()
+        };
+        let given = |scale: f64| -> Result<f64, LinearError> {
+            Ok(encounter.impulses(&laws(scale))?.works.iter().sum())
+        };
+        let wanted: f64 = stored.iter().sum();
+        let (none, one, two) = (given(0.0)?, given(1.0)?, given(2.0)?);
+        let square = 0.5 * (two - 2.0 * one + none);
+        let linear = one - none - square;
+        let root = square_root_of(square, linear, none - wanted);
+        if let Some(scale) = root {
+            let impulses = encounter.impulses(&laws(scale))?;
+            for (Hit { direction: (slider, _), .. }, work) in hits.iter().zip(&impulses.works) {
+                self.sliders[*slider].give(*work);
+            }
+            self.apply(encounter, &impulses.values);
+        }
+        Ok(())
+    }
+
+    /// The directions [-] in which all contacts transmit impulses: across masters that do not give way, and along them where sliders lean on stops or
+    /// have a law at a limit.
+    fn hits(&self, law: impl Fn(&Self, TrackLimit) -> Option<Law>) -> Vec<Hit> {
+        let mut hits = Vec::new();
+        for (at, slider) in self.sliders.iter().enumerate() {
+            let mut limits = TrackLimit::both(at).into_iter();
+            let own = limits.find_map(|limit| law(self, limit).map(|law| (limit, law)));
+            let stop = match slider.state {
+                SliderState::Released => continue,
+                SliderState::Sliding => own,
+                SliderState::Held(end) => {
+                    own.or(Some((TrackLimit { slider: at, end }, Law::Leans)))
+                }
+            };
+            if stop.is_some() || !slider.gives_way() {
+                let across = perpendicular(slider.along_contact(&self.bodies));
+                hits.push(Hit { direction: (at, across), law: Law::Reverses });
+            }
+            if let Some((limit, law)) = stop {
+                hits.push(Hit { direction: (at, self.inward(limit)), law });
+            }
+        }
+        hits
+    }
+}
+
+/// The positive root of `a x² + b x + c`, if there is one.
+fn square_root_of(a: f64, b: f64, c: f64) -> Option<f64> {
+    let root = (square(b) - 4.0 * a * c).sqrt();
+    // The two forms of the quotient, by which nothing is cancelled.
+    let x = if b > 0.0 { -2.0 * c / (b + root) } else { (root - b) / (2.0 * a) };
+    (x.is_finite() && x >= 0.0).then_some(x)
+}

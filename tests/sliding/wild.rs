@@ -1,0 +1,77 @@
+//! Random scenes end, or say in physical words why not, and none takes thousands of blows.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::wild_scenes::{Temper, scene};
+use crate::common::{run, settings};
+use withy::integrators::Method;
+use withy::simulation::{Invariant, Simulation};
+
+/// A step, and the time to which scenes run.
+const DT: f64 = 0.01;
+const END: f64 = 1.0;
+
+/// How many scenes there are, and how many run in short.
+const SEEDS: u64 = 1140;
+const IN_SHORT: u64 = 60;
+
+/// Most arrivals of a scene, and most solves of steps, tries to find arrivals and failures among them.
+const MOST_ARRIVALS: usize = 1500;
+const MOST_SOLVES: usize = 25_000;
+
+/// What may be said of a scene that no step takes further.
+const WORDS: [&str; 4] = ["is compressed to", "is stretched to", "presses on beam", "hovers at"];
+
+#[derive(Debug, Default, Clone)]
+struct Row {
+    scenes: usize,
+    ended: usize,
+    arrivals: usize,
+    steps: usize,
+    most_arrivals: usize,
+    most_solves: usize,
+}
+
+#[test]
+fn wild_scenes_end_or_say_why() {
+    let seeds = if std::env::var("WITHY_LONG").is_ok() { SEEDS } else { IN_SHORT };
+    let mut unexplained = Vec::new();
+    let mut rows = vec![Row::default(); Temper::ALL.len()];
+    for seed in 0..seeds {
+        let (scene, method) = scene(seed);
+        let name = format!("{} with {method:?}", scene.name);
+        let mut simulation = Simulation::start(scene, settings(method, DT)).unwrap();
+        let ran = run(&mut simulation, END);
+        if let Err(error) = &ran {
+            let told = error.to_string();
+            println!("{name}: {told}");
+            if !WORDS.iter().any(|word| told.contains(word)) {
+                unexplained.push(name.clone());
+            }
+        }
+        let (counts, arrivals) = (simulation.counts(), simulation.arrivals().len());
+        let solves = counts.steps + counts.retries + counts.arrival_tries;
+        if arrivals > 300 || solves > 5000 {
+            println!("{name}: {arrivals} arrivals, {counts:?}");
+        }
+        assert!(arrivals <= MOST_ARRIVALS && solves <= MOST_SOLVES, "{name}: {arrivals} {solves}");
+        if ran.is_ok() && !matches!(method, Method::EnergyDecaying { .. }) {
+            let drift = simulation.history().drift(Invariant::Energy);
+            assert!(drift < 1e-8, "{name}: {drift:e}");
+        }
+        let row = &mut rows[Temper::ALL.iter().position(|own| *own == Temper::of(seed)).unwrap()];
+        row.scenes += 1;
+        row.ended += usize::from(ran.is_ok());
+        row.arrivals += arrivals;
+        row.steps += counts.steps;
+        row.most_arrivals = row.most_arrivals.max(arrivals);
+        row.most_solves = row.most_solves.max(solves);
+    }
+    println!("unexplained: {unexplained:?}");
+    assert!(100 * unexplained.len() as u64 <= seeds, "{unexplained:?}");
+    for (temper, row) in Temper::ALL.iter().zip(&rows) {
+        println!("{temper:?}: {row:?}");
+        // What is tame, stiff or curved ends.
+        let share = row.ended as f64 / row.scenes as f64;
+        assert!(share > 0.8, "{temper:?}: {row:?}");
+    }
+}
