@@ -158,14 +158,8 @@ impl Forces for Model {
         larger(self.step.relative_force(force), self.step.relative_moment(moment))
     }
 
-    fn worst(
-        &mut self,
-        part: Part,
-        stage: Stage,
-        iterate: (&[f64], f64),
-        residual: &[f64],
-    ) -> Option<Culprit> {
-        self.worst_of(part, stage, iterate, residual)
+    fn worst(&self, part: Part, residual: &[f64]) -> Option<Culprit> {
+        self.worst_of(part, residual)
     }
 
     fn largest_rotation(&self) -> f64 {
