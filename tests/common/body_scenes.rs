@@ -164,7 +164,7 @@ pub fn chain(bodies: usize) -> Scene {
     scene
 }
 
-/// Every scene without sliders on a mesh.
+/// Every scene without sliders on a mesh, and one with laws that have corners.
 pub fn all(mesh: &Mesh) -> Vec<Scene> {
     vec![
         pendulum(0.2, 0.8, 2.0),
@@ -173,5 +173,7 @@ pub fn all(mesh: &Mesh) -> Vec<Scene> {
         crank_rocker(mesh),
         chain(5),
         super::release_scenes::bracket(mesh),
+        super::roller_scenes::on_rollers(mesh),
+        super::scenes::absorbed(mesh),
     ]
 }

@@ -10,6 +10,7 @@ pub mod probe;
 pub mod rails;
 pub mod reference;
 pub mod release_scenes;
+pub mod roller_scenes;
 pub mod scenes;
 pub mod sliding;
 pub mod sliding_scenes;

@@ -8,8 +8,9 @@ use withy::geometry::{Curve, Vec2};
 use withy::joints::{Component, Components, JointKind, Partner};
 use withy::loads::{Frame, LoadKind, PrescribedMotion, Schedule};
 use withy::model::{
-    Anchor, BeamDefinition, Drag, Dragged, Drive, DriveKind, Origin, ParticleDefinition, PointMass,
-    RestoringLaw, RigidBodyDefinition, Scene, SpeedLaw, Spring, SpringKind, StartMotion,
+    Anchor, BeamDefinition, DampingLaw, Drag, Dragged, Drive, DriveKind, Origin,
+    ParticleDefinition, PointMass, RestoringLaw, RigidBodyDefinition, Scene, SpeedLaw, Spring,
+    SpringKind, StartMotion,
 };
 
 /// The section of the flying spaghetti with `EA = GA` and `EI` as given.
@@ -226,7 +227,9 @@ pub fn towed(mesh: &Mesh) -> Scene {
 /// A spring, with a damper beside it.
 pub fn spring(scene: &mut Scene, kind: SpringKind, law: RestoringLaw, damping: f64) {
     let (name, law) = (scene.free_name("spring"), Some(law));
-    scene.add_spring(Spring { name, kind, law, origin: Origin::Zero, damping }).unwrap();
+    scene
+        .add_spring(Spring { name, kind, law, origin: Origin::Zero, damping: damping.into() })
+        .unwrap();
 }
 
 fn linear(stiffness: f64, natural: f64) -> RestoringLaw {
@@ -275,7 +278,9 @@ pub fn mounted(mesh: &Mesh) -> Scene {
     spring(&mut scene, twist, linear(5.0, 0.0), 0.3);
     let name = scene.free_name("damper");
     let kind = SpringKind::Way(vec![bead, Anchor::Station(start)]);
-    scene.add_spring(Spring { name, kind, law: None, origin: Origin::Zero, damping: 1.5 }).unwrap();
+    scene
+        .add_spring(Spring { name, kind, law: None, origin: Origin::Zero, damping: 1.5.into() })
+        .unwrap();
     force(&mut scene, end, at(1.0, 2.0), Frame::Dead, hold(1.1));
     scene.gravity = at(0.0, -2.0);
     scene
@@ -354,6 +359,37 @@ pub fn dragged(mesh: &Mesh) -> Scene {
         scene.add_drag(Drag { name, on, wind }).unwrap();
     }
     scene.gravity = at(0.0, -2.0);
+    scene
+}
+
+/// A law of damping as a table of rates and forces.
+pub fn absorber(points: &[(f64, f64)]) -> DampingLaw {
+    DampingLaw::Curve(RestoringLaw::Table { points: points.to_vec() })
+}
+
+/// A flying beam that a damper of rising force holds back to the ground, and another beam, which a saturated torsion damper and a spring with a damper of one direction
+/// join to it.
+pub fn absorbed(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("absorbed");
+    let one = add_beam(&mut scene, line(at(0.2, 0.4), at(2.0, 1.0)), mesh, rod());
+    let other = add_beam(&mut scene, line(at(2.0, 1.0), at(3.5, 0.2)), mesh, rod());
+    let (start, end) = (start_of(&mut scene, one), end_of(&mut scene, one));
+    let (next, tip) = (start_of(&mut scene, other), end_of(&mut scene, other));
+    scene.join(JointKind::Hinge, end, Partner::Station(next)).unwrap();
+    let motion = StartMotion { velocity: at(0.5, 1.0), spin: -0.7, about: Some(at(2.0, 1.0)) };
+    scene.beams[one].motion = motion;
+    scene.beams[other].motion = motion;
+    let mut add = |kind, law, damping| {
+        let (name, origin) = (scene.free_name("absorber"), Origin::AsBuilt);
+        scene.add_spring(Spring { name, kind, law, origin, damping }).unwrap();
+    };
+    let to_ground = SpringKind::Way(vec![Anchor::Ground(at(-1.0, -1.0)), Anchor::Station(start)]);
+    let rising = [(-2.0, -4.0), (-1.0, -1.0), (-0.5, -0.25), (0.5, 0.25), (1.0, 1.0), (2.0, 4.0)];
+    add(to_ground, None, absorber(&rising));
+    let turn = SpringKind::Torsion([Anchor::Station(end), Anchor::Station(next)]);
+    add(turn, Some(linear(2.0, 0.1)), absorber(&[(-0.4, -0.3), (0.4, 0.3), (1.0, 0.3)]));
+    let across = SpringKind::Way(vec![Anchor::Station(start), Anchor::Station(tip)]);
+    add(across, Some(linear(6.0, 0.2)), absorber(&[(-1.0, 0.0), (0.0, 0.0), (1.0, 1.5)]));
     scene
 }
 

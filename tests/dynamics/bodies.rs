@@ -152,7 +152,7 @@ fn a_body_on_a_torsion_spring_beside_its_centre_swings_as_a_cosine() {
             let ends = [Anchor::Station(point(body, 1)), Anchor::Ground(at(0.0, 0.0))];
             let law = Some(RestoringLaw::Linear { stiffness, natural: 0.3 });
             let (name, kind) = ("hairspring".to_owned(), SpringKind::Torsion(ends));
-            let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0 };
+            let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() };
             scene.add_spring(spring).unwrap();
             let simulation = simulate(scene, entry.method, dt, 2.5);
             // The ground's angle less that of the body wants to be 0.3.
@@ -250,7 +250,7 @@ fn driven_wheel() -> Scene {
     let ends = [point(wheel, 1), point(hung, 1)].map(Anchor::Station);
     let law = Some(RestoringLaw::Linear { stiffness: 2.0, natural: 0.0 });
     let (name, kind) = ("spring".to_owned(), SpringKind::Torsion(ends));
-    let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0 };
+    let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() };
     scene.add_spring(spring).unwrap();
     scene
 }

@@ -210,7 +210,7 @@ fn a_scene_is_refused_in_which_a_movement_is_given_or_held_twice() {
     assert!(matches!(&told, ModelError::AlreadyDriven { how: "given", .. }), "{told}");
     let hold = JointKind::Support(Components::Rotation);
     let told = scene.join(hold, start, Partner::Ground).unwrap_err();
-    assert!(matches!(&told, ModelError::AlreadyDriven { .. }), "{told}");
+    assert!(matches!(&told, ModelError::HeldAndDriven { .. }), "{told}");
     assert_eq!((scene.drives.len(), scene.joints.len()), (1, 1));
 }
 

@@ -175,7 +175,7 @@ fn a_spring_that_snaps_leaves_its_energy_to_the_ledger() {
                 kind: SpringKind::Way(vec![Anchor::Ground(at(0.0, 0.0)), Anchor::Station(bead)]),
                 law: Some(RestoringLaw::Linear { stiffness: 8.0, natural: 1.0 }),
                 origin: Origin::Zero,
-                damping: 0.0,
+                damping: 0.0.into(),
             })
             .unwrap();
         release(&mut scene, Hold::Spring(0), 0.3);

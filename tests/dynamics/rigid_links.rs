@@ -22,7 +22,9 @@ fn smooth(spans: usize) -> Mesh {
 fn the_tangent_is_the_derivative_of_forces_and_places() {
     let mut random = Random(20);
     for (name, mesh) in meshes(4) {
-        for scene in body_scenes::all(&mesh) {
+        // A law with corners has no derivative there.
+        let is_smooth = |scene: &Scene| scene.springs().all(|at| at.damping.corners().is_empty());
+        for scene in body_scenes::all(&mesh).into_iter().filter(is_smooth) {
             let mut model = Model::assemble(&scene).unwrap();
             let increments = random.vector(model.unknowns(), 0.2);
             for stage in [Stage::Midpoint, Stage::DampedMidpoint(0.6), Stage::End] {
@@ -232,7 +234,7 @@ fn a_pendulum_upside_down_grows_from_the_start_and_looking_at_that_changes_nothi
         kind: SpringKind::Torsion([Anchor::Ground(at(0.0, 0.0)), Anchor::Station(station)]),
         law: Some(RestoringLaw::Linear { stiffness, natural: 0.0 }),
         origin: Origin::AsBuilt,
-        damping: 0.0,
+        damping: 0.0.into(),
     };
     scene.add_spring(spring).unwrap();
     scene.rigid_bodies[0].motion.spin = 1e-3;

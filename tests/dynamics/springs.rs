@@ -21,7 +21,9 @@ fn linear(stiffness: f64, natural: f64) -> Option<RestoringLaw> {
 
 fn add(scene: &mut Scene, anchors: Vec<Anchor>, law: Option<RestoringLaw>, damping: f64) {
     let (name, kind) = (scene.free_name("spring"), SpringKind::Way(anchors));
-    scene.add_spring(Spring { name, kind, law, origin: Origin::Zero, damping }).unwrap();
+    scene
+        .add_spring(Spring { name, kind, law, origin: Origin::Zero, damping: damping.into() })
+        .unwrap();
 }
 
 /// A mass of 2 on a spring along x, `stretch` beyond its ease, with a damper beside it.
@@ -132,7 +134,7 @@ fn springs_that_can_do_nothing_are_refused() {
     let ground = |x: f64| Anchor::Ground(at(x, 0.0));
     let spring = |kind: SpringKind| {
         let (name, law) = ("idle".to_owned(), linear(1.0, 1.0));
-        Spring { name, kind, law, origin: Origin::Zero, damping: 0.0 }
+        Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() }
     };
     for (kind, why) in [
         (SpringKind::Way(vec![end, end]), "which is the same place"),
@@ -279,7 +281,7 @@ fn door(stiffness: f64, damping: f64, angle: f64) -> Scene {
         kind,
         law: linear(stiffness, angle),
         origin: Origin::Zero,
-        damping,
+        damping: damping.into(),
     };
     scene.add_spring(spring).unwrap();
     scene

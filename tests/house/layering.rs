@@ -203,15 +203,15 @@ fn layers_use_only_those_to_their_right() {
 const ROOMS: &[(&str, &[&str])] = &[
     (
         "looking",
-        &["mechanism", "motion", "rigid_links", "sliders", "scene", "elements", "bodies", "words"],
+        &["mechanism", "motion", "links", "sliders", "scene", "elements", "bodies", "words"],
     ),
     (
         "assembly",
-        &["mechanism", "motion", "rigid_links", "sliders", "scene", "elements", "bodies", "words"],
+        &["mechanism", "motion", "links", "sliders", "scene", "elements", "bodies", "words"],
     ),
-    ("mechanism", &["motion", "rigid_links", "sliders", "elements", "bodies", "words"]),
+    ("mechanism", &["motion", "links", "sliders", "elements", "bodies", "words"]),
     ("motion", &[]),
-    ("rigid_links", &["bodies"]),
+    ("links", &["bodies"]),
     ("sliders", &["bodies", "words"]),
     ("scene", &["elements", "words"]),
     ("elements", &["bodies", "words"]),

@@ -30,7 +30,9 @@ fn lamp(stiffness: f64) -> Scene {
     let ends = [Anchor::Ground(at(0.0, 0.0)), Anchor::Station(point(body, 1))];
     let law = Some(RestoringLaw::Linear { stiffness, natural: 0.0 });
     let (name, kind) = ("spring".to_owned(), SpringKind::Torsion(ends));
-    scene.add_spring(Spring { name, kind, law, origin: Origin::Zero, damping: 0.0 }).unwrap();
+    scene
+        .add_spring(Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() })
+        .unwrap();
     scene.gravity = at(0.0, -GRAVITY);
     scene
 }

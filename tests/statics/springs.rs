@@ -18,7 +18,9 @@ fn linear(stiffness: f64, natural: f64) -> Option<RestoringLaw> {
 
 fn add(scene: &mut Scene, kind: SpringKind, law: Option<RestoringLaw>, damping: f64) {
     let name = scene.free_name("spring");
-    scene.add_spring(Spring { name, kind, law, origin: Origin::Zero, damping }).unwrap();
+    scene
+        .add_spring(Spring { name, kind, law, origin: Origin::Zero, damping: damping.into() })
+        .unwrap();
 }
 
 /// A slender cantilever of length 2 along x.

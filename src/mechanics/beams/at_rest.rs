@@ -25,7 +25,7 @@ pub struct SpanAtRest {
 
 impl SpanAtRest {
     /// Begins with the rows of another span, whose first control point is `first`.
-    pub(super) fn begin(&mut self, first: usize) {
+    pub fn begin(&mut self, first: usize) {
         self.first = first;
         self.strains.clear();
         self.stiffness.clear();

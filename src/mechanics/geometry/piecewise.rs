@@ -49,8 +49,8 @@ impl PiecewisePolynomial {
     pub fn integral(spans: &[Span], points: usize, function: impl Fn(&Span, f64) -> f64) -> Self {
         let rule = GaussRule::legendre(points);
         let places: Vec<f64> = rule.iter_on(-1.0, 1.0).map(|(t, _)| t).collect();
-        let powers = DMatrix::from_fn(points, points, |row, k| places[row].powi(k as i32));
-        let powers = powers.lu();
+        let power = |row: usize, k: usize| std::iter::repeat_n(places[row], k).product();
+        let powers = DMatrix::from_fn(points, points, power).lu();
         let mut before = 0.0;
         let rows = spans.iter().map(|span| {
             let half = 0.5 * (span.end - span.start);

@@ -63,13 +63,12 @@ impl StepBalance<'_> {
     }
 
     /// What a solve failed at.
-    fn culprit(&mut self, error: &NewtonError, residual: &[f64]) -> Option<Culprit> {
+    fn culprit(&self, error: &NewtonError, residual: &[f64]) -> Option<Culprit> {
         if let NewtonError::Linear { source, .. } = error {
             return Some(Culprit::Unknown(source.unknown()));
         }
         let part = error.history().last()?.worst();
-        let Rule { stage, weight, .. } = self.rule;
-        self.mechanism.worst(part, stage, (self.increments, weight), residual)
+        self.mechanism.worst(part, residual)
     }
 
     /// `ι/Δt²`

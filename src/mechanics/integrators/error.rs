@@ -50,8 +50,6 @@ impl Error for Cause {
 pub enum Culprit {
     /// The equation, or the matrix, of an unknown, by its number.
     Unknown(usize),
-    /// A body, by its number among all.
-    Body(usize),
     /// Something with a name.
     Named(String),
 }

@@ -67,15 +67,8 @@ pub trait Forces {
     /// The largest residual of a movement, relative to the forces that balance in this step [-].
     fn relative_imbalance(&self, residual: &[f64]) -> f64;
 
-    /// What is worst in an iterate, of that part of its imbalance which is, and where the residual was this one; `iterate` are the increments and the
-    /// weight of the forces. For messages.
-    fn worst(
-        &mut self,
-        _part: Part,
-        _stage: Stage,
-        _iterate: (&[f64], f64),
-        _residual: &[f64],
-    ) -> Option<Culprit> {
+    /// What is worst where a residual was left, of that part of its imbalance which is. For messages; it changes nothing.
+    fn worst(&self, _part: Part, _residual: &[f64]) -> Option<Culprit> {
         None
     }
 

@@ -6,6 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::beams::Station;
+use crate::geometry::Vec2;
 
 /// A component of the movement of a section.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -81,7 +82,7 @@ impl Components {
 }
 
 /// Which components of movement a joint ties.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum JointKind {
     /// A hinge ties positions; sections turn freely against each other.
     Hinge,
@@ -89,6 +90,10 @@ pub enum JointKind {
     Rigid,
     /// A support holds some components of a station on the ground, and leaves the others free.
     Support(Components),
+    /// An inclined roller lets a station move along a direction that is no axis, a unit vector, and holds it across; sections turn freely.
+    InclinedRoller(Vec2),
+    /// An inclined guide is an inclined roller that holds the angle besides.
+    InclinedGuide(Vec2),
 }
 
 /// What a joint ties a station to.
@@ -114,12 +119,22 @@ pub struct Joint {
 }
 
 impl JointKind {
-    /// The components of movement that a joint of this kind ties.
+    /// The components of movement that a joint of this kind ties; that across an inclined roller is none of them.
     pub fn components(self) -> &'static [Component] {
         match self {
             Self::Hinge => &Component::ALL[..2],
             Self::Rigid => &Component::ALL,
             Self::Support(held) => held.list(),
+            Self::InclinedRoller(_) => &[],
+            Self::InclinedGuide(_) => Components::Rotation.list(),
+        }
+    }
+
+    /// The only direction in which a joint of this kind lets its station move, a unit vector, if that is no axis [-].
+    pub fn inclined(self) -> Option<Vec2> {
+        match self {
+            Self::InclinedRoller(along) | Self::InclinedGuide(along) => Some(along),
+            Self::Hinge | Self::Rigid | Self::Support(_) => None,
         }
     }
 
@@ -135,6 +150,8 @@ impl JointKind {
             (Self::Rigid, Partner::Ground) => "clamp",
             (Self::Rigid, Partner::Station(_)) => "rigid joint",
             (Self::Support(_), _) => "support",
+            (Self::InclinedRoller(_), _) => "inclined roller",
+            (Self::InclinedGuide(_), _) => "inclined guide",
         }
     }
 }

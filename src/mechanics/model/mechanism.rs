@@ -33,8 +33,8 @@ use impulses::Exchanged;
 
 use super::bodies::Bodies;
 use super::elements::{Elements, Exchange, Supports};
+use super::links::Links;
 use super::motion::{Motion, Resolution, Step, Unknowns};
-use super::rigid_links::RigidLinks;
 use super::sliders::{Sliders, Sliding, TrackLimit};
 use crate::loads::LoadError;
 
@@ -42,7 +42,7 @@ use crate::loads::LoadError;
 pub struct Model {
     bodies: Bodies,
     elements: Elements,
-    links: RigidLinks,
+    links: Links,
     sliders: Sliders,
     supports: Supports,
     unknowns: Unknowns,
@@ -58,7 +58,7 @@ impl Model {
     pub(super) fn new(
         bodies: Bodies,
         elements: Elements,
-        links: RigidLinks,
+        links: Links,
         sliders: Sliders,
         supports: Supports,
         unknowns: Unknowns,
@@ -102,7 +102,7 @@ impl Model {
         &self.elements
     }
 
-    pub(super) fn links(&self) -> &RigidLinks {
+    pub(super) fn links(&self) -> &Links {
         &self.links
     }
 

@@ -3,16 +3,16 @@
 mod assembly;
 mod bodies;
 mod elements;
+mod links;
 mod looking;
 mod mechanism;
 mod motion;
-mod rigid_links;
 mod scene;
 mod sliders;
 mod words;
 
 pub use elements::{
-    Anchor, Bend, Drag, Dragged, Drive, DriveKind, DriveState, Element, LoadAccount,
+    Anchor, Bend, DampingLaw, Drag, Dragged, Drive, DriveKind, DriveState, Element, LoadAccount,
     MaterialDamping, Origin, PointMass, RestoringLaw, ShortBounce, SpeedLaw, Spring, SpringKind,
 };
 pub use looking::{

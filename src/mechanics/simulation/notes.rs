@@ -215,7 +215,7 @@ impl fmt::Display for Note {
                 match stiffest {
                     Some((spring, stiffness)) => write!(
                         f,
-                        " '{spring}' has a stiffness of {}: join what it holds by scene.hinge or scene.rigid, or take less",
+                        " '{spring}' has a stiffness of {}: join what it holds instead, or take less",
                         short(*stiffness)
                     ),
                     None => write!(f, " Compare stiffnesses, masses and units"),
@@ -223,8 +223,8 @@ impl fmt::Display for Note {
             }
             Self::Bend { drive, bend: Bend { time, rates: [before, after] } } => write!(
                 f,
-                "the motion of '{drive}' bends about t = {}, where its rate goes from {} to {} within a step, which takes it for smooth. Give the \
-                 times at which it bends, schedule(|t| …, [t1, t2]), so that steps end there, or let it bend smoothly, as schedules::smooth_step of std/schedules does",
+                "the motion of '{drive}' bends about t = {}, where its rate goes from {} to {} within a step, which takes it for smooth. Give its \
+                 schedule the times at which it bends, so that steps end there, or let it bend smoothly, as the smooth steps of the library do",
                 short(*time),
                 short(*before),
                 short(*after)

@@ -35,6 +35,19 @@ pub enum VibrationError {
         /// How often the search began anew.
         restarts: usize,
     },
+    /// Damped modes of a large scene.
+    #[error(
+        "the scene has {unknowns} unknowns, and damped modes are found with up to 240: take a coarser mesh; damping_ratios of modes are right to first order in the damping"
+    )]
+    LargeDamped {
+        /// The number of unknowns of the scene.
+        unknowns: usize,
+    },
+    /// Damped modes of a scene in which something has no inertia.
+    #[error(
+        "something in the scene moves without inertia, or slides, and may creep in ways that its modes do not tell: give it inertia; damping_ratios of modes are right to first order in the damping"
+    )]
+    LightDamped,
     /// Modes of which rounding hides some.
     #[error(
         "rounding hides mode {modes}, counted from 0: its residual is {residual:.1e}, more than 1e-6; of modes below it there are {modes}: ask for no more, take a coarser mesh, or make the largest stiffness or the smallest inertia less extreme"

@@ -1,5 +1,6 @@
 //! Small vibration about a configuration: natural frequencies and their shapes.
 
+mod damped;
 mod dense;
 mod elastic;
 mod error;
@@ -9,5 +10,6 @@ mod pencil;
 mod refinement;
 mod search;
 
+pub use damped::DampedMode;
 pub use error::VibrationError;
 pub use modes::{Mode, Modes, loose_movements};

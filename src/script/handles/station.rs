@@ -3,6 +3,9 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
+use rhai::Dynamic;
+
+use super::rigid_body::RigidBodyHandle;
 use super::scene::SceneHandle;
 use super::simulation::SimulationHandle;
 use crate::beams::{self, BodyIndex, Mesh, Station};
@@ -57,6 +60,11 @@ impl Scripted for StationHandle {
 
     fn show(&self) -> String {
         self.scene.scene().borrow().describe(&self.station)
+    }
+
+    /// A rigid body stands for its centre.
+    fn meant_by(value: &Dynamic) -> Option<Self> {
+        Some(value.read_lock::<RigidBodyHandle>()?.centre())
     }
 
     fn details(&self) -> Details {

@@ -2,7 +2,7 @@
 
 use crate::beams::Station;
 use crate::elementary::atan2;
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, perpendicular};
 use crate::joints::{Component, Components, Hold, Joint, JointKind, Partner};
 use crate::loads::{Frame, Load, LoadKind, Schedule, Side};
 use crate::model::{Anchor, Drive, Model, ModelError, Scene, Spring, SpringKind};
@@ -201,6 +201,8 @@ fn of_joint<'a>(scene: &Scene, joint: &'a Joint, hold: Hold) -> Sign<'a> {
         (JointKind::Hinge, Partner::Ground) => of_held(scene, &at, Components::Position),
         (JointKind::Rigid, Partner::Ground) => of_held(scene, &at, Components::All),
         (JointKind::Support(components), _) => of_held(scene, &at, components),
+        (JointKind::InclinedRoller(along), _) => (Symbol::Roller, across(along)),
+        (JointKind::InclinedGuide(along), _) => (Symbol::Guided, across(along)),
         (JointKind::Hinge, Partner::Station(_)) => (Symbol::Joint, away(scene, &at)),
         (JointKind::Rigid, Partner::Station(_)) => (Symbol::RigidJoint, away(scene, &at)),
     };
@@ -218,6 +220,12 @@ fn of_held(scene: &Scene, at: &Station, held: Components) -> (Symbol, Pointing) 
         Components::Position => (Symbol::Hinge, Pointing::To(Vec2::y())),
         Components::All => (Symbol::Clamp, away(scene, at)),
     }
+}
+
+/// Across the line of an inclined roller, upwards: it stands below.
+fn across(along: Vec2) -> Pointing {
+    let across = perpendicular(along);
+    Pointing::To(if across.y < 0.0 { -across } else { across })
 }
 
 /// Away from a support that stands at the end of a beam, the beam runs backwards.

@@ -22,7 +22,7 @@ use crate::script::words::error::{Place, ScriptError};
 pub const TABLE: Table = Table {
     name: "rigid bodies",
     doc: "A rigid body is a centre of mass with mass and inertia, and points that keep their places around it. Its centre and its points are stations: \
-          they take hinges, clamps, rigid joints, springs, loads, masses, sensors, and slide along beams, as places of beams do. Energy and momenta \
+          they take hinges, clamps, rigid joints, springs, loads, masses, sensors, and slide along beams, as places of beams do; where a station is asked for, the body itself stands for its centre. Energy and momenta \
           are kept to rounding with energy_momentum() and fourth_order(), at any step.",
     types: &[BODY],
     setup: "let scene = new_scene(\"example\");\n\

@@ -31,19 +31,25 @@ pub const TABLE: Table = Table {
         method(SCENE, "support", &[AT, options("options", SUPPORT_KEYS)], support)
             .returns(Returns::object(JOINT))
             .summary("Holds some of the movements of a station on the ground: x, y, angle, or all across a direction.")
-            .doc("A roller on a floor is #{ y: true }; along: [1, 0] says the same by the direction in which it stays free. \
-                  What holds everything is scene.clamp, what holds the position scene.hinge.")
-            .example("scene.hinge(rod.start);\nscene.support(rod.end, #{ y: true });\nlet sim = scene.start(#{ dt: 0.01 });")
+            .doc("A roller on a floor is #{ y: true }; along: [1, 0] says the same by the direction in which it stays free, and along: [1, 1] is an inclined \
+                  roller; its reaction is across that direction. angle: true beside it makes a guide of it, that does not turn. What holds everything is scene.clamp, what holds the position scene.hinge.")
+            .example("scene.hinge(rod.start);\nscene.support(rod.end, #{ y: true });\nlet cart = scene.particle([0, 1], 2);\nscene.support(cart, #{ along: [1, -1] });\n\
+                      scene.gravity([0, -9.81]);\nlet sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\n\
+                      check_close(sim.velocity(cart).norm(), 9.81 * sqrt(0.5), 1e-9);")
             .see(&["clamp", "hinge", "move"]),
         method(SCENE, "move", &[AT, options("options", MOVE_KEYS)], drive)
             .summary("Gives the motion of a station: x, y and angle, each a function of time, or some of them.")
             .doc("They are displacements from the place as drawn, and the turn from the angle as drawn, so that each must be 0 at t = 0 and may not jump, which is refused where it happens; schedules::smooth_step of std/schedules leads to a place in a time. Steps end \
-                  where a schedule bends; a function bends at schedule(|t| …, [times]). The node there begins with the rate of the function: where its beam rests, that is a blow. At rest \
+                  where a schedule bends; a function bends at schedule(|t| …, [times]). x_speed and y_speed give a rate in place of x and y, from the place as drawn on: a function of time, or a controller \
+                  |t, q| … that is asked at the start of every step, as the speed of a motor. The node there begins with the rate of the function: where its beam rests, that is a blow. At rest \
                   (scene.equilibrium) they are taken at the option `time` and put on with the loads, by the load factor.")
             .example("scene.move(rod.start, #{ x: 0, y: |t| 0.01 * (1 - cos(40 * t)), angle: 0, name: \"shaker\" });\n\
                       let sim = scene.start(#{ dt: 0.005 });\nsim.run_to(0.5);\n\
                       check_close(sim.position(rod.start).y, 0.01 * (1 - cos(20)), 1e-14);\n\
-                      check(sim.history.drift(\"energy\") < 1e-10);\nprint(sim.history.last(\"work.shaker\"));")
+                      check(sim.history.drift(\"energy\") < 1e-10);\nprint(sim.history.last(\"work.shaker\"));\n\
+                      // A trolley that is driven to x = 3 by its speed.\n\
+                      let yard = new_scene(\"yard\");\nlet trolley = yard.particle([0, 0], 1);\n\
+                      yard.move(trolley, #{ x_speed: |t, q| 2 * (3 - q.position(trolley).x), y: 0 });")
             .see(&["motor", "support"]),
         method(SCENE, "motor", &[AT, options("options", MOTOR_KEYS)], motor)
             .summary("Turns a section from the ground: by an angle or at a speed that is given, or with a torque.")
@@ -72,8 +78,18 @@ const MOVE_KEYS: &[Parameter] = &[
     either("x", SCHEDULE_KINDS).unit("length").optional(),
     either("y", SCHEDULE_KINDS).unit("length").optional(),
     either("angle", SCHEDULE_KINDS).unit("rad").optional(),
+    either(SPEEDS[0], SCHEDULE_KINDS)
+        .unit("length/time")
+        .doc("in place of x, its rate; also a controller |t, q| …")
+        .optional(),
+    either(SPEEDS[1], SCHEDULE_KINDS)
+        .unit("length/time")
+        .doc("in place of y, its rate; also a controller |t, q| …")
+        .optional(),
     NAME,
 ];
+/// What gives the rates of x and y.
+const SPEEDS: [&str; 2] = ["x_speed", "y_speed"];
 const MOTOR_KEYS: &[Parameter] = &[
     either("angle", SCHEDULE_KINDS).unit("rad").doc("the turn since the start").optional(),
     either("speed", SCHEDULE_KINDS).unit("rad/time").optional(),
@@ -92,10 +108,9 @@ fn support(call: &mut Call) -> Result<Dynamic, ScriptError> {
                     format!("along says which of x and y is held, and {odd} is given besides");
                 return Err(call.error(told).at(Place::Key(odd.into())));
             }
-            let across = across(call, options.point("along")?)?;
-            Components::among(|at| at == across || at == Component::Rotation && is_held("angle"))
+            Some(roller(call, options.point("along")?, is_held("angle"))?)
         }
-        false => Components::among(|at| is_held(at.name())),
+        false => Components::among(|at| is_held(at.name())).map(JointKind::Support),
     };
     let Some(held) = held else {
         return Err(call
@@ -103,21 +118,31 @@ fn support(call: &mut Call) -> Result<Dynamic, ScriptError> {
             .hint("write #{ y: true }, or some of x, y and angle")
             .at(Place::Argument(1)));
     };
-    scene.borrow_mut().join(JointKind::Support(held), station, Partner::Ground)?;
+    scene.borrow_mut().join(held, station, Partner::Ground)?;
     newest_joint(call)
 }
 
-/// The component that is held where a station stays free along a direction.
-fn across(call: &Call, along: Vec2) -> Result<Component, ScriptError> {
-    match (along.x == 0.0, along.y == 0.0) {
-        (false, true) => Ok(Component::Y),
-        (true, false) => Ok(Component::X),
-        (true, true) => Err(call.error("along has no direction").at(Place::Key("along".into()))),
-        (false, false) => Err(call
-            .error("along has to be parallel to one of the axes")
-            .hint("for an inclined rail draw a stiff clamped beam and let the station slide on it: scene.slider(station, rail)")
-            .at(Place::Key("along".into()))),
-    }
+/// What holds a station across a direction, along which it stays free, and its angle besides if that is wanted.
+fn roller(call: &Call, along: Vec2, holds_angle: bool) -> Result<JointKind, ScriptError> {
+    let across = match (along.x == 0.0, along.y == 0.0) {
+        (false, true) => Component::Y,
+        (true, false) => Component::X,
+        (true, true) => {
+            let told = "along has no direction: it is [0, 0]";
+            let hint = "write along: [1, 1], or the direction of the line on which it may move";
+            return Err(call.error(told).hint(hint).at(Place::Key("along".into())));
+        }
+        (false, false) => {
+            // Of numbers that are very large or small the squares are not.
+            let along = (along / along.amax()).normalize();
+            return Ok(match holds_angle {
+                true => JointKind::InclinedGuide(along),
+                false => JointKind::InclinedRoller(along),
+            });
+        }
+    };
+    let held = Components::among(|at| at == across || at == Component::Rotation && holds_angle);
+    Ok(held.map_or(JointKind::Hinge, JointKind::Support))
 }
 
 fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -128,6 +153,17 @@ fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
         if options.has(key) {
             *motion = Some(PrescribedMotion::Place(schedule_of(call, &options, key)?));
         }
+    }
+    for (motion, key) in motions.iter_mut().zip(SPEEDS).filter(|(_, key)| options.has(key)) {
+        if motion.is_some() {
+            let place = key.trim_end_matches("_speed");
+            let told = format!("{place} says where it is, and {key} is given besides");
+            let hint = format!("leave out {place} or {key}");
+            return Err(call.error(told).hint(hint).at(Place::Key(key.into())));
+        }
+        let scene = call.receiver::<SceneHandle>()?;
+        let rate = controlled_schedule_of(call, &options, key, &scene)?;
+        *motion = Some(PrescribedMotion::Rate(rate));
     }
     if motions.iter().all(Option::is_none) {
         return Err(call

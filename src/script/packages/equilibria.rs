@@ -3,7 +3,7 @@
 use rhai::{Array, Dynamic, INT, Map};
 
 use super::modes::MODES;
-use super::modes::{COUNT, ModesHandle, expect_room, look as look_for_modes};
+use super::modes::{COUNT, ModesHandle, expect_room, look as look_for_modes, look_for_damped};
 use super::scenes::{SCENE, STATION};
 use super::simulations::SIMULATION;
 use super::simulations::{START, begin, followed};
@@ -135,6 +135,15 @@ pub const TABLE: Table = Table {
         .doc("A configuration that is not stable has modes that grow instead: see growth_rates. There are none where a load turns with the beam.")
         .example("let rest = scene.equilibrium();\ncheck(rest.modes(2).is_stable);")
         .see(&["modes", "plot_modes"]),
+        method(EQUILIBRIUM, "damped_modes", &[COUNT], |call| {
+            let handle = call.receiver::<EquilibriumHandle>()?;
+            look_for_damped(call, handle.rest().model())
+        })
+        .returns(Returns::ARRAY)
+        .summary("The lowest damped vibrations about the equilibrium: maps of decay_rate, angular_frequency and damping_ratio.")
+        .doc("As scene.damped_modes, about the equilibrium.")
+        .example("let rest = scene.equilibrium();\ncheck_close(rest.damped_modes(1)[0].angular_frequency, rest.modes(1).angular_frequencies[0], 1e-6);")
+        .see(&["modes"]),
         method(EQUILIBRIUM, "start", &[options("options", START)], |call| {
             let handle = call.receiver::<EquilibriumHandle>()?;
             begin(call, handle.scene().clone(), |settings| {

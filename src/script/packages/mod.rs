@@ -32,6 +32,7 @@ mod sections;
 mod sensors;
 mod simulations;
 mod sliding;
+mod spring_laws;
 mod springs;
 mod stability_studies;
 mod statistics;

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use rhai::{Array, Dynamic, INT};
+use rhai::{Array, Dynamic, INT, Map};
 
 use super::scenes::{SCENE, STATION};
 use super::simulations::SIMULATION;
@@ -18,7 +18,7 @@ use crate::script::rows::parameter::{Parameter, Presence, object, whole};
 use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Body, Row, Table, method, property};
 use crate::script::words::error::{Place, ScriptError};
-use crate::vibration::{Mode, Modes, VibrationError};
+use crate::vibration::{DampedMode, Mode, Modes, VibrationError};
 
 /// The domain of natural modes.
 pub const TABLE: Table = Table {
@@ -59,6 +59,23 @@ pub const TABLE: Table = Table {
         .doc("They are under the section forces that beams have, none in one that is at ease at the start, and under the forces that hold the points of rigid \
               bodies at this moment, by which a pendulum upside down grows from the start.")
         .example("let sim = scene.start(#{ dt: 0.1 });\nlet drawn = scene.modes(1).angular_frequencies;\ncheck(sim.modes(1).angular_frequencies == drawn);"),
+        method(SCENE, "damped_modes", &[COUNT], |call| {
+            let handle = call.receiver::<SceneHandle>()?;
+            let model = Model::assemble(&handle.scene().borrow())?;
+            look_for_damped(call, &model)
+        })
+        .returns(Returns::ARRAY)
+        .summary("The lowest damped vibrations of the scene as it is drawn: maps of decay_rate, angular_frequency and damping_ratio.")
+        .doc(
+            "The eigenvalues λ = -δ ± iω of λ² M + λ D + K, exact whatever the damping, the smallest |λ| first; what is overdamped does not swing, has ω = 0 and a ratio of 1, and \
+             each of its two λ is one of them. Only with up to 240 unknowns and without sliders. What dampers with a law and drag have of damping at rest counts.",
+        )
+        .example(
+            "let oscillator = new_scene(\"oscillator\");\nlet bead = oscillator.particle([1, 0], 2);\noscillator.support(bead, #{ y: true });\n\
+             oscillator.spring([0, 0], bead, #{ stiffness: 18, damping: 20 });\nlet damped = oscillator.damped_modes(2);\n\
+             check_close(damped[0].decay_rate, 1, 1e-12);\ncheck_close(damped[1].decay_rate, 9, 1e-12);",
+        )
+        .see(&["damping_ratios", "modes"]),
         told("angular_frequencies", Returns::NUMBERS.unit("rad/time"), |call| list(call, Mode::angular_frequency))
             .summary("ω of each mode; 0 where nothing vibrates.")
             .example("let modes = scene.modes(2);\ncheck(modes.angular_frequencies[1] > modes.angular_frequencies[0]);")
@@ -79,7 +96,7 @@ pub const TABLE: Table = Table {
         .summary("How strongly dampers, damped materials and drag damp each mode, as a part of critical damping; 0 where nothing does.")
         .doc(
             "φᵀ D φ/(2ω) with φᵀ M φ = 1: exact where damping does not couple modes, as that of a material whose relaxation times are equal, else to \
-             first order in the damping. The frequencies are those without damping.",
+             first order in the damping. The frequencies are those without damping. Exact ones: scene.damped_modes(n).",
         )
         .example(
             "let scene = new_scene(\"damped\");\n\
@@ -202,6 +219,27 @@ pub(super) fn look(
         Err(VibrationError::Interrupted) => Err(context.why_stopped("a search for modes")),
         found => Ok(found?),
     }
+}
+
+/// Looks for as many damped vibrations of a model as the call asks for, until the run is stopped.
+pub(super) fn look_for_damped(call: &Call, model: &Model) -> Result<Dynamic, ScriptError> {
+    let context = call.context();
+    let found = match DampedMode::of(model, call.count("count")?, &mut || !context.is_stopped()) {
+        Err(VibrationError::Interrupted) => {
+            return Err(context.why_stopped("a search for damped modes"));
+        }
+        found => found?,
+    };
+    let told = |mode: &DampedMode| {
+        let numbers = [
+            ("decay_rate", mode.decay_rate),
+            ("angular_frequency", mode.angular_frequency),
+            ("damping_ratio", mode.damping_ratio()),
+        ];
+        let map: Map = numbers.into_iter().map(|(key, value)| (key.into(), value.into())).collect();
+        Dynamic::from(map)
+    };
+    Ok(found.iter().map(told).collect::<Array>().into())
 }
 
 const fn told(name: &'static str, returns: Returns, body: Body) -> Row {

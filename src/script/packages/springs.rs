@@ -4,15 +4,17 @@ use rhai::{Dynamic, ImmutableString};
 
 use super::scenes::{SCENE, STATION};
 use super::simulations::SIMULATION;
-use super::sliding::meant;
+use super::spring_laws::{ACTS, Law, damping, law};
 use crate::geometry::Vec2;
-use crate::model::{Anchor, ModelError, Origin, RestoringLaw, Spring, SpringKind, SpringState};
+use crate::model::{
+    Anchor, DampingLaw, ModelError, Origin, RestoringLaw, Spring, SpringKind, SpringState,
+};
 use crate::output::significant;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Details, Kind, Scripted, Type};
+use crate::script::rows::kind::{Details, Kind, Range, Scripted, Type};
 use crate::script::rows::options::Options;
 use crate::script::rows::parameter::{
     Parameter, Presence, array, callback, choice, either, number, object, options, point, points,
@@ -21,7 +23,6 @@ use crate::script::rows::parameter::{
 use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, method, property};
 use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::as_number;
 
 /// Springs and dampers.
 pub const TABLE: Table = Table {
@@ -63,7 +64,15 @@ pub const TABLE: Table = Table {
         })
         .returns(Returns::object(SPRING))
         .summary("A damper between two stations, or a station and a point of the ground: a force against the rate of their distance.")
-        .example("scene.damper(rod.end, [2, -1], #{ damping: 3 });")
+        .doc("damping may be a law: a function of the rate, asked over `rates` when the damper is made and a table from then on as laws of springs are, or points \
+              [rate, force]. The rate is positive where the distance grows, the force where it pulls: 0 at rest and never of the other sign, else it is refused, \
+              so that a damper only takes energy. A step takes the force of its mean rate. Springs, tendons and torsion springs take the same.")
+        .example("scene.damper(rod.end, [2, -1], #{ damping: 3 });\n\
+                  // Of a fluid; saturated beyond 1; in one direction only.\n\
+                  scene.damper(rod.end, [3, 0], #{ damping: |r| 2 * r * abs(r), rates: [-5, 5] });\n\
+                  scene.damper(rod.end, [2, 2], #{ damping: [[-1, -4], [1, 4], [2, 4]] });\n\
+                  scene.damper(bead, [2, -3], #{ damping: [[-1, 0], [0, 0], [1, 5]] });\n\
+                  let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\ncheck(sim.history.drift(\"energy\") < 1e-12);")
         .see(&["spring"]),
         method(SCENE, "tendon", &[array("places").doc("stations and points of the ground"), options("options", SPRING_KEYS)], tendon)
             .returns(Returns::object(SPRING))
@@ -109,9 +118,20 @@ const FROM: Parameter = either("from", PLACE);
 const TO: Parameter = either("to", PLACE);
 const TURNED: &[Kind] = &[Kind::Object(STATION), Kind::Options(TORSION_KEYS)];
 
-const ACTS: [(&str, Acts); 3] = [("both", Acts::Both), ("pull", Acts::Pull), ("push", Acts::Push)];
 const STIFFNESS: Parameter = number("stiffness").positive().unit("force/length").optional();
-const DAMPING: Parameter = number("damping").unit("force·time/length").or(Presence::Number(0.0));
+const DAMPING_KINDS: &[Kind] = &[Kind::Number(Range::Finite), Kind::Function, Kind::Points];
+const DAMPER_KINDS: &[Kind] = &[Kind::Number(Range::Positive), Kind::Function, Kind::Points];
+const DAMPING_DOC: &str =
+    "a constant, or a law: the force over the rate, |rate| …, or points [rate, force]";
+const DAMPING: Parameter = either("damping", DAMPING_KINDS)
+    .unit("force·time/length")
+    .doc(DAMPING_DOC)
+    .or(Presence::Number(0.0));
+const RATES: Parameter = point("rates")
+    .unit("length/time")
+    .doc("the rates for which a function is asked, [-1, 1]; beyond them it goes on straight")
+    .beside("damping")
+    .optional();
 const SPRING_KEYS: &[Parameter] = &[
     STIFFNESS,
     number("length").unit("length").doc("where it is at ease; as drawn unless given").optional(),
@@ -124,10 +144,14 @@ const SPRING_KEYS: &[Parameter] = &[
     callback("law").doc("the force over the elongation, |e| …, in place of a stiffness").optional(),
     point("range").unit("length").doc("the elongations for which the law is asked; beyond it goes on straight").beside("law").optional(),
     DAMPING,
+    RATES,
     text("name").optional(),
 ];
-const DAMPER_KEYS: &[Parameter] =
-    &[number("damping").positive().unit("force·time/length"), text("name").optional()];
+const DAMPER_KEYS: &[Parameter] = &[
+    either("damping", DAMPER_KINDS).unit("force·time/length").doc(DAMPING_DOC),
+    RATES,
+    text("name").optional(),
+];
 const TORSION_KEYS: &[Parameter] = &[
     number("stiffness").positive().unit("force·length/rad").optional(),
     number("angle")
@@ -143,18 +167,17 @@ const TORSION_KEYS: &[Parameter] = &[
         .doc("the angles for which the law is asked")
         .beside("law")
         .optional(),
-    number("damping").unit("force·length·time/rad").or(Presence::Number(0.0)),
+    either("damping", DAMPING_KINDS)
+        .unit("force·length·time/rad")
+        .doc("a constant, or a law: the moment over the rate, |rate| …, or points [rate, moment]")
+        .or(Presence::Number(0.0)),
+    point("rates")
+        .unit("rad/time")
+        .doc("the rates for which a function is asked")
+        .beside("damping")
+        .optional(),
     text("name").optional(),
 ];
-
-/// Which way a spring acts.
-#[derive(Debug, Clone, Copy, Default)]
-enum Acts {
-    #[default]
-    Both,
-    Pull,
-    Push,
-}
 
 /// A spring of a scene.
 #[derive(Clone)]
@@ -200,7 +223,12 @@ impl Scripted for SpringHandle {
     fn details(&self) -> Details {
         let of = |spring: &Spring| {
             let law = spring.law.as_ref().map(RestoringLaw::describe);
-            let damping = (spring.damping > 0.0).then(|| significant(spring.damping, 6));
+            let damping = match &spring.damping {
+                DampingLaw::Linear(constant) => {
+                    (*constant > 0.0).then(|| significant(*constant, 6))
+                }
+                curve => curve.describe(),
+            };
             let lines = [("law", law), ("damping", damping)];
             lines
                 .into_iter()
@@ -236,99 +264,11 @@ fn add(
     let prefix = if law.is_none() { "damper" } else { "spring" };
     let name = options.get_if::<ImmutableString>("name").map(String::from);
     let name = name.unwrap_or_else(|| scene.borrow().free_name(prefix));
-    let spring = Spring { name, kind, law, origin, damping: options.number("damping")? };
+    let damping = damping(call, options)?;
+    let spring = Spring { name, kind, law, origin, damping };
     scene.borrow_mut().add_spring(spring).map_err(blame)?;
     let index = scene.borrow().springs().count() - 1;
     Ok(Dynamic::from(SpringHandle { scene: handle, index }))
-}
-
-/// A law, and what its elongations are counted from.
-type Law = (Option<RestoringLaw>, Origin);
-
-/// The law that options describe; none where there is a damper alone.
-fn law(call: &Call, options: &Options, kind: &SpringKind) -> Result<Law, ScriptError> {
-    let (ease, acts) = match kind {
-        SpringKind::Torsion(_) => ("angle", Acts::Both),
-        SpringKind::Way(_) => ("length", meant(&ACTS, &options.text("acts")?)),
-    };
-    if options.has("law") {
-        return sampled(call, options, ease);
-    }
-    if options.has("table") {
-        let odd = match acts {
-            Acts::Both => ["stiffness", ease].into_iter().find(|key| options.has(key)),
-            Acts::Pull | Acts::Push => Some("acts"),
-        };
-        if let Some(odd) = odd {
-            let told = format!("a table says all about the force, and {odd} is given besides");
-            let hint = format!("leave out {odd}, or the table");
-            return Err(call.error(told).hint(hint).at(Place::Key(odd.into())));
-        }
-        let points = options.points("table")?.iter().map(|at: &Vec2| (at.x, at.y)).collect();
-        return Ok((Some(RestoringLaw::Table { points }), Origin::Zero));
-    }
-    let Some(stiffness) = options.number_if_given("stiffness") else {
-        if options.number("damping")? > 0.0 && !options.has(ease) {
-            return Ok((None, Origin::Zero));
-        }
-        let hint = format!("give stiffness: a number, or table: [[{ease}, …], …]");
-        return Err(call.error("how strongly it resists is missing").hint(hint));
-    };
-    let (natural, origin) = match options.number_if_given(ease) {
-        Some(natural) => (natural, Origin::Zero),
-        None => (0.0, Origin::AsBuilt),
-    };
-    let side = |before: f64, after: f64| RestoringLaw::Table {
-        points: vec![(natural - 1.0, before), (natural, 0.0), (natural + 1.0, after)],
-    };
-    let law = match acts {
-        Acts::Both => RestoringLaw::Linear { stiffness, natural },
-        Acts::Pull => side(0.0, stiffness),
-        Acts::Push => side(-stiffness, 0.0),
-    };
-    Ok((Some(law), origin))
-}
-
-/// The law of a function, which is asked over a range of elongations now and never again.
-fn sampled(call: &Call, options: &Options, ease: &str) -> Result<Law, ScriptError> {
-    let function = options.callback("law")?;
-    call.expect_arguments(&function, 1, "law: |e| 100 * e, e being the elongation")?;
-    let odd = options.given().find(|key| ["stiffness", "table"].contains(key));
-    if let Some(odd) = odd {
-        let told = format!("a law says all about the force, and {odd} is given besides");
-        let hint = format!("leave out {odd}, or the law");
-        return Err(call.error(told).hint(hint).at(Place::Key(odd.into())));
-    }
-    if !options.has("range") {
-        let told = "for which elongations the law is asked is missing";
-        let hint = "give range: [-0.1, 0.1], from the shortest to the longest";
-        return Err(call.error(told).hint(hint).at(Place::Key("law".into())));
-    }
-    let range = options.point("range")?;
-    if range.x >= range.y {
-        let told = format!("the range [{}, {}] does not rise", range.x, range.y);
-        let hint = "give the smaller elongation first";
-        return Err(call.error(told).hint(hint).at(Place::Key("range".into())));
-    }
-    let force = |elongation: f64| {
-        let value = call.invoke(&function, [Dynamic::from(elongation)])?;
-        as_number(&value).filter(|force| force.is_finite()).ok_or_else(|| {
-            let told = format!("the law gives no finite number at the elongation {elongation}");
-            call.error(told).at(Place::Key("law".into()))
-        })
-    };
-    let law = RestoringLaw::sampled((range.x, range.y), force)?;
-    if let Some((error, largest)) = law.missed() {
-        let [error, largest] = [error, largest].map(|force| significant(force, 3));
-        let told = format!(
-            "the law jumps or swings too fast: the finest polygon is off by {error}, its largest force being {largest}"
-        );
-        return Err(call.error(told).hint("make a jump a short ramp").at(Place::Key("law".into())));
-    }
-    Ok(match options.number_if_given(ease) {
-        Some(natural) => (Some(law.shifted(natural)), Origin::Zero),
-        None => (Some(law), Origin::AsBuilt),
-    })
 }
 
 fn tendon(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -373,6 +313,7 @@ fn torsion(call: &mut Call) -> Result<Dynamic, ScriptError> {
 fn blame(error: ModelError) -> ScriptError {
     let place = match &error {
         ModelError::Unnamed { .. } | ModelError::DuplicateName { .. } => Place::Key("name".into()),
+        ModelError::FeedingDamper { .. } => Place::Key("damping".into()),
         ModelError::Value { name, .. }
             if ["length", "damping", "stiffness", "table"].contains(name) =>
         {

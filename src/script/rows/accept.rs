@@ -71,7 +71,7 @@ fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Convers
         }
         Kind::Points => as_all(&value, as_point).map(Dynamic::from),
         Kind::Function => value.is::<FnPtr>().then(|| value.clone()),
-        Kind::Object(of) => (value.type_id() == of.id()).then(|| value.clone()),
+        Kind::Object(of) => of.accept(&value),
         Kind::Options(keys) => match value.read_lock::<Map>() {
             Some(map) => Some(Dynamic::from(Options::read(engine, owner, keys, &map)?)),
             None => None,

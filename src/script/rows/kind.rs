@@ -22,6 +22,11 @@ pub trait Scripted: Clone + 'static {
         Details::new()
     }
 
+    /// What a value of another type stands for where one of this type is asked for, if for any.
+    fn meant_by(_value: &Dynamic) -> Option<Self> {
+        None
+    }
+
     /// Why the value cannot be used now, if so: a native call that calls a script function back may be at work on it.
     fn is_busy(&self) -> Option<String> {
         None
@@ -41,6 +46,7 @@ pub struct Type {
     show: fn(&Dynamic) -> Option<String>,
     details: fn(&Dynamic) -> Option<Details>,
     busy: fn(&Dynamic) -> Option<String>,
+    meant: fn(&Dynamic) -> Option<Dynamic>,
 }
 
 impl Type {
@@ -54,6 +60,7 @@ impl Type {
             show: |value| value.read_lock::<T>().map(|held| held.show()),
             details: |value| value.read_lock::<T>().map(|held| held.details()),
             busy: |value| value.read_lock::<T>().and_then(|value| value.is_busy()),
+            meant: |value| T::meant_by(value).map(Dynamic::from),
         }
     }
 
@@ -70,6 +77,11 @@ impl Type {
     /// The identity of the native type.
     pub fn id(&self) -> TypeId {
         (self.id)()
+    }
+
+    /// A value as one of this type: itself if it is one, or what it stands for.
+    pub fn accept(&self, value: &Dynamic) -> Option<Dynamic> {
+        if value.type_id() == self.id() { Some(value.clone()) } else { (self.meant)(value) }
     }
 
     /// The printed form of a value, if it is one of this type.

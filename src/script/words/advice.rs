@@ -104,6 +104,9 @@ fn on_model(error: &ModelError) -> Option<String> {
         ModelError::NoPoint { .. } => {
             "name it in the points of scene.body(…); its centre is body.centre"
         }
+        ModelError::StartVelocity { .. } => {
+            "what turns about a place starts with spin: 2, about: [x, y]; what is joined to it with the velocity that it has there"
+        }
         ModelError::Inertialess { .. } => {
             "give it one, scene.body(#{ …, inertia: 0.1 }), or hold its angle: scene.support(body.centre, #{ angle: true })"
         }

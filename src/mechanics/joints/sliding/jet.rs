@@ -128,8 +128,8 @@ impl Mul for Jet {
     type Output = Self;
 
     fn mul(self, other: Self) -> Self {
-        let slope = |k: usize| self.slopes[k] * other.value + self.value * other.slopes[k];
-        Self { value: self.value * other.value, slopes: std::array::from_fn(slope) }
+        let (by_self, by_other) = (self * other.value, other * self.value);
+        Self { value: by_self.value, ..by_self + by_other }
     }
 }
 

@@ -3,12 +3,12 @@
 use super::numbering::{LinkPlace, Numbering};
 use crate::beams::{BodyDynamics, Mesh, Place, RigidPoints, SectionVariation, Station, discretise};
 use crate::elementary::square;
-use crate::geometry::{GeometryError, Vec2, interpolate};
+use crate::geometry::{GeometryError, Vec2, interpolate, larger, perpendicular};
 use crate::joints::{CONTACT_UNKNOWNS, Hold, Joint, Partner, Slider};
 use crate::model::bodies::{Bodies, Body, Tracker};
 use crate::model::elements::{Elements, PrescribedMovements, Site, Supports, Weight};
+use crate::model::links::{InclinedRoller, Links, RigidLink};
 use crate::model::motion::Motion;
-use crate::model::rigid_links::{RigidLink, RigidLinks};
 use crate::model::scene::same_place;
 use crate::model::sliders::Sliders;
 use crate::model::{BeamDefinition, Model, ModelError, Scene};
@@ -66,7 +66,7 @@ impl Model {
         if !scene.rigid_bodies.is_empty() {
             model.check_movements_held(scene)?;
         }
-        model.check_rigid_links(scene)?;
+        model.check_links(scene)?;
         if !scene.sliders.is_empty() {
             model.check_determined(scene)?;
         }
@@ -177,15 +177,31 @@ impl<'a> Assembly<'a> {
             .collect()
     }
 
-    /// The points of rigid bodies, each held to the centre of its body where it is drawn.
-    fn links(&self, numbering: &Numbering) -> RigidLinks {
+    /// The points of rigid bodies, each held to the centre of its body where it is drawn, and the points on inclined rollers.
+    fn links(&self, numbering: &Numbering) -> Links {
         let first = self.scene.beams.len() + self.scene.particles.len();
         let link = |&LinkPlace { body, point, force }: &LinkPlace| {
             let points = self.bodies[body].control_points();
             let angle = self.scene.rigid_bodies[body - first].angle;
             RigidLink::new(body, point, force, [points[0], points[point]], angle)
         };
-        RigidLinks::new(numbering.links.iter().map(link).collect())
+        Links::new(numbering.links.iter().map(link).collect(), self.rollers(numbering))
+    }
+
+    fn rollers(&self, numbering: &Numbering) -> Vec<InclinedRoller> {
+        let joints = self.scene.joints.iter().enumerate();
+        let inclined = joints.filter_map(|(at, joint)| Some((at, joint.kind.inclined()?)));
+        let rollers = numbering.rollers.iter().zip(inclined);
+        let roller = |(place, (joint, along)): (&Option<(usize, (usize, usize))>, _)| {
+            let (unknown, node) = (*place)?;
+            let on_line = self.bodies[node.0].control_points()[node.1];
+            let points = self.bodies.iter().flat_map(|body| body.control_points());
+            let size = points.map(|point| (point - on_line).norm()).fold(0.0, larger);
+            let size = if size > 0.0 { size } else { 1.0 };
+            let across = perpendicular(along);
+            Some(InclinedRoller::new(joint, node, Some(unknown), across, on_line, size))
+        };
+        rollers.filter_map(roller).collect()
     }
 
     fn elements(&self) -> Result<Elements, ModelError> {

@@ -16,6 +16,8 @@ pub struct InitialNumbering {
     pub number: Vec<usize>,
     /// The unknowns of the force of each rigid link: they stand before the point that it holds.
     pub forces: Vec<[usize; 2]>,
+    /// The unknown of the force of each inclined roller: they stand before the point that it holds. None where it has let go.
+    pub across: Vec<Option<usize>>,
 }
 
 impl InitialNumbering {
@@ -28,12 +30,21 @@ impl InitialNumbering {
         let held = tied.links.iter().map(|link| tied.component(*link, Component::X));
         let held: Vec<usize> = held.collect();
         let mut forces = vec![[0; 2]; held.len()];
+        let on_rollers = tied.rollers.iter();
+        let on_rollers: Vec<Option<usize>> =
+            on_rollers.map(|node| node.map(|node| tied.component(node, Component::X))).collect();
+        let mut across = vec![None; on_rollers.len()];
         let mut number = vec![NONE; all];
         let mut unknowns = 0;
         for at in GROUND + 1..all {
             for (force, _) in forces.iter_mut().zip(&held).filter(|(_, held)| **held == at) {
                 *force = [unknowns, unknowns + 1];
                 unknowns += 2;
+            }
+            for (force, _) in across.iter_mut().zip(&on_rollers).filter(|(_, on)| **on == Some(at))
+            {
+                *force = Some(unknowns);
+                unknowns += 1;
             }
             let root = tied.ties.root(at);
             if root != GROUND && number[root] == NONE && !tied.prescribed.contains(&root) {
@@ -46,11 +57,11 @@ impl InitialNumbering {
             0 if scene.drives.is_empty() => {
                 Err(ModelError::NothingMoves { scene: scene.name.clone() })
             }
-            _ => Ok(Self { unknowns, number, forces }),
+            _ => Ok(Self { unknowns, number, forces, across }),
         }
     }
 
-    /// The unknowns that are coupled with each other: by spans, by rigid links and by elements.
+    /// The unknowns that are coupled with each other: by spans, by rigid links and rollers, and by elements.
     pub fn coupled(
         &self,
         scene: &Scene,
@@ -75,6 +86,16 @@ impl InitialNumbering {
                     if other != NONE {
                         groups.push(vec![force.min(other), force.max(other)]);
                     }
+                }
+            }
+        }
+        for (force, node) in self.across.iter().zip(&tied.rollers) {
+            let (Some(force), Some(node)) = (*force, *node) else { continue };
+            for component in [Component::X, Component::Y] {
+                let at = tied.component(node, component);
+                let other = self.number[tied.ties.root(at)];
+                if other != NONE {
+                    groups.push(vec![force.min(other), force.max(other)]);
                 }
             }
         }

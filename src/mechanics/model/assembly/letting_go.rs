@@ -56,6 +56,11 @@ impl Model {
             joined: joined(scene, released, meshes)?,
             contacts: numbering.contact_blocks(self.sliders()),
             links: numbering.links.iter().map(|link| link.force).collect(),
+            rollers: numbering
+                .rollers
+                .iter()
+                .map(|roller| roller.map(|(force, _)| force))
+                .collect(),
             degrees_of_freedom: numbering.degrees_of_freedom,
             prescribed,
             held,

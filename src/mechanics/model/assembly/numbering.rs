@@ -25,6 +25,8 @@ pub struct Numbering {
     pub degrees_of_freedom: Vec<Vec<[usize; 3]>>,
     /// The two unknowns of the force of each rigid link, among those of the movements that it couples.
     pub links: Vec<LinkPlace>,
+    /// The unknown of the force of each inclined roller, and its body and control point; none where it has let go.
+    pub rollers: Vec<Option<(usize, (usize, usize))>>,
     pub unknowns: usize,
     /// The unknowns that are coupled with each other.
     pub groups: Vec<Vec<usize>>,
@@ -54,6 +56,9 @@ impl Numbering {
             LinkPlace { body, point, force: force.map(|at| ordering.position[at]) }
         });
         let links = links.collect();
+        let rollers = initial.across.iter().zip(&tied.rollers);
+        let rollers = rollers.map(|(force, node)| Some((ordering.position[(*force)?], (*node)?)));
+        let rollers = rollers.collect();
         let prescribed = tied.prescribed.len();
         let mut supported = prescribed;
         let mut degree_of_freedom = |tied: &mut TiedComponents, at: usize| match tied.ties.root(at)
@@ -87,6 +92,7 @@ impl Numbering {
         Ok(Self {
             degrees_of_freedom,
             links,
+            rollers,
             unknowns,
             groups,
             prescribed,
@@ -119,7 +125,8 @@ impl Numbering {
                 }
             }
         }
-        for at in self.links.iter().flat_map(|link| link.force) {
+        let across = self.rollers.iter().flatten().map(|(force, _)| *force);
+        for at in self.links.iter().flat_map(|link| link.force).chain(across) {
             kinds[at] = UnknownKind::Force;
         }
         let held = supports.split_off(self.prescribed);

@@ -2,8 +2,9 @@
 
 use super::{Assembly, Numbering};
 use crate::beams::{BodyDynamics, BodyIndex};
-use crate::geometry::{Vec2, perpendicular};
+use crate::geometry::{Vec2, cross, perpendicular};
 use crate::model::elements::Site;
+use crate::model::words::written;
 use crate::model::{ModelError, StartMotion, StationVelocity, Turning};
 
 /// Largest difference of tied start velocities, relative to the velocities of the beam.
@@ -97,7 +98,30 @@ impl Assembly<'_> {
         for velocity in &self.scene.velocities {
             self.set_velocity(velocity, numbering, &mut rates, begun)?;
         }
+        self.check_rollers(numbering, &rates)?;
         Ok(rates)
+    }
+
+    /// Refuses velocities across inclined rollers.
+    fn check_rollers(&self, numbering: &Numbering, rates: &[f64]) -> Result<(), ModelError> {
+        let inclined =
+            self.scene.joints.iter().filter_map(|joint| Some((joint, joint.kind.inclined()?)));
+        for (place, (joint, along)) in numbering.rollers.iter().zip(inclined) {
+            let Some((_, (body, point))) = *place else { continue };
+            let [x, y, _] = numbering.degrees_of_freedom[body][point];
+            let rate = |at: usize| rates.get(at).copied().unwrap_or(0.0);
+            let velocity = Vec2::new(rate(x), rate(y));
+            let across = cross(along, velocity);
+            if across.abs() > SAME_VELOCITY * velocity.norm() {
+                return Err(ModelError::StartVelocity {
+                    body: self.scene.name_of_body(&joint.station),
+                    place: "inclined roller (velocity across it)".to_owned(),
+                    velocity: across,
+                    other: format!("it moves along {} only", written(along)),
+                });
+            }
+        }
+        Ok(())
     }
 
     /// Gives the movements of a body of some length the rates of its rigid motion.
@@ -179,10 +203,15 @@ impl Assembly<'_> {
         let place = self.place(station)?;
         let degrees = numbering.degrees_of_freedom[place.body][place.nearest_control_point()];
         let values = [Some(velocity.x), Some(velocity.y), *spin];
+        let differs = |begins: f64, value: f64| {
+            (value - begins).abs() > SAME_START * value.abs().max(begins.abs())
+        };
         for ((at, value), component) in degrees.into_iter().zip(values).zip(COMPONENTS) {
             match (value, rates.get_mut(at)) {
                 (Some(value), Some(rate)) => *rate = value,
-                (Some(value), None) if begun.at(at).is_some_and(|begins| begins != value) => {
+                (Some(value), None)
+                    if begun.at(at).is_some_and(|begins| differs(begins, value)) =>
+                {
                     return Err(ModelError::StartVelocity {
                         body: self.scene.name_of_body(station),
                         place: format!("drive ({component})"),

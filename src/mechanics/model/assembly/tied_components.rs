@@ -15,6 +15,8 @@ pub struct TiedComponents {
     offsets: Vec<usize>,
     /// The body of each rigid link, and the point that it holds to the first one.
     pub links: Vec<(usize, usize)>,
+    /// The body and the control point of each inclined roller, in the order of the joints of the scene; none where it has let go.
+    pub rollers: Vec<Option<(usize, usize)>>,
     /// The classes whose movement is prescribed, in the order of the drives.
     pub prescribed: Vec<usize>,
 }
@@ -32,18 +34,25 @@ impl TiedComponents {
             offsets.push(offsets[offsets.len() - 1] + 3 * body.control_points().len());
         }
         let ties = Ties::new(offsets[bodies.len()]);
-        let mut classes = Self { ties, offsets, links: Vec::new(), prescribed: Vec::new() };
+        let mut classes =
+            Self { ties, offsets, links: Vec::new(), rollers: Vec::new(), prescribed: Vec::new() };
         classes.tie_particles(scene);
         classes.tie_rigid_bodies(scene);
         let holds = |hold: Hold| !released.contains(&hold);
         let joints = scene.joints.iter().enumerate();
-        for (_, joint) in joints.filter(|(at, _)| holds(Hold::Joint(*at))) {
+        for (at, joint) in joints {
+            if !holds(Hold::Joint(at)) {
+                classes.rollers.extend(joint.kind.inclined().map(|_| None));
+                continue;
+            }
             // Stations of joints are breaks of the mesh, where a control point lies on the axis.
             let from = place(&joint.station)?;
             let to = match &joint.partner {
                 Partner::Ground => None,
                 Partner::Station(other) => Some(place(other)?),
             };
+            let node = (from.body, from.nearest_control_point());
+            classes.rollers.extend(joint.kind.inclined().map(|_| Some(node)));
             for &component in joint.kind.components() {
                 let to = to.as_ref().map_or(GROUND, |to| classes.at(to, component));
                 classes.ties.tie(classes.at(&from, component), to);

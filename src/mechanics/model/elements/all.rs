@@ -56,11 +56,6 @@ impl Elements {
         self.resistances.iter().map(|resistance| &**resistance)
     }
 
-    /// Asks everything that resists movements, in the order of the scene.
-    pub fn each_resistance<T>(&mut self, ask: impl FnMut(&mut Box<dyn Resistance>) -> T) -> Vec<T> {
-        self.resistances.iter_mut().map(ask).collect()
-    }
-
     /// Springs, dampers and tendons, in the order of the scene.
     fn springs_mut(&mut self) -> impl Iterator<Item = &mut Box<dyn Resistance>> {
         self.resistances.iter_mut().filter(|resistance| resistance.stretched().is_some())

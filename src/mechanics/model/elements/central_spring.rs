@@ -2,6 +2,7 @@
 //!
 //! Along the way it would be `k ℓ` in a direction that changes without bound where the ends meet. By components there is no direction: `U = ½ k (x² + y²)`.
 
+use super::damping_law::DampingLaw;
 use super::elongation::{Elongation, Terminal};
 use super::resistance::{Resistance, Stretched};
 use super::restoring::RestoringLaw;
@@ -20,14 +21,14 @@ pub struct CentralSpring {
 }
 
 impl CentralSpring {
-    /// A spring of a stiffness [force/length] with a damper [force·time/length] between two terminals, which are at these places at the start.
+    /// A spring of a stiffness [force/length] with a damper between two terminals, which are at these places at the start.
     pub fn new(
         name: &str,
         terminals: [Terminal; 2],
         at: [Vec2; 2],
         grounds: &[Option<Vec2>],
         stiffness: f64,
-        damping: f64,
+        damping: DampingLaw,
     ) -> Self {
         let law = RestoringLaw::Linear { stiffness, natural: 0.0 };
         let named = |elongation, law, damping| {
@@ -35,10 +36,10 @@ impl CentralSpring {
         };
         let along = [0, 1].map(|component| {
             let elongation = Elongation::component(terminals.clone(), at, component);
-            named(elongation, Some(law.clone()), 0.0)
+            named(elongation, Some(law.clone()), DampingLaw::default())
         });
         let way = || Elongation::way(terminals.to_vec(), &at);
-        let damper = (damping > 0.0).then(|| named(way(), None, damping));
+        let damper = damping.acts().then(|| named(way(), None, damping));
         Self { along, damper }
     }
 

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::central_spring::CentralSpring;
+use super::damping_law::DampingLaw;
 use super::element::{Assembled, Description, Setting, Site};
 use super::elongation::{Elongation, Terminal};
 use super::restoring::RestoringLaw;
@@ -49,8 +50,8 @@ pub struct Spring {
     pub law: Option<RestoringLaw>,
     /// What the elongations of the law are counted from.
     pub origin: Origin,
-    /// The damping constant `c` of `c q̇` [force·time/length; of torsion force·length·time/rad].
-    pub damping: f64,
+    /// The force of a damper over the rate of what it measures.
+    pub damping: DampingLaw,
 }
 
 impl Spring {
@@ -91,8 +92,14 @@ impl Description for Spring {
             }
         }
         self.expect_movement(setting)?;
-        if !(self.damping.is_finite() && self.damping >= 0.0) {
-            return refused("damping", self.damping, "zero or a positive finite number");
+        if let DampingLaw::Linear(constant) = self.damping
+            && !(constant.is_finite() && constant >= 0.0)
+        {
+            return refused("damping", constant, "zero or a positive finite number");
+        }
+        self.check_polygon("damping", self.damping.corners())?;
+        if let Some((rate, force)) = self.damping.feeds() {
+            return Err(ModelError::FeedingDamper { damper: self.object(), rate, force });
         }
         match &self.law {
             Some(RestoringLaw::Linear { stiffness, natural }) => {
@@ -107,11 +114,6 @@ impl Description for Spring {
                 }
             }
             Some(RestoringLaw::Table { points } | RestoringLaw::Sampled { points, .. }) => {
-                if let Some(wrong) =
-                    points.iter().flat_map(|(q, f)| [q, f]).find(|x| !x.is_finite())
-                {
-                    return refused("table", *wrong, "finite numbers");
-                }
                 if points.len() < 2 {
                     return refused("table", points.len() as f64, "at least two points");
                 }
@@ -121,8 +123,9 @@ impl Description for Spring {
                     let (object, before) = (self.object(), points[before].0);
                     return Err(ModelError::TableOrder { object, index, elongation, before });
                 }
+                self.check_polygon("table", points)?;
             }
-            None if self.damping == 0.0 => {
+            None if !self.damping.acts() => {
                 return refused("damping", 0.0, "a positive number where there is no stiffness");
             }
             None => (),
@@ -164,7 +167,7 @@ impl Description for Spring {
                 [at[0], at[1]],
                 &grounds,
                 *stiffness,
-                self.damping,
+                self.damping.with_rest(),
             ))));
         }
         let elongation = match (&self.kind, terminals.as_slice()) {
@@ -182,12 +185,31 @@ impl Description for Spring {
             elongation,
             grounds,
             self.law.as_ref().map(|law| law.shifted(origin)),
-            self.damping,
+            self.damping.with_rest(),
         ))))
     }
 }
 
 impl Spring {
+    /// Refuses the points of a table, called so, that make no polygon; where there are none, there is no table.
+    fn check_polygon(&self, name: &'static str, points: &[(f64, f64)]) -> Result<(), ModelError> {
+        let refused =
+            |value, allowed| Err(ModelError::Value { object: self.object(), name, value, allowed });
+        if let Some(wrong) = points.iter().flat_map(|(q, f)| [q, f]).find(|x| !x.is_finite()) {
+            return refused(*wrong, "finite numbers");
+        }
+        if points.len() == 1 {
+            return refused(1.0, "at least two points");
+        }
+        match points.windows(2).find(|pair| pair[1].0 <= pair[0].0) {
+            Some(pair) if name == "damping" => {
+                refused(pair[1].0, "rates that rise from point to point")
+            }
+            Some(pair) => refused(pair[1].0, "elongations that rise from point to point"),
+            None => Ok(()),
+        }
+    }
+
     /// Refuses one whose ends cannot move against each other: neighbours that are one station, or nothing but ground.
     fn expect_movement(&self, setting: &dyn Setting) -> Result<(), ModelError> {
         let idle = |[from, to]: [&Anchor; 2], why| {

@@ -1,13 +1,16 @@
 //! Springs and dampers in a step: forces along an elongation, as unknowns of their own.
 //!
 //! ```text
-//! energy–momentum      F = ΔU/Δq + c Δq/Δt  along the secant: F Δq = ΔU + D, opposite at both ends
-//! forces at the ends   U'(q₀) and U'(q₁), and the damper c q̇ once a step where the method balances it, its direction that at this time
+//! energy–momentum      F = ΔU/Δq + d(Δq/Δt)  along the secant: F Δq = ΔU + D, opposite at both ends
+//! forces at the ends   U'(q₀) and U'(q₁), and the damper d(q̇) once a step where the method balances it, its direction that at this time
 //! ```
 
+mod targets;
+
 use super::contact_watch::{ContactWatch, ShortBounce};
+use super::damping_law::DampingLaw;
 use super::elongation::Elongation;
-use super::hidden_force::{HiddenForce, Target};
+use super::hidden_force::HiddenForce;
 use super::resistance::{Resistance, Stretched};
 use super::restoring::RestoringLaw;
 use super::spring_at_rest::law_at_rest;
@@ -29,10 +32,10 @@ pub struct SpringDamper {
     /// Where each terminal that is the ground is [length].
     grounds: Vec<Option<Vec2>>,
     law: Option<RestoringLaw>,
-    /// `c` [force·time/length, force·length·time/rad].
-    damping: f64,
+    /// `d(q̇)`.
+    damping: DampingLaw,
     /// Law and damping that it had before it let go: one that has let go has neither.
-    released: Option<(Option<RestoringLaw>, f64)>,
+    released: Option<(Option<RestoringLaw>, DampingLaw)>,
     spring: HiddenForce,
     damper: HiddenForce,
     /// `Δt`; infinite in movements that take no time [time].
@@ -49,13 +52,13 @@ pub struct SpringDamper {
 }
 
 impl SpringDamper {
-    /// A spring with a law, a damper with a constant, or both, along an elongation.
+    /// A spring with a law, a damper with one, or both, along an elongation.
     pub fn new(
         name: String,
         elongation: Elongation,
         grounds: Vec<Option<Vec2>>,
         law: Option<RestoringLaw>,
-        damping: f64,
+        damping: DampingLaw,
     ) -> Self {
         let coordinates = elongation.secant.len();
         let mut new = Self {
@@ -80,66 +83,10 @@ impl SpringDamper {
         new
     }
 
-    fn restoring_at_start(&self) -> f64 {
-        self.law.as_ref().map_or(0.0, |law| law.force(self.elongation.value()))
-    }
-
-    /// Whether its force is none in a part of its way. One that has let go is as it was: its state has the same numbers.
-    fn may_be_slack(&self) -> bool {
-        let law = self.released.as_ref().map_or(&self.law, |(law, _)| law);
-        law.as_ref().is_some_and(RestoringLaw::may_be_slack)
-    }
-
-    /// What the configuration of an iterate asks of the spring.
-    fn restoring(&self, stage: Stage) -> Target {
-        let Some(law) = &self.law else { return Target::default() };
-        let (q, change) = (self.elongation.value(), self.elongation.change);
-        match stage {
-            Stage::Start => Target { force: law.force(q), stiffness: 0.0 },
-            Stage::End => Target { force: law.force(q + change), stiffness: law.slope(q + change) },
-            Stage::Midpoint => {
-                let mean = law.mean(q, change);
-                Target { force: mean.force, stiffness: mean.slope }
-            }
-            Stage::DampedMidpoint(chi) => {
-                let mean = law.mean(q, change);
-                // A law that falls would gain what one that rises loses; one component alone would turn what it damps.
-                let late = match law {
-                    _ if self.elongation.is_component() => 0.0,
-                    RestoringLaw::Linear { stiffness, .. } => 0.5 * chi * stiffness.max(0.0),
-                    RestoringLaw::Table { .. } | RestoringLaw::Sampled { .. } => 0.0,
-                };
-                Target { force: mean.force + late * change, stiffness: mean.slope + late }
-            }
-        }
-    }
-
-    /// What the configuration asks of the damper, for the whole step.
-    ///
-    /// A method that takes forces at both ends balances those of one time of the step, `at.weight` of it after the start: the rate there
-    /// follows from those in the middles of this step and of the last one.
-    fn damping(&self, at: Iterate<'_>) -> Target {
-        let by_change = self.damping / self.duration;
-        let force = by_change * self.elongation.change;
-        match at.stage {
-            Stage::Start => Target::default(),
-            Stage::Midpoint | Stage::DampedMidpoint(_) => Target { force, stiffness: by_change },
-            Stage::End if self.duration.is_infinite() => Target::default(),
-            Stage::End => {
-                let (before, rate) = self.last;
-                let late = 2.0 * (at.weight - 0.5) * self.duration / (self.duration + before);
-                Target {
-                    force: force + late * (force - self.damping * rate),
-                    stiffness: (1.0 + late) * by_change,
-                }
-            }
-        }
-    }
-
     /// Takes an iterate, and where a damper counts at a time of its own its direction there.
     fn take(&mut self, at: Iterate<'_>) {
         self.elongation.take(at);
-        if self.damping > 0.0 {
+        if self.damping.acts() {
             let share = (at.stage == Stage::End).then_some(at.weight);
             self.elongation.balance(share);
         }
@@ -328,14 +275,14 @@ impl Resistance for SpringDamper {
         let mut elongation = self.elongation.clone();
         elongation.rest();
         let rate = elongation.rate(rates);
-        let force = self.restoring_at_start() + self.damping * rate;
+        let force = self.restoring_at_start() + self.damping.force(rate);
         self.scatter(bodies, &elongation.slope, force, out);
     }
 
     fn dissipation(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         let mut elongation = self.elongation.clone();
         elongation.rest();
-        self.damping * square(elongation.along(&elongation.slope, bodies, rates))
+        self.damping.slope_at_rest() * square(elongation.along(&elongation.slope, bodies, rates))
     }
 
     fn at_rest(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanAtRest)) {
@@ -392,8 +339,7 @@ impl Resistance for SpringDamper {
             return "has let go: no force".to_owned();
         }
         let law = self.law.as_ref().map(RestoringLaw::describe);
-        let damper = (self.damping > 0.0).then(|| format!("damping {}", self.damping));
-        let parts: Vec<String> = law.into_iter().chain(damper).collect();
+        let parts: Vec<String> = law.into_iter().chain(self.damping.describe()).collect();
         format!("{}; its force is an unknown of its own, outside the matrix", parts.join(", "))
     }
 }

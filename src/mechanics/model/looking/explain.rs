@@ -80,6 +80,10 @@ impl Model {
             0 => how,
             forces => format!("{how}; {forces} of rigid links among them, in the band"),
         };
+        let how = match self.links().rollers().count() {
+            0 => how,
+            forces => format!("{how}; {forces} of inclined rollers among them, in the band"),
+        };
         let how = match self.constraint_shape().width {
             0 => how,
             width if self.constraint_blocks().is_some() => {
@@ -92,7 +96,7 @@ impl Model {
 
     /// The unknowns that are movements.
     fn movements(&self) -> usize {
-        self.unknowns() - 2 * self.links().count()
+        self.unknowns() - self.links().forces()
     }
 
     fn explain_bodies(&self, scene: &Scene) -> Option<Part> {
@@ -180,9 +184,15 @@ impl Model {
         let held =
             self.supports().held().filter(|at| !(of_particles(at.body) && turns(at.component)));
         let held = plural(held.count(), "movement");
+        let across = match self.links().rollers().count() {
+            0 => String::new(),
+            forces => {
+                format!("; {} across inclined rollers are unknowns", plural(forces, "force"))
+            }
+        };
         Part::used(
             "supports",
-            format!("{kinds}: {held} held and no unknowns; reactions are measured"),
+            format!("{kinds}: {held} held and no unknowns{across}; reactions are measured"),
         )
     }
 

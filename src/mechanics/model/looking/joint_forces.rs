@@ -23,6 +23,8 @@ struct Side {
 pub struct Transmission {
     /// For each component of movement, if the joint ties it.
     sides: [Option<Side>; 3],
+    /// Of an inclined roller: its index among all.
+    roller: Option<usize>,
 }
 
 impl Transmission {
@@ -34,7 +36,9 @@ impl Transmission {
                 side.sign * side.nodes.iter().map(|node| given.to(*node)[at]).sum::<f64>()
             })
         };
-        (Vec2::new(sum(Component::X), sum(Component::Y)), sum(Component::Rotation))
+        let force = Vec2::new(sum(Component::X), sum(Component::Y));
+        let across = self.roller.map(|roller| given.by_roller(roller));
+        (across.unwrap_or(force), sum(Component::Rotation))
     }
 }
 
@@ -93,7 +97,8 @@ impl Model {
         let is_held = !has_let_go(Hold::Joint(joint));
         let ties = |component| is_held && all[joint].0.components().contains(&component);
         let sides = Component::ALL.map(|component| ties(component).then(|| side(component)));
-        Ok(Transmission { sides })
+        let roller = self.links().all_rollers().iter().position(|roller| roller.joint == joint);
+        Ok(Transmission { sides, roller })
     }
 }
 

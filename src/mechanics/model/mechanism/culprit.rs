@@ -1,9 +1,7 @@
 //! Where a step fails: what is farthest from its balance. Asked after a failure only.
 
 use super::Model;
-use crate::beams::ForceSummary;
-use crate::integrators::{Culprit, Stage};
-use crate::model::elements::{Iterate, collocation};
+use crate::integrators::Culprit;
 use crate::model::motion::UnknownKind;
 use crate::newton::Part;
 
@@ -16,17 +14,10 @@ fn worst(values: impl Iterator<Item = f64>) -> Option<usize> {
 }
 
 impl Model {
-    /// What is worst in an iterate, of that part of its imbalance which is.
-    pub(super) fn worst_of(
-        &mut self,
-        part: Part,
-        stage: Stage,
-        (increments, weight): (&[f64], f64),
-        residual: &[f64],
-    ) -> Option<Culprit> {
+    /// What is worst where a residual was left, of that part of its imbalance which is: where strains do not match, that is where forces do not.
+    pub(super) fn worst_of(&self, part: Part, residual: &[f64]) -> Option<Culprit> {
         match part {
-            Part::Force => self.worst_balance(residual),
-            Part::Strain => self.worst_strained(stage, increments, weight),
+            Part::Force | Part::Strain => self.worst_balance(residual),
             Part::Constraint => self.worst_violation(residual),
         }
     }
@@ -39,25 +30,6 @@ impl Model {
             UnknownKind::Force => 0.0,
         });
         worst(relative).map(Culprit::Unknown)
-    }
-
-    fn worst_strained(&mut self, stage: Stage, increments: &[f64], weight: f64) -> Option<Culprit> {
-        let mut out =
-            vec![0.0; self.unknowns.count() + self.sliders.border().width + self.supports.count()];
-        let collocation = collocation(stage);
-        let of_bodies = self.bodies.iter_mut();
-        let of_bodies: Vec<f64> = of_bodies
-            .map(|body| body.add_forces(collocation, increments, weight, &mut out).strain_mismatch)
-            .collect();
-        let at = Iterate { bodies: &self.bodies, stage, increments, weight };
-        let of_elements = self.elements.mismatches(at, &mut out);
-        let all =
-            of_bodies.iter().copied().chain(of_elements.iter().map(|(_, mismatch)| *mismatch));
-        let at = worst(all)?;
-        Some(match at.checked_sub(of_bodies.len()) {
-            None => Culprit::Body(at),
-            Some(element) => Culprit::Named(format!("'{}'", of_elements[element].0)),
-        })
     }
 
     fn worst_violation(&self, residual: &[f64]) -> Option<Culprit> {
@@ -73,15 +45,5 @@ impl Model {
         let of_links =
             of_links.map(|(value, kind)| if *kind == UnknownKind::Force { *value } else { 0.0 });
         worst(of_links).map(Culprit::Unknown)
-    }
-}
-
-impl crate::model::elements::Elements {
-    /// How far the forces of what resists movements are from those of an iterate, each by its name.
-    fn mismatches(&mut self, at: Iterate<'_>, out: &mut [f64]) -> Vec<(String, f64)> {
-        self.each_resistance(|resistance| {
-            let ForceSummary { strain_mismatch, .. } = resistance.add_forces(at, out);
-            (resistance.name().to_owned(), strain_mismatch)
-        })
     }
 }

@@ -12,6 +12,8 @@ pub struct Given {
     residual: Vec<f64>,
     /// What joints and supports give to each control point of each body [force, force·length].
     nodes: Vec<Vec<Movement>>,
+    /// What inclined rollers give, which is not among these, one after another [force].
+    across: Vec<Vec2>,
 }
 
 impl Given {
@@ -19,11 +21,16 @@ impl Given {
     pub fn to(&self, (body, point): (usize, usize)) -> Movement {
         self.nodes[body][point]
     }
+
+    /// What an inclined roller gives, by its index among all [force].
+    pub fn by_roller(&self, roller: usize) -> Vec2 {
+        self.across[roller]
+    }
 }
 
 impl Model {
-    /// What joints and supports give, from what is left of the balances of all control points, one after another.
-    pub(super) fn given(&self, left: &[f64]) -> Given {
+    /// What joints and supports give, from what is left of the balances of all control points, one after another, and the multipliers of all inclined rollers.
+    pub(super) fn given(&self, left: &[f64], across: &[f64]) -> Given {
         let mut residual = vec![0.0; self.degrees_of_freedom()];
         let mut forces = left.chunks_exact(3).map(|force| [force[0], force[1], force[2]]);
         let nodes = self.bodies.iter().map(|body| {
@@ -35,7 +42,9 @@ impl Model {
             of_body
         });
         let nodes = nodes.collect();
-        Given { residual, nodes }
+        let rollers = self.links.all_rollers().iter().zip(across);
+        let across = rollers.map(|(roller, multiplier)| roller.force_of(*multiplier)).collect();
+        Given { residual, nodes, across }
     }
 
     /// The rigid bodies among those of some nodes: what holds one in its rotation turns all its points.
@@ -46,7 +55,25 @@ impl Model {
 
     /// What supports give at a place: force [force] and moment [force·length]; none where nothing is held.
     pub fn reaction(&self, given: &Given, place: &Place) -> Option<(Vec2, f64)> {
+        self.held_by(place, &given.residual, |roller| given.across[roller])
+    }
+
+    /// What supports and inclined rollers give at a place, by the residual of all degrees of freedom and the forces of rollers, by their index; none where
+    /// nothing is held.
+    pub(super) fn held_by(
+        &self,
+        place: &Place,
+        residual: &[f64],
+        of_roller: impl Fn(usize) -> Vec2,
+    ) -> Option<(Vec2, f64)> {
         let nodes = self.bodies.tied_nodes(place)?;
-        self.supports.force_on(&nodes, &self.rigid_bodies_of(&nodes), &given.residual)
+        let held = self.supports.force_on(&nodes, &self.rigid_bodies_of(&nodes), residual);
+        match self.links.force_of_rollers(&nodes, of_roller) {
+            Some(across) => {
+                let (force, moment) = held.unwrap_or_default();
+                Some((force + across, moment))
+            }
+            None => held,
+        }
     }
 }

@@ -6,10 +6,11 @@
 
 use super::Model;
 use super::rigidity::Rigidity;
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, cross};
 use crate::integrators::{Inertia, Mechanism};
 use crate::linalg::{BandedLu, LinearError, Pairing, complementary};
 use crate::model::ModelError;
+use crate::model::elements::Exchange;
 
 /// A slider, and the component of its relative velocity on which an impulse acts.
 pub(super) type Direction = (usize, Vec2);
@@ -229,7 +230,7 @@ impl Model {
         };
         let mut change = vec![0.0; self.unknowns()];
         let rates = &self.motion.rates;
-        if self.links.count() > 0 {
+        if self.links.forces() > 0 {
             self.links.set_velocity_violation(&self.bodies, rates, links, &mut change);
             inertia.solve(&mut change);
         }
@@ -257,6 +258,10 @@ impl Model {
         // What is left of `M (v⁺ - v⁻) - Gᵀ P` at supports is their impulse.
         self.add_inertia(1.0, &change, &mut residual);
         self.links.transmit(&self.bodies, &change, &mut residual);
+        for (unknown, roller) in self.links.rollers() {
+            let (impulse, place) = (roller.force_of(change[unknown]), roller.place(&self.bodies));
+            self.exchanged.total += Exchange::of(0.0, impulse, cross(place, impulse));
+        }
         let on_slaves = impulses.iter().zip(directions);
         let on_slaves = on_slaves.map(|(impulse, (slider, unit))| (slider, unit * *impulse));
         self.add_impulses_of_blow(&change, &passed_on, on_slaves);

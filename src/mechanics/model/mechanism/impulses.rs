@@ -31,11 +31,13 @@ pub struct Impulses {
     numbers: Vec<Vec<[usize; 3]>>,
     /// Behind them those of the forces of rigid links.
     links: Vec<[usize; 2]>,
+    /// None for each inclined roller, as it acts by itself; their unknowns while the numbers are in use.
+    rollers: Vec<Option<usize>>,
     /// Values by these numbers: of rates, and of increments.
     values: Vec<f64>,
     /// What is left of the balance; at the end there is room for the equations of contacts.
     left: Vec<f64>,
-    /// Since the end of the last step, by control points [force·time, force·length·time].
+    /// Since the end of the last step, by control points, and behind them of the multipliers of inclined rollers [force·time, force·length·time].
     present: Vec<f64>,
     /// In the last step.
     last: Vec<f64>,
@@ -84,11 +86,12 @@ impl Model {
         let links = (0..self.links.count()).map(|at| [movements + 2 * at, movements + 2 * at + 1]);
         self.exchanged.impulses = Some(Box::new(Impulses {
             links: links.collect(),
+            rollers: vec![None; self.links.all_rollers().len()],
             numbers,
             values: vec![0.0; all],
             left: vec![0.0; all + self.sliders.border().width],
-            present: vec![0.0; movements],
-            last: vec![0.0; movements],
+            present: vec![0.0; movements + self.links.all_rollers().len()],
+            last: vec![0.0; movements + self.links.all_rollers().len()],
             duration: 0.0,
         }));
     }
@@ -108,7 +111,8 @@ impl Model {
         let Impulses { last, duration, .. } = &**self.exchanged.impulses.as_ref()?;
         let share = if *duration == 0.0 { 0.0 } else { 1.0 / duration };
         let mean: Vec<f64> = last.iter().map(|impulse| share * impulse).collect();
-        Some(self.given(&mean))
+        let (left, across) = mean.split_at(mean.len() - self.links.all_rollers().len());
+        Some(self.given(left, across))
     }
 
     /// Adds the impulses of a part of a step that is about to be accepted.
@@ -132,9 +136,19 @@ impl Model {
         }
         let (moved, left) = (&impulses.values, &mut impulses.left);
         self.sliders.add::<InStep>(&self.bodies, moved.len(), moved, constraints, left);
+        let Impulses { left, rollers, .. } = &mut *impulses;
+        for (roller, unknown) in self.links.all_rollers().iter().zip(rollers) {
+            let impulse = unknown.map_or(0.0, |at| increments[at]);
+            roller.transmit(&self.bodies, impulse / duration, left);
+        }
         self.exchange_numbers(&mut impulses);
         let Impulses { present, left, .. } = &mut *impulses;
+        let movements = present.len() - self.links.all_rollers().len();
+        let (present, across) = present.split_at_mut(movements);
         present.iter_mut().zip(left).for_each(|(sum, left)| *sum += duration * *left);
+        for (sum, roller) in across.iter_mut().zip(self.links.all_rollers()) {
+            *sum += roller.unknown.map_or(0.0, |at| increments[at]);
+        }
         self.exchanged.impulses = Some(impulses);
     }
 
@@ -158,7 +172,12 @@ impl Model {
         }
         self.bodies.exchange_numbers(&mut impulses.numbers);
         let Impulses { present, left, .. } = &mut *impulses;
+        let movements = present.len() - self.links.all_rollers().len();
+        let (present, across) = present.split_at_mut(movements);
         present.iter_mut().zip(left).for_each(|(sum, left)| *sum += *left);
+        for (sum, roller) in across.iter_mut().zip(self.links.all_rollers()) {
+            *sum += roller.unknown.map_or(0.0, |at| change[at]);
+        }
         self.exchanged.impulses = Some(impulses);
     }
 
@@ -178,6 +197,6 @@ impl Model {
     /// Exchanges the numbers of the model for those of control points by themselves, or back.
     fn exchange_numbers(&mut self, impulses: &mut Impulses) {
         self.bodies.exchange_numbers(&mut impulses.numbers);
-        self.links.exchange_unknowns(&mut impulses.links);
+        self.links.exchange_unknowns(&mut impulses.links, &mut impulses.rollers);
     }
 }

@@ -15,6 +15,7 @@ use crate::geometry::Vec2;
 use crate::integrators::{Inertia, Mechanism, Stage};
 use crate::linalg::{BandedMatrix, LinearError};
 use crate::model::elements::{Iterate, collocation};
+use crate::model::links::InclinedRoller;
 use crate::model::{ModelError, SliderState};
 
 /// What acts at the present moment.
@@ -28,7 +29,7 @@ pub struct Instant {
 }
 
 impl Instant {
-    /// The accelerations of the unknown movements [length/time², 1/time²].
+    /// The accelerations of the unknown movements, forces of rigid links and rollers where their unknowns stand [length/time², 1/time²; force].
     pub fn accelerations(&self) -> &[f64] {
         &self.accelerations
     }
@@ -98,7 +99,10 @@ impl Model {
             slider.transmit(&self.bodies, *force, &mut apart);
         }
         self.bodies.number_as(joined);
-        Ok(Instant { given: self.given(&apart), accelerations, contacts })
+        let multiplier =
+            |roller: &InclinedRoller| roller.unknown.map_or(0.0, |at| accelerations[at]);
+        let across: Vec<f64> = self.links.all_rollers().iter().map(multiplier).collect();
+        Ok(Instant { given: self.given(&apart, &across), accelerations, contacts })
     }
 
     /// Looks at the model while its rigid links have the forces of the present moment, and not those of the last step, which are none before the first one.

@@ -16,6 +16,8 @@ pub struct Numbers {
     pub degrees_of_freedom: Vec<Vec<[usize; 3]>>,
     /// The unknowns of the forces of rigid links.
     pub links: Vec<[usize; 2]>,
+    /// The unknowns of the forces of inclined rollers, none of those that have let go.
+    pub rollers: Vec<Option<usize>>,
     /// The movements that are prescribed, in the order of their numbers.
     pub prescribed: Vec<PrescribedMovement>,
     /// The movements that are held, in the order of their numbers.
@@ -32,13 +34,13 @@ impl Model {
     /// Numbers all movements anew; the state of motion stays.
     pub(in crate::model) fn renumber(&mut self, numbers: Numbers) {
         let moving = self.bodies.by_control_point(&self.motion.rates);
-        let Numbers { degrees_of_freedom, links, prescribed, held, unknowns, joined, contacts } =
+        let Numbers { degrees_of_freedom, prescribed, held, unknowns, joined, contacts, .. } =
             numbers;
         let count = unknowns.count();
         self.sliders.renumber(contacts);
         self.unknowns = unknowns;
         self.bodies.renumber(degrees_of_freedom, count, joined);
-        self.links.renumber(links.into_iter());
+        self.links.renumber(numbers.links.into_iter(), numbers.rollers.into_iter());
         let movements = std::mem::take(self.supports.prescribed_mut()).with(prescribed, count);
         let mut rates = vec![0.0; count + movements.in_step().width()];
         self.supports = Supports::new(movements, held);

@@ -8,7 +8,7 @@ use crate::beams::{Place, RotationIncrement};
 use crate::geometry::{Vec2, larger};
 use crate::integrators::Stage;
 use crate::linalg::BorderedMatrix;
-use crate::model::rigid_links::ArmRule;
+use crate::model::links::ArmRule;
 use crate::model::sliders::{AtRest, TrackEnd};
 
 /// The largest of the forces that meet in a model at rest.
@@ -132,7 +132,6 @@ impl Model {
     ///
     /// Where several bodies are tied to the place, the supports hold all of them.
     pub fn support_force(&self, place: &Place, forces: &[f64]) -> Option<(Vec2, f64)> {
-        let nodes = self.bodies.tied_nodes(place)?;
-        self.supports.force_on(&nodes, &self.rigid_bodies_of(&nodes), forces)
+        self.held_by(place, forces, |roller| self.links.all_rollers()[roller].force())
     }
 }

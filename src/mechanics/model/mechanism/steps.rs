@@ -2,14 +2,14 @@
 
 use super::Model;
 use crate::beams::{Collocation, ForceSummary};
-use crate::geometry::larger;
+use crate::geometry::{cross, larger};
 use crate::integrators::{
     Accelerated, Cause, Checkpoint, Constraints, Culprit, Forces, Interval, Mechanism, Overshoot,
     PrescribedKinematics, Solution, Stage, StepError,
 };
 use crate::linalg::{BandedMatrix, BlockLayout, Border, BorderShape};
 use crate::model::elements::{Exchange, Iterate, collocation};
-use crate::model::rigid_links::ArmRule;
+use crate::model::links::ArmRule;
 use crate::model::sliders::InStep;
 use crate::newton::Part;
 
@@ -78,10 +78,15 @@ impl Model {
         self.elements.add_tangent(at, unknowns, tangent);
     }
 
-    fn exchange_in_step(&self, residual: &[f64]) -> Exchange {
+    fn exchange_in_step(&self, increments: &[f64], residual: &[f64]) -> Exchange {
         let duration = self.step.interval.duration();
         let mut sum = self.elements.exchange(&self.bodies, duration);
         sum += self.supports.exchange(&self.bodies, residual, duration);
+        for (unknown, roller) in self.links.rollers() {
+            // In a step the unknown is the impulse.
+            let impulse = roller.force_of(increments[unknown]);
+            sum += Exchange::of(0.0, impulse, cross(roller.mean_place(&self.bodies), impulse));
+        }
         if duration < 0.0 { sum.taken_back() } else { sum }
     }
 
@@ -153,14 +158,8 @@ impl Forces for Model {
         larger(self.step.relative_force(force), self.step.relative_moment(moment))
     }
 
-    fn worst(
-        &mut self,
-        part: Part,
-        stage: Stage,
-        iterate: (&[f64], f64),
-        residual: &[f64],
-    ) -> Option<Culprit> {
-        self.worst_of(part, stage, iterate, residual)
+    fn worst(&self, part: Part, residual: &[f64]) -> Option<Culprit> {
+        self.worst_of(part, residual)
     }
 
     fn largest_rotation(&self) -> f64 {
@@ -272,7 +271,7 @@ impl Mechanism for Model {
             self.meet_given(rates);
         }
         self.bodies.gather(increments);
-        self.exchanged.total += self.exchange_in_step(residual);
+        self.exchanged.total += self.exchange_in_step(increments, residual);
         if is_driven {
             let prescribed = self.exchange_of_drives(rates, residual);
             self.exchanged.total += prescribed;

@@ -8,8 +8,8 @@ use crate::beams::SpanAtRest;
 use crate::elementary::square;
 use crate::geometry::larger;
 use crate::linalg::{PreciseBand, SymmetricSparse};
+use crate::model::links::RigidLink;
 use crate::model::motion::UnknownKind;
-use crate::model::rigid_links::RigidLink;
 
 /// A rigid link is so many times as stiff as anything else of a model where small movements are looked for: frequencies are lower by less than a part of that,
 /// and with 32 digits nothing else is hidden.
@@ -53,7 +53,12 @@ impl Model {
             let free = free.into_iter().filter(|at| *at < self.unknowns.count());
             free.clone().max().unwrap_or(0) - free.min().unwrap_or(0)
         };
-        self.links.iter().map(of_link).fold(self.unknowns.half_bandwidth(), usize::max)
+        let of_rollers = self.links.rollers().map(|(_, roller)| {
+            let [x, y] = roller.degrees(&self.bodies);
+            if x.max(y) < self.unknowns.count() { x.abs_diff(y) } else { 0 }
+        });
+        let reaches = self.links.iter().map(of_link).chain(of_rollers);
+        reaches.fold(self.unknowns.half_bandwidth(), usize::max)
     }
 
     /// Gives every rigid link and every contact as at rest, so stiff that nothing is seen of what gives way: `RIGID` times the largest `stiffness` of a
@@ -90,14 +95,14 @@ impl Model {
     }
 
     fn held_by_links(&self, order: &OrderAtRest, inertia: &SymmetricSparse) -> usize {
-        if self.links.count() == 0 {
+        if self.links.forces() == 0 {
             return 0;
         }
         let kinds = self.unknowns.kinds().iter().enumerate();
         let is_light = |(at, kind): &(usize, &UnknownKind)| {
             **kind != UnknownKind::Force && inertia.diagonal(order.place(*at)) == 0.0
         };
-        (2 * self.links.count()).saturating_sub(kinds.filter(is_light).count())
+        self.links.forces().saturating_sub(kinds.filter(is_light).count())
     }
 
     /// About the square of the slowest bending, as if all beams were one: the least `EI` over the largest `ρA` and the fourth power of

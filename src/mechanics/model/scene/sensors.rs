@@ -247,7 +247,12 @@ impl Scene {
                 (JointKind::Hinge, _) => ("hinge", 0),
                 (JointKind::Rigid, Partner::Ground) => ("clamp", 1),
                 (JointKind::Rigid, Partner::Station(_)) => ("rigid", 2),
-                (JointKind::Support(_), _) => ("support", 3),
+                (
+                    JointKind::Support(_)
+                    | JointKind::InclinedRoller(_)
+                    | JointKind::InclinedGuide(_),
+                    _,
+                ) => ("support", 3),
             };
             counts[at] += 1;
             format!("{kind}{}", counts[at])

@@ -2,12 +2,16 @@
 
 use super::Scene;
 use crate::beams::{BodyIndex, Station};
+use crate::geometry::{Vec2, cross};
 use crate::joints::{Component, JointKind, Partner};
 use crate::model::ModelError;
 use crate::model::words::{Turning, written};
 
 /// Largest gap of a joint when the scene starts, relative to the length of its beam and its distance from the origin.
 const CLOSED: f64 = 1e-12;
+
+/// Inclined rollers are parallel whose directions differ by less than this angle [rad].
+const PARALLEL: f64 = 1e-9;
 
 /// Sets of things, by their numbers, that are one: union–find with path halving.
 pub struct Ties {
@@ -66,7 +70,7 @@ pub fn check_ties(scene: &Scene) -> Result<(), ModelError> {
             ties.tie(rotation(first), rotation(at));
         }
     }
-    for (joint, (place, partner)) in scene.joints.iter().zip(pairs) {
+    for (joint, &(place, partner)) in scene.joints.iter().zip(&pairs) {
         let stations = match &joint.partner {
             Partner::Ground => vec![joint.station],
             Partner::Station(other) => vec![joint.station, *other],
@@ -100,12 +104,14 @@ pub fn check_ties(scene: &Scene) -> Result<(), ModelError> {
             }
         }
     }
+    let on_rollers =
+        check_rollers(scene, &pairs.iter().map(|pair| pair.0).collect::<Vec<_>>(), &mut ties)?;
     let mut given = Vec::new();
     for (drive, place) in scene.drives.iter().zip(driven) {
         for (component, _) in drive.motions() {
             let root = ties.root(1 + 3 * place + component as usize);
             let is_given = given.contains(&root);
-            if root == 0 || is_given {
+            if root == 0 || is_given || on_rollers.iter().any(|held| held.contains(&root)) {
                 return Err(ModelError::AlreadyDriven {
                     drive: drive.name.clone(),
                     component: component.name(),
@@ -117,6 +123,37 @@ pub fn check_ties(scene: &Scene) -> Result<(), ModelError> {
         }
     }
     Ok(())
+}
+
+/// Checks that inclined rollers hold what may move across them, and no two of them the same: the positions that they hold, as tied.
+fn check_rollers(
+    scene: &Scene,
+    places: &[usize],
+    ties: &mut Ties,
+) -> Result<Vec<[usize; 2]>, ModelError> {
+    let mut others: Vec<([usize; 2], Vec2)> = Vec::new();
+    for (joint, place) in scene.joints.iter().zip(places) {
+        let Some(along) = joint.kind.inclined() else { continue };
+        let first = 1 + 3 * place;
+        let roots = [first, first + 1].map(|at| ties.root(at));
+        let is_parallel = |(at, other): &([usize; 2], Vec2)| {
+            *at == roots && cross(*other, along).abs() < PARALLEL
+        };
+        let how = match () {
+            () if roots == [0; 2] => Some("held by the ground"),
+            () if others.iter().any(is_parallel) => Some("held across that direction"),
+            () if others.iter().filter(|(at, _)| *at == roots).count() > 1 => {
+                Some("held by two rollers")
+            }
+            () => None,
+        };
+        if let Some(how) = how {
+            let (joint, place) = (joint.name.clone(), scene.describe(&joint.station));
+            return Err(ModelError::AlreadyTied { joint, place, how: how.to_owned() });
+        }
+        others.push((roots, along));
+    }
+    Ok(others.into_iter().map(|(roots, _)| roots).collect())
 }
 
 impl Scene {

@@ -180,6 +180,18 @@ pub enum ModelError {
         /// What ties the place already, in words.
         how: String,
     },
+    /// A damper whose law pushes at some rate, or at rest.
+    #[error(
+        "{damper}: at the rate {rate} its damping gives the force {force}, which drives what it should damp; give a force with the sign of the rate, 0 at rest"
+    )]
+    FeedingDamper {
+        /// The damper whose law pushes, in words.
+        damper: String,
+        /// The rate at which it does [length/time, rad/time].
+        rate: f64,
+        /// The force that it gives there [force, force·length].
+        force: f64,
+    },
     /// Something that would hold what a drive moves.
     #[error(
         "the {component} of {place} is given by '{drive}' already: it cannot be held besides; give or hold each movement once"

@@ -14,7 +14,6 @@ impl Simulation {
         if let StepError::Newton { culprit, .. } = &mut error {
             let name = culprit.take().and_then(|culprit| match *culprit {
                 Culprit::Unknown(unknown) => self.name_of_unknown(unknown),
-                Culprit::Body(body) => Some(self.name_of_body(body)),
                 Culprit::Named(name) => Some(name),
             });
             *culprit = name.map(|name| Box::new(Culprit::Named(name)));

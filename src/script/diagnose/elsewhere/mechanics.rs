@@ -25,13 +25,13 @@ pub const WORDS: &[Elsewhere] = &[
     ),
     entry(
         &["roller", "rollers", "rail", "guide", "track", "sleeve", "eyelet", "prismatic", "slide"],
-        "scene.support(station, #{ y: true }) is a roller on the ground; along any other line a station slides on a beam that stands still: clamp a stiff \
-         beam as its rail, then scene.slider(station, rail)",
+        "scene.support(station, #{ y: true }) is a roller on the ground, #{ along: [1, 1] } an inclined one; along a curve a station slides on a beam that stands still: \
+         clamp a stiff beam as its rail, then scene.slider(station, rail)",
         &["support", "slider", "clamp"],
     ),
     entry(
         &["damping", "damp", "dashpot", "viscous", "rayleigh", "dissipation"],
-        "scene.damper(from, to, #{ damping: c }) is a dashpot; scene.start(#{ integrator: energy_decaying(#{ chi: 0.1 }), dt: 0.1 }) damps vibration and keeps both momenta",
+        "scene.damper(from, to, #{ damping: c }) is a dashpot, damping: |rate| … one with a law; scene.start(#{ integrator: energy_decaying(#{ chi: 0.1 }), dt: 0.1 }) damps vibration and keeps both momenta",
         &["damper", "energy_decaying", "generalized_alpha"],
     ),
     entry(
@@ -104,6 +104,11 @@ pub const WORDS: &[Elsewhere] = &[
         ],
         "a beam is meshed by basis: bspline(16), with so many spans; lagrange makes ordinary elements",
         &["bspline", "lagrange", "study_convergence"],
+    ),
+    entry(
+        &["speed", "velocity_magnitude"],
+        "sim.velocity(station).norm() is the speed of a station, sim.spin(station) that at which a section turns",
+        &["velocity", "spin"],
     ),
     entry(
         &["node", "point_at", "tip", "middle"],

@@ -1,0 +1,79 @@
+//! What a configuration asks of the forces of a spring and a damper.
+
+use super::SpringDamper;
+use crate::integrators::Stage;
+use crate::model::elements::damping_law::DampingLaw;
+use crate::model::elements::hidden_force::Target;
+use crate::model::elements::{Iterate, RestoringLaw};
+
+impl SpringDamper {
+    pub(super) fn restoring_at_start(&self) -> f64 {
+        self.law.as_ref().map_or(0.0, |law| law.force(self.elongation.value()))
+    }
+
+    /// Whether its force is none in a part of its way. One that has let go is as it was: its state has the same numbers.
+    pub(super) fn may_be_slack(&self) -> bool {
+        let law = self.released.as_ref().map_or(&self.law, |(law, _)| law);
+        law.as_ref().is_some_and(RestoringLaw::may_be_slack)
+    }
+
+    /// What the configuration of an iterate asks of the spring.
+    pub(super) fn restoring(&self, stage: Stage) -> Target {
+        let Some(law) = &self.law else { return Target::default() };
+        let (q, change) = (self.elongation.value(), self.elongation.change);
+        match stage {
+            Stage::Start => Target { force: law.force(q), stiffness: 0.0 },
+            Stage::End => Target { force: law.force(q + change), stiffness: law.slope(q + change) },
+            Stage::Midpoint => {
+                let mean = law.mean(q, change);
+                Target { force: mean.force, stiffness: mean.slope }
+            }
+            Stage::DampedMidpoint(chi) => {
+                let mean = law.mean(q, change);
+                // A law that falls would gain what one that rises loses; one component alone would turn what it damps.
+                let late = match law {
+                    _ if self.elongation.is_component() => 0.0,
+                    RestoringLaw::Linear { stiffness, .. } => 0.5 * chi * stiffness.max(0.0),
+                    RestoringLaw::Table { .. } | RestoringLaw::Sampled { .. } => 0.0,
+                };
+                Target { force: mean.force + late * change, stiffness: mean.slope + late }
+            }
+        }
+    }
+
+    /// What the configuration asks of the damper, for the whole step.
+    ///
+    /// A method that takes forces at both ends balances those of one time of the step, `at.weight` of it after the start: the rate there
+    /// follows from those in the middles of this step and of the last one.
+    pub(super) fn damping(&self, at: Iterate<'_>) -> Target {
+        let late = match at.stage {
+            Stage::Start => return Target::default(),
+            Stage::Midpoint | Stage::DampedMidpoint(_) => None,
+            Stage::End if self.duration.is_infinite() => return Target::default(),
+            Stage::End => {
+                let before = self.last.0;
+                Some(2.0 * (at.weight - 0.5) * self.duration / (self.duration + before))
+            }
+        };
+        let last = self.last.1;
+        match (&self.damping, late) {
+            (DampingLaw::Linear(constant), _) => {
+                let by_change = constant / self.duration;
+                let force = by_change * self.elongation.change;
+                match late {
+                    None => Target { force, stiffness: by_change },
+                    Some(late) => Target {
+                        force: force + late * (force - constant * last),
+                        stiffness: (1.0 + late) * by_change,
+                    },
+                }
+            }
+            (law, late) => {
+                let (rate, late) = (self.elongation.change / self.duration, late.unwrap_or(0.0));
+                let rate = rate + late * (rate - last);
+                let stiffness = (1.0 + late) * law.slope(rate) / self.duration;
+                Target { force: law.force(rate), stiffness }
+            }
+        }
+    }
+}

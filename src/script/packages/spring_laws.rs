@@ -1,0 +1,162 @@
+//! Laws of springs and dampers as options describe them: numbers, tables and functions.
+
+use rhai::{Dynamic, FnPtr};
+
+use super::sliding::meant;
+use crate::geometry::Vec2;
+use crate::model::{DampingLaw, Origin, RestoringLaw, SpringKind};
+use crate::output::significant;
+use crate::script::rows::call::Call;
+use crate::script::rows::options::Options;
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::as_number;
+
+/// Which ways a spring may act, by name.
+pub(super) const ACTS: [(&str, Acts); 3] =
+    [("both", Acts::Both), ("pull", Acts::Pull), ("push", Acts::Push)];
+
+/// Which way a spring acts.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) enum Acts {
+    #[default]
+    Both,
+    Pull,
+    Push,
+}
+
+/// A law, and what its elongations are counted from.
+pub(super) type Law = (Option<RestoringLaw>, Origin);
+
+/// The law that options describe; none where there is a damper alone.
+pub(super) fn law(call: &Call, options: &Options, kind: &SpringKind) -> Result<Law, ScriptError> {
+    let (ease, acts) = match kind {
+        SpringKind::Torsion(_) => ("angle", Acts::Both),
+        SpringKind::Way(_) => ("length", meant(&ACTS, &options.text("acts")?)),
+    };
+    if options.has("law") {
+        return sampled(call, options, ease);
+    }
+    if options.has("table") {
+        let odd = match acts {
+            Acts::Both => ["stiffness", ease].into_iter().find(|key| options.has(key)),
+            Acts::Pull | Acts::Push => Some("acts"),
+        };
+        if let Some(odd) = odd {
+            let told = format!("a table says all about the force, and {odd} is given besides");
+            let hint = format!("leave out {odd}, or the table");
+            return Err(call.error(told).hint(hint).at(Place::Key(odd.into())));
+        }
+        let points = options.points("table")?.iter().map(|at: &Vec2| (at.x, at.y)).collect();
+        return Ok((Some(RestoringLaw::Table { points }), Origin::Zero));
+    }
+    let Some(stiffness) = options.number_if_given("stiffness") else {
+        if damping(call, options)?.acts() && !options.has(ease) {
+            return Ok((None, Origin::Zero));
+        }
+        let hint = format!("give stiffness: a number, or table: [[{ease}, …], …]");
+        return Err(call.error("how strongly it resists is missing").hint(hint));
+    };
+    let (natural, origin) = match options.number_if_given(ease) {
+        Some(natural) => (natural, Origin::Zero),
+        None => (0.0, Origin::AsBuilt),
+    };
+    let side = |before: f64, after: f64| RestoringLaw::Table {
+        points: vec![(natural - 1.0, before), (natural, 0.0), (natural + 1.0, after)],
+    };
+    let law = match acts {
+        Acts::Both => RestoringLaw::Linear { stiffness, natural },
+        Acts::Pull => side(0.0, stiffness),
+        Acts::Push => side(-stiffness, 0.0),
+    };
+    Ok((Some(law), origin))
+}
+
+/// The damping that options describe.
+pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, ScriptError> {
+    let Some(function) = options.get_if::<FnPtr>("damping") else {
+        if options.has("rates") {
+            let told = "rates are those for which a function is asked, and damping is none";
+            return Err(call.error(told).hint("leave out rates").at(Place::Key("rates".into())));
+        }
+        return Ok(match options.get_if::<Vec<Vec2>>("damping") {
+            Some(points) => {
+                let points = points.iter().map(|at| (at.x, at.y)).collect();
+                DampingLaw::Curve(RestoringLaw::Table { points })
+            }
+            None => DampingLaw::Linear(options.number("damping")?),
+        });
+    };
+    call.expect_arguments(&function, 1, "damping: |rate| 3 * rate * abs(rate)")?;
+    if !options.has("rates") {
+        let told = "for which rates the damping is asked is missing";
+        let hint = "give rates: [-10, 10], from the fastest approach to the fastest parting";
+        return Err(call.error(told).hint(hint).at(Place::Key("damping".into())));
+    }
+    let rates = options.point("rates")?;
+    if !(rates.x < 0.0 && rates.y > 0.0) {
+        let told = format!("the rates [{}, {}] do not have rest between them", rates.x, rates.y);
+        let hint = "give a negative and a positive one: [-10, 10]";
+        return Err(call.error(told).hint(hint).at(Place::Key("rates".into())));
+    }
+    let force = |rate: f64| {
+        let value = call.invoke(&function, [Dynamic::from(rate)])?;
+        as_number(&value).filter(|force| force.is_finite()).ok_or_else(|| {
+            let told = format!("the damping gives no finite number at the rate {rate}");
+            call.error(told).at(Place::Key("damping".into()))
+        })
+    };
+    let law = DampingLaw::sampled((rates.x, rates.y), force)?;
+    if let DampingLaw::Curve(curve) = &law
+        && let Some((error, largest)) = curve.missed()
+    {
+        let [error, largest] = [error, largest].map(|force| significant(force, 3));
+        let told = format!(
+            "the damping jumps or swings too fast: the finest polygon is off by {error}, its largest force being {largest}"
+        );
+        let hint = "make a jump a short ramp, as tanh(rate / 0.01) of dry friction";
+        return Err(call.error(told).hint(hint).at(Place::Key("damping".into())));
+    }
+    Ok(law)
+}
+
+/// The law of a function, which is asked over a range of elongations now and never again.
+fn sampled(call: &Call, options: &Options, ease: &str) -> Result<Law, ScriptError> {
+    let function = options.callback("law")?;
+    call.expect_arguments(&function, 1, "law: |e| 100 * e, e being the elongation")?;
+    let odd = options.given().find(|key| ["stiffness", "table"].contains(key));
+    if let Some(odd) = odd {
+        let told = format!("a law says all about the force, and {odd} is given besides");
+        let hint = format!("leave out {odd}, or the law");
+        return Err(call.error(told).hint(hint).at(Place::Key(odd.into())));
+    }
+    if !options.has("range") {
+        let told = "for which elongations the law is asked is missing";
+        let hint = "give range: [-0.1, 0.1], from the shortest to the longest";
+        return Err(call.error(told).hint(hint).at(Place::Key("law".into())));
+    }
+    let range = options.point("range")?;
+    if range.x >= range.y {
+        let told = format!("the range [{}, {}] does not rise", range.x, range.y);
+        let hint = "give the smaller elongation first";
+        return Err(call.error(told).hint(hint).at(Place::Key("range".into())));
+    }
+    let force = |elongation: f64| {
+        let value = call.invoke(&function, [Dynamic::from(elongation)])?;
+        as_number(&value).filter(|force| force.is_finite()).ok_or_else(|| {
+            let told = format!("the law gives no finite number at the elongation {elongation}");
+            call.error(told).at(Place::Key("law".into()))
+        })
+    };
+    let law = RestoringLaw::sampled((range.x, range.y), force)?;
+    if let Some((error, largest)) = law.missed() {
+        let [error, largest] = [error, largest].map(|force| significant(force, 3));
+        let told = format!(
+            "the law jumps or swings too fast: the finest polygon is off by {error}, its largest force being {largest}"
+        );
+        return Err(call.error(told).hint("make a jump a short ramp").at(Place::Key("law".into())));
+    }
+    Ok(match options.number_if_given(ease) {
+        Some(natural) => (Some(law.shifted(natural)), Origin::Zero),
+        None => (Some(law), Origin::AsBuilt),
+    })
+}

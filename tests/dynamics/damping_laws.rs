@@ -1,0 +1,107 @@
+//! Dampers whose force is a law of the rate: a closed form with every integrator, and a ledger that closes.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::scenes::absorber;
+use crate::common::{at, orders, sci, simulate};
+use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
+use withy::model::{
+    Anchor, DampingLaw, ModelError, Origin, ParticleDefinition, Scene, Spring, SpringKind,
+    StationVelocity,
+};
+use withy::simulation::{Invariant, Simulation};
+
+const MASS: f64 = 2.0;
+const DRAG: f64 = 0.8;
+const SPEED: f64 = 3.0;
+
+fn damped(law: DampingLaw, speed: f64) -> Scene {
+    let mut scene = Scene::new("bead");
+    let bead = ParticleDefinition { name: "bead".to_owned(), position: at(6.0, 1.0) };
+    let station = scene.add_particle(bead, MASS).unwrap();
+    scene.velocities.push(StationVelocity { station, velocity: at(speed, 0.0), spin: None });
+    let kind = SpringKind::Way(vec![Anchor::Ground(at(1.0, 1.0)), Anchor::Station(station)]);
+    let (name, origin) = ("oil".to_owned(), Origin::Zero);
+    scene.add_spring(Spring { name, kind, law: None, origin, damping: law }).unwrap();
+    scene
+}
+
+/// `c |q̇| q̇` as a polygon of so many corners: off by `c h²/4` between them.
+fn fluid() -> DampingLaw {
+    let corners = (-4000..=4000).map(|at| f64::from(at) * 1e-3);
+    absorber(&corners.map(|rate| (rate, DRAG * rate.abs() * rate)).collect::<Vec<_>>())
+}
+
+fn place(simulation: &Simulation) -> f64 {
+    simulation.model().control_points().next().unwrap()[0].x - 6.0
+}
+
+#[test]
+fn a_bead_in_a_fluid_is_met_with_the_order_of_the_method() {
+    let (end, rate) = (2.0, DRAG / MASS);
+    let expected = (1.0 + rate * SPEED * end).ln() / rate;
+    for entry in INTEGRATORS {
+        let error = |dt: f64| {
+            (place(&simulate(damped(fluid(), SPEED), entry.method, dt, end)) - expected).abs()
+        };
+        let steps = if entry.claims.order == 4 { [0.8, 0.4, 0.2] } else { [0.1, 0.05, 0.025] };
+        let errors = steps.map(error);
+        let found = orders(&errors);
+        println!("{:18} {} {found:.2?}", entry.name, sci(&errors));
+        let near = if entry.claims.order == 4 { 0.5 } else { 0.25 };
+        let last = *found.last().unwrap();
+        assert!(
+            last > f64::from(entry.claims.order) - near,
+            "{}: {} {found:.2?}",
+            entry.name,
+            sci(&errors)
+        );
+    }
+}
+
+#[test]
+fn what_a_law_takes_is_in_the_ledger_and_never_grows_less() {
+    let one_sided = absorber(&[(-1.0, 0.0), (0.0, 0.0), (0.5, 2.0), (1.0, 2.0)]);
+    let corner = absorber(&[(-3.0, -3.0), (-1e-3, -3.0), (1e-3, 3.0), (3.0, 3.0)]);
+    for (law, speed) in
+        [(fluid(), -SPEED), (one_sided.clone(), SPEED), (one_sided, -1.0), (corner, SPEED)]
+    {
+        for dt in [0.03, 0.3] {
+            let simulation = simulate(damped(law.clone(), speed), Method::EnergyMomentum, dt, 1.5);
+            let history = simulation.history();
+            for (name, invariant) in Invariant::ALL {
+                let drift = history.drift(invariant);
+                assert!(drift < 1e-13, "{name}, {dt}: {drift:.1e}");
+            }
+            let taken: Vec<f64> =
+                history.samples().iter().map(|row| row.measures.dissipated).collect();
+            assert!(taken.windows(2).all(|pair| pair[1] >= pair[0]), "{taken:?}");
+            let all = speed * speed * MASS * 0.5;
+            let is_free = speed == -1.0;
+            assert!((*taken.last().unwrap() > 0.2 * all) != is_free, "{taken:?}");
+        }
+    }
+}
+
+/// Dry friction as a steep line stops a bead when its energy is spent, whatever the step.
+#[test]
+fn a_saturated_damper_brakes_with_its_force() {
+    let law = absorber(&[(-1.0, -3.0), (-1e-6, -3.0), (1e-6, 3.0), (1.0, 3.0)]);
+    for entry in INTEGRATORS.iter().filter(|entry| entry.claims.energy == EnergyClaim::Kept) {
+        let dt = if entry.claims.order == 4 { 0.01 } else { 0.1 };
+        let simulation = simulate(damped(law.clone(), SPEED), entry.method, dt, 1.0);
+        let expected = SPEED - 0.5 * 3.0 / MASS;
+        assert!((place(&simulation) - expected).abs() < 1e-12, "{}", entry.name);
+    }
+}
+
+#[test]
+fn a_law_that_feeds_is_refused() {
+    let mut scene = damped(DampingLaw::Linear(1.0), 0.0);
+    let mut spring = scene.springs().next().unwrap().clone();
+    spring.name = "other".to_owned();
+    spring.damping = absorber(&[(-1.0, 1.0), (0.0, 0.0), (1.0, 1.0)]);
+    let refused = scene.add_spring(spring.clone());
+    assert!(matches!(refused, Err(ModelError::FeedingDamper { rate: -1.0, .. })), "{refused:?}");
+    spring.damping = DampingLaw::Linear(-1.0);
+    assert!(matches!(scene.add_spring(spring), Err(ModelError::Value { .. })));
+}

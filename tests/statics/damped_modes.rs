@@ -1,0 +1,143 @@
+//! Damped vibration against closed forms: what couples modes, what is overdamped, a bar with a dashpot, Kelvin–Voigt beams.
+#![allow(clippy::unwrap_used)]
+
+use std::f64::consts::PI;
+
+use crate::common::{at, scenes};
+use withy::beams::{Mesh, Relaxation, Section, Station};
+use withy::joints::{Components, JointKind, Partner};
+use withy::model::{
+    Anchor, Model, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind,
+};
+use withy::vibration::{DampedMode, Modes, VibrationError};
+
+fn damped(scene: &Scene, count: usize) -> Result<Vec<DampedMode>, VibrationError> {
+    DampedMode::of(&Model::assemble(scene).unwrap(), count, &mut || true)
+}
+
+fn connect(scene: &mut Scene, anchors: [Anchor; 2], stiffness: f64, damping: f64) {
+    let law = (stiffness > 0.0).then_some(RestoringLaw::Linear { stiffness, natural: 0.0 });
+    let (name, kind) = (scene.free_name("spring"), SpringKind::Way(anchors.to_vec()));
+    let spring = Spring { name, kind, law, origin: Origin::AsBuilt, damping: damping.into() };
+    scene.add_spring(spring).unwrap();
+}
+
+/// Particles in a row on the x axis, with a spring and a damper from the ground to the first and from each to the next: mass, stiffness, damping.
+fn row(members: &[(f64, f64, f64)]) -> Scene {
+    let mut scene = Scene::new("row");
+    let mut before = Anchor::Ground(at(0.0, 0.0));
+    for (number, (mass, stiffness, damping)) in (1..).zip(members) {
+        let (name, position) = (format!("bead{number}"), at(f64::from(number), 0.0));
+        let bead = scene.add_particle(ParticleDefinition { name, position }, *mass).unwrap();
+        scene.join(JointKind::Support(Components::Y), bead, Partner::Ground).unwrap();
+        connect(&mut scene, [before, Anchor::Station(bead)], *stiffness, *damping);
+        before = Anchor::Station(bead);
+    }
+    scene
+}
+
+fn close(found: f64, expected: f64, tolerance: f64) {
+    assert!((found - expected).abs() <= tolerance * expected.abs(), "{found} {expected}");
+}
+
+/// The roots of `(2 λ² + 1.5 λ + 50)(λ² + 20) - 400`, by the iteration of Durand and Kerner in Python.
+#[test]
+fn a_damper_at_one_of_two_masses_couples_their_modes() {
+    let found = damped(&row(&[(2.0, 30.0, 1.5), (1.0, 20.0, 0.0)]), 2).unwrap();
+    let expected = [
+        (0.155_512_966_503_554_5, 2.855_404_214_972_814_3),
+        (0.219_487_033_496_445_5, 6.052_914_637_572_489),
+    ];
+    for (found, (decay, frequency)) in found.iter().zip(expected) {
+        close(found.decay_rate, decay, 1e-12);
+        close(found.angular_frequency, frequency, 1e-12);
+    }
+    // To first order in the damping the modes would say otherwise.
+    let scene = row(&[(2.0, 30.0, 1.5), (1.0, 20.0, 0.0)]);
+    let modes = Modes::of(&Model::assemble(&scene).unwrap(), 2, &mut || true).unwrap();
+    let apart = (modes.decay_rates()[0] - expected[0].0).abs() / expected[0].0;
+    assert!((1e-4..0.1).contains(&apart), "{apart}");
+}
+
+#[test]
+fn an_overdamped_mass_has_two_rates_and_swings_with_none() {
+    let found = damped(&row(&[(2.0, 18.0, 20.0)]), 2).unwrap();
+    for (found, expected) in found.iter().zip([1.0, 9.0]) {
+        close(found.decay_rate, expected, 1e-12);
+        assert_eq!((found.angular_frequency, found.damping_ratio()), (0.0, 1.0));
+    }
+    // At critical damping both are one.
+    let critical = damped(&row(&[(2.0, 18.0, 12.0)]), 1).unwrap();
+    close(critical[0].decay_rate, 3.0, 1e-7);
+    assert!(damped(&row(&[(2.0, 18.0, 20.0)]), 3).is_err());
+}
+
+/// A bar that only stretches, clamped, with a dashpot at its end: `tanh(λ L/a) = -Z/c`, `Z = EA/a`.
+#[test]
+fn a_bar_with_a_dashpot_at_its_end_has_the_rates_of_its_transcendental_equation() {
+    for (damping, is_soft) in [(3.0, true), (30.0, false)] {
+        let mut scene = Scene::new("bar");
+        let section = Section {
+            axial_stiffness: 100.0,
+            shear_stiffness: 1e7,
+            bending_stiffness: 1e6,
+            mass_per_length: 1.0,
+            rotary_inertia: 1e-2,
+        };
+        let mesh = Mesh::bspline(64, 3, 2).unwrap();
+        let axis = scenes::line(at(0.0, 0.0), at(1.0, 0.0));
+        let beam = scenes::add_beam(&mut scene, axis, &mesh, section);
+        let (start, end) = (Station::on_beam(beam, 0.0), Station::on_beam(beam, 1.0));
+        scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
+        connect(&mut scene, [Anchor::Ground(at(2.0, 0.0)), Anchor::Station(end)], 0.0, damping);
+        let (speed, impedance) = (10.0, 10.0);
+        let found = damped(&scene, 3).unwrap();
+        let share = if is_soft { damping / impedance } else { impedance / damping };
+        let first = if is_soft { 0.5 } else { 0.0 };
+        for (number, found) in found.iter().enumerate() {
+            close(found.decay_rate, speed * share.atanh(), 1e-5);
+            let frequency = (number as f64 + first) * PI * speed;
+            assert!((found.angular_frequency - frequency).abs() < 1e-3, "{found:?} {frequency}");
+        }
+    }
+}
+
+#[test]
+fn beams_of_a_damped_material_have_the_rates_of_each_mode_by_itself() {
+    for tau in [1e-3, 0.3] {
+        let mesh = Mesh::bspline(6, 3, 2).unwrap();
+        let mut scene = scenes::cantilever(&mesh, scenes::rod());
+        scene.add_damping(0, Relaxation { axial: tau, shear: tau, bending: tau }).unwrap();
+        let modes = Modes::of(&Model::assemble(&scene).unwrap(), 8, &mut || true).unwrap();
+        let found = damped(&scene, 6).unwrap();
+        let mut swinging = 0;
+        for mode in modes.all() {
+            let ratio = 0.5 * tau * mode.angular_frequency();
+            if ratio >= 1.0 {
+                continue;
+            }
+            let nearest = found.iter().find(|at| {
+                let size = at.decay_rate.hypot(at.angular_frequency);
+                (size / mode.angular_frequency() - 1.0).abs() < 1e-9
+            });
+            let Some(nearest) = nearest else { continue };
+            close(nearest.damping_ratio(), ratio, 1e-8);
+            swinging += 1;
+        }
+        assert!(swinging >= if tau < 0.1 { 5 } else { 1 }, "{tau}: {swinging} {found:?}");
+        assert!(tau < 0.1 || found.iter().any(|at| at.angular_frequency == 0.0), "{found:?}");
+    }
+}
+
+#[test]
+fn what_is_not_damped_is_what_it_is_without() {
+    let mesh = Mesh::bspline(5, 3, 2).unwrap();
+    let scene = scenes::cantilever(&mesh, scenes::rod());
+    let modes = Modes::of(&Model::assemble(&scene).unwrap(), 4, &mut || true).unwrap();
+    for (found, mode) in damped(&scene, 4).unwrap().iter().zip(modes.all()) {
+        assert!(found.decay_rate.abs() < 1e-9 * found.angular_frequency, "{found:?}");
+        close(found.angular_frequency, mode.angular_frequency(), 1e-12);
+    }
+    let large = scenes::cantilever(&Mesh::bspline(100, 3, 2).unwrap(), scenes::rod());
+    assert!(matches!(damped(&large, 1), Err(VibrationError::LargeDamped { .. })));
+}
