@@ -145,7 +145,12 @@ impl Frame {
             right: plot.right + 0.01,
             bottom: plot.bottom + 0.01,
         };
-        curve::pieces(points.iter().map(|&point| self.place(plot, point)), &window)
+        // Axes show what is beyond them at their ends; what is not finite is nowhere.
+        let place = |&(x, y): &Point| {
+            let is_somewhere = x.is_finite() && y.is_finite();
+            if is_somewhere { self.place(plot, (x, y)) } else { (f64::NAN, f64::NAN) }
+        };
+        curve::pieces(points.iter().map(place), &window)
     }
 
     /// The places of the marks of a curve: of its own points, not of those where the sides of the plot cut it.

@@ -8,14 +8,14 @@ use std::fmt::Write;
 use super::base64::base64;
 use super::{OutputError, Point};
 
-/// VTK's number of a cell of one point, and of one of several in a row.
+/// VTK's number of a cell of one point, and of one between two. A body is as many of these as it has pieces: not all readers know polylines.
 const VERTEX: u8 = 1;
-const POLY_LINE: u8 = 4;
+const LINE: u8 = 3;
 
 /// The bodies of one frame, and fields on their points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VtkGrid {
-    /// The bodies; the cell field `body` has their numbers, from 0.
+    /// The bodies; the cell field `body` has their numbers, from 0, for each of their pieces.
     pub cells: Vec<VtkCell>,
     /// Fields over the points of all cells, one after another.
     pub fields: Vec<VtkField>,
@@ -48,6 +48,12 @@ pub enum VtkValues {
     Vectors(Vec<Point>),
 }
 
+/// A piece of a body: the number of the body, and the numbers of the points of the piece.
+struct Piece {
+    body: usize,
+    points: std::ops::Range<usize>,
+}
+
 impl VtkField {
     fn length(&self) -> usize {
         match &self.values {
@@ -72,7 +78,8 @@ impl VtkGrid {
                 expected: points.len(),
             });
         }
-        let (count, cells) = (points.len(), self.cells.len());
+        let (count, pieces) = (points.len(), self.pieces());
+        let cells = pieces.len();
         let mut text = heading(&self.names(), "UnstructuredGrid", " header_type=\"UInt64\"");
         text += &format!(
             "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{cells}\">\n"
@@ -85,20 +92,33 @@ impl VtkGrid {
             }
         }
         text += "</PointData>\n<CellData>\n";
-        push_whole(&mut text, "body", 0..cells);
+        push_whole(&mut text, "body", pieces.iter().map(|piece| piece.body));
         text += "</CellData>\n<Points>\n";
         push_vectors(&mut text, "Points", &points);
         text += "</Points>\n<Cells>\n";
-        let ends = self.cells.iter().scan(0, |end, cell| {
-            *end += cell.points.len();
+        let ends = pieces.iter().scan(0, |end, piece| {
+            *end += piece.points.len();
             Some(*end)
         });
-        push_whole(&mut text, "connectivity", 0..count);
+        push_whole(&mut text, "connectivity", pieces.iter().flat_map(|piece| piece.points.clone()));
         push_whole(&mut text, "offsets", ends);
-        let kind = |cell: &VtkCell| if cell.points.len() == 1 { VERTEX } else { POLY_LINE };
-        push(&mut text, "UInt8", "types", 1, self.cells.iter().map(|cell| [kind(cell)]));
+        let kind = |piece: &Piece| if piece.points.len() == 1 { VERTEX } else { LINE };
+        push(&mut text, "UInt8", "types", 1, pieces.iter().map(|piece| [kind(piece)]));
         text += "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
         Ok(text)
+    }
+
+    /// What bodies are made of, in their order: from each point to the next one, or the only point.
+    fn pieces(&self) -> Vec<Piece> {
+        let mut first = 0;
+        let of_body = |(body, cell): (usize, &VtkCell)| {
+            let (start, end) = (first, first + cell.points.len());
+            first = end;
+            let last = if end - start > 1 { end - 1 } else { end };
+            let width = if end - start > 1 { 2 } else { 1 };
+            (start..last).map(move |at| Piece { body, points: at..at + width })
+        };
+        self.cells.iter().enumerate().flat_map(of_body).collect()
     }
 
     /// Which body has which number, in words.
@@ -193,7 +213,7 @@ mod tests {
         };
         let offsets: Vec<u8> = [16_u64, 2, 3].into_iter().flat_map(u64::to_le_bytes).collect();
         assert_eq!(line("offsets"), base64(&offsets));
-        let types = [2_u64.to_le_bytes().as_slice(), &[POLY_LINE, VERTEX]].concat();
+        let types = [2_u64.to_le_bytes().as_slice(), &[LINE, VERTEX]].concat();
         assert_eq!(line("types"), base64(&types));
         assert!(line("Points").starts_with(&base64(&72_u64.to_le_bytes())[..10]));
         assert!(text.contains("<!-- body: 0 rod, 1 a\u{2010}\u{2010}b -->"));

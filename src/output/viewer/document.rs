@@ -26,7 +26,7 @@ const PROGRAMS: [&str; 9] = [
 ];
 
 /// Steps between the least and the greatest value of a field: more shades than a screen has.
-const SHADES: u16 = 1023;
+const SHADES: u16 = 255;
 /// The same for the loads of a film.
 const LOAD_STEPS: u16 = 4095;
 /// Weights are rounded to so many parts of one: far below a step of the points that they are of.

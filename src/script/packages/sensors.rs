@@ -24,6 +24,7 @@ use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Table, method};
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::suggest::nearest;
+use crate::simulation::History;
 
 /// Sensors.
 pub const TABLE: Table = Table {
@@ -65,7 +66,9 @@ pub const TABLE: Table = Table {
             "The map holds N (positive in tension), Q (positive to the left of the axis) and M (positive counter-clockwise) [force, force, force·length], which the part of the beam that follows puts on \
              the part before, in the frame of the section; and axial_strain, shear_strain and curvature. Forces follow from strains by the law of the material; where that is damped (Kelvin–Voigt), what the present rates of strain add is in N, Q and M. Along a beam there is one for each knot and three between, with \
              its arc length s; where a joint cuts the beam there are two of one s. They balance loads and inertia up to the ends of a beam, with errors that fall with the length of a \
-             span to the power of the degree (N, Q), and to that of two or more (M). Of linear elements each has one value.",
+             span to the power of the degree (N, Q), and to that of two or more (M). Of linear elements each has one value. \
+             A force, moment, mass, spring or slider *inside* a beam jumps where smooth functions cannot: over two spans beside it M errs by a part of what a span is long, and Q rings by up to a fifth of the jump on any mesh. \
+             A joint cuts a beam: where such values count, make it of two beams with scene.rigid(…) there.",
         )
         .example(
             "let sim = scene.start(#{ dt: 0.01 });\nsim.step();\nlet along = sim.section_forces(rod);\ncheck(along[0].s == 0 && along.len() == 17);\n\
@@ -235,6 +238,10 @@ const S: Parameter = number("s")
 
 fn record(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (scene, column) = (call.receiver::<SceneHandle>()?, call.text("column")?);
+    if History::COLUMNS.iter().any(|own| own.name == column.as_str()) {
+        let taken = ModelError::DuplicateSensor { name: column.to_string() };
+        return Err(ScriptError::from(taken).at(Place::Argument(0)));
+    }
     if let Some(function) = call.get_if::<FnPtr>("function") {
         call.expect_arguments(&function, 1, "|q| …, a function of the simulation")?;
         let function = call.store(function, &format!("the function of the column '{column}'"));

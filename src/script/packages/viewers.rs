@@ -75,7 +75,7 @@ const MISSING: Missing = Missing {
 };
 
 /// What beams can be coloured by unless it is said.
-const USUAL_FIELDS: [&str; 5] = ["speed", "M", "strain_energy", "stretch", "curvature"];
+const USUAL_FIELDS: [&str; 4] = ["speed", "M", "stretch", "curvature"];
 
 /// What is drawn below the motion unless columns are named.
 const LEDGER: [&str; 5] = ["kinetic", "strain", "potential", "energy", "work"];

@@ -207,6 +207,9 @@ impl Scene {
     }
 
     fn check_column(&self, name: &str) -> Result<(), ModelError> {
+        if name.trim().is_empty() || name.contains([',', '"', '\n', '\r']) {
+            return Err(ModelError::SensorName { name: name.to_owned() });
+        }
         match self.sensors.iter().any(|sensor| sensor.name == name) {
             true => Err(ModelError::DuplicateSensor { name: name.to_owned() }),
             false => Ok(()),
