@@ -219,7 +219,6 @@ fn typeset(x: f64, decimals: usize) -> String {
     format!("{x:.decimals$}").replace('-', "−")
 }
 
-/// The text of a power of ten, such as `10⁻¹²`.
 /// A number in a picture, with some significant digits: `−0.25`, `4.09 × 10⁻⁵`.
 pub(super) fn typeset_number(x: f64, digits: usize) -> String {
     let text = significant(x, digits);
@@ -233,6 +232,7 @@ pub(super) fn typeset_number(x: f64, digits: usize) -> String {
     }
 }
 
+/// The text of a power of ten, such as `10⁻¹²`.
 pub(super) fn power_of_ten(power: f64) -> String {
     let digits = format_number(power);
     let raised = digits.chars().map(|c| match c.to_digit(10) {

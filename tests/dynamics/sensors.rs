@@ -276,11 +276,14 @@ fn a_quantity_that_there_is_not_is_refused_with_what_there_is() {
         ("beam1[99].x", &format!("s from 0 to {length}")[..]),
         ("hinge1.x", "one of force, fx, fy, moment"),
         ("hinge2.fx", "begin with the name of a beam"),
-        ("", "begin with the name of a beam"),
     ] {
         let error = scene.record(name).unwrap_err();
         assert!(matches!(error, ModelError::NoSensor { .. }), "{error}");
         assert!(error.to_string().contains(told), "{error}");
+    }
+    for name in ["", " ", "a,b", "two\nlines"] {
+        assert!(matches!(scene.record(name), Err(ModelError::SensorName { .. })), "{name}");
+        assert!(matches!(scene.record_outside(name), Err(ModelError::SensorName { .. })));
     }
     scene.record("beam1.end.x").unwrap();
     assert!(matches!(scene.record("beam1.end.x"), Err(ModelError::DuplicateSensor { .. })));

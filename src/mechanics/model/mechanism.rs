@@ -18,7 +18,7 @@ mod state;
 mod steps;
 mod stiffness;
 
-pub use blows::Arriving;
+pub use blows::{Arriving, RESOLVED_BLOW};
 pub use energies::BodyEnergy;
 pub use given::Given;
 pub use instant::Instant;

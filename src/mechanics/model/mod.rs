@@ -21,7 +21,7 @@ pub use looking::{
 };
 pub use mechanism::{
     Arriving, BodyEnergy, Energy, Given, Instant, Measures, Model, ModelState, OrderAtRest,
-    StaticForces, add_resistance,
+    RESOLVED_BLOW, StaticForces, add_resistance,
 };
 pub use motion::{Resolution, UnknownKind};
 pub use scene::{

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
-use crate::model::{Bend, ShortBounce};
+use crate::model::{Bend, RESOLVED_BLOW, ShortBounce};
 
 /// The largest rotation of a section in a step that is not noted: ten steps a turn [rad].
 pub(super) const LARGEST_ROTATION: f64 = 0.1 * TAU;
@@ -244,7 +244,7 @@ impl fmt::Display for Note {
                 short(*dt),
                 short(*blows),
                 short(dt / blows),
-                short(0.125 * dt / blows)
+                short(RESOLVED_BLOW * dt / blows)
             ),
         }
     }

@@ -7,7 +7,8 @@ use crate::elementary::square;
 use crate::geometry::Vec2;
 use crate::integrators::{Constraints, Mechanism};
 use crate::joints::StartVelocities;
-use crate::model::{Element, Model, ModelError, Scene, SectionSample};
+use crate::loads::PrescribedMotion;
+use crate::model::{Drive, Element, Model, ModelError, Scene, SectionSample};
 use crate::vibration::{Modes, VibrationError, loose_movements};
 
 /// What becomes of a small disturbance of an equilibrium.
@@ -189,9 +190,23 @@ fn at_rest(scene: &Scene) -> Result<Model, ModelError> {
     Model::assemble(&still)
 }
 
+/// Speeds and controllers make something of time only.
+fn check_needs_no_time(scene: &Scene) -> Result<(), StaticsError> {
+    let is_rate = |drive: &&Drive| {
+        drive.motions().any(|(_, motion)| matches!(motion, PrescribedMotion::Rate(_)))
+    };
+    let drive = scene.drives.iter().find(is_rate).map(|drive| (&drive.name, "a speed"));
+    let load = scene.loads().find(|load| load.schedule.is_sampled());
+    match drive.or(load.map(|load| (&load.name, "a controller"))) {
+        Some((name, how)) => Err(StaticsError::InTime { name: name.clone(), how }),
+        None => Ok(()),
+    }
+}
+
 /// The model at its start, its loads as they will be held.
 fn prepare(scene: &Scene, loading: &Loading) -> Result<Model, StaticsError> {
     loading.check()?;
+    check_needs_no_time(scene)?;
     let mut model = at_rest(scene)?;
     model
         .hold_loads_at(loading.time)

@@ -24,6 +24,14 @@ pub enum StaticsError {
         /// The time at which loads were taken from their schedules [time].
         time: f64,
     },
+    /// Something that only time makes what it is.
+    #[error("'{name}' is given by {how}, which says nothing at rest, where no time passes")]
+    InTime {
+        /// The name of the drive or the load.
+        name: String,
+        /// What gives it, in words.
+        how: &'static str,
+    },
     /// A given motion where the load factor is found by the way along a path.
     #[error(
         "{drive}: a motion that is given is put on by load steps alone, not along a path of given length"

@@ -118,6 +118,14 @@ fn hold(call: &Call, handle: &SceneHandle) -> Result<Hold, ScriptError> {
     if let Some((_, hold)) = holds.iter().find(|(known, _)| *known == name.as_str()) {
         return Ok(*hold);
     }
+    let is_load = handle.scene().borrow().loads().any(|load| load.name == name.as_str());
+    if is_load {
+        let told = format!("'{name}' is a load, which holds nothing that could let go");
+        return Err(call
+            .error(told)
+            .hint("a force or torque ends by its schedule: hold_for(0.5)")
+            .at(Place::Argument(0)));
+    }
     let hint = match nearest(&name, holds.iter().map(|(known, _)| known.as_str())) {
         Some(meant) => format!("did you mean \"{meant}\"?"),
         None if holds.is_empty() => "the scene has nothing that could let go".to_owned(),

@@ -76,6 +76,12 @@ fn on_statics(error: &StaticsError) -> Option<String> {
         StaticsError::NoLoad { .. } => {
             "loads are taken as they are at one time: choose it with the option time".into()
         }
+        StaticsError::InTime { how: "a speed", .. } => {
+            "give the place at rest: x, y or angle, as a number or a function of time that is taken at the option time".into()
+        }
+        StaticsError::InTime { .. } => {
+            "give the force or the torque that it has at rest, as a number, in the scene of which you ask the equilibrium".into()
+        }
         StaticsError::Driven { .. } => "leave out control: arc_length()".into(),
         StaticsError::Loose { reason, .. } | StaticsError::Lost { reason, .. }
             if matches!(**reason, Miss::Leaves { .. }) =>

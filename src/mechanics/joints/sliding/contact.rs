@@ -161,16 +161,16 @@ impl Contact<'_> {
         self.passage.first()
     }
 
-    /// What the couple of the contact is multiplied by in the forces on the master: the way `Δξ`, with which it grows; or one with a kink, as the offset of the
-    /// slave is an arm of forces along the master on a way of any length.
-    fn couple_share(&self) -> (f64, bool) {
-        if self.kink.is_some() { (1.0, false) } else { (self.unknowns.way, true) }
+    /// The factor of the couple in the forces on the master: the way `Δξ`, with which it grows; or one with a kink, as the offset of the slave is an arm of
+    /// forces along the master on a way of any length.
+    fn couple_share(&self) -> f64 {
+        self.kink.map_or(self.unknowns.way, |_| 1.0)
     }
 
     /// The contact forces on the control points of the master in the window of the way [force], in order.
     pub fn master_forces(&self) -> impl Iterator<Item = Vec2> + '_ {
         let ContactUnknowns { force, couple, .. } = self.unknowns;
-        let (share, _) = self.couple_share();
+        let share = self.couple_share();
         let weights = self.passage.mean().iter().zip(self.passage.difference());
         weights.map(move |(mean, difference)| force * *mean - couple * (share * difference))
     }
@@ -178,14 +178,13 @@ impl Contact<'_> {
     /// The derivatives of the contact forces on the control points of the master, in order: by `λ` and by `η` a factor each, by `Δξ` a force.
     pub fn master_force_slopes(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let ContactUnknowns { force, couple, .. } = self.unknowns;
-        let (share, grows) = self.couple_share();
+        let share = self.couple_share();
         let weights = self.passage.mean().iter().zip(self.passage.difference());
         let slopes = self.passage.slope().iter().zip(self.passage.change());
         weights.zip(slopes).map(move |((mean, difference), (slope, change))| {
-            let by_way = if grows {
-                (force * 0.5 - couple) * *slope
-            } else {
-                force * (0.5 * slope) - couple * *change
+            let by_way = match self.kink {
+                None => (force * 0.5 - couple) * *slope,
+                Some(_) => force * (0.5 * slope) - couple * *change,
             };
             (*mean, -share * difference, by_way)
         })

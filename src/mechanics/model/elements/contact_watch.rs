@@ -6,7 +6,7 @@ const FEW: f64 = 3.0;
 /// A touch that changes the rate by less than this part of it is no bounce.
 const TURNED: f64 = 0.5;
 
-/// The shortest bounce on a spring so far.
+/// A bounce on a spring that steps did not resolve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShortBounce {
     /// The number of steps, or of parts of steps, in which the spring was not slack [-].
@@ -24,8 +24,8 @@ pub struct ContactWatch {
     entry: f64,
     /// The largest force since then [force, force·length].
     force: f64,
-    /// The steps of the shortest bounce, zero where there was none, and the largest force in it.
-    shortest: [f64; 2],
+    /// The hardest bounce that steps did not resolve; none so far.
+    unresolved: Option<ShortBounce>,
 }
 
 impl ContactWatch {
@@ -44,9 +44,9 @@ impl ContactWatch {
             return;
         }
         let is_bounce = self.entry != 0.0 && (rate - self.entry).abs() > TURNED * self.entry.abs();
-        let [steps, most] = self.shortest;
-        if is_bounce && self.steps <= FEW && (steps == 0.0 || self.force > most) {
-            self.shortest = [self.steps, self.force];
+        let is_hardest = self.unresolved.is_none_or(|bounce| self.force > bounce.force);
+        if is_bounce && self.steps <= FEW && is_hardest {
+            self.unresolved = Some(ShortBounce { steps: self.steps, force: self.force });
         }
         self.steps = 0.0;
         self.entry = 0.0;
@@ -54,17 +54,19 @@ impl ContactWatch {
 
     /// The bounce of the largest force among those that steps did not resolve.
     pub fn short_bounce(&self) -> Option<ShortBounce> {
-        let [steps, force] = self.shortest;
-        (steps > 0.0).then_some(ShortBounce { steps, force })
+        self.unresolved
     }
 
+    /// Appends the numbers of the watch.
     pub fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.steps, self.entry, self.force]);
-        state.extend(self.shortest);
+        state.extend(self.unresolved.map_or([0.0; 2], |bounce| [bounce.steps, bounce.force]));
     }
 
+    /// Takes the numbers of the watch back, in the order in which they were appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         (self.steps, self.entry, self.force) = (next(), next(), next());
-        self.shortest = [next(), next()];
+        let (steps, force) = (next(), next());
+        self.unresolved = (steps > 0.0).then_some(ShortBounce { steps, force });
     }
 }

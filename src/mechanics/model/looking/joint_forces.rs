@@ -23,7 +23,7 @@ struct Side {
 pub struct Transmission {
     /// For each component of movement, if the joint ties it.
     sides: [Option<Side>; 3],
-    /// Of an inclined roller: its index among all.
+    /// The index of the inclined roller that the joint is, if it is one.
     roller: Option<usize>,
 }
 

@@ -17,8 +17,8 @@ const TOGETHER: f64 = 1e-12;
 /// What vibrates faster than in so many steps is rigid for a blow.
 const RIGID: f64 = 4.0;
 
-/// Steps that are no longer than this part of a blow resolve it.
-const RESOLVED: f64 = 0.125;
+/// The largest part of a blow that a step may be to resolve it [-].
+pub const RESOLVED_BLOW: f64 = 0.125;
 
 /// What moves by less than this part of the change of relative velocity is held.
 const GIVES: f64 = 1e-9;
@@ -100,7 +100,7 @@ impl Model {
         let [slave, master] = [slave, master].map(|speed| (speed > least).then(|| 1.0 / speed));
         let lasts = self.sliders[limit.slider].blow_lasts(&self.bodies, Blow { slave, master });
         self.sliders[limit.slider].note_blow(dt / lasts);
-        Ok(lasts.is_finite() && dt <= RESOLVED * lasts)
+        Ok(lasts.is_finite() && dt <= RESOLVED_BLOW * lasts)
     }
 
     /// The direction in which the stop at a limit pushes the slave [-].
@@ -200,7 +200,7 @@ impl Model {
         let (none, one, two) = (given(0.0)?, given(1.0)?, given(2.0)?);
         let square = 0.5 * (two - 2.0 * one + none);
         let linear = one - none - square;
-        let root = square_root_of(square, linear, none - wanted);
+        let root = nonnegative_root(square, linear, none - wanted);
         if let Some(scale) = root {
             let impulses = encounter.impulses(&laws(scale))?;
             for (Hit { direction: (slider, _), .. }, work) in hits.iter().zip(&impulses.works) {
@@ -238,7 +238,7 @@ impl Model {
 }
 
 /// The positive root of `a x² + b x + c`, if there is one.
-fn square_root_of(a: f64, b: f64, c: f64) -> Option<f64> {
+fn nonnegative_root(a: f64, b: f64, c: f64) -> Option<f64> {
     let root = (square(b) - 4.0 * a * c).sqrt();
     // The two forms of the quotient, by which nothing is cancelled.
     let x = if b > 0.0 { -2.0 * c / (b + root) } else { (root - b) / (2.0 * a) };

@@ -115,6 +115,12 @@ impl Encounter {
     }
 }
 
+/// The velocities in all directions that unit impulses cause: `G M⁻¹ Gᵀ`, a row for each answer [1/mass].
+fn response(answers: &[Answer]) -> Vec<Vec<f64>> {
+    let row = |answer: &Answer| answers.iter().map(|other| answer.velocity(&other.rates)).collect();
+    answers.iter().map(row).collect()
+}
+
 impl Model {
     /// Takes away the velocities of sliders across all masters, by the impulses that change least (Gauss's principle of least constraint).
     ///
@@ -234,9 +240,7 @@ impl Model {
             self.links.set_velocity_violation(&self.bodies, rates, links, &mut change);
             inertia.solve(&mut change);
         }
-        let of =
-            |answer: &Answer| answers.iter().map(|other| answer.velocity(&other.rates)).collect();
-        let response = answers.iter().map(of).collect();
+        let response = response(&answers);
         let before = answers.iter().map(|answer| answer.velocity(rates)).collect();
         let directions = directions.to_vec();
         Ok(Encounter { directions, answers, response, before, change })
@@ -280,7 +284,6 @@ impl Model {
     pub(in crate::model) fn response_across(&self) -> Result<Vec<Vec<f64>>, LinearError> {
         let mut inertia = self.banded_inertia();
         let answers = self.answers(&inertia.factorise()?, &self.across());
-        let row = |rates: &[f64]| answers.iter().map(|other| other.velocity(rates)).collect();
-        Ok(answers.iter().map(|answer| row(&answer.rates)).collect())
+        Ok(response(&answers))
     }
 }

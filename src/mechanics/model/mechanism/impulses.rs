@@ -19,9 +19,9 @@ use crate::model::sliders::InStep;
 /// What a model has exchanged with its surroundings, and what joints and supports gave to each control point.
 #[derive(Default)]
 pub struct Exchanged {
-    /// Since the start.
+    /// What a model has exchanged since its start.
     pub total: Exchange,
-    /// Where somebody asks for the mean of a step.
+    /// The impulses of joints and supports; none where nobody asks for the mean of a step.
     pub impulses: Option<Box<Impulses>>,
 }
 
@@ -29,7 +29,7 @@ pub struct Exchanged {
 pub struct Impulses {
     /// Numbers for the movements of every control point that no other one has; the old ones while these are in use.
     numbers: Vec<Vec<[usize; 3]>>,
-    /// Behind them those of the forces of rigid links.
+    /// The numbers of the forces of rigid links, behind those of all movements; the old ones while these are in use.
     links: Vec<[usize; 2]>,
     /// None for each inclined roller, as it acts by itself; their unknowns while the numbers are in use.
     rollers: Vec<Option<usize>>,
@@ -37,9 +37,9 @@ pub struct Impulses {
     values: Vec<f64>,
     /// What is left of the balance; at the end there is room for the equations of contacts.
     left: Vec<f64>,
-    /// Since the end of the last step, by control points, and behind them of the multipliers of inclined rollers [force·time, force·length·time].
+    /// The impulses since the end of the last step, by control points, and behind them of the multipliers of inclined rollers [force·time, force·length·time].
     present: Vec<f64>,
-    /// In the last step.
+    /// The impulses of the last step, likewise.
     last: Vec<f64>,
     /// How long the last step was [time].
     duration: f64,

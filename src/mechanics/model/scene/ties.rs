@@ -139,13 +139,14 @@ fn check_rollers(
         let is_parallel = |(at, other): &([usize; 2], Vec2)| {
             *at == roots && cross(*other, along).abs() < PARALLEL
         };
-        let how = match () {
-            () if roots == [0; 2] => Some("held by the ground"),
-            () if others.iter().any(is_parallel) => Some("held across that direction"),
-            () if others.iter().filter(|(at, _)| *at == roots).count() > 1 => {
-                Some("held by two rollers")
-            }
-            () => None,
+        let how = if roots == [0; 2] {
+            Some("held by the ground")
+        } else if others.iter().any(is_parallel) {
+            Some("held across that direction")
+        } else if others.iter().filter(|(at, _)| *at == roots).count() > 1 {
+            Some("held by two rollers")
+        } else {
+            None
         };
         if let Some(how) = how {
             let (joint, place) = (joint.name.clone(), scene.describe(&joint.station));

@@ -33,7 +33,7 @@ pub struct Sliding {
     pub stored: f64,
     /// What was lost in blows against stops so far [energy].
     pub lost: f64,
-    /// When the slider left a stop last; infinite before it did [time].
+    /// When the slider left a stop last; [`NEVER`] before it did [time].
     pub left_at: f64,
     /// Whether the stop may pull in the step to come: the slider has left it just now, and every step leads back.
     pub clings: bool,
@@ -75,7 +75,7 @@ pub struct Sliding {
     pressing: f64,
 }
 
-/// When a slider left a stop that has not yet.
+/// The time at which a slider that has left no stop yet left one: later than any, and finite, as it is saved [time].
 const NEVER: f64 = f64::MAX;
 
 /// A stop that pulls by less than this part of its contact force does not pull.

@@ -36,9 +36,9 @@ pub(super) struct Landing {
 enum Event {
     /// A slider reaches a limit.
     Reaches(TrackLimit),
-    /// The step ends just before that, because longer ones lead by a jump beyond it.
-    Nothing,
-    /// Stops would have to pull.
+    /// A slider would pass a limit by a jump: the step ends just before it.
+    JustBefore,
+    /// Sliders leave stops that would have to pull.
     Leaves,
 }
 
@@ -129,7 +129,7 @@ impl Simulation {
                     self.model.aim_at(None);
                     let short = Interval::lasting(interval.start, bracket.before.0);
                     let report = self.integrator.step(&mut self.model, short)?;
-                    return Ok(Landing { step: Some((short, report)), event: Event::Nothing });
+                    return Ok(Landing { step: Some((short, report)), event: Event::JustBefore });
                 }
                 if tries.next().is_none() {
                     return Err(StepError::Overshoot { interval, overshoot: first, iterations: 0 });
@@ -213,7 +213,7 @@ impl Simulation {
     pub(super) fn arrive(&mut self, landing: &Landing) -> Result<(), SimulationError> {
         let limit = match landing.event {
             Event::Reaches(limit) => limit,
-            Event::Nothing => return Ok(()),
+            Event::JustBefore => return Ok(()),
             Event::Leaves => return Ok(self.model.leave_stops()?),
         };
         let dt = self.dt();

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::Simulation;
 use crate::integrators::{EnergyClaim, Mechanism};
-use crate::model::{Model, Part};
+use crate::model::{Model, Part, RESOLVED_BLOW};
 use crate::simulation::notes::{LARGEST_ROTATION, MOST_SPANS, Suspect, short};
 use crate::simulation::{Invariant, Note};
 use crate::vibration::{Modes, VibrationError};
@@ -24,9 +24,6 @@ const LARGEST_DRIFT: f64 = 1e-7;
 
 /// The part of all energy that is much of it.
 const MUCH: f64 = 0.3;
-
-/// Which part of a blow a step may be to resolve it.
-const MOST_BLOWS: f64 = 0.125;
 
 /// The modes about a scene as drawn are looked for where there are no more unknowns than this,
 const MOST_UNKNOWNS: usize = 1200;
@@ -60,7 +57,7 @@ impl Simulation {
                 notes.push(Note::Way { slider: slider.clone(), dt, spans });
             }
             let blows = self.model.blows_in_a_step(index);
-            if blows > MOST_BLOWS {
+            if blows > RESOLVED_BLOW {
                 notes.push(Note::Bounce { slider, dt, blows });
             }
         }

@@ -65,8 +65,7 @@ impl Simulation {
             });
             let hovers = (slider.rule == SlidingRule::Kinked && left < HOVERS).then(|| {
                 format!(
-                    "slider '{name}' hovers at {} of the length of beam '{master}' before its end, where the kink under its force is squeezed: take the rule \
-                     conserving()",
+                    "slider '{name}' hovers at {} of the length of beam '{master}' before its end, where the kink under its force is squeezed",
                     short(left)
                 )
             });

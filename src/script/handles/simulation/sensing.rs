@@ -155,17 +155,17 @@ impl SimulationHandle {
         slack: f64,
     ) -> Result<(), ScriptError> {
         let ran = self.run_with_pauses(call, stop, slack);
-        self.end_step_that_waits(ran)
+        self.go_back_after_error(ran)
     }
 
     /// Takes a step, with pauses where functions that control it are asked.
     pub(super) fn step_and_sense(&self, call: &Call) -> Result<(), ScriptError> {
         let stepped = self.step_with_pauses(call);
-        self.end_step_that_waits(stepped)
+        self.go_back_after_error(stepped)
     }
 
     /// After an error or an interrupt the simulation stands at the start of a step and not in its middle.
-    fn end_step_that_waits(&self, ran: Result<(), ScriptError>) -> Result<(), ScriptError> {
+    fn go_back_after_error(&self, ran: Result<(), ScriptError>) -> Result<(), ScriptError> {
         ran.inspect_err(|_| self.0.simulation.borrow_mut().go_back_to_start_of_step())
     }
 
