@@ -197,7 +197,7 @@ fn check_needs_no_time(scene: &Scene) -> Result<(), StaticsError> {
     };
     let drive = scene.drives.iter().find(is_rate).map(|drive| (&drive.name, "a speed"));
     let load = scene.loads().find(|load| load.schedule.is_sampled());
-    match drive.or(load.map(|load| (&load.name, "a controller"))) {
+    match drive.or(load.map(|load| (load.title.as_ref().unwrap_or(&load.name), "a controller"))) {
         Some((name, how)) => Err(StaticsError::InTime { name: name.clone(), how }),
         None => Ok(()),
     }

@@ -118,7 +118,11 @@ fn hold(call: &Call, handle: &SceneHandle) -> Result<Hold, ScriptError> {
     if let Some((_, hold)) = holds.iter().find(|(known, _)| *known == name.as_str()) {
         return Ok(*hold);
     }
-    let is_load = handle.scene().borrow().loads().any(|load| load.name == name.as_str());
+    let is_load = handle
+        .scene()
+        .borrow()
+        .loads()
+        .any(|load| load.title.as_ref().unwrap_or(&load.name) == name.as_str());
     if is_load {
         let told = format!("'{name}' is a load, which holds nothing that could let go");
         return Err(call
