@@ -66,7 +66,7 @@ const VIEWER: &[Parameter] = &[
         .doc("columns of the history; kinetic, strain, potential, energy and work unless given")
         .optional(),
     array("fields")
-        .doc("what beams can be coloured by: \"speed\", \"M\", \"strain_energy\", \"N\", \"Q\", \"stretch\", \"curvature\"; all but N and Q unless given")
+        .doc("what beams can be coloured by: \"speed\", \"M\", \"strain_energy\", \"N\", \"Q\", \"stretch\", \"curvature\"; speed, M, stretch and curvature unless given")
         .optional(),
 ];
 const MISSING: Missing = Missing {
