@@ -202,10 +202,6 @@ pub(super) fn draw(
             shell.print(text.trim_end());
             Outcome::Good
         }
-        Err(ScriptError::Failure(failure)) => {
-            let hint = failure.hint.clone();
-            shell.refuse(&Diagnostic { hint, ..Diagnostic::general(failure.message) })
-        }
-        Err(other) => shell.refuse(&Diagnostic::bug(format!("{other:?}"))),
+        Err(error) => shell.refuse_native(error),
     }
 }

@@ -1,5 +1,7 @@
 //! Errors of native code that no script has called.
 
+use rhai::EvalAltResult;
+
 use super::{Outcome, Shell};
 use crate::repl::session::Reply;
 use crate::script::diagnose::Diagnostic;
@@ -16,7 +18,14 @@ impl Shell {
             }
             ScriptError::Stopped(Stop::Interrupt) => self.tell(Reply::Interrupted),
             ScriptError::Stopped(stop) => self.refuse(&Diagnostic::general(stop.words().0)),
-            other => self.refuse(&Diagnostic::bug(format!("{other:?}"))),
+            // A function of a script, asked by a step that a command takes.
+            ScriptError::Engine(error) => match *error {
+                EvalAltResult::ErrorTerminated(token, _) => {
+                    self.refuse_native(ScriptError::Stopped(Stop::of_token(&token)))
+                }
+                other => self.refuse(&Diagnostic::general(other.to_string())),
+            },
+            ScriptError::Bug(message) => self.refuse(&Diagnostic::bug(message)),
         }
     }
 }

@@ -51,7 +51,7 @@ type Words = (String, Option<String>);
 pub fn is_interrupt(error: &EvalAltResult) -> bool {
     match error.unwrap_inner() {
         EvalAltResult::ErrorTerminated(stop, _) => {
-            matches!(stopped_by(stop), Stop::Interrupt | Stop::PipeClosed)
+            matches!(Stop::of_token(stop), Stop::Interrupt | Stop::PipeClosed)
         }
         _ => false,
     }
@@ -60,14 +60,9 @@ pub fn is_interrupt(error: &EvalAltResult) -> bool {
 /// Whether a dry build was ended because the script waits for what only a real run finds.
 pub fn is_waiting(error: &EvalAltResult) -> bool {
     match error.unwrap_inner() {
-        EvalAltResult::ErrorTerminated(stop, _) => matches!(stopped_by(stop), Stop::Waiting),
+        EvalAltResult::ErrorTerminated(stop, _) => matches!(Stop::of_token(stop), Stop::Waiting),
         _ => false,
     }
-}
-
-/// What stopped a run, from the token that the engine carries.
-fn stopped_by(token: &Dynamic) -> Stop {
-    token.read_lock::<Stop>().map_or(Stop::Interrupt, |stop| *stop)
 }
 
 impl Explainer<'_> {
@@ -247,7 +242,7 @@ impl Explainer<'_> {
                      let scene = parts.scene; scene.record(\"height\", |q| q.position(parts.tip).y); {STEERED}"
                 )),
             ),
-            Error::ErrorTerminated(stop, _) => stopped_by(stop).words(),
+            Error::ErrorTerminated(stop, _) => Stop::of_token(stop).words(),
             Error::ErrorSystem(message, cause) => {
                 (format!("{message} {cause}").trim().to_owned(), None)
             }

@@ -3,6 +3,8 @@
 use std::io;
 use std::time::Duration;
 
+use rhai::Dynamic;
+
 use super::numbers::format_number;
 
 /// The bytes of a megabyte.
@@ -33,6 +35,11 @@ pub enum Stop {
 }
 
 impl Stop {
+    /// What stopped a run, from the token that the engine carries.
+    pub fn of_token(token: &Dynamic) -> Self {
+        token.read_lock::<Self>().map_or(Self::Interrupt, |stop| *stop)
+    }
+
     /// What stopped the run in words, and what to do about it.
     pub fn words(self) -> (String, Option<String>) {
         match self {
